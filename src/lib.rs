@@ -151,7 +151,7 @@
 //! | [`challenge`] | sealed cases with something concealed, and the grading of a diagnosis |
 //! | [`verify`] | published examples held against their published figures |
 //! | [`document`] | what every command composes: blocks for people, a typed form for machines |
-//! | [`render`] | text, Markdown, JSON: the formats of a document |
+//! | [`render`] | the formats of a document: text, Markdown, HTML, JSON, spreadsheets … |
 //! | [`report`] | documents of everything above, the certificate's sentence, saved results, the dossier |
 
 use std::fmt;
@@ -163,9 +163,10 @@ pub use gumption_challenge as challenge;
 pub use gumption_core::{
     distribution, equations, least_squares, model, quantity, special, statistics,
 };
+pub use gumption_export as render;
 pub use gumption_fault as fault;
 pub use gumption_fault::language;
-pub use gumption_format::{csv, document, files, machine, render};
+pub use gumption_format::{csv, document, files, machine};
 pub use gumption_gum::{budget, propagate};
 pub use gumption_lab::{calibrate, diagnose, experiment, recording};
 pub use gumption_report as report;

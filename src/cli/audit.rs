@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
+use super::form::Form;
+use super::{Outcome, output};
 use gumption::audit::read::{self, Mapping};
 use gumption::audit::{Audit, Verdict, audit, sheet};
 use gumption::document::Document;
+use gumption::fault::say;
 use gumption::files::Files;
 use gumption::report;
-
-use super::form::Form;
-use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -28,21 +28,21 @@ pub(super) fn run(args: &Args) -> Outcome {
         let grids = match Files::Disk.read(path) {
             Ok(bytes) => sheet::grids(&name, &bytes),
             Err(error) => {
-                outcome = outcome.max(output::complain(format!("cannot read {name}: {error}")));
+                outcome = outcome.max(output::complain(say!("cannot read {name}: {error}")));
                 continue;
             }
         };
         let grids = match grids {
             Ok(grids) => grids,
             Err(sheet::Unreadable(why)) => {
-                outcome = outcome.max(output::complain(format!("cannot read {name}: {why}")));
+                outcome = outcome.max(output::complain(say!("cannot read {name}: {why}")));
                 continue;
             }
         };
         let claims = read::budgets(&grids, &Mapping::default());
         let audits: Vec<Audit<'_>> = claims.iter().map(audit).collect();
         if audits.is_empty() {
-            outcome = outcome.max(output::complain(format!(
+            outcome = outcome.max(output::complain(say!(
                 "{name} holds no table that could be understood as an uncertainty budget"
             )));
         }

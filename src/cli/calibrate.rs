@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
+use super::form::Form;
+use super::output::{Beside, Complaint};
+use super::{Outcome, output};
 use gumption::calibrate::{self, Calibration, Campaign, Trouble};
 use gumption::experiment::Purpose;
+use gumption::fault::say;
 use gumption::files::write::Output;
 use gumption::report::{self, Language};
-
-use super::form::Form;
-use super::output::Complaint;
-use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -25,11 +25,17 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
-    let beside = args.budget.iter().map(|wanted| asked(wanted).1.into());
-    if let Err(outcome) = args.form.is_possible(&beside.collect::<Vec<PathBuf>>()) {
-        return outcome;
-    }
-    let campaign = match read(&args.file, Purpose::Calibrate, args.form.lang) {
+    let beside = args
+        .budget
+        .iter()
+        .map(|wanted| Beside::File(asked(wanted).1.into()));
+    let beside: Vec<Beside> = beside.collect();
+    let campaign = args.form.is_possible(&beside).and_then(|()| {
+        let campaign = read(&args.file, Purpose::Calibrate, args.form.lang)?;
+        // Now it is known what was read, too.
+        args.form.is_possible(&beside).map(|()| campaign)
+    });
+    let campaign = match campaign {
         Ok(campaign) => campaign,
         Err(outcome) => return outcome,
     };
@@ -95,7 +101,7 @@ fn budgets(
                     .iter()
                     .position(|other| *other == name)
                     .ok_or_else(|| {
-                        format!(
+                        say!(
                             "there is no coefficient {name}; there are {}",
                             names.join(", ")
                         )

@@ -6,8 +6,8 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use gumption::challenge::{
     Bench, Class, Further, NoiseKnowledge, Request, Scenario, challenge, seal,
 };
-
 use gumption::fault::harmless;
+use gumption::fault::say;
 use gumption::files::write::{Output, Replacing};
 use gumption::report::Language;
 
@@ -47,7 +47,9 @@ fn scenario(text: &str) -> Result<Scenario, Complaint> {
     let found = Scenario::all()
         .into_iter()
         .find(|scenario| scenario.name() == text);
-    found.ok_or_else(|| "there is no such scenario; `gumption challenge --list` prints all".into())
+    found.ok_or_else(|| {
+        say!("there is no such scenario; `gumption challenge --list` prints all").into()
+    })
 }
 
 fn noise(text: &str) -> Result<NoiseKnowledge, Complaint> {
@@ -62,7 +64,7 @@ fn one_of<T: Copy>(all: &[(T, &str)], text: &str) -> Result<T, Complaint> {
     let found = all.iter().find(|(_, name)| *name == text);
     found.map(|(one, _)| *one).ok_or_else(|| {
         let names: Vec<&str> = all.iter().map(|(_, name)| *name).collect();
-        format!("write one of {}", names.join(", ")).into()
+        say!("write one of {}", names.join(", ")).into()
     })
 }
 
@@ -102,14 +104,14 @@ fn write(out: &Path, request: &Request) -> Outcome {
     let rig = &case.truth.bench;
     let can = |what: &Further| rig.parse().is_ok_and(|rig| what.is_possible(rig));
     if let Some(further) = request.further.filter(|what| !can(what)) {
-        return output::complain(format!(
+        return output::complain(say!(
             "this case is a calibration on the rig {rig}, which cannot do `{further}`"
         ));
     }
     let handed_out = out.join("case");
     let truth_path = out.join("truth.json");
     if truth_path.exists() {
-        return output::complain(format!(
+        return output::complain(say!(
             "{} exists already; a sealed truth is not overwritten, so give another folder",
             truth_path.display()
         ));
@@ -129,7 +131,7 @@ fn write(out: &Path, request: &Request) -> Outcome {
         return written;
     }
     output::print(&*harmless(&format!(
-        "To hand out: {}\nTo keep:     {}\nSHA-256 of the truth, which the case file states too:\n{}\n",
+        "To hand out: {}\nTo keep:     {}\nSHA-256 of the truth, which the experiment states too:\n{}\n",
         handed_out.display(),
         truth_path.display(),
         seal(&case.truth_text)

@@ -3,6 +3,7 @@
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::output::Complaint;
+use gumption::fault::say;
 
 const SECONDS_OF_A_DAY: u64 = 86_400;
 
@@ -10,7 +11,7 @@ const SECONDS_OF_A_DAY: u64 = 86_400;
 pub(super) fn today() -> Result<String, Complaint> {
     let seconds = match std::env::var("SOURCE_DATE_EPOCH") {
         Ok(text) => text.trim().parse().map_err(|_| {
-            format!("SOURCE_DATE_EPOCH is `{text}`: it must be a whole number of seconds since 1970-01-01")
+            say!("SOURCE_DATE_EPOCH is `{text}`: it must be a whole number of seconds since 1970-01-01")
         })?,
         Err(_) => SystemTime::now()
             .duration_since(UNIX_EPOCH)
@@ -50,7 +51,7 @@ fn days_of(year: u64, month: u64) -> u64 {
 
 /// Accepts a day that exists, written as `2026-01-31`.
 pub(super) fn parse(text: &str) -> Result<String, Complaint> {
-    let fault = || Complaint::from(format!("`{text}` is no date such as 2026-01-31"));
+    let fault = || Complaint::from(say!("`{text}` is no date such as 2026-01-31"));
     let parts: Vec<&str> = text.split('-').collect();
     let [year, month, day] = parts.as_slice() else {
         return Err(fault());

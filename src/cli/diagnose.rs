@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{self, Diagnosis, Failure};
 use gumption::document::Document;
+use gumption::fault::say;
 use gumption::files::write::Output;
 use gumption::render::svg;
 use gumption::report::{self, Language};
 
 use super::form::Form;
-use super::output::Complaint;
+use super::output::{Beside, Complaint};
 use super::progress::Steps;
 use super::{Outcome, output};
 
@@ -32,19 +33,31 @@ pub(super) struct Args {
     plots: Option<PathBuf>,
 }
 
+/// What `--improved` writes.
+const IMPROVED: &[&str] = &["budget.toml", "case.toml", "recording.csv", "at_rest.csv"];
+
 pub(super) fn run(args: &Args) -> Outcome {
-    if let Err(outcome) = args.form.is_possible(&[]) {
-        return outcome;
-    }
-    let mut case = match Case::load(&args.case, Purpose::Diagnosis) {
+    let improved = args.improved.iter().cloned();
+    let improved = improved.map(|folder| Beside::Folder(folder, IMPROVED));
+    let plots = args.plots.iter().cloned();
+    let planned: Vec<Beside> = improved
+        .chain(plots.map(|folder| Beside::Folder(folder, &[])))
+        .collect();
+    let case = args.form.is_possible(&planned).and_then(|()| {
+        let case = Case::load(&args.case, Purpose::Diagnosis);
+        let case = case.map_err(|rejection| output::refused(&rejection, args.form.lang))?;
+        // Now it is known what was read, too.
+        args.form.is_possible(&planned).map(|()| case)
+    });
+    let mut case = match case {
         Ok(case) => case,
-        Err(rejection) => return output::refused(&rejection, args.form.lang),
+        Err(outcome) => return outcome,
     };
     if let Some(seed) = args.seed {
         case.settings.seed = seed;
     }
     remarks(&case, args.form.lang);
-    let steps = Steps::shown("diagnosis");
+    let steps = Steps::shown(say!("diagnosis"));
     let found = diagnose::diagnose(&case, &|share| steps.at(share));
     drop(steps);
     match found {
@@ -86,7 +99,7 @@ fn beside(
     let mut files = Vec::new();
     if let Some(folder) = &args.improved {
         let budget = diagnose::budget(case, diagnosis);
-        let mut contents = vec![("budget.toml".to_owned(), budget.into_bytes())];
+        let mut contents = vec![(IMPROVED[0].to_owned(), budget.into_bytes())];
         match diagnose::improved(case, diagnosis) {
             Some(improved) => {
                 let improved = improved.into_iter();

@@ -2,16 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
+use super::form::Form;
+use super::output::{Beside, Complaint};
+use super::progress::Progress;
+use super::{Outcome, output};
 use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Points, Profile, Trials};
 use gumption::document::Document;
+use gumption::fault::say;
 use gumption::files::write::Output;
 use gumption::propagate::{self, ConformityResult, Evaluation, MonteCarloChoice, Options, Verdict};
 use gumption::report::{self, Language, Report};
-
-use super::form::Form;
-use super::output::Complaint;
-use super::progress::Progress;
-use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -47,6 +47,10 @@ pub(super) struct Args {
     /// Save the results for other budgets, which name this file in `from = { result = … }`
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
+    /// Write the results as a table of comma-separated values, too: one line for each row of a series, exact, with units in
+    /// the heads
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
     #[command(flatten)]
     form: Form,
 }
@@ -70,12 +74,15 @@ impl Row {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
-    if args.save.is_some() && args.files.len() > 1 {
-        return output::complain(
-            "--save takes the results of one budget file; evaluate the files one after the other",
-        );
+    let of_one_file = [("--save", &args.save), ("--csv", &args.csv)];
+    let asked = of_one_file.iter().find(|(_, path)| path.is_some());
+    if let (Some((flag, _)), 2..) = (asked, args.files.len()) {
+        return output::complain(say!(
+            "{flag} takes the results of one budget file; evaluate the files one after the other"
+        ));
     }
-    let beside: Vec<PathBuf> = args.save.iter().cloned().collect();
+    let files = args.save.iter().chain(&args.csv);
+    let beside: Vec<Beside> = files.cloned().map(Beside::File).collect();
     if let Err(outcome) = args.form.is_possible(&beside) {
         return outcome;
     }
@@ -86,6 +93,12 @@ pub(super) fn run(args: &Args) -> Outcome {
         let rows = evaluate_file(args, file, &mut worst);
         if let (Some(path), false) = (&args.save, rows.is_empty()) {
             match save(&rows, path, args.form.lang) {
+                Ok(output) => saved.push(output),
+                Err(complaint) => worst = worst.max(output::complain(complaint)),
+            }
+        }
+        if let (Some(path), false) = (&args.csv, rows.is_empty()) {
+            match table(&rows, path) {
                 Ok(output) => saved.push(output),
                 Err(complaint) => worst = worst.max(output::complain(complaint)),
             }
@@ -108,11 +121,23 @@ fn save(rows: &[Row], path: &Path, language: Language) -> Result<Output, Complai
         _ => Path::new("."),
     };
     let folder = budget::Files::Disk.identity(folder);
-    let text =
-        report::saved(&reports, &folder).map_err(|why| format!("nothing is saved: {why}"))?;
+    let text = report::saved(&reports, &folder).map_err(|why| say!("nothing is saved: {why}"))?;
     Ok(Output {
         path: path.to_path_buf(),
         content: text.into_bytes(),
+    })
+}
+
+/// The results as rows of numbers.
+fn table(rows: &[Row], path: &Path) -> Result<Output, Complaint> {
+    let reports: Vec<Report<'_>> = rows
+        .iter()
+        .map(|row| row.report(Language::English))
+        .collect();
+    let content = report::rows(&reports).map_err(|why| say!("no table is written: {why}"))?;
+    Ok(Output {
+        path: path.to_path_buf(),
+        content,
     })
 }
 
@@ -221,7 +246,7 @@ fn parse_points(text: &str) -> Result<Points, Complaint> {
 fn parse_profile(text: &str) -> Result<&'static Profile, Complaint> {
     budget::profile_named(text).ok_or_else(|| {
         let names: Vec<&str> = budget::PROFILES.iter().map(|p| p.name).collect();
-        format!("the profiles are {}", names.join(", ")).into()
+        say!("the profiles are {}", names.join(", ")).into()
     })
 }
 

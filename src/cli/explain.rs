@@ -3,16 +3,18 @@
 mod keys;
 mod pages;
 
+use super::concepts::CONCEPTS;
+use super::language::system_language;
+use super::{Outcome, output};
 use gumption::budget::KeyRow;
 use gumption::distribution::Kind;
 use gumption::distribution::stating::Word;
-use gumption::fault::{Code, nearest};
+use gumption::fault::catalogue::told;
+use gumption::fault::{Code, Said, nearest, say};
+use gumption::language::Language;
 use gumption::{
     audit, budget, csv, diagnose, distribution, equations, experiment, model, quantity,
 };
-
-use super::concepts::CONCEPTS;
-use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -23,6 +25,9 @@ pub(super) struct Args {
     /// Print a whole section (`keys`, `errors` …) as a page of Markdown
     #[arg(long, requires = "topic")]
     markdown: bool,
+    /// Language [default: the system's]: en, zh
+    #[arg(long, value_name = "LANG", default_value = system_language(), hide_default_value = true)]
+    lang: Language,
 }
 
 /// One thing that can be explained.
@@ -70,15 +75,15 @@ impl Section {
         }
     }
 
-    fn title(self) -> &'static str {
+    fn title(self) -> Said {
         match self {
-            Section::Concepts => "Concepts",
-            Section::Distributions => "Distributions",
-            Section::Functions => "Functions of the model language",
-            Section::Profiles => "Profiles",
-            Section::Slips => "Slips that an audit can name",
-            Section::Keys => "Keys of a budget file",
-            Section::Errors => "Error codes",
+            Section::Concepts => say!("Concepts"),
+            Section::Distributions => say!("Distributions"),
+            Section::Functions => say!("Functions of the model language"),
+            Section::Profiles => say!("Profiles"),
+            Section::Slips => say!("Slips that an audit can name"),
+            Section::Keys => say!("Keys of a budget file"),
+            Section::Errors => say!("Error codes"),
         }
     }
 
@@ -89,9 +94,10 @@ impl Section {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
-    let topics = topics();
+    let lang = args.lang;
+    let topics = topics(lang);
     if args.topic.is_empty() {
-        return output::print(overview(&topics));
+        return output::print(overview(&topics, lang));
     }
     let wanted = args.topic.join(" ");
     let section = Section::ALL
@@ -99,14 +105,17 @@ pub(super) fn run(args: &Args) -> Outcome {
         .find(|s| s.name() == folded(&wanted));
     if args.markdown {
         return match section {
-            Some(section) => output::print(pages::page(section, &topics)),
-            None => output::complain(format!(
+            Some(section) => output::print(pages::page(section, &topics, lang)),
+            None => output::complain(say!(
                 "--markdown prints whole sections: {}",
                 Section::ALL.map(Section::name).join(", ")
             )),
         };
     }
-    let mut texts: Vec<String> = section.map(|s| listed(s, &topics)).into_iter().collect();
+    let mut texts: Vec<String> = section
+        .map(|s| listed(s, &topics, lang))
+        .into_iter()
+        .collect();
     texts.extend(found(&wanted, &topics).iter().map(|t| t.explained()));
     if texts.is_empty() {
         return output::complain(unknown(&wanted, &topics));
@@ -160,7 +169,40 @@ fn wrapped(paragraph: &str) -> String {
     if paragraph.lines().any(|l| l.starts_with("  ")) {
         return paragraph.to_string();
     }
+    if paragraph.contains(|c| ('\u{4e00}'..='\u{9fff}').contains(&c)) {
+        return broken(paragraph);
+    }
     filled(paragraph.split_whitespace(), " ")
+}
+
+/// Chinese has no spaces to break at, and each of its signs takes two columns.
+fn broken(paragraph: &str) -> String {
+    let wide = |c: char| c >= '\u{2e80}';
+    let width = |c: char| if wide(c) { 2 } else { 1 };
+    let closes = |c: char| "，。；：、！？）”》…".contains(c);
+    let (mut text, mut column) = (String::new(), 0);
+    let mut chars = paragraph.chars().peekable();
+    let mut word = String::new();
+    while let Some(c) = chars.next() {
+        word.push(c);
+        let next = chars.peek();
+        let inside = next.is_some_and(|next| {
+            closes(*next) || c != ' ' && !wide(c) && !wide(*next) && *next != ' '
+        });
+        if inside || "（“《".contains(c) {
+            continue;
+        }
+        let length: usize = word.chars().map(width).sum();
+        if column > 0 && column + length > 90 {
+            text.truncate(text.trim_end().len());
+            text.push('\n');
+            column = 0;
+        }
+        text += &word;
+        column += length;
+        word.clear();
+    }
+    text + &word
 }
 
 fn filled<'a>(words: impl Iterator<Item = &'a str>, separator: &str) -> String {
@@ -180,25 +222,23 @@ fn filled<'a>(words: impl Iterator<Item = &'a str>, separator: &str) -> String {
     lines.join("\n")
 }
 
-fn unknown(wanted: &str, topics: &[Topic]) -> String {
+fn unknown(wanted: &str, topics: &[Topic]) -> Said {
     let names: Vec<String> = topics
         .iter()
         .flat_map(|t| std::iter::once(&t.name).chain(&t.aliases))
         .map(|n| folded(n))
         .collect();
     let guess = nearest(&folded(wanted), names.iter().map(String::as_str));
-    let hint = guess.map_or_else(String::new, |g| format!("; did you mean `{g}`?"));
-    format!(
-        "there is nothing to explain under `{wanted}`{hint}\nRun `gumption explain` for a list."
-    )
+    let hint = guess.map_or_else(Said::default, |g| say!("; did you mean `{g}`?"));
+    say!("there is nothing to explain under `{wanted}`{hint}\nRun `gumption explain` for a list.")
 }
 
-fn overview(topics: &[Topic]) -> String {
-    let mut text = String::from("gumption explain TOPIC, where TOPIC is one of:\n");
+fn overview(topics: &[Topic], lang: Language) -> String {
+    let mut text = say!("gumption explain TOPIC, where TOPIC is one of:").in_language(lang) + "\n";
     for section in Section::ALL {
         text.push('\n');
         if !section.is_long() {
-            text.push_str(&listed(section, topics));
+            text.push_str(&listed(section, topics, lang));
             continue;
         }
         let names: Vec<&str> = topics
@@ -207,20 +247,21 @@ fn overview(topics: &[Topic]) -> String {
             .map(|t| t.name.as_str())
             .collect();
         let names = filled(names.into_iter(), "  ").replace('\n', "\n  ");
-        text.push_str(&format!(
-            "{} (`gumption explain {}` says what each one is)\n  {names}\n",
+        let head = say!(
+            "{} (`gumption explain {}` says what each one is)",
             section.title(),
             section.name()
-        ));
+        );
+        text.push_str(&format!("{}\n  {names}\n", head.in_language(lang)));
     }
     text
 }
 
 /// The topics of a section, one per line.
-fn listed(section: Section, topics: &[Topic]) -> String {
+fn listed(section: Section, topics: &[Topic], lang: Language) -> String {
     let of_section = || topics.iter().filter(move |t| t.section == section);
     let width = of_section().map(|t| t.name.chars().count()).max();
-    let mut text = format!("{}\n", section.title());
+    let mut text = section.title().in_language(lang) + "\n";
     for topic in of_section() {
         text.push_str(&format!(
             "  {:width$}  {}\n",
@@ -232,66 +273,79 @@ fn listed(section: Section, topics: &[Topic]) -> String {
     text
 }
 
-fn topics() -> Vec<Topic> {
+fn topics(lang: Language) -> Vec<Topic> {
+    let told = |text| told(text, lang).to_string();
     let rows = budget::keys();
     let mut topics = Vec::new();
     topics.extend(CONCEPTS.iter().map(|c| Topic {
         section: Section::Concepts,
         name: c.name.to_string(),
         aliases: owned(c.aliases),
-        title: c.title.to_string(),
-        text: c.text.to_string(),
+        title: told(c.title),
+        text: told(c.text),
     }));
     topics.extend(distribution::KINDS.iter().map(|kind| {
         Topic {
             section: Section::Distributions,
             name: kind.key.to_string(),
             aliases: [owned(kind.aliases), vec![kind.name_zh.to_string()]].concat(),
-            title: format!("{} ({})", kind.name_en, kind.name_zh),
-            text: format!(
+            title: match lang {
+                Language::English => format!("{} ({})", kind.name_en, kind.name_zh),
+                Language::Chinese => format!("{}（{}）", kind.name_zh, kind.name_en),
+            },
+            text: say!(
                 "{}\n\nUse it when {}.\n\n  expectation  {}\n  variance     {}\n  source       {}\n\n{}",
-                kind.parameters,
-                kind.use_when,
-                kind.expectation,
-                kind.variance,
+                told(kind.parameters),
+                told(kind.use_when),
+                told(kind.expectation),
+                told(kind.variance),
                 kind.source,
-                in_a_file(kind, &rows)
-            ),
+                in_a_file(kind, &rows, lang)
+            )
+            .in_language(lang),
         }
     }));
     topics.extend(model::functions().iter().map(|f| Topic {
         section: Section::Functions,
         name: f.name.to_string(),
         aliases: Vec::new(),
-        title: f.doc.to_string(),
-        text: format!("  {}\n\nUnit: {}.", f.signature, f.dimension),
+        title: told(f.doc),
+        text: say!("  {}\n\nUnit: {}.", f.signature, told(f.dimension)).in_language(lang),
     }));
     topics.extend(budget::PROFILES.iter().map(|p| Topic {
         section: Section::Profiles,
         name: p.name.to_string(),
         aliases: Vec::new(),
-        title: p.source.to_string(),
-        text: format!("{}\n\n{}", p.en, p.zh),
+        title: told(p.source),
+        text: match lang {
+            Language::English => format!("{}\n\n{}", p.en, p.zh),
+            Language::Chinese => p.zh.to_string(),
+        },
     }));
     topics.extend(audit::slips::slips().map(|slip| Topic {
         section: Section::Slips,
         name: slip.id.to_string(),
         aliases: Vec::new(),
-        title: slip.en.to_string(),
-        text: format!(
-            "{}\n\nRules {}; {}.",
-            slip.zh,
-            slip.rule,
-            slip.weight.name()
-        ),
+        title: lang.pick(slip.en, slip.zh).to_string(),
+        text: {
+            let weight = slip.weight.said();
+            let rules = say!("Rules {}; {weight}.", slip.rule).in_language(lang);
+            match lang {
+                Language::English => format!("{}\n\n{rules}", slip.zh),
+                Language::Chinese => rules,
+            }
+        },
     }));
-    topics.extend(keys::topics());
+    topics.extend(keys::topics(lang));
     topics.extend(codes().map(|code| Topic {
         section: Section::Errors,
         name: code.id.to_string(),
         aliases: vec![code.title_zh.to_string()],
-        title: code.title.to_string(),
-        text: format!("{}\n\n{}", code.title_zh, code.explanation),
+        title: code.said().in_language(lang),
+        text: match lang {
+            Language::English => format!("{}\n\n{}", code.title_zh, code.explanation),
+            Language::Chinese => told(code.explanation),
+        },
     }));
     topics
 }
@@ -301,36 +355,40 @@ fn owned(words: &[&str]) -> Vec<String> {
 }
 
 /// How a budget file states a distribution.
-fn in_a_file(kind: &Kind, rows: &[KeyRow]) -> String {
+fn in_a_file(kind: &Kind, rows: &[KeyRow], lang: Language) -> String {
     let mut ways = Vec::new();
     let mut entries = distribution::REGISTRY.iter();
     if let Some(entry) = entries.find(|entry| entry.kind == kind) {
         let key = kind.key;
         if entry.word != Word::None {
-            ways.push(format!(
+            ways.push(say!(
                 "  distribution = \"{key}\", beside half_width, limits, u or certificate"
             ));
         }
         if !entry.parameters.is_empty() {
             let parameters = entry.parameters_in_words();
-            ways.push(format!(
+            ways.push(say!(
                 "  distribution = {{ {key} = {{ … }} }}, with {parameters}"
             ));
             let widest = entry.parameters.iter().map(|rule| rule.key.len()).max();
             let width = widest.unwrap_or_default();
             let rules = entry.parameters.iter();
-            ways.extend(rules.map(|rule| format!("    {:width$}  {}", rule.key, rule.meaning)));
+            let meaning = |text| told(text, lang);
+            ways.extend(
+                rules.map(|rule| {
+                    format!("    {:width$}  {}", rule.key, meaning(rule.meaning)).into()
+                }),
+            );
         }
     }
     ways.extend(kind.stated_by.and_then(|key| {
         let mut rows = rows.iter();
         let row = rows.find(|row| row.table == "input.NAME" && row.key == key)?;
-        Some(format!(
-            "  {key} = …: {}",
-            row.doc.trim_start_matches("Way: ")
-        ))
+        Some(format!("  {key} = …: {}", keys::meaning(&row.doc, lang)).into())
     }));
-    format!("In a budget file:\n{}", ways.join("\n"))
+    let ways: Vec<String> = ways.iter().map(|way| way.in_language(lang)).collect();
+    let head = say!("In a budget file:").in_language(lang);
+    format!("{head}\n{}", ways.join("\n"))
 }
 
 /// The codes of all modules, in their order.
@@ -357,7 +415,7 @@ mod tests {
 
     #[test]
     fn every_topic_has_words() {
-        for topic in topics() {
+        for topic in topics(Language::English) {
             assert!(
                 !topic.title.is_empty() && topic.text.len() > 10,
                 "{}",
@@ -378,13 +436,33 @@ mod tests {
             assert!(!titles.contains(&title), "{}: {title} again", code.id);
             titles.push(title);
         }
-        let topics = topics();
+        let topics = topics(Language::English);
         assert!(found("单位不合适", &topics)[0].name == "B0112");
+    }
+
+    /// What is explained is explained in Chinese.
+    #[test]
+    fn every_explanation_has_its_chinese() {
+        let is_chinese = |c: char| ('\u{4e00}'..='\u{9fff}').contains(&c);
+        let mut missing = Vec::new();
+        for topic in topics(Language::Chinese) {
+            let named = [Section::Profiles].contains(&topic.section);
+            if !(named || topic.title.contains(is_chinese)) || !topic.text.contains(is_chinese) {
+                missing.push(format!("{}: {}", topic.name, topic.title));
+            }
+            let word =
+                |word: &str| word.len() > 3 && word.bytes().all(|byte| byte.is_ascii_lowercase());
+            let example = |p: &&str| p.lines().any(|line| line.starts_with("  "));
+            let told = |p: &&str| p.contains(is_chinese) || !p.split(' ').any(word);
+            let untold = topic.text.split("\n\n").filter(|p| !example(p) && !told(p));
+            missing.extend(untold.map(|paragraph| format!("{}: {paragraph}", topic.name)));
+        }
+        assert!(missing.is_empty(), "{}", missing.join("\n"));
     }
 
     #[test]
     fn names_are_unique_within_a_section() {
-        let topics = topics();
+        let topics = topics(Language::English);
         for (i, topic) in topics.iter().enumerate() {
             let same = topics[i + 1..].iter().any(|t| {
                 t.section == topic.section
@@ -397,13 +475,21 @@ mod tests {
 
     #[test]
     fn a_misspelt_topic_has_a_suggestion() {
-        assert!(unknown("trianglar", &topics()).contains("`triangular`"));
-        assert!(unknown("Second_Ordr", &topics()).contains("`second-order`"));
+        assert!(
+            unknown("trianglar", &topics(Language::English))
+                .to_string()
+                .contains("`triangular`")
+        );
+        assert!(
+            unknown("Second_Ordr", &topics(Language::English))
+                .to_string()
+                .contains("`second-order`")
+        );
     }
 
     #[test]
     fn topics_are_found_by_their_other_names() {
-        let topics = topics();
+        let topics = topics(Language::English);
         for name in [
             "Welch–Satterthwaite",
             "Clause 8",
@@ -424,7 +510,7 @@ mod tests {
 
     #[test]
     fn small_and_capital_letters_are_two_keys() {
-        let topics = topics();
+        let topics = topics(Language::English);
         let keys = |name: &str| -> Vec<String> {
             let found = found(name, &topics).into_iter();
             found
@@ -438,7 +524,7 @@ mod tests {
 
     #[test]
     fn every_distribution_says_how_a_file_states_it() {
-        let topics = topics();
+        let topics = topics(Language::English);
         for topic in topics
             .iter()
             .filter(|t| t.section == Section::Distributions)

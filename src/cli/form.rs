@@ -1,16 +1,16 @@
 //! The form of a document: its format, language and width, and where it goes.
 
-use std::io::stdout;
-use std::path::PathBuf;
+use std::io::{IsTerminal, stdout};
 
+use super::language::system_language;
+use super::output::{Beside, Complaint, Target};
+use super::{Outcome, output};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use gumption::document::Document;
+use gumption::fault::say;
 use gumption::files::write::Output;
 use gumption::render::{self, FORMATS, Format, Page};
 use gumption::report::Language;
-
-use super::output::{Complaint, Target};
-use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Form {
@@ -24,24 +24,6 @@ pub(super) struct Form {
     width: Option<usize>,
     #[command(flatten)]
     target: Target,
-}
-
-/// The code of the language that the system is set to, by the first of LC_ALL, LC_MESSAGES and LANG that says something
-/// (POSIX, 8.2); English where the program does not speak it.
-pub(super) fn system_language() -> &'static str {
-    let settings = ["LC_ALL", "LC_MESSAGES", "LANG"];
-    let said = |name: &&str| {
-        let setting = std::env::var(name).ok();
-        setting.filter(|setting| !setting.is_empty())
-    };
-    code_of_locale(&settings.iter().find_map(said).unwrap_or_default())
-}
-
-fn code_of_locale(locale: &str) -> &'static str {
-    match locale.split(['_', '-', '.', '@']).next() {
-        Some(code) if code.eq_ignore_ascii_case("zh") => "zh",
-        _ => "en",
-    }
 }
 
 /// The format that a flag asks for; every format has one.
@@ -81,8 +63,21 @@ impl clap::FromArgMatches for Choice {
 impl Form {
     /// Makes sure, before any work is done, that the document can be written as it is asked for, and these files
     /// beside it.
-    pub fn is_possible(&self, beside: &[PathBuf]) -> Result<(), Outcome> {
-        self.format().map_err(output::complain)?;
+    pub fn is_possible(&self, beside: &[Beside]) -> Result<(), Outcome> {
+        let format = self.format().map_err(output::complain)?;
+        if !format.is_text() && self.target.file().is_none() && stdout().is_terminal() {
+            let name = format.name;
+            return Err(output::complain(self.lang.pick(
+                format!(
+                    "--{name} is not for terminals; write it to a file with -o FILE.{0}",
+                    format.ending
+                ),
+                format!(
+                    "--{name} 的内容不能显示在终端上，请用 -o 文件名.{0} 写入文件",
+                    format.ending
+                ),
+            )));
+        }
         self.target.is_allowed(beside, self.lang)
     }
 
@@ -94,10 +89,10 @@ impl Form {
     /// Writes a document and files beside it, all of them or none.
     pub fn write_with(&self, document: &Document, beside: Vec<Output>) -> Outcome {
         match self.format() {
-            Ok(format) => {
-                let bytes = (format.render)(document, &self.page());
-                self.target.write(bytes, beside, self.lang)
-            }
+            Ok(format) => match (format.render)(document, &self.page()) {
+                Ok(bytes) => self.target.write(bytes, beside, self.lang),
+                Err(unfit) => output::complain(unfit.0),
+            },
             Err(complaint) => output::complain(complaint),
         }
     }
@@ -111,10 +106,10 @@ impl Form {
             let endings: Vec<String> = FORMATS.iter().map(|f| format!(".{}", f.ending)).collect();
             let endings = endings.join(", ");
             let what = match ending.as_str() {
-                "" => "the name of the output has no ending".to_string(),
-                other => format!("there is no format with the ending .{other}"),
+                "" => say!("the name of the output has no ending"),
+                other => say!("there is no format with the ending .{other}"),
             };
-            format!("{what}; the endings are {endings}, and --{} or another flag says the format of any other name", FORMATS[0].name).into()
+            say!("{what}; the endings are {endings}, and --{} or another flag says the format of any other name", FORMATS[0].name).into()
         })
     }
 
@@ -139,21 +134,4 @@ fn parse_width(text: &str) -> Result<usize, &'static str> {
         .parse()
         .map_err(|_| "write a number of columns, such as 100")?;
     Ok(width.clamp(NARROWEST, WIDEST))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::code_of_locale;
-
-    #[test]
-    fn the_system_says_its_language() {
-        for (locale, code) in [
-            ("zh_CN.UTF-8", "zh"),
-            ("zh", "zh"),
-            ("C", "en"),
-            ("de_DE", "en"),
-        ] {
-            assert_eq!(code_of_locale(locale), code, "{locale}");
-        }
-    }
 }

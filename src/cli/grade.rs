@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use gumption::Files;
-use gumption::challenge::grade::{self, Refused};
-
 use super::form::Form;
 use super::{Outcome, output};
+use gumption::Files;
+use gumption::challenge::grade::{self, Refused};
+use gumption::fault::{Said, say};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -39,17 +39,23 @@ fn graded(args: &Args) -> Result<grade::Graded, Refused> {
     Ok(grade::grade(&truth, &grade::read_answer(&text)?))
 }
 
-fn words(refused: &Refused) -> String {
+fn words(refused: &Refused) -> Said {
     match refused {
-        Refused::Unreadable(path, error) => format!("cannot read {}: {error}", path.display()),
+        Refused::Unreadable(path, error) => say!("cannot read {}: {error}", path.display()),
         Refused::BrokenSeal => {
-            "the seal is broken: truth.json is not the one whose SHA-256 stands in case/CASE.toml, so nothing is graded".into()
+            say!(
+                "the seal is broken: truth.json is not the one whose SHA-256 stands in case/CASE.toml, so nothing is graded"
+            )
         }
         Refused::Changed(name) => {
-            format!("the seal is broken: case/{name} was changed after it was handed out, so nothing is graded")
+            say!(
+                "the seal is broken: case/{name} was changed after it was handed out, so nothing is graded"
+            )
         }
         Refused::NoDiagnosis(error) => {
-            format!("the file given with --diagnosis is not what `gumption diagnose --json` prints: {error}")
+            say!(
+                "the file given with --diagnosis is not what `gumption diagnose --json` prints: {error}"
+            )
         }
     }
 }

@@ -4,6 +4,7 @@ use std::io::{IsTerminal, stderr};
 
 use gumption::files::write;
 
+use super::language::spoken;
 use super::output;
 
 /// The exit code that shells give to what Ctrl-C has ended: 128 and the number of the signal.
@@ -18,8 +19,14 @@ pub(super) fn say_so() {
             output::passing("");
         }
         output::warn(match written {
-            0 => "interrupted: nothing is written\n",
-            _ => "interrupted: the files that were written are whole\n",
+            0 => spoken().pick(
+                "interrupted: nothing is written\n",
+                "已中断：没有写出任何文件\n",
+            ),
+            _ => spoken().pick(
+                "interrupted: the files that were written are whole\n",
+                "已中断：已写出的文件是完整的\n",
+            ),
         });
         std::process::exit(INTERRUPTED);
     });

@@ -12,6 +12,7 @@ mod explain;
 mod form;
 mod grade;
 mod interrupt;
+mod language;
 mod new;
 mod output;
 mod plan;

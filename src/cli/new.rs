@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
+use super::language::spoken;
+use super::{Outcome, output};
 use gumption::budget;
 use gumption::fault::harmless;
+use gumption::fault::{Said, say};
 use gumption::files::write::{self, Output, Replacing, Why};
-use gumption::report::Language;
-
-use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -28,16 +28,16 @@ pub(super) fn run(args: &Args) -> Outcome {
     match write::write(&[output], Replacing::Nothing) {
         Ok(()) => {
             let path = args.path.display();
-            output::print(&*harmless(&format!(
-                "Wrote {path}. Edit it, then run `gumption eval {path}`.\n"
-            )))
+            let next = say!("Wrote {path}. Edit it, then run `gumption eval {path}`.");
+            let next = next.in_language(spoken()) + "\n";
+            output::print(&*harmless(&next))
         }
         Err(unwritten) => {
             let print = match unwritten.why {
-                Why::Exists => ", or `-` to print the template",
-                _ => "",
+                Why::Exists => say!(", or `-` to print the template"),
+                _ => Said::default(),
             };
-            output::complain(format!("{}{print}", unwritten.words(Language::English)))
+            output::complain(say!("{}{print}", unwritten.words(spoken())))
         }
     }
 }

@@ -5,13 +5,13 @@ use std::fs::Metadata;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
+use super::Outcome;
+use super::language::spoken;
 use gumption::budget::Rejection;
-use gumption::fault::{Code, harmless};
+use gumption::fault::{Code, Said, harmless, say};
 use gumption::files::write::{self, Output, Replacing};
 use gumption::files::{self, FileId};
 use gumption::report::Language;
-
-use super::Outcome;
 
 /// Where the output of a command goes, and what it may replace: the same for all of them.
 #[derive(Debug, clap::Args)]
@@ -22,6 +22,15 @@ pub(super) struct Target {
     /// Replace files that gumption did not write, or that were changed since; never those that the command reads
     #[arg(long)]
     force: bool,
+}
+
+/// What a command writes beside its output.
+#[derive(Debug)]
+pub(super) enum Beside {
+    /// A file.
+    File(PathBuf),
+    /// A folder, and the names of its files where they are known before.
+    Folder(PathBuf, &'static [&'static str]),
 }
 
 impl Target {
@@ -44,10 +53,21 @@ impl Target {
         (!stream).then(ending)
     }
 
-    /// Makes sure, before any work is done, that these files and the output may be written as far as is known.
-    pub fn is_allowed(&self, beside: &[PathBuf], language: Language) -> Result<(), Outcome> {
-        let paths = beside.iter().map(PathBuf::as_path).chain(self.file());
-        write::allowed(paths, self.replacing()).map_err(|why| complain(why.words(language)))
+    /// Makes sure, before any work is done, that the output and what is written beside it may be written as far as is
+    /// known.
+    pub fn is_allowed(&self, beside: &[Beside], language: Language) -> Result<(), Outcome> {
+        let replacing = self.replacing();
+        let files = beside.iter().filter_map(|one| match one {
+            Beside::File(path) => Some(path.as_path()),
+            Beside::Folder(..) => None,
+        });
+        let folders = beside.iter().map(|one| match one {
+            Beside::File(_) => Ok(()),
+            Beside::Folder(folder, names) => write::allowed_in(folder, names, replacing),
+        });
+        write::allowed(files.chain(self.file()), replacing)
+            .and_then(|()| folders.collect())
+            .map_err(|why| complain(Said::quoted(why.words(language))))
     }
 
     /// Writes files, and the output among them if it is one, all of them or none; prints the output otherwise.
@@ -75,7 +95,7 @@ impl Target {
 pub(super) fn written(files: &[Output], replacing: Replacing, language: Language) -> Outcome {
     match write::write(files, replacing) {
         Ok(()) => Outcome::Done,
-        Err(why) => complain(why.words(language)),
+        Err(why) => complain(Said::quoted(why.words(language))),
     }
 }
 
@@ -85,7 +105,7 @@ pub(super) fn in_folder(
     files: impl IntoIterator<Item = (String, Vec<u8>)>,
 ) -> Result<Vec<Output>, Complaint> {
     std::fs::create_dir_all(folder)
-        .map_err(|error| format!("cannot create the folder {}: {error}", folder.display()))?;
+        .map_err(|error| say!("cannot create the folder {}: {error}", folder.display()))?;
     let files = files.into_iter().map(|(name, content)| Output {
         path: folder.join(name),
         content,
@@ -96,14 +116,14 @@ pub(super) fn in_folder(
 /// Prints to standard output. A reader that has gone away (`gumption … | head`) is no error.
 pub(super) fn print(text: impl AsRef<[u8]>) -> Outcome {
     if standard_output().is_some_and(|open| files::was_read_as(&open)) {
-        return complain(
-            "standard output goes to a file that this command reads; nothing is printed",
-        );
+        return complain(say!(
+            "standard output goes to a file that this command reads; nothing is printed"
+        ));
     }
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_ref()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            complain(format!("cannot write to standard output: {error}"))
+            complain(say!("cannot write to standard output: {error}"))
         }
         _ => Outcome::Done,
     }
@@ -130,25 +150,26 @@ fn is_standard_output(path: &Path) -> bool {
 
 /// What is wrong with an argument or a file, in words.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Complaint(String);
+pub(super) struct Complaint(Said);
 
 impl Display for Complaint {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.0)
+        f.write_str(&self.0.in_language(spoken()))
     }
 }
 
 impl std::error::Error for Complaint {}
 
-impl<T: Into<String>> From<T> for Complaint {
+impl<T: Into<Said>> From<T> for Complaint {
     fn from(words: T) -> Self {
         Complaint(words.into())
     }
 }
 
 /// Says on standard error what is wrong.
-pub(super) fn complain(message: impl Display) -> Outcome {
-    warn(&format!("error: {message}\n"));
+pub(super) fn complain(message: impl Into<Complaint>) -> Outcome {
+    let error = spoken().pick("error", "错误");
+    warn(&format!("{error}: {}\n", message.into()));
     Outcome::BadInput
 }
 

@@ -2,15 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use gumption::Files;
-use gumption::diagnose::case::{Case, Purpose};
-use gumption::experiment::{Kind, kind_of};
-use gumption::{diagnose, report};
-
 use super::diagnose::failed;
 use super::form::Form;
 use super::progress::Steps;
 use super::{Outcome, calibrate, output};
+use gumption::Files;
+use gumption::diagnose::case::{Case, Purpose};
+use gumption::experiment::{Kind, kind_of};
+use gumption::fault::say;
+use gumption::{diagnose, report};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -28,17 +28,17 @@ pub(super) fn run(args: &Args) -> Outcome {
     let text = match Files::Disk.read(&args.file) {
         Ok(bytes) => bytes,
         Err(error) => {
-            return output::complain(format!("cannot read {}: {error}", args.file.display()));
+            return output::complain(say!("cannot read {}: {error}", args.file.display()));
         }
     };
     match kind_of(&String::from_utf8_lossy(&text)) {
         Kind::Experiment => case(&args.file, &args.form),
         Kind::Schedule => calibrate::plan(&args.file, &args.form),
-        Kind::Budget => output::complain(format!(
+        Kind::Budget => output::complain(say!(
             "{} is a budget, which has no design to plan; evaluate it with `gumption eval`",
             args.file.display()
         )),
-        Kind::Unknown => output::complain(format!(
+        Kind::Unknown => output::complain(say!(
             "{} is no experiment: it would have `equations` or a `procedure`",
             args.file.display()
         )),
@@ -51,7 +51,7 @@ fn case(file: &Path, form: &Form) -> Outcome {
         Err(rejection) => return output::refused(&rejection, form.lang),
     };
     super::diagnose::remarks(&case, form.lang);
-    let steps = Steps::shown("plan");
+    let steps = Steps::shown(say!("plan"));
     let found = diagnose::plan(&case, &|share| steps.at(share));
     drop(steps);
     let lang = form.lang;

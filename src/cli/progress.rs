@@ -7,7 +7,10 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use gumption::fault::{Said, say};
 use gumption::propagate;
+
+use super::language::spoken;
 
 /// Nobody waits for an evaluation that is quicker.
 const PATIENCE: Duration = Duration::from_millis(1500);
@@ -68,7 +71,7 @@ impl Drop for Progress {
 
 /// Shows the share of some work that is done, until it is dropped; then the line is gone.
 pub(super) struct Steps {
-    what: &'static str,
+    what: Said,
     /// When the line is drawn next; `None` if nobody looks.
     next: Cell<Option<Instant>>,
     drawn: Cell<bool>,
@@ -76,7 +79,7 @@ pub(super) struct Steps {
 
 impl Steps {
     /// Begins, if standard error is a terminal.
-    pub(super) fn shown(what: &'static str) -> Steps {
+    pub(super) fn shown(what: Said) -> Steps {
         let next = stderr().is_terminal().then(|| Instant::now() + PATIENCE);
         Steps {
             what,
@@ -91,7 +94,7 @@ impl Steps {
         if self.next.get().is_some_and(|next| now >= next) {
             self.next.set(Some(now + BETWEEN));
             self.drawn.set(true);
-            let _ = write!(stderr(), "\r\x1b[K{}", share_line(self.what, share));
+            let _ = write!(stderr(), "\r\x1b[K{}", share_line(&self.what, share));
             let _ = stderr().flush();
         }
         ControlFlow::Continue(())
@@ -106,17 +109,18 @@ impl Drop for Steps {
     }
 }
 
-fn share_line(what: &str, share: f64) -> String {
+fn share_line(what: &Said, share: f64) -> String {
     let percent = (100.0 * share).clamp(0.0, 100.0);
-    format!("{what}: {percent:.0} % (Ctrl-C ends it; nothing is written then)")
+    say!("{what}: {percent:.0} % (Ctrl-C ends it; nothing is written then)").in_language(spoken())
 }
 
 fn line(drawn: u64, elapsed: Duration) -> String {
     let millions = drawn as f64 / 1e6;
     let rate = millions / elapsed.as_secs_f64();
-    format!(
+    say!(
         "Monte Carlo: {millions:.0} million trials, {rate:.0} million a second (Ctrl-C ends it; nothing is written then)"
     )
+    .in_language(spoken())
 }
 
 #[cfg(test)]
@@ -131,7 +135,7 @@ mod tests {
 
     #[test]
     fn the_share_is_told_in_percent() {
-        let line = share_line("diagnosis", 0.456);
+        let line = share_line(&say!("diagnosis"), 0.456);
         assert!(line.starts_with("diagnosis: 46 % (Ctrl-C"), "{line}");
     }
 

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-use gumption::diagnose::case::{Case, Purpose};
-use gumption::diagnose::{Failure, simulate};
-use gumption::report::{self, Language};
-
 use super::diagnose::{failed, remarks};
 use super::output::Target;
 use super::{Outcome, output};
+use gumption::diagnose::case::{Case, Purpose};
+use gumption::diagnose::{Failure, simulate};
+use gumption::fault::say;
+use gumption::report::{self, Language};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -28,9 +28,9 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Outcome {
     let lang = args.lang;
     if args.target.ending().is_some_and(|ending| ending != "csv") {
-        return output::complain(
-            "a recording is written as CSV; let the name of the output end in .csv",
-        );
+        return output::complain(say!(
+            "a recording is written as CSV; let the name of the output end in .csv"
+        ));
     }
     if let Err(outcome) = args.target.is_allowed(&[], lang) {
         return outcome;

@@ -3,16 +3,16 @@
 use std::io::{IsTerminal, stderr};
 use std::path::{Path, PathBuf};
 
+use super::form::Form;
+use super::output::{Beside, Complaint};
+use super::{Outcome, date, output};
 use gumption::budget::Files;
+use gumption::fault::{Said, say};
 use gumption::files::write::Output;
 use gumption::propagate::Options;
 use gumption::render::{FORMATS, Page};
 use gumption::report::{self, Detail, Language};
 use gumption::verify::{Environment, Example, LIBRARY, Problem, Verification};
-
-use super::form::Form;
-use super::output::Complaint;
-use super::{Outcome, date, output};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -35,6 +35,9 @@ pub(super) struct Args {
     form: Form,
 }
 
+/// What `--report` writes.
+const DOSSIER: &[&str] = &["verification.md", "verification.html", "verification.json"];
+
 /// A file to verify: where it is, and how the report calls it.
 struct Candidate {
     path: PathBuf,
@@ -42,7 +45,9 @@ struct Candidate {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
-    if let Err(outcome) = args.form.is_possible(&[]) {
+    let beside = args.report.iter().cloned();
+    let beside = beside.map(|folder| Beside::Folder(folder, DOSSIER));
+    if let Err(outcome) = args.form.is_possible(&beside.collect::<Vec<_>>()) {
         return outcome;
     }
     let day = match args.date.clone().map_or_else(date::today, Ok) {
@@ -78,11 +83,14 @@ fn missing_claims(args: &Args, verification: &Verification) -> Outcome {
     if names.is_empty() || args.files.is_empty() {
         Outcome::Done
     } else if verification.examples.is_empty() {
-        output::complain(format!(
+        output::complain(say!(
             "nothing to compare: no [claim] in {names} (docs/budget-file.md, Claims)"
         ))
     } else {
-        output::warn(&format!("not counted, since without [claim]: {names}\n"));
+        output::warn(&format!(
+            "{}\n",
+            say!("not counted, since without [claim]: {names}").in_language(args.form.lang)
+        ));
         Outcome::Done
     }
 }
@@ -102,9 +110,9 @@ fn candidates(files: &[PathBuf]) -> Result<(Files<'static>, Vec<Candidate>), Com
         if path.is_dir() {
             let before = candidates.len();
             below(path, &mut candidates)
-                .map_err(|error| format!("cannot read the folder {}: {error}", path.display()))?;
+                .map_err(|error| say!("cannot read the folder {}: {error}", path.display()))?;
             if candidates.len() == before {
-                return Err(format!(
+                return Err(say!(
                     "there is no budget (*.toml) in the folder {}",
                     path.display()
                 )
@@ -184,10 +192,13 @@ fn dossier(
     language: Language,
 ) -> Result<Vec<Output>, Complaint> {
     let dossier = report::dossier(verification, language);
-    let formats = FORMATS.iter().filter(|format| format.name != "text");
+    let formats = FORMATS
+        .iter()
+        .filter(|format| format.is_text() && format.name != "text");
     let files = formats.map(|format| {
         let name = format!("verification.{}", format.ending);
-        (name, (format.render)(&dossier, &Page::default()))
+        let bytes = (format.render)(&dossier, &Page::default());
+        bytes.map(|bytes| (name, bytes)).map_err(|unfit| unfit.0)
     });
-    output::in_folder(folder, files)
+    output::in_folder(folder, files.collect::<Result<Vec<_>, Said>>()?)
 }

@@ -15,6 +15,7 @@ mod design;
 mod evidence;
 mod examples;
 mod instruments;
+mod memory;
 mod noise;
 mod reading;
 mod recordings;

@@ -11,3 +11,4 @@ mod common;
 mod calibrate;
 mod experiment;
 mod pages;
+mod schemas;

@@ -178,11 +178,13 @@ fn with_excerpts(readme: &str) -> (String, usize) {
 }
 
 #[test]
-fn the_readme_shows_what_the_program_prints() {
-    let (text, excerpts) = with_excerpts(&read("README.md"));
-    assert!(excerpts >= 1, "no excerpt found");
-    let path = common::root().join("README.md");
-    common::assert_fresh(&Vec::from_iter(common::stale(&path, &text)));
+fn the_readmes_show_what_the_program_prints() {
+    for page in ["README.md", "docs/zh/README.md"] {
+        let (text, excerpts) = with_excerpts(&read(page));
+        assert!(excerpts >= 1, "{page}: no excerpt found");
+        let path = common::root().join(page);
+        common::assert_fresh(&Vec::from_iter(common::stale(&path, &text)));
+    }
 }
 
 #[test]

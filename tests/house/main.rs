@@ -7,6 +7,7 @@ mod matrix;
 mod modules;
 mod rings;
 mod sources;
+mod texts;
 mod walks;
 
 #[path = "../common/files.rs"]

@@ -10,11 +10,13 @@ use super::modules::{Sources, Uses};
 use super::rings::{folders, rings};
 
 /// The crates, lowest first: each may use those before it.
-pub const CRATES: [&str; 11] = [
+pub const CRATES: [&str; 13] = [
     "lanes",
+    "say",
     "fault",
     "core",
     "format",
+    "export",
     "gum",
     "lab",
     "audit",

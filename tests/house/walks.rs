@@ -52,6 +52,7 @@ const WALKS: [Walk; 4] = [
         places: &[
             "crates/format/src/render/markdown.rs",
             "crates/format/src/render/mod.rs",
+            "crates/export/src/lib.rs",
             // Sheets to be audited may be tables in Markdown.
             "crates/audit/src/sheet/mod.rs",
             "crates/audit/src/sheet/text.rs",

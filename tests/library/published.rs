@@ -136,9 +136,7 @@ fn a_file_with_faults_is_bad_input() {
     assert_eq!(output.status.code(), Some(2));
     let markdown =
         std::fs::read_to_string(place.join("dossier/verification.md")).expect("Markdown");
-    assert!(
-        markdown.contains("did you mean `value`?") && markdown.contains("0 个通过，1 个未通过")
-    );
+    assert!(markdown.contains("是否应为 `value`？") && markdown.contains("0 个通过，1 个未通过"));
     std::fs::remove_dir_all(place).expect("removed");
 }
 

@@ -67,6 +67,47 @@ impl Drop for Folder {
     }
 }
 
+/// What a spreadsheet takes: one line for each row, units in the heads, and exact; the program reads it itself.
+#[test]
+fn results_are_written_as_a_table() {
+    let folder = Folder::new("table");
+    folder.put(
+        "series.toml",
+        "[measurand.I]\nmodel = \"V / R\"\nunit = \"mA\"\n[input]\nV = { value = 1, unit = \"V\", u = 0.001 }\n\
+         R = { value = 100, unit = \"ohm\", u = 0.1 }\n[conformity]\nupper = 11\nrule = \"simple\"\n\
+         [series]\ncolumns = [\"label\", \"V\"]\nrows = [[\"low, first\", 1.0], [\"high\", 1.2]]\n",
+    );
+    let run = folder.run(&["eval", "series.toml", "--no-mc", "--csv", "results.csv"]);
+    assert_eq!(run.status.code(), Some(1), "one row does not conform");
+    let text = folder.text("results.csv");
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(
+        lines[0],
+        "label,I [mA],u(I) [mA],nu(I),k(I),U(I) [mA],lower(I) [mA],upper(I) [mA],verdict(I),p_c(I)"
+    );
+    assert!(lines[1].starts_with("\"low, first\",10.0,0.0141"), "{text}");
+    assert!(lines[1].contains(",conforming,"), "{text}");
+    assert!(lines[2].starts_with("high,12.0,"), "{text}");
+    assert!(lines[2].contains(",not_conforming,"), "{text}");
+    let table = String::from_utf8_lossy(&run.stdout).into_owned();
+    let row = table.lines().find(|line| line.trim().starts_with("high"));
+    assert!(
+        row.is_some_and(|row| row.ends_with("not conforming")),
+        "{table}"
+    );
+    // Its own columns are readings for another budget.
+    folder.put(
+        "mean.toml",
+        "[measurand.m]\nmodel = \"x\"\nunit = \"mA\"\n[input]\n\
+         x = { unit = \"mA\", readings = { file = \"results.csv\", column = \"I\" } }\n",
+    );
+    let run = folder.run(&["eval", "mean.toml", "--no-mc"]);
+    assert_eq!(run.status.code(), Some(0));
+    // Never over what was read.
+    let run = folder.run(&["eval", "series.toml", "--no-mc", "--csv", "series.toml"]);
+    assert_eq!(run.status.code(), Some(2));
+}
+
 const BUDGET: &str = "title = \"Resistance\"\n[measurand.R]\nmodel = \"V / I\"\nunit = \"ohm\"\n[input]\n\
     V = { unit = \"V\", readings = { file = \"readings.csv\", column = \"V\" } }\n\
     I = { value = 20, unit = \"mA\", u = 0.05 }\n";

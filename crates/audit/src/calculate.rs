@@ -55,6 +55,8 @@ pub struct Line {
     pub dof: f64,
     /// Whether it enters the sum.
     pub counted: bool,
+    /// A contribution that was typed in, instead of c·u.
+    pub typed: Option<f64>,
 }
 
 /// How contributions are combined.
@@ -71,6 +73,8 @@ pub enum Combined {
     Rounded,
     /// As `Root`, the signs lost in the products.
     Unsigned,
+    /// A number that was typed in.
+    Typed(f64),
 }
 
 /// How ν_eff is found.
@@ -153,7 +157,7 @@ pub struct Figures {
 impl Line {
     /// Contribution, with its sign.
     pub fn contribution(&self) -> f64 {
-        self.c * self.u * self.to_y
+        self.typed.unwrap_or(self.c * self.u * self.to_y)
     }
 }
 
@@ -196,13 +200,13 @@ impl Calculation {
             ),
         };
         let k = self.factor.value(self.whole(nu_eff), &parts, u_c);
-        let expanded = libm::pow(k, f64::from(self.report.power)) * u_c * self.report.scale;
+        let expanded = libm::pow(k, f64::from(self.report.power)) * u_c;
         let floor = cmc.filter(|_| self.report.cmc).unwrap_or(0.0);
         Figures {
             u_c,
             nu_eff,
             k,
-            expanded: expanded.max(floor),
+            expanded: expanded.max(floor) * self.report.scale,
         }
     }
 
@@ -216,6 +220,9 @@ impl Calculation {
     }
 
     fn combine(&self, parts: &[f64]) -> f64 {
+        if let Combined::Typed(u_c) = self.combined {
+            return u_c;
+        }
         if self.combined == Combined::Linear {
             return parts.iter().map(|x| x.abs()).sum();
         }
@@ -457,6 +464,7 @@ fn line(claimed: &Claimed, row: &Row, derivative: Option<f64>) -> Line {
         to_y: rest,
         dof,
         counted: row.not_counted.is_none(),
+        typed: None,
     }
 }
 
@@ -558,14 +566,16 @@ fn differentiate(claimed: &Claimed) -> Result<Option<(f64, Vec<f64>)>, String> {
     let target = units::parse(unit_of_y(claimed))
         .filter(|_| with_units)
         .unwrap_or_else(Unit::one);
-    let model = compiled(&formula, &units, target, &used).or_else(|_| {
-        compiled(
-            &formula,
-            &vec![Unit::one(); units.len()],
-            Unit::one(),
-            &used,
-        )
-    })?;
+    let plain = vec![Unit::one(); units.len()];
+    let bare = |formula: &str| compiled(formula, &plain, Unit::one(), &used);
+    let mut model = compiled(&formula, &units, target, &used).or_else(|_| bare(&formula))?;
+    // Without units, an angle may be in degrees: the claimed coefficients and y tell.
+    if !with_units && let Ok(degrees) = bare(&in_degrees(&formula)) {
+        let fit = |model: &Model| agreement(claimed, &values, &used, model);
+        if fit(&degrees) > fit(&model) {
+            model = degrees;
+        }
+    }
     let y = model.values(&values)[0];
     let slopes = model.gradients(&values);
     let derivative = |i: usize| {
@@ -576,6 +586,49 @@ fn differentiate(claimed: &Claimed) -> Result<Option<(f64, Vec<f64>)>, String> {
         }
     };
     Ok(Some((y, (0..values.len()).map(derivative).collect())))
+}
+
+/// How many of the claimed coefficients, and of y, a model gives to a percent.
+fn agreement(claimed: &Claimed, values: &[f64], used: &[bool], model: &Model) -> usize {
+    let close = |a: f64, b: f64| (a.abs() - b.abs()).abs() <= 0.01 * b.abs();
+    let slopes = model.gradients(values);
+    let rows = claimed.rows.iter().enumerate().filter(|(i, _)| used[*i]);
+    let coefficients = rows
+        .filter(|(i, row)| {
+            row.c
+                .as_ref()
+                .is_some_and(|c| close(c.value, slopes[(0, *i)]))
+        })
+        .count();
+    let y = claimed.footer.y.as_ref();
+    coefficients + usize::from(y.is_some_and(|y| close(y.value, model.values(values)[0])))
+}
+
+/// The formula with the arguments of its circular functions in degrees.
+fn in_degrees(formula: &str) -> String {
+    let mut out = String::new();
+    let mut rest = formula;
+    while let Some((at, name)) = ["sin(", "cos(", "tan("]
+        .iter()
+        .filter_map(|name| Some((rest.find(name)?, *name)))
+        .min()
+    {
+        let inner = &rest[at + name.len()..];
+        let mut depth = 1;
+        let end = inner.char_indices().find_map(|(i, c)| {
+            depth += match c {
+                '(' => 1,
+                ')' => -1,
+                _ => 0,
+            };
+            (depth == 0).then_some(i)
+        });
+        let Some(end) = end else { break };
+        out.push_str(&rest[..at]);
+        out.push_str(&format!("{name}(pi/180)*({}))", in_degrees(&inner[..end])));
+        rest = &inner[end + 1..];
+    }
+    out + rest
 }
 
 fn compiled(formula: &str, units: &[Unit], target: Unit, used: &[bool]) -> Result<Model, String> {
@@ -604,7 +657,7 @@ fn compiled(formula: &str, units: &[Unit], target: Unit, used: &[bool]) -> Resul
     compile(&request).map_err(|faults| {
         faults
             .first()
-            .map_or(String::new(), |fault| fault.fault.message.clone())
+            .map_or(String::new(), |fault| fault.fault.message.to_string())
     })
 }
 

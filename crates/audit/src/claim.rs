@@ -27,6 +27,10 @@ pub struct Claimed {
     pub footer: Footer,
     /// The number of readings behind the reported value, where a note says so for all rows.
     pub reported_mean_of: Option<f64>,
+    /// What notes know of quantities that no row has; rows of their own once the table is understood.
+    pub absent: Vec<Row>,
+    /// Whether u_c is a number where the other computed cells are formulas.
+    pub typed: bool,
     /// How the columns and cells were understood.
     pub understood: Vec<Understood>,
     /// What could not be placed.
@@ -81,6 +85,8 @@ pub struct Row {
     pub dof: Option<Printed>,
     /// Why it is not to be counted, where the sheet says so.
     pub not_counted: Option<String>,
+    /// Whether only a note knows of it, and the table has no such row.
+    pub is_absent: bool,
     /// Cells of the row that hold formulas.
     pub formulas: Vec<(Figure, String)>,
 }

@@ -99,6 +99,27 @@ impl Printed {
         (x - self.value).abs() <= half * (1.0 + 1e-6) + DOUBLE * self.value.abs().max(x.abs())
     }
 
+    /// Half a unit in the last digit that says something: the zeros of `2800` may be no digits.
+    pub fn half_of_digits(&self) -> f64 {
+        let zeros = self.half == 0.5 && self.digits > 0 && self.digits < 4;
+        let place = libm::floor(libm::log10(self.value.abs())) + 1.0 - self.digits as f64;
+        if zeros && place > 0.0 {
+            0.5 * libm::exp10(place)
+        } else {
+            self.half
+        }
+    }
+
+    /// What the digits of a coefficient leave open, as a ratio: sheets compute with more than they show. Whole numbers are
+    /// exact, and less than three digits are no rounded coefficient.
+    pub fn coarseness(&self) -> f64 {
+        if self.half >= 0.5 || self.digits < 3 {
+            0.0
+        } else {
+            self.relative_half().min(5e-3)
+        }
+    }
+
     /// Whether it may stand for no uncertainty about it: relative width of its rounding.
     pub fn relative_half(&self) -> f64 {
         if self.value == 0.0 {
@@ -326,7 +347,8 @@ fn unit_behind(rest: &str) -> Option<&str> {
     let is_unit = rest.chars().count() <= 14
         && words <= 2
         && !rest.contains(['=', ';', ',', ':'])
-        && !rest.starts_with(|c: char| c.is_ascii_digit() || "+-)/".contains(c));
+        && (rest.starts_with("1/")
+            || !rest.starts_with(|c: char| c.is_ascii_digit() || "+-)/".contains(c)));
     is_unit.then_some(rest)
 }
 

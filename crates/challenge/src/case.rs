@@ -93,11 +93,11 @@ pub struct Request {
 /// A case that is sealed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SealedCase {
-    /// What is handed out; the case file first.
+    /// What is handed out; the experiment first.
     pub files: Vec<CaseFile>,
     /// What is kept.
     pub truth: Truth,
-    /// Its text, of which the case file has the seal.
+    /// Its text, of which the experiment has the seal.
     pub truth_text: String,
     /// What each concealed effect adds to the readings beside the others, without noise and digits: all rows of the
     /// first output, then those of the next, in units of the recording.

@@ -1,4 +1,4 @@
-//! A case as files: the recording, the held-out campaign, the recording at rest, and the case file
+//! A case as files: the recording, the held-out campaign, the recording at rest, and the experiment
 //! that says how they were made and nothing of what is concealed.
 
 use rand::RngExt;
@@ -11,7 +11,7 @@ use super::schedule::Campaign;
 use super::simulate::{Readings, at_rest, duration, simulate, simulate_longer};
 use super::world::Row;
 
-/// Name of the case file.
+/// Name of the experiment.
 pub(super) const CASE: &str = "CASE.toml";
 /// Name of the recording.
 pub(super) const RECORDING: &str = "recording.csv";

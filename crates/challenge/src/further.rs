@@ -103,7 +103,7 @@ impl Further {
         }
     }
 
-    /// What is said of it in a case file.
+    /// What is said of it in an experiment.
     pub(super) fn in_words(self) -> String {
         match self {
             Further::Again => "the same once more".to_owned(),

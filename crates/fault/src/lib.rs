@@ -1,6 +1,6 @@
 //! What is wrong in a user's file: a stable code, the place, what was expected, the mend.
 //!
-//! A [`Fault`] is plain data; a [`Rejection`] draws all faults of a file under the user's own lines. Spans are
+//! A [`Fault`] is plain data, its texts are [`Said`] in the language they are drawn in; a [`Rejection`] draws all faults of a file under the user's own lines. Spans are
 //! byte ranges into *the text that the faulty module was given*: the model module is given the
 //! text of a formula, and the budget module moves its spans to the place of that formula in the
 //! file.
@@ -8,7 +8,11 @@
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+extern crate self as gumption_fault;
+
+pub mod catalogue;
 pub mod language;
+pub mod said;
 
 mod harmless;
 mod rejection;
@@ -17,6 +21,7 @@ use std::ops::Range;
 
 pub use harmless::{harmless, is_obeyed};
 pub use rejection::Rejection;
+pub use said::{Between, Said, say};
 
 /// A stable error code with its explanation (`gumption explain CODE`).
 ///
@@ -33,6 +38,13 @@ pub struct Code {
     pub title_zh: &'static str,
     /// A paragraph: why it is refused and what to do, with a small example.
     pub explanation: &'static str,
+}
+
+impl Code {
+    /// The title, in either language.
+    pub fn said(&self) -> Said {
+        Said::pair(self.title, self.title_zh)
+    }
 }
 
 /// Defines the codes of a module, `NAME = "id", "title", "title in Chinese", "explanation";`, and the list of them.
@@ -60,25 +72,25 @@ pub struct Fault {
     /// Which kind of fault.
     pub code: Code,
     /// One sentence without a final stop, with the user's own names and numbers in it.
-    pub message: String,
+    pub message: Said,
     /// Where, as bytes of the text.
     pub span: Range<usize>,
     /// Short text under the marked place: what was expected there.
-    pub label: String,
+    pub label: Said,
     /// Other places that matter ("first stated here").
-    pub related: Vec<(Range<usize>, String)>,
+    pub related: Vec<(Range<usize>, Said)>,
     /// The mend, in the imperative ("write `half_width`", "add `unit = \"mm\"`").
-    pub help: Option<String>,
+    pub help: Option<Said>,
 }
 
 impl Fault {
     /// A fault with its place and message; add the rest with the builder methods.
-    pub fn new(code: Code, span: Range<usize>, message: impl Into<String>) -> Self {
+    pub fn new(code: Code, span: Range<usize>, message: impl Into<Said>) -> Self {
         Fault {
             code,
             message: message.into(),
             span,
-            label: String::new(),
+            label: Said::default(),
             related: Vec::new(),
             help: None,
         }
@@ -86,21 +98,21 @@ impl Fault {
 
     /// Sets the text under the marked place.
     #[must_use]
-    pub fn label(mut self, label: impl Into<String>) -> Self {
+    pub fn label(mut self, label: impl Into<Said>) -> Self {
         self.label = label.into();
         self
     }
 
     /// Marks another place.
     #[must_use]
-    pub fn related(mut self, span: Range<usize>, label: impl Into<String>) -> Self {
+    pub fn related(mut self, span: Range<usize>, label: impl Into<Said>) -> Self {
         self.related.push((span, label.into()));
         self
     }
 
     /// Says how to mend it.
     #[must_use]
-    pub fn help(mut self, help: impl Into<String>) -> Self {
+    pub fn help(mut self, help: impl Into<Said>) -> Self {
         self.help = Some(help.into());
         self
     }

@@ -3,9 +3,9 @@
 use std::fmt;
 use std::ops::Range;
 
-use annotate_snippets::{AnnotationKind, Level, Message, Renderer, Snippet};
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
-use super::Fault;
+use super::{Fault, Said};
 use crate::harmless::{harmless, harmless_in_place};
 use crate::language::Language;
 
@@ -46,9 +46,6 @@ impl Rejection {
     }
 
     /// Draws every fault, and counts them.
-    ///
-    /// Messages and mends are in English whatever the language: in Chinese the title of the code stands above the
-    /// lines of the user, and the message below them.
     pub fn render_in(&self, language: Language, color: bool) -> String {
         let renderer = if color {
             Renderer::styled()
@@ -92,10 +89,10 @@ impl Rejection {
     }
 
     fn draw(&self, fault: &Fault, language: Language, renderer: &Renderer) -> String {
-        let headline = language.pick(fault.message.as_str(), fault.code.title_zh);
+        let show = |said: &Said| harmless(&said.in_language(language)).into_owned();
         let title = Level::ERROR
             .with_name(language.pick("error", "错误"))
-            .primary_title(harmless(headline))
+            .primary_title(show(&fault.message))
             .id(fault.code.id);
         let mut group = annotate_snippets::Group::with_title(title);
         if self.text.is_empty() {
@@ -107,23 +104,20 @@ impl Rejection {
                 .annotation(if fault.label.is_empty() {
                     primary
                 } else {
-                    primary.label(harmless(&fault.label))
+                    primary.label(show(&fault.label))
                 });
             for (span, label) in &fault.related {
                 snippet = snippet.annotation(
                     AnnotationKind::Context
                         .span(self.inside(span))
-                        .label(harmless(label)),
+                        .label(show(label)),
                 );
             }
             group = group.element(snippet);
         }
-        if let Some(note) = note(fault, language) {
-            group = group.element(note);
-        }
         if let Some(help) = &fault.help {
             let level = Level::HELP.with_name(language.pick("help", "提示"));
-            group = group.element(level.message(harmless(help)));
+            group = group.element(level.message(show(help)));
         }
         renderer.render(&[group])
     }
@@ -137,15 +131,6 @@ impl Rejection {
             .text
             .ceil_char_boundary(span.end.max(start).min(self.text.len()));
         start..end
-    }
-}
-
-/// The message, where the headline does not say it.
-fn note(fault: &Fault, language: Language) -> Option<Message<'_>> {
-    let message = || harmless(&fault.message);
-    match language {
-        Language::English => None,
-        Language::Chinese => Some(Level::NOTE.with_name("说明").message(message())),
     }
 }
 
@@ -184,10 +169,13 @@ mod tests {
         Fault::new(
             UNIT_CLASH,
             start..start + 8,
-            "mA does not fit 电压, which is in V",
+            Said::pair(
+                "mA does not fit 电压, which is in V",
+                "mA 与单位为 V 的电压不符",
+            ),
         )
-        .label("a current")
-        .help("write the half-width in V")
+        .label(Said::pair("a current", "电流"))
+        .help(Said::pair("write the half-width in V", "请以 V 给出半宽"))
     }
 
     #[test]
@@ -208,17 +196,16 @@ mod tests {
     }
 
     #[test]
-    fn chinese_has_the_title_as_its_headline_and_the_message_below() {
+    fn chinese_is_chinese_throughout() {
         let rejection = Rejection::new("budget.toml", TEXT, vec![clash()]);
         insta::assert_snapshot!(rejection.render_in(Language::Chinese, false), @r#"
-        错误[B0112]: 单位不合适
+        错误[B0112]: mA 与单位为 V 的电压不符
          --> budget.toml:3:14
           |
         3 | half_width = "0.1 mA"
-          |              ^^^^^^^^ a current
+          |              ^^^^^^^^ 电流
           |
-          = 说明: mA does not fit 电压, which is in V
-          = 提示: write the half-width in V
+          = 提示: 请以 V 给出半宽
 
         budget.toml 中有 1 处错误
         "#);
@@ -226,7 +213,11 @@ mod tests {
 
     #[test]
     fn a_file_without_text_and_the_files_below_are_drawn_in_the_same_language() {
-        let fault = Fault::new(UNREADABLE_FILE, 0..0, "other.toml does not exist");
+        let fault = Fault::new(
+            UNREADABLE_FILE,
+            0..0,
+            Said::pair("other.toml does not exist", "没有 other.toml"),
+        );
         let mut rejection = Rejection::new("budget.toml", TEXT, vec![clash()]);
         rejection.others = vec![Rejection::new("other.toml", "", vec![fault])];
         let shown = rejection.render_in(Language::Chinese, false);
@@ -234,9 +225,8 @@ mod tests {
             .split_once("budget.toml 中有 1 处错误\n")
             .expect("a count");
         insta::assert_snapshot!(other.trim_start(), @r"
-        错误[B0101]: 文件无法读取
+        错误[B0101]: 没有 other.toml
         --> other.toml
-         = 说明: other.toml does not exist
 
         other.toml 中有 1 处错误
         ");

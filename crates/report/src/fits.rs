@@ -1,10 +1,13 @@
 //! Least-squares fits: formula, parameters, how well the curve describes the data.
 
 use gumption_core::quantity::Decimal;
-use gumption_gum::budget::{Fit, FitColumn, FitVerdict, LackOfFit, LackOfFitTest};
+use gumption_gum::budget::{Fit, FitColumn, FitDoubt, FitVerdict, LackOfFit, LackOfFitTest};
 
+use super::figures::with_unit;
 use super::language::{Language, Word};
-use super::number::{STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, in_unit, significant};
+use super::number::{
+    STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, in_unit, print, significant,
+};
 use super::statement::coefficient;
 use super::{Report, difference_symbol, joint, symbol};
 use gumption_format::document::Block;
@@ -264,6 +267,55 @@ pub(super) fn test_figures(l: Language, test: &LackOfFit) -> String {
     }
 }
 
+/// What speaks against a fit, with its number.
+pub(super) fn doubtful_fit(l: Language, fit: &str, doubt: &FitDoubt) -> String {
+    match doubt {
+        FitDoubt::Pattern { runs, points, p } => {
+            let p = probability_of(*p);
+            l.pick(
+                format!("The residuals of the fit {fit} follow a pattern: along the predictor their signs make only {runs} runs in {points} points, which comes about by chance with a probability of {p}. The curve is not the one that the points follow, or their errors are not independent; the uncertainties of its parameters are then too small. Try another formula; a drift or a common cause stands in the data as a component with common = true."),
+                format!("拟合 {fit} 的残差有规律：沿自变量方向 {points} 个点的残差符号仅构成 {runs} 个游程，偶然出现的概率为 {p}。曲线形式不符，或各点误差不独立，参数的不确定度因而偏小。请改用其他公式；漂移或共同因素应写成数据中 common = true 的分量。"),
+            )
+        }
+        FitDoubt::Pole {
+            argument,
+            predictor,
+            between: [low, high],
+            unit,
+        } => {
+            let high = with_unit(&exact(*high), &symbol(unit));
+            let low = exact(*low);
+            l.pick(
+                format!("The curve of the fit {fit} breaks off between two points: `{argument}` reaches the end of its range, or nearly so, between {predictor} = {low} and {high}. There the curve says nothing of the quantity, however well it meets the points. Begin at other start values, or take a formula with fewer parameters or without that divisor."),
+                format!("拟合 {fit} 的曲线在两个数据点之间中断：在 {predictor} = {low} 与 {high} 之间，`{argument}` 达到或几乎达到其定义域的端点。无论曲线与各点多么吻合，此处都不能代表该量。请改用其他初值，或采用参数较少、不含该除数的公式。"),
+            )
+        }
+        FitDoubt::BetterMinimum {
+            parameters,
+            residuals,
+        } => {
+            let values = parameters
+                .iter()
+                .map(|(name, value)| format!("{name} = {}", significant(*value, 4)));
+            let values = l.list(&values.collect::<Vec<_>>());
+            let percent = significant(100.0 * residuals, 2);
+            l.pick(
+                format!("The search of the fit {fit} ended in a minimum that is not the best: from other start values it ends at {values}, where the residuals are {percent} % as large. Write these values as `start`, and see which of the two curves is the one that is meant."),
+                format!("拟合 {fit} 找到的不是最优极小：由其他初值可达 {values}，其残差为现有残差的 {percent} %。请将这些值写为 `start`，并判断哪条曲线才是所要的。"),
+            )
+        }
+    }
+}
+
+/// A small probability in percent.
+fn probability_of(p: f64) -> String {
+    if p < 1e-6 {
+        "< 0.0001 %".to_string()
+    } else {
+        format!("{} %", significant(100.0 * p, 2))
+    }
+}
+
 /// The points with their distances from the curve.
 fn points(l: Language, fit: &Fit) -> Table {
     let y = fit.response();
@@ -282,7 +334,11 @@ fn points(l: Language, fit: &Fit) -> Table {
         let known = c.u.iter().flatten().copied().filter(|u| *u > 0.0);
         known.min_by(f64::total_cmp)
     };
-    let rms = (fit.rss() / fit.points().max(1) as f64).sqrt();
+    let rms = match fit.residual_sd {
+        // In the unit of the response; the sum of squares of 10¹⁶⁰ is infinite.
+        Some(s) if !fit.weighted => s * (fit.dof as f64 / fit.points().max(1) as f64).sqrt(),
+        _ => (fit.rss() / fit.points().max(1) as f64).sqrt(),
+    };
     let of_y = shown_to(&y.values, smallest(y).unwrap_or(rms));
     let of_x: Vec<i32> = adjusted
         .iter()
@@ -291,7 +347,14 @@ fn points(l: Language, fit: &Fit) -> Table {
             shown_to(&column.values, smallest(column).unwrap_or_default())
         })
         .collect();
-    let plain = |x: f64, place: i32| Cell::from(at_place(x, place).print_plain(STYLE));
+    let plain = |x: f64, place: i32| {
+        // Beyond the digits of a double, zeros would only fill up.
+        let rounded = at_place(x, place);
+        Cell::from(match place.abs() <= 15 {
+            true => rounded.print_plain(STYLE),
+            false => print(&rounded),
+        })
+    };
     for i in 0..fit.points() {
         let mut cells: Vec<Cell> = predictors
             .iter()

@@ -4,10 +4,11 @@ use nalgebra::DMatrix;
 
 use super::language::{Language, Word};
 use super::number::{TABLE_DIGITS, freedom, in_unit, probability, significant};
-use super::statement::coefficient;
+use super::statement::{Coefficients, coefficient};
 use super::{Report, symbol};
 use gumption_format::document::Block;
 use gumption_format::document::{Cell, Column, ColumnKind, Table};
+use gumption_gum::propagate::Basis;
 
 /// Correlation matrices and the factors of the coverage regions.
 pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
@@ -24,6 +25,9 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
     if let Some(correlation) = &joint.monte_carlo_correlation {
         let trials = matrix(l, &names, correlation, Word::MonteCarlo.of(l));
         blocks.push(Block::Table(trials));
+    }
+    if let Some(words) = methods(report) {
+        blocks.push(Block::Paragraph(words));
     }
     if joint.degenerate {
         blocks.push(Block::Paragraph(
@@ -45,6 +49,31 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
         Language::Chinese => format!("k_q·u(y_j) 为各输出量同时落入的区间半宽，联合包含概率为 {p}；k_p 为由协方差矩阵确定的椭球的包含因子（ν = {dof}）。"),
     }));
     blocks
+}
+
+/// Which method each result rests on, where that is not the same for all, and which coefficients go with them.
+fn methods(report: &Report<'_>) -> Option<String> {
+    let l = report.language;
+    let by = |basis: Basis| -> Vec<String> {
+        let results = report.evaluation.results.iter().enumerate();
+        results
+            .filter(|(_, r)| r.reported(&report.budget.conventions).basis == basis)
+            .map(|(m, _)| report.measurand(m).0.to_string())
+            .collect()
+    };
+    let (gum, trials) = (by(Basis::Gum), by(Basis::MonteCarlo));
+    if gum.is_empty() || trials.is_empty() {
+        return None;
+    }
+    let (gum, trials) = (l.first_of(&gum), l.first_of(&trials));
+    let of = match Coefficients::of(report) {
+        Coefficients::MonteCarlo => Word::MonteCarlo.of(l),
+        Coefficients::Gum | Coefficients::GumForWantOfMoments => Word::Gum.of(l),
+    };
+    Some(l.pick(
+        format!("Reported is the GUM result of {gum} and the Monte Carlo result of {trials}. The statement gives the correlation coefficients of one method for all pairs, {of}; with the u of that method they are a covariance matrix."),
+        format!("{gum} 报告 GUM 法的结果，{trials} 报告蒙特卡洛法的结果。证书用语中各对的相关系数均取同一方法（{of}），与该方法的标准不确定度一起构成协方差矩阵。"),
+    ))
 }
 
 /// A correlation matrix; `of` says of what or by which method.

@@ -27,9 +27,11 @@ mod number;
 mod phrase;
 mod quasi;
 mod remarks;
+mod rows;
 mod save;
 mod statement;
 mod verification;
+mod worksheet;
 
 #[cfg(test)]
 mod fixtures;
@@ -48,6 +50,7 @@ pub use diagnosis::{
 pub use evaluation::{evaluation, evaluation_schema, evaluations};
 pub use language::Language;
 pub use remarks::failure;
+pub use rows::rows;
 pub use save::{Unsaved, saved};
 pub use statement::statement;
 pub use verification::{Detail, dossier, verification, verification_schema};

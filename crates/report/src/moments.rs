@@ -1,24 +1,34 @@
-//! Why a result has no mean or no standard deviation, as sentences.
+//! Why a result has no mean or no standard deviation, and what few readings do, as sentences.
 
-use gumption_gum::propagate::{Consequence, FewReadings, MissingMoments, Reason, Side};
+use gumption_core::special::student_t_two_sided_quantile;
+use gumption_gum::budget::CoverageRule;
+use gumption_gum::propagate::{
+    Consequence, CoverageBasis, FewReadings, MissingMoments, Reason, Side,
+};
 
+use super::Report;
 use super::language::Language;
-use super::number::{freedom, print, significant};
+use super::number::{exact, freedom, print, probability, significant};
 
 /// In English, with what to do.
 pub(super) fn in_english(reason: &MissingMoments) -> String {
     const GIVEN: &str = "Monte Carlo gives median and coverage interval instead.";
     match reason {
-        MissingMoments::HeavyComponent { name, dof } => {
-            let missing = if *dof > 1.0 {
+        MissingMoments::HeavyComponent { name, dof, power } => {
+            let missing = if *dof > *power {
                 "no standard deviation"
             } else {
                 "neither a mean nor a standard deviation"
             };
             let degrees = if *dof == 1.0 { "degree" } else { "degrees" };
+            let grows = match is_first(*power) {
+                true => "follows it in proportion".to_string(),
+                false => format!("grows like its power {}", exponent(*power)),
+            };
             format!(
-                "The distribution of the output has {missing}: `{name}` has a t-distribution with {} {degrees} of freedom, which has none, and the output depends on it linearly. {GIVEN} More readings behind `{name}` would help; a standard deviation exists above 2 degrees of freedom.",
-                freedom(*dof)
+                "The distribution of the output has {missing}: `{name}` has a t-distribution with {nu} {degrees} of freedom, which has moments of order below {nu} only, and the output {grows} as far as the trials reach. {GIVEN} More readings behind `{name}` would help; a standard deviation exists above {} degrees of freedom.",
+                exponent(2.0 * power),
+                nu = freedom(*dof),
             )
         }
         MissingMoments::JointReadings { inputs, readings } => {
@@ -70,15 +80,20 @@ pub(super) fn in_english(reason: &MissingMoments) -> String {
 pub(super) fn in_chinese(reason: &MissingMoments) -> String {
     const GIVEN: &str = "因此蒙特卡洛法给出中位数和包含区间。";
     match reason {
-        MissingMoments::HeavyComponent { name, dof } => {
-            let missing = if *dof > 1.0 {
+        MissingMoments::HeavyComponent { name, dof, power } => {
+            let missing = if *dof > *power {
                 "标准差不存在"
             } else {
                 "均值和标准差均不存在"
             };
+            let grows = match is_first(*power) {
+                true => "与之成比例".to_string(),
+                false => format!("按其 {} 次幂增长", exponent(*power)),
+            };
             format!(
-                "输出量分布的{missing}：`{name}` 服从自由度为 {} 的 t 分布，该分布的{missing}，而输出量线性地依赖于它。{GIVEN}增加 `{name}` 的测量次数可改善；自由度大于 2 时标准差才存在。",
-                freedom(*dof)
+                "输出量分布的{missing}：`{name}` 服从自由度为 {nu} 的 t 分布，该分布只有阶数小于 {nu} 的矩，而在试验值所及范围内输出量{grows}。{GIVEN}增加 `{name}` 的测量次数可改善；自由度大于 {} 时标准差才存在。",
+                exponent(2.0 * power),
+                nu = freedom(*dof),
             )
         }
         MissingMoments::JointReadings { inputs, readings } => {
@@ -122,58 +137,133 @@ pub(super) fn in_chinese(reason: &MissingMoments) -> String {
     }
 }
 
-/// What Monte Carlo adds for few readings, in English.
-pub(super) fn few_in_english(components: &[FewReadings], reported: Reason) -> String {
+/// What Monte Carlo adds for few readings, and what the statement makes of it.
+pub(super) fn few_readings(
+    report: &Report<'_>,
+    measurand: Option<usize>,
+    components: &[FewReadings],
+) -> String {
+    let l = report.language;
     let wider = |few: &FewReadings| {
         let (name, nu) = (&few.component, freedom(few.dof));
         match few.dof > 2.0 {
-            true => format!(
-                "`{name}` has ν = {nu}, and that is {} times s/√n",
-                significant((few.dof / (few.dof - 2.0)).sqrt(), 3)
-            ),
-            false => {
-                format!("`{name}` has ν = {nu}, for which there is none (it exists for ν > 2)")
+            true => {
+                let times = significant((few.dof / (few.dof - 2.0)).sqrt(), 3);
+                l.pick(
+                    format!("`{name}` has ν = {nu}, and that is {times} times s/√n"),
+                    format!("`{name}` 的自由度为 {nu}，标准差为 s/√n 的 {times} 倍"),
+                )
             }
+            false => l.pick(
+                format!("`{name}` has ν = {nu}, for which there is none (it exists for ν > 2)"),
+                format!("`{name}` 的自由度为 {nu}，标准差不存在（自由度大于 2 时才存在）"),
+            ),
         }
     };
     let named: Vec<String> = components.iter().map(wider).collect();
-    let follows = match reported {
-        Reason::FewReadings | Reason::NotValidatedFewReadings | Reason::MomentsAgree => {
-            " The profile multiplies u = s/√n (GUM 4.2.3) by its k, and so does the statement."
-        }
-        Reason::NotValidated => " The statement takes the result of Monte Carlo.",
-        _ => " The statement takes the GUM result, whose k allows for the few degrees of freedom.",
-    };
-    format!(
-        "Few readings: Monte Carlo draws their mean from a t-distribution (JCGM 101, 6.4.9), whose standard deviation is larger than s/√n: {}.{follows} More readings would bring both together.",
-        Language::English.list(&named)
+    let follows = what_follows(report, measurand, components);
+    l.pick(
+        format!(
+            "Few readings: Monte Carlo draws their mean from a t-distribution (JCGM 101, 6.4.9), whose standard deviation is larger than s/√n: {}. {follows} More readings would bring both together.",
+            Language::English.list(&named)
+        ),
+        format!(
+            "重复测量次数少：蒙特卡洛法对其均值取 t 分布（JCGM 101 的 6.4.9），其标准差大于 s/√n：{}。{follows}增加测量次数可使两者接近。",
+            named.join("；")
+        ),
     )
 }
 
-/// Likewise in Chinese.
-pub(super) fn few_in_chinese(components: &[FewReadings], reported: Reason) -> String {
-    let wider = |few: &FewReadings| {
-        let (name, nu) = (&few.component, freedom(few.dof));
-        match few.dof > 2.0 {
-            true => format!(
-                "`{name}` 的自由度为 {nu}，标准差为 s/√n 的 {} 倍",
-                significant((few.dof / (few.dof - 2.0)).sqrt(), 3)
-            ),
-            false => format!("`{name}` 的自由度为 {nu}，标准差不存在（自由度大于 2 时才存在）"),
-        }
+/// What the statement takes, and whether its k allows for few degrees of freedom: that follows from how k was made.
+fn what_follows(
+    report: &Report<'_>,
+    measurand: Option<usize>,
+    components: &[FewReadings],
+) -> String {
+    let l = report.language;
+    let Some(result) = measurand.and_then(|m| report.evaluation.results.get(m)) else {
+        return String::new();
     };
-    let named: Vec<String> = components.iter().map(wider).collect();
-    let follows = match reported {
-        Reason::FewReadings | Reason::NotValidatedFewReadings | Reason::MomentsAgree => {
-            "规范以 u = s/√n（GUM 4.2.3）乘以 k，证书用语亦然。"
-        }
-        Reason::NotValidated => "证书用语采用蒙特卡洛法的结果。",
-        _ => "证书用语采用 GUM 法的结果，其 k 已考虑自由度小的影响。",
+    let reported = result.reported(&report.budget.conventions);
+    let coverage = &result.gum.coverage;
+    let of_u = significant(
+        100.0 * components.iter().map(|few| few.share).sum::<f64>(),
+        2,
+    );
+    let k = exact(coverage.k);
+    match (reported.reason, &coverage.basis) {
+        (Reason::FewReadings | Reason::NotValidatedFewReadings | Reason::MomentsAgree, _) => l.pick(
+            "The profile multiplies u = s/√n (GUM 4.2.3) by its k, and so does the statement.".to_string(),
+            "规范以 u = s/√n（GUM 4.2.3）乘以 k，证书用语亦然。".to_string(),
+        ),
+        (Reason::NotValidated, _) => l.pick(
+            "The statement takes the result of Monte Carlo.".to_string(),
+            "证书用语采用蒙特卡洛法的结果。".to_string(),
+        ),
+        (Reason::NotNegative, _) => l.pick(
+            "The statement takes the interval of ISO 11929, which rests on u = s/√n (GUM 4.2.3).".to_string(),
+            "证书用语采用 ISO 11929 的区间，其 u = s/√n（GUM 4.2.3）。".to_string(),
+        ),
+        (_, CoverageBasis::StudentT { .. }) => l.pick(
+            "The statement takes the GUM result, whose k from the t-distribution allows for the few degrees of freedom.".to_string(),
+            "证书用语采用 GUM 法的结果，其 k 按 t 分布取值，已考虑自由度小的影响。".to_string(),
+        ),
+        (_, CoverageBasis::Fixed) => l.pick(
+            format!("The statement takes the GUM result, whose k = {k} is fixed whatever the degrees of freedom; these readings are {of_u} % of u²."),
+            format!("证书用语采用 GUM 法的结果，其 k = {k} 为约定值，不随自由度改变；这些读数占 u² 的 {of_u} %。"),
+        ),
+        (_, CoverageBasis::Normal) => l.pick(
+            format!("The statement takes the GUM result, whose k is that of a normal distribution; these readings are {of_u} % of u²."),
+            format!("证书用语采用 GUM 法的结果，其 k 按正态分布取值；这些读数占 u² 的 {of_u} %。"),
+        ),
+        (_, CoverageBasis::Output { .. }) => l.pick(
+            format!("The statement takes the GUM result, whose k comes from the components that dominate; these readings are {of_u} % of u²."),
+            format!("证书用语采用 GUM 法的结果，其 k 由占优势的分量确定；这些读数占 u² 的 {of_u} %。"),
+        ),
+    }
+}
+
+/// Only few effective degrees of freedom, and whether k allows for them.
+pub(super) fn few_degrees(report: &Report<'_>, measurand: Option<usize>, dof: f64) -> String {
+    let l = report.language;
+    let of_u = significant(100.0 / (2.0 * dof).sqrt(), 2);
+    let nu = freedom(dof);
+    let first = l.pick(
+        format!("Only {nu} effective degrees of freedom: u itself is uncertain by about {of_u} %"),
+        format!("有效自由度仅为 {nu}：标准不确定度本身的相对不确定度约为 {of_u} %"),
+    );
+    let Some(result) = measurand.and_then(|m| report.evaluation.results.get(m)) else {
+        return first;
     };
-    format!(
-        "重复测量次数少：蒙特卡洛法对其均值取 t 分布（JCGM 101 的 6.4.9），其标准差大于 s/√n：{}。{follows}增加测量次数可使两者接近。",
-        named.join("；")
-    )
+    let coverage = &result.gum.coverage;
+    let p = report.coverage_probability();
+    let of_t = significant(student_t_two_sided_quantile(p, dof), 3);
+    let p = probability(p);
+    match (&coverage.basis, report.budget.conventions.coverage_factor) {
+        (CoverageBasis::StudentT { .. }, _) => l.pick(
+            format!("{first}, for which a k from the t-distribution allows. More readings of the dominant input would lower U."),
+            format!("{first}，按 t 分布取包含因子时已考虑这一点。增加主要输入量的重复测量次数可减小 U。"),
+        ),
+        (CoverageBasis::Fixed, _) | (CoverageBasis::Normal, CoverageRule::Normal) => {
+            let k = match report.budget.conventions.coverage_factor {
+                CoverageRule::Fixed(k) => exact(k),
+                _ => significant(coverage.k, 3),
+            };
+            l.pick(
+                format!("{first}. k = {k} makes no allowance for that; for {p} the t-distribution has k = {of_t}. More readings of the dominant input would help; coverage_factor_from = \"t\" in [conventions] takes the k of the t-distribution."),
+                format!("{first}。k = {k} 未考虑这一点；p = {p} 时 t 分布的 k 为 {of_t}。可增加主要输入量的重复测量次数，或在 [conventions] 中写 coverage_factor_from = \"t\"，按 t 分布取 k。"),
+            )
+        }
+        (CoverageBasis::Normal | CoverageBasis::Output { .. }, _) => l.pick(
+            format!("{first}. k, from the distribution of the result, makes no allowance for that; for {p} the t-distribution has k = {of_t}. More readings would help."),
+            format!("{first}。由输出量分布所得的 k 未考虑这一点；p = {p} 时 t 分布的 k 为 {of_t}。增加重复测量次数可改善。"),
+        ),
+    }
+}
+
+/// Whether a power is the first, within what it is known to.
+fn is_first(power: f64) -> bool {
+    (power - 1.0).abs() < 0.05
 }
 
 /// A tail index is known to one decimal at best.

@@ -83,9 +83,11 @@ pub(super) fn percent(share: f64) -> String {
     print(&at_place(hundredfold, -1))
 }
 
-/// A probability in percent with the digits it was stated with: `95 %`, `95.45 %`.
+/// A probability in percent with the digits it was stated with: `95 %`, `95.45 %`, `99.9997 %`.
 pub(super) fn probability(p: f64) -> String {
-    let text = at_place(100.0 * p, -2).print_plain(STYLE);
+    // Two digits of whichever is smaller, it or its complement, and two decimals at least.
+    let rarer = libm::log10(100.0 * p.min(1.0 - p)).floor();
+    let text = at_place(100.0 * p, (rarer - 1.0).clamp(-12.0, -2.0) as i32).print_plain(STYLE);
     format!("{} %", text.trim_end_matches('0').trim_end_matches('.'))
 }
 

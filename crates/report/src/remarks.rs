@@ -1,13 +1,12 @@
 //! Findings as sentences: what was found, what follows from it, what to do.
 
-use gumption_core::special::student_t_two_sided_quantile;
 use gumption_format::document::{Finding as Remark, Severity};
-use gumption_gum::budget::CoverageRule;
-use gumption_gum::propagate::{CoverageBasis, EvaluationError, FindingKind, Reason, is_residue};
+use gumption_gum::budget::FitDoubt;
+use gumption_gum::propagate::{EvaluationError, FindingKind, Reason, is_residue};
 
-use super::fits::test_figures;
+use super::fits::{doubtful_fit, test_figures};
 use super::language::Language;
-use super::number::{aligned, exact, freedom, grouped, probability, significant};
+use super::number::{aligned, freedom, grouped, probability, significant};
 use super::{Report, moments};
 
 /// All findings and the budget's remarks, each one paragraph; what is found alike of several
@@ -74,6 +73,11 @@ pub(super) fn code(kind: &FindingKind) -> &'static str {
         FindingKind::LackOfFit { .. } => "lack_of_fit",
         FindingKind::ResidualsTooSmall { .. } => "residuals_too_small",
         FindingKind::ExactFit { .. } => "exact_fit",
+        FindingKind::DoubtfulFit { doubt, .. } => match doubt {
+            FitDoubt::Pattern { .. } => "residual_pattern",
+            FitDoubt::Pole { .. } => "pole_between_points",
+            FitDoubt::BetterMinimum { .. } => "better_minimum",
+        },
         FindingKind::Asymmetric => "asymmetric",
     }
 }
@@ -118,7 +122,7 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
         ),
         FindingKind::SlopesUnresolved => "The sensitivity coefficients are what rounding left of larger numbers: a change of the estimates in their last digits changes u in the digits that are printed. Write the formula so that large terms do not cancel: write it as a difference.".to_string(),
         FindingKind::MomentsMissing { reason } => moments::in_english(reason),
-        FindingKind::FewReadings { components } => moments::few_in_english(components, reported(report, measurand)),
+        FindingKind::FewReadings { components } => moments::few_readings(report, measurand, components),
         FindingKind::FailedTrials { failed, trials } => format!(
             "In {} of {} Monte Carlo trials the model had no finite value (for example a division by zero or the root of a negative number). The results leave these trials out. Check whether the distributions of the inputs reach values that are physically impossible.",
             grouped(*failed),
@@ -133,7 +137,7 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             Language::English.list(members),
             freedom(*lower_bound),
         ),
-        FindingKind::FewDegreesOfFreedom { dof } => few_degrees_in_english(report, measurand, *dof),
+        FindingKind::FewDegreesOfFreedom { dof } => moments::few_degrees(report, measurand, *dof),
         FindingKind::Irregular { what } => format!(
             "The model is not smooth at the estimates: {}. A derivative says little there, so the GUM figures may be wrong. Rely on Monte Carlo.",
             what.english(),
@@ -178,6 +182,7 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             "The data of the fit {fit} lie closer to the curve than their stated uncertainties let expect ({}). Perhaps these are too large, or contain a part that all points have in common: state that as a component with common = true.",
             test_figures(Language::English, test),
         ),
+        FindingKind::DoubtfulFit { fit, doubt } => doubtful_fit(Language::English, fit, doubt),
         FindingKind::ExactFit { fit } => format!(
             "The curve of the fit {fit} passes through all its points, so that the residuals tell no uncertainty of its parameters: they enter as exact. State the uncertainties of the data."
         ),
@@ -213,7 +218,7 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
         ),
         FindingKind::SlopesUnresolved => "灵敏系数是大数相消后的舍入残余：估计值末位的变动会改变所给 u 的有效数字。请改写公式，避免大数相消，以差值表示。".to_string(),
         FindingKind::MomentsMissing { reason } => moments::in_chinese(reason),
-        FindingKind::FewReadings { components } => moments::few_in_chinese(components, reported(report, measurand)),
+        FindingKind::FewReadings { components } => moments::few_readings(report, measurand, components),
         FindingKind::FailedTrials { failed, trials } => format!(
             "{} 次蒙特卡洛试验中有 {} 次模型没有有限值（例如除以零或对负数开方），这些试验未计入结果。请检查输入量的分布是否包含物理上不可能的值。",
             grouped(*trials),
@@ -228,7 +233,7 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             Language::Chinese.list(members),
             freedom(*lower_bound),
         ),
-        FindingKind::FewDegreesOfFreedom { dof } => few_degrees_in_chinese(report, measurand, *dof),
+        FindingKind::FewDegreesOfFreedom { dof } => moments::few_degrees(report, measurand, *dof),
         FindingKind::Irregular { what } => format!("测量模型在估计值处不光滑（{}）。此处的导数意义不大，GUM 法的结果可能不正确，应以蒙特卡洛法为准。", what.chinese()),
         FindingKind::NearSingular { what } => format!(
             "测量模型接近无定义的点（{}，u 为该量的标准不确定度）。输出量的分布可能有很长的尾部，标准不确定度和包含因子不能很好地描述它。请看包含区间，并核对该量的不确定度。",
@@ -270,63 +275,12 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             "拟合 {fit} 的数据比所给不确定度的预期更接近曲线（{}）。不确定度可能偏大，或含有各点共有的部分：请将该部分写成 common = true 的分量。",
             test_figures(Language::Chinese, test),
         ),
+        FindingKind::DoubtfulFit { fit, doubt } => doubtful_fit(Language::Chinese, fit, doubt),
         FindingKind::ExactFit { fit } => format!(
             "拟合 {fit} 的曲线通过所有数据点，残差不能给出参数的不确定度，参数按精确值处理。请给出数据的不确定度。"
         ),
         FindingKind::Asymmetric => "输出量的分布不对称，概率对称包含区间与最短包含区间不同。不要写成估计值 ± U 的形式，应给出包含区间。".to_string(),
     }
-}
-
-fn few_degrees_in_english(report: &Report<'_>, measurand: Option<usize>, dof: f64) -> String {
-    let first = format!(
-        "Only {} effective degrees of freedom: u itself is uncertain by about {} %",
-        freedom(dof),
-        significant(100.0 / (2.0 * dof).sqrt(), 2),
-    );
-    match convention_k(report, measurand) {
-        None => format!(
-            "{first}, for which a k from the t-distribution allows. More readings of the dominant input would lower U."
-        ),
-        Some(k) => format!(
-            "{first}. k = {k} makes no allowance for that; for {} the t-distribution has k = {}. More readings of the dominant input would help; coverage_factor_from = \"t\" in [conventions] takes the k of the t-distribution.",
-            probability(report.coverage_probability()),
-            k_of_t(report, dof),
-        ),
-    }
-}
-
-fn few_degrees_in_chinese(report: &Report<'_>, measurand: Option<usize>, dof: f64) -> String {
-    let first = format!(
-        "有效自由度仅为 {}：标准不确定度本身的相对不确定度约为 {} %",
-        freedom(dof),
-        significant(100.0 / (2.0 * dof).sqrt(), 2),
-    );
-    match convention_k(report, measurand) {
-        None => format!(
-            "{first}，按 t 分布取包含因子时已考虑这一点。增加主要输入量的重复测量次数可减小 U。"
-        ),
-        Some(k) => format!(
-            "{first}。k = {k} 未考虑这一点；p = {} 时 t 分布的 k 为 {}。可增加主要输入量的重复测量次数，或在 [conventions] 中写 coverage_factor_from = \"t\"，按 t 分布取 k。",
-            probability(report.coverage_probability()),
-            k_of_t(report, dof),
-        ),
-    }
-}
-
-/// k where it is a convention that does not look at the degrees of freedom.
-fn convention_k(report: &Report<'_>, measurand: Option<usize>) -> Option<String> {
-    let coverage = &report.evaluation.results.get(measurand?)?.gum.coverage;
-    match (&coverage.basis, report.budget.conventions.coverage_factor) {
-        (CoverageBasis::Fixed, CoverageRule::Fixed(k)) => Some(exact(k)),
-        (CoverageBasis::Normal, CoverageRule::Normal) => Some(significant(coverage.k, 3)),
-        _ => None,
-    }
-}
-
-/// k of the t-distribution for the probability of the report.
-fn k_of_t(report: &Report<'_>, dof: f64) -> String {
-    let k = student_t_two_sided_quantile(report.coverage_probability(), dof);
-    significant(k, 3)
 }
 
 /// Inputs, shift, effect on u, and whether it matters, of [`FindingKind::VanishingSensitivity`].
@@ -498,6 +452,8 @@ pub(super) fn tolerance(delta: f64) -> String {
 mod tests {
     use super::*;
     use crate::fixtures;
+    use gumption_gum::budget::CoverageRule;
+    use gumption_gum::propagate::CoverageBasis;
 
     fn texts(remarks: &[Remark]) -> String {
         let texts: Vec<&str> = remarks.iter().map(|remark| remark.text.as_str()).collect();

@@ -370,15 +370,46 @@ impl Subject<'_> {
     }
 }
 
+/// Which correlation coefficients go with the estimates and uncertainties that are reported.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Coefficients {
+    /// All results are those of the GUM, and so are the coefficients.
+    Gum,
+    /// Some or all results are those of Monte Carlo, and all coefficients.
+    MonteCarlo,
+    /// Some or all results are those of Monte Carlo, which has no correlation coefficients.
+    GumForWantOfMoments,
+}
+
+impl Coefficients {
+    /// Those of a report.
+    pub(super) fn of(report: &Report<'_>) -> Coefficients {
+        let conventions = &report.budget.conventions;
+        let mut results = report.evaluation.results.iter();
+        let joint = report.evaluation.joint.as_ref();
+        let found = joint.is_some_and(|joint| joint.monte_carlo_correlation.is_some());
+        match results.any(|r| r.reported(conventions).basis == Basis::MonteCarlo) {
+            false => Coefficients::Gum,
+            true if found => Coefficients::MonteCarlo,
+            true => Coefficients::GumForWantOfMoments,
+        }
+    }
+
+    /// The method, where it is not that of every result.
+    fn method(self, l: Language) -> &'static str {
+        match self {
+            Coefficients::Gum => "",
+            Coefficients::MonteCarlo => l.pick(", by the Monte Carlo method", "（蒙特卡洛法）"),
+            Coefficients::GumForWantOfMoments => l.pick(", by the GUM method", "（GUM 法）"),
+        }
+    }
+}
+
 fn correlations(report: &Report<'_>) -> Option<String> {
     let joint = report.evaluation.joint.as_ref()?;
-    let from_trials = report
-        .evaluation
-        .results
-        .iter()
-        .any(|r| r.reported(&report.budget.conventions).basis == Basis::MonteCarlo);
-    let matrix = match &joint.monte_carlo_correlation {
-        Some(matrix) if from_trials => matrix,
+    let which = Coefficients::of(report);
+    let matrix = match (&joint.monte_carlo_correlation, which) {
+        (Some(matrix), Coefficients::MonteCarlo) => matrix,
         _ => &joint.correlation,
     };
     let n = report.evaluation.results.len();
@@ -386,12 +417,8 @@ fn correlations(report: &Report<'_>) -> Option<String> {
     for i in 0..n {
         for j in i + 1..n {
             if let Some(r) = matrix.get((i, j)) {
-                pairs.push(format!(
-                    "r({}, {}) = {}",
-                    report.measurand(i).0,
-                    report.measurand(j).0,
-                    coefficient(*r)
-                ));
+                let (first, second) = (report.measurand(i).0, report.measurand(j).0);
+                pairs.push(format!("r({first}, {second}) = {}", coefficient(*r)));
             }
         }
     }
@@ -400,15 +427,17 @@ fn correlations(report: &Report<'_>) -> Option<String> {
     if pairs.is_empty() {
         return None;
     }
-    if pairs.len() > MOST {
-        return Some(match report.language {
-            Language::English => "The estimates are correlated; the correlation coefficients are given in the table of the joint result.".to_string(),
-            Language::Chinese => "各估计值相关，相关系数见联合结果表。".to_string(),
-        });
-    }
-    Some(match report.language {
-        Language::English => format!("Correlation of the estimates: {}.", pairs.join(", ")),
-        Language::Chinese => format!("各估计值之间的相关系数：{}。", pairs.join("，")),
+    let l = report.language;
+    let method = which.method(l);
+    Some(match pairs.len() > MOST {
+        true => l.pick(
+            format!("The estimates are correlated; the correlation coefficients{method} are given in the table of the joint result."),
+            format!("各估计值相关，相关系数{method}见联合结果表。"),
+        ),
+        false => l.pick(
+            format!("Correlation of the estimates{method}: {}.", pairs.join(", ")),
+            format!("各估计值之间的相关系数{method}：{}。", pairs.join("，")),
+        ),
     })
 }
 

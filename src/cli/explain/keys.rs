@@ -1,6 +1,9 @@
 //! The keys of a budget file, table by table.
 
 use gumption::budget::{self, KeyRow};
+use gumption::fault::catalogue::told;
+use gumption::fault::{Between, Said, say};
+use gumption::language::Language;
 
 use super::{Section, Topic};
 
@@ -29,13 +32,21 @@ pub(super) struct KeyTable {
 
 impl KeyTable {
     /// Where it stands, in words: `certificate` of a component.
-    pub(super) fn place(&self) -> String {
+    pub(super) fn place(&self) -> Said {
         let [path] = &self.paths[..] else {
-            let inner: Vec<String> = self.paths.iter().map(|p| quoted(split(p).1)).collect();
+            let inner = Said::row(
+                Between::Comma,
+                self.paths.iter().map(|p| quoted(split(p).1)),
+            );
             let parent = self.paths.first().map_or("", |p| split(p).0);
-            return format!("{} of {}", inner.join(", "), in_words(parent));
+            return say!("{inner} of {}", in_words(parent));
         };
         in_words(path)
+    }
+
+    /// Whether its keys are those of a component.
+    pub(super) fn is_component(&self) -> bool {
+        self.paths[..] == ["component"]
     }
 
     /// Whether its keys are names of distributions, which are topics of their own.
@@ -44,13 +55,13 @@ impl KeyTable {
     }
 }
 
-fn in_words(path: &str) -> String {
+fn in_words(path: &str) -> Said {
     match (path, split(path)) {
-        ("", _) => "the top of the file".to_string(),
-        ("component", _) => "a component".to_string(),
-        ("correlation" | "joint", _) => format!("`[[{path}]]`"),
-        (_, ("", _)) => format!("`[{path}]`"),
-        (_, (parent, inner)) => format!("{} of {}", quoted(inner), in_words(parent)),
+        ("", _) => say!("the top of the file"),
+        ("component", _) => say!("a component"),
+        ("correlation" | "joint", _) => say!("`[[{path}]]`"),
+        (_, ("", _)) => say!("`[{path}]`"),
+        (_, (parent, inner)) => say!("{inner} of {}", in_words(parent), inner = quoted(inner)),
     }
 }
 
@@ -129,38 +140,44 @@ fn alike_joined(tables: Vec<KeyTable>) -> Vec<KeyTable> {
 }
 
 /// What a key says, without the mark of a way to state an uncertainty.
-fn meaning(doc: &str) -> &str {
-    doc.strip_prefix("Way: ").unwrap_or(doc)
+pub(super) fn meaning(doc: &str, lang: Language) -> &str {
+    let doc = told(doc, lang);
+    doc.strip_prefix(lang.pick("Way: ", "方式："))
+        .unwrap_or(doc)
 }
 
 /// One topic for each key, with all tables in which it may stand.
-pub(super) fn topics() -> Vec<Topic> {
+pub(super) fn topics(lang: Language) -> Vec<Topic> {
     let mut topics: Vec<Topic> = Vec::new();
     for table in tables().iter().filter(|t| !t.names_distributions()) {
         let place = table.place();
         for row in &table.rows {
             let way = if row.doc.starts_with("Way") {
-                "\n\nIt is one of the ways to state an uncertainty, of which a component has exactly one."
+                say!(
+                    "\n\nIt is one of the ways to state an uncertainty, of which a component has exactly one."
+                )
             } else {
-                ""
+                Said::default()
             };
-            let at = if place.starts_with("the top") {
-                "At"
-            } else {
-                "In"
+            let at = match table.paths[..] == [""] {
+                true => say!("At {place}"),
+                false => say!("In {place}"),
             };
-            let text = format!(
-                "{at} {place}: {} It is set to {}.{way}",
-                meaning(&row.doc),
+            let text = say!(
+                "{at}: {} It is set to {}.{way}",
+                meaning(&row.doc, lang),
                 row.kind
-            );
+            )
+            .in_language(lang);
             match topics.iter_mut().find(|topic| topic.name == row.key) {
                 Some(topic) => topic.text = format!("{}\n\n{text}", topic.text),
                 None => topics.push(Topic {
                     section: Section::Keys,
                     name: row.key.to_string(),
                     aliases: Vec::new(),
-                    title: meaning(&row.doc).trim_end_matches('.').to_string(),
+                    title: meaning(&row.doc, lang)
+                        .trim_end_matches(['.', '。'])
+                        .to_string(),
                     text,
                 }),
             }
@@ -175,7 +192,7 @@ mod tests {
 
     #[test]
     fn places_are_told_in_words() {
-        let places: Vec<String> = tables().iter().map(KeyTable::place).collect();
+        let places: Vec<String> = tables().iter().map(|t| t.place().to_string()).collect();
         for place in [
             "the top of the file",
             "`[input.NAME]`",

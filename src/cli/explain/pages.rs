@@ -2,47 +2,64 @@
 
 use super::keys::{KeyTable, tables};
 use super::{Section, Topic};
+use gumption::fault::catalogue::told;
+use gumption::fault::{Said, say};
+use gumption::language::Language;
 use gumption::model;
 
 /// A section as a page.
-pub(super) fn page(section: Section, topics: &[Topic]) -> String {
+pub(super) fn page(section: Section, topics: &[Topic], lang: Language) -> String {
     let body = match section {
-        Section::Functions => functions(),
-        Section::Keys => tables().iter().map(key_table).collect(),
+        Section::Functions => functions(lang),
+        Section::Keys => tables()
+            .iter()
+            .map(|table| key_table(table, lang))
+            .collect(),
         _ => topics
             .iter()
             .filter(|topic| topic.section == section)
             .map(chapter)
             .collect(),
     };
-    format!(
+    say!(
         "# {}\n\n{}\n\nThis page is what `gumption explain {} --markdown` prints.\n{body}",
         section.title(),
         introduction(section),
         section.name(),
     )
+    .in_language(lang)
 }
 
-fn introduction(section: Section) -> &'static str {
+fn introduction(section: Section) -> Said {
     match section {
-        Section::Concepts => "Words that the report and the messages use.",
+        Section::Concepts => say!("Words that the report and the messages use."),
         Section::Distributions => {
-            "Shapes that a component may have. A shape beside a stated width is a word, a distribution with all \
+            say!(
+                "Shapes that a component may have. A shape beside a stated width is a word, a distribution with all \
              its parameters is a table; parameters are in the unit of the input."
+            )
         }
-        Section::Functions => "[The model language](../model-language.md) says how they are used.",
+        Section::Functions => {
+            say!("[The model language](../model-language.md) says how they are used.")
+        }
         Section::Profiles => {
-            "A profile is a set of the conventions on which guides differ: `profile = \"EA\"` at the top of the \
+            say!(
+                "A profile is a set of the conventions on which guides differ: `profile = \"EA\"` at the top of the \
              file. `[conventions]` changes single ones."
+            )
         }
         Section::Slips => {
-            "[The audit](../audit.md) says how they are found. Below each stands the Chinese text; numbers are those of \
+            say!(
+                "[The audit](../audit.md) says how they are found. Below each stands the Chinese text; numbers are those of \
              the rules that it breaks."
+            )
         }
-        Section::Keys => "[The budget file](../budget-file.md) shows every key by example.",
+        Section::Keys => say!("[The budget file](../budget-file.md) shows every key by example."),
         Section::Errors => {
-            "Every message begins with its code. B: the budget file, M: the model, U: units. Codes are stable. \
+            say!(
+                "Every message begins with its code. B: the budget file, M: the model, U: units. Codes are stable. \
              Below each title stands the Chinese one, which `--lang zh` shows."
+            )
         }
     }
 }
@@ -72,38 +89,43 @@ fn paragraph(text: &str) -> String {
     }
 }
 
-fn functions() -> String {
-    let mut page = String::from("\n| function | gives | unit |\n|---|---|---|\n");
+fn functions(lang: Language) -> String {
+    let head = say!("| function | gives | unit |").in_language(lang);
+    let mut page = format!("\n{head}\n|---|---|---|\n");
     for f in model::functions() {
         page.push_str(&format!(
             "| `{}` | {} | {} |\n",
-            f.signature, f.doc, f.dimension
+            f.signature,
+            told(f.doc, lang),
+            told(f.dimension, lang)
         ));
     }
     page
 }
 
-fn key_table(table: &KeyTable) -> String {
-    let place = table.place();
+fn key_table(table: &KeyTable, lang: Language) -> String {
+    let place = table.place().in_language(lang);
+    let head = say!("| key | set to | meaning |").in_language(lang);
     let mut page = format!(
-        "\n## {}\n\n{}| key | set to | meaning |\n|---|---|---|\n",
+        "\n## {}\n\n{}{head}\n|---|---|---|\n",
         capital(&place),
-        note(&place)
+        note(table).in_language(lang)
     );
     for row in &table.rows {
-        let kind = row.kind.replace('|', "\\|");
-        page.push_str(&format!("| `{}` | {kind} | {} |\n", row.key, row.doc));
+        let kind = row.kind.in_language(lang).replace('|', "\\|");
+        let doc = told(&row.doc, lang);
+        page.push_str(&format!("| `{}` | {kind} | {doc} |\n", row.key));
     }
     page
 }
 
-fn note(place: &str) -> &'static str {
-    match place {
-        "a component" => {
+fn note(table: &KeyTable) -> Said {
+    match table.is_component() {
+        true => say!(
             "An entry of `components`; with a single component its keys may stand in `[input.NAME]` or \
              `[source.NAME]` itself. Exactly one *way* states the uncertainty.\n\n"
-        }
-        _ => "",
+        ),
+        false => Said::default(),
     }
 }
 

@@ -9,7 +9,9 @@ mod small;
 
 use std::path::Path;
 
-use gumption::least_squares::{Errors, Polynomial, Problem, Response, Solution, solve};
+use gumption::least_squares::{
+    Elsewhere, Errors, Polynomial, Problem, Response, Solution, elsewhere, solve,
+};
 use nalgebra::{DMatrix, DVector};
 
 use formulas::{FORMULAS, Formula};
@@ -107,6 +109,13 @@ fn nonlinear(
         };
         let (estimates, others) = compare(&name, &solution, certified);
         assert!(estimates >= 8.0 && others >= 8.0, "{name}");
+        // Nothing better is found from other starts.
+        let others = elsewhere(&ordinary(&response, x.clone(), y, Some(start.clone())));
+        let best = others
+            .first()
+            .map_or(f64::INFINITY, |other| other.chi_squared);
+        let worse = solution.chi_squared * (1.0 - Elsewhere::DIFFERENT);
+        assert!(best >= worse, "{name}: {best} below {worse}");
     }
 }
 

@@ -223,7 +223,7 @@ fn assigned(text: &str, name: &str) -> Option<Printed> {
             }
             let Some(next) = right
                 .find(['=', '≈'])
-                .filter(|next| !right[..*next].contains([',', ';']))
+                .filter(|next| is_formula(&right[..*next]))
             else {
                 break;
             };
@@ -231,6 +231,19 @@ fn assigned(text: &str, name: &str) -> Option<Printed> {
         }
     }
     None
+}
+
+/// Whether a text is a product and no sentence: `k·u_c`, and not `k·u_c with k`.
+fn is_formula(text: &str) -> bool {
+    let word = |part: &str| {
+        part.chars().count() >= 3 && part.chars().all(|c| c.is_ascii_alphabetic()) && part != "sqrt"
+    };
+    let chinese = |c: char| ('\u{4e00}'..='\u{9fff}').contains(&c);
+    !text.contains([',', ';'])
+        && !text.contains(chinese)
+        && !text
+            .split(|c: char| !c.is_alphanumeric() && c != '_')
+            .any(word)
 }
 
 #[cfg(test)]

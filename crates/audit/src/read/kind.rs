@@ -4,7 +4,7 @@ use crate::claim::{Relative, Shape, Stated};
 use crate::printed::Printed;
 use crate::units;
 
-use super::words::{count_after, count_before, figure_after, has};
+use super::words::{count_after, count_before, figure_after, has, signed_pair, sole_figure};
 
 /// Everything that a row says of what is known.
 #[derive(Debug, Clone, Copy)]
@@ -33,6 +33,7 @@ pub struct Evidence<'a> {
 #[rustfmt::skip]
 mod family {
     pub const RANGE: &[&str] = &["range method", "range of the readings", "range of readings", "range r", "range of", "极差", "max-min", "max - min"];
+    pub const ALIKE: &[&str] = &["readings are equal", "readings were equal", "equal readings", "readings are alike", "readings were alike", "readings are identical", "readings were identical", "identical readings", "no scatter", "读数完全相同", "读数相同", "读数均相同", "示值相同", "示值完全相同", "读数完全一致", "读数一致", "示值一致"];
     pub const POOLED: &[&str] = &["pooled", "合并样本", "合并标准", "合并实验", "合并"];
     pub const DEVIATION: &[&str] = &["standard deviation", "repeatability", "type a", "标准偏差", "标准差", "重复性", "s of", "s =", "s=", "a类", "experimental", "scatter", "readings agree", "readings are equal", "equal readings", "贝塞尔", "bessel", "次测量", "repeated"];
     pub const CERTIFICATE: &[&str] = &["certificate", "calibration certificate", "expanded", "证书", "扩展不确定度", "cert.", "calibration of", "calibrated", "u(k", "u (k", "k=2", "k = 2"];
@@ -73,7 +74,7 @@ pub fn stated(e: &Evidence<'_>) -> (Stated, Relative) {
 
 fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
     // What the heads and the laboratory's columns call a distribution is its own; words decide.
-    if let Some(unequal) = unequal(text) {
+    if let Some(unequal) = unequal(e.words) {
         return Some(unequal);
     }
     let shape = shape(text);
@@ -81,7 +82,7 @@ fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
         && (has(text, &["极差"]) || count(text, e).is_some())
         && !has(text, &["full range", "measuring range"])
     {
-        let range = in_text(text, &["range method", "range r", "range", "极差"])
+        let range = in_text(e.words, &["range method", "range r", "range", "极差"])
             .or_else(|| e.used.cloned())?;
         return Some(Stated::Range {
             range,
@@ -91,7 +92,7 @@ fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
     }
     if has(text, FULL_WIDTH) {
         let width = in_text(
-            text,
+            e.words,
             &[
                 "full width",
                 "total width",
@@ -125,6 +126,15 @@ fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
             .or_else(used)
             .map(|width| Stated::FullWidth { width, shape });
     }
+    if has(text, ALIKE) {
+        // No scatter: what is left is the step of the indication, which the words have.
+        return Some(Stated::Deviation {
+            s: Printed::exact(0.0, "0"),
+            n: None,
+            m: 1.0,
+            pooled: None,
+        });
+    }
     let reading = has(text, DEVIATION) || count_before(text, &["reading", "observation"]).is_some();
     let certificate = has(text, CERTIFICATE) && !has(text, &["specification", "允许误差", "limit"]);
     // `resolution contained in the repeatability` is about a resolution: what comes first is the subject.
@@ -136,9 +146,12 @@ fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
     let step_first = first(STEP).is_some_and(|step| {
         first(DEVIATION).is_none_or(|s| step < s) && first(CERTIFICATE).is_none_or(|c| step < c)
     });
+    let about_step = first(STEP)
+        .map(|at| text[at..].split([';', '(', ',']).next().unwrap_or_default())
+        .unwrap_or_default();
     if step_first
         && !has(
-            text,
+            about_step,
             &[
                 "half the",
                 "half of",
@@ -160,7 +173,7 @@ fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
     }
     if has(text, CYCLING) {
         let half_width = in_text(
-            text,
+            e.words,
             &[
                 "amplitude",
                 "±",
@@ -182,7 +195,7 @@ fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
         return limits(e, text, shape);
     }
     if has(text, STANDARD) {
-        let u = in_text(text, STANDARD)
+        let u = in_text(e.words, STANDARD)
             .or_else(|| e.used.cloned())
             .or_else(|| e.u.cloned())?;
         return Some(Stated::Standard { u, dof: None });
@@ -216,7 +229,7 @@ fn limits(e: &Evidence<'_>, text: &str, shape: Option<Shape>) -> Option<Stated> 
         "范围",
         "误差",
     ];
-    let half_width = in_text(text, KEYS).or_else(|| e.used.cloned())?;
+    let half_width = in_text(e.words, KEYS).or_else(|| e.used.cloned())?;
     let level = has(
         text,
         &[
@@ -271,7 +284,7 @@ fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         "lsb",
         "digit",
     ];
-    if let Some(step) = in_text(text, KEYS) {
+    if let Some(step) = in_text(e.words, KEYS) {
         // `resolution ± 0.005` is half of it.
         let half = step.text.trim_start().starts_with('±')
             || text.contains(&format!("± {}", step.text))
@@ -313,7 +326,7 @@ fn certificate(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         "uncertainty",
         "不确定度",
     ];
-    let expanded = in_text(text, KEYS).or_else(|| e.used.cloned())?;
+    let expanded = in_text(e.words, KEYS).or_else(|| e.used.cloned())?;
     let stated = figure_after(text, &["k =", "k=", "k", "coverage factor", "包含因子"])
         .map(|k| k.value)
         .filter(|k| (1.0..5.0).contains(k));
@@ -346,7 +359,7 @@ fn deviation(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
         "重复性",
         "repeatability",
     ];
-    let s = in_text(text, KEYS).or_else(|| e.used.cloned());
+    let s = in_text(e.words, KEYS).or_else(|| e.used.cloned());
     let s = s.or_else(|| {
         has(text, &["equal", "all alike", "相同", "一致"]).then(|| Printed::exact(0.0, "0"))
     })?;
@@ -476,44 +489,19 @@ fn mean(text: &str, e: &Evidence<'_>) -> Option<f64> {
         .or(e.mean_of)
 }
 
-/// `+0.03 / −0.01`, as positive numbers.
+/// `+0.03 / −0.01`, as positive numbers; limits where both are the same.
 fn unequal(text: &str) -> Option<Stated> {
-    let mut from = 0;
-    while let Some(at) = text.get(from..).and_then(|rest| rest.find('+')) {
-        let start = from + at + 1;
-        from = start;
-        let Some((plus, rest)) = crate::printed::leading(&text[start..]) else {
-            continue;
-        };
-        let behind = rest.trim_start_matches(|c: char| {
-            c.is_whitespace() || ",/;和and".contains(c) || c == 'µ' || c.is_alphabetic() || c == '°'
-        });
-        if let Some(minus) = behind.strip_prefix('-').and_then(crate::printed::leading)
-            && !text[..start - 1].trim_end().ends_with(|c: char| {
-                c.is_alphanumeric()
-                    && !('\u{4e00}'..='\u{9fff}').contains(&c)
-                    && !text[..start - 1].ends_with(' ')
-            })
-        {
-            let unit = rest
-                .trim_start()
-                .split(|c: char| c.is_whitespace() || ",/;".contains(c))
-                .next()
-                .unwrap_or_default();
-            let plus = Printed {
-                unit: unit.into(),
-                ..plus
-            };
-            return Some(Stated::Unequal {
-                minus: Printed {
-                    unit: unit.into(),
-                    ..minus.0
-                },
-                plus,
-            });
+    let (plus, minus) = signed_pair(text)?;
+    Some(if plus.value == minus.value {
+        let shape = shape(text);
+        Stated::Limits {
+            half_width: plus,
+            shape: shape.unwrap_or(Shape::Rectangular),
+            shape_stated: shape.is_some(),
         }
-    }
-    None
+    } else {
+        Stated::Unequal { plus, minus }
+    })
 }
 
 fn shape(text: &str) -> Option<Shape> {
@@ -586,7 +574,7 @@ fn by_columns(e: &Evidence<'_>, columns: &str) -> Option<Stated> {
 
 /// A figure of the words; its half unit counts as that of a printed figure.
 fn in_text(text: &str, keys: &[&str]) -> Option<Printed> {
-    figure_after(text, keys)
+    figure_after(text, keys).or_else(|| sole_figure(text))
 }
 
 fn relative(stated: &Stated, text: &str, e: &Evidence<'_>) -> Relative {

@@ -8,6 +8,8 @@
 //! | `footer` | claimed figures of the whole |
 //! | `notes` | model, correlations, rules |
 //! | `mapping` | what a user says of a sheet |
+//! | `prose` | budgets without a table |
+//! | `turned` | tables whose rows and columns are exchanged |
 //! | `words` | words and figures in texts |
 
 mod columns;
@@ -15,7 +17,9 @@ mod footer;
 mod kind;
 mod mapping;
 mod notes;
+mod prose;
 mod table;
+mod turned;
 mod words;
 
 pub use columns::Role;
@@ -40,37 +44,112 @@ struct Line {
 
 /// Every budget of a file.
 pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
-    let mut common = Vec::new();
-    let mut found: Vec<(usize, Located)> = Vec::new();
+    let grids: Vec<Grid> = grids.iter().map(turned::upright).collect();
+    let mut found: Vec<Found> = Vec::new();
     for (sheet, grid) in grids.iter().enumerate() {
-        let located = table::locate(grid, mapping);
-        if located.is_empty() {
-            common.extend(lines(grid, sheet, 0..grid.rows.len(), |_| false));
-        }
-        found.extend(located.into_iter().map(|one| (sheet, one)));
+        let tables = table::locate(grid, mapping).into_iter();
+        found.extend(tables.map(|located| Found::new(grid, sheet, located)));
     }
-    let mut budgets = Vec::new();
-    for (i, (sheet, located)) in found.iter().enumerate() {
-        let grid = &grids[*sheet];
-        let before = i
-            .checked_sub(1)
-            .and_then(|j| found.get(j))
-            .filter(|(s, _)| s == sheet);
-        let after = found.get(i + 1).filter(|(s, _)| s == sheet);
-        let start = before.map_or(0, |(_, other)| between(grid, other.end, located.head));
-        let end = after.map_or(grid.rows.len(), |(_, other)| {
-            between(grid, located.end, other.head)
+    let (inputs, evaluated): (Vec<Found>, Vec<Found>) = found
+        .iter()
+        .cloned()
+        .partition(|one| found.iter().any(|other| one.states_inputs_of(other)));
+    let outside = |sheet: usize| {
+        let of_inputs = |row: usize| {
+            inputs
+                .iter()
+                .any(|one| one.sheet == sheet && one.located.is_used(row))
+        };
+        lines(&grids[sheet], sheet, 0..grids[sheet].rows.len(), of_inputs)
+    };
+    let without = |sheet: &usize| evaluated.iter().all(|one| one.sheet != *sheet);
+    let common: Vec<Line> = (0..grids.len()).filter(without).flat_map(outside).collect();
+    if evaluated.is_empty() {
+        return prose(&common, mapping).into_iter().collect();
+    }
+    let tables = evaluated.iter().enumerate().map(|(i, one)| {
+        let grid = &grids[one.sheet];
+        let near = |j: Option<usize>| {
+            j.and_then(|j| evaluated.get(j))
+                .filter(|o| o.sheet == one.sheet)
+        };
+        let start = near(i.checked_sub(1)).map_or(0, |other| {
+            between(grid, other.located.end, one.located.head)
         });
-        budgets.push(budget(
-            grid,
-            *sheet,
-            located.clone(),
-            start..end,
-            &common,
-            mapping,
-        ));
+        let end = near(Some(i + 1)).map_or(grid.rows.len(), |other| {
+            between(grid, one.located.end, other.located.head)
+        });
+        let own: Vec<&Found> = inputs
+            .iter()
+            .filter(|input| input.states_inputs_of(one))
+            .collect();
+        budget(grid, one, start..end, &common, &own, mapping)
+    });
+    tables.collect()
+}
+
+/// A table on a sheet, with its rows.
+#[derive(Debug, Clone)]
+struct Found {
+    sheet: usize,
+    located: Located,
+    raw: Vec<table::Raw>,
+}
+
+impl Found {
+    fn new(grid: &Grid, sheet: usize, located: Located) -> Found {
+        let raw = table::rows(grid, sheet, &located);
+        Found {
+            sheet,
+            located,
+            raw,
+        }
     }
-    budgets
+
+    /// Whether this table says what is known of the rows that another one evaluates.
+    fn states_inputs_of(&self, other: &Found) -> bool {
+        if self.located.is_evaluated() || !other.located.is_evaluated() {
+            return false;
+        }
+        let shared = other
+            .raw
+            .iter()
+            .filter(|raw| self.raw.iter().any(|own| own.is_of(raw)));
+        2 * shared.count() > other.raw.len()
+    }
+}
+
+/// A budget that is told in sentences.
+fn prose(all: &[Line], mapping: &Mapping) -> Option<Claimed> {
+    let rows: Vec<(usize, crate::claim::Row)> = all
+        .iter()
+        .enumerate()
+        .filter_map(|(i, line)| Some((i, prose::row(&line.text, line.at)?)))
+        .collect();
+    if rows.len() < 2 {
+        return None;
+    }
+    let others: Vec<&Line> = (0..all.len())
+        .filter(|i| rows.iter().all(|(row, _)| row != i))
+        .map(|i| &all[i])
+        .collect();
+    let mut raw: Vec<table::Raw> = rows
+        .into_iter()
+        .map(|(_, row)| table::Raw::told(row))
+        .collect();
+    let mut claimed = Claimed {
+        rows: raw.iter().map(|raw| raw.row.clone()).collect(),
+        title: others
+            .first()
+            .map(|line| line.text.clone())
+            .unwrap_or_default(),
+        ..Claimed::default()
+    };
+    find_model(&others, &mut claimed, mapping);
+    symbols_of_model(&mut raw, &mut claimed);
+    place_lines(&others, &mut claimed);
+    table::interpret(&raw, false, &mut claimed);
+    Some(claimed)
 }
 
 /// Where the text between two tables passes from one to the other: at the last blank row, or half a page.
@@ -101,18 +180,34 @@ fn lines(grid: &Grid, sheet: usize, rows: Range<usize>, used: impl Fn(usize) -> 
 
 fn budget(
     grid: &Grid,
-    sheet: usize,
-    mut located: Located,
+    found: &Found,
     bounds: Range<usize>,
     common: &[Line],
+    inputs: &[&Found],
     mapping: &Mapping,
 ) -> Claimed {
+    let (sheet, mut located) = (found.sheet, found.located.clone());
     let mut claimed = Claimed {
         understood: located.understood(grid, sheet),
         ..Claimed::default()
     };
-    let mut raw = table::rows(grid, sheet, &located);
-    let own = |located: &Located| lines(grid, sheet, bounds.clone(), |row| located.is_used(row));
+    let mut raw = found.raw.clone();
+    for raw in &mut raw {
+        let of_row = inputs.iter().flat_map(|input| &input.raw);
+        if let Some(input) = of_row.into_iter().find(|input| input.is_of(raw)) {
+            raw.absorb(input);
+        }
+    }
+    let of_inputs = |row: usize| {
+        inputs
+            .iter()
+            .any(|input| input.sheet == sheet && input.located.is_used(row))
+    };
+    let own = |located: &Located| {
+        lines(grid, sheet, bounds.clone(), |row| {
+            located.is_used(row) || of_inputs(row)
+        })
+    };
     let first = own(&located);
     claimed.rows = raw.iter().map(|raw| raw.row.clone()).collect();
     claimed.unit = located.unit.clone();
@@ -128,24 +223,58 @@ fn budget(
     );
     drop_measurand(&mut raw, &mut claimed);
     symbols_of_model(&mut raw, &mut claimed);
-    table::footers(grid, sheet, &mut located, bounds.end, &mut claimed);
+    let below = located.head + 1..bounds.end;
+    table::footers(grid, sheet, &mut located, below, of_inputs, &mut claimed);
+    claimed.typed = typed(grid, sheet, &claimed);
     let own = own(&located);
     let all: Vec<&Line> = own.iter().chain(common).collect();
+    place_lines(&all, &mut claimed);
+    // Some sheets have their result in front of the table.
+    if claimed.footer.u_c.is_none() && claimed.footer.expanded.is_none() {
+        let above = bounds.start..located.head;
+        table::footers(grid, sheet, &mut located, above, of_inputs, &mut claimed);
+        if claimed.unit.is_empty() {
+            claimed.unit = unit_of_result(&claimed);
+        }
+    }
+    let full = located.is_evaluated();
+    table::interpret(&raw, full, &mut claimed);
+    claimed
+}
+
+/// Whether u_c stands as a number where other computed cells of the sheet hold formulas.
+fn typed(grid: &Grid, sheet: usize, claimed: &Claimed) -> bool {
+    let Some(u_c) = claimed
+        .footer
+        .u_c
+        .as_ref()
+        .filter(|u_c| u_c.at.sheet == sheet)
+    else {
+        return false;
+    };
+    let computed = claimed
+        .rows
+        .iter()
+        .filter(|row| !row.formulas.is_empty())
+        .count();
+    2 * computed > claimed.rows.len() && grid.cell(u_c.at.row, u_c.at.column).formula.is_none()
+}
+
+/// Lines beside a table: each to the whole, or to the row that it is about.
+fn place_lines(all: &[&Line], claimed: &mut Claimed) {
     let mut of_row = vec![String::new(); claimed.rows.len()];
-    for line in &all {
-        place_line(line, &mut claimed, &mut of_row);
+    for line in all {
+        place_line(line, claimed, &mut of_row);
     }
     for (row, words) in claimed.rows.iter_mut().zip(&of_row) {
         row.words.push_str(words);
     }
     claimed.reported_mean_of = all
         .iter()
-        .find_map(|line| notes::mean_of(&line.text, &claimed));
+        .find_map(|line| notes::mean_of(&line.text, claimed));
     if claimed.unit.is_empty() {
-        claimed.unit = unit_of_result(&claimed);
+        claimed.unit = unit_of_result(claimed);
     }
-    table::interpret(&raw, &located, &mut claimed);
-    claimed
 }
 
 fn unit_of_result(claimed: &Claimed) -> String {
@@ -191,7 +320,10 @@ fn find_model(all: &[&Line], claimed: &mut Claimed, mapping: &Mapping) {
 
 /// The last row of a table in the form of EA-4/02 is that of the result.
 fn drop_measurand(raw: &mut Vec<table::Raw>, claimed: &mut Claimed) {
-    let Some(place) = raw.iter().position(|raw| raw.is_result(&claimed.measurand)) else {
+    let last = raw.len().saturating_sub(1);
+    let is_result =
+        |(i, raw): (usize, &table::Raw)| raw.is_result(&claimed.measurand, i == last && last > 0);
+    let Some(place) = raw.iter().enumerate().position(is_result) else {
         return;
     };
     let result = raw.remove(place).row;
@@ -269,6 +401,15 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
         if role == "correlation" || role == "CMC" || role == "rule for k" && !statement {
             return;
         }
+    }
+    if let Some(row) = notes::absent(&line.text, line.at, claimed) {
+        claimed.understood.push(Understood {
+            at: line.at,
+            text: line.text.clone(),
+            role: "known, but not in the table",
+        });
+        claimed.absent.push(row);
+        return;
     }
     let about = row_of_line(&line.text, &lower, claimed);
     let statement = about.is_none() || footer::label(&line.text, &claimed.measurand).is_some();

@@ -1,9 +1,10 @@
 //! Lines beside the table: model, correlations, the rules for k and rounding, CMC.
 
-use crate::claim::{Claimed, Correlation, Coverage, RoundingStated};
+use crate::claim::{Claimed, Correlation, Coverage, RoundingStated, Row, Stated};
 use crate::printed::{Place, Printed, leading};
 
 use super::footer;
+use super::kind::{self, Evidence};
 use super::words::{count_after, count_before, figure_after, has, has_symbol, symbol_at};
 
 /// What a line says of the whole; `None` for what it says nothing of.
@@ -48,27 +49,35 @@ pub fn note(text: &str, at: Place, claimed: &mut Claimed) -> Option<&'static str
         &lower,
         &["round", "修约", "只进不舍", "进位", "舍入", "四舍"],
     ) {
-        let up = has(
-            &lower,
-            &[
-                "rounded up",
-                "round up",
-                "rounding up",
-                "upwards",
-                "only up",
-                "只进不舍",
-                "进位",
-                "always up",
-                "向上",
-                "up at",
-                "not down",
-            ],
-        );
-        claimed.rounding = if up {
-            RoundingStated::Up
-        } else {
-            RoundingStated::Nearest
-        };
+        let up = [
+            "rounded up",
+            "round up",
+            "rounding up",
+            "upwards",
+            "only up",
+            "只进不舍",
+            "进位",
+            "always up",
+            "向上",
+            "up at",
+            "not down",
+        ];
+        let nearest = [
+            "nearest",
+            "usual",
+            "half-even",
+            "half even",
+            "half up",
+            "四舍",
+            "8170",
+            "80000",
+            "就近",
+        ];
+        if has(&lower, &up) {
+            claimed.rounding = RoundingStated::Up;
+        } else if has(&lower, &nearest) {
+            claimed.rounding = RoundingStated::Nearest;
+        }
         role = Some("rule for rounding");
     }
     role
@@ -148,6 +157,14 @@ fn rule(lower: &str, claimed: &mut Claimed) -> bool {
         ],
     );
     let certificate = has(lower, &["certificate", "证书", "calibrat"]);
+    // A line of nothing but `k = 2.13` is the claim.
+    let bare = lower
+        .strip_prefix('k')
+        .and_then(|rest| rest.trim_start().strip_prefix('='))
+        .is_some_and(|rest| rest.trim().parse::<f64>().is_ok());
+    if bare {
+        return false;
+    }
     if !about || certificate {
         return false;
     }
@@ -229,66 +246,112 @@ fn probability(lower: &str) -> Option<f64> {
 
 /// Correlations of a line; none in it where it says that there is none.
 fn correlation(text: &str, lower: &str, claimed: &Claimed) -> Option<Vec<Correlation>> {
-    if has(
-        lower,
-        &[
-            "uncorrelated",
-            "not correlated",
-            "no correlation",
-            "independent",
-            "不相关",
-            "互不相关",
-            "独立",
-            "无相关",
-        ],
-    ) {
-        return Some(Vec::new());
-    }
-    let mut places: Vec<(usize, usize)> = (0..claimed.rows.len())
-        .filter_map(|row| Some((symbol_at(text, &claimed.rows[row].symbol, 0)?, row)))
+    let none = [
+        "uncorrelated",
+        "not correlated",
+        "no correlation",
+        "independent",
+        "不相关",
+        "互不相关",
+        "独立",
+        "无相关",
+    ];
+    // `r(a, b) = 0.5; all others are independent`: each clause is about others.
+    let clauses: Vec<&str> = if text.contains("r(") || text.contains("ρ(") {
+        text.split(';').collect()
+    } else {
+        text.split([';', ',', '。']).collect()
+    };
+    let said: Vec<&str> = clauses
+        .into_iter()
+        .filter(|clause| !has(&clause.to_lowercase(), &none))
         .collect();
-    places.sort_unstable();
-    // Rows named by their numbers: `rows 2 and 3`.
-    if places.len() < 2 {
-        places = (0..claimed.rows.len())
-            .filter_map(|row| {
-                let name = claimed.rows[row].name.to_lowercase();
-                (name.chars().count() >= 4)
-                    .then(|| lower.find(&name))
-                    .flatten()
-                    .map(|at| (at, row))
-            })
-            .collect();
-        places.sort_unstable();
+    let pairs: Vec<Correlation> = said
+        .iter()
+        .filter_map(|clause| pairs(clause, claimed))
+        .flatten()
+        .collect();
+    if !pairs.is_empty() {
+        return Some(pairs);
     }
+    // What is parted by commas may belong together: `a, b: r = 0.5`.
+    let whole = said.join(",");
+    self::pairs(&whole, claimed).or_else(|| has(lower, &none).then(Vec::new))
+}
+
+/// The pairs of rows that a clause names, with its coefficient.
+fn pairs(text: &str, claimed: &Claimed) -> Option<Vec<Correlation>> {
+    let lower = text.to_lowercase();
+    let inner = ["r(", "ρ(", "R("]
+        .iter()
+        .find_map(|lead| text.split_once(lead)?.1.split_once(')'))
+        .map(|(inner, _)| inner);
+    let names = inner.unwrap_or(text);
+    let rows = claimed.rows.iter().enumerate();
+    let mut places: Vec<(usize, usize)> = rows
+        .clone()
+        // The coefficient itself is called r.
+        .filter(|(_, row)| {
+            inner.is_some()
+                || !matches!(row.symbol.as_str(), "r" | "ρ")
+                || symbols(text, &row.symbol) > 1
+                || !is_assigned(text, &row.symbol)
+        })
+        .filter_map(|(i, row)| Some((symbol_at(names, &row.symbol, 0)?, i)))
+        .collect();
+    if places.len() < 2 {
+        let names = names.to_lowercase();
+        places = rows
+            .filter(|(_, row)| row.name.chars().count() >= 2)
+            .filter_map(|(i, row)| Some((names.find(&row.name.to_lowercase())?, i)))
+            .collect();
+    }
+    places.sort_unstable();
     let full = || {
-        has(
-            lower,
-            &[
-                "fully",
-                "full correlation",
-                "完全正相关",
-                "完全相关",
-                "强相关",
-            ],
-        )
-        .then_some(1.0)
+        let words = [
+            "fully",
+            "full correlation",
+            "完全正相关",
+            "完全相关",
+            "强相关",
+        ];
+        has(&lower, &words).then_some(1.0)
+    };
+    let stated = || {
+        let keys = ["coefficient", "相关系数", "correlation", "r"];
+        figure_after(&lower, &keys).map(|r| r.value)
     };
     let r = equals_figure(text)
-        .or_else(|| {
-            figure_after(lower, &["coefficient", "相关系数", "correlation", "r"]).map(|r| r.value)
-        })
-        .or_else(full);
-    let r = r.filter(|r| r.abs() <= 1.0)?;
+        .or_else(stated)
+        .or_else(full)
+        .filter(|r| r.abs() <= 1.0)?;
     let rows: Vec<usize> = places.into_iter().map(|(_, row)| row).collect();
-    if rows.len() < 2 {
-        return None;
+    let pairs: Vec<Correlation> = rows
+        .iter()
+        .enumerate()
+        .flat_map(|(i, &a)| rows[i + 1..].iter().map(move |&b| Correlation { a, b, r }))
+        .collect();
+    (!pairs.is_empty()).then_some(pairs)
+}
+
+/// How often a symbol stands in a text.
+fn symbols(text: &str, symbol: &str) -> usize {
+    let mut from = 0;
+    let mut count = 0;
+    while let Some(at) = symbol_at(text, symbol, from) {
+        count += 1;
+        from = at + symbol.len();
     }
-    let mut pairs = Vec::new();
-    for (i, &a) in rows.iter().enumerate() {
-        pairs.extend(rows[i + 1..].iter().map(|&b| Correlation { a, b, r }));
-    }
-    Some(pairs)
+    count
+}
+
+/// Whether a symbol is what the text gives a value to.
+fn is_assigned(text: &str, symbol: &str) -> bool {
+    symbol_at(text, symbol, 0).is_some_and(|at| {
+        text[at + symbol.len()..]
+            .trim_start()
+            .starts_with(['=', '为'])
+    })
 }
 
 /// The last figure behind an equals sign.
@@ -342,6 +405,35 @@ pub fn model(text: &str, claimed: &Claimed) -> Option<(String, String)> {
     .then(|| (left.to_string(), right.to_string()))
 }
 
+/// A certificate of an input of the model that no row has.
+pub fn absent(text: &str, at: Place, claimed: &Claimed) -> Option<Row> {
+    let row = super::prose::row(text.strip_prefix("Note to ").unwrap_or(text), at)?;
+    let is_missing = !row.symbol.is_empty()
+        && claimed
+            .model
+            .as_deref()
+            .is_none_or(|model| has_symbol(model, &row.symbol))
+        && claimed.rows.iter().all(|other| other.symbol != row.symbol);
+    let evidence = Evidence {
+        words: &row.words,
+        columns: "",
+        used: None,
+        used_head: "",
+        u: None,
+        divisor: None,
+        readings: None,
+        full: false,
+        mean_of: None,
+    };
+    let (stated, relative) = kind::stated(&evidence);
+    let certificate = matches!(stated, Stated::Certificate { .. });
+    (is_missing && certificate).then_some(Row {
+        stated,
+        relative,
+        ..row
+    })
+}
+
 /// The words by which a model may call a row: its symbol, or what looks like one in its name.
 pub fn names_of(row: &crate::claim::Row) -> impl Iterator<Item = &str> {
     let split = |c: char| {
@@ -367,7 +459,6 @@ pub fn names_of(row: &crate::claim::Row) -> impl Iterator<Item = &str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claim::Row;
 
     fn with_rows(symbols: &[&str]) -> Claimed {
         let row = |symbol: &&str| Row {

@@ -1,6 +1,7 @@
 //! Where a table stands, its rows and its footer.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use super::mapping::Mapping;
 use crate::claim::{Claimed, Figure, Relative, Row, Stated, Understood};
@@ -47,6 +48,8 @@ pub struct Raw {
     columns_text: String,
     used_head: String,
     readings: Option<f64>,
+    /// The ± column stands in a table of what is known, apart from the evaluation.
+    stated_apart: bool,
 }
 
 impl Located {
@@ -80,6 +83,11 @@ impl Located {
 
     fn column(&self, role: Role) -> Option<&Column> {
         self.columns.iter().find(|column| column.role == role)
+    }
+
+    /// Whether it has figures that were computed for each row.
+    pub fn is_evaluated(&self) -> bool {
+        self.has(Role::U) || self.has(Role::Contribution)
     }
 
     fn has(&self, role: Role) -> bool {
@@ -256,10 +264,10 @@ fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
     let mut strange = 0;
     for row in located.end..grid.rows.len() {
         let repeated = head(grid, row, mapping).is_some();
-        if repeated {
+        if repeated || labels_across(grid, row, "") {
             break;
         }
-        match what(grid, row, located) {
+        match what(grid, row, located, strange == 0) {
             What::Row => {
                 located.rows.push(row);
                 located.used.insert(row);
@@ -311,7 +319,8 @@ enum What {
     Other,
 }
 
-fn what(grid: &Grid, row: usize, located: &Located) -> What {
+/// What a row of the sheet is; `joined` to the rows above it without a gap.
+fn what(grid: &Grid, row: usize, located: &Located, joined: bool) -> What {
     let text = |role: Role| {
         located
             .column(role)
@@ -323,8 +332,17 @@ fn what(grid: &Grid, row: usize, located: &Located) -> What {
         .iter()
         .filter(|role| role.is_figure() && figure(**role))
         .count();
-    let labelled = grid.filled(row).take(3).any(|(_, cell)| {
-        footer::label(&cell.text, "").is_some() && Printed::parse(&cell.text).is_none()
+    // Words about a row, its figures and its distribution label nothing.
+    let labels = |column: usize| {
+        use Role::{Distribution, Remark, Used, Value};
+        let role = located.columns.iter().find(|c| c.index == column);
+        role.is_none_or(|c| !matches!(c.role, Remark | Value | Used | Distribution))
+    };
+    let first = grid.filled(row).next().map_or(0, |(column, _)| column);
+    let labelled = grid.filled(row).take(3).any(|(column, cell)| {
+        (column == first || labels(column))
+            && footer::label(&cell.text, "").is_some()
+            && Printed::parse(&cell.text).is_none()
     });
     let inputs = figure(Role::Used) || figure(Role::C);
     let explained = !text(Role::Distribution).is_empty()
@@ -356,7 +374,8 @@ fn what(grid: &Grid, row: usize, located: &Located) -> What {
     if labelled && (strong && !figure(Role::C) || !inputs && !explained) {
         return What::Footer;
     }
-    if named && (count >= 1 || !text(Role::Remark).is_empty() && grid.filled(row).count() >= 2) {
+    let told = joined && !text(Role::Remark).is_empty() && grid.filled(row).count() >= 2;
+    if named && (count >= if joined { 1 } else { 2 } || told) {
         return What::Row;
     }
     // A merged cell: the name stands above.
@@ -462,6 +481,7 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
             .map(|c| c.head.clone())
             .unwrap_or_default(),
         readings: figure(Role::Readings).map(|n| n.value),
+        stated_apart: false,
         row: Row {
             at: Place {
                 sheet,
@@ -497,8 +517,50 @@ fn positive(mut figure: Printed) -> Printed {
 }
 
 impl Raw {
+    /// A row that is told in words alone.
+    pub fn told(row: Row) -> Raw {
+        Raw {
+            row,
+            columns_text: String::new(),
+            used_head: String::new(),
+            readings: None,
+            stated_apart: true,
+        }
+    }
+
+    /// Whether both are about one quantity.
+    pub fn is_of(&self, other: &Raw) -> bool {
+        let same = |a: &str, b: &str| !a.is_empty() && a == b;
+        same(&self.row.symbol, &other.row.symbol)
+            || (self.row.symbol.is_empty() || other.row.symbol.is_empty())
+                && same(&self.row.name, &other.row.name)
+    }
+
+    /// Takes over what a table of what is known says of the quantity.
+    pub fn absorb(&mut self, input: &Raw) {
+        let (row, known) = (&mut self.row, &input.row);
+        row.value = row.value.take().or_else(|| known.value.clone());
+        row.divisor = row.divisor.take().or_else(|| known.divisor.clone());
+        if row.used.is_none() && known.used.is_some() {
+            row.used.clone_from(&known.used);
+            self.used_head.clone_from(&input.used_head);
+            self.stated_apart = true;
+        }
+        for (own, other) in [(&mut row.name, &known.name), (&mut row.unit, &known.unit)] {
+            if own.is_empty() {
+                own.clone_from(other);
+            }
+        }
+        row.words.push_str("; ");
+        row.words.push_str(&known.words);
+        self.readings = self.readings.or(input.readings);
+        if self.columns_text.trim() == ";" {
+            self.columns_text.clone_from(&input.columns_text);
+        }
+    }
+
     /// Whether the row is that of the result: its name, or nothing that an input has.
-    pub fn is_result(&self, measurand: &str) -> bool {
+    pub fn is_result(&self, measurand: &str, is_last: bool) -> bool {
         let row = &self.row;
         let named = !measurand.is_empty() && row.symbol == measurand;
         let input = row.used.is_some() || row.c.is_some() || row.divisor.is_some();
@@ -507,26 +569,27 @@ impl Raw {
                 &row.name.to_lowercase(),
                 &["result", "measurand", "结果", "被测量"],
             );
-        (named || y)
+        // The last row has what no input lacks, and nothing of what an input has.
+        let closing =
+            is_last && row.contribution.is_some() && row.u.is_none() && row.value.is_some();
+        (named || y || closing)
             && !input
             && (row.contribution.is_some() || row.u.is_some() || row.value.is_some())
     }
 }
 
-/// The footer of a table, inside it and below. Rows that were used are no text any more.
+/// The claimed figures in some rows of the sheet. Rows that were used are no text any more.
 pub fn footers(
     grid: &Grid,
     sheet: usize,
     located: &mut Located,
-    until: usize,
+    rows: Range<usize>,
+    skip: impl Fn(usize) -> bool,
     claimed: &mut Claimed,
 ) {
-    let rows: Vec<usize> = (located.head + 1..until)
-        .filter(|row| !located.rows.contains(row) && *row != located.head)
-        .collect();
     for row in rows {
-        let found = footer_row(grid, sheet, row, located, claimed);
-        if found {
+        let of_table = located.rows.contains(&row) || row == located.head;
+        if !of_table && !skip(row) && footer_row(grid, sheet, row, located, claimed) {
             located.used.insert(row);
         }
     }
@@ -566,19 +629,20 @@ fn footer_row(
         };
         let figure = Printed::parse(text);
         if figure.is_none() {
-            let before = claimed.footer.clone();
             // `U (k = 2)`, `k = 2.05`: the words hold figures.
             if text.contains('=') && !footer_words_only(text) {
                 let found_here = footer::sentence(text, &measurand, place, &mut claimed.footer);
                 found |= !found_here.is_empty();
                 understood(claimed, place, text, found_here.first().copied());
+                // `U | Expanded uncertainty | k = 2 | 0.056`: U is still open behind its k.
                 let own = footer::label(text, &measurand);
                 if own.is_some_and(|own| found_here.contains(&own)) {
-                    open = None;
+                    if open == own {
+                        open = None;
+                    }
                     continue;
                 }
             }
-            let _ = before;
             if let Some(whole) = footer::label(text, &measurand) {
                 // `U | Expanded uncertainty`: symbol and words of the same figure.
                 open = Some(whole);
@@ -652,6 +716,23 @@ fn footer_words_only(text: &str) -> bool {
     })
 }
 
+/// Whether a row is of labels side by side with their figures in the row below.
+fn labels_across(grid: &Grid, row: usize, measurand: &str) -> bool {
+    let labelled: Vec<usize> = grid
+        .filled(row)
+        .filter(|(_, cell)| footer::label(&cell.text, measurand).is_some())
+        .map(|(column, _)| column)
+        .collect();
+    let figure = |column: &usize| Printed::parse(&grid.cell(row + 1, *column).text).is_some();
+    let no_figures = grid
+        .filled(row)
+        .all(|(_, cell)| Printed::parse(&cell.text).is_none());
+    labelled.len() >= 2
+        && labelled.len() * 2 >= grid.filled(row).count()
+        && no_figures
+        && labelled.iter().any(figure)
+}
+
 /// Labels side by side with their figures in the row below.
 fn across(
     grid: &Grid,
@@ -660,17 +741,14 @@ fn across(
     cells: &[(usize, String)],
     claimed: &mut Claimed,
 ) -> bool {
+    if !labels_across(grid, row, &claimed.measurand) {
+        return false;
+    }
     let labels: Vec<(usize, Whole)> = cells
         .iter()
         .filter_map(|(i, text)| Some((*i, footer::label(text, &claimed.measurand)?)))
         .collect();
     let below = |column: usize| Printed::parse(&grid.cell(row + 1, column).text);
-    if labels.len() < 2
-        || labels.len() * 2 < cells.len()
-        || !labels.iter().any(|(i, _)| below(*i).is_some())
-    {
-        return false;
-    }
     for (column, whole) in labels {
         if let Some(mut figure) = below(column) {
             if figure.unit.is_empty() {
@@ -701,8 +779,7 @@ fn understood(claimed: &mut Claimed, at: Place, text: &str, whole: Option<Whole>
 }
 
 /// Turns words and columns of each row into what is known of it, and its figures into one unit.
-pub fn interpret(raw: &[Raw], located: &Located, claimed: &mut Claimed) {
-    let full = located.has(Role::U) || located.has(Role::Contribution);
+pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
     let mean_of = claimed.reported_mean_of;
     let y_unit = claimed.unit.clone();
     for (raw, row) in raw.iter().zip(&mut claimed.rows) {
@@ -714,13 +791,14 @@ pub fn interpret(raw: &[Raw], located: &Located, claimed: &mut Claimed) {
             u: row.u.as_ref(),
             divisor: row.divisor.as_ref().map(|d| d.value),
             readings: raw.readings,
-            full,
+            full: full && !raw.stated_apart,
             mean_of,
         };
         (row.stated, row.relative) = kind::stated(&evidence);
         row.not_counted = not_counted(&row.words);
         row.convert_to_one_unit(&y_unit);
     }
+    add_absent(claimed);
     for figure in [
         &mut claimed.footer.u_c,
         &mut claimed.footer.expanded,
@@ -734,6 +812,28 @@ pub fn interpret(raw: &[Raw], located: &Located, claimed: &mut Claimed) {
         {
             *figure = figure.clone().scaled(factor);
         }
+    }
+}
+
+/// What a note knows of a quantity that no row has, unless a row has its figure.
+fn add_absent(claimed: &mut Claimed) {
+    let known = |row: &Row| {
+        let figure = row.stated.figure().map(|figure| figure.value);
+        claimed
+            .rows
+            .iter()
+            .filter(|other| matches!(other.stated, Stated::Certificate { .. }))
+            .any(|other| other.stated.figure().map(|f| f.value) == figure)
+    };
+    let absent: Vec<Row> = std::mem::take(&mut claimed.absent)
+        .into_iter()
+        .filter(|row| !known(row))
+        .collect();
+    let y_unit = claimed.unit.clone();
+    for mut row in absent {
+        row.convert_to_one_unit(&y_unit);
+        row.is_absent = true;
+        claimed.rows.push(row);
     }
 }
 
@@ -805,16 +905,33 @@ impl Row {
         } else {
             [&u, &used, &self.unit, &value]
         };
-        let target = candidates
+        let known = candidates
             .into_iter()
             .find(|unit| !unit.is_empty())
-            .cloned()
-            .unwrap_or_else(|| stated_unit.clone());
-        if units::fraction(&target).is_some() || self.value.is_none() {
-            self.relative = match self.relative {
-                Relative::OfValue(_) => Relative::No,
-                other => other,
-            };
+            .cloned();
+        // Nothing but the percentage has a unit: it is of the value, which has none.
+        let bare = known.is_none() && fraction && !relative_y && self.relative != Relative::No;
+        let target = match known {
+            Some(unit) => unit,
+            None if bare => String::new(),
+            None => stated_unit.clone(),
+        };
+        let of_value = matches!(self.relative, Relative::OfValue(_));
+        if units::fraction(&target).is_some() {
+            if of_value {
+                self.relative = Relative::No;
+            }
+        } else if of_value && self.value.is_none() {
+            // A percentage of a value that the sheet does not state: what was used of it is all there is.
+            self.relative = Relative::No;
+            if let Some(used) = self.used.clone().or_else(|| {
+                self.u
+                    .clone()
+                    .zip(self.divisor.as_ref())
+                    .map(|(u, d)| u.scaled(d.value))
+            }) {
+                self.stated.replace_figure(used);
+            }
         }
         let convert = |figure: &mut Printed| {
             let factor = units::factor(&figure.unit, &target)
@@ -840,6 +957,12 @@ impl Row {
 }
 
 impl Stated {
+    fn replace_figure(&mut self, figure: Printed) {
+        if let [own] = self.figures_mut().as_mut_slice() {
+            **own = figure;
+        }
+    }
+
     fn figures_mut(&mut self) -> Vec<&mut Printed> {
         match self {
             Stated::Nothing => Vec::new(),

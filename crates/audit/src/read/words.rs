@@ -70,7 +70,7 @@ pub fn figure_after(text: &str, keys: &[&str]) -> Option<Printed> {
 }
 
 fn led(rest: &str, whole: &str) -> Option<Printed> {
-    const LEADS: [&str; 39] = [
+    const LEADS: [&str; 48] = [
         "indication",
         "display",
         "instrument",
@@ -110,6 +110,15 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
         "s",
         "q",
         "mpe",
+        "r",
+        "s_p",
+        "interval",
+        "band",
+        "limits",
+        "variation",
+        "gave",
+        "不",
+        "±(",
     ];
     let mut rest = rest.trim_start();
     for _ in 0..8 {
@@ -121,7 +130,10 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
             if counted || level {
                 return None;
             }
-            let unit = unit_in(text, whole);
+            let mut unit = unit_in(text, whole);
+            if crate::units::parse(&unit).is_none() {
+                unit.clear();
+            }
             return Some(Printed { unit, ..figure });
         }
         let lead = LEADS
@@ -135,6 +147,76 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
         rest = rest[lead.len()..].trim_start();
     }
     None
+}
+
+/// The only figure with a unit in a text, where there is one and no more.
+pub fn sole_figure(text: &str) -> Option<Printed> {
+    let lower = text.to_lowercase();
+    let mut found: Option<Printed> = None;
+    let mut at = 0;
+    while let Some(start) = lower
+        .get(at..)
+        .and_then(|rest| rest.find(|c: char| c.is_ascii_digit()))
+        .map(|i| at + i)
+    {
+        let Some((figure, behind)) = leading(&lower[start..]) else {
+            break;
+        };
+        let end = lower.len() - behind.len();
+        at = end.max(start + 1);
+        // Digits of a name, a date or a number of a certificate.
+        let joined = lower[..start].ends_with(|c: char| is_letter(c) || "-/.".contains(c));
+        let text_behind = behind.trim_start();
+        if joined || starts_counted(text_behind) || behind.starts_with(['-', '/']) {
+            continue;
+        }
+        let unit = unit_in(text_behind, text);
+        let level = unit == "%" && (90.0..100.0).contains(&figure.value);
+        if level || crate::units::parse(&unit).is_none() {
+            continue;
+        }
+        if found.is_some() {
+            return None;
+        }
+        found = Some(Printed { unit, ..figure });
+    }
+    found
+}
+
+/// Limits above and below, each with its sign: `+0.03 / −0.01 mm`, `between −0.01 mm and +0.03 mm`.
+pub fn signed_pair(text: &str) -> Option<(Printed, Printed)> {
+    let mut signed: Vec<(bool, Printed)> = Vec::new();
+    for (at, sign) in text.char_indices().filter(|(_, c)| matches!(c, '+' | '-')) {
+        let before = text[..at].chars().next_back();
+        let free = before.is_none_or(|c| " (/,;[:".contains(c) || !c.is_ascii());
+        let digit = text[at + 1..]
+            .trim_start()
+            .starts_with(|c: char| c.is_ascii_digit());
+        if let Some((figure, behind)) = leading(&text[at + 1..]).filter(|_| free && digit) {
+            let unit = unit_in(behind.trim_start(), text);
+            let unit = if crate::units::parse(&unit).is_some() {
+                unit
+            } else {
+                String::new()
+            };
+            signed.push((sign == '+', Printed { unit, ..figure }));
+        }
+    }
+    let [(first, a), (second, b)] = signed.as_slice() else {
+        return None;
+    };
+    let (mut plus, mut minus) = match (first, second) {
+        (true, false) => (a.clone(), b.clone()),
+        (false, true) => (b.clone(), a.clone()),
+        _ => return None,
+    };
+    if plus.unit.is_empty() {
+        plus.unit.clone_from(&minus.unit);
+    }
+    if minus.unit.is_empty() {
+        minus.unit.clone_from(&plus.unit);
+    }
+    Some((plus, minus))
 }
 
 /// Whether what follows a number says that it counts readings.
@@ -171,7 +253,7 @@ fn unit_in(lower: &str, whole: &str) -> String {
     let end = lower.find(|c: char| {
         c.is_whitespace()
             || ",;)(=。".contains(c)
-            || (c.is_alphabetic() && !c.is_ascii() && !"µΩ°".contains(c))
+            || (c.is_alphabetic() && !c.is_ascii() && !"µΩω°".contains(c))
     });
     let unit = lower[..end.unwrap_or(lower.len())].trim_end_matches('.');
     // What is left of the whole text has the same length at the end.
@@ -274,12 +356,23 @@ pub fn symbol_at(text: &str, symbol: &str, from: usize) -> Option<usize> {
         let (start, end) = (at + found, at + found + symbol.len());
         let free = !text[..start].chars().next_back().is_some_and(part)
             && !text[end..].chars().next().is_some_and(part);
-        if free {
+        if free && !(symbol == "a" && is_article(&text[end..])) {
             return Some(start);
         }
         at = start + text[start..].chars().next().map_or(1, char::len_utf8);
     }
     None
+}
+
+/// Whether what follows an `a` makes it the article: another word, that joins no names.
+fn is_article(behind: &str) -> bool {
+    let word: String = behind
+        .strip_prefix(' ')
+        .unwrap_or_default()
+        .chars()
+        .take_while(char::is_ascii_alphabetic)
+        .collect();
+    word.len() >= 2 && !matches!(word.as_str(), "and" | "is" | "are" | "was")
 }
 
 #[cfg(test)]

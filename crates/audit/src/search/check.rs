@@ -81,13 +81,26 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         .u_c
         .as_ref()
         .map(|figure| unexchanged(figure, calculation, Printout::Combined));
-    let u_c = claimed_u
-        .as_ref()
-        .is_none_or(|figure| of.iter().any(|f| figure.is_met_by(f.u_c)));
-    let nu_eff = footer
-        .nu_eff
-        .as_ref()
-        .is_none_or(|figure| of.iter().any(|f| freedom(figure, f.nu_eff, calculation)));
+    // Coefficients that no model gives are known as they are shown.
+    let shown = |row: &crate::claim::Row| row.c.as_ref().map_or(0.0, Printed::coarseness);
+    let coarse = match case.derivatives {
+        Some(_) => 0.0,
+        None => case.claimed.rows.iter().map(shown).fold(0.0, f64::max),
+    };
+    let u_c = claimed_u.as_ref().is_none_or(|figure| {
+        let half = figure.half_of_digits() + coarse * figure.value;
+        of.iter().any(|f| figure.is_met_within(f.u_c, half))
+    });
+    let nu_eff = footer.nu_eff.as_ref().is_none_or(|figure| {
+        let rooted = Calculation {
+            combined: Combined::Root,
+            ..calculation.clone()
+        };
+        // Where u_c is the sum of squares, ν_eff may have been found before.
+        let before = (calculation.combined == Combined::Squares).then(|| rooted.figures(&[], cmc));
+        let mut all = of.iter().chain(&before);
+        all.any(|f| freedom(figure, f.nu_eff, calculation))
+    });
     let mut factors: Vec<f64> = of.iter().map(|f| f.k).collect();
     let claimed_k = footer.k.as_ref();
     if let Some(nu) = footer.nu_eff.as_ref().filter(|_| nu_eff) {
@@ -97,25 +110,29 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
             correlations: Vec::new(),
             ..calculation.clone()
         };
-        if matches!(calculation.factor, crate::calculate::Factor::StudentT(_)) {
+        if let crate::calculate::Factor::StudentT(p) = calculation.factor {
             factors.push(looked_up.figures(&[], None).k);
+            factors.push(crate::calculate::t(p, nu.value));
         }
     }
     let k = claimed_k.is_none_or(|figure| factors.iter().any(|k| factor(figure, *k)));
     let expanded = footer.expanded.as_ref().is_none_or(|figure| {
         let figure = unexchanged(figure, calculation, Printout::Expanded);
-        let mut us: Vec<f64> = of.iter().map(|f| f.u_c).collect();
+        // U is made of the u_c that is claimed, where one is.
+        let fits = |f: &&Figures| {
+            let near =
+                |figure: &Printed| figure.is_met_within(f.u_c, figure.half + coarse * figure.value);
+            claimed_u.as_ref().is_none_or(|figure| !u_c || near(figure))
+        };
+        let mut us: Vec<f64> = of.iter().filter(fits).map(|f| f.u_c).collect();
+        // Of what is rounded up, the rounded u_c is no part.
+        let again = u_c && case.claimed.rounding != RoundingStated::Up;
+        let printed = [claimed_u.as_ref(), footer.u_c.as_ref()];
         us.extend(
-            claimed_u
-                .as_ref()
-                .filter(|_| u_c)
-                .map(|figure| figure.value),
-        );
-        us.extend(
-            footer
-                .u_c
-                .as_ref()
-                .filter(|_| u_c)
+            printed
+                .into_iter()
+                .flatten()
+                .filter(|_| again)
                 .map(|figure| figure.value),
         );
         let mut ks = factors.clone();
@@ -124,7 +141,7 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         let report = calculation.report;
         let floor = cmc.filter(|_| report.cmc).unwrap_or(0.0);
         let product =
-            |k: f64, u: f64| (libm::pow(k, f64::from(report.power)) * u * report.scale).max(floor);
+            |k: f64, u: f64| (libm::pow(k, f64::from(report.power)) * u).max(floor) * report.scale;
         let rounded = |x: f64| is_rounded(&figure, x, case.claimed.rounding, report.down);
         let long = (3..=8).contains(&figure.digits);
         long == report.long
@@ -170,10 +187,13 @@ fn freedom(figure: &Printed, nu: f64, calculation: &Calculation) -> bool {
     let whole = figure.half >= 0.5;
     let cut = match calculation.freedom {
         Freedom::Up => libm::ceil(nu),
-        _ => libm::floor(nu * (1.0 + 1e-9)),
+        _ => libm::floor(nu * (1.0 + 1e-9)).max(1.0),
     };
-    let near =
-        nu >= MANY && calculation.freedom != Freedom::Up && (nu - figure.value).abs() <= 0.01 * nu;
+    let raised = whole && figure.value == libm::ceil(nu);
+    let near = nu >= MANY
+        && !raised
+        && calculation.freedom != Freedom::Up
+        && (nu - figure.value).abs() <= 0.01 * nu;
     near || if whole {
         figure.value == cut
     } else {

@@ -50,10 +50,21 @@ pub struct Explanation {
     pub calculation: Calculation,
 }
 
-/// Sets of which more are expected to match by accident are likely to be accidents. One slip is some twenty times as
-/// frequent as any given pair of as many (four in five of wrong sheets have one, and there are a hundred times as many
-/// pairs), so that a single match may be expected by accident more often before it says nothing.
-const LIKELY: [f64; 3] = [f64::INFINITY, 2.0, 0.1];
+/// How often, one against the other, sheets are assumed to have one slip, two, and something that is no slip of the
+/// grammar: of twenty, eleven, four and two.
+const ODDS: [f64; 3] = [1.0, 11.0, 4.0];
+const ODDS_OF_NO_NAME: f64 = 2.0;
+
+/// Explanations are named if they are no accident with this probability at least.
+const SURE: f64 = 0.95;
+
+/// The probability that a set of `slips` which matches is no accident, where `expected` would match by accident: at least
+/// one of them does with 1 − exp(−expected).
+fn no_accident(slips: usize, expected: f64) -> f64 {
+    let odds = ODDS[slips.min(2)];
+    let accident = -libm::expm1(-expected);
+    odds / (odds + ODDS_OF_NO_NAME * accident)
+}
 
 /// Searches.
 pub fn search(claimed: &Claimed) -> Found<'_> {
@@ -117,7 +128,7 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
     let extra = explanations
         .first()
         .map_or(0, |e| e.acts.len().saturating_sub(bases[0].0.len()));
-    let unlikely = broken.is_empty() && (extra == 0 || by_chance < LIKELY[extra.min(2)]);
+    let unlikely = broken.is_empty() && (extra == 0 || no_accident(extra, by_chance) >= SURE);
     let withheld = if unlikely { 0 } else { explanations.len() };
     if !unlikely {
         explanations.clear();

@@ -68,8 +68,10 @@ pub fn options(case: &Case<'_>, i: usize, acts: &[Act]) -> Options {
     } else {
         for u in of(Group::U) {
             for c in of(Group::C) {
-                for dof in of(Group::Dof) {
-                    let set: Vec<Act> = [u, c, dof].into_iter().flatten().copied().collect();
+                for (dof, typed) in of(Group::Dof)
+                    .flat_map(|dof| of(Group::Contribution).map(move |typed| (dof, typed)))
+                {
+                    let set: Vec<Act> = [u, c, dof, typed].into_iter().flatten().copied().collect();
                     if !set.is_empty() && fits(&set) {
                         sets.push(set);
                     }
@@ -111,6 +113,7 @@ fn changed(mut line: Line, set: &[Act]) -> Line {
             Change::C(c) => line.c = c,
             Change::Dof(dof) => line.dof = dof,
             Change::Counted(counted) => line.counted = counted,
+            Change::Typed(contribution) => line.typed = Some(contribution),
             _ => {}
         }
     }
@@ -124,7 +127,10 @@ fn mismatch(row: &Row, line: &Line) -> Option<Broken> {
         .as_ref()
         .map_or(0.0, |d| d.relative_half().min(0.01));
     let near = |figure: &Printed, x: f64, slack: f64| {
-        figure.is_met_within(x.abs(), figure.half + slack * figure.value.abs())
+        figure.is_met_within(
+            x.abs(),
+            figure.half_of_digits() + slack * figure.value.abs(),
+        )
     };
     let counted = row.not_counted.is_none();
     if let Some(u) = row.u.as_ref().filter(|u| counted || u.value != 0.0) {
@@ -163,9 +169,15 @@ fn mismatch(row: &Row, line: &Line) -> Option<Broken> {
             ..contribution.clone()
         };
         let c = row.c.as_ref().map_or(line.c, |c| c.value);
-        let by_columns = row.u.as_ref().map(|u| c * u.value * line.to_y);
-        let met = near(&contribution, line.contribution(), slack)
-            || by_columns.is_some_and(|x| near(&contribution, x, 0.0));
+        let by_columns = row
+            .u
+            .as_ref()
+            .map(|u| c * u.value * line.to_y)
+            .filter(|_| line.typed.is_none());
+        // A coefficient is shown with fewer digits than it was multiplied with.
+        let shown = row.c.as_ref().map_or(0.0, Printed::coarseness);
+        let met = near(&contribution, line.contribution(), slack + shown)
+            || by_columns.is_some_and(|x| near(&contribution, x, shown));
         if !met {
             return Some(Broken::Contribution);
         }
@@ -198,7 +210,7 @@ fn is_supported(row: &Row, act: &Act) -> bool {
 /// fits anything counts most.
 pub fn surprise(case: &Case<'_>, act: &Act) -> u32 {
     let of_kind = match act.slip.id {
-        "veff-wrong" | "c-wrong" => 6,
+        "veff-wrong" | "c-wrong" | "hard-coded" => 6,
         "prefix" | "percent-ppm" | "U-unit" => 4,
         "input-transposed" | "digits-transposed" => 5,
         "range-C" | "intermediates-rounded" => 3,

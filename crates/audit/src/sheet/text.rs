@@ -145,7 +145,20 @@ fn unmarked(text: &str) -> String {
 
 /// Plain text whose columns are apart by two blanks or more.
 fn aligned(text: &str) -> Grid {
-    let row = |line: &str| aligned_fields(line).into_iter().map(Cell::new).collect();
+    // A line of separated values without any separator may be quoted all the same.
+    let bare = |line: &str| -> String {
+        let quoted = line
+            .trim()
+            .strip_prefix('"')
+            .and_then(|l| l.strip_suffix('"'));
+        quoted.map_or(line.to_string(), |inner| inner.replace("\"\"", "\""))
+    };
+    let row = |line: &str| {
+        aligned_fields(&bare(line))
+            .into_iter()
+            .map(Cell::new)
+            .collect()
+    };
     Grid {
         name: String::new(),
         rows: text.lines().map(row).collect(),

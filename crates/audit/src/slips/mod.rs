@@ -12,7 +12,7 @@ mod whole;
 
 pub(crate) use whole::exchanged_digits;
 
-pub use slip::{Act, Change, Group, Slip, Weight};
+pub use slip::{Act, Change, Group, Reporting, Slip, Weight};
 
 use crate::calculate::Case;
 

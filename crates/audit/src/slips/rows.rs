@@ -1,7 +1,7 @@
 //! Slips in a row: from what is stated to its contribution.
 
-use crate::calculate::{Case, RANGE};
-use crate::claim::{Relative, Row, Shape, Stated};
+use crate::calculate::{Case, Combined, RANGE};
+use crate::claim::{Figure, Relative, Row, Shape, Stated};
 use crate::units;
 
 use super::slip::{Change, Slip, Weight::*};
@@ -201,7 +201,7 @@ pub(super) const SLIPS: &[Slip] = &[
             match row.relative {
                 // As the percentage it is written as, and as the fraction that it is.
                 Relative::OfValue(fraction) => vec![Change::U(u / row.relative_factor()), Change::U(u / row.relative_factor() * fraction)],
-                Relative::OfFullScale(..) => vec![Change::U(u / row.relative_factor())],
+                Relative::OfFullScale(fraction, _) => vec![Change::U(u / row.relative_factor()), Change::U(u / row.relative_factor() * fraction)],
                 Relative::No => Vec::new(),
             }
         }) },
@@ -259,7 +259,18 @@ pub(super) const SLIPS: &[Slip] = &[
     Slip { id: "row-dropped", rule: "1/82", weight: Error,
         en: "the row stands in the table but is not in the sum",
         zh: "该行列在表中，但未计入合成",
-        acts: |case| each(case, |i, _| if case.right.lines[i].counted { vec![Change::Counted(false)] } else { Vec::new() }) },
+        acts: |case| each(case, |i, _| if case.right.lines[i].counted && !case.claimed.rows[i].is_absent { vec![Change::Counted(false)] } else { Vec::new() }) },
+    Slip { id: "ref-missing", rule: "77", weight: Warning,
+        en: "the uncertainty of the reference itself is not in the budget",
+        zh: "漏计标准器本身的不确定度",
+        acts: |case| each(case, |_, row| if row.is_absent { vec![Change::Counted(false)] } else { Vec::new() }) },
+    Slip { id: "hard-coded", rule: "82", weight: Warning,
+        en: "a number was typed in where a formula belongs",
+        zh: "应为公式的单元格中填入了固定数值",
+        acts: |case| {
+            let total = case.claimed.footer.u_c.as_ref().filter(|_| case.claimed.typed).map(|u_c| (None, Change::Combined(Combined::Typed(u_c.value))));
+            each(case, |i, row| typed_contribution(case, i, row)).into_iter().chain(total).collect()
+        } },
     Slip { id: "res-and-rep", rule: "31", weight: Warning,
         en: "the resolution was counted beside a repeatability that already contains it",
         zh: "重复性已包含分辨力，又重复计入分辨力",
@@ -275,6 +286,27 @@ pub(super) const SLIPS: &[Slip] = &[
             if !case.right.lines[i].counted && !resolution { vec![Change::Counted(true)] } else { Vec::new() }
         }) },
 ];
+
+/// The contribution of a row, where it is a number and those of most rows are formulas.
+fn typed_contribution(case: &Case<'_>, i: usize, row: &Row) -> Vec<Change> {
+    let is_formula = |row: &Row| {
+        row.formulas
+            .iter()
+            .any(|(figure, _)| *figure == Figure::Contribution)
+    };
+    let rows = &case.claimed.rows;
+    let others = (0..rows.len())
+        .filter(|j| *j != i && is_formula(&rows[*j]))
+        .count();
+    let contribution = row
+        .contribution
+        .as_ref()
+        .filter(|_| !is_formula(row) && 2 * others >= rows.len());
+    contribution
+        .map(|figure| Change::Typed(figure.value))
+        .into_iter()
+        .collect()
+}
 
 fn is_resolution(row: &Row) -> bool {
     let words = row.words.to_lowercase();

@@ -1,6 +1,8 @@
 //! What a slip is, and what it does to a calculation.
 
-use crate::calculate::{Calculation, Case, Combined, Factor, Freedom, Report};
+use gumption_fault::{Said, say};
+
+use crate::calculate::{Calculation, Case, Combined, Factor, Freedom, Printout};
 
 /// A change of the calculation, in a row or in the whole.
 pub type Place = (Option<usize>, Change);
@@ -35,6 +37,15 @@ pub enum Weight {
 
 impl Weight {
     /// The word for it.
+    pub const fn said(self) -> Said {
+        match self {
+            Weight::Error => say!("error"),
+            Weight::Warning => say!("warning"),
+            Weight::Information => say!("information"),
+        }
+    }
+
+    /// Its word in files.
     pub const fn name(self) -> &'static str {
         match self {
             Weight::Error => "error",
@@ -57,6 +68,8 @@ pub enum Change {
     Dof(f64),
     /// The row enters the sum, or does not.
     Counted(bool),
+    /// Its contribution is a number that was typed in.
+    Typed(f64),
     /// Contributions are combined in this way.
     Combined(Combined),
     /// All correlations are multiplied by nothing, or are one.
@@ -65,8 +78,25 @@ pub enum Change {
     Freedom(Freedom),
     /// k is found in this way.
     Factor(Factor),
-    /// U is made in this way; what differs from the default is taken over.
-    Report(Report),
+    /// U is made in this way.
+    Report(Reporting),
+}
+
+/// What can be different about U.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Reporting {
+    /// Power of k in it.
+    Power(i32),
+    /// A factor of units that does not belong there.
+    Scale(f64),
+    /// The CMC is not heeded.
+    BelowCmc,
+    /// It is rounded down.
+    Down,
+    /// It has more digits than two.
+    Long,
+    /// Digits are exchanged: of which figure, and which pair.
+    Exchanged(Printout, usize),
 }
 
 /// A slip at a place.
@@ -91,6 +121,8 @@ pub enum Group {
     Dof,
     /// Whether a row counts.
     Counted,
+    /// c·u of a row.
+    Contribution,
     /// The sum.
     Sum,
     /// The correlations.
@@ -99,8 +131,18 @@ pub enum Group {
     Freedom,
     /// k.
     Factor,
-    /// U.
-    Report,
+    /// Power of k in U.
+    Power,
+    /// Unit of U.
+    Scale,
+    /// Rounding of U.
+    Rounding,
+    /// Length of U.
+    Length,
+    /// The CMC.
+    Cmc,
+    /// Digits of U or u_c.
+    Digits,
 }
 
 impl Act {
@@ -119,11 +161,19 @@ impl Act {
             Change::C(_) => Group::C,
             Change::Dof(_) => Group::Dof,
             Change::Counted(_) => Group::Counted,
+            Change::Typed(_) => Group::Contribution,
             Change::Combined(_) => Group::Sum,
             Change::Correlation(_) => Group::Correlation,
             Change::Freedom(_) => Group::Freedom,
             Change::Factor(_) => Group::Factor,
-            Change::Report(_) => Group::Report,
+            Change::Report(reporting) => match reporting {
+                Reporting::Power(_) => Group::Power,
+                Reporting::Scale(_) => Group::Scale,
+                Reporting::BelowCmc => Group::Cmc,
+                Reporting::Down => Group::Rounding,
+                Reporting::Long => Group::Length,
+                Reporting::Exchanged(..) => Group::Digits,
+            },
         }
     }
 
@@ -141,6 +191,7 @@ impl Act {
                 Change::C(c) => line.c = c,
                 Change::Dof(dof) => line.dof = dof,
                 Change::Counted(counted) => line.counted = counted,
+                Change::Typed(contribution) => line.typed = Some(contribution),
                 _ => {}
             }
         }
@@ -154,7 +205,14 @@ impl Act {
             }
             Change::Freedom(freedom) => to.freedom = freedom,
             Change::Factor(factor) => to.factor = factor,
-            Change::Report(report) => to.report = report,
+            Change::Report(reporting) => match reporting {
+                Reporting::Power(power) => to.report.power = power,
+                Reporting::Scale(scale) => to.report.scale = scale,
+                Reporting::BelowCmc => to.report.cmc = false,
+                Reporting::Down => to.report.down = true,
+                Reporting::Long => to.report.long = true,
+                Reporting::Exchanged(figure, pair) => to.report.exchanged = Some((figure, pair)),
+            },
             _ => {}
         }
     }

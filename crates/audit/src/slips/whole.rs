@@ -1,18 +1,16 @@
 //! Slips between the rows and the statement.
 
-use crate::calculate::{Case, Combined, Factor, Freedom, Printout, Report, factors};
+use crate::calculate::{Case, Combined, Factor, Freedom, Printout, factors};
 use crate::printed::Printed;
 
-use super::slip::{Change, Slip, Weight::*};
+use super::slip::{Change, Reporting, Slip, Weight::*};
 
 fn one(change: Change) -> Vec<(Option<usize>, Change)> {
     vec![(None, change)]
 }
 
-fn report(change: impl Fn(&mut Report)) -> Vec<(Option<usize>, Change)> {
-    let mut report = Report::default();
-    change(&mut report);
-    one(Change::Report(report))
+fn report(reporting: Reporting) -> Vec<(Option<usize>, Change)> {
+    one(Change::Report(reporting))
 }
 
 /// Where correlations are stated.
@@ -80,7 +78,7 @@ fn exchanges(figure: Option<&Printed>, which: Printout) -> Vec<(Option<usize>, C
         .unwrap_or_default();
     pairs
         .into_iter()
-        .flat_map(|(pair, _)| report(|r| r.exchanged = Some((which, pair))))
+        .flat_map(|(pair, _)| report(Reporting::Exchanged(which, pair)))
         .collect()
 }
 
@@ -141,31 +139,31 @@ pub(super) const SLIPS: &[Slip] = &[
     Slip { id: "k-twice", rule: "10", weight: Error,
         en: "the coverage factor was applied twice",
         zh: "包含因子乘了两次",
-        acts: |_| report(|r| r.power = 2) },
+        acts: |_| report(Reporting::Power(2)) },
     Slip { id: "k-forgotten", rule: "2", weight: Error,
         en: "u_c was reported as U; the coverage factor is missing",
         zh: "把 u_c 当作 U 报告，漏乘包含因子",
-        acts: |_| report(|r| r.power = 0) },
+        acts: |_| report(Reporting::Power(0)) },
     Slip { id: "U-unit", rule: "69", weight: Warning,
         en: "U is printed in a unit to which its figure does not belong",
         zh: "U 的数值与所标单位不符",
         acts: |case| {
             let unit = case.claimed.footer.expanded.as_ref().map_or("", |figure| figure.unit.as_str());
             let factor = crate::units::factor(unit, &case.claimed.unit).filter(|f| (f - 1.0).abs() > 1e-9);
-            [factor, factor.map(|f| 1.0 / f), Some(1e3), Some(1e-3)].into_iter().flatten().flat_map(|scale| report(move |r| r.scale = scale)).collect()
+            [factor, factor.map(|f| 1.0 / f), Some(1e3), Some(1e-3)].into_iter().flatten().flat_map(|scale| report(Reporting::Scale(scale))).collect()
         } },
     Slip { id: "below-cmc", rule: "70", weight: Error,
         en: "U is smaller than the CMC",
         zh: "U 小于 CMC",
-        acts: |case| if case.claimed.cmc.is_some() { report(|r| r.cmc = false) } else { Vec::new() } },
+        acts: |case| if case.claimed.cmc.is_some() { report(Reporting::BelowCmc) } else { Vec::new() } },
     Slip { id: "rounded-down", rule: "66", weight: Warning,
         en: "U was rounded down against the stated rule",
         zh: "U 违反所述规则被舍去修约",
-        acts: |_| report(|r| r.down = true) },
+        acts: |_| report(Reporting::Down) },
     Slip { id: "too-many-digits", rule: "63", weight: Error,
         en: "U is printed with more than two significant digits",
         zh: "U 的有效数字多于两位",
-        acts: |_| report(|r| r.long = true) },
+        acts: |_| report(Reporting::Long) },
     Slip { id: "digits-transposed", rule: "2", weight: Error,
         en: "two digits of the final figure are exchanged",
         zh: "最终数值中有两个数字颠倒",

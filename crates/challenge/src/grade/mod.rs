@@ -32,7 +32,7 @@ use super::truth::{Truth, seal};
 pub enum Refused {
     /// A file that cannot be read, with the reason.
     Unreadable(PathBuf, String),
-    /// The truth is not the one that the case file was sealed with.
+    /// The truth is not the one that the experiment was sealed with.
     BrokenSeal,
     /// A file of the case was changed after it was sealed.
     Changed(String),
@@ -75,7 +75,7 @@ pub fn read_answer(text: &str) -> Result<Answer, Refused> {
     serde_json::from_str(text).map_err(|error| Refused::NoDiagnosis(error.to_string()))
 }
 
-/// Whether the seal of the truth stands in the case file.
+/// Whether the seal of the truth stands in the experiment.
 pub fn is_sealed(case: &CaseFile, truth_text: &str) -> bool {
     case.text.contains(&seal(truth_text))
 }

@@ -275,7 +275,7 @@ impl Case {
         self.asked.instrument.noise * libm::sqrt(square) * slope
     }
 
-    /// The files of the case but the case file.
+    /// The files of the case but the experiment.
     pub(crate) fn recordings(&self) -> Vec<CaseFile> {
         let fresh = self.fresh();
         let table = |name, bench: &Bench, which: Which| CaseFile {

@@ -147,7 +147,7 @@ pub(super) fn command(seed: u64, bench: &str, class: Class, noise: NoiseKnowledg
     )
 }
 
-/// The part of a case file that takes the right names away.
+/// The part of an experiment that takes the right names away.
 fn without(truth: &Truth) -> String {
     let names = truth.effects.iter().flat_map(|effect| &effect.names);
     // What the catalogue does not have yet cannot be taken out of it.

@@ -11,6 +11,8 @@
 
 use std::fmt;
 
+use gumption_fault::{Said, say};
+
 use super::Distribution;
 use crate::special::{erfc, gauss_legendre, normal_cdf, normal_pdf, normal_quantile, normal_sf};
 
@@ -36,29 +38,31 @@ pub enum CopulaError {
     },
 }
 
-impl fmt::Display for CopulaError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl CopulaError {
+    /// What is wrong, as a sentence without its stop.
+    pub fn said(&self) -> Said {
         match self {
             Self::NotACorrelation { wanted } => {
-                write!(
-                    f,
-                    "a correlation coefficient lies between -1 and 1, but {wanted} was given"
-                )
+                say!("a correlation coefficient lies between -1 and 1, but {wanted} was given")
             }
-            Self::NoCorrelation => write!(
-                f,
+            Self::NoCorrelation => say!(
                 "a correlation needs two distributions with a finite standard deviation above zero"
             ),
             Self::OutOfReach {
                 wanted,
                 smallest,
                 largest,
-            } => write!(
-                f,
+            } => say!(
                 "two quantities with these distributions can have correlation coefficients from \
                  {smallest:.4} to {largest:.4} only, but {wanted} was given"
             ),
         }
+    }
+}
+
+impl fmt::Display for CopulaError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(&self.said(), f)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use gumption_fault::{Said, say};
 use gumption_lanes::Sampler;
 use gumption_lanes::quantile::OfScore;
 
@@ -39,13 +40,13 @@ impl Univariate for Discrete {
     ];
 
     fn stated(given: &Given) -> Result<Parametric<Self>, ParameterError> {
-        let unusable = |message: String, help| Err(ParameterError::Unusable { message, help });
+        let unusable = |message: Said, help| Err(ParameterError::Unusable { message, help });
         let values = given.list("values").unwrap_or_default();
         let count = values.len();
         if count < 2 {
             return unusable(
-                "a discrete distribution needs at least two values".into(),
-                "write values = [0, 1]",
+                say!("a discrete distribution needs at least two values"),
+                say!("write values = [0, 1]"),
             );
         }
         let equal = vec![1.0 / count as f64; count];
@@ -56,11 +57,11 @@ impl Univariate for Discrete {
             || (sum - 1.0).abs() > 1e-9
         {
             return unusable(
-                format!(
+                say!(
                     "{} probabilities with the sum {sum} for {count} values",
                     probabilities.len()
                 ),
-                "give one probability for each value; together they make 1",
+                say!("give one probability for each value; together they make 1"),
             );
         }
         let mut pairs: Vec<(f64, f64)> = values
@@ -80,28 +81,28 @@ impl Univariate for Discrete {
     }
 
     fn validate(&self) -> Result<(), ParameterError> {
-        let unusable = |message: String| {
-            let help = "give one probability for each value; together they make 1";
+        let unusable = |message: Said| {
+            let help = say!("give one probability for each value; together they make 1");
             Err(ParameterError::Unusable { message, help })
         };
         let (values, probabilities) = (&self.values, &self.probabilities);
         if values.is_empty() {
-            return unusable("there are no values, but must be at least one".to_owned());
+            return unusable(say!("there are no values, but must be at least one"));
         }
         if values.len() != probabilities.len() {
-            return unusable(format!(
+            return unusable(say!(
                 "there are {} values but {} probabilities; every value needs one",
                 values.len(),
                 probabilities.len()
             ));
         }
-        finite::ascending("list of values", values)?;
+        finite::ascending(&say!("list of values"), values)?;
         for p in probabilities.iter() {
             within("probabilities", *p, [0.0, 1.0])?;
         }
         let sum: f64 = probabilities.iter().sum();
         allowed("probabilities", sum, (sum - 1.0).abs() <= 1e-9, || {
-            "numbers that sum to 1".into()
+            say!("numbers that sum to 1")
         })
     }
 

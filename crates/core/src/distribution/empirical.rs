@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use gumption_fault::say;
 use gumption_lanes::Sampler;
 use gumption_lanes::quantile::OfScore;
 
@@ -35,11 +36,11 @@ impl Univariate for Empirical {
     fn validate(&self) -> Result<(), ParameterError> {
         if self.sample.is_empty() {
             return Err(ParameterError::Unusable {
-                message: "the sample is empty, but must hold at least one value".to_owned(),
-                help: "state the values",
+                message: say!("the sample is empty, but must hold at least one value"),
+                help: say!("state the values"),
             });
         }
-        finite::ascending("sample", &self.sample)
+        finite::ascending(&say!("sample"), &self.sample)
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter<'_>)> {

@@ -1,5 +1,7 @@
 //! Finitely many values with probabilities, as the discrete and the empirical distribution have them.
 
+use gumption_fault::{Said, say};
+
 use super::stating::ParameterError;
 
 /// Expectation.
@@ -50,22 +52,23 @@ pub(super) fn balanced(values: &[f64]) -> bool {
 }
 
 /// Refuses values that are none or do not ascend.
-pub(super) fn ascending(name: &str, values: &[f64]) -> Result<(), ParameterError> {
-    let unusable = |message: String, help| Err(ParameterError::Unusable { message, help });
+pub(super) fn ascending(name: &Said, values: &[f64]) -> Result<(), ParameterError> {
+    let unusable = |message: Said, help| Err(ParameterError::Unusable { message, help });
     if let Some(x) = values.iter().find(|x| !x.is_finite()) {
         return unusable(
-            format!("the {name} holds {x}, but must hold finite numbers"),
-            "leave it out",
+            say!("the {name} holds {x}, but must hold finite numbers"),
+            say!("leave it out"),
         );
     }
     match values.windows(2).find(|pair| pair[0] > pair[1]) {
         None => Ok(()),
         Some(pair) => unusable(
-            format!(
+            say!(
                 "the {name} must ascend, but {} comes before {}",
-                pair[0], pair[1]
+                pair[0],
+                pair[1]
             ),
-            "put it in order",
+            say!("put it in order"),
         ),
     }
 }

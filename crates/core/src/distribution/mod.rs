@@ -32,6 +32,7 @@ mod symmetric;
 mod tests;
 pub mod univariate;
 
+use gumption_fault::{Said, say};
 use gumption_lanes::Sampler;
 use gumption_lanes::quantile::{OfScore, Quantile};
 
@@ -185,12 +186,16 @@ impl Entry {
     }
 
     /// The parameters that a file states, in words.
-    pub fn parameters_in_words(&self) -> String {
+    pub fn parameters_in_words(&self) -> Said {
         let limits = self.parameters.iter().any(|rule| rule.key == "half_width");
         let own = self.parameters.iter().map(|rule| rule.key);
         let own = own.filter(|key| !limits || !["lower", "upper", "half_width"].contains(key));
-        let limits = limits.then_some("lower and upper, or half_width");
-        limits.into_iter().chain(own).collect::<Vec<_>>().join(", ")
+        let own: Vec<&str> = own.collect();
+        match (limits, &own[..]) {
+            (true, []) => say!("lower and upper, or half_width"),
+            (true, _) => say!("lower and upper, or half_width, {}", own.join(", ")),
+            (false, _) => own.join(", ").into(),
+        }
     }
 
     /// The distribution with these parameters.

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use gumption_fault::{Said, say};
+
 /// A parameter that a file may state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ParameterRule {
@@ -250,7 +252,7 @@ pub enum ParameterError {
         /// Its value.
         value: f64,
         /// What it must be.
-        must: String,
+        must: Said,
     },
     /// The lower limit is not below the upper one.
     Descending {
@@ -262,39 +264,45 @@ pub enum ParameterError {
     /// Anything else.
     Unusable {
         /// What is wrong, as a sentence without its stop.
-        message: String,
+        message: Said,
         /// What to do.
-        help: &'static str,
+        help: Said,
     },
+}
+
+impl ParameterError {
+    /// What is wrong, as a sentence without its stop.
+    pub fn said(&self) -> Said {
+        match self {
+            Self::Missing { key } => say!("`{key}` is missing"),
+            Self::NoLimits => say!("the limits are missing"),
+            Self::TwoWidths { key } => say!("`{key}` is stated beside `half_width`"),
+            Self::NotAllowed { key, value, must } => {
+                say!("`{key}` is {value}, but must be {must}")
+            }
+            Self::Descending { lower, upper } => {
+                say!("the lower limit {lower} must be below the upper limit {upper}")
+            }
+            Self::Unusable { message, .. } => message.clone(),
+        }
+    }
 }
 
 impl fmt::Display for ParameterError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Missing { key } => write!(f, "`{key}` is missing"),
-            Self::NoLimits => write!(f, "the limits are missing"),
-            Self::TwoWidths { key } => write!(f, "`{key}` is stated beside `half_width`"),
-            Self::NotAllowed { key, value, must } => {
-                write!(f, "`{key}` is {value}, but must be {must}")
-            }
-            Self::Descending { lower, upper } => write!(
-                f,
-                "the lower limit {lower} must be below the upper limit {upper}"
-            ),
-            Self::Unusable { message, .. } => f.write_str(message),
-        }
+        fmt::Display::fmt(&self.said(), f)
     }
 }
 
 impl std::error::Error for ParameterError {}
 
 pub(super) fn finite(key: &'static str, value: f64) -> Result<(), ParameterError> {
-    allowed(key, value, value.is_finite(), || "a finite number".into())
+    allowed(key, value, value.is_finite(), || say!("a finite number"))
 }
 
 pub(super) fn positive(key: &'static str, value: f64) -> Result<(), ParameterError> {
     let allows = value > 0.0 && value.is_finite();
-    allowed(key, value, allows, || "greater than zero".into())
+    allowed(key, value, allows, || say!("greater than zero"))
 }
 
 pub(super) fn within(
@@ -303,7 +311,7 @@ pub(super) fn within(
     [low, high]: [f64; 2],
 ) -> Result<(), ParameterError> {
     allowed(key, value, (low..=high).contains(&value), || {
-        format!("from {low} to {high}")
+        say!("from {low} to {high}")
     })
 }
 
@@ -311,7 +319,7 @@ pub(super) fn allowed(
     key: &'static str,
     value: f64,
     allows: bool,
-    must: impl FnOnce() -> String,
+    must: impl FnOnce() -> Said,
 ) -> Result<(), ParameterError> {
     if allows {
         Ok(())

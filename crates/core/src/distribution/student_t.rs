@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use gumption_fault::say;
 use gumption_lanes::Sampler;
 use gumption_lanes::quantile::{Curve, OfScore};
 
@@ -64,8 +65,8 @@ impl Univariate for StudentT {
         let (scale, dof) = (given.number("scale")?, given.number("dof")?);
         if dof == f64::INFINITY {
             return Err(ParameterError::Unusable {
-                message: "a t distribution with infinite dof is normal".into(),
-                help: "write normal = { sd = … }",
+                message: say!("a t distribution with infinite dof is normal"),
+                help: say!("write normal = {{ sd = … }}"),
             });
         }
         let location = given.optional("location");
@@ -85,7 +86,7 @@ impl Univariate for StudentT {
         finite("location", self.location)?;
         positive("scale", self.scale)?;
         allowed("dof", self.dof, self.dof > 0.0, || {
-            "greater than zero".into()
+            say!("greater than zero")
         })
     }
 

@@ -7,6 +7,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use gumption_fault::language::Language;
+use gumption_fault::say;
 use gumption_lanes::Sampler;
 use gumption_lanes::quantile::{OfScore, Quantile};
 
@@ -119,8 +120,8 @@ pub trait Univariate: fmt::Debug + Clone + Send + Sync + Sized + 'static {
     /// here.
     fn stated(_: &Given) -> Result<Parametric<Self>, ParameterError> {
         Err(ParameterError::Unusable {
-            message: format!("{} has no parameters to state", Self::KIND.key),
-            help: "state it in its own way",
+            message: say!("{} has no parameters to state", Self::KIND.key),
+            help: say!("state it in its own way"),
         })
     }
 
@@ -131,8 +132,8 @@ pub trait Univariate: fmt::Debug + Clone + Send + Sync + Sized + 'static {
     /// The modifier does not fit.
     fn of_width(_: Width, _modifier: f64, _how: &str) -> Result<Spread<Self>, ParameterError> {
         Err(ParameterError::Unusable {
-            message: format!("{} has no width", Self::KIND.key),
-            help: "state it with its parameters",
+            message: say!("{} has no width", Self::KIND.key),
+            help: say!("state it with its parameters"),
         })
     }
 

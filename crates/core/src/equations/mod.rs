@@ -11,14 +11,14 @@
 //!
 //! let units = UnitTable::default();
 //! let quantity = |name: &str, unit: &str| {
-//!     let unit = units.parse(unit).map_err(|error| error.message)?;
+//!     let unit = units.parse(unit).map_err(|error| error.message.to_string())?;
 //!     Ok::<_, String>(Quantity { name: name.into(), unit })
 //! };
 //! let symbols = [quantity("omega", "deg/s")?, quantity("K", "mV/(deg/s)")?, quantity("b", "mV")?];
 //! let responses = [quantity("U", "mV")?];
 //! let text = EquationText { text: "U = K * omega + b", at: 0..0 };
 //! let equations = Equations::compile(&[text], &symbols, &responses, &[], &units)
-//!     .map_err(|faults| faults[0].message.clone())?;
+//!     .map_err(|faults| faults[0].message.to_string())?;
 //! let mut slopes = [0.0; 3];
 //! assert_eq!(equations.at(0, &[10.0, 2.0, 0.5], &mut slopes), 20.5);
 //! assert_eq!(slopes, [2.0, 10.0, 1.0]);
@@ -29,12 +29,12 @@ pub mod faults;
 
 use std::ops::Range;
 
-use crate::model::faults::LEFT_SIDE;
+use crate::model::faults::{LEFT_SIDE, Wording};
 use crate::model::{
-    MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile, outline,
+    self, MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile, outline,
 };
 use crate::quantity::{Unit, UnitTable};
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 
 use faults::{NO_RESPONSE, TWO_EQUATIONS};
 
@@ -118,11 +118,11 @@ impl Equations {
                     Fault::new(
                         TWO_EQUATIONS,
                         text.at.clone(),
-                        format!("{} has two equations", response.name),
+                        say!("{} has two equations", response.name),
                     )
-                    .label("second equation")
-                    .related(places[first].clone(), "first equation")
-                    .help("keep one, or give the second a response of its own"),
+                    .label(say!("second equation"))
+                    .related(places[first].clone(), say!("first equation"))
+                    .help(say!("keep one, or give the second a response of its own")),
                 );
                 continue;
             }
@@ -224,22 +224,26 @@ fn left_side<'r>(
     let known: Vec<&str> = responses.iter().map(|r| r.name.as_str()).collect();
     let Some((name, span)) = gives else {
         faults.push(
-            Fault::new(LEFT_SIDE, text.at.clone(), "the equation has no left side")
-                .label("expected a response, `=` and the formula for it")
-                .help(format!(
-                    "write for example \"{} = …\"",
-                    known.first().unwrap_or(&"U")
-                )),
+            Fault::new(
+                LEFT_SIDE,
+                text.at.clone(),
+                say!("the equation has no left side"),
+            )
+            .label(say!("expected a response, `=` and the formula for it"))
+            .help(say!(
+                "write for example \"{} = …\"",
+                known.first().unwrap_or(&"U")
+            )),
         );
         return None;
     };
     let found = responses.iter().find(|response| response.name == name);
     if found.is_none() {
-        let fault = Fault::new(NO_RESPONSE, span, format!("{name} is not observed"))
-            .label("not the name of a response");
+        let fault = Fault::new(NO_RESPONSE, span, say!("{name} is not observed"))
+            .label(say!("not the name of a response"));
         let help = match nearest(&name, known.iter().copied()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("what may stand on the left: {}", known.join(", ")),
+            Some(near) => say!("did you mean `{near}`?"),
+            None => say!("what may stand on the left: {}", known.join(", ")),
         };
         faults.push(placed(fault.help(help), text));
     }
@@ -314,18 +318,13 @@ fn placed(fault: Fault, text: &EquationText<'_>) -> Fault {
 }
 
 /// A fault of the model language in the words of equations.
-fn reworded(mut fault: Fault, response: &str) -> Fault {
-    let reword = |text: &str| {
-        text.replace("for the measurand", &format!("for {response}"))
-            .replace("the measurand's unit", &format!("the unit of {response}"))
-            .replace(
-                "an input or constant of the file",
-                "a column, parameter, reference or constant",
-            )
+fn reworded(fault: Fault, response: &str) -> Fault {
+    let own = Wording {
+        measurand: response.into(),
+        unit: say!("the unit of {response}"),
+        given: say!("a column, parameter, reference or constant"),
     };
-    fault.message = reword(&fault.message);
-    fault.help = fault.help.map(|help| reword(&help));
-    fault
+    model::faults::reworded(fault, &own)
 }
 
 #[cfg(test)]

@@ -104,7 +104,7 @@ fn starts(problem: &Problem) -> Vec<Vec<f64>> {
 }
 
 /// Residuals with the errors of the predictors eliminated.
-struct UncertainPredictors<'a> {
+pub(super) struct UncertainPredictors<'a> {
     problem: &'a Problem<'a>,
     blocks: Vec<Prepared<'a>>,
 }
@@ -135,7 +135,7 @@ struct Projected {
 }
 
 impl<'a> UncertainPredictors<'a> {
-    fn new(problem: &'a Problem<'a>, blocks: &'a [Block]) -> Self {
+    pub(super) fn new(problem: &'a Problem<'a>, blocks: &'a [Block]) -> Self {
         let m = problem.x.ncols();
         let prepare = |block: &'a Block| Prepared {
             block,

@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 
 use super::factor::{Qr, Scalar, dot, square};
 use super::problem::{Problem, Scale, Spread};
-use super::solution::{Failure, Solution};
+use super::solution::{Failure, Solution, standard};
 use super::whiten::Whitener;
 use crate::dd::Dd;
 
@@ -111,8 +111,12 @@ impl<'a, T: Scalar> Fit<'a, T> {
             .zip(&self.problem.y)
             .map(|(r, y)| y - r)
             .collect();
+        let covariance = self.qr.inverse_normal() * factor;
+        let (u, correlation) = standard(&covariance);
         Ok(Solution {
-            covariance: self.qr.inverse_normal() * factor,
+            covariance,
+            u,
+            correlation,
             dof,
             chi_squared: chi_squared.value(),
             residual_sd: if dof == 0 { f64::NAN } else { variance.sqrt() },

@@ -15,6 +15,9 @@
 //! | `nonlinear` | Levenberg–Marquardt, finished by Gauss–Newton steps |
 //! | `errors_in_variables` | predictors with errors: York, ISO/TS 28037, also for curves |
 //! | `derivatives` | how the estimates follow the observations |
+//! | `elsewhere` | minima that other starts lead to |
+//! | `pattern` | runs of residuals of one sign |
+//! | `range` | observations whose squares leave the range of doubles |
 //! | `lack_of_fit` | χ² test for stated u, F test from replicates |
 //!
 //! # What is minimised
@@ -41,26 +44,33 @@
 )]
 
 mod derivatives;
+mod elsewhere;
 mod errors_in_variables;
 mod factor;
 mod gradient;
 mod lack_of_fit;
 mod linear;
 mod nonlinear;
+mod pattern;
 mod polynomial;
 mod problem;
+mod range;
 mod solution;
 #[cfg(test)]
 mod tests;
 mod whiten;
 
 pub use crate::dd::Dd;
+pub use elsewhere::{Elsewhere, elsewhere};
 pub use gradient::Gradient;
 pub use lack_of_fit::{LackOfFit, Replicates, lack_of_fit, replicates};
 pub use nonlinear::{Linear, Minimum, Residuals, Stuck, minimise};
+pub use pattern::{Runs, runs};
 pub use polynomial::Polynomial;
 pub use problem::{Errors, Problem, Response, Scale, Spread};
 pub use solution::{Failure, Observed, Solution};
+
+use range::Scaled;
 
 /// The parameters that minimise χ², their covariance matrix and their derivatives.
 ///
@@ -69,6 +79,16 @@ pub use solution::{Failure, Observed, Solution};
 /// A [`Failure`] says what is wrong with the problem, or that no minimum was found.
 pub fn solve(problem: &Problem) -> Result<Solution, Failure> {
     problem.check()?;
+    match Scaled::of(problem) {
+        Some(scaled) => {
+            let solution = minimum(&scaled.problem())?;
+            Ok(scaled.in_units_of_the_file(solution))
+        }
+        None => minimum(problem),
+    }
+}
+
+fn minimum(problem: &Problem) -> Result<Solution, Failure> {
     match (
         problem.response.is_linear(),
         problem.errors.predictors_are_exact(),

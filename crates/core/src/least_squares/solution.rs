@@ -8,8 +8,12 @@ use nalgebra::DMatrix;
 pub struct Solution {
     /// Estimates.
     pub parameters: Vec<f64>,
-    /// Covariance matrix of the estimates.
+    /// Covariance matrix of the estimates; infinite where it leaves the range of doubles.
     pub covariance: DMatrix<f64>,
+    /// Standard uncertainties of the estimates.
+    pub u: Vec<f64>,
+    /// Their correlation coefficients; none for an estimate that is exact.
+    pub correlation: DMatrix<f64>,
     /// ν = n − p.
     pub dof: usize,
     /// χ² at the minimum, the plain residual sum of squares for unit uncertainties.
@@ -34,6 +38,20 @@ pub struct Solution {
     pub condition: f64,
     /// Steps until the minimum; zero for linear responses with exact predictors.
     pub iterations: usize,
+}
+
+/// Standard uncertainties and correlation coefficients of a covariance matrix.
+pub(super) fn standard(covariance: &DMatrix<f64>) -> (Vec<f64>, DMatrix<f64>) {
+    let variances = covariance.diagonal();
+    let u: Vec<f64> = variances.iter().map(|v| v.max(0.0).sqrt()).collect();
+    let correlation = DMatrix::from_fn(u.len(), u.len(), |i, j| {
+        if i == j || u[i] * u[j] == 0.0 {
+            f64::from(u8::from(i == j))
+        } else {
+            (covariance[(i, j)] / (u[i] * u[j])).clamp(-1.0, 1.0)
+        }
+    });
+    (u, correlation)
 }
 
 /// Which column an observation belongs to.

@@ -15,7 +15,7 @@ use super::printer;
 use super::syntax::{Expr, Name, Node, Span, Statement};
 use super::{Model, ModelFault, Output, Place, Request, Role, Symbol};
 use crate::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 /// The value of a measurand and where it comes from.
 pub struct Outcome {
@@ -90,10 +90,10 @@ impl<'r> Check<'r> {
                     Fault::new(
                         faults::DEFINED_TWICE,
                         0..0,
-                        format!("`{name}` is stated twice"),
+                        say!("`{name}` is stated twice"),
                     )
-                    .label("second statement")
-                    .help("choose another name for one of them"),
+                    .label(say!("second statement"))
+                    .help(say!("choose another name for one of them")),
                 );
             } else {
                 let value = self.symbol_value(index, symbol);
@@ -177,9 +177,9 @@ impl<'r> Check<'r> {
         let count = reading.statements.len();
         if count == 0 && !broken && is_measurand {
             self.l.report(
-                Fault::new(faults::NO_VALUE, 0..text.len(), "the model is empty")
-                    .label("no statement")
-                    .help("write the measurand's formula"),
+                Fault::new(faults::NO_VALUE, 0..text.len(), say!("the model is empty"))
+                    .label(say!("no statement"))
+                    .help(say!("write the measurand's formula")),
             );
         }
         let mut indices = Vec::new();
@@ -213,10 +213,10 @@ impl<'r> Check<'r> {
                         Fault::new(
                             faults::NO_VALUE,
                             name.span.clone(),
-                            "the model ends with a definition of a function",
+                            say!("the model ends with a definition of a function"),
                         )
-                        .label("expected the measurand's value after this")
-                        .help(format!("add a last line that uses `{}`", name.text)),
+                        .label(say!("expected the measurand's value after this"))
+                        .help(say!("add a last line that uses `{}`", name.text)),
                     );
                 }
             }
@@ -229,10 +229,10 @@ impl<'r> Check<'r> {
                         Fault::new(
                             faults::NO_EFFECT,
                             value.span.clone(),
-                            "the value of this line goes nowhere",
+                            say!("the value of this line goes nowhere"),
                         )
-                        .label("no name")
-                        .help("give it a name, `name = …`, or remove the line"),
+                        .label(say!("no name"))
+                        .help(say!("give it a name, `name = …`, or remove the line")),
                     );
                 }
             }
@@ -255,18 +255,16 @@ impl<'r> Check<'r> {
             let mut fault = Fault::new(
                 faults::DEFINED_TWICE,
                 name.span.clone(),
-                format!("`{text}` is defined already"),
+                say!("`{text}` is defined already"),
             )
-            .label("second definition")
-            .help("choose another name");
+            .label(say!("second definition"))
+            .help(say!("choose another name"));
             match self.spans.get(text) {
                 Some((place, span)) if *place == self.l.place => {
-                    fault = fault.related(span.clone(), "first definition")
+                    fault = fault.related(span.clone(), say!("first definition"))
                 }
                 Some(_) => {}
-                None => {
-                    fault.message = format!("`{text}` is an input or constant of the file already")
-                }
+                None => fault.message = say!("`{text}` is {} already", faults::OF_BUDGETS.given),
             }
             self.l.report(fault);
             return;
@@ -294,11 +292,11 @@ impl<'r> Check<'r> {
                     Fault::new(
                         faults::DEFINED_TWICE,
                         parameter.span.clone(),
-                        format!("`{}` is a parameter already", parameter.text),
+                        say!("`{}` is a parameter already", parameter.text),
                     )
-                    .label("second parameter of this name")
-                    .related(first.span.clone(), "first")
-                    .help("choose another name"),
+                    .label(say!("second parameter of this name"))
+                    .related(first.span.clone(), say!("first"))
+                    .help(say!("choose another name")),
                 );
             }
         }
@@ -511,15 +509,15 @@ pub fn unknowns(body: &Expr) -> Vec<String> {
 /// The fault of a name that belongs to the language.
 pub fn reserved(name: &str, span: Span) -> Fault {
     let what = if catalogue::find(name).is_some() {
-        "a function"
+        say!("a function")
     } else {
-        "a word"
+        say!("a word")
     };
     Fault::new(
         faults::RESERVED,
         span,
-        format!("`{name}` is {what} of the model language"),
+        say!("`{name}` is {what} of the model language"),
     )
-    .label("not free")
-    .help(format!("choose another name, such as `{name}_1`"))
+    .label(say!("not free"))
+    .help(say!("choose another name, such as `{name}_1`"))
 }

@@ -11,7 +11,7 @@ use super::printer;
 use super::syntax::Expr;
 use super::units::Operand;
 use crate::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 /// Real and imaginary part in one unit.
 struct Pair {
@@ -111,10 +111,10 @@ fn parts(l: &mut Lowering<'_>, function: &str, e: &Expr, value: &Value) -> Optio
                 Fault::new(
                     faults::SHAPE,
                     e.span.clone(),
-                    format!("`{function}` needs a complex quantity, but `{text}` has {count} elements"),
+                    say!("`{function}` needs a complex quantity, but `{text}` has {count} elements"),
                 )
-                .label("expected [re, im]")
-                .help("a complex quantity is a vector of two elements, its real and its imaginary part"),
+                .label(say!("expected [re, im]"))
+                .help(say!("a complex quantity is a vector of two elements, its real and its imaginary part")),
             );
             None
         }
@@ -165,10 +165,10 @@ fn root(l: &mut Lowering<'_>, e: &Expr, argument: &Expr, z: &Pair) -> Option<Val
             Fault::new(
                 faults::EXPONENT,
                 e.span.clone(),
-                format!("{symbol} has no square root"),
+                say!("{symbol} has no square root"),
             )
-            .label(format!("argument in {symbol}"))
-            .help("divide the argument by a reference quantity"),
+            .label(say!("argument in {symbol}"))
+            .help(say!("divide the argument by a reference quantity")),
         );
         return None;
     };
@@ -189,7 +189,7 @@ fn exponential(l: &mut Lowering<'_>, argument: &Expr) -> Option<Value> {
             value: &value,
             expr: argument,
         },
-        "`cexp`",
+        say!("`cexp`"),
     )?;
     let (re, im) = parts(l, "cexp", argument, &number)?;
     let size = l.builder.call_unary("exp", re);
@@ -208,7 +208,7 @@ fn polar(l: &mut Lowering<'_>, r: &Expr, angle: &Expr) -> Option<Value> {
             value: &turn,
             expr: angle,
         },
-        "the angle of `polar`",
+        say!("the angle of `polar`"),
     );
     let (unit, turn) = (unit?, turn?);
     let literal = size.literal && turn.literal;

@@ -12,7 +12,7 @@ use super::reductions::vector_argument;
 use super::syntax::{Expr, Node};
 use super::units::{Operand, in_words};
 use crate::quantity::{Dimension, Unit};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 /// A call of a function of curves.
 pub fn call(
@@ -38,10 +38,10 @@ fn linspace(l: &mut Lowering<'_>, from: &Expr, to: &Expr, count: &Expr) -> Optio
             Fault::new(
                 faults::SHAPE,
                 count.span.clone(),
-                format!("`linspace` cannot give {n} values"),
+                say!("`linspace` cannot give {n} values"),
             )
-            .label("expected a whole number from 2 on")
-            .help("write how many values there are, both ends included"),
+            .label(say!("expected a whole number from 2 on"))
+            .help(say!("write how many values there are, both ends included")),
         );
         return None;
     }
@@ -56,7 +56,7 @@ fn linspace(l: &mut Lowering<'_>, from: &Expr, to: &Expr, count: &Expr) -> Optio
             value: &b,
             expr: to,
         },
-        "ends of one series",
+        &say!("ends of one series"),
     )?;
     let (first, last) = (joined.left.elements[0], joined.right.elements[0]);
     let builder = &mut l.builder;
@@ -115,14 +115,14 @@ fn polyval(l: &mut Lowering<'_>, e: &Expr, coefficients: &Expr, x_expr: &Expr) -
                 Fault::new(
                     faults::CLASH,
                     expr.span.clone(),
-                    format!(
+                    say!(
                         "the terms of `polyval` do not go together: with `{x_text}` in {symbol}, the term of `{text}` is {}, an earlier one {}",
                         in_words(&term),
                         in_words(&unit)
                     ),
                 )
                 .label(in_words(&own))
-                .help("the coefficient of x^k needs the unit of the result divided by that of x^k; or make x a number, `value_in(x, 'K')`"),
+                .help(say!("the coefficient of x^k needs the unit of the result divided by that of x^k; or make x a number, `value_in(x, 'K')`")),
             );
             return None;
         }
@@ -186,10 +186,10 @@ fn term_unit(l: &mut Lowering<'_>, items: &[(Value, &Expr)], by: &Unit) -> Optio
                 Fault::new(
                     faults::EXPONENT,
                     expr.span.clone(),
-                    format!("{} has no power {k}", by.symbol),
+                    say!("{} has no power {k}", by.symbol),
                 )
-                .label(format!("the coefficient of power {k}"))
-                .help("make x a number, `value_in(x, 'K')`"),
+                .label(say!("the coefficient of power {k}"))
+                .help(say!("make x a number, `value_in(x, 'K')`")),
             );
             return None;
         };
@@ -231,25 +231,29 @@ fn interpolate(
             value: &x,
             expr: x_expr,
         },
-        "compared",
+        &say!("compared"),
     )?;
     let knots = exact::numbers(l, "interpolate", xs_expr, &joined.left)?;
     if n < 2 || !knots.windows(2).all(|pair| pair[0] < pair[1]) {
         let (message, label) = if n < 2 {
             (
-                "`interpolate` needs a table of at least two points",
-                "one point",
+                say!("`interpolate` needs a table of at least two points"),
+                say!("one point"),
             )
         } else {
             (
-                "the first column of the table of `interpolate` does not rise from element to element",
-                "not in rising order",
+                say!(
+                    "the first column of the table of `interpolate` does not rise from element to element"
+                ),
+                say!("not in rising order"),
             )
         };
         l.report(
             Fault::new(faults::SHAPE, xs_expr.span.clone(), message)
                 .label(label)
-                .help("list the points of the table in the order of rising x, every x once"),
+                .help(say!(
+                    "list the points of the table in the order of rising x, every x once"
+                )),
         );
         return None;
     }

@@ -8,7 +8,7 @@ use super::syntax::Expr;
 use super::units::Operand;
 use crate::quantity::Unit;
 use crate::special;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 /// A function of exactly known numbers.
 struct Row {
@@ -70,10 +70,10 @@ pub fn call(
                 Fault::new(
                     faults::UNDEFINED,
                     e.span.clone(),
-                    format!("{}({list}) has no value", row.name),
+                    say!("{}({list}) has no value", row.name),
                 )
-                .label(format!("expected {}", row.domain))
-                .help("check the arguments and their order"),
+                .label(say!("expected {}", row.domain))
+                .help(say!("check the arguments and their order")),
             );
             return None;
         }
@@ -95,7 +95,7 @@ fn pure(l: &mut Lowering<'_>, function: &str, e: &Expr) -> Option<Value> {
             value: &value,
             expr: e,
         },
-        &format!("`{function}`"),
+        say!("`{function}`"),
     )
 }
 
@@ -107,7 +107,7 @@ pub fn number(l: &mut Lowering<'_>, function: &str, e: &Expr) -> Option<f64> {
             value: &value,
             expr: e,
         },
-        &format!("`{function}`"),
+        say!("`{function}`"),
     )?;
     numbers(l, function, e, &value)?.first().copied()
 }
@@ -125,12 +125,12 @@ pub fn numbers(l: &mut Lowering<'_>, function: &str, e: &Expr, value: &Value) ->
             Fault::new(
                 faults::NOT_EXACT,
                 e.span.clone(),
-                format!(
+                say!(
                     "`{function}` needs exactly known numbers here, but `{text}` depends on inputs"
                 ),
             )
-            .label("not exactly known")
-            .help("state it under [constant], or write the number"),
+            .label(say!("not exactly known"))
+            .help(say!("state it under [constant], or write the number")),
         );
     }
     known

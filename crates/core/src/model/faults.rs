@@ -1,6 +1,37 @@
 //! Codes of the faults in a model text.
 
-use gumption_fault::codes;
+use gumption_fault::{Fault, Said, codes, say};
+
+/// Words of messages that other modules say in words of their own.
+#[derive(Debug)]
+pub struct Wording {
+    /// What has the formula as its value.
+    pub measurand: Said,
+    /// The unit that its value is wanted in.
+    pub unit: Said,
+    /// What names of formulas stand for, beside those that they define.
+    pub given: Said,
+}
+
+/// The words of budgets, which the messages of this module use.
+pub(super) const OF_BUDGETS: Wording = Wording {
+    measurand: say!("the measurand"),
+    unit: say!("the measurand's unit"),
+    given: say!("an input or constant of the file"),
+};
+
+/// A fault of this module in other words.
+pub fn reworded(mut fault: Fault, own: &Wording) -> Fault {
+    fault.message = said_of(fault.message, own);
+    fault.help = fault.help.map(|help| said_of(help, own));
+    fault
+}
+
+fn said_of(said: Said, own: &Wording) -> Said {
+    said.replacing(&OF_BUDGETS.measurand, &own.measurand)
+        .replacing(&OF_BUDGETS.unit, &own.unit)
+        .replacing(&OF_BUDGETS.given, &own.given)
+}
 
 codes! {
     UNEXPECTED = "M0101", "something else was expected here", "公式在此处不符合语法",

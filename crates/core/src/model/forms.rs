@@ -8,7 +8,7 @@ use super::printer;
 use super::syntax::{Expr, Infix, Node};
 use super::units::Operand;
 use crate::quantity::{Dimension, Factor, Unit};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 /// kelvin(T).
 pub fn kelvin(l: &mut Lowering<'_>, argument: &Expr) -> Option<Value> {
@@ -28,13 +28,13 @@ pub fn kelvin(l: &mut Lowering<'_>, argument: &Expr) -> Option<Value> {
         Fault::new(
             faults::CLASH,
             argument.span.clone(),
-            format!(
+            say!(
                 "`kelvin` needs a temperature, but `{text}` is in {}",
                 unit.symbol
             ),
         )
-        .label(format!("in {}", unit.symbol))
-        .help("give the quantity in °C, °F or K"),
+        .label(say!("in {}", unit.symbol))
+        .help(say!("give the quantity in °C, °F or K")),
     );
     None
 }
@@ -47,10 +47,10 @@ pub fn value_in(l: &mut Lowering<'_>, argument: &Expr, unit: &Expr) -> Option<Va
             Fault::new(
                 faults::UNIT_TEXT,
                 unit.span.clone(),
-                "`value_in` needs a unit between single quotes",
+                say!("`value_in` needs a unit between single quotes"),
             )
-            .label("expected a unit")
-            .help("write `value_in(x, 'mm')`"),
+            .label(say!("expected a unit"))
+            .help(say!("write `value_in(x, 'mm')`")),
         );
         return None;
     };
@@ -74,14 +74,15 @@ pub fn value_in(l: &mut Lowering<'_>, argument: &Expr, unit: &Expr) -> Option<Va
                 Fault::new(
                     faults::CLASH,
                     text.span.clone(),
-                    format!(
+                    say!(
                         "`{name}` is in {} and has no value in {}",
-                        found.symbol, wanted.symbol
+                        found.symbol,
+                        wanted.symbol
                     ),
                 )
-                .label(format!("expected a unit like {}", found.symbol))
-                .related(argument.span.clone(), format!("in {}", found.symbol))
-                .help(format!("write `value_in({name}, '{}')`", found.symbol)),
+                .label(say!("expected a unit like {}", found.symbol))
+                .related(argument.span.clone(), say!("in {}", found.symbol))
+                .help(say!("write `value_in({name}, '{}')`", found.symbol)),
             );
             None
         }
@@ -114,11 +115,11 @@ pub fn solve(
             Fault::new(
                 faults::UNKNOWN_OF_SOLVE,
                 equation.span.clone(),
-                format!("the equation does not depend on `{name}`"),
+                say!("the equation does not depend on `{name}`"),
             )
-            .label(format!("`{name}` has no effect here"))
-            .related(unknown.span.clone(), "the unknown")
-            .help(format!("write an equation that contains `{name}`")),
+            .label(say!("`{name}` has no effect here"))
+            .related(unknown.span.clone(), say!("the unknown"))
+            .help(say!("write an equation that contains `{name}`")),
         );
         return None;
     };
@@ -131,8 +132,8 @@ fn unknown_name(l: &mut Lowering<'_>, unknown: &Expr) -> Option<String> {
     let text = printer::expression(unknown);
     let (message, help) = match &unknown.node {
         Node::Name(name) if is_reserved(name) => (
-            format!("`{name}` belongs to the language"),
-            "choose another name for the unknown",
+            say!("`{name}` belongs to the language"),
+            say!("choose another name for the unknown"),
         ),
         Node::Name(name) => {
             let local = l
@@ -143,18 +144,18 @@ fn unknown_name(l: &mut Lowering<'_>, unknown: &Expr) -> Option<String> {
                 return Some(name.clone());
             }
             (
-                format!("`{name}` has a value already and cannot be the unknown"),
-                "choose a new name for the unknown",
+                say!("`{name}` has a value already and cannot be the unknown"),
+                say!("choose a new name for the unknown"),
             )
         }
         _ => (
-            format!("`{text}` cannot be the unknown"),
-            "write a new name: `solve(equation, unknown, start)`",
+            say!("`{text}` cannot be the unknown"),
+            say!("write a new name: `solve(equation, unknown, start)`"),
         ),
     };
     l.report(
         Fault::new(faults::UNKNOWN_OF_SOLVE, unknown.span.clone(), message)
-            .label("expected a new name")
+            .label(say!("expected a new name"))
             .help(help),
     );
     None
@@ -176,7 +177,7 @@ fn residual(l: &mut Lowering<'_>, equation: &Expr) -> Option<Id> {
                 value: &b,
                 expr: right,
             },
-            "equal",
+            &say!("equal"),
         )?;
         return Some(
             l.builder

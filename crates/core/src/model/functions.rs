@@ -13,7 +13,7 @@ use super::syntax::{Expr, Name};
 use super::units::Operand;
 use super::{complex, curves, exact, space};
 use crate::quantity::Unit;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 
 /// Lowers a call.
 pub fn call(l: &mut Lowering<'_>, e: &Expr, name: &Name, arguments: &[Expr]) -> Option<Value> {
@@ -61,33 +61,33 @@ pub fn unknown_function(l: &mut Lowering<'_>, name: &Name) {
     let (code, message, help) = if later {
         (
             faults::USED_BEFORE,
-            format!("`{text}` is used before it is defined"),
-            format!(
+            say!("`{text}` is used before it is defined"),
+            say!(
                 "move the definition of `{text}` above this line; functions cannot call themselves"
             ),
         )
     } else {
         let help = match (text.as_str(), nearest(text, known)) {
-            ("log", _) => "write `ln` for the natural logarithm, `log10` for base 10".to_string(),
-            ("arcsin" | "arccos" | "arctan", _) => format!("did you mean `a{}`?", &text[3..]),
-            ("avg" | "average", _) => "did you mean `mean`?".to_string(),
-            ("gamma" | "tgamma", _) => "write `gamma_function`".to_string(),
-            ("lgamma" | "gammaln", _) => "write `ln_gamma`".to_string(),
-            ("std" | "stdev" | "stddev", _) => "did you mean `sd`?".to_string(),
-            (_, Some(near)) => format!("did you mean `{near}`?"),
+            ("log", _) => say!("write `ln` for the natural logarithm, `log10` for base 10"),
+            ("arcsin" | "arccos" | "arctan", _) => say!("did you mean `a{}`?", &text[3..]),
+            ("avg" | "average", _) => say!("did you mean `mean`?"),
+            ("gamma" | "tgamma", _) => say!("write `gamma_function`"),
+            ("lgamma" | "gammaln", _) => say!("write `ln_gamma`"),
+            ("std" | "stdev" | "stddev", _) => say!("did you mean `sd`?"),
+            (_, Some(near)) => say!("did you mean `{near}`?"),
             (_, None) => {
-                format!("define it above, `{text}(x) = …`; for a product write `{text} * (…)`")
+                say!("define it above, `{text}(x) = …`; for a product write `{text} * (…)`")
             }
         };
         (
             faults::UNKNOWN_FUNCTION,
-            format!("there is no function `{text}`"),
+            say!("there is no function `{text}`"),
             help,
         )
     };
     l.report(
         Fault::new(code, name.span.clone(), message)
-            .label("not a function")
+            .label(say!("not a function"))
             .help(help),
     );
 }
@@ -99,10 +99,10 @@ fn value_as_function(l: &mut Lowering<'_>, name: &Name, arguments: &[Expr]) -> O
         Fault::new(
             faults::VALUE_AS_FUNCTION,
             name.span.clone(),
-            format!("`{text}` is a quantity, not a function"),
+            say!("`{text}` is a quantity, not a function"),
         )
-        .label("not a function")
-        .help(format!(
+        .label(say!("not a function"))
+        .help(say!(
             "write `{text} * ({})` for a product, `{text}[1]` for an element",
             list.join(", ")
         )),
@@ -174,7 +174,7 @@ fn unary_call(
     }
     let (input, unit) = match row.dimension {
         DimensionRule::One | DimensionRule::Angle | DimensionRule::ToAngle => {
-            (l.number(operand, &format!("`{}`", row.name))?, Unit::one())
+            (l.number(operand, say!("`{}`", row.name))?, Unit::one())
         }
         DimensionRule::Root(n) => {
             let unit = l.difference(operand)?;
@@ -183,10 +183,10 @@ fn unary_call(
                     Fault::new(
                         faults::EXPONENT,
                         e.span.clone(),
-                        format!("{} has no root of order {n}", unit.symbol),
+                        say!("{} has no root of order {n}", unit.symbol),
                     )
-                    .label(format!("argument in {}", unit.symbol))
-                    .help("divide the argument by a reference quantity"),
+                    .label(say!("argument in {}", unit.symbol))
+                    .help(say!("divide the argument by a reference quantity")),
                 );
                 return None;
             };
@@ -271,7 +271,7 @@ fn binary_call(
             a?;
             b?;
         }
-        let joined = l.join(left, right, "arguments of one function")?;
+        let joined = l.join(left, right, &say!("arguments of one function"))?;
         let combined = l.elementwise(&joined.left, &joined.right, e.span.clone(), |b, x, y| {
             b.binary(row, x, y)
         })?;
@@ -308,7 +308,7 @@ fn quantize(l: &mut Lowering<'_>, e: &Expr, argument: &Expr, step: &Expr) -> Opt
             value: &q,
             expr: step,
         },
-        "argument and step",
+        &say!("argument and step"),
     )?;
     let out = l.elementwise(&joined.left, &joined.right, e.span.clone(), |b, x, y| {
         b.call_binary("quantize", x, y)

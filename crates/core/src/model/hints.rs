@@ -8,7 +8,7 @@ use super::jet::Jet;
 use super::notice::{Notice, Office, shown};
 use super::operation::{Rule, Smoothness};
 use super::{ModelFault, Output, Place};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 
 /// Whether every operation is smooth inside its domain.
 pub fn smooth(graph: &Graph) -> bool {
@@ -123,17 +123,17 @@ pub fn undefined(graph: &Graph, x: &[f64], outputs: &[Output]) -> Vec<ModelFault
             None => (
                 Place::Entry(*source),
                 0..0,
-                "an intermediate result is too large or is no number".to_string(),
-                "no finite value".to_string(),
+                say!("an intermediate result is too large or is no number"),
+                say!("no finite value"),
             ),
         };
         let fault = Fault::new(
             UNDEFINED,
             span,
-            format!("{name} has no value at the estimates of its inputs: {why}"),
+            say!("{name} has no value at the estimates of its inputs: {why}"),
         )
         .label(label)
-        .help("check the estimates and the formula");
+        .help(say!("check the estimates and the formula"));
         found.push(ModelFault { place, fault });
     }
     found
@@ -170,28 +170,25 @@ fn culprit(graph: &Graph, values: &[Jet<1>], output: Id) -> Option<Id> {
 }
 
 /// Why an operation with finite operands has no finite result, and in short for the marked place.
-fn reason(graph: &Graph, values: &[Jet<1>], id: Id, label: &Label) -> (String, String) {
+fn reason(graph: &Graph, values: &[Jet<1>], id: Id, label: &Label) -> (Said, Said) {
     let at = |id: Id| values[id as usize].value();
     let (call, argument) = (&label.call, &label.argument);
     match graph.ops[id as usize] {
         Op::Solve(_) => (
-            format!("the search for `{argument}` from its starting value finds no solution"),
-            "no solution found".to_string(),
+            say!("the search for `{argument}` from its starting value finds no solution"),
+            say!("no solution found"),
         ),
         Op::Binary(row, _, b) if row.name == "/" && at(b) == 0.0 => {
-            (format!("the divisor `{argument}` is 0"), "is 0".to_string())
+            (say!("the divisor `{argument}` is 0"), say!("is 0"))
         }
         Op::Unary(_, a) | Op::Power(a, _) => (
-            format!(
+            say!(
                 "`{call}` has no finite value where `{argument}` is {}",
                 shown(at(a))
             ),
-            format!("`{argument}` is {} here", shown(at(a))),
+            say!("`{argument}` is {} here", shown(at(a))),
         ),
-        _ => (
-            format!("`{call}` has no finite value"),
-            "not finite".to_string(),
-        ),
+        _ => (say!("`{call}` has no finite value"), say!("not finite")),
     }
 }
 

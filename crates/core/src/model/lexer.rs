@@ -2,7 +2,7 @@
 
 use super::faults;
 use super::syntax::Span;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 /// A token and where it stands.
 #[derive(Debug, Clone, PartialEq)]
@@ -191,10 +191,10 @@ impl<'a> Lexer<'a> {
                     Fault::new(
                         faults::NUMBER,
                         span.clone(),
-                        format!("`{text}` is not a number"),
+                        say!("`{text}` is not a number"),
                     )
-                    .label("not a number")
-                    .help("write numbers like `12`, `0.5` or `1.5e-3`"),
+                    .label(say!("not a number"))
+                    .help(say!("write numbers like `12`, `0.5` or `1.5e-3`")),
                 );
                 self.push(
                     Kind::Number {
@@ -252,10 +252,10 @@ impl<'a> Lexer<'a> {
                     Fault::new(
                         faults::NUMBER,
                         span.clone(),
-                        format!("`{text}` is not an exponent"),
+                        say!("`{text}` is not an exponent"),
                     )
-                    .label("not a number")
-                    .help("write the exponent after `^`, as in `x^2`"),
+                    .label(say!("not a number"))
+                    .help(say!("write the exponent after `^`, as in `x^2`")),
                 );
                 self.at = span.end;
             }
@@ -277,10 +277,12 @@ impl<'a> Lexer<'a> {
                     Fault::new(
                         faults::UNIT_TEXT,
                         span.clone(),
-                        "this unit has no closing quote",
+                        say!("this unit has no closing quote"),
                     )
-                    .label("opened here")
-                    .help("write a unit between single quotes right after its number: `25 'mm'`"),
+                    .label(say!("opened here"))
+                    .help(say!(
+                        "write a unit between single quotes right after its number: `25 'mm'`"
+                    )),
                 );
                 self.push(Kind::Quoted(line.trim_end().to_string()), span);
             }
@@ -297,27 +299,25 @@ impl<'a> Lexer<'a> {
                     "" => "5",
                     number => number,
                 };
-                format!(
-                    "a unit stands between single quotes right after its number: `{number} '{c}'`"
-                )
+                say!("a unit stands between single quotes right after its number: `{number} '{c}'`")
             }
             '"' | '`' | '’' | '‘' => {
-                "a unit stands between single quotes: `25 'mm'`".to_string()
+                say!("a unit stands between single quotes: `25 'mm'`")
             }
-            ':' => "write `=` to define a quantity".to_string(),
-            '√' => "write `sqrt(x)`".to_string(),
-            '{' | '}' => "use round brackets".to_string(),
-            '&' | '|' | '!' => "write `and`, `or`, `not`".to_string(),
-            '.' => "write the decimal point between digits, as in `0.5`".to_string(),
-            _ => "remove it".to_string(),
+            ':' => say!("write `=` to define a quantity"),
+            '√' => say!("write `sqrt(x)`"),
+            '{' | '}' => say!("use round brackets"),
+            '&' | '|' | '!' => say!("write `and`, `or`, `not`"),
+            '.' => say!("write the decimal point between digits, as in `0.5`"),
+            _ => say!("remove it"),
         };
         self.faults.push(
             Fault::new(
                 faults::CHARACTER,
                 span.clone(),
-                format!("`{c}` has no meaning in a model"),
+                say!("`{c}` has no meaning in a model"),
             )
-            .label("not part of the model language")
+            .label(say!("not part of the model language"))
             .help(help),
         );
         self.at = span.end;

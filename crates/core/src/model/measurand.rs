@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::catalogue;
 use super::check::{Check, Outcome, reserved};
-use super::faults;
+use super::faults::{self, Wording};
 use super::graph::Id;
 use super::lower::{Binding, Kind, Value};
 use super::printer;
@@ -12,7 +12,7 @@ use super::syntax::{Expr, Infix, Node, Statement};
 use super::units::in_words;
 use super::{MeasurandSource, Place};
 use crate::quantity::{Dimension, Unit, hint_for_clash, revolutions_as_angle, unit_of_angle};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 
 /// A measurand may be a vector of up to so many elements.
 const MOST_ELEMENTS: usize = 100;
@@ -71,10 +71,10 @@ impl Check<'_> {
                 Fault::new(
                     faults::DEFINED_TWICE,
                     0..0,
-                    format!("`{name}` is a measurand and an input or constant at once"),
+                    say!("`{name}` is a measurand and an input or constant at once"),
                 )
-                .label("also an input or constant")
-                .help("choose another name for one of them"),
+                .label(say!("also an input or constant"))
+                .help(say!("choose another name for one of them")),
             );
         }
         let before: BTreeSet<String> = self.l.scope.keys().cloned().collect();
@@ -147,9 +147,9 @@ impl Check<'_> {
             _ => {
                 self.l.place = Place::Entry(index);
                 self.l.report(
-                    Fault::new(faults::NO_MODEL, 0..0, format!("the measurand `{name}` has no model"))
-                        .label("no model")
-                        .help(format!("add `model = \"…\"` here, or define `{name} = …` in the model at the top of the file")),
+                    Fault::new(faults::NO_MODEL, 0..0, say!("the measurand `{name}` has no model"))
+                        .label(say!("no model"))
+                        .help(say!("add `model = \"…\"` here, or define `{name} = …` in the model at the top of the file")),
                 );
                 None
             }
@@ -173,14 +173,14 @@ impl Check<'_> {
                 Fault::new(
                     faults::VECTOR_RESULT,
                     expr.span.clone(),
-                    format!(
+                    say!(
                         "`{}` is a vector of {} elements",
                         measurand.name,
                         value.elements.len()
                     ),
                 )
-                .label(format!("expected at most {MOST_ELEMENTS}"))
-                .help(format!("reduce it, `mean({text})`, or take one element")),
+                .label(say!("expected at most {MOST_ELEMENTS}"))
+                .help(say!("reduce it, `mean({text})`, or take one element")),
             );
             return None;
         }
@@ -194,13 +194,14 @@ impl Check<'_> {
                 Fault::new(
                     faults::RESULT_NEEDS_UNIT,
                     0..0,
-                    format!(
+                    say!(
                         "the measurand `{}` has no unit, but its model gives {}",
-                        measurand.name, found.symbol
+                        measurand.name,
+                        found.symbol
                     ),
                 )
-                .label(format!("the value is in {}", found.symbol))
-                .help(format!(
+                .label(say!("the value is in {}", found.symbol))
+                .help(say!(
                     "add `unit = \"{}\"`, or another unit of this dimension",
                     found.symbol
                 )),
@@ -210,7 +211,7 @@ impl Check<'_> {
         let value = value.with_unit_if_zero(wanted);
         let found = value.unit().cloned().unwrap_or(found);
         if found.dimension != wanted.dimension {
-            let message = format!(
+            let message = say!(
                 "the value is {}, but `{}` is wanted {}",
                 in_words(&found),
                 measurand.name,
@@ -228,9 +229,12 @@ impl Check<'_> {
             self.point_result(measurand.name, expr, &found, wanted);
             return None;
         }
-        if let Some(mut help) = revolutions_as_angle(&found, wanted, &printer::factor(expr)) {
-            help += unit_of_angle(&found).unwrap_or_default();
-            let message = format!(
+        if let Some(help) = revolutions_as_angle(&found, wanted, &printer::factor(expr)) {
+            let help = match unit_of_angle(&found) {
+                Some(other) => say!("{help}, or {other}"),
+                None => help,
+            };
+            let message = say!(
                 "the value is {}, but `{}` is wanted {}",
                 in_words(&found),
                 measurand.name,
@@ -247,10 +251,15 @@ impl Check<'_> {
         Some((out.elements, wanted.clone()))
     }
 
-    fn result_help(&self, expr: &Expr, found: &Unit, wanted: &Unit) -> String {
+    fn result_help(&self, expr: &Expr, found: &Unit, wanted: &Unit) -> Said {
         if let Some(hint) = hint_for_clash(wanted, found) {
             return hint;
         }
+        let Wording {
+            measurand: whom,
+            unit: whose,
+            ..
+        } = faults::OF_BUDGETS;
         let forgotten = expr
             .names()
             .into_iter()
@@ -259,21 +268,21 @@ impl Check<'_> {
             Some(name) => {
                 let missing = wanted.quotient(found);
                 match side(expr, name) {
-                    Some(Side::Factor) => format!(
-                        "`{name}` has no unit; if it was forgotten, state it (`unit = \"{}\"` would fit), or correct the measurand's unit",
+                    Some(Side::Factor) => say!(
+                        "`{name}` has no unit; if it was forgotten, state it (`unit = \"{}\"` would fit), or correct {whose}",
                         missing.symbol
                     ),
-                    Some(Side::Divisor) => format!(
-                        "`{name}` has no unit; if it was forgotten, state it (`unit = \"{}\"` would fit), or correct the measurand's unit",
+                    Some(Side::Divisor) => say!(
+                        "`{name}` has no unit; if it was forgotten, state it (`unit = \"{}\"` would fit), or correct {whose}",
                         Unit::one().quotient(&missing).symbol
                     ),
-                    None => format!(
-                        "`{name}` has no unit; if it was forgotten, state it, or correct the measurand's unit"
+                    None => say!(
+                        "`{name}` has no unit; if it was forgotten, state it, or correct {whose}"
                     ),
                 }
             }
-            None => format!(
-                "correct the formula, or write `unit = \"{}\"` for the measurand",
+            None => say!(
+                "correct the formula, or write `unit = \"{}\"` for {whom}",
                 found.symbol
             ),
         }
@@ -286,20 +295,20 @@ impl Check<'_> {
         }
         let text = printer::expression(expr);
         let thermodynamic = match wanted.symbol.as_str() {
-            "°C" => "; from a thermodynamic temperature subtract 273.15 'K' first",
-            _ => "",
+            "°C" => say!("; from a thermodynamic temperature subtract 273.15 'K' first"),
+            _ => Said::default(),
         };
         self.l.report(
             Fault::new(
                 faults::POINT,
                 expr.span.clone(),
-                format!(
+                say!(
                     "the value is a difference in {}, but `{name}` is wanted on the {} scale",
                     found.symbol, wanted.symbol
                 ),
             )
-            .label(format!("a difference in {}", found.symbol))
-            .help(format!(
+            .label(say!("a difference in {}", found.symbol))
+            .help(say!(
                 "a correction has `unit = \"{}\"` even if its value is zero: two quantities on the {} scale that are subtracted leave a difference. Or write `unit = \"{}\"` for `{name}`, or add the difference to a point: `0 '{}' + ({text})`{thermodynamic}",
                 wanted.difference().symbol,
                 wanted.symbol,

@@ -34,6 +34,7 @@ mod reductions;
 mod resolution;
 mod scales;
 mod space;
+mod steps;
 mod syntax;
 mod terms;
 mod tree;
@@ -56,6 +57,7 @@ pub use interaction::Neighbours;
 pub use notice::{Notice, Office};
 pub use outline::{Outline, outline};
 pub use resolution::Resolved;
+pub use steps::{Operand, Step, Steps};
 pub use tree::Leaf;
 
 use jet::Jet;
@@ -335,6 +337,13 @@ impl Model {
     /// Corners, conditions and steps within `reach` standard uncertainties, which first order does not see.
     pub fn near_corners(&self, x: &[f64], u: &[f64], reach: f64) -> Vec<Notice> {
         hints::near_corners(&self.graph, x, u, reach)
+    }
+
+    /// The calculation of one output step by step, as spreadsheets have it, with its values at these points. `None`
+    /// where a step has no formula there.
+    pub fn steps(&self, output: usize, points: &[Vec<f64>]) -> Option<Steps> {
+        let of = *self.graph.outputs.get(output)?;
+        Steps::new(&self.graph, of, points)
     }
 
     /// Roundings by `quantize` whose step is larger than the standard uncertainty of what they round.

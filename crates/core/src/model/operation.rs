@@ -74,6 +74,8 @@ pub enum Smoothness {
 pub struct Unary {
     /// As it is called; names that are no identifiers belong to operators.
     pub name: &'static str,
+    /// As a spreadsheet has it, of the cell `{a}`.
+    pub cells: &'static str,
     pub signature: &'static str,
     pub doc: &'static str,
     pub dimension: DimensionRule,
@@ -89,6 +91,8 @@ pub struct Unary {
 /// A function of two arguments.
 pub struct Binary {
     pub name: &'static str,
+    /// As a spreadsheet has it, of the cells `{a}` and `{b}`.
+    pub cells: &'static str,
     /// Empty for operators.
     pub signature: &'static str,
     pub doc: &'static str,
@@ -128,9 +132,10 @@ macro_rules! lanewise {
 }
 
 macro_rules! row {
-    ($name:literal, $doc:literal, $dimension:expr, $scalar:expr, $derivatives:expr, $block:expr) => {
+    ($name:literal, $cells:literal, $doc:literal, $dimension:expr, $scalar:expr, $derivatives:expr, $block:expr) => {
         row!(
             $name,
+            $cells,
             $doc,
             $dimension,
             $scalar,
@@ -140,9 +145,10 @@ macro_rules! row {
             None
         )
     };
-    ($name:literal, $doc:literal, $dimension:expr, $scalar:expr, $derivatives:expr, $block:expr, $smoothness:expr, $edge:expr) => {
+    ($name:literal, $cells:literal, $doc:literal, $dimension:expr, $scalar:expr, $derivatives:expr, $block:expr, $smoothness:expr, $edge:expr) => {
         Unary {
             name: $name,
+            cells: $cells,
             signature: concat!($name, "(x)"),
             doc: $doc,
             dimension: $dimension,
@@ -156,9 +162,10 @@ macro_rules! row {
 }
 
 macro_rules! row2 {
-    ($name:literal, $signature:literal, $doc:literal, $dimension:expr, $scalar:expr, $rule:expr, $block:expr, $smoothness:expr) => {
+    ($name:literal, $cells:literal, $signature:literal, $doc:literal, $dimension:expr, $scalar:expr, $rule:expr, $block:expr, $smoothness:expr) => {
         Binary {
             name: $name,
+            cells: $cells,
             signature: $signature,
             doc: $doc,
             dimension: $dimension,
@@ -176,58 +183,58 @@ use Smoothness::{Branch, Corner, Smooth, Steps};
 /// Functions of one argument.
 #[rustfmt::skip] // A table reads by lines.
 pub static UNARY: &[Unary] = &[
-    row!("-", "opposite", Same, |x| -x, |x| [-x, -1.0, 0.0, 0.0], kernels::neg),
-    row!("not", "negation of a condition", Truth, negate, |x| [negate(x), 0.0, 0.0, 0.0], kernels::not),
-    row!("^2", "square", Operator, |x| x * x, |x| [x * x, 2.0 * x, 2.0, 0.0], kernels::sq),
-    row!("abs", "absolute value", Same, f64::abs, |x| [x.abs(), sign(x), 0.0, 0.0], kernels::abs, Corner, None),
-    row!("sqrt", "square root", Root(2), f64::sqrt, sqrt, kernels::sqrt, Smooth, Some(|_| 0.0)),
-    row!("cbrt", "cube root", Root(3), libm::cbrt, cbrt, kernels::cbrt, Smooth, Some(|_| 0.0)),
-    row!("exp", "exponential function", One, elementary::exp, |x| [elementary::exp(x); 4], kernels::exp),
-    row!("ln", "natural logarithm", One, elementary::ln, |x| logarithm(elementary::ln(x), x, 1.0), kernels::ln, Smooth, Some(|_| 0.0)),
-    row!("log10", "logarithm to base 10", One, libm::log10, |x| logarithm(libm::log10(x), x, LN_10), kernels::log10, Smooth, Some(|_| 0.0)),
-    row!("log2", "logarithm to base 2", One, libm::log2, |x| logarithm(libm::log2(x), x, LN_2), kernels::log2, Smooth, Some(|_| 0.0)),
-    row!("sin", "sine", Angle, elementary::sin, sin, kernels::sin),
-    row!("cos", "cosine", Angle, elementary::cos, cos, kernels::cos),
-    row!("tan", "tangent", Angle, libm::tan, tan, kernels::tan, Smooth, Some(|x| ((x - FRAC_PI_2) / PI).round() * PI + FRAC_PI_2)),
-    row!("asin", "inverse sine", ToAngle, libm::asin, |x| arc(libm::asin(x), x, 1.0), kernels::asin, Smooth, Some(f64::signum)),
-    row!("acos", "inverse cosine", ToAngle, libm::acos, |x| arc(libm::acos(x), x, -1.0), kernels::acos, Smooth, Some(f64::signum)),
-    row!("atan", "inverse tangent", ToAngle, libm::atan, atan, kernels::atan),
-    row!("sinh", "hyperbolic sine", One, libm::sinh, sinh, kernels::sinh),
-    row!("cosh", "hyperbolic cosine", One, libm::cosh, cosh, kernels::cosh),
-    row!("tanh", "hyperbolic tangent", One, libm::tanh, tanh, kernels::tanh),
-    row!("asinh", "inverse hyperbolic sine", One, libm::asinh, asinh, kernels::asinh),
-    row!("acosh", "inverse hyperbolic cosine", One, libm::acosh, acosh, kernels::acosh, Smooth, Some(|_| 1.0)),
-    row!("atanh", "inverse hyperbolic tangent", One, libm::atanh, atanh, kernels::atanh, Smooth, Some(f64::signum)),
-    row!("erf", "error function", One, libm::erf, erf, lanewise!(libm::erf)),
-    row!("normal_cdf", "distribution function of the standard normal distribution", One, special::normal_cdf, normal_cdf, lanewise!(special::normal_cdf)),
-    row!("normal_quantile", "quantile of the standard normal distribution", One, special::normal_quantile, normal_quantile, lanewise!(special::normal_quantile), Smooth, Some(|p| p.round().clamp(0.0, 1.0))),
-    row!("sign", "-1, 0 or 1", Sign, sign, |x| [sign(x), 0.0, 0.0, 0.0], kernels::sign, Steps, None),
-    row!("floor", "next whole number below", One, f64::floor, |x| [x.floor(), 0.0, 0.0, 0.0], kernels::floor, Steps, None),
-    row!("ceil", "next whole number above", One, f64::ceil, |x| [x.ceil(), 0.0, 0.0, 0.0], kernels::ceil, Steps, None),
-    row!("round", "nearest whole number, halves away from zero", One, f64::round, |x| [x.round(), 0.0, 0.0, 0.0], kernels::round, Steps, None),
+    row!("-", "-{a}", "opposite", Same, |x| -x, |x| [-x, -1.0, 0.0, 0.0], kernels::neg),
+    row!("not", "1-{a}", "negation of a condition", Truth, negate, |x| [negate(x), 0.0, 0.0, 0.0], kernels::not),
+    row!("^2", "{a}^2", "square", Operator, |x| x * x, |x| [x * x, 2.0 * x, 2.0, 0.0], kernels::sq),
+    row!("abs", "ABS({a})", "absolute value", Same, f64::abs, |x| [x.abs(), sign(x), 0.0, 0.0], kernels::abs, Corner, None),
+    row!("sqrt", "SQRT({a})", "square root", Root(2), f64::sqrt, sqrt, kernels::sqrt, Smooth, Some(|_| 0.0)),
+    row!("cbrt", "SIGN({a})*ABS({a})^(1/3)", "cube root", Root(3), libm::cbrt, cbrt, kernels::cbrt, Smooth, Some(|_| 0.0)),
+    row!("exp", "EXP({a})", "exponential function", One, elementary::exp, |x| [elementary::exp(x); 4], kernels::exp),
+    row!("ln", "LN({a})", "natural logarithm", One, elementary::ln, |x| logarithm(elementary::ln(x), x, 1.0), kernels::ln, Smooth, Some(|_| 0.0)),
+    row!("log10", "LOG10({a})", "logarithm to base 10", One, libm::log10, |x| logarithm(libm::log10(x), x, LN_10), kernels::log10, Smooth, Some(|_| 0.0)),
+    row!("log2", "LOG({a},2)", "logarithm to base 2", One, libm::log2, |x| logarithm(libm::log2(x), x, LN_2), kernels::log2, Smooth, Some(|_| 0.0)),
+    row!("sin", "SIN({a})", "sine", Angle, elementary::sin, sin, kernels::sin),
+    row!("cos", "COS({a})", "cosine", Angle, elementary::cos, cos, kernels::cos),
+    row!("tan", "TAN({a})", "tangent", Angle, libm::tan, tan, kernels::tan, Smooth, Some(|x| ((x - FRAC_PI_2) / PI).round() * PI + FRAC_PI_2)),
+    row!("asin", "ASIN({a})", "inverse sine", ToAngle, libm::asin, |x| arc(libm::asin(x), x, 1.0), kernels::asin, Smooth, Some(f64::signum)),
+    row!("acos", "ACOS({a})", "inverse cosine", ToAngle, libm::acos, |x| arc(libm::acos(x), x, -1.0), kernels::acos, Smooth, Some(f64::signum)),
+    row!("atan", "ATAN({a})", "inverse tangent", ToAngle, libm::atan, atan, kernels::atan),
+    row!("sinh", "SINH({a})", "hyperbolic sine", One, libm::sinh, sinh, kernels::sinh),
+    row!("cosh", "COSH({a})", "hyperbolic cosine", One, libm::cosh, cosh, kernels::cosh),
+    row!("tanh", "TANH({a})", "hyperbolic tangent", One, libm::tanh, tanh, kernels::tanh),
+    row!("asinh", "ASINH({a})", "inverse hyperbolic sine", One, libm::asinh, asinh, kernels::asinh),
+    row!("acosh", "ACOSH({a})", "inverse hyperbolic cosine", One, libm::acosh, acosh, kernels::acosh, Smooth, Some(|_| 1.0)),
+    row!("atanh", "ATANH({a})", "inverse hyperbolic tangent", One, libm::atanh, atanh, kernels::atanh, Smooth, Some(f64::signum)),
+    row!("erf", "2*NORMSDIST({a}*SQRT(2))-1", "error function", One, libm::erf, erf, lanewise!(libm::erf)),
+    row!("normal_cdf", "NORMSDIST({a})", "distribution function of the standard normal distribution", One, special::normal_cdf, normal_cdf, lanewise!(special::normal_cdf)),
+    row!("normal_quantile", "NORMSINV({a})", "quantile of the standard normal distribution", One, special::normal_quantile, normal_quantile, lanewise!(special::normal_quantile), Smooth, Some(|p| p.round().clamp(0.0, 1.0))),
+    row!("sign", "SIGN({a})", "-1, 0 or 1", Sign, sign, |x| [sign(x), 0.0, 0.0, 0.0], kernels::sign, Steps, None),
+    row!("floor", "INT({a})", "next whole number below", One, f64::floor, |x| [x.floor(), 0.0, 0.0, 0.0], kernels::floor, Steps, None),
+    row!("ceil", "-INT(-{a})", "next whole number above", One, f64::ceil, |x| [x.ceil(), 0.0, 0.0, 0.0], kernels::ceil, Steps, None),
+    row!("round", "ROUND({a},0)", "nearest whole number, halves away from zero", One, f64::round, |x| [x.round(), 0.0, 0.0, 0.0], kernels::round, Steps, None),
 ];
 
 /// Functions of two arguments, operators included.
 #[rustfmt::skip] // A table reads by lines.
 pub static BINARY: &[Binary] = &[
-    row2!("+", "", "sum", Same, |a, b| a + b, Rule::Add, kernels::add, Smooth),
-    row2!("-", "", "difference", Same, |a, b| a - b, Rule::Sub, kernels::sub, Smooth),
-    row2!("*", "", "product", Operator, |a, b| a * b, Rule::Mul, kernels::mul, Smooth),
-    row2!("/", "", "quotient", Operator, |a, b| a / b, Rule::Div, kernels::div, Smooth),
-    row2!("^", "", "power", Operator, libm::pow, Rule::Pow, kernels::pow, Smooth),
-    row2!("atan2", "atan2(y, x)", "angle of the point (x, y) seen from the origin, from -π to π", Ratio, libm::atan2, Rule::Atan2, kernels::atan2, Branch),
-    row2!("hypot", "hypot(a, b, …)", "square root of the sum of squares", Same, libm::hypot, Rule::Hypot, kernels::hypot, Smooth),
-    row2!("min", "min(a, b, …)", "smallest argument or element", Same, smaller, Rule::Pick, kernels::min, Corner),
-    row2!("max", "max(a, b, …)", "largest argument or element", Same, larger, Rule::Pick, kernels::max, Corner),
-    row2!("quantize", "quantize(x, step)", "x rounded to the nearest multiple of a step; its derivative is the mean slope, 1", Same, quantize, Rule::Staircase, quantize_block, Smooth),
-    row2!("<", "", "less than", Ratio, |a, b| truth(a < b), Rule::Constant, kernels::lt, Corner),
-    row2!("<=", "", "at most", Ratio, |a, b| truth(a <= b), Rule::Constant, kernels::le, Corner),
-    row2!(">", "", "greater than", Ratio, |a, b| truth(a > b), Rule::Constant, kernels::gt, Corner),
-    row2!(">=", "", "at least", Ratio, |a, b| truth(a >= b), Rule::Constant, kernels::ge, Corner),
-    row2!("==", "", "equal", Ratio, |a, b| truth(a == b), Rule::Constant, kernels::eq, Corner),
-    row2!("!=", "", "different", Ratio, |a, b| truth(a != b), Rule::Constant, kernels::ne, Corner),
-    row2!("and", "", "both", Truth, |a, b| a * b, Rule::Constant, kernels::and, Smooth),
-    row2!("or", "", "at least one", Truth, larger, Rule::Constant, kernels::or, Smooth),
+    row2!("+", "{a}+{b}", "", "sum", Same, |a, b| a + b, Rule::Add, kernels::add, Smooth),
+    row2!("-", "{a}-{b}", "", "difference", Same, |a, b| a - b, Rule::Sub, kernels::sub, Smooth),
+    row2!("*", "{a}*{b}", "", "product", Operator, |a, b| a * b, Rule::Mul, kernels::mul, Smooth),
+    row2!("/", "{a}/{b}", "", "quotient", Operator, |a, b| a / b, Rule::Div, kernels::div, Smooth),
+    row2!("^", "{a}^{b}", "", "power", Operator, libm::pow, Rule::Pow, kernels::pow, Smooth),
+    row2!("atan2", "ATAN2({b},{a})", "atan2(y, x)", "angle of the point (x, y) seen from the origin, from -π to π", Ratio, libm::atan2, Rule::Atan2, kernels::atan2, Branch),
+    row2!("hypot", "SQRT({a}^2+{b}^2)", "hypot(a, b, …)", "square root of the sum of squares", Same, libm::hypot, Rule::Hypot, kernels::hypot, Smooth),
+    row2!("min", "MIN({a},{b})", "min(a, b, …)", "smallest argument or element", Same, smaller, Rule::Pick, kernels::min, Corner),
+    row2!("max", "MAX({a},{b})", "max(a, b, …)", "largest argument or element", Same, larger, Rule::Pick, kernels::max, Corner),
+    row2!("quantize", "ROUND({a}/{b},0)*{b}", "quantize(x, step)", "x rounded to the nearest multiple of a step; its derivative is the mean slope, 1", Same, quantize, Rule::Staircase, quantize_block, Smooth),
+    row2!("<", "IF({a}<{b},1,0)", "", "less than", Ratio, |a, b| truth(a < b), Rule::Constant, kernels::lt, Corner),
+    row2!("<=", "IF({a}<={b},1,0)", "", "at most", Ratio, |a, b| truth(a <= b), Rule::Constant, kernels::le, Corner),
+    row2!(">", "IF({a}>{b},1,0)", "", "greater than", Ratio, |a, b| truth(a > b), Rule::Constant, kernels::gt, Corner),
+    row2!(">=", "IF({a}>={b},1,0)", "", "at least", Ratio, |a, b| truth(a >= b), Rule::Constant, kernels::ge, Corner),
+    row2!("==", "IF({a}={b},1,0)", "", "equal", Ratio, |a, b| truth(a == b), Rule::Constant, kernels::eq, Corner),
+    row2!("!=", "IF({a}<>{b},1,0)", "", "different", Ratio, |a, b| truth(a != b), Rule::Constant, kernels::ne, Corner),
+    row2!("and", "{a}*{b}", "", "both", Truth, |a, b| a * b, Rule::Constant, kernels::and, Smooth),
+    row2!("or", "MAX({a},{b})", "", "at least one", Truth, larger, Rule::Constant, kernels::or, Smooth),
 ];
 
 /// The row of a function or operator with one argument.

@@ -7,7 +7,7 @@ use super::printer;
 use super::syntax::Expr;
 use super::units::Operand;
 use crate::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 /// An argument that must be a vector.
 pub fn vector_argument(l: &mut Lowering<'_>, function: &str, e: &Expr) -> Option<Value> {
@@ -20,10 +20,10 @@ pub fn vector_argument(l: &mut Lowering<'_>, function: &str, e: &Expr) -> Option
         Fault::new(
             faults::SHAPE,
             e.span.clone(),
-            format!("`{function}` needs a vector, but `{text}` is a single value"),
+            say!("`{function}` needs a vector, but `{text}` is a single value"),
         )
-        .label("expected a vector")
-        .help(format!(
+        .label(say!("expected a vector"))
+        .help(say!(
             "write `[{text}, …]`, or give the input `values = [...]`"
         )),
     );
@@ -96,10 +96,10 @@ pub fn reduce(
                     Fault::new(
                         faults::EXPONENT,
                         e.span.clone(),
-                        format!("{} has no power {n}", unit.symbol),
+                        say!("{} has no power {n}", unit.symbol),
                     )
-                    .label(format!("{n} factors in {}", unit.symbol))
-                    .help("divide the elements by a reference quantity"),
+                    .label(say!("{n} factors in {}", unit.symbol))
+                    .help(say!("divide the elements by a reference quantity")),
                 );
                 return None;
             };
@@ -134,10 +134,10 @@ fn deviation(l: &mut Lowering<'_>, e: &Expr, elements: &[Id]) -> Option<Id> {
             Fault::new(
                 faults::SHAPE,
                 e.span.clone(),
-                "a standard deviation needs at least two elements",
+                say!("a standard deviation needs at least two elements"),
             )
-            .label("one element")
-            .help("give more elements"),
+            .label(say!("one element"))
+            .help(say!("give more elements")),
         );
         return None;
     }
@@ -231,10 +231,10 @@ pub fn pair(
             Fault::new(
                 faults::SHAPE,
                 e.span.clone(),
-                "a line needs at least two points",
+                say!("a line needs at least two points"),
             )
-            .label("one point")
-            .help("give more elements"),
+            .label(say!("one point"))
+            .help(say!("give more elements")),
         );
         return None;
     }

@@ -6,7 +6,7 @@ use super::printer;
 use super::syntax::{Expr, Infix, Node};
 use super::units::{Joined, Operand};
 use crate::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 impl Lowering<'_> {
     /// Sum or difference with the arithmetic of temperature scales: point - point is a difference,
@@ -19,14 +19,14 @@ impl Lowering<'_> {
             (false, _, false) => self.join(
                 left,
                 right,
-                if infix == Infix::Add {
-                    "added"
+                &if infix == Infix::Add {
+                    say!("added")
                 } else {
-                    "subtracted"
+                    say!("subtracted")
                 },
             ),
             (true, Infix::Sub, true) => {
-                let joined = self.join(left, right, "subtracted")?;
+                let joined = self.join(left, right, &say!("subtracted"))?;
                 Some(Joined {
                     unit: a.difference(),
                     ..joined
@@ -42,7 +42,7 @@ impl Lowering<'_> {
                         ..left
                     },
                     right,
-                    "added",
+                    &say!("added"),
                 )?;
                 Some(Joined {
                     left: left.value.clone(),
@@ -61,7 +61,7 @@ impl Lowering<'_> {
                         ..right
                     },
                     left,
-                    "added",
+                    &say!("added"),
                 )?;
                 Some(Joined {
                     left: joined.right,
@@ -88,11 +88,11 @@ impl Lowering<'_> {
             Fault::new(
                 faults::POINT,
                 right.span.clone(),
-                format!("`{a}` and `{b}` are both points on a scale, and have no sum"),
+                say!("`{a}` and `{b}` are both points on a scale, and have no sum"),
             )
-            .label(format!("a point on the {symbol} scale"))
-            .related(left.span.clone(), format!("a point on the {symbol} scale"))
-            .help(format!(
+            .label(say!("a point on the {symbol} scale"))
+            .related(left.span.clone(), say!("a point on the {symbol} scale"))
+            .help(say!(
                 "their mean is `mean([{a}, {b}])`; where one of them is a difference or a correction, its unit is {difference}: `unit = \"{difference}\"`; thermodynamic temperatures are `kelvin({a}) + kelvin({b})`"
             )),
         );
@@ -130,13 +130,11 @@ impl Lowering<'_> {
             Fault::new(
                 faults::POINT,
                 step.expr.span.clone(),
-                format!(
-                    "`{number}` would move `{text}` along the scale of {symbol}, not to kelvin"
-                ),
+                say!("`{number}` would move `{text}` along the scale of {symbol}, not to kelvin"),
             )
-            .label(format!("the zero of {symbol}"))
-            .related(point.expr.span.clone(), format!("in {symbol}"))
-            .help(format!(
+            .label(say!("the zero of {symbol}"))
+            .related(point.expr.span.clone(), say!("in {symbol}"))
+            .help(say!(
                 "`kelvin({text})` is the thermodynamic temperature of `{text}`"
             )),
         );
@@ -162,10 +160,10 @@ impl Lowering<'_> {
         let text = printer::expression(point.expr);
         let (symbol, difference) = (&unit.symbol, unit.difference().symbol);
         let help = match infix {
-            Infix::Sub => format!(
+            Infix::Sub => say!(
                 "the difference from {number} {symbol} is `{text} - {number} '{symbol}'`, a temperature {number} {difference} lower `{text} - {number} '{difference}'`"
             ),
-            _ => format!(
+            _ => say!(
                 "a temperature {number} {difference} higher is `{text} + {number} '{difference}'`"
             ),
         };
@@ -173,11 +171,11 @@ impl Lowering<'_> {
             Fault::new(
                 faults::CLASH,
                 step.expr.span.clone(),
-                format!("`{number}` has no unit, but meets `{text}`, a temperature in {symbol}"),
+                say!("`{number}` has no unit, but meets `{text}`, a temperature in {symbol}"),
             )
-            .label("a number without unit")
-            .related(point.expr.span.clone(), format!("in {symbol}"))
-            .help(format!(
+            .label(say!("a number without unit"))
+            .related(point.expr.span.clone(), say!("in {symbol}"))
+            .help(say!(
                 "{help}; a formula for the number of `{text}` in {symbol} takes `value_in({text}, '{symbol}')`"
             )),
         );
@@ -191,9 +189,9 @@ impl Lowering<'_> {
         let difference = unit.difference().symbol;
         let apart = match subtracted_step(expr) {
             Some((point, number)) => {
-                format!("the difference from {number} {symbol}, `{point} - {number} '{symbol}'`")
+                say!("the difference from {number} {symbol}, `{point} - {number} '{symbol}'`")
             }
-            None => format!(
+            None => say!(
                 "the difference from 0 {symbol}, `{text} - 0 '{symbol}'`, or from another reference, `{text} - 20 '{symbol}'`"
             ),
         };
@@ -201,10 +199,10 @@ impl Lowering<'_> {
             Fault::new(
                 faults::POINT,
                 expr.span.clone(),
-                format!("`{text}` is in {symbol}, a scale with an arbitrary zero, and cannot be used as an amount"),
+                say!("`{text}` is in {symbol}, a scale with an arbitrary zero, and cannot be used as an amount"),
             )
-            .label(format!("a point on the {symbol} scale"))
-            .help(format!(
+            .label(say!("a point on the {symbol} scale"))
+            .help(say!(
                 "of a temperature write `kelvin({text})`, {apart}, or its number without unit, `value_in({text}, '{symbol}')`; a difference or a correction is stated in {difference}: `unit = \"{difference}\"`"
             )),
         );

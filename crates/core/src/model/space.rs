@@ -8,7 +8,7 @@ use super::printer;
 use super::syntax::Expr;
 use super::units::Operand;
 use crate::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 /// A call of a function of vectors in space.
 pub fn call(
@@ -47,18 +47,20 @@ fn arrow(l: &mut Lowering<'_>, function: &str, e: &Expr) -> Option<([Id; 3], Uni
     }
     let text = printer::expression(e);
     let what = if value.vector {
-        format!("has {} elements", value.elements.len())
+        say!("has {} elements", value.elements.len())
     } else {
-        "is a single value".to_string()
+        say!("is a single value")
     };
     l.report(
         Fault::new(
             faults::SHAPE,
             e.span.clone(),
-            format!("`{function}` needs a vector in space, but `{text}` {what}"),
+            say!("`{function}` needs a vector in space, but `{text}` {what}"),
         )
-        .label("expected [x, y, z]")
-        .help("write three elements of one unit; one that is absent is 0"),
+        .label(say!("expected [x, y, z]"))
+        .help(say!(
+            "write three elements of one unit; one that is absent is 0"
+        )),
     );
     None
 }
@@ -95,7 +97,7 @@ fn rotate(
             value: &turn,
             expr: angle,
         },
-        &format!("the angle of `{function}`"),
+        say!("the angle of `{function}`"),
     )?;
     let builder = &mut l.builder;
     let (cos, sin) = (

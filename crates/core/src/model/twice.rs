@@ -5,7 +5,7 @@ use super::lower::Lowering;
 use super::printer;
 use super::syntax::{Expr, Infix, Node};
 use crate::quantity::{Dimension, Unit};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 impl Lowering<'_> {
     /// Reports terms of the argument of `sin`, `cos` or `tan` that hold the factor of their unit once more.
@@ -67,13 +67,13 @@ impl Lowering<'_> {
             Fault::new(
                 faults::CONVERTED_TWICE,
                 term.span.clone(),
-                format!(
+                say!(
                     "`{}` converts `{text}` to radians twice: sin, cos and tan convert {symbol} themselves",
                     printer::expression(term)
                 ),
             )
-            .label("the factor is in the unit already")
-            .help(format!(
+            .label(say!("the factor is in the unit already"))
+            .help(say!(
                 "write `{text}` without the factor, or `value_in({text}, '{symbol}')` for its number"
             )),
         );

@@ -6,7 +6,7 @@ use super::lower::{Kind, Lowering, Value};
 use super::printer;
 use super::syntax::{Expr, Node, Span};
 use crate::quantity::{Dimension, Factor, Unit, hint_for_clash, revolutions_as_angle};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 
 /// A quantity and the expression it came from.
 #[derive(Clone, Copy)]
@@ -49,10 +49,10 @@ impl Lowering<'_> {
                     Fault::new(
                         faults::TRUTH_AS_NUMBER,
                         expr.span.clone(),
-                        format!("`{text}` is true or false, not a number"),
+                        say!("`{text}` is true or false, not a number"),
                     )
-                    .label("a condition")
-                    .help(format!("choose between two values: `if({text}, 1, 0)`")),
+                    .label(say!("a condition"))
+                    .help(say!("choose between two values: `if({text}, 1, 0)`")),
                 );
                 None
             }
@@ -69,10 +69,10 @@ impl Lowering<'_> {
             Fault::new(
                 faults::NUMBER_AS_TRUTH,
                 expr.span.clone(),
-                format!("`{text}` is a number, not a condition"),
+                say!("`{text}` is a number, not a condition"),
             )
-            .label("expected a comparison")
-            .help(format!("compare it, as in `{text} > 0`")),
+            .label(say!("expected a comparison"))
+            .help(say!("compare it, as in `{text} > 0`")),
         );
         None
     }
@@ -88,7 +88,7 @@ impl Lowering<'_> {
     }
 
     /// A quantity of dimension one as a plain number (% divided by 100, ° converted to rad).
-    pub fn number(&mut self, operand: Operand<'_>, taker: &str) -> Option<Value> {
+    pub fn number(&mut self, operand: Operand<'_>, taker: Said) -> Option<Value> {
         let unit = self.quantity(operand.value, operand.expr)?;
         if operand.value.zero || unit.dimension == Dimension::NONE {
             return self.converted(&operand.value.with_unit_if_zero(&Unit::one()), &Unit::one());
@@ -100,7 +100,7 @@ impl Lowering<'_> {
         let text = printer::expression(operand.expr);
         let symbol = &unit.symbol;
         let help = hint_for_clash(&Unit::one(), &unit).unwrap_or_else(|| {
-            format!(
+            say!(
                 "divide by a reference quantity, or write `value_in({text}, '{symbol}')` for its number in {symbol}"
             )
         });
@@ -108,16 +108,16 @@ impl Lowering<'_> {
             Fault::new(
                 faults::NOT_ONE,
                 operand.expr.span.clone(),
-                format!("{taker} needs a number, but `{text}` is in {symbol}"),
+                say!("{taker} needs a number, but `{text}` is in {symbol}"),
             )
-            .label(format!("in {symbol}"))
+            .label(say!("in {symbol}"))
             .help(help),
         );
         None
     }
 
     /// Brings two operands to the unit of the left one, for comparing, choosing and joining.
-    pub fn join(&mut self, left: Operand<'_>, right: Operand<'_>, what: &str) -> Option<Joined> {
+    pub fn join(&mut self, left: Operand<'_>, right: Operand<'_>, what: &Said) -> Option<Joined> {
         let a = self.quantity(left.value, left.expr);
         let b = self.quantity(right.value, right.expr);
         let (a, b) = (a?, b?);
@@ -157,7 +157,7 @@ impl Lowering<'_> {
         right: Operand<'_>,
         a: &Unit,
         b: &Unit,
-        what: &str,
+        what: &Said,
     ) -> Option<Unit> {
         if a.dimension != b.dimension {
             self.clash(left, right, what);
@@ -183,7 +183,7 @@ impl Lowering<'_> {
     }
 
     /// The fault of two dimensions that meet.
-    pub fn clash(&mut self, left: Operand<'_>, right: Operand<'_>, what: &str) {
+    pub fn clash(&mut self, left: Operand<'_>, right: Operand<'_>, what: &Said) {
         let (Some(a), Some(b)) = (left.value.unit().cloned(), right.value.unit().cloned()) else {
             return;
         };
@@ -196,7 +196,7 @@ impl Lowering<'_> {
             Fault::new(
                 faults::CLASH,
                 right.expr.span.clone(),
-                format!(
+                say!(
                     "`{left_text}` ({}) and `{right_text}` ({}) cannot be {what}",
                     in_words(&a),
                     in_words(&b)
@@ -208,10 +208,10 @@ impl Lowering<'_> {
         );
     }
 
-    fn clash_help(&self, left: Operand<'_>, right: Operand<'_>, a: &Unit, b: &Unit) -> String {
+    fn clash_help(&self, left: Operand<'_>, right: Operand<'_>, a: &Unit, b: &Unit) -> Said {
         for (operand, other) in [(right, a), (left, b)] {
             if let (true, Node::Number { text, .. }) = (operand.value.literal, &operand.expr.node) {
-                return format!("give the number a unit: `{text} '{}'`", other.symbol);
+                return say!("give the number a unit: `{text} '{}'`", other.symbol);
             }
         }
         if let Some(hint) = hint_for_clash(a, b) {
@@ -225,15 +225,16 @@ impl Lowering<'_> {
             .chain(right.expr.names().into_iter().map(|n| (n, a)));
         for (name, other) in suspects {
             if self.has_no_unit(name) {
-                return format!(
+                return say!(
                     "if `{name}` has a unit, state it: `unit = \"{}\"`",
                     other.symbol
                 );
             }
         }
-        format!(
+        say!(
             "both must be of one dimension; check the formula and the units {} and {}",
-            a.symbol, b.symbol
+            a.symbol,
+            b.symbol
         )
     }
 
@@ -243,15 +244,15 @@ impl Lowering<'_> {
             Fault::new(
                 faults::BARE_ANGLE,
                 number.span.clone(),
-                format!(
+                say!(
                     "`{text}` has no unit, but meets `{}`, an angle in {}",
                     printer::expression(angle),
                     unit.symbol
                 ),
             )
-            .label("would be radians")
-            .related(angle.span.clone(), format!("in {}", unit.symbol))
-            .help(format!(
+            .label(say!("would be radians"))
+            .related(angle.span.clone(), say!("in {}", unit.symbol))
+            .help(say!(
                 "write `{text} '{}'`, or `{text} 'rad'` if radians are meant",
                 unit.symbol
             )),
@@ -259,13 +260,13 @@ impl Lowering<'_> {
     }
 
     /// The fault of revolutions that are an angle on one side and counted on the other.
-    fn counted_revolutions(&mut self, left: &Expr, right: &Expr, [a, b]: [&Unit; 2], help: String) {
+    fn counted_revolutions(&mut self, left: &Expr, right: &Expr, [a, b]: [&Unit; 2], help: Said) {
         let (left_text, right_text) = (printer::expression(left), printer::expression(right));
         self.report(
             Fault::new(
                 faults::REVOLUTIONS,
                 right.span.clone(),
-                format!(
+                say!(
                     "`{left_text}` ({}) and `{right_text}` ({}) differ by 2π for each revolution",
                     in_words(a),
                     in_words(b)
@@ -327,12 +328,13 @@ impl Lowering<'_> {
             Fault::new(
                 faults::EXPONENT,
                 exponent.expr.span.clone(),
-                format!("the exponent `{text}` is in {}", unit.symbol),
+                say!("the exponent `{text}` is in {}", unit.symbol),
             )
-            .label("expected a number")
-            .help(hint_for_clash(&Unit::one(), &unit).unwrap_or_else(|| {
-                "divide the exponent by a quantity of the same kind".to_string()
-            })),
+            .label(say!("expected a number"))
+            .help(
+                hint_for_clash(&Unit::one(), &unit)
+                    .unwrap_or_else(|| say!("divide the exponent by a quantity of the same kind")),
+            ),
         );
         None
     }
@@ -341,16 +343,16 @@ impl Lowering<'_> {
         let (base_text, text) = (printer::expression(base), printer::expression(exponent));
         let symbol = &unit.symbol;
         let why = match constant {
-            Some(c) => format!("{symbol} has no power {c}"),
-            None => format!(
+            Some(c) => say!("{symbol} has no power {c}"),
+            None => say!(
                 "the unit of the power of `{base_text}` (in {symbol}) would depend on `{text}`"
             ),
         };
         self.report(
             Fault::new(faults::EXPONENT, exponent.span.clone(), why)
-                .label("expected a constant simple fraction")
-                .related(base.span.clone(), format!("in {symbol}"))
-                .help(format!("divide the base by a reference quantity: `({base_text} / (1 '{symbol}'))^{text}`")),
+                .label(say!("expected a constant simple fraction"))
+                .related(base.span.clone(), say!("in {symbol}"))
+                .help(say!("divide the base by a reference quantity: `({base_text} / (1 '{symbol}'))^{text}`")),
         );
     }
 
@@ -399,11 +401,11 @@ impl Value {
 }
 
 /// `in mm`, or `a number without unit`.
-pub fn in_words(unit: &Unit) -> String {
+pub fn in_words(unit: &Unit) -> Said {
     if unit.is_one() {
-        "a number without unit".to_string()
+        say!("a number without unit")
     } else {
-        format!("in {}", unit.symbol)
+        say!("in {}", unit.symbol)
     }
 }
 

@@ -4,14 +4,14 @@ use super::builtin::{PREFIXES, Prefixes, UNITS};
 use super::chinese::by_chinese_name;
 use super::faults::{UNKNOWN_UNIT, UnitError};
 use super::syntax::NamedTerm;
-use gumption_fault::nearest;
+use gumption_fault::{Said, nearest, say};
 
 /// A unit that a space or a bracket has torn in two, so that it would be a product: `deg C`, `dB(A)`.
 pub(super) fn torn(terms: &[NamedTerm]) -> Option<UnitError> {
     let whole = |first: &str, second: &str| match (first, second) {
-        ("deg" | "°", "C") => Some("write `°C` or `degC`; with the coulomb, `C·°`".to_owned()),
-        ("deg" | "°", "F") => Some("write `°F` or `degF`; with the farad, `F·°`".to_owned()),
-        ("dB", "A" | "C") => Some(format!(
+        ("deg" | "°", "C") => Some(say!("write `°C` or `degC`; with the coulomb, `C·°`")),
+        ("deg" | "°", "F") => Some(say!("write `°F` or `degF`; with the farad, `F·°`")),
+        ("dB", "A" | "C") => Some(say!(
             "declare the weighted level in the [unit] table, `dB{second} = \"dB\"`, and write `dB{second}`"
         )),
         _ => None,
@@ -21,7 +21,7 @@ pub(super) fn torn(terms: &[NamedTerm]) -> Option<UnitError> {
         let help =
             whole(&first.name, &second.name).filter(|_| first.exponent == second.exponent)?;
         let span = first.span.start..second.span.end;
-        let message = format!("`{}` and `{}` would be multiplied", first.name, second.name);
+        let message = say!("`{}` and `{}` would be multiplied", first.name, second.name);
         Some(UnitError::new(UNKNOWN_UNIT, span, message).help(help))
     })
 }
@@ -31,27 +31,27 @@ pub(super) fn for_unknown<'a>(
     name: &str,
     is_known: impl Fn(&str) -> bool,
     own: impl Iterator<Item = &'a String>,
-) -> String {
+) -> Said {
     if let Some((_, advice)) = FREQUENT.iter().find(|(wrong, _)| *wrong == name) {
-        return (*advice).to_owned();
+        return advice.clone();
     }
     let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
     if letters != name && is_known(letters) {
-        return format!("write `{letters}^{}`", &name[letters.len()..]);
+        return say!("write `{letters}^{}`", &name[letters.len()..]);
     }
     if let Some(symbol) = by_english_name(name)
         .map(str::to_owned)
         .or_else(|| by_prefixed_name(name))
         .or_else(|| by_chinese_name(name))
     {
-        return format!("write `{symbol}`");
+        return say!("write `{symbol}`");
     }
     if let Some(base) = QUALIFIERS
         .iter()
         .find_map(|q| name.strip_suffix(q))
         .filter(|base| is_known(base))
     {
-        return format!("write `{base}`, and say in the description which kind of value it is");
+        return say!("write `{base}`, and say in the description which kind of value it is");
     }
     if let Some(advice) = as_product(name, &is_known) {
         return advice;
@@ -79,13 +79,13 @@ pub(super) fn for_unknown<'a>(
     let similar = || nearest(name, known()).filter(|_| name.chars().count() > 2);
     match (same_letters.as_slice(), similar()) {
         ([], Some(known)) => {
-            format!("did you mean `{known}`? A unit of your own is declared in the [unit] table")
+            say!("did you mean `{known}`? A unit of your own is declared in the [unit] table")
         }
-        ([], None) => format!(
+        ([], None) => say!(
             "a unit of your own is declared in the [unit] table, by other units, as in `FS = \"10 V\"`, or as a pure number, `{name} = \"1\"`"
         ),
-        ([known], _) => format!("write `{known}`"),
-        (several, _) => format!(
+        ([known], _) => say!("write `{known}`"),
+        (several, _) => say!(
             "write `{}`: upper and lower case matter",
             several.join("` or `")
         ),
@@ -109,7 +109,7 @@ fn same_letters<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Vec<&'a
 
 /// A product written without a sign: `Nm`, `Pas`, `mVs`. Suggesting a mere change of case, the
 /// nanometre for the first, would be dangerous.
-fn as_product(name: &str, is_known: impl Fn(&str) -> bool) -> Option<String> {
+fn as_product(name: &str, is_known: impl Fn(&str) -> bool) -> Option<Said> {
     let (first, second) = ["cm", "mm", "km", "m", "s", "h"]
         .iter()
         .find_map(|second| {
@@ -117,10 +117,10 @@ fn as_product(name: &str, is_known: impl Fn(&str) -> bool) -> Option<String> {
             Some((first, *second))
         })?;
     Some(match second {
-        "s" => format!(
+        "s" => say!(
             "units have no plural: write `{first}`, or `{first}·s` for the product with the second"
         ),
-        _ => format!("write `{first}·{second}` for the product"),
+        _ => say!("write `{first}·{second}` for the product"),
     })
 }
 
@@ -172,27 +172,31 @@ const QUALIFIERS: &[&str] = &[
     "rms", "RMS", "pp", "p-p", "pk", "dc", "DC", "ac", "AC", "_rms", "_pp", "_dc", "_ac",
 ];
 
-const HARDNESS: &str = "a hardness number is of dimension one: declare its scale in the [unit] table, as in `HV = \"1\"`";
+const HARDNESS: Said = say!(
+    "a hardness number is of dimension one: declare its scale in the [unit] table, as in `HV = \"1\"`"
+);
 
 /// Frequent mistakes that the distance between names would not explain.
-const FREQUENT: &[(&str, &str)] = &[
+const FREQUENT: &[(&str, Said)] = &[
     (
         "M",
-        "the prefix mega needs a unit; the metre is `m`, the unit of amount concentration `mol/L`",
+        say!(
+            "the prefix mega needs a unit; the metre is `m`, the unit of amount concentration `mol/L`"
+        ),
     ),
-    ("mM", "write `mmol/L`"),
-    ("µM", "write `µmol/L`"),
-    ("uM", "write `µmol/L`"),
-    ("nM", "write `nmol/L`"),
-    ("Hg", "write `mmHg` or `inHg`, without a space"),
+    ("mM", say!("write `mmol/L`")),
+    ("µM", say!("write `µmol/L`")),
+    ("uM", say!("write `µmol/L`")),
+    ("nM", say!("write `nmol/L`")),
+    ("Hg", say!("write `mmHg` or `inHg`, without a space")),
     (
         "mmH2O",
-        "declare it in the [unit] table: `mmH2O = \"9.80665 Pa\"`",
+        say!("declare it in the [unit] table: `mmH2O = \"9.80665 Pa\"`"),
     ),
-    ("year", "write `a`"),
-    ("years", "write `a`"),
-    ("gr", "write `g` for the gram, `grain` for the grain"),
-    ("度", "write `°` for an angle, `°C` for a temperature"),
+    ("year", say!("write `a`")),
+    ("years", say!("write `a`")),
+    ("gr", say!("write `g` for the gram, `grain` for the grain")),
+    ("度", say!("write `°` for an angle, `°C` for a temperature")),
     ("HV", HARDNESS),
     ("HB", HARDNESS),
     ("HBW", HARDNESS),
@@ -200,68 +204,74 @@ const FREQUENT: &[(&str, &str)] = &[
     ("HRB", HARDNESS),
     ("HRA", HARDNESS),
     ("HLD", HARDNESS),
-    ("sec", "write `s`"),
-    ("secs", "write `s`"),
-    ("hr", "write `h`"),
-    ("hrs", "write `h`"),
-    ("mins", "write `min`"),
-    ("amp", "write `A`"),
-    ("amps", "write `A`"),
+    ("sec", say!("write `s`")),
+    ("secs", say!("write `s`")),
+    ("hr", say!("write `h`")),
+    ("hrs", say!("write `h`")),
+    ("mins", say!("write `min`")),
+    ("amp", say!("write `A`")),
+    ("amps", say!("write `A`")),
     (
         "gm",
-        "write `g` for the gram, `gn` for the standard acceleration of free fall",
+        say!("write `g` for the gram, `gn` for the standard acceleration of free fall"),
     ),
-    ("cc", "write `cm^3`"),
-    ("micron", "write `µm`"),
-    ("microns", "write `µm`"),
-    ("mho", "write `S`"),
-    ("RH", "write `%RH`"),
-    ("oC", "write `°C`"),
-    ("C°", "write `°C`"),
-    ("Celsius", "write `°C`"),
-    ("Fahrenheit", "write `°F`"),
-    ("degrees", "write `°` for an angle, `°C` for a temperature"),
-    ("degree", "write `°` for an angle, `°C` for a temperature"),
+    ("cc", say!("write `cm^3`")),
+    ("micron", say!("write `µm`")),
+    ("microns", say!("write `µm`")),
+    ("mho", say!("write `S`")),
+    ("RH", say!("write `%RH`")),
+    ("oC", say!("write `°C`")),
+    ("C°", say!("write `°C`")),
+    ("Celsius", say!("write `°C`")),
+    ("Fahrenheit", say!("write `°F`")),
+    (
+        "degrees",
+        say!("write `°` for an angle, `°C` for a temperature"),
+    ),
+    (
+        "degree",
+        say!("write `°` for an angle, `°C` for a temperature"),
+    ),
     (
         "ppt",
-        "write `ppm` or `ppb` and a suitable number: ppt stands for 10^-3 and for 10^-12",
+        say!("write `ppm` or `ppb` and a suitable number: ppt stands for 10^-3 and for 10^-12"),
     ),
-    ("kph", "write `km/h`"),
-    ("kmh", "write `km/h`"),
+    ("kph", say!("write `km/h`")),
+    ("kmh", say!("write `km/h`")),
     (
         "dBm",
-        "declare the level with its reference in the [unit] table: `dBm = \"dB\"`",
+        say!("declare the level with its reference in the [unit] table: `dBm = \"dB\"`"),
     ),
     (
         "dBV",
-        "declare the level with its reference in the [unit] table: `dBV = \"dB\"`",
+        say!("declare the level with its reference in the [unit] table: `dBV = \"dB\"`"),
     ),
     (
         "dBµV",
-        "declare the level with its reference in the [unit] table: `dBµV = \"dB\"`",
+        say!("declare the level with its reference in the [unit] table: `dBµV = \"dB\"`"),
     ),
     (
         "dBuV",
-        "declare the level with its reference in the [unit] table: `dBuV = \"dB\"`",
+        say!("declare the level with its reference in the [unit] table: `dBuV = \"dB\"`"),
     ),
     (
         "dBc",
-        "declare the level with its reference in the [unit] table: `dBc = \"dB\"`",
+        say!("declare the level with its reference in the [unit] table: `dBc = \"dB\"`"),
     ),
     (
         "FS",
-        "declare the full scale in the [unit] table, as in `FS = \"10 V\"`",
+        say!("declare the full scale in the [unit] table, as in `FS = \"10 V\"`"),
     ),
     (
         "rdg",
-        "write the amount relative to the reading, in `%` or `ppm`",
+        say!("write the amount relative to the reading, in `%` or `ppm`"),
     ),
     (
         "digit",
-        "write `count`, or declare the step in the [unit] table, as in `digit = \"1 mV\"`",
+        say!("write `count`, or declare the step in the [unit] table, as in `digit = \"1 mV\"`"),
     ),
     (
         "digits",
-        "write `count`, or declare the step in the [unit] table, as in `digits = \"1 mV\"`",
+        say!("write `count`, or declare the step in the [unit] table, as in `digits = \"1 mV\"`"),
     ),
 ];

@@ -1,5 +1,7 @@
 //! What the clash of two units may come from.
 
+use gumption_fault::{Said, say};
+
 use super::dimension::Dimension;
 use super::symbol::names as names_in;
 use super::unit::Unit;
@@ -8,12 +10,12 @@ use super::unit::Unit;
 /// classical: gram and acceleration of free fall, °C in a product, hour and Planck constant.
 ///
 /// The order of the two does not matter.
-pub fn hint_for_clash(expected: &Unit, found: &Unit) -> Option<String> {
+pub fn hint_for_clash(expected: &Unit, found: &Unit) -> Option<Said> {
     clash_with(expected, found).or_else(|| clash_with(found, expected))
 }
 
 /// The hint when `suspect` is the unit that is not what its writer meant.
-fn clash_with(other: &Unit, suspect: &Unit) -> Option<String> {
+fn clash_with(other: &Unit, suspect: &Unit) -> Option<Said> {
     let quotient = suspect.dimension.quotient(other.dimension);
     let names = names_in(&suspect.symbol);
     let named = |wanted: &str| names.iter().any(|name| name == wanted);
@@ -30,48 +32,47 @@ fn clash_with(other: &Unit, suspect: &Unit) -> Option<String> {
     };
     // Gram stands where metre per second squared should.
     if let Some(gram) = prefixed("g").filter(|_| is(quotient, [-1, 1, 2, 0, 0, 0, 0, 0])) {
-        return Some(format!(
+        return Some(say!(
             "`{gram}` is a unit of mass (gram); the standard acceleration of free fall is `{gram}n`, \
              or define `g = \"9.80665 m/s^2\"` in the [unit] table"
         ));
     }
     if suspect.is_point() && suspect.dimension != other.dimension {
         let symbol = &suspect.symbol;
-        return Some(format!(
+        return Some(say!(
             "a temperature in {symbol} has an arbitrary zero; subtract a reference as in `T - 20 '{symbol}'` or `T - 0 '{symbol}'`, \
              use `kelvin(T)`, its number `value_in(T, '{symbol}')`, or give the quantity in K"
         ));
     }
     if named("h") && is(quotient, [-2, -1, 2, 0, 0, 0, 0, 0]) {
-        return Some(
+        return Some(say!(
             "`h` is the hour; the Planck constant is a quantity, not a unit: \
                      declare `[constant.h] value = 6.62607015e-34, unit = \"J·s\"`"
-                .to_owned(),
-        );
+        ));
     }
     if named("pH") {
-        return Some(
+        return Some(say!(
             "`pH` is read as picohenry; for the acidity define `pH = \"1\"` in the [unit] table"
-                .to_owned(),
-        );
+        ));
     }
     if named("S") && is(quotient, [-2, -1, 2, 2, 0, 0, 0, 0]) {
-        return Some("`S` is the siemens (conductance); the second is `s`".to_owned());
+        return Some(say!("`S` is the siemens (conductance); the second is `s`"));
     }
     if named("F") && is(quotient, [-2, -1, 4, 2, -1, 0, 0, 0]) {
-        return Some("`F` is the farad (capacitance); degrees Fahrenheit are `°F`".to_owned());
+        return Some(say!(
+            "`F` is the farad (capacitance); degrees Fahrenheit are `°F`"
+        ));
     }
     if named("C") && is(quotient, [0, 0, 1, 1, -1, 0, 0, 0]) {
-        return Some(
-            "`C` is the coulomb (charge); degrees Celsius are `°C`, differences `K`".to_owned(),
-        );
+        return Some(say!(
+            "`C` is the coulomb (charge); degrees Celsius are `°C`, differences `K`"
+        ));
     }
     if (named("dB") || named("Np")) && other.dimension.is_none() {
-        return Some(
+        return Some(say!(
             "a level in dB is no plain ratio: the level of a ratio x of amplitudes is `20 'dB' * log10(x)`, \
                      the ratio of a level L is `10^(L / 20 'dB')`; for powers write 10 in place of 20"
-                .to_owned(),
-        );
+        ));
     }
     None
 }
@@ -81,7 +82,7 @@ fn clash_with(other: &Unit, suspect: &Unit) -> Option<String> {
 ///
 /// Only units of angle and time alone are asked: what the radian per second stands for in `W/(°/s)` or in
 /// a noise density is no count.
-pub fn revolutions_as_angle(found: &Unit, wanted: &Unit, text: &str) -> Option<String> {
+pub fn revolutions_as_angle(found: &Unit, wanted: &Unit, text: &str) -> Option<Said> {
     let rate = Dimension::of([0, 0, -1, 0, 0, 0, 0, 0]);
     let period = Dimension::of([0, 0, 1, 0, 0, 0, 0, 0]);
     if found.dimension != wanted.dimension || ![rate, period].contains(&found.dimension) {
@@ -90,13 +91,13 @@ pub fn revolutions_as_angle(found: &Unit, wanted: &Unit, text: &str) -> Option<S
     let is_rate = found.dimension == rate;
     if is_turning(found) && is_count(wanted) {
         let operator = if is_rate { "/" } else { "*" };
-        return Some(format!(
+        return Some(say!(
             "a revolution is an angle, 2π, in {}: count revolutions by `{text} {operator} (1 'r')`",
             found.symbol
         ));
     }
     (is_rate && names_in(&found.symbol) == ["Hz"] && is_turning(wanted)).then(|| {
-        format!(
+        say!(
             "a revolution is an angle, 2π, in {}: write `{text} * (1 'r')` for revolutions that are counted in Hz",
             wanted.symbol
         )
@@ -104,10 +105,10 @@ pub fn revolutions_as_angle(found: &Unit, wanted: &Unit, text: &str) -> Option<S
 }
 
 /// What a result in such a unit may state in place of a count, to follow what [`revolutions_as_angle`] says.
-pub fn unit_of_angle(found: &Unit) -> Option<&'static str> {
+pub fn unit_of_angle(found: &Unit) -> Option<Said> {
     let (rate, period) = (
-        ", or write `unit = \"rad/s\"` for the angular velocity",
-        ", or write `unit = \"s/rad\"` for the reciprocal of the angular velocity",
+        say!("write `unit = \"rad/s\"` for the angular velocity"),
+        say!("write `unit = \"s/rad\"` for the reciprocal of the angular velocity"),
     );
     let is_rate = found.dimension == Dimension::of([0, 0, -1, 0, 0, 0, 0, 0]);
     is_turning(found).then_some(if is_rate { rate } else { period })
@@ -148,7 +149,7 @@ mod tests {
             ("min/r", "s", "n * (1 'r')"),
             ("Hz", "r/min", "n * (1 'r')"),
         ] {
-            let help = lost(a, b).unwrap_or_default();
+            let help = lost(a, b).unwrap_or_default().to_string();
             assert!(help.contains(mend), "{a} to {b}: {help}");
         }
         for (a, b) in [
@@ -170,7 +171,11 @@ mod tests {
 
     #[test]
     fn classical_confusions_get_a_hint() {
-        let hint = |a: &str, b: &str| hint_for_clash(&unit(a), &unit(b)).unwrap_or_default();
+        let hint = |a: &str, b: &str| {
+            hint_for_clash(&unit(a), &unit(b))
+                .unwrap_or_default()
+                .to_string()
+        };
         assert!(hint("m/s^2", "g").contains("`gn`"));
         assert!(hint("mA/g", "mA/gn").contains("`gn`"));
         assert!(hint("m/s^2", "mg").contains("`mgn`"));

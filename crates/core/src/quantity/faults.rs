@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use gumption_fault::{Code, Fault};
+use gumption_fault::{Code, Fault, Said};
 
 /// Why a unit text was refused.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,13 +12,13 @@ pub struct UnitError {
     /// Bytes of the unit text.
     pub span: Range<usize>,
     /// One sentence without a final stop.
-    pub message: String,
+    pub message: Said,
     /// The mend, in the imperative; boxed, which keeps the error small enough to be returned by value.
-    pub help: Option<Box<str>>,
+    pub help: Option<Box<Said>>,
 }
 
 impl UnitError {
-    pub(super) fn new(code: Code, span: Range<usize>, message: impl Into<String>) -> Self {
+    pub(super) fn new(code: Code, span: Range<usize>, message: impl Into<Said>) -> Self {
         UnitError {
             code,
             span,
@@ -28,8 +28,8 @@ impl UnitError {
     }
 
     #[must_use]
-    pub(super) fn help(mut self, help: impl Into<Box<str>>) -> Self {
-        self.help = Some(help.into());
+    pub(super) fn help(mut self, help: impl Into<Said>) -> Self {
+        self.help = Some(Box::new(help.into()));
         self
     }
 }
@@ -37,8 +37,8 @@ impl UnitError {
 impl From<UnitError> for Fault {
     fn from(error: UnitError) -> Fault {
         Fault {
-            help: error.help.map(String::from),
-            ..Fault::new(error.code, error.span, error.message).label(error.code.title)
+            help: error.help.map(|help| *help),
+            ..Fault::new(error.code, error.span, error.message).label(error.code.said())
         }
     }
 }
@@ -154,7 +154,13 @@ mod tests {
     #[test]
     fn an_error_becomes_a_fault_at_the_same_place() {
         let fault: Fault = UnitError::new(UNKNOWN_UNIT, 2..4, "no").help("mend").into();
-        assert_eq!((fault.span, fault.label.as_str()), (2..4, "unknown unit"));
-        assert_eq!(fault.help.as_deref(), Some("mend"));
+        assert_eq!(
+            (fault.span, fault.label.to_string()),
+            (2..4, "unknown unit".into())
+        );
+        assert_eq!(
+            fault.help.map(|help| help.to_string()).as_deref(),
+            Some("mend")
+        );
     }
 }

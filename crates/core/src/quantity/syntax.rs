@@ -9,6 +9,8 @@
 
 use std::ops::Range;
 
+use gumption_fault::say;
+
 use super::dimension::STEPS;
 use super::factor::Factor;
 use super::faults::{
@@ -58,8 +60,8 @@ pub(super) fn parse(text: &str, numbers: Numbers) -> Result<Parsed, UnitError> {
     let tokens = tokens(text)?;
     if tokens.is_empty() {
         return Err(
-            UnitError::new(EMPTY_UNIT, 0..text.len(), "the unit is empty")
-                .help("write \"1\" for a quantity of dimension one"),
+            UnitError::new(EMPTY_UNIT, 0..text.len(), say!("the unit is empty"))
+                .help(say!("write \"1\" for a quantity of dimension one")),
         );
     }
     let bare = matches!(
@@ -80,9 +82,11 @@ pub(super) fn parse(text: &str, numbers: Numbers) -> Result<Parsed, UnitError> {
         return Err(UnitError::new(
             MALFORMED_UNIT,
             token.span.clone(),
-            "this parenthesis is not open",
+            say!("this parenthesis is not open"),
         )
-        .help("remove it, or open it before the unit it should enclose"));
+        .help(say!(
+            "remove it, or open it before the unit it should enclose"
+        )));
     }
     Ok(Parsed {
         terms: product.terms,
@@ -206,20 +210,20 @@ impl Parser<'_> {
         let error = UnitError::new(
             AMBIGUOUS_SOLIDUS,
             span.clone(),
-            format!("`{}` can be read in two ways", &self.text[span.clone()]),
+            say!("`{}` can be read in two ways", &self.text[span.clone()]),
         );
         if !readable {
-            return error.help("put what stands below the solidus in parentheses");
+            return error.help(say!("put what stands below the solidus in parentheses"));
         }
         let second = &self.text[second_start..span.end];
         let numerator = before.trim_end_matches(['/', '⁄', '∕', '／']).trim_end();
         let below = format!("`{numerator}/({first}·{second})`");
         match numerator {
-            "1" => error.help(format!("write {below} or `{second}/{first}`")),
+            "1" => error.help(say!("write {below} or `{second}/{first}`")),
             _ if numerator.contains('/') => {
-                error.help(format!("write {below}, or negative exponents"))
+                error.help(say!("write {below}, or negative exponents"))
             }
-            _ => error.help(format!("write {below} or `{numerator}·{second}/{first}`")),
+            _ => error.help(say!("write {below} or `{numerator}·{second}/{first}`")),
         }
     }
 
@@ -233,9 +237,11 @@ impl Parser<'_> {
                 return Err(UnitError::new(
                     BAD_EXPONENT,
                     power.span.clone(),
-                    "is this power under the root or not?",
+                    say!("is this power under the root or not?"),
                 )
-                .help("put what stands under the root in parentheses, as in `√(m^3)`"));
+                .help(say!(
+                    "put what stands under the root in parentheses, as in `√(m^3)`"
+                )));
             }
             return radicand
                 .raised(STEPS / 2)
@@ -283,8 +289,10 @@ impl Parser<'_> {
             Kind::Open => self.parenthesis(token.span, depth),
             Kind::Minus => {
                 Err(
-                    UnitError::new(MALFORMED_UNIT, token.span, "a unit has no minus sign")
-                        .help("write a product as `N·m`, a negative exponent as `s^-1`"),
+                    UnitError::new(MALFORMED_UNIT, token.span, say!("a unit has no minus sign"))
+                        .help(say!(
+                            "write a product as `N·m`, a negative exponent as `s^-1`"
+                        )),
                 )
             }
             _ => Err(self.missing_operand(token.span)),
@@ -297,20 +305,20 @@ impl Parser<'_> {
             UnitError::new(
                 NUMBER_IN_UNIT,
                 span.clone(),
-                format!("`{text}` cannot be a factor of a unit"),
+                say!("`{text}` cannot be a factor of a unit"),
             )
-            .help("use a positive number of at most fifteen digits")
+            .help(say!("use a positive number of at most fifteen digits"))
         })?;
         if self.numbers == Numbers::OneOnly && text != "1" {
             return Err(UnitError::new(
                 NUMBER_IN_UNIT,
                 span,
-                format!("the number {text} does not belong in a unit"),
+                say!("the number {text} does not belong in a unit"),
             )
-            .help(
+            .help(say!(
                 "multiply the value by it, or define a unit of your own in the [unit] table; \
-                       fractional exponents need parentheses, as in `Hz^(1/2)`",
-            ));
+                       fractional exponents need parentheses, as in `Hz^(1/2)`"
+            )));
         }
         Ok(Product {
             number: factor,
@@ -323,17 +331,19 @@ impl Parser<'_> {
             return Err(UnitError::new(
                 MALFORMED_UNIT,
                 open,
-                "the parentheses are nested too deeply",
+                say!("the parentheses are nested too deeply"),
             )
-            .help("write the unit as a plain product of powers"));
+            .help(say!("write the unit as a plain product of powers")));
         }
         let inner = self.product(depth + 1)?;
         match self.eat(&Kind::Close) {
             Some(_) => Ok(inner),
-            None => Err(
-                UnitError::new(MALFORMED_UNIT, open, "this parenthesis is never closed")
-                    .help("add `)`"),
-            ),
+            None => Err(UnitError::new(
+                MALFORMED_UNIT,
+                open,
+                say!("this parenthesis is never closed"),
+            )
+            .help(say!("add `)`"))),
         }
     }
 
@@ -363,9 +373,9 @@ impl Parser<'_> {
                 return Err(UnitError::new(
                     BAD_EXPONENT,
                     span,
-                    "this exponent has no closing parenthesis",
+                    say!("this exponent has no closing parenthesis"),
                 )
-                .help("write it as in `Hz^(1/2)`"));
+                .help(say!("write it as in `Hz^(1/2)`")));
             }
             numerator / denominator
         } else {
@@ -378,12 +388,14 @@ impl Parser<'_> {
             return Err(UnitError::new(
                 BAD_EXPONENT,
                 span.clone(),
-                format!(
+                say!(
                     "`{}` is not an exponent that a unit can have",
                     &self.text[span]
                 ),
             )
-            .help("use a whole number or a simple fraction such as (1/2) or (2/3)"));
+            .help(say!(
+                "use a whole number or a simple fraction such as (1/2) or (2/3)"
+            )));
         }
         Ok(Some((sixtieths.round() as i32, span)))
     }
@@ -398,10 +410,12 @@ impl Parser<'_> {
         let value = number.and_then(|token| self.text[token.span.clone()].parse::<f64>().ok());
         let Some(value) = value else {
             let span = caret.start..self.here().end;
-            return Err(
-                UnitError::new(BAD_EXPONENT, span, "a number is missing in the exponent")
-                    .help("write it as in `m^2`, `s^-1` or `Hz^(1/2)`"),
-            );
+            return Err(UnitError::new(
+                BAD_EXPONENT,
+                span,
+                say!("a number is missing in the exponent"),
+            )
+            .help(say!("write it as in `m^2`, `s^-1` or `Hz^(1/2)`")));
         };
         self.next += 1;
         Ok(sign * value)
@@ -409,19 +423,20 @@ impl Parser<'_> {
 
     fn missing_operand(&self, span: Range<usize>) -> UnitError {
         let message = match self.text[span.clone()].trim() {
-            "" => "a unit is missing at the end".to_owned(),
-            found => format!("a unit is missing before `{found}`"),
+            "" => say!("a unit is missing at the end"),
+            found => say!("a unit is missing before `{found}`"),
         };
-        UnitError::new(MALFORMED_UNIT, span, message).help("write a unit as in `m/s^2` or `1/K`")
+        UnitError::new(MALFORMED_UNIT, span, message)
+            .help(say!("write a unit as in `m/s^2` or `1/K`"))
     }
 
     fn too_large(&self, span: Range<usize>) -> UnitError {
         UnitError::new(
             BAD_EXPONENT,
             span,
-            "this makes an exponent that no unit can have",
+            say!("this makes an exponent that no unit can have"),
         )
-        .help(format!(
+        .help(say!(
             "exponents are simple fractions between -{LARGEST_EXPONENT} and {LARGEST_EXPONENT}"
         ))
     }
@@ -444,8 +459,8 @@ mod tests {
         let error = parse(text, Numbers::OneOnly).unwrap_err();
         (
             error.span,
-            error.message,
-            error.help.unwrap_or_default().into_string(),
+            error.message.to_string(),
+            error.help.unwrap_or_default().to_string(),
         )
     }
 

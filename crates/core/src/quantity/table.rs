@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
+use gumption_fault::say;
+
 use super::advice;
 use super::builtin::{BuiltinUnit, Definition, PREFIXES, Prefixes, UNITS};
 use super::dimension::{Dimension, STEPS};
@@ -185,14 +187,14 @@ impl UnitTable {
                 UnitError::new(
                     UNKNOWN_UNIT,
                     term.span,
-                    format!("`{}` is not a known unit", term.name),
+                    say!("`{}` is not a known unit", term.name),
                 )
                 .help(help)
             }
             CombineFault::Exponent(term) => UnitError::new(
                 BAD_EXPONENT,
                 term.span,
-                format!(
+                say!(
                     "this power of `{}` has an exponent that no unit can have",
                     term.name
                 ),
@@ -254,9 +256,11 @@ fn own_name(name: &str) -> Result<String, UnitError> {
         UnitError::new(
             BAD_DEFINITION,
             0..name.len(),
-            format!("`{name}` cannot be the name of a unit"),
+            say!("`{name}` cannot be the name of a unit"),
         )
-        .help("use a single name without spaces and operators, such as `count` or `FS`")
+        .help(say!(
+            "use a single name without spaces and operators, such as `count` or `FS`"
+        ))
     };
     match tokens(name).map_err(|_| fault())?.as_slice() {
         [token] if token.span == (0..name.len()) => match &token.kind {
@@ -289,14 +293,14 @@ fn used(definition: &str, names: &[String]) -> Option<NamedTerm> {
 
 fn circular((name, definition): (&str, &str), names: &[String]) -> Option<DefinitionError> {
     let term = used(definition, names)?;
-    let message = format!(
+    let message = say!(
         "`{name}` cannot be defined by `{}`, which is itself waiting for a definition",
         term.name
     );
     Some(DefinitionError::Circular(
-        UnitError::new(BAD_DEFINITION, term.span, message).help(
-            "these definitions run in a circle; define one of them by units that are built in",
-        ),
+        UnitError::new(BAD_DEFINITION, term.span, message).help(say!(
+            "these definitions run in a circle; define one of them by units that are built in"
+        )),
     ))
 }
 
@@ -450,7 +454,7 @@ mod tests {
 
     #[test]
     fn unknown_units_are_located_and_explained() {
-        let suggestion = |text: &str| error(text).help.unwrap().into_string();
+        let suggestion = |text: &str| error(text).help.unwrap().to_string();
         assert_eq!(error("mV/KHz").span, 3..6);
         assert_eq!(error("℃/foo").span, 4..7);
         assert_eq!(error("mV/KHz").message, "`KHz` is not a known unit");
@@ -473,7 +477,7 @@ mod tests {
 
     #[test]
     fn suggestions_never_change_a_size_in_silence() {
-        let suggestion = |text: &str| error(text).help.unwrap().into_string();
+        let suggestion = |text: &str| error(text).help.unwrap().to_string();
         assert_eq!(
             suggestion("Mpa"),
             "write `MPa` or `mPa`: upper and lower case matter"
@@ -499,7 +503,10 @@ mod tests {
         ] {
             let error = error(text);
             assert_eq!(error.span, marked, "{text}");
-            assert!(error.help.as_deref().unwrap().contains(help), "{text}");
+            assert!(
+                error.help.as_deref().unwrap().to_string().contains(help),
+                "{text}"
+            );
         }
         assert!(UnitTable::default().parse("C·deg").is_ok());
     }

@@ -4,6 +4,8 @@ use std::iter::Peekable;
 use std::ops::Range;
 use std::str::CharIndices;
 
+use gumption_fault::say;
+
 use super::faults::{MALFORMED_UNIT, UnitError};
 
 /// A token and its place.
@@ -70,9 +72,11 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, UnitError> {
                 return Err(UnitError::new(
                     MALFORMED_UNIT,
                     span,
-                    format!("`{c}` has no meaning in a unit"),
+                    say!("`{c}` has no meaning in a unit"),
                 )
-                .help("units are written as in `m/s^2`, `µV/(V·K)` or `°/√h`"));
+                .help(say!(
+                    "units are written as in `m/s^2`, `µV/(V·K)` or `°/√h`"
+                )));
             }
         };
         let end = chars.peek().map_or(text.len(), |(next, _)| *next);

@@ -70,6 +70,13 @@ impl Unit {
         self.origin.is_some()
     }
 
+    /// A full turn in this unit, where it is a unit of plane angle: 360 for °, 2π for rad.
+    pub fn full_turn(&self) -> Option<f64> {
+        let angle = self.factor.pi == 1 || self.symbol.ends_with("rad");
+        let plain = self.dimension.is_none() && !self.symbol.contains(['/', '*', '·', '^']);
+        (angle && plain).then(|| std::f64::consts::TAU / self.factor.value())
+    }
+
     /// The unit of differences: K for °C, 5/9 K for °F, the unit itself for all others.
     #[must_use]
     pub fn difference(&self) -> Unit {

@@ -6,7 +6,7 @@ use super::faults::{NO_UNIT, UNIT, UNIT_CLASH};
 use super::heading::Heading;
 use super::request::Request;
 use gumption_core::quantity::{Unit, hint_for_clash};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 
 /// The unit of a column of numbers, of which the header and the asker must not say different things.
 ///
@@ -17,7 +17,7 @@ pub(super) fn unit_of(
     request: &Request,
     span: &Range<usize>,
 ) -> Result<Option<Unit>, Box<Fault>> {
-    let fault = |code, message: String| Fault::new(code, span.clone(), message);
+    let fault = |code, message: Said| Fault::new(code, span.clone(), message);
     let text = &heading.text;
     let unit = match (&heading.unit, &request.unit) {
         (Ok(None), stated) => stated.clone(),
@@ -27,19 +27,21 @@ pub(super) fn unit_of(
         (Ok(Some(unit)), Some(stated)) => {
             let (unit, stated) = (&unit.symbol, &stated.symbol);
             let message =
-                format!("column \"{text}\" is said to be in {stated}, its header says {unit}");
+                say!("column \"{text}\" is said to be in {stated}, its header says {unit}");
             return Err(Box::new(
                 fault(UNIT_CLASH, message)
-                    .label(format!("in {unit}"))
-                    .help("state the unit once; leave it out where the header has it"),
+                    .label(say!("in {unit}"))
+                    .help(say!(
+                        "state the unit once; leave it out where the header has it"
+                    )),
             ));
         }
         (Err(_), Some(stated)) => Some(stated.clone()),
         (Err(error), None) => {
             let at = span.start + error.span.start..span.start + error.span.end;
-            let mut fault = Fault::new(UNIT, at, format!("column \"{text}\": {}", error.message))
-                .label("no unit");
-            fault.help = error.help.clone().map(String::from);
+            let mut fault = Fault::new(UNIT, at, say!("column \"{text}\": {}", error.message))
+                .label(say!("no unit"));
+            fault.help = error.help.clone().map(|help| *help);
             return Err(Box::new(fault));
         }
     };
@@ -58,11 +60,11 @@ pub(super) fn unit_of(
         None if like.is_one() => Ok(unit),
         None => {
             let (role, symbol) = (&request.role, &like.symbol);
-            let message = format!("column \"{text}\" ({role}) has no unit");
+            let message = say!("column \"{text}\" ({role}) has no unit");
             Err(Box::new(
                 fault(NO_UNIT, message)
-                    .label(format!("a unit such as {symbol} is missing"))
-                    .help(format!(
+                    .label(say!("a unit such as {symbol} is missing"))
+                    .help(say!(
                         "write `{text} [{symbol}]`, or state the unit where the column is named"
                     )),
             ))
@@ -81,19 +83,19 @@ fn clash(
     span: &Range<usize>,
 ) -> Fault {
     let (text, role, symbol) = (&heading.text, &request.role, &found.symbol);
-    let label = format!("in {symbol}");
+    let label = say!("in {symbol}");
     let (message, help) = if needed.is_one() {
         (
-            format!("column \"{text}\" is in {symbol}, and {role} is a number without unit"),
-            format!("state the unit where the column is asked for: unit = \"{symbol}\""),
+            say!("column \"{text}\" is in {symbol}, and {role} is a number without unit"),
+            say!("state the unit where the column is asked for: unit = \"{symbol}\""),
         )
     } else {
-        let message = format!(
+        let message = say!(
             "column \"{text}\" ({role}) is in {symbol}, which is no unit like {}",
             needed.symbol
         );
         let hint = hint_for_clash(needed, found);
-        let otherwise = || "check which column has this role, and its unit".to_owned();
+        let otherwise = || say!("check which column has this role, and its unit");
         (message, hint.unwrap_or_else(otherwise))
     };
     Fault::new(UNIT_CLASH, span.clone(), message)

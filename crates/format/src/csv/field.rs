@@ -1,5 +1,7 @@
 //! Numbers and times in the fields of a recording.
 
+use gumption_fault::{Said, say};
+
 use super::sheet::Sheet;
 
 /// What a field of a column of numbers holds.
@@ -199,52 +201,55 @@ pub(super) fn is_like_a_time(field: &str) -> bool {
 }
 
 /// How a field becomes a number.
-pub(super) fn mend(field: &str) -> String {
+pub(super) fn mend(field: &str) -> Said {
     let like = |replaced: &str| replaced.parse::<f64>().is_ok();
     let point = field.replace(',', ".");
     let minus = field.replace('−', "-");
     if field.contains(',') && like(&point) {
-        return format!("write {point}, with a decimal point");
+        return say!("write {point}, with a decimal point");
     }
     let without = field.replace([',', '.', ' ', '\'', '\u{a0}', '\u{202f}'], "");
     if field.contains([',', ' ', '\'', '.', '\u{a0}', '\u{202f}'])
         && like(&without)
         && !is_like_a_time(field)
     {
-        return "write the number with one decimal sign and without marks of thousands".to_owned();
+        return say!("write the number with one decimal sign and without marks of thousands");
     }
     if field.contains('−') && like(&minus) {
-        return format!("write {minus}, with the hyphen as minus");
+        return say!("write {minus}, with the hyphen as minus");
     }
     if is_like_a_time(field) {
         return mend_of_time(field);
     }
     if field.starts_with(|c: char| c.is_ascii_digit()) {
-        return "write the number alone; its unit belongs into the first line".to_owned();
+        return say!("write the number alone; its unit belongs into the first line");
     }
-    "leave the field empty if the value is missing; units belong into the first line: name [unit]"
-        .to_owned()
+    say!(
+        "leave the field empty if the value is missing; units belong into the first line: name [unit]"
+    )
 }
 
-fn mend_of_time(field: &str) -> String {
-    let forms = "times are read as 2026-03-01T09:00:01.25, as 01.03.2026 09:00:01 (the day first), as 2026-03-01, as 09:00:01.25, or as seconds since the start";
+fn mend_of_time(field: &str) -> Said {
+    let forms = say!(
+        "times are read as 2026-03-01T09:00:01.25, as 01.03.2026 09:00:01 (the day first), as 2026-03-01, as 09:00:01.25, or as seconds since the start"
+    );
     match date_meant(field) {
-        Some(meant) => format!("{forms}; write {meant}"),
+        Some(meant) => say!("{forms}; write {meant}"),
         None if field.ends_with(['M', 'm']) => {
-            format!("{forms}; hours go from 00 to 23, without AM and PM")
+            say!("{forms}; hours go from 00 to 23, without AM and PM")
         }
         None => forms.to_owned(),
     }
 }
 
 /// How a date is written that has its year at the end, where year or month are in doubt.
-fn date_meant(field: &str) -> Option<String> {
+fn date_meant(field: &str) -> Option<Said> {
     let [first, second, year] = date_parts(field).filter(|[first, ..]| first.len() < 4)?;
     if days(&format!("{first}.{second}.{year}")).is_some() && field.contains('.') {
         return None;
     }
     if year.len() < 4 {
-        return Some("the year first, with its four digits".to_owned());
+        return Some(say!("the year first, with its four digits"));
     }
     let date = |month: &str, day: &str| {
         let date = format!("{year}-{month:0>2}-{day:0>2}");
@@ -252,9 +257,9 @@ fn date_meant(field: &str) -> Option<String> {
     };
     match (date(first, second), date(second, first)) {
         (Some(one), Some(other)) if one != other => {
-            Some(format!("{one}, or {other} if the day goes first"))
+            Some(say!("{one}, or {other} if the day goes first"))
         }
-        (one, other) => one.or(other),
+        (one, other) => one.or(other).map(Said::quoted),
     }
 }
 
@@ -329,7 +334,7 @@ mod tests {
             ("2026年3月1日", "times are read as 2026-03-01T"),
         ] {
             assert!(is_like_a_time(field), "{field}");
-            let mend = mend(field);
+            let mend = mend(field).to_string();
             assert!(
                 mend.contains(meant) && mend.contains("the day first"),
                 "{mend}"

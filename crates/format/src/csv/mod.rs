@@ -18,7 +18,7 @@
 //! use gumption_format::csv::{Recording, Request};
 //!
 //! let units = UnitTable::default();
-//! let volt = units.parse("V").map_err(|error| error.message)?;
+//! let volt = units.parse("V").map_err(|error| error.message.to_string())?;
 //! let asked = [Request::decimals("U", "U").into_unit(volt)];
 //! let table = Recording::read("readings.csv", "U [mV]\n1.5\n2.5\n", &asked, &units)
 //!     .map_err(|rejection| rejection.render(false))?;

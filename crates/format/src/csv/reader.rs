@@ -16,7 +16,7 @@ use super::{Column, Data, Labels, Recording};
 use crate::files::Files;
 use gumption_core::quantity::{Unit, UnitTable};
 use gumption_core::statistics::Dd;
-use gumption_fault::{Fault, Rejection, nearest};
+use gumption_fault::{Fault, Rejection, Said, nearest, say};
 
 impl Recording {
     /// Reads the columns asked for from a file.
@@ -158,38 +158,38 @@ fn headings_of(sheet: &Sheet, units: &UnitTable) -> Vec<Heading> {
 /// # Errors
 /// It is not there, may not be read, or is no text.
 pub fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejection> {
-    let refuse = |code, message: String, help: &str| {
+    let refuse = |code, message: Said, help: Said| {
         Rejection::new(name, "", vec![Fault::new(code, 0..0, message).help(help)])
     };
     let bytes = files.read(path).map_err(|error| {
         let message = match error.kind() {
-            _ if files.is_folder(path) => format!("{name} is a folder, not a file"),
-            ErrorKind::NotFound => format!("there is no file {name}"),
-            ErrorKind::PermissionDenied => format!("{name} may not be read"),
-            _ => format!("{name} cannot be read: {error}"),
+            _ if files.is_folder(path) => say!("{name} is a folder, not a file"),
+            ErrorKind::NotFound => say!("there is no file {name}"),
+            ErrorKind::PermissionDenied => say!("{name} may not be read"),
+            _ => say!("{name} cannot be read: {error}"),
         };
         refuse(
             UNREADABLE,
             message,
-            "the path starts from the folder of the file that names it",
+            say!("the path starts from the folder of the file that names it"),
         )
     })?;
     let decoded = decode(&bytes).map_err(|error| {
         let Undecodable { byte, line } = error;
         let message =
-            format!("{name} is neither UTF-8, UTF-16 nor GBK from byte {byte} on, in line {line}");
+            say!("{name} is neither UTF-8, UTF-16 nor GBK from byte {byte} on, in line {line}");
         refuse(
             NOT_UTF8,
             message,
-            "save it as CSV in UTF-8: spreadsheets call it “CSV UTF-8”; or convert it, `iconv -f LATIN1 -t UTF-8 old.csv > new.csv`",
+            say!("save it as CSV in UTF-8: spreadsheets call it “CSV UTF-8”; or convert it, `iconv -f LATIN1 -t UTF-8 old.csv > new.csv`"),
         )
     })?;
     match is_table(&decoded.text) {
         true => Ok(decoded.text),
         false => Err(refuse(
             UNREADABLE,
-            format!("{name} is no table of values: no line below its first has a number"),
-            "name a CSV file with the names of columns in its first line",
+            say!("{name} is no table of values: no line below its first has a number"),
+            say!("name a CSV file with the names of columns in its first line"),
         )),
     }
 }
@@ -309,10 +309,12 @@ impl<'a> Draft<'a> {
         };
         if self.faults.len() < shown {
             let help = match read {
-                Some(_) => "write all numbers of a column alike: all with a decimal point, all with a decimal comma, or all as times".to_owned(),
+                Some(_) => say!(
+                    "write all numbers of a column alike: all with a decimal point, all with a decimal comma, or all as times"
+                ),
                 None => mend(field),
             };
-            let fault = self.no_number(sheet, row, expected, help);
+            let fault = self.no_number(sheet, row, expected.into(), help);
             self.faults.push(fault);
         }
     }
@@ -334,29 +336,31 @@ impl<'a> Draft<'a> {
         self.refused += 1;
         if self.faults.len() < SHOWN {
             let help = if field.is_empty() {
-                "every row needs a number there; remove the rows that are empty".to_owned()
+                say!("every row needs a number there; remove the rows that are empty")
             } else if is_overload(field) {
-                format!(
+                say!(
                     "instruments write {OVERLOAD:e} for a range that was exceeded: it is no reading; remove the row, or measure again in a higher range"
                 )
             } else {
                 match read {
-                    Some(_) if number.is_some() => "every row needs a number there".to_owned(),
-                    Some(_) if !clock => "write all numbers of a column alike: all with a decimal point, or all with a decimal comma".to_owned(),
+                    Some(_) if number.is_some() => say!("every row needs a number there"),
+                    Some(_) if !clock => say!(
+                        "write all numbers of a column alike: all with a decimal point, or all with a decimal comma"
+                    ),
                     _ => mend(field),
                 }
             };
-            let fault = self.no_number(sheet, row, "a number", help);
+            let fault = self.no_number(sheet, row, say!("a number"), help);
             self.faults.push(fault);
         }
     }
 
-    fn no_number(&self, sheet: &Sheet, row: &Row, expected: &str, help: String) -> Fault {
+    fn no_number(&self, sheet: &Sheet, row: &Row, expected: Said, help: Said) -> Fault {
         let (line, column, field) = (row.line, &self.heading.text, row.field(self.place));
-        let message = format!("line {line}, column \"{column}\": \"{field}\" is not {expected}");
+        let message = say!("line {line}, column \"{column}\": \"{field}\" is not {expected}");
         Fault::new(NOT_A_NUMBER, sheet.place(row, self.place), message)
-            .label(format!("expected {expected}"))
-            .related(self.span.clone(), "the column")
+            .label(say!("expected {expected}"))
+            .related(self.span.clone(), say!("the column"))
             .help(help)
     }
 
@@ -405,11 +409,12 @@ impl<'a> Draft<'a> {
             Some(unit) => {
                 let (text, unit) = (&self.heading.text, &unit.symbol);
                 let message =
-                    format!("column \"{text}\" is in {unit}, and holds times of the calendar");
-                let help = "leave the unit out: such times count in seconds from the first one";
+                    say!("column \"{text}\" is in {unit}, and holds times of the calendar");
+                let help =
+                    say!("leave the unit out: such times count in seconds from the first one");
                 self.faults.push(
                     Fault::new(UNIT_CLASH, self.span.clone(), message)
-                        .label(format!("in {unit}"))
+                        .label(say!("in {unit}"))
                         .help(help),
                 );
             }
@@ -419,7 +424,10 @@ impl<'a> Draft<'a> {
     fn take_faults(&mut self) -> Vec<Fault> {
         let more = self.refused.saturating_sub(self.faults.len());
         if let Some(last) = self.faults.last_mut().filter(|_| more > 0) {
-            last.message += &format!("; {more} more fields of the column are no numbers");
+            last.message = say!(
+                "{}; {more} more fields of the column are no numbers",
+                last.message
+            );
         }
         std::mem::take(&mut self.faults)
     }
@@ -451,14 +459,15 @@ fn two_decimal_signs(drafts: &[Draft]) -> Option<Fault> {
     let styled = |style: Style| drafts.iter().find(|draft| draft.style == style);
     let (point, comma) = (styled(Style::Point)?, styled(Style::Comma)?);
     let (points, commas) = (&point.heading.text, &comma.heading.text);
-    let message = format!(
-        "column \"{points}\" is written with decimal points, column \"{commas}\" with commas"
-    );
+    let message =
+        say!("column \"{points}\" is written with decimal points, column \"{commas}\" with commas");
     Some(
         Fault::new(NOT_A_NUMBER, comma.span.clone(), message)
-            .label("decimal commas, or marks of thousands?")
-            .related(point.span.clone(), "decimal points")
-            .help("write all numbers of a table with one decimal sign, and without marks of thousands"),
+            .label(say!("decimal commas, or marks of thousands?"))
+            .related(point.span.clone(), say!("decimal points"))
+            .help(say!(
+                "write all numbers of a table with one decimal sign, and without marks of thousands"
+            )),
     )
 }
 
@@ -483,11 +492,13 @@ fn find(sheet: &Sheet, headings: &[Heading], wanted: &str) -> Result<usize, Box<
             Fault::new(
                 SAME_NAME,
                 span(second),
-                format!("\"{wanted}\" is the name of two columns"),
+                say!("\"{wanted}\" is the name of two columns"),
             )
-            .label("the second")
-            .related(span(first), "the first")
-            .help("give each column a name of its own, or ask for it with its unit"),
+            .label(say!("the second"))
+            .related(span(first), say!("the first"))
+            .help(say!(
+                "give each column a name of its own, or ask for it with its unit"
+            )),
         )),
         [] => {
             let texts: Vec<&str> = headings
@@ -498,14 +509,14 @@ fn find(sheet: &Sheet, headings: &[Heading], wanted: &str) -> Result<usize, Box<
             let near = nearest(wanted, names.chain(texts.iter().copied()));
             let list = texts.join(", ");
             let help = match near {
-                Some(near) => format!("did you mean \"{near}\"? The columns are: {list}"),
-                None => format!("the columns are: {list}"),
+                Some(near) => say!("did you mean \"{near}\"? The columns are: {list}"),
+                None => say!("the columns are: {list}"),
             };
             let whole = span(0).start..span(headings.len().saturating_sub(1)).end;
-            let message = format!("there is no column \"{wanted}\"");
+            let message = say!("there is no column \"{wanted}\"");
             Err(Box::new(
                 Fault::new(NO_COLUMN, whole, message)
-                    .label("the columns of the table")
+                    .label(say!("the columns of the table"))
                     .help(help),
             ))
         }

@@ -6,7 +6,7 @@ use std::ops::Range;
 use ::csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::faults::{NO_HEADER, NO_ROWS, ROW_LENGTH};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 
 /// A CSV text whose first line was read.
 ///
@@ -41,22 +41,24 @@ impl<'a> Sheet<'a> {
         let line = text[first..].lines().next().unwrap_or_default();
         let separator = separator(text, first, line);
         let whole = first..first + line.len();
-        let missing = |message: &str, label: &str| {
+        let missing = |message: Said, label: Said| {
             Box::new(
                 Fault::new(NO_HEADER, whole.clone(), message)
                     .label(label)
-                    .help("name the columns in the first line, with their units: time [s],U [mV]"),
+                    .help(say!(
+                        "name the columns in the first line, with their units: time [s],U [mV]"
+                    )),
             )
         };
         let header = Rows::new(text, separator)
             .next()
-            .ok_or_else(|| missing("the table is empty", "no names of columns"))?
-            .map_err(|message| missing(&message, "cannot be read"))?;
+            .ok_or_else(|| missing(say!("the table is empty"), say!("no names of columns")))?
+            .map_err(|message| missing(message.into(), say!("cannot be read")))?;
         let numbers = header.fields().filter(|field| field.parse::<f64>().is_ok());
         if numbers.count() > header.len() / 2 {
             return Err(missing(
-                "the first line holds numbers, not the names of the columns",
-                "expected names",
+                say!("the first line holds numbers, not the names of the columns"),
+                say!("expected names"),
             ));
         }
         Ok(Sheet {
@@ -133,13 +135,13 @@ impl<'a> Sheet<'a> {
             }
         }
         if let Some(last) = faults.last_mut().filter(|_| bad > SHOWN) {
-            last.message += &format!("; {} more rows like this", bad - SHOWN);
+            last.message = say!("{}; {} more rows like this", last.message, bad - SHOWN);
         }
         if good + bad == 0 && faults.is_empty() {
             let place = self.place(&self.header, 0);
             faults.push(
-                Fault::new(NO_ROWS, place, "the table has no rows")
-                    .label("nothing follows this line"),
+                Fault::new(NO_ROWS, place, say!("the table has no rows"))
+                    .label(say!("nothing follows this line")),
             );
         }
         if faults.is_empty() {
@@ -152,18 +154,18 @@ impl<'a> Sheet<'a> {
     fn wrong_length(&self, row: &Row) -> Fault {
         let (found, expected) = (row.len(), self.header.len());
         let plural = if found == 1 { "" } else { "s" };
-        let message = format!(
+        let message = say!(
             "line {} has {found} field{plural}, the first line {expected}",
             row.line
         );
         let place = self.place(row, 0).start..self.place(row, found.saturating_sub(1)).end;
-        let fault = Fault::new(ROW_LENGTH, place, message).label(format!("expected {expected}"));
+        let fault = Fault::new(ROW_LENGTH, place, message).label(say!("expected {expected}"));
         let comma = self.separator == b',' && found > expected;
         fault.help(match comma {
-            true => {
+            true => say!(
                 "numbers have a decimal point; a text that holds a comma stands in double quotes"
-            }
-            false => "complete the row, or delete it",
+            ),
+            false => say!("complete the row, or delete it"),
         })
     }
 }
@@ -339,7 +341,13 @@ mod tests {
             .expect("a header")
             .visit(|_| ())
             .expect_err("bad rows");
-        assert!(faults.len() == 5 && faults[4].message.ends_with("; 3 more rows like this"));
+        assert!(
+            faults.len() == 5
+                && faults[4]
+                    .message
+                    .to_string()
+                    .ends_with("; 3 more rows like this")
+        );
     }
 
     #[test]

@@ -4,13 +4,15 @@
 //! typed structure for machines. Whoever composes it has decided everything; a renderer only draws.
 
 mod plot;
+mod sheet;
 mod table;
 mod texts;
 
 use gumption_fault::language::Language;
 use serde_json::Value;
 
-pub use plot::{Axis, Layer, Marks, Panel, Plot, Scale, Tone};
+pub use plot::{Axis, Bar, Layer, Marks, Panel, Plot, Scale, Tone};
+pub use sheet::{Bars, Entry, Held, Sheet, address};
 pub use table::{Cell, Column, ColumnKind, Row, Table};
 
 use crate::machine::{self, Machine};
@@ -30,6 +32,8 @@ pub struct Document {
     pub machine: Value,
     /// Plots beside the text, for formats and folders that have room for them.
     pub beside: Vec<Plot>,
+    /// Sheets that calculate, for spreadsheets.
+    pub sheets: Vec<Sheet>,
 }
 
 impl Document {
@@ -47,6 +51,7 @@ impl Document {
             blocks,
             machine: machine::value(machine),
             beside: Vec::new(),
+            sheets: Vec::new(),
         }
     }
 
@@ -60,6 +65,16 @@ impl Document {
         self
     }
 
+    /// With sheets that calculate.
+    #[must_use]
+    pub fn with_sheets(mut self, mut sheets: Vec<Sheet>) -> Self {
+        for sheet in &mut sheets {
+            sheet.texts(&mut texts::made_harmless);
+        }
+        self.sheets.extend(sheets);
+        self
+    }
+
     /// One document of several of one kind: their blocks one after the other; for machines one value, or an array
     /// where there are more. `None` of none.
     pub fn together(documents: Vec<Document>) -> Option<Document> {
@@ -69,6 +84,7 @@ impl Document {
         for one in documents {
             whole.blocks.extend(one.blocks);
             whole.beside.extend(one.beside);
+            whole.sheets.extend(one.sheets);
             values.extend(self::values(one.machine));
         }
         whole.machine = match values.len() {

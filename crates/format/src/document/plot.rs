@@ -75,6 +75,23 @@ pub enum Marks {
     Band(Vec<[f64; 3]>),
     /// A line across at one y.
     Level(f64),
+    /// A line upright at one x.
+    Upright(f64),
+    /// Upright lines with ends: x, lower y, upper y.
+    Whiskers(Vec<[f64; 3]>),
+    /// Bars along x, one below the other from the top, in a panel of their own.
+    Bars(Vec<Bar>),
+}
+
+/// A bar with its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bar {
+    /// What it is.
+    pub name: String,
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
 }
 
 impl Axis {
@@ -116,28 +133,41 @@ impl Axis {
 }
 
 impl Marks {
-    /// Every point x, y that must be inside the panel; x is absent where the marks have none of their own.
-    pub fn extent(&self) -> Vec<(Option<f64>, f64)> {
+    /// Every point x, y that must be inside the panel; x is absent or y is absent where the marks have none of their own.
+    pub fn extent(&self) -> Vec<(Option<f64>, Option<f64>)> {
         match self {
             Marks::Points(points) | Marks::Line(points) => {
-                points.iter().map(|[x, y]| (Some(*x), *y)).collect()
+                points.iter().map(|[x, y]| (Some(*x), Some(*y))).collect()
             }
-            Marks::Band(band) => band
+            Marks::Band(band) | Marks::Whiskers(band) => band
                 .iter()
-                .flat_map(|[x, low, high]| [(Some(*x), *low), (Some(*x), *high)])
+                .flat_map(|[x, low, high]| [(Some(*x), Some(*low)), (Some(*x), Some(*high))])
                 .collect(),
-            Marks::Level(y) => vec![(None, *y)],
+            Marks::Level(y) => vec![(None, Some(*y))],
+            Marks::Upright(x) => vec![(Some(*x), None)],
+            Marks::Bars(bars) => bars
+                .iter()
+                .flat_map(|bar| [(Some(bar.from), None), (Some(bar.to), None)])
+                .collect(),
         }
     }
 }
 
 impl Panel {
+    /// The bars, where that is what the panel shows.
+    pub fn bars(&self) -> impl Iterator<Item = &Bar> {
+        self.layers.iter().flat_map(|layer| match &layer.marks {
+            Marks::Bars(bars) => bars.as_slice(),
+            _ => &[],
+        })
+    }
+
     /// Ends of both axes in places (logarithms on a logarithmic axis), a little more than the data take up.
     pub fn limits(&self) -> [[f64; 2]; 2] {
         let extent = || self.layers.iter().flat_map(|layer| layer.marks.extent());
         [
             limits(extent().filter_map(|(x, _)| self.x.place(x?))),
-            limits(extent().filter_map(|(_, y)| self.y.place(y))),
+            limits(extent().filter_map(|(_, y)| self.y.place(y?))),
         ]
     }
 }

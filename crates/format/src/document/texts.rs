@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use gumption_fault::harmless;
 
-use super::{Block, Cell, Plot, Row, Table};
+use super::{Block, Cell, Entry, Marks, Plot, Row, Sheet, Table};
 
 /// Shows what a terminal or a page would obey.
 pub(super) fn made_harmless(text: &mut String) {
@@ -71,7 +71,27 @@ impl Plot {
                 work(&mut axis.quantity);
                 work(&mut axis.unit);
             }
-            panel.layers.iter_mut().for_each(|one| work(&mut one.name));
+            for layer in &mut panel.layers {
+                work(&mut layer.name);
+                if let Marks::Bars(bars) = &mut layer.marks {
+                    bars.iter_mut().for_each(|bar| work(&mut bar.name));
+                }
+            }
+        }
+    }
+}
+
+impl Sheet {
+    /// Does something to every text that is no formula; formulas are made of numbers and names of cells.
+    pub(super) fn texts(&mut self, work: &mut impl FnMut(&mut String)) {
+        work(&mut self.name);
+        if let Some(bars) = &mut self.bars {
+            work(&mut bars.title);
+        }
+        for entry in self.rows.iter_mut().flatten() {
+            if let Entry::Title(text) | Entry::Head(text) | Entry::Words(text) = entry {
+                work(text);
+            }
         }
     }
 }

@@ -66,6 +66,8 @@ pub enum Why {
     Protected,
     /// It is a folder.
     Folder,
+    /// It is a file, and should be a folder.
+    NoFolder,
     /// Two outputs are to be this file.
     Twice,
     /// The system does not.
@@ -92,9 +94,48 @@ pub fn allowed<'a>(
     replacing: Replacing,
 ) -> Result<(), Unwritten> {
     let planned = paths.into_iter().map(|path| plan(path, replacing));
-    planned
-        .collect::<Result<Vec<_>, _>>()
-        .and_then(|planned| distinct(&planned))
+    let planned = planned.collect::<Result<Vec<_>, _>>()?;
+    distinct(&planned)?;
+    let files = planned.iter().filter(|one| one.way != Way::Stream);
+    for file in files {
+        takes_files(file.folder()).map_err(|error| unwritten(&file.asked, error))?;
+    }
+    Ok(())
+}
+
+/// The same for files of these names in a folder, which is made if need be.
+///
+/// # Errors
+/// The first that cannot be written, or the folder.
+pub fn allowed_in(folder: &Path, names: &[&str], replacing: Replacing) -> Result<(), Unwritten> {
+    let refused = |why| Unwritten {
+        path: folder.to_path_buf(),
+        why,
+    };
+    match std::fs::metadata(folder) {
+        Ok(there) if !there.is_dir() => Err(refused(Why::NoFolder)),
+        Ok(_) if names.is_empty() => {
+            takes_files(folder).map_err(|error| refused(Why::System(error)))
+        }
+        Ok(_) => {
+            let paths: Vec<PathBuf> = names.iter().map(|name| folder.join(name)).collect();
+            allowed(paths.iter().map(PathBuf::as_path), replacing)
+        }
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            match folder.parent().map(here).filter(|above| *above != folder) {
+                Some(above) => allowed_in(above, &[], replacing),
+                None => Err(refused(Why::System(error))),
+            }
+        }
+        Err(error) => Err(refused(Why::System(error))),
+    }
+}
+
+/// Whether a file can be made in a folder: what permissions, quotas and mounts say together, only the system knows.
+fn takes_files(folder: &Path) -> io::Result<()> {
+    let draft = DISK.create(folder, None)?;
+    discard(&[draft]);
+    Ok(())
 }
 
 /// Waits for files that are being written and lets none be written from now on; how many there were.
@@ -418,6 +459,7 @@ impl Unwritten {
                 "{path} is protected against writing; give another name, or --force to replace it"
             ),
             Why::Folder => format!("{path} is a folder; name a file in it"),
+            Why::NoFolder => format!("{path} is a file; name a folder"),
             Why::Twice => format!("{path} is to be written twice; give two names"),
             Why::System(error) => format!("cannot write {path}: {error}"),
         }
@@ -432,6 +474,7 @@ impl Unwritten {
             ),
             Why::Protected => format!("{path} 是只读文件；请另取文件名，或用 --force 替换"),
             Why::Folder => format!("{path} 是文件夹；请给出其中的文件名"),
+            Why::NoFolder => format!("{path} 是文件；请给出文件夹"),
             Why::Twice => format!("{path} 将被写入两次；请给出两个文件名"),
             Why::System(error) => format!("无法写入 {path}：{error}"),
         }

@@ -3,16 +3,19 @@
 use std::fmt::Write;
 
 use super::format::Format;
+use super::inline::{Run, runs};
+use super::parts::{Part, parts};
 use super::svg::svg;
 use crate::document::{Block, Cell, ColumnKind, Document, Finding, Plot, Row, Severity, Table};
 use gumption_fault::language::Language;
 
-pub(super) const FORMAT: Format = Format {
+/// The format.
+pub const FORMAT: Format = Format {
     name: "html",
     about: "Print a page of HTML that stands alone",
     ending: "html",
     media_type: "text/html; charset=utf-8",
-    render: |document, _| html(document).into_bytes(),
+    render: |document, _| Ok(html(document).into_bytes()),
 };
 
 /// A document as an HTML page. What goes on a certificate stands first in its part; plots beside the text come last.
@@ -43,60 +46,6 @@ fn html(document: &Document) -> String {
         escaped(title),
         page.html
     )
-}
-
-/// What stands under one title.
-#[derive(Default)]
-struct Part<'a> {
-    title: Option<&'a str>,
-    /// Blocks before the first section.
-    head: Vec<&'a Block>,
-    sections: Vec<Section<'a>>,
-    /// Small print, which stays at the end.
-    foot: Vec<&'a Block>,
-}
-
-/// What stands under one heading.
-struct Section<'a> {
-    heading: &'a str,
-    blocks: Vec<&'a Block>,
-}
-
-impl Section<'_> {
-    fn is_statement(&self) -> bool {
-        let statement = |block: &&Block| matches!(block, Block::Statement(_));
-        self.blocks.iter().any(statement)
-    }
-}
-
-/// The blocks in their parts and sections, in each part those with the statement first.
-fn parts(blocks: &[Block]) -> Vec<Part<'_>> {
-    let mut parts: Vec<Part<'_>> = vec![Part::default()];
-    for block in blocks {
-        let begun = !parts.iter().all(|p| p.title.is_none() && p.head.is_empty());
-        if let (Block::Title(_), true) = (block, begun) {
-            parts.push(Part::default());
-        }
-        let Some(part) = parts.last_mut() else {
-            continue;
-        };
-        match block {
-            Block::Title(title) => part.title = Some(title),
-            Block::Section(heading) => part.sections.push(Section {
-                heading,
-                blocks: Vec::new(),
-            }),
-            Block::Footer(_) => part.foot.push(block),
-            other => match part.sections.last_mut() {
-                Some(section) => section.blocks.push(other),
-                None => part.head.push(other),
-            },
-        }
-    }
-    for part in &mut parts {
-        part.sections.sort_by_key(|section| !section.is_statement());
-    }
-    parts
 }
 
 /// The page while it is written.
@@ -321,38 +270,12 @@ fn draw_cell(cell: &Cell, kind: ColumnKind) -> String {
 
 /// Text between backquotes is set as code, powers of ten are raised.
 fn inline(text: &str) -> String {
-    let parts: Vec<&str> = text.split('`').collect();
-    // A backquote without a partner is one.
-    if parts.len().is_multiple_of(2) {
-        return raised(text);
-    }
-    let mut out = String::new();
-    for (at, part) in parts.iter().enumerate() {
-        if at % 2 == 0 {
-            out.push_str(&raised(part));
-        } else {
-            let _ = write!(out, "<code>{}</code>", escaped(part));
-        }
-    }
-    out
-}
-
-/// Text in which `10^-6` has its exponent raised.
-fn raised(text: &str) -> String {
-    let mut parts = text.split("10^");
-    let mut out = escaped(parts.next().unwrap_or_default());
-    for part in parts {
-        let sign = usize::from(part.starts_with('-'));
-        let digits = part[sign..].bytes().take_while(u8::is_ascii_digit).count();
-        let (exponent, rest) = part.split_at(if digits == 0 { 0 } else { sign + digits });
-        if exponent.is_empty() {
-            out.push_str("10^");
-        } else {
-            let _ = write!(out, "10<sup>{}</sup>", exponent.replace('-', "−"));
-        }
-        out.push_str(&escaped(rest));
-    }
-    out
+    let drawn = runs(text).into_iter().map(|run| match run {
+        Run::Plain(text) => escaped(text),
+        Run::Code(text) => format!("<code>{}</code>", escaped(text)),
+        Run::Raised(text) => format!("<sup>{}</sup>", text.replace('-', "−")),
+    });
+    drawn.collect()
 }
 
 fn escaped(text: &str) -> String {

@@ -4,10 +4,11 @@ use std::fmt::Write;
 
 use gumption_fault::is_obeyed;
 
-use super::format::{Format, Page};
+use super::format::{Format, Page, Unfit};
 use crate::document::Document;
 
-pub(super) const FORMAT: Format = Format {
+/// The format.
+pub const FORMAT: Format = Format {
     name: "json",
     about: "Print JSON: exact numbers, stable names (`gumption schema` lists the schemas)",
     ending: "json",
@@ -15,8 +16,8 @@ pub(super) const FORMAT: Format = Format {
     render,
 };
 
-fn render(document: &Document, _: &Page) -> Vec<u8> {
-    escaped(&format!("{:#}\n", document.machine)).into_bytes()
+fn render(document: &Document, _: &Page) -> Result<Vec<u8>, Unfit> {
+    Ok(escaped(&format!("{:#}\n", document.machine)).into_bytes())
 }
 
 /// JSON in which characters that a terminal would obey are escaped. They stand inside strings alone, where `\u`

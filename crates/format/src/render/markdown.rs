@@ -6,12 +6,13 @@ use super::format::{Format, Page};
 use super::text::{bar, plot_lines};
 use crate::document::{Block, Cell, ColumnKind, Document, Row, Table};
 
-pub(super) const FORMAT: Format = Format {
+/// The format.
+pub const FORMAT: Format = Format {
     name: "markdown",
     about: "Print Markdown",
     ending: "md",
     media_type: "text/markdown; charset=utf-8",
-    render: |document, _| markdown(document).into_bytes(),
+    render: |document, _| Ok(markdown(document).into_bytes()),
 };
 
 /// A document as Markdown, a blank line between its blocks.

@@ -1,25 +1,14 @@
-//! The formats in which a document is written. A new format is one file here and one line in [`FORMATS`]; every
-//! command has it at once.
+//! The formats of text in which a document is written, and what all formats have in common. The list of all of them is in
+//! the crate `export`, with those that rest on large libraries.
 
 mod format;
-mod html;
-mod json;
+pub mod html;
+pub mod inline;
+pub mod json;
 pub mod markdown;
+pub mod parts;
 mod svg;
 pub mod text;
 
-pub use format::{Format, Page};
+pub use format::{Format, Page, Unfit};
 pub use svg::svg;
-
-/// Every format; the first is the one that is printed where none is asked for.
-pub const FORMATS: &[Format] = &[text::FORMAT, markdown::FORMAT, html::FORMAT, json::FORMAT];
-
-/// The format of a name.
-pub fn named(name: &str) -> Option<&'static Format> {
-    FORMATS.iter().find(|format| format.name == name)
-}
-
-/// The format of a file's ending.
-pub fn with_ending(ending: &str) -> Option<&'static Format> {
-    FORMATS.iter().find(|format| format.ending == ending)
-}

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::document::{Layer, Marks, Panel, Plot, Scale, Tone};
+use crate::document::{Bar, Layer, Marks, Panel, Plot, Scale, Tone};
 
 const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 260.0;
@@ -13,19 +13,22 @@ const BOTTOM: f64 = 44.0;
 
 /// A plot as the text of an SVG file.
 pub fn svg(plot: &Plot) -> String {
-    let height = HEIGHT * plot.panels.len() as f64;
+    let heights: Vec<f64> = plot
+        .panels
+        .iter()
+        .map(|panel| Frame::new(panel).height)
+        .collect();
+    let height: f64 = heights.iter().sum();
     let titles: Vec<String> = plot.panels.iter().map(|p| escaped(&p.title)).collect();
     let titles = titles.join("; ");
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{titles}\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {WIDTH} {height}\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
     );
-    for (at, panel) in plot.panels.iter().enumerate() {
+    let mut top = 0.0;
+    for (panel, height) in plot.panels.iter().zip(heights) {
         let drawn = Frame::new(panel).drawn();
-        let _ = writeln!(
-            svg,
-            "<g transform=\"translate(0 {})\">\n{drawn}</g>",
-            HEIGHT * at as f64
-        );
+        let _ = writeln!(svg, "<g transform=\"translate(0 {top})\">\n{drawn}</g>");
+        top += height;
     }
     svg + "</svg>\n"
 }
@@ -35,16 +38,40 @@ struct Frame<'a> {
     panel: &'a Panel,
     x: [f64; 2],
     y: [f64; 2],
+    /// Left edge of the axes: names of bars need room.
+    left: f64,
+    height: f64,
     out: String,
 }
 
 impl<'a> Frame<'a> {
     fn new(panel: &'a Panel) -> Self {
         let [x, y] = panel.limits();
+        let bars = panel.bars().count() as f64;
+        if bars == 0.0 {
+            return Frame {
+                panel,
+                x,
+                y,
+                left: LEFT,
+                height: HEIGHT,
+                out: String::new(),
+            };
+        }
+        /// A bar with the space to the next.
+        const LINE: f64 = 22.0;
+        const WIDEST_NAME: f64 = 300.0;
+        let widest = panel.bars().map(|bar| width(&bar.name)).fold(0.0, f64::max);
         Frame {
             panel,
-            x,
-            y,
+            // Bars begin at an edge, where they begin at zero.
+            x: match x[0] < 0.0 && panel.bars().all(|bar| bar.from.min(bar.to) >= 0.0) {
+                true => [0.0, x[1]],
+                false => x,
+            },
+            y: [bars - 0.5, -0.5],
+            left: (widest.min(WIDEST_NAME) + 12.0).max(LEFT),
+            height: TOP + BOTTOM + LINE * bars,
             out: String::new(),
         }
     }
@@ -58,8 +85,8 @@ impl<'a> Frame<'a> {
         let label = escaped(&self.panel.x.label());
         self.line(format_args!(
             "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{label}</text>",
-            (LEFT + WIDTH - RIGHT) / 2.0,
-            HEIGHT - 8.0
+            (self.left + WIDTH - RIGHT) / 2.0,
+            self.height - 8.0
         ));
         self.out
     }
@@ -69,37 +96,45 @@ impl<'a> Frame<'a> {
     }
 
     fn axes(&mut self) {
-        let title = format!("{}: {}", self.panel.title, self.panel.y.label());
+        let left = self.left;
+        let title = match self.panel.y.label() {
+            none if none.is_empty() => self.panel.title.clone(),
+            label => format!("{}: {label}", self.panel.title),
+        };
         self.line(format_args!(
-            "<text x=\"{LEFT}\" y=\"20\" font-weight=\"bold\">{}</text>",
+            "<text x=\"{left}\" y=\"20\" font-weight=\"bold\">{}</text>",
             escaped(&title)
         ));
         self.line(format_args!(
-            "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#888\"/>",
-            WIDTH - LEFT - RIGHT,
-            HEIGHT - TOP - BOTTOM
+            "<rect x=\"{left}\" y=\"{TOP}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#888\"/>",
+            WIDTH - self.left - RIGHT,
+            self.height - TOP - BOTTOM
         ));
         for (tick, written) in ticks(self.x, self.panel.x.scale) {
             let at = self.across(tick);
             self.line(format_args!(
                 "<line x1=\"{at:.1}\" x2=\"{at:.1}\" y1=\"{0:.1}\" y2=\"{1:.1}\" stroke=\"#888\"/><text x=\"{at:.1}\" y=\"{2:.1}\" text-anchor=\"middle\">{written}</text>",
-                HEIGHT - BOTTOM,
-                HEIGHT - BOTTOM + 4.0,
-                HEIGHT - BOTTOM + 17.0,
+                self.height - BOTTOM,
+                self.height - BOTTOM + 4.0,
+                self.height - BOTTOM + 17.0,
             ));
+        }
+        if self.panel.bars().count() > 0 {
+            return;
         }
         for (tick, written) in ticks(self.y, self.panel.y.scale) {
             let at = self.up(tick);
             self.line(format_args!(
-                "<line x1=\"{LEFT}\" x2=\"{0}\" y1=\"{at:.1}\" y2=\"{at:.1}\" stroke=\"#ddd\"/><text x=\"{1}\" y=\"{2:.1}\" text-anchor=\"end\">{written}</text>",
+                "<line x1=\"{left}\" x2=\"{0}\" y1=\"{at:.1}\" y2=\"{at:.1}\" stroke=\"#ddd\"/><text x=\"{1}\" y=\"{2:.1}\" text-anchor=\"end\">{written}</text>",
                 WIDTH - RIGHT,
-                LEFT - 6.0,
+                self.left - 6.0,
                 at + 4.0,
             ));
         }
     }
 
     fn layer(&mut self, layer: &Layer) {
+        let left = self.left;
         let look = Look::of(layer.tone);
         match &layer.marks {
             Marks::Points(points) => {
@@ -122,12 +157,40 @@ impl<'a> Frame<'a> {
                     look.colour
                 ));
             }
+            Marks::Whiskers(bars) => {
+                for [x, low, high] in bars {
+                    let ends = self.points(&[[*x, *low], [*x, *high]]);
+                    let [(x, low), (_, high)] = ends.as_slice() else {
+                        continue;
+                    };
+                    let (before, after) = (x - 4.0, x + 4.0);
+                    self.line(format_args!(
+                        "<path d=\"M{before:.1} {low:.1}H{after:.1}M{x:.1} {low:.1}V{high:.1}M{before:.1} {high:.1}H{after:.1}\" fill=\"none\" {}/>",
+                        look.stroke()
+                    ));
+                }
+            }
+            Marks::Upright(x) => {
+                let Some(x) = self.panel.x.place(*x).map(|x| self.across(x)) else {
+                    return;
+                };
+                self.line(format_args!(
+                    "<line x1=\"{x:.1}\" x2=\"{x:.1}\" y1=\"{TOP}\" y2=\"{:.1}\" {}/>",
+                    self.height - BOTTOM,
+                    look.stroke()
+                ));
+            }
+            Marks::Bars(bars) => {
+                for (at, bar) in bars.iter().enumerate() {
+                    self.bar(at, bar, &look);
+                }
+            }
             Marks::Level(y) => {
                 let Some(y) = self.panel.y.place(*y).map(|y| self.up(y)) else {
                     return;
                 };
                 self.line(format_args!(
-                    "<line x1=\"{LEFT}\" x2=\"{}\" y1=\"{y:.1}\" y2=\"{y:.1}\" {}/>",
+                    "<line x1=\"{left}\" x2=\"{}\" y1=\"{y:.1}\" y2=\"{y:.1}\" {}/>",
                     WIDTH - RIGHT,
                     look.stroke()
                 ));
@@ -135,10 +198,24 @@ impl<'a> Frame<'a> {
         }
     }
 
+    /// A bar with its name at the left edge; one that goes back is hatched by its paler ground.
+    fn bar(&mut self, at: usize, bar: &Bar, look: &Look) {
+        let (Some(from), Some(to)) = (self.panel.x.place(bar.from), self.panel.x.place(bar.to))
+        else {
+            return;
+        };
+        let (from, to, y) = (self.across(from), self.across(to), self.up(at as f64));
+        let (left, name) = (self.left - 6.0, escaped(&bar.name));
+        let fill = if to < from { 0.25 } else { 0.75 };
+        let (colour, start, length) = (look.colour, from.min(to), (to - from).abs().max(0.5));
+        let (line, top) = (y + 4.0, y - 7.0);
+        self.line(format_args!(
+            "<text x=\"{left:.1}\" y=\"{line:.1}\" text-anchor=\"end\">{name}</text><rect x=\"{start:.1}\" y=\"{top:.1}\" width=\"{length:.1}\" height=\"14\" fill=\"{colour}\" fill-opacity=\"{fill}\" stroke=\"{colour}\"/>"
+        ));
+    }
+
     /// What the marks stand for, above the panel at its right end; one kind of marks needs no words.
     fn legend(&mut self) {
-        /// Room of one letter of the Latin alphabet; a Chinese one takes twice as much.
-        const LETTER: f64 = 6.5;
         const SAMPLE: f64 = 22.0;
         let named = self
             .panel
@@ -152,16 +229,18 @@ impl<'a> Frame<'a> {
         let mut right = WIDTH - RIGHT;
         for layer in named.into_iter().rev() {
             let look = Look::of(layer.tone);
-            let width = LETTER * unicode_width::UnicodeWidthStr::width(layer.name.as_str()) as f64;
+            let width = width(&layer.name);
             let (text, left) = (right - width, right - width - SAMPLE - 4.0);
             let sample = match &layer.marks {
                 Marks::Points(_) => look.point(left + SAMPLE / 2.0, 16.0),
-                Marks::Line(_) | Marks::Level(_) => format!(
-                    "<line x1=\"{left:.1}\" x2=\"{:.1}\" y1=\"16\" y2=\"16\" {}/>",
-                    left + SAMPLE,
-                    look.stroke()
-                ),
-                Marks::Band(_) => format!(
+                Marks::Line(_) | Marks::Level(_) | Marks::Upright(_) | Marks::Whiskers(_) => {
+                    format!(
+                        "<line x1=\"{left:.1}\" x2=\"{:.1}\" y1=\"16\" y2=\"16\" {}/>",
+                        left + SAMPLE,
+                        look.stroke()
+                    )
+                }
+                Marks::Band(_) | Marks::Bars(_) => format!(
                     "<rect x=\"{left:.1}\" y=\"11\" width=\"{SAMPLE}\" height=\"10\" fill=\"{}\" fill-opacity=\"0.2\"/>",
                     look.colour
                 ),
@@ -190,13 +269,20 @@ impl<'a> Frame<'a> {
     }
 
     fn across(&self, place: f64) -> f64 {
-        LEFT + (place - self.x[0]) / (self.x[1] - self.x[0]) * (WIDTH - LEFT - RIGHT)
+        self.left + (place - self.x[0]) / (self.x[1] - self.x[0]) * (WIDTH - self.left - RIGHT)
     }
 
     fn up(&self, place: f64) -> f64 {
         let share = (place - self.y[0]) / (self.y[1] - self.y[0]);
-        HEIGHT - BOTTOM - share * (HEIGHT - TOP - BOTTOM)
+        self.height - BOTTOM - share * (self.height - TOP - BOTTOM)
     }
+}
+
+/// Room that a text takes.
+fn width(text: &str) -> f64 {
+    /// That of one letter of the Latin alphabet; a Chinese one takes twice as much.
+    const LETTER: f64 = 6.5;
+    LETTER * unicode_width::UnicodeWidthStr::width(text) as f64
 }
 
 /// How marks of a tone look: told apart by shape and dashes as well as by colour, in grey print too. The colours are

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use gumption_fault::{Code, Fault, Rejection};
+use gumption_fault::{Code, Fault, Rejection, say};
 use toml::de::DeTable;
 
 use super::faults::{NOT_UTF8, TOML_SYNTAX};
@@ -16,7 +16,7 @@ use super::table::{Hints, Reader, Table, read_table};
 /// The text is so far from TOML that nothing can be said about the rest.
 pub fn tables_of<T: Table>(
     text: &str,
-    title: &str,
+    title: &'static str,
     hints: &'static Hints,
     unused: Code,
 ) -> Result<(T, Vec<Fault>), Vec<Fault>> {
@@ -44,10 +44,10 @@ pub fn decoded(bytes: Vec<u8>, path: &Path) -> Result<String, Rejection> {
     let name = path.display().to_string();
     if bytes.len() > MOST_BYTES {
         let (size, most) = (bytes.len() >> 20, MOST_BYTES >> 20);
-        let message = format!(
+        let message = say!(
             "{name} has {size} MiB of TOML; at most {most} MiB are read, as its values take a hundred times as much memory"
         );
-        let help = "put long lists into a CSV file, and name that";
+        let help = say!("put long lists into a CSV file, and name that");
         return Err(Rejection::new(
             &name,
             "",
@@ -61,20 +61,21 @@ pub fn decoded(bytes: Vec<u8>, path: &Path) -> Result<String, Rejection> {
         let fault = Fault::new(
             NOT_UTF8,
             at..at,
-            format!("{name} is not UTF-8 text from byte {} on", at + 1),
+            say!("{name} is not UTF-8 text from byte {} on", at + 1),
         )
-        .label("the readable part ends here")
-        .help("save the file as UTF-8");
+        .label(say!("the readable part ends here"))
+        .help(say!("save the file as UTF-8"));
         Rejection::new(&name, shown, vec![fault])
     })?;
     match text.trim().is_empty() || is_toml(&text) {
         true => Ok(text),
         false => {
-            let message = format!(
+            let message = say!(
                 "{name} is no budget and no experiment: no line of it has the form `key = value`"
             );
             let fault = Fault::new(TOML_SYNTAX, 0..0, message);
-            let help = "name a file in TOML; `gumption new budget.toml` writes one to start from";
+            let help =
+                say!("name a file in TOML; `gumption new budget.toml` writes one to start from");
             Err(Rejection::new(&name, "", vec![fault.help(help)]))
         }
     }

@@ -18,6 +18,7 @@ pub use values::{Amount, Cell, Date, Dof, Named, OneOrMany, amount_parts};
 
 // What the macros name.
 #[doc(hidden)]
-pub use serde_json::{Map, Value, json};
+pub use gumption_fault::{Said, say};
 #[doc(hidden)]
+pub use serde_json::{Map, Value, json};
 pub use toml::de::DeValue;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use gumption_fault::{Code, Fault};
+use gumption_fault::{Code, Fault, Said, say};
 
 use super::faults::TOML_SYNTAX;
 
@@ -87,52 +87,55 @@ fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
     let marked = text.get(span.clone()).unwrap_or_default();
     let message = error.message();
     let says = |words: &str| message.contains(words);
-    let fault = |message: String| Fault::new(TOML_SYNTAX, span.clone(), message);
+    let fault = |message: Said| Fault::new(TOML_SYNTAX, span.clone(), message);
     if says("duplicate key") {
-        fault(format!("`{marked}` is stated a second time"))
-            .label("stated before")
-            .help("a key can be stated once in a table; several components stand in a list")
+        fault(say!("`{marked}` is stated a second time"))
+            .label(say!("stated before"))
+            .help(say!(
+                "a key can be stated once in a table; several components stand in a list"
+            ))
     } else if says("string values must be quoted") && marked.is_empty() {
-        fault("there is nothing behind the `=`".into())
-            .label("expected a value")
-            .help("write a number, or a text in quotes; remove the line if there is nothing to say")
+        fault(say!("there is nothing behind the `=`"))
+            .label(say!("expected a value"))
+            .help(say!(
+                "write a number, or a text in quotes; remove the line if there is nothing to say"
+            ))
     } else if says("string values must be quoted")
         && let Some((number, unit)) = amount(marked)
     {
-        fault(format!("`{marked}` needs quotes"))
-            .label("an amount with a unit is a text")
-            .help(format!("write \"{number} {unit}\""))
+        fault(say!("`{marked}` needs quotes"))
+            .label(say!("an amount with a unit is a text"))
+            .help(say!("write \"{number} {unit}\""))
     } else if says("invalid unquoted key") && !marked.is_empty() {
-        fault(format!("`{marked}` needs quotes where it is a key"))
-            .label("only A-Z a-z 0-9 _ - may stand without quotes here")
-            .help(format!(
+        fault(say!("`{marked}` needs quotes where it is a key"))
+            .label(say!("only A-Z a-z 0-9 _ - may stand without quotes here"))
+            .help(say!(
                 "write \"{marked}\", also behind a dot: [input.\"{marked}\"]; formulas use the name without quotes"
             ))
     } else if says("string values must be quoted") {
-        fault(format!("`{marked}` is no number, and a text needs quotes"))
-            .label("expected a number or a text in quotes")
-            .help(format!(
-                "write \"{}\" for the text",
-                marked.replace('"', "'")
-            ))
+        fault(say!("`{marked}` is no number, and a text needs quotes"))
+            .label(say!("expected a number or a text in quotes"))
+            .help(say!("write \"{}\" for the text", marked.replace('"', "'")))
     } else if says("string, expected") {
-        fault("the text is not closed".into())
-            .label("expected the closing quote")
-            .help("add the quote at the end of the text")
+        fault(say!("the text is not closed"))
+            .label(say!("expected the closing quote"))
+            .help(say!("add the quote at the end of the text"))
     } else if says("unclosed array") || says("unclosed inline table") {
         let bracket = if says("array") { "]" } else { "}" };
-        fault(format!("the list is not closed by `{bracket}`"))
-            .label(format!("expected `,` or `{bracket}`"))
+        fault(say!("the list is not closed by `{bracket}`"))
+            .label(say!("expected `,` or `{bracket}`"))
     } else if says("key with no value") {
-        fault(format!("`{marked}` has no `=` and no value"))
-            .label("expected `=`")
-            .help("write `key = value`; a remark stands behind `#`")
+        fault(say!("`{marked}` has no `=` and no value"))
+            .label(say!("expected `=`"))
+            .help(say!("write `key = value`; a remark stands behind `#`"))
     } else if says("invalid mantissa") || says("expected digits") {
-        fault("a number needs digits before and behind its decimal point".into())
-            .label("a digit is missing")
-            .help("write for example 0.5 or 5.0")
+        fault(say!(
+            "a number needs digits before and behind its decimal point"
+        ))
+        .label(say!("a digit is missing"))
+        .help(say!("write for example 0.5 or 5.0"))
     } else {
-        fault(format!("not well-formed TOML: {message}")).label("not understood here")
+        fault(say!("not well-formed TOML: {message}")).label(say!("not understood here"))
     }
 }
 
@@ -179,10 +182,10 @@ fn foreign_sign(span: &Range<usize>, text: &str) -> Option<Fault> {
         Fault::new(
             TOML_SYNTAX,
             at..at + sign.len_utf8(),
-            format!("`{sign}` is not the sign that the file needs"),
+            say!("`{sign}` is not the sign that the file needs"),
         )
-        .label(format!("expected `{meant}`"))
-        .help(format!(
+        .label(say!("expected `{meant}`"))
+        .help(say!(
             "write `{meant}`, and the like for other such signs on the line; only texts in straight quotes may hold them"
         )),
     )
@@ -231,25 +234,25 @@ fn decimal_comma(span: &Range<usize>, text: &str) -> Option<Fault> {
     let (start, _, end) = number?;
     let number = &text[start..end];
     Some(
-        Fault::new(TOML_SYNTAX, start..end, format!("`{number}` has a comma"))
-            .label("expected a decimal point")
+        Fault::new(TOML_SYNTAX, start..end, say!("`{number}` has a comma"))
+            .label(say!("expected a decimal point"))
             .help(without_comma(number, "")),
     )
 }
 
 /// What to write for a number with a comma, between `quotes`: a decimal point, or nothing where the comma
 /// may part thousands.
-pub fn without_comma(number: &str, quotes: &str) -> String {
+pub fn without_comma(number: &str, quotes: &str) -> Said {
     let point = number.replacen(',', ".", 1);
     let behind = number.split_once(',').map_or("", |(_, behind)| behind);
     let places = behind.bytes().take_while(u8::is_ascii_digit).count();
     let joined = number.replace(',', "");
     if places != 3 {
-        format!("write a decimal point: {quotes}{point}{quotes}")
+        say!("write a decimal point: {quotes}{point}{quotes}")
     } else if behind[places..].starts_with(['.', ',']) {
-        format!("write it without commas: {quotes}{joined}{quotes}")
+        say!("write it without commas: {quotes}{joined}{quotes}")
     } else {
-        format!(
+        say!(
             "write {quotes}{joined}{quotes}, or {quotes}{point}{quotes} if the comma is a decimal one"
         )
     }
@@ -278,7 +281,7 @@ mod tests {
         let (_, errors) = DeTable::parse_recoverable(text);
         let fault = syntax_faults(&errors, text).into_iter().next().expect(text);
         let marked = text[fault.span.clone()].to_owned();
-        (marked, fault.help.unwrap_or_default())
+        (marked, fault.help.unwrap_or_default().to_string())
     }
 
     #[test]
@@ -319,7 +322,7 @@ mod tests {
         let (_, errors) = DeTable::parse_recoverable(text);
         let faults = syntax_faults(&errors, text);
         assert_eq!(faults.len(), 1, "{faults:?}");
-        assert!(faults[0].message.contains("`R`"));
+        assert!(faults[0].message.to_string().contains("`R`"));
     }
 
     #[test]

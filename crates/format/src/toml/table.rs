@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use gumption_fault::{Code, Fault, nearest};
+use gumption_fault::{Code, Fault, Said, nearest, say};
 use serde_json::{Map, Value};
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
@@ -42,16 +42,16 @@ impl<T> Stated<T> {
 pub type Key<'t> = Spanned<DeString<'t>>;
 
 /// What a kind of file knows about the mistakes of its writers.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Hints {
     /// Words that people try, and the key that they mean.
     pub synonyms: &'static [(&'static str, &'static str)],
     /// The keys at the top of the file.
     pub top: fn() -> Vec<&'static str>,
     /// What to say of a key of a table that is not among the known ones, before anything else is tried.
-    pub unknown_key: fn(key: &str, table: &str, known: &[&'static str]) -> Option<String>,
+    pub unknown_key: fn(key: &str, table: &str, known: &[&'static str]) -> Option<Said>,
     /// What to say of a list where an amount stands.
-    pub list_of_amounts: &'static str,
+    pub list_of_amounts: Said,
 }
 
 /// Collects faults while tables are read.
@@ -82,43 +82,48 @@ impl<'f> Reader<'f> {
     }
 
     /// Reports a key that the table does not have.
-    pub fn unknown_key(&mut self, key: &Key<'_>, table: &str, known: &[&'static str]) {
+    pub fn unknown_key(&mut self, key: &Key<'_>, table: &'static str, known: &[&'static str]) {
         let fault = unknown_key(key, table, known, self.hints);
         self.faults.push(fault);
     }
 
     /// Reports that the value is of the wrong type.
-    pub fn wrong_type<T>(&mut self, code: Code, value: &Raw<'_>, expected: &str) -> Option<T> {
+    pub fn wrong_type<T>(&mut self, code: Code, value: &Raw<'_>, expected: Said) -> Option<T> {
         let found = found(value.get_ref());
         self.refuse(
             Fault::new(
                 code,
                 value.span(),
-                format!("expected {expected}, found {found}"),
+                say!("expected {expected}, found {found}"),
             )
-            .label(format!("expected {expected}")),
+            .label(say!("expected {expected}")),
         )
     }
 }
 
 /// A value in words, for "found …".
-fn found(value: &DeValue<'_>) -> String {
+fn found(value: &DeValue<'_>) -> Said {
     match value {
-        DeValue::String(text) if text.chars().count() <= 30 => format!("the text {text:?}"),
-        DeValue::String(_) => "a text".into(),
-        DeValue::Integer(number) => format!("the number {number}"),
-        DeValue::Float(number) => format!("the number {number}"),
-        DeValue::Boolean(truth) => truth.to_string(),
-        DeValue::Datetime(date) => format!("the date {date}"),
-        DeValue::Array(_) => "a list".into(),
-        DeValue::Table(_) => "a table".into(),
+        DeValue::String(text) if text.chars().count() <= 30 => say!("the text {text:?}"),
+        DeValue::String(_) => say!("a text"),
+        DeValue::Integer(number) => say!("the number {number}"),
+        DeValue::Float(number) => say!("the number {number}"),
+        DeValue::Boolean(truth) => say!("{truth}"),
+        DeValue::Datetime(date) => say!("the date {date}"),
+        DeValue::Array(_) => say!("a list"),
+        DeValue::Table(_) => say!("a table"),
     }
 }
 
 /// Something that a key may be set to.
 pub trait FromToml: Sized {
     /// What is expected, in words with the article: `a number`.
-    fn expected() -> String;
+    fn expected() -> Said;
+
+    /// The same without article and in the plural, where that can be said: `numbers`.
+    fn plural() -> Option<Said> {
+        None
+    }
 
     /// Reads the value, or reports why not.
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self>;
@@ -138,7 +143,7 @@ pub struct KeyRow {
     /// The key.
     pub key: &'static str,
     /// What it may be set to, in words.
-    pub kind: String,
+    pub kind: Said,
     /// What it says.
     pub doc: String,
 }
@@ -179,7 +184,7 @@ fn meant(name: &str, known: &[&'static str], hints: &Hints) -> Option<&'static s
 }
 
 /// Reads the entries of a table in the order of the file.
-pub fn read_table<T: Table>(table: &DeTable<'_>, name: &str, reader: &mut Reader<'_>) -> T {
+pub fn read_table<T: Table>(table: &DeTable<'_>, name: &'static str, reader: &mut Reader<'_>) -> T {
     let mut result = T::default();
     for (key, value) in in_order(table) {
         if !result.accept(key, value, reader) {
@@ -198,23 +203,19 @@ pub fn in_order<'a, 't>(table: &'a DeTable<'t>) -> Vec<(&'a Key<'t>, &'a Raw<'t>
     entries
 }
 
-fn unknown_key(key: &Key<'_>, table: &str, known: &[&'static str], hints: &Hints) -> Fault {
-    let name = key.get_ref();
-    let fault = Fault::new(
-        UNKNOWN_KEY,
-        key.span(),
-        format!("{table} has no key `{name}`"),
-    )
-    .label("unknown key");
+fn unknown_key(key: &Key<'_>, table: &'static str, known: &[&'static str], hints: &Hints) -> Fault {
+    let (name, title) = (key.get_ref(), Said::plain(table));
+    let fault = Fault::new(UNKNOWN_KEY, key.span(), say!("{title} has no key `{name}`"))
+        .label(say!("unknown key"));
     if let Some(help) = (hints.unknown_key)(name, table, known) {
         return fault.help(help);
     }
     match meant(name, known, hints) {
-        Some(near) => fault.help(format!("did you mean `{near}`?")),
-        None if (hints.top)().contains(&name.as_ref()) => fault.help(format!(
+        Some(near) => fault.help(say!("did you mean `{near}`?")),
+        None if (hints.top)().contains(&name.as_ref()) => fault.help(say!(
             "`{name}` belongs to the top of the file, above the first [table]: a line belongs to the header above it"
         )),
-        None => fault.help(format!("known keys: {}", known.join(", "))),
+        None => fault.help(say!("known keys: {}", known.join(", "))),
     }
 }
 
@@ -332,8 +333,12 @@ macro_rules! table {
         }
 
         impl $crate::toml::FromToml for $name {
-            fn expected() -> String {
-                "a table".into()
+            fn expected() -> $crate::toml::Said {
+                $crate::toml::say!("a table")
+            }
+
+            fn plural() -> Option<$crate::toml::Said> {
+                Some($crate::toml::say!("tables"))
             }
 
             fn read(
@@ -343,7 +348,7 @@ macro_rules! table {
                 match value.get_ref() {
                     $crate::toml::DeValue::Table(table) =>
                         Some($crate::toml::read_table::<Self>(table, $title, reader)),
-                    _ => reader.wrong_type($crate::toml::faults::WRONG_TYPE, value, "a table"),
+                    _ => reader.wrong_type($crate::toml::faults::WRONG_TYPE, value, $crate::toml::say!("a table")),
                 }
             }
 
@@ -405,9 +410,9 @@ macro_rules! words {
         }
 
         impl $crate::toml::FromToml for $name {
-            fn expected() -> String {
+            fn expected() -> $crate::toml::Said {
                 let words: Vec<String> = [ $( $word ),+ ].iter().map(|word| format!("\"{word}\"")).collect();
-                format!("one of {}", words.join(", "))
+                $crate::toml::say!("one of {}", words.join(", "))
             }
 
             fn read(
@@ -416,14 +421,14 @@ macro_rules! words {
             ) -> Option<Self> {
                 let $crate::toml::DeValue::String(text) = value.get_ref() else {
                     return reader.wrong_type(
-                        $crate::toml::faults::WRONG_TYPE, value, &<Self as $crate::toml::FromToml>::expected());
+                        $crate::toml::faults::WRONG_TYPE, value, <Self as $crate::toml::FromToml>::expected());
                 };
                 match text.as_ref() {
                     $( $word $( | $alias )* => Some(Self::$variant), )+
                     other => {
                         let known = [ $( $word, $( $alias, )* )+ ];
                         reader.refuse($crate::toml::unknown_word(
-                            value, other, &known, &<Self as $crate::toml::FromToml>::expected()))
+                            value, other, &known, <Self as $crate::toml::FromToml>::expected()))
                     }
                 }
             }
@@ -437,15 +442,15 @@ macro_rules! words {
 pub use words;
 
 /// The fault for a word that is none of the choice.
-pub fn unknown_word(value: &Raw<'_>, word: &str, known: &[&'static str], expected: &str) -> Fault {
+pub fn unknown_word(value: &Raw<'_>, word: &str, known: &[&'static str], expected: Said) -> Fault {
     let fault = Fault::new(
         UNKNOWN_WORD,
         value.span(),
-        format!("`{word}` is not known here"),
+        say!("`{word}` is not known here"),
     )
-    .label(format!("expected {expected}"));
+    .label(say!("expected {expected}"));
     match nearest(word, known.iter().copied()) {
-        Some(near) => fault.help(format!("did you mean \"{near}\"?")),
+        Some(near) => fault.help(say!("did you mean \"{near}\"?")),
         None => fault,
     }
 }

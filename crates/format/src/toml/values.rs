@@ -9,7 +9,7 @@ use super::faults::{AMOUNT, NOT_FINITE, NOT_WHOLE, QUOTED_NUMBER, WRONG_TYPE};
 use super::strings::StringMap;
 use super::syntax::without_comma;
 use super::table::{FromToml, KeyRow, Raw, Reader, Stated, in_order, inner};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 
 fn integer(number: &DeInteger<'_>) -> Option<i64> {
     i64::from_str_radix(number.as_str(), number.radix()).ok()
@@ -36,12 +36,12 @@ fn quoted_percent(value: &Raw<'_>, text: &str) -> Option<Fault> {
     let fault = Fault::new(
         WRONG_TYPE,
         value.span(),
-        format!("expected a number, found the text {text:?}"),
+        say!("expected a number, found the text {text:?}"),
     );
     Some(
         fault
-            .label("expected a number")
-            .help(format!("a fraction is written as {fraction}")),
+            .label(say!("expected a number"))
+            .help(say!("a fraction is written as {fraction}")),
     )
 }
 
@@ -51,18 +51,22 @@ fn quoted_number(value: &Raw<'_>, text: &str) -> Option<Fault> {
     let fault = Fault::new(
         QUOTED_NUMBER,
         value.span(),
-        format!("the number {number} stands in quotes"),
+        say!("the number {number} stands in quotes"),
     );
     Some(
         fault
-            .label("a text, not a number")
-            .help(format!("remove the quotes: {number}")),
+            .label(say!("a text, not a number"))
+            .help(say!("remove the quotes: {number}")),
     )
 }
 
 impl FromToml for f64 {
-    fn expected() -> String {
-        "a number".into()
+    fn expected() -> Said {
+        say!("a number")
+    }
+
+    fn plural() -> Option<Said> {
+        Some(say!("numbers"))
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
@@ -72,9 +76,9 @@ impl FromToml for f64 {
                 Fault::new(
                     NOT_FINITE,
                     value.span(),
-                    format!("{number} is not a finite number"),
+                    say!("{number} is not a finite number"),
                 )
-                .label("expected a finite number"),
+                .label(say!("expected a finite number")),
             ),
             (None, DeValue::String(text)) if quoted_number(value, text).is_some() => {
                 reader.faults.extend(quoted_number(value, text));
@@ -84,7 +88,7 @@ impl FromToml for f64 {
                 reader.faults.extend(quoted_percent(value, text));
                 None
             }
-            _ => reader.wrong_type(WRONG_TYPE, value, "a number"),
+            _ => reader.wrong_type(WRONG_TYPE, value, say!("a number")),
         }
     }
 
@@ -98,8 +102,12 @@ impl FromToml for f64 {
 pub struct Dof(pub f64);
 
 impl FromToml for Dof {
-    fn expected() -> String {
-        "a number or inf".into()
+    fn expected() -> Said {
+        say!("a number or inf")
+    }
+
+    fn plural() -> Option<Said> {
+        Some(say!("numbers or inf"))
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
@@ -115,8 +123,8 @@ impl FromToml for Dof {
 }
 
 impl FromToml for u64 {
-    fn expected() -> String {
-        "a whole number".into()
+    fn expected() -> Said {
+        say!("a whole number")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
@@ -131,9 +139,9 @@ impl FromToml for u64 {
                 Fault::new(
                     NOT_WHOLE,
                     value.span(),
-                    format!("{number} is not a whole number from 0 upwards"),
+                    say!("{number} is not a whole number from 0 upwards"),
                 )
-                .label("expected a whole number, 0 or more"),
+                .label(say!("expected a whole number, 0 or more")),
             )
         })
     }
@@ -144,14 +152,14 @@ impl FromToml for u64 {
 }
 
 impl FromToml for bool {
-    fn expected() -> String {
-        "true or false".into()
+    fn expected() -> Said {
+        say!("true or false")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         match value.get_ref() {
             DeValue::Boolean(truth) => Some(*truth),
-            _ => reader.wrong_type(WRONG_TYPE, value, "true or false"),
+            _ => reader.wrong_type(WRONG_TYPE, value, say!("true or false")),
         }
     }
 
@@ -161,8 +169,12 @@ impl FromToml for bool {
 }
 
 impl FromToml for String {
-    fn expected() -> String {
-        "a text in quotes".into()
+    fn expected() -> Said {
+        say!("a text in quotes")
+    }
+
+    fn plural() -> Option<Said> {
+        Some(say!("texts in quotes"))
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
@@ -178,15 +190,13 @@ impl FromToml for String {
                     Fault::new(
                         WRONG_TYPE,
                         value.span(),
-                        format!("expected a text in quotes, found the number {digits}"),
+                        say!("expected a text in quotes, found the number {digits}"),
                     )
-                    .label("expected a text in quotes")
-                    .help(format!(
-                        "if the number is meant as a text, write \"{digits}\""
-                    )),
+                    .label(say!("expected a text in quotes"))
+                    .help(say!("if the number is meant as a text, write \"{digits}\"")),
                 )
             }
-            _ => reader.wrong_type(WRONG_TYPE, value, "a text in quotes"),
+            _ => reader.wrong_type(WRONG_TYPE, value, say!("a text in quotes")),
         }
     }
 
@@ -200,15 +210,15 @@ impl FromToml for String {
 pub struct Date(pub String);
 
 impl FromToml for Date {
-    fn expected() -> String {
-        "a date such as 2027-03-01".into()
+    fn expected() -> Said {
+        say!("a date such as 2027-03-01")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         let text = match value.get_ref() {
             DeValue::Datetime(date) if date.date.is_some() => date.to_string(),
             DeValue::String(text) => text.trim().to_string(),
-            _ => return reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+            _ => return reader.wrong_type(WRONG_TYPE, value, Self::expected()),
         };
         let shape: String = text
             .chars()
@@ -221,7 +231,7 @@ impl FromToml for Date {
         if day {
             Some(Date(text))
         } else {
-            reader.wrong_type(WRONG_TYPE, value, &Self::expected())
+            reader.wrong_type(WRONG_TYPE, value, Self::expected())
         }
     }
 
@@ -240,8 +250,8 @@ pub struct Amount {
 }
 
 impl FromToml for Amount {
-    fn expected() -> String {
-        "a number, or a text with number and unit such as \"25 µV\"".into()
+    fn expected() -> Said {
+        say!("a number, or a text with number and unit such as \"25 µV\"")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
@@ -297,9 +307,9 @@ fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
 /// A value that is neither a number nor a text.
 fn refuse_amount(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Amount> {
     let before = reader.faults.len();
-    let refused = reader.wrong_type(WRONG_TYPE, value, &Amount::expected());
+    let refused = reader.wrong_type(WRONG_TYPE, value, Amount::expected());
     if let (DeValue::Array(_), Some(fault)) = (value.get_ref(), reader.faults.get_mut(before)) {
-        fault.help = Some(reader.hints.list_of_amounts.into());
+        fault.help = Some(reader.hints.list_of_amounts.clone());
     }
     refused
 }
@@ -308,34 +318,38 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
     let fault = Fault::new(
         AMOUNT,
         value.span(),
-        format!("{text:?} is not a number with a unit"),
+        say!("{text:?} is not a number with a unit"),
     )
-    .label("expected a number, then a unit");
+    .label(say!("expected a number, then a unit"));
     let bare = text.replace(',', "");
     if text.contains(',') && split_amount(&bare).is_some() {
         fault.help(without_comma(text.trim(), "\""))
     } else if text.trim_start().starts_with('±') {
-        fault.help("leave out the ±; the key says that it is an uncertainty")
+        fault.help(say!(
+            "leave out the ±; the key says that it is an uncertainty"
+        ))
     } else {
-        fault.help("write for example \"25 µV\", or a plain number in the unit of the input")
+        fault.help(say!(
+            "write for example \"25 µV\", or a plain number in the unit of the input"
+        ))
     }
 }
 
 impl<T: FromToml> FromToml for Vec<Stated<T>> {
-    fn expected() -> String {
-        let one = T::expected();
-        match one.strip_prefix("a ") {
-            Some(rest) if !rest.contains(',') => {
-                let (noun, tail) = rest.split_once(' ').unwrap_or((rest, ""));
-                format!("a list of {noun}s {tail}").trim_end().to_string()
-            }
-            _ => format!("a list, each {one}"),
+    fn expected() -> Said {
+        match T::plural() {
+            Some(plural) => say!("a list of {plural}"),
+            None => say!("a list, each {}", T::expected()),
         }
+    }
+
+    fn plural() -> Option<Said> {
+        T::plural().map(|plural| say!("lists of {plural}"))
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         let DeValue::Array(list) = value.get_ref() else {
-            return reader.wrong_type(WRONG_TYPE, value, &Self::expected());
+            return reader.wrong_type(WRONG_TYPE, value, Self::expected());
         };
         if let Some(fault) = decimal_commas(value, list, reader.file) {
             return reader.refuse(fault);
@@ -393,14 +407,14 @@ fn decimal_commas(value: &Raw<'_>, list: &[Raw<'_>], file: &str) -> Option<Fault
         Fault::new(
             AMOUNT,
             value.span(),
-            format!(
+            say!(
                 "{} numbers with decimal commas, or {} whole numbers?",
                 numbers.len(),
                 list.len()
             ),
         )
-        .label("every second comma stands close")
-        .help(format!(
+        .label(say!("every second comma stands close"))
+        .help(say!(
             "write decimal points: [{}]; or a space behind every comma: [{}]{thousands}",
             excerpt(&numbers),
             excerpt(&texts)
@@ -432,8 +446,8 @@ fn read_item<T: FromToml>(item: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Sta
 pub struct OneOrMany<T>(pub Vec<Stated<T>>);
 
 impl<T: FromToml> FromToml for OneOrMany<T> {
-    fn expected() -> String {
-        format!("{}, or several", T::expected())
+    fn expected() -> Said {
+        say!("{}, or several", T::expected())
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
@@ -462,13 +476,13 @@ pub struct Named<T> {
 }
 
 impl<T: FromToml> FromToml for Named<T> {
-    fn expected() -> String {
-        "a table of named entries".into()
+    fn expected() -> Said {
+        say!("a table of named entries")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         let DeValue::Table(table) = value.get_ref() else {
-            return reader.wrong_type(WRONG_TYPE, value, &Self::expected());
+            return reader.wrong_type(WRONG_TYPE, value, Self::expected());
         };
         let mut named = Named {
             entries: Vec::new(),
@@ -510,8 +524,12 @@ pub enum Cell {
 }
 
 impl FromToml for Cell {
-    fn expected() -> String {
-        "a number or a label".into()
+    fn expected() -> Said {
+        say!("a number or a label")
+    }
+
+    fn plural() -> Option<Said> {
+        Some(say!("numbers or a label"))
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {

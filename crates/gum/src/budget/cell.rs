@@ -1,5 +1,6 @@
 //! Cells of a series.
 
+use gumption_fault::{Said, say};
 use serde_json::{Value, json};
 use toml::de::DeValue;
 
@@ -17,8 +18,8 @@ pub enum Entry {
 }
 
 impl FromToml for Entry {
-    fn expected() -> String {
-        "a number, a list or a label".into()
+    fn expected() -> Said {
+        say!("a number, a list or a label")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {

@@ -20,8 +20,6 @@ pub struct Conventions {
     pub confirmation: Confirmation,
     /// p of a k that follows from the distribution of the output.
     pub output_probability: f64,
-    /// Whether a U from the distribution of the output has a single digit where that changes it by 5 % at most.
-    pub single_digit_of_output: bool,
     /// What [`CoverageRule::Output`] takes for the output's distribution.
     pub output_shape: OutputShape,
     /// How ν_eff enters t.
@@ -119,6 +117,17 @@ pub enum Trials {
         /// Give up after so many trials.
         max: u64,
     },
+}
+
+impl Trials {
+    /// As many as may be drawn.
+    pub fn most(&self) -> u64 {
+        match *self {
+            Trials::Fixed(trials) => trials,
+            Trials::Decisive { most, .. } => most,
+            Trials::Adaptive { max, .. } => max,
+        }
+    }
 }
 
 /// What Monte Carlo has to confirm for the GUM result to be stated.

@@ -23,6 +23,14 @@ impl Interval {
     pub fn width(&self) -> Option<f64> {
         Some(self.upper - self.lower).filter(|width| width.is_finite())
     }
+
+    /// Both limits farther out by this distance, or closer by a negative one.
+    pub fn widened(&self, distance: f64) -> Interval {
+        Interval {
+            lower: self.lower - distance,
+            upper: self.upper + distance,
+        }
+    }
 }
 
 /// A conformity assessment (JCGM 106).
@@ -82,6 +90,8 @@ pub enum DecisionRule {
     },
     /// Acceptance limits that the file states.
     Stated(Interval),
+    /// The least guard bands that keep the global risks (9.5); none where simple acceptance keeps them.
+    GlobalRisks(GlobalRisks),
     /// JJF 1094: simple where U ≤ MPEV/3, else undecided within U of the limits.
     Jjf1094,
 }
@@ -91,7 +101,7 @@ impl DecisionRule {
     pub fn takes_expanded(self) -> bool {
         let by_expanded = |guard: Guard| matches!(guard, Guard::Expanded(_));
         match self {
-            DecisionRule::Simple | DecisionRule::Stated(_) => false,
+            DecisionRule::Simple | DecisionRule::Stated(_) | DecisionRule::GlobalRisks(_) => false,
             DecisionRule::GuardedAcceptance(guard) | DecisionRule::GuardedRejection(guard) => {
                 by_expanded(guard)
             }
@@ -99,6 +109,15 @@ impl DecisionRule {
             DecisionRule::Jjf1094 => true,
         }
     }
+}
+
+/// Largest permissible global risks: probabilities over all items of the process. At least one is stated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GlobalRisks {
+    /// R_C: an item does not conform and is accepted (JCGM 106 3.3.15).
+    pub consumer: Option<f64>,
+    /// R_P: an item conforms and is rejected (JCGM 106 3.3.16).
+    pub producer: Option<f64>,
 }
 
 /// ISO 14253-1:2017: conformance and non-conformance are to be shown with this probability.

@@ -11,7 +11,7 @@ use gumption_core::distribution::stating::{
     Given, ParameterError, ParameterRule, Parametric, Takes, Word,
 };
 use gumption_core::distribution::{Distribution, Entry, REGISTRY, kind_named};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::faults::{UNKNOWN_KEY, UNKNOWN_WORD, WRONG_TYPE};
 use gumption_format::toml::{
     Dof, FromToml, Key, KeyRow, Raw, Reader, Stated, described, in_order, inner, unknown_word,
@@ -52,21 +52,30 @@ pub fn parametric(
             .stated(&one.given)
             .map_err(|error| Box::new(one.fault(&error, place))),
         [] => Err(Box::new(
-            Fault::new(MISSING_KEY, place.span.clone(), "no distribution is named")
-                .help("write for example distribution = { uniform = { half_width = 0.5 } }"),
+            Fault::new(
+                MISSING_KEY,
+                place.span.clone(),
+                say!("no distribution is named"),
+            )
+            .help(say!(
+                "write for example distribution = {{ uniform = {{ half_width = 0.5 }} }}"
+            )),
         )),
         [first, second, ..] => Err(Box::new(
             Fault::new(
                 TWO_WAYS,
                 second.key.clone(),
-                format!(
+                say!(
                     "two distributions, {} and {}",
-                    first.entry.kind.key, second.entry.kind.key
+                    first.entry.kind.key,
+                    second.entry.kind.key
                 ),
             )
-            .label("second distribution")
-            .related(first.key.clone(), "first distribution")
-            .help("keep one; two reasons for doubt are two entries of `components`"),
+            .label(say!("second distribution"))
+            .related(first.key.clone(), say!("first distribution"))
+            .help(say!(
+                "keep one; two reasons for doubt are two entries of `components`"
+            )),
         )),
     }
 }
@@ -84,35 +93,36 @@ impl StatedDistribution {
         let here = || place.span.clone();
         match error {
             ParameterError::Missing { key } => {
-                Fault::new(MISSING_KEY, here(), format!("{name} needs `{key}`"))
-                    .label(format!("`{key}` is missing"))
+                Fault::new(MISSING_KEY, here(), say!("{name} needs `{key}`"))
+                    .label(say!("`{key}` is missing"))
             }
             ParameterError::NoLimits => {
-                Fault::new(MISSING_KEY, here(), format!("{name} needs its limits"))
-                    .label("limits are missing")
-                    .help("write `lower` and `upper`, or `half_width`")
+                Fault::new(MISSING_KEY, here(), say!("{name} needs its limits"))
+                    .label(say!("limits are missing"))
+                    .help(say!("write `lower` and `upper`, or `half_width`"))
             }
             ParameterError::TwoWidths { key } => {
                 let [half_width, limit] = ["half_width", key]
                     .map(|key| self.places(key).map_or_else(here, |(key, _)| key));
-                Fault::new(TWO_WAYS, half_width, format!("{name} has two widths"))
-                    .label("half-width stated here")
-                    .related(limit, "limit stated here")
-                    .help("leave out one")
+                Fault::new(TWO_WAYS, half_width, say!("{name} has two widths"))
+                    .label(say!("half-width stated here"))
+                    .related(limit, say!("limit stated here"))
+                    .help(say!("leave out one"))
             }
             ParameterError::NotAllowed { key, value, must } => {
                 let value_place = self.places(key).map_or_else(here, |(_, value)| value);
-                let message = format!("`{key}` of {name} is {value}");
-                Fault::new(DISTRIBUTION, value_place, message).label(format!("must be {must}"))
+                let message = say!("`{key}` of {name} is {value}");
+                Fault::new(DISTRIBUTION, value_place, message).label(say!("must be {must}"))
             }
             ParameterError::Descending { lower, upper } => {
-                let message = format!("the limits of {name} are {lower} and {upper}");
-                Fault::new(DISTRIBUTION, here(), message).help("`lower` must be less than `upper`")
+                let message = say!("the limits of {name} are {lower} and {upper}");
+                Fault::new(DISTRIBUTION, here(), message)
+                    .help(say!("`lower` must be less than `upper`"))
             }
             ParameterError::Unusable { message, help } => {
-                Fault::new(DISTRIBUTION, here(), message.clone()).help(*help)
+                Fault::new(DISTRIBUTION, here(), message.clone()).help(help.clone())
             }
-            other => Fault::new(DISTRIBUTION, here(), other.to_string()),
+            other => Fault::new(DISTRIBUTION, here(), other.said()),
         }
     }
 
@@ -123,7 +133,7 @@ impl StatedDistribution {
         reader: &mut Reader<'_>,
     ) -> Option<Self> {
         let DeValue::Table(table) = value.get_ref() else {
-            return reader.wrong_type(WRONG_TYPE, value, "a table");
+            return reader.wrong_type(WRONG_TYPE, value, say!("a table"));
         };
         let mut stated = StatedDistribution {
             entry,
@@ -175,7 +185,7 @@ impl StatedDistribution {
 }
 
 /// Schema of a parameter, and what it may be set to in words.
-fn expected(takes: Takes) -> (Value, String) {
+fn expected(takes: Takes) -> (Value, Said) {
     match takes {
         Takes::Number => (f64::schema(), f64::expected()),
         Takes::Freedom => (Dof::schema(), Dof::expected()),
@@ -188,18 +198,18 @@ fn shape(text: &str, value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<&'stati
     let Some(kind) = kind_named(text) else {
         let known: Vec<&'static str> = shape_names().collect();
         let words = shapes().map(|shape| format!("\"{}\"", shape.kind.key));
-        let expected = format!("one of {}", words.collect::<Vec<_>>().join(", "));
-        return reader.refuse(unknown_word(value, text, &known, &expected));
+        let expected = say!("one of {}", words.collect::<Vec<_>>().join(", "));
+        return reader.refuse(unknown_word(value, text, &known, expected));
     };
     shapes().find(|entry| entry.kind.key == kind.key).or_else(|| {
         reader.refuse(
             Fault::new(
                 UNKNOWN_WORD,
                 value.span(),
-                format!("the {} distribution needs its parameters", kind.name_en),
+                say!("the {} distribution needs its parameters", kind.name_en),
             )
-            .label("a name alone does not fix it")
-            .help(format!(
+            .label(say!("a name alone does not fix it"))
+            .help(say!(
                 "state it with its parameters, without `u` or `half_width`; `gumption explain {}` shows them",
                 kind.key
             )),
@@ -242,10 +252,10 @@ fn other_name(key: &Key<'_>, reader: &mut Reader<'_>) {
             Fault::new(
                 UNKNOWN_KEY,
                 key.span(),
-                format!("a distribution with parameters has no key `{name}`"),
+                say!("a distribution with parameters has no key `{name}`"),
             )
-            .label("unknown key")
-            .help(format!("write `{}`", entry.kind.key)),
+            .label(say!("unknown key"))
+            .help(say!("write `{}`", entry.kind.key)),
         ),
         None => {
             let known: Vec<&'static str> = with_parameters().map(|entry| entry.kind.key).collect();
@@ -255,8 +265,8 @@ fn other_name(key: &Key<'_>, reader: &mut Reader<'_>) {
 }
 
 impl FromToml for DistributionEntry {
-    fn expected() -> String {
-        "the name of a shape, or { NAME = { parameters } }".into()
+    fn expected() -> Said {
+        say!("the name of a shape, or {{ NAME = {{ parameters }} }}")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
@@ -282,7 +292,7 @@ impl FromToml for DistributionEntry {
                 let refused = reader.faults.len() > before;
                 (!refused).then_some(DistributionEntry::Full(stated))
             }
-            _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+            _ => reader.wrong_type(WRONG_TYPE, value, Self::expected()),
         }
     }
 
@@ -313,14 +323,14 @@ impl FromToml for DistributionEntry {
     }
 
     fn tables(path: &str, rows: &mut Vec<KeyRow>) {
-        let row = |table: &str, key, kind: String, doc: String| KeyRow {
+        let row = |table: &str, key, kind: Said, doc: String| KeyRow {
             table: table.to_string(),
             key,
             kind,
             doc,
         };
         for entry in with_parameters() {
-            rows.push(row(path, entry.kind.key, "a table".into(), summary(entry)));
+            rows.push(row(path, entry.kind.key, say!("a table"), summary(entry)));
         }
         for entry in with_parameters() {
             let path = inner(path, entry.kind.key);

@@ -109,6 +109,10 @@ OUTLIER_TEST = "B0220", "a test for outliers cannot say anything", "离群值检
 standard deviations need 11: with fewer no reading can be so far from the mean. `significance` is for the tests of Grubbs \
 and Dixon.";
 
+TWO_TURNS = "B0225", "readings of a direction are written on two turns", "方向读数跨越整圈的起点",
+"359.8° and 0.1° are 0.3° apart, and their arithmetic mean of 180° points the other way. Readings of one direction, all \
+within half a turn of one another, are written on one turn: -0.2 in place of 359.8, or 360.1 in place of 0.1.";
+
 UNKNOWN_NAME = "B0301", "a name is not known", "所引用的名称未知",
 "A correlation, a joint input, a claim or a series refers to an input, source or component that the file does not have.";
 
@@ -163,7 +167,8 @@ many. Two assessments of one measurand have a `name` each.";
 
 DECISION_RULE = "B0502", "a decision rule is missing or contradicts itself", "判定规则缺失或自相矛盾",
 "A statement of conformity needs the rule by which uncertainty was taken into account (ISO/IEC 17025 7.8.6): `rule`, or \
-`acceptance` limits, or the probabilities from which they follow. A guard band is an amount or a multiple of U.";
+`acceptance` limits, or the probabilities or risks from which they follow. A guard band is an amount or a multiple of U. A global \
+risk is an average over all items and needs `process`, what is known of them before one is measured (JCGM 106 clause 9).";
 
 PROCESS = "B0503", "the knowledge of the process is not usable", "过程信息不可用",
 "`process` states a distribution with its parameters, located where the items are, or `in_tolerance_probability`, which \

@@ -54,6 +54,45 @@ pub struct Fit {
     pub condition: f64,
     /// Whether the curve describes the data, where that can be tested.
     pub lack_of_fit: Option<LackOfFit>,
+    /// What speaks against it.
+    pub doubts: Vec<FitDoubt>,
+}
+
+/// What speaks against a fit that was found.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub enum FitDoubt {
+    /// The residuals keep their signs for longer than by chance.
+    Pattern {
+        /// Runs of residuals of one sign, along the predictor.
+        runs: usize,
+        /// Residuals that are not zero.
+        points: usize,
+        /// Probability of so few runs or fewer.
+        p: f64,
+    },
+    /// The curve has a pole, or is not defined, between two points.
+    Pole {
+        /// The divisor or argument, as the formula has it.
+        argument: String,
+        /// Name of the predictor.
+        predictor: String,
+        /// The two points.
+        between: [f64; 2],
+        /// Its unit.
+        unit: Unit,
+    },
+    /// Another start leads to a better minimum.
+    BetterMinimum {
+        /// The parameters there, with their names.
+        parameters: Vec<(String, f64)>,
+        /// Root mean square of the residuals there, as a fraction of that of the fit.
+        residuals: f64,
+    },
+}
+
+impl FitDoubt {
+    /// Significance level of the pattern, which is looked for in every fit: one false alarm in a hundred, at most.
+    pub const LEVEL: f64 = 0.01;
 }
 
 /// A column of observed data.
@@ -185,11 +224,14 @@ impl Fit {
         };
         let mut figures = Vec::new();
         let mut push = |figure: String, value: f64, unit: &Unit| {
-            figures.push(NamedFigure {
-                name: format!("{}.{figure}", self.name),
-                value,
-                unit: unit.clone(),
-            });
+            // Squares of 10¹⁶⁰ are no numbers.
+            if value.is_finite() {
+                figures.push(NamedFigure {
+                    name: format!("{}.{figure}", self.name),
+                    value,
+                    unit: unit.clone(),
+                });
+            }
         };
         push("points".into(), self.points() as f64, &one);
         push("dof".into(), self.dof as f64, &one);
@@ -244,7 +286,7 @@ impl Fit {
         let xy = sum(&|i| (x.values[i] - mean_x) * (y.values[i] - mean_y));
         let xx = sum(&|i| (x.values[i] - mean_x).powi(2));
         let yy = sum(&|i| (y.values[i] - mean_y).powi(2));
-        (line && xx * yy > 0.0).then(|| xy / (xx * yy).sqrt())
+        (line && xx * yy > 0.0).then(|| xy / (xx.sqrt() * yy.sqrt()))
     }
 
     /// Sum of the squares of response − fitted.

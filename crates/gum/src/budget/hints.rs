@@ -1,5 +1,6 @@
 //! What writers of budgets mistake, beyond misspelt words.
 
+use gumption_fault::{Said, say};
 use gumption_format::toml::{Hints, Table};
 
 use super::tables::FileTable;
@@ -9,7 +10,9 @@ pub static HINTS: Hints = Hints {
     synonyms: &SYNONYMS,
     top: FileTable::keys,
     unknown_key,
-    list_of_amounts: "readings of one quantity are `readings = […]`, the elements of a vector `values = […]`",
+    list_of_amounts: say!(
+        "readings of one quantity are `readings = […]`, the elements of a vector `values = […]`"
+    ),
 };
 
 /// Words that people try for the keys of an uncertainty, and those keys.
@@ -39,14 +42,14 @@ pub const SYNONYMS: [(&str, &str); 22] = [
 ];
 
 /// Keys of an uncertainty that stand in the wrong place.
-pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<String> {
+pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Said> {
     // `U` must not be taken for a misspelt `u`: they differ by the coverage factor.
     if matches!(key, "U" | "k" | "expanded") && known.contains(&"certificate") {
-        return Some(
-            "an expanded uncertainty stands with its k: certificate = { U = …, k = 2 }".into(),
-        );
+        return Some(say!(
+            "an expanded uncertainty stands with its k: certificate = {{ U = …, k = 2 }}"
+        ));
     }
     let beside = ["specification", "certificate"].contains(&table)
         && ["p", "k", "dof", "distribution", "name"].contains(&key);
-    beside.then(|| format!("`{key}` stands beside `{table}`, not in it"))
+    beside.then(|| say!("`{key}` stands beside `{table}`, not in it"))
 }

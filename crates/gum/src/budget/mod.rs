@@ -42,9 +42,12 @@ pub use conventions::{
     Points, StatementForm, TScale, Trials,
 };
 pub use decision::{
-    Conformity, DecisionRule, Detection, Following, Follows, Guard, ISO_14253_PROBABILITY, Interval,
+    Conformity, DecisionRule, Detection, Following, Follows, GlobalRisks, Guard,
+    ISO_14253_PROBABILITY, Interval,
 };
-pub use fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict};
+pub use fit::{
+    Fit, FitColumn, FitDoubt, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict,
+};
 pub use gumption_format::toml::KeyRow;
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{keys, load, load_from, load_under, read, schema, template};

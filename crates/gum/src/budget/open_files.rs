@@ -9,7 +9,7 @@ use std::rc::Rc;
 
 use super::checked::Loaded;
 use super::saved::SavedResults;
-use gumption_fault::{Fault, Rejection};
+use gumption_fault::{Fault, Rejection, say};
 use gumption_format::files::Files;
 use gumption_format::toml::faults::UNREADABLE_FILE;
 
@@ -26,9 +26,13 @@ fn of_a_budget(rejection: Rejection) -> Rejection {
     if rejection.text.is_empty() || rejection.text.contains("[measurand") {
         return rejection;
     }
-    let message = format!("{} is no budget: it has no [measurand]", rejection.name);
+    let message = say!("{} is no budget: it has no [measurand]", rejection.name);
     let fault = Fault::new(UNREADABLE_FILE, 0..0, message);
-    Rejection::new(&rejection.name, "", vec![fault.help("name a budget file")])
+    Rejection::new(
+        &rejection.name,
+        "",
+        vec![fault.help(say!("name a budget file"))],
+    )
 }
 
 /// Files that have been read, and those that are being read.

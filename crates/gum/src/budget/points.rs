@@ -9,7 +9,7 @@ use super::cell::Entry;
 use super::check::Origin;
 use super::faults::CSV;
 use gumption_core::quantity::UnitTable;
-use gumption_fault::{Fault, Rejection};
+use gumption_fault::{Fault, Rejection, say};
 use gumption_format::csv::{Heading, Sheet, text_of};
 use gumption_format::toml::{Raw, Stated};
 
@@ -47,11 +47,11 @@ impl Points {
         });
         found
             .map_err(|rejection| {
-                let message = format!("{} cannot be used as it is", named.value);
+                let message = say!("{} cannot be used as it is", named.value);
                 faults.push(
                     Fault::new(CSV, named.span.clone(), message)
-                        .label("has faults itself")
-                        .help("its faults are listed after those of this file"),
+                        .label(say!("has faults itself"))
+                        .help(say!("its faults are listed after those of this file")),
                 );
                 files.refused(rejection);
             })

@@ -17,9 +17,8 @@ pub struct Profile {
     pub coverage_factor: CoverageRule,
     /// What Monte Carlo has to confirm for the GUM result to be stated.
     pub confirmation: Confirmation,
-    /// p of a k that follows from the distribution of the output, and whether a U from it has a single digit where
-    /// that changes it by 5 % at most.
-    pub output: (f64, bool),
+    /// p of a k that follows from the distribution of the output.
+    pub output_probability: f64,
     /// What is taken for the output's distribution where a component dominates.
     pub output_shape: OutputShape,
     /// How ν_eff enters t.
@@ -51,8 +50,7 @@ impl Profile {
             coverage_probability: self.coverage_probability,
             coverage_factor: self.coverage_factor,
             confirmation: self.confirmation,
-            output_probability: self.output.0,
-            single_digit_of_output: self.output.1,
+            output_probability: self.output_probability,
             output_shape: self.output_shape,
             degrees_of_freedom: self.degrees_of_freedom,
             rounding: self.rounding,
@@ -71,7 +69,7 @@ const GUM: Profile = Profile {
     coverage_probability: 0.95,
     coverage_factor: CoverageRule::Output,
     confirmation: Confirmation::Interval,
-    output: (0.95, false),
+    output_probability: 0.95,
     output_shape: OutputShape::Convolution,
     degrees_of_freedom: DofRule::Truncated,
     rounding: Rounding::HalfEven,
@@ -92,15 +90,13 @@ pub const PROFILES: &[Profile] = &[
         name: "EA",
         coverage_probability: 0.9545,
         confirmation: Confirmation::Moments,
-        // S9 and S10: k = 1.65 and 1.83 for 95 %, U = 0.05 V and 0.06 mm.
-        output: (0.95, true),
+        // S9 and S10: k = 1.65 and 1.83 for 95 %.
         output_shape: OutputShape::DominantAlone,
         up_if_lowered_by_5_percent: true,
         en: "Coverage probability 95.45 %, so k = 2 for a normal output; k from t at few effective degrees of freedom, \
-             from the output distribution for 95 % when a rectangle dominates, and U to one digit then if that \
-             changes it by 5 % at most; the rounded-up value when rounding would lower U by more than 5 %. k·u_c \
+             from the output distribution for 95 % when a rectangle dominates; two digits, the rounded-up value when rounding would lower U by more than 5 %. k·u_c \
              stands as soon as Monte Carlo confirms y and u, with u = s/√n for few readings.",
-        zh: "包含概率 95.45 %，正态分布时 k = 2；有效自由度小时按 t 分布取 k，矩形分布占优时由输出量分布取 k（包含概率 95 %），此时若 U 取一位有效数字的改变不超过 5 % 则取一位；修约使 U 减小超过 5 % 时进位。只要蒙特卡洛法证实 y 和 u（少量重复测量取 u = s/√n），即采用 k·u_c。",
+        zh: "包含概率 95.45 %，正态分布时 k = 2；有效自由度小时按 t 分布取 k，矩形分布占优时由输出量分布取 k（包含概率 95 %）；不确定度取两位有效数字，修约使 U 减小超过 5 % 时进位。只要蒙特卡洛法证实 y 和 u（少量重复测量取 u = s/√n），即采用 k·u_c。",
         source: "EA-4/02 M:2022, 6.3, appendix E, S9 and S10",
         ..GUM
     },

@@ -15,7 +15,7 @@ use super::open_files::OpenFiles;
 use super::points::Points;
 use super::series;
 use super::tables::FileTable;
-use gumption_fault::{Fault, Rejection};
+use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::files::Files;
 use gumption_format::toml::faults::UNREADABLE_FILE;
 use gumption_format::toml::{FromToml, KeyRow, Reader, Stated, Table, read_table};
@@ -100,29 +100,30 @@ fn load_bytes(
 /// The fault of a file that cannot be opened, in words that do not depend on the operating system.
 fn unreadable(files: Files<'_>, path: &Path, error: &std::io::Error) -> Fault {
     let name = path.display();
-    let fault = |message: String| Fault::new(UNREADABLE_FILE, 0..0, message);
+    let fault = |message: Said| Fault::new(UNREADABLE_FILE, 0..0, message);
     if path.as_os_str().is_empty() {
-        return fault("the name of the file is empty".into())
-            .help("name a budget file, as in `gumption eval budget.toml`");
+        return fault(say!("the name of the file is empty")).help(say!(
+            "name a budget file, as in `gumption eval budget.toml`"
+        ));
     }
     if files.is_folder(path) {
-        return fault(format!("{name} is a folder, not a file")).help(format!(
+        return fault(say!("{name} is a folder, not a file")).help(say!(
             "name the budgets in it, as in `gumption eval {}`",
             path.join("*.toml").display()
         ));
     }
     match error.kind() {
-        ErrorKind::NotFound => fault(format!("there is no file {name}"))
-            .help("check the name and the folder; `gumption new budget.toml` writes a budget to start from"),
-        ErrorKind::PermissionDenied => fault(format!("{name} may not be read"))
-            .help("ask its owner for the permission to read it"),
-        _ => fault(format!("{name} cannot be read: {error}")),
+        ErrorKind::NotFound => fault(say!("there is no file {name}"))
+            .help(say!("check the name and the folder; `gumption new budget.toml` writes a budget to start from")),
+        ErrorKind::PermissionDenied => fault(say!("{name} may not be read"))
+            .help(say!("ask its owner for the permission to read it")),
+        _ => fault(say!("{name} cannot be read: {error}")),
     }
 }
 
 fn not_a_budget(name: &str) -> Fault {
-    Fault::new(UNREADABLE_FILE, 0..0, format!("{name} is a table of values, not a budget"))
-        .help(format!(
+    Fault::new(UNREADABLE_FILE, 0..0, say!("{name} is a table of values, not a budget"))
+        .help(say!(
             "a budget (*.toml) names the file where it needs it: readings = {{ file = \"{name}\", column = \"…\" }}"
         ))
 }

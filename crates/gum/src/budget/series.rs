@@ -10,7 +10,7 @@ use super::cell::Entry;
 use super::faults::{SERIES, UNKNOWN_NAME};
 use super::points::Points;
 use super::tables::{FileTable, SeriesTable};
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, Said, nearest, say};
 use gumption_format::toml::amount_parts;
 use gumption_format::toml::{Raw, Stated, Table};
 
@@ -57,10 +57,12 @@ pub(super) fn variants<'t>(
                 Fault::new(
                     SERIES,
                     stated.span.clone(),
-                    "the rows of the series are stated twice",
+                    say!("the rows of the series are stated twice"),
                 )
-                .label("in a file and here")
-                .help("the first line of `file` names the columns: leave out `columns` and `rows`"),
+                .label(say!("in a file and here"))
+                .help(say!(
+                    "the first line of `file` names the columns: leave out `columns` and `rows`"
+                )),
             );
             return Vec::new();
         }
@@ -78,22 +80,22 @@ pub(super) fn variants<'t>(
         .collect();
     if rows.is_empty() {
         faults.push(
-            Fault::new(SERIES, stated.span.clone(), "the series has no rows")
-                .label("nothing to evaluate"),
+            Fault::new(SERIES, stated.span.clone(), say!("the series has no rows"))
+                .label(say!("nothing to evaluate")),
         );
     }
     let mut variants = Vec::new();
     for (place, cells) in rows {
         if cells.len() != kinds.len() {
-            let message = format!(
+            let message = say!(
                 "a row of {} entries for {} columns",
                 cells.len(),
                 kinds.len()
             );
-            let fault = Fault::new(SERIES, place, message)
-                .label(format!("expected {} entries", kinds.len()));
+            let fault =
+                Fault::new(SERIES, place, message).label(say!("expected {} entries", kinds.len()));
             faults.push(match &table.columns {
-                Some(columns) => fault.related(columns.span.clone(), "the columns"),
+                Some(columns) => fault.related(columns.span.clone(), say!("the columns")),
                 None => fault,
             });
             continue;
@@ -189,9 +191,9 @@ fn incomplete(stated: &Stated<SeriesTable>) -> Fault {
     Fault::new(
         SERIES,
         stated.span.clone(),
-        format!("the series has no `{missing}`"),
+        say!("the series has no `{missing}`"),
     )
-    .label(format!("`{missing}` is missing"))
+    .label(say!("`{missing}` is missing"))
 }
 
 /// The rows that the file states: their places, and their cells as read and as the file has them.
@@ -245,10 +247,10 @@ fn column(file: &DeTable<'_>, name: &Stated<String>, faults: &mut Vec<Fault>) ->
         }
         if let Some(values) = values(entry) {
             faults.push(
-                Fault::new(SERIES, name.span.clone(), format!("{wanted} is a vector"))
-                    .label("a column sets one number")
-                    .related(values, "its values")
-                    .help(format!("name an element: \"{wanted}.values.1\"")),
+                Fault::new(SERIES, name.span.clone(), say!("{wanted} is a vector"))
+                    .label(say!("a column sets one number"))
+                    .related(values, say!("its values"))
+                    .help(say!("name an element: \"{wanted}.values.1\"")),
             );
             return None;
         }
@@ -269,19 +271,19 @@ fn unknown_column(file: &DeTable<'_>, name: &Stated<String>, path: &[String]) ->
     let fault = Fault::new(
         UNKNOWN_NAME,
         name.span.clone(),
-        format!("no input or constant is called {}", path[0]),
+        say!("no input or constant is called {}", path[0]),
     )
-    .label("unknown column");
+    .label(say!("unknown column"));
     let known = known_names(file, path.len());
     match nearest(&path[0], known.iter().map(String::as_str)) {
         Some(near) => {
             let whole: Vec<&str> = std::iter::once(near)
                 .chain(path[1..].iter().map(String::as_str))
                 .collect();
-            fault.help(format!("did you mean \"{}\"?", whole.join(".")))
+            fault.help(say!("did you mean \"{}\"?", whole.join(".")))
         }
         None => fault.help(
-            "columns are inputs, constants, `label`, or other numbers of the file by their path, such as `claim.value`",
+            say!("columns are inputs, constants, `label`, or other numbers of the file by their path, such as `claim.value`"),
         ),
     }
 }
@@ -352,9 +354,9 @@ fn set<'t>(
             Fault::new(
                 SERIES,
                 cell.span.clone(),
-                format!("the text {text:?} where a number is expected"),
+                say!("the text {text:?} where a number is expected"),
             )
-            .label("expected a number in the unit of the input"),
+            .label(say!("expected a number in the unit of the input")),
         );
         return;
     }
@@ -362,7 +364,8 @@ fn set<'t>(
         return;
     };
     if let Err(message) = set_in_table(table, first, rest, name, raw) {
-        let fault = Fault::new(UNKNOWN_NAME, name.span.clone(), message).label("unknown column");
+        let fault =
+            Fault::new(UNKNOWN_NAME, name.span.clone(), message).label(say!("unknown column"));
         if !faults.contains(&fault) {
             faults.push(fault);
         }
@@ -375,7 +378,7 @@ fn set_in_table<'t>(
     rest: &[String],
     name: &Stated<String>,
     cell: &Raw<'t>,
-) -> Result<(), String> {
+) -> Result<(), Said> {
     let key = named_component(table, key);
     let key = key.as_slice();
     let (first, further) = key.split_first().expect("a path is never empty");
@@ -414,7 +417,7 @@ fn is_called(entry: &Raw<'_>, name: &str) -> bool {
     matches!(table.get("name").map(Spanned::get_ref), Some(DeValue::String(text)) if text == name)
 }
 
-fn replace<'t>(slot: Option<&mut Raw<'t>>, cell: &Raw<'t>) -> Result<(), String> {
+fn replace<'t>(slot: Option<&mut Raw<'t>>, cell: &Raw<'t>) -> Result<(), Said> {
     let Some(slot) = slot else { return Ok(()) };
     // A constant that is a text with a unit keeps its unit.
     let unit = match (slot.get_ref(), cell.get_ref()) {
@@ -443,7 +446,7 @@ fn set_in_value<'t>(
     path: &[String],
     name: &Stated<String>,
     cell: &Raw<'t>,
-) -> Result<(), String> {
+) -> Result<(), Said> {
     let Some((first, rest)) = path.split_first() else {
         return Ok(());
     };
@@ -462,7 +465,7 @@ fn set_in_value<'t>(
             let Some((entry, rest)) =
                 chosen.and_then(|(index, rest)| Some((list.get_mut(index)?, rest)))
             else {
-                return Err(format!(
+                return Err(say!(
                     "there is no entry {first} for the column \"{}\": the list has {count}",
                     name.value
                 ));
@@ -472,13 +475,13 @@ fn set_in_value<'t>(
             } else if matches!(entry.get_ref(), DeValue::Table(_)) {
                 set_in_value(entry, rest, name, cell)
             } else {
-                Err(format!(
+                Err(say!(
                     "the column \"{}\" leads to a list of numbers; name one by its place, counted from 1",
                     name.value
                 ))
             }
         }
-        _ => Err(format!(
+        _ => Err(say!(
             "the column \"{}\" goes beyond a number or text of the file, at `{first}`",
             name.value
         )),

@@ -1,5 +1,6 @@
 //! Keys that may be set to values of more than one type.
 
+use gumption_fault::{Said, say};
 use serde_json::{Value, json};
 use toml::de::DeValue;
 
@@ -13,8 +14,12 @@ use gumption_format::toml::{FromToml, KeyRow, Raw, Reader, Stated, unknown_word}
 pub struct RowLabel(pub String);
 
 impl FromToml for RowLabel {
-    fn expected() -> String {
-        "a text or a number".into()
+    fn expected() -> Said {
+        say!("a text or a number")
+    }
+
+    fn plural() -> Option<Said> {
+        Some(say!("texts or a number"))
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
@@ -57,7 +62,7 @@ impl Amounts {
 }
 
 impl FromToml for Amounts {
-    fn expected() -> String {
+    fn expected() -> Said {
         Amount::expected()
     }
 
@@ -92,8 +97,8 @@ pub enum Numbers {
 }
 
 impl FromToml for Numbers {
-    fn expected() -> String {
-        "a list of numbers, or { file = \"…\", column = \"…\" }".into()
+    fn expected() -> Said {
+        say!("a list of numbers, or {{ file = \"…\", column = \"…\" }}")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
@@ -103,7 +108,7 @@ impl FromToml for Numbers {
             DeValue::Table(_) => {
                 ColumnTable::read(value, reader).map(|table| Numbers::Column(Box::new(table)))
             }
-            _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+            _ => reader.wrong_type(WRONG_TYPE, value, Self::expected()),
         }
     }
 
@@ -142,21 +147,21 @@ pub enum Groups {
 }
 
 impl FromToml for Groups {
-    fn expected() -> String {
-        "a list of lists of numbers, or { file = \"…\", column = \"…\", group = \"…\" }".into()
+    fn expected() -> Said {
+        say!("a list of lists of numbers, or {{ file = \"…\", column = \"…\", group = \"…\" }}")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         match value.get_ref() {
             DeValue::Array(list) => match depth(list) {
-                1 => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+                1 => reader.wrong_type(WRONG_TYPE, value, Self::expected()),
                 2 => Vec::read(value, reader).map(Groups::OneWay),
                 _ => Vec::read(value, reader).map(Groups::Nested),
             },
             DeValue::Table(_) => {
                 GroupColumnTable::read(value, reader).map(|table| Groups::Column(Box::new(table)))
             }
-            _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+            _ => reader.wrong_type(WRONG_TYPE, value, Self::expected()),
         }
     }
 
@@ -185,8 +190,8 @@ pub enum ReadingsOf {
 }
 
 impl FromToml for ReadingsOf {
-    fn expected() -> String {
-        "\"mean\", \"single\" or a number of readings".into()
+    fn expected() -> Said {
+        say!("\"mean\", \"single\" or a number of readings")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
@@ -197,10 +202,10 @@ impl FromToml for ReadingsOf {
                 value,
                 word,
                 &["mean", "single"],
-                &Self::expected(),
+                Self::expected(),
             )),
             _ => match u64::read(value, reader)? {
-                0 => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+                0 => reader.wrong_type(WRONG_TYPE, value, Self::expected()),
                 count => Some(ReadingsOf::Several(count)),
             },
         }
@@ -221,15 +226,15 @@ pub enum TrialsEntry {
 }
 
 impl FromToml for TrialsEntry {
-    fn expected() -> String {
-        "a number of trials or \"adaptive\"".into()
+    fn expected() -> Said {
+        say!("a number of trials or \"adaptive\"")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         match value.get_ref() {
             DeValue::String(word) if word == "adaptive" => Some(TrialsEntry::Adaptive),
             DeValue::String(word) if word.parse::<f64>().is_err() => {
-                reader.refuse(unknown_word(value, word, &["adaptive"], &Self::expected()))
+                reader.refuse(unknown_word(value, word, &["adaptive"], Self::expected()))
             }
             _ => u64::read(value, reader).map(TrialsEntry::Fixed),
         }

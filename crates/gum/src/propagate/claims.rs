@@ -2,7 +2,8 @@
 
 use crate::budget::{Budget, Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, Part};
 
-use super::result::{Clause8, Evaluation, MeasurandResult};
+use super::reported::Reported;
+use super::result::{Basis, Clause8, Evaluation, MeasurandResult};
 use gumption_core::quantity::Rounding;
 
 /// One claimed figure against one obtained figure.
@@ -94,13 +95,22 @@ impl Comparison {
 }
 
 /// Every claimed figure of a budget against what was obtained, in the order of the file. A claim that names no
-/// method is judged by GUM, with Monte Carlo beside.
+/// method is judged by what is reported, with the other method beside.
 pub fn compare_claims(budget: &Budget, evaluation: &Evaluation) -> Vec<Comparison> {
     let mut comparisons = Vec::new();
     for (index, claim) in budget.claims.iter().enumerate() {
         for figure in &claim.figures {
-            for (method, judged) in methods(claim.method, &figure.what) {
-                let obtained = obtained(budget, evaluation, claim, &figure.what, method);
+            let reported = evaluation
+                .results
+                .get(claim.measurand)
+                .map(|result| result.reported(&budget.conventions));
+            let basis = reported.map_or(Basis::Gum, |reported| reported.basis);
+            for (method, judged) in methods(claim.method, &figure.what, basis) {
+                let stated = reported
+                    .filter(|_| judged && claim.method == ClaimedMethod::Unstated)
+                    .and_then(|reported| as_reported(&reported, claim, &figure.what));
+                let obtained =
+                    stated.or_else(|| obtained(budget, evaluation, claim, &figure.what, method));
                 if judged || obtained.is_some() {
                     let rounded = obtained
                         .filter(|_| figure.what == Figure::ExpandedUncertainty)
@@ -134,15 +144,50 @@ fn is_always_up(budget: &Budget, figure: &ClaimedFigure) -> bool {
         && (place - place.round()).abs() < 1e-6
 }
 
-fn methods(claimed: ClaimedMethod, what: &Figure) -> Vec<(Method, bool)> {
+fn methods(claimed: ClaimedMethod, what: &Figure, basis: Basis) -> Vec<(Method, bool)> {
     if matches!(what, Figure::Named(_)) {
         return vec![(Method::Analysis, true)];
     }
     match claimed {
+        ClaimedMethod::Unstated if basis == Basis::MonteCarlo && has_monte_carlo(what) => {
+            vec![(Method::MonteCarlo, true), (Method::Gum, false)]
+        }
         ClaimedMethod::Unstated => vec![(Method::Gum, true), (Method::MonteCarlo, false)],
         ClaimedMethod::Gum => vec![(Method::Gum, true)],
         ClaimedMethod::SecondOrder => vec![(Method::SecondOrder, true)],
         ClaimedMethod::MonteCarlo => vec![(Method::MonteCarlo, true)],
+    }
+}
+
+/// Whether a figure is one that Monte Carlo gives.
+fn has_monte_carlo(what: &Figure) -> bool {
+    !matches!(
+        what,
+        Figure::DegreesOfFreedom
+            | Figure::RegionFreedom
+            | Figure::Shift
+            | Figure::Input(..)
+            | Figure::Component(..)
+            | Figure::Named(_)
+    )
+}
+
+/// The figure as the report states it, where it states one.
+fn as_reported(reported: &Reported, claim: &Claim, what: &Figure) -> Option<f64> {
+    let (u, y) = (reported.u, reported.estimate);
+    let expanded = || match claim.figure(&Figure::CoverageFactor) {
+        Some(k) => u.map(|u| k * u),
+        None => reported.expanded(),
+    };
+    match what {
+        Figure::Estimate => Some(y),
+        Figure::StandardUncertainty => u,
+        Figure::ExpandedUncertainty => expanded(),
+        Figure::RelativeUncertainty => u.map(|u| u / y.abs()),
+        Figure::RelativeExpanded => expanded().map(|expanded| expanded / y.abs()),
+        Figure::Variance => u.map(|u| u * u),
+        Figure::CoverageFactor => reported.coverage_factor(),
+        _ => None,
     }
 }
 

@@ -35,6 +35,9 @@ pub(super) fn with_normal_readings(budget: &Budget) -> Option<Budget> {
 /// reported, the one with the fewest degrees of freedom first; none where all of them together do not.
 pub(super) fn behind(budget: &Budget, gum: &Gum) -> Vec<FewReadings> {
     let mut found: Vec<(f64, FewReadings)> = Vec::new();
+    if gum.u <= 0.0 {
+        return Vec::new();
+    }
     for (index, line) in gum.components.iter().enumerate() {
         let dof = drawn_dof(budget, index);
         let variance = line.contribution * line.contribution;
@@ -48,6 +51,7 @@ pub(super) fn behind(budget: &Budget, gum: &Gum) -> Vec<FewReadings> {
             let readings = FewReadings {
                 component: component.name.clone(),
                 dof,
+                share: line.share,
             };
             found.push((excess, readings));
         }

@@ -78,6 +78,11 @@ impl Evidence<'_> {
         let mut kinds = Vec::new();
         for fit in &self.budget.fits {
             let name = fit.name.clone();
+            let doubts = fit.doubts.iter().map(|doubt| FindingKind::DoubtfulFit {
+                fit: name.clone(),
+                doubt: doubt.clone(),
+            });
+            kinds.extend(doubts);
             match fit.lack_of_fit {
                 Some(test) if test.verdict() == FitVerdict::Rejected => {
                     kinds.push(FindingKind::LackOfFit { fit: name, test });

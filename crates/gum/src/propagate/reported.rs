@@ -197,7 +197,7 @@ impl MeasurandResult {
             dof: coverage.dof(),
             uncertainty,
             probability: stated_probability(coverage, conventions, refuted),
-            rounding: coverage.rounding(conventions),
+            rounding: conventions.rounding_rule(),
         }
     }
 
@@ -358,24 +358,6 @@ impl Coverage {
             CoverageBasis::Output { .. } | CoverageBasis::Fixed => None,
         }
     }
-
-    /// How y and U are rounded: by the conventions, which may give a single digit to a U from the distribution of
-    /// the output.
-    fn rounding(&self, conventions: &Conventions) -> RoundingRule {
-        let rule = conventions.rounding_rule();
-        let single = RoundingRule { digits: 1, ..rule };
-        let shape = matches!(self.basis, CoverageBasis::Output { .. });
-        if !(shape && conventions.single_digit_of_output) {
-            return rule;
-        }
-        /// What rounding may change by EA-4/02 6.3.
-        const FIVE_PERCENT: f64 = 0.05;
-        let rounded = single.uncertainty(self.expanded).to_f64();
-        match (rounded - self.expanded).abs() <= FIVE_PERCENT * self.expanded {
-            true => single,
-            false => rule,
-        }
-    }
 }
 
 /// The probability of a k that is fixed although Monte Carlo contradicts.
@@ -410,7 +392,6 @@ mod tests {
     use crate::budget::PROFILES;
     use crate::propagate::draft;
     use crate::propagate::result::{Histogram, Validation};
-    use gumption_core::distribution::Univariate;
 
     fn monte_carlo(symmetric: [f64; 2], shortest: [f64; 2], error: f64) -> MonteCarlo {
         MonteCarlo {
@@ -569,28 +550,5 @@ mod tests {
         assert!(exponential(0.005).is_asymmetric(2));
         assert!(!exponential(0.5).is_asymmetric(2));
         assert!(!monte_carlo([-1.96, 1.96], [-1.97, 1.945], 0.001).is_asymmetric(2));
-    }
-
-    #[test]
-    fn one_digit_of_a_rectangle_as_ea_4_02_s9_prints_it() {
-        let coverage = |expanded| Coverage {
-            k: 1.65,
-            basis: CoverageBasis::Output {
-                dominant: Vec::new(),
-                shape: &gumption_core::distribution::Uniform::KIND,
-            },
-            probability: 0.95,
-            expanded,
-            half_width_for_p: expanded,
-        };
-        let ea = crate::budget::profile_named("EA").map(|profile| profile.conventions());
-        let digits = |expanded| {
-            let rule = ea.as_ref().map(|ea| coverage(expanded).rounding(ea));
-            rule.map(|rule| rule.digits)
-        };
-        // 0.049 and 0.059 are within 5 % of 0.05 and 0.06; 0.014 is far from 0.01 and 0.02.
-        assert_eq!(digits(0.0491), Some(1));
-        assert_eq!(digits(0.0593), Some(1));
-        assert_eq!(digits(0.0144), Some(2));
     }
 }

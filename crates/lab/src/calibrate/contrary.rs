@@ -5,7 +5,7 @@ use crate::experiment::entries::RoleWord;
 use crate::experiment::faults::KEY;
 use crate::experiment::source::entries;
 use crate::experiment::tables::{ExperimentTable, NoiseTable};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_gum::budget::Remark;
 
 /// Faults of keys that would change the result of a calibration, and cannot.
@@ -16,10 +16,10 @@ pub(super) fn check(checker: &mut Checker<'_>) {
         .filter_map(|(name, entry)| Some((name, entry.value.per.as_ref()?)));
     let faults: Vec<Fault> = per
         .map(|(name, column)| {
-            let message = format!("a calibration finds one value of {name} for all rows");
+            let message = say!("a calibration finds one value of {name} for all rows");
             Fault::new(KEY, column.span.clone(), message)
-                .label("`per` is used by `diagnose` and `simulate`")
-                .help(format!(
+                .label(say!("`per` is used by `diagnose` and `simulate`"))
+                .help(say!(
                     "write separately = \"{}\" at the top of the file: the rows of each label are calibrated by themselves",
                     column.value
                 ))

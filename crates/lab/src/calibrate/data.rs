@@ -15,7 +15,7 @@ use crate::experiment::source::entries;
 use crate::experiment::tables::{ColumnTable, RecordingTable};
 use crate::recording::{Checks, Finding, Problem, Recording, Request, Settling, Severity, check};
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 use gumption_gum::budget::Rejection;
 use std::collections::HashSet;
@@ -52,10 +52,10 @@ fn texts(list: &[Stated<String>]) -> Vec<&str> {
 
 fn no_data(purpose: Purpose) -> Fault {
     match purpose {
-        Purpose::Calibrate => Fault::new(NO_DATA, 0..0, "the calibration has no recording")
-            .help("name it: [recording], file = \"run.csv\"; before there are readings, `gumption plan` says what a [schedule] would tell"),
-        Purpose::Plan => Fault::new(NO_DATA, 0..0, "the plan has no schedule")
-            .help("list its points: [schedule], \"theta [deg]\" = [0, 90, 180, 270]; or name a CSV file of them: [recording], file = \"schedule.csv\""),
+        Purpose::Calibrate => Fault::new(NO_DATA, 0..0, say!("the calibration has no recording"))
+            .help(say!("name it: [recording], file = \"run.csv\"; before there are readings, `gumption plan` says what a [schedule] would tell")),
+        Purpose::Plan => Fault::new(NO_DATA, 0..0, say!("the plan has no schedule"))
+            .help(say!("list its points: [schedule], \"theta [deg]\" = [0, 90, 180, 270]; or name a CSV file of them: [recording], file = \"schedule.csv\"")),
     }
 }
 
@@ -149,10 +149,10 @@ fn averaged(
             Fault::new(
                 RECORDING,
                 place,
-                format!("{}: {}", recording.name, finding.message()),
+                say!("{}: {}", recording.name, finding.said()),
             )
-            .label("this recording")
-            .help(finding.advice()),
+            .label(say!("this recording"))
+            .help(finding.mend()),
         );
     }
     if refused {
@@ -173,10 +173,10 @@ fn averaged(
             let rows = dwell.rows.len();
             let place = stated.key.clone();
             checker.faults.push(
-                Fault::new(RECORDING, place, format!(
+                Fault::new(RECORDING, place, say!(
                     "{}: the dwell {name}from line {line} on has too few samples: {rows} before settling is left out", recording.name))
-                    .label("too few samples are left")
-                    .help("record longer, shorten `settle`, or lower `fewest`"),
+                    .label(say!("too few samples are left"))
+                    .help(say!("record longer, shorten `settle`, or lower `fewest`")),
             );
         }
         if points.names.is_empty() && lost.is_empty() {
@@ -184,13 +184,13 @@ fn averaged(
                 Fault::new(
                     RECORDING,
                     stated.key.clone(),
-                    format!(
+                    say!(
                         "{}: nothing stays at one value long enough for a dwell",
                         recording.name
                     ),
                 )
-                .label("no dwells")
-                .help("shorten `settle` or lower `fewest`; or state `tolerance`, how far apart the values of the stimulus in one dwell may be"),
+                .label(say!("no dwells"))
+                .help(say!("shorten `settle` or lower `fewest`; or state `tolerance`, how far apart the values of the stimulus in one dwell may be")),
             );
         }
         points

@@ -15,7 +15,7 @@ use crate::experiment::source::entries;
 use crate::experiment::tables::{NoiseWord, WeightsWord};
 use crate::experiment::{Purpose, inferred, positions};
 use gumption_core::equations::Quantity;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::files::Files;
 use gumption_gum::budget::Rejection;
 use gumption_gum::budget::quantities::text_of;
@@ -86,10 +86,10 @@ impl Checker<'_> {
             if !table.refused && self.source.procedure.is_none() {
                 let place = equations.map_or(0..0, |list| list.span.clone());
                 self.faults.push(
-                    Fault::new(NO_EQUATIONS, place, "the calibration has no equations").help(
+                    Fault::new(NO_EQUATIONS, place, say!("the calibration has no equations")).help(
                         match table.model.is_some() {
-                            true => "`model` holds statements that all equations see; the equation of an output is written equations = \"U = K*omega + b\"",
-                            false => "name a `procedure`, or write equations = [\"U = K*omega + b\"]",
+                            true => say!("`model` holds statements that all equations see; the equation of an output is written equations = \"U = K*omega + b\""),
+                            false => say!("name a `procedure`, or write equations = [\"U = K*omega + b\"]"),
                         },
                     ),
                 );
@@ -101,8 +101,14 @@ impl Checker<'_> {
             // Parameters that are not listed follow from the recording: without it, that is what is wrong.
             data::readable(self)?;
             self.faults.push(
-                Fault::new(NO_PARAMETERS, 0..0, "the calibration has no parameters")
-                    .help("list what is to be found: [parameter], then a line `K = {}` for each"),
+                Fault::new(
+                    NO_PARAMETERS,
+                    0..0,
+                    say!("the calibration has no parameters"),
+                )
+                .help(say!(
+                    "list what is to be found: [parameter], then a line `K = {{}}` for each"
+                )),
             );
             return Ok(None);
         }

@@ -11,7 +11,7 @@ use crate::experiment::words::words;
 use gumption_core::equations::{EquationText, Equations, Quantity};
 use gumption_core::model::{Symbol, outline};
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Stated;
 
 impl Checker<'_> {
@@ -67,12 +67,12 @@ impl Checker<'_> {
         shared: &Option<EquationText<'_>>,
     ) -> Option<Omitted> {
         let fault =
-            |message: String, help: &str| Fault::new(TERM, entry.key.clone(), message).help(help);
+            |message: Said, help: Said| Fault::new(TERM, entry.key.clone(), message).help(help);
         let Some(term) = &entry.value.term else {
             if !entry.value.refused {
                 self.faults.push(fault(
-                    format!("the omitted effect {name} has no `term`"),
-                    "write what it adds to the equation: term = \"k2*omega^2\"",
+                    say!("the omitted effect {name} has no `term`"),
+                    say!("write what it adds to the equation: term = \"k2*omega^2\""),
                 ));
             }
             return None;
@@ -87,8 +87,8 @@ impl Checker<'_> {
         let Some(response) = response else {
             let known: Vec<&str> = responses.iter().map(|r| r.name.as_str()).collect();
             self.faults.push(fault(
-                format!("to which equation does the omitted effect {name} belong?"),
-                &format!("write response = \"…\" with one of {}", known.join(", ")),
+                say!("to which equation does the omitted effect {name} belong?"),
+                say!("write response = \"…\" with one of {}", known.join(", ")),
             ));
             return None;
         };
@@ -179,9 +179,9 @@ impl Checker<'_> {
                         Fault::new(
                             RESULT,
                             entry.key.clone(),
-                            format!("the result {name} has no `model`"),
+                            say!("the result {name} has no `model`"),
                         )
-                        .help("write its formula: model = \"sqrt(K1^2 + K2^2)\""),
+                        .help(say!("write its formula: model = \"sqrt(K1^2 + K2^2)\"")),
                     );
                 }
                 continue;

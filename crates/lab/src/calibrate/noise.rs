@@ -9,7 +9,7 @@ use crate::experiment::source::entries;
 use crate::experiment::{Act, Doubt, Experiment, Observed, Purpose, Scope, Target};
 use gumption_core::distribution::{Distribution, Normal};
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 use gumption_gum::budget::Evaluation;
 
@@ -117,9 +117,9 @@ fn replicates(
         let label = |row: usize| Some(points.labels(&column.value)?.text(row).to_owned());
         for (row, key) in keys.iter_mut().enumerate() {
             let Some(own) = label(row).or_else(|| number(row)) else {
-                let message = format!("the experiment has no column {}", column.value);
+                let message = say!("the experiment has no column {}", column.value);
                 let fault = Fault::new(NOISE, column.span.clone(), message);
-                return checker.refuse(fault.label("expected a column of the recording"));
+                return checker.refuse(fault.label(say!("expected a column of the recording")));
             };
             key.push(own);
         }
@@ -148,11 +148,11 @@ fn replicates(
         let fault = Fault::new(
             NOISE,
             place,
-            "no rows agree in these columns, or they do not scatter",
+            say!("no rows agree in these columns, or they do not scatter"),
         );
         checker
             .faults
-            .push(fault.label("rows that agree are replicates"));
+            .push(fault.label(say!("rows that agree are replicates")));
     }
     found
 }

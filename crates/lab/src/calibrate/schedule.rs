@@ -9,7 +9,7 @@ use crate::experiment::names::Names;
 use crate::experiment::source::entries;
 use crate::recording::{Heading, Labels};
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Cell;
 use gumption_format::toml::Stated;
 
@@ -27,13 +27,13 @@ pub(super) fn scheduled(checker: &mut Checker<'_>, names: &Names) -> Option<Poin
                 Fault::new(
                     SCHEDULE,
                     list.span.clone(),
-                    format!(
+                    say!(
                         "{key} has {} points, the first column {first}",
                         list.value.len()
                     ),
                 )
-                .label(format!("expected {first}"))
-                .related(place.clone(), "the first column"),
+                .label(say!("expected {first}"))
+                .related(place.clone(), say!("the first column")),
             );
             continue;
         }
@@ -78,11 +78,11 @@ pub(super) fn scheduled(checker: &mut Checker<'_>, names: &Names) -> Option<Poin
                 Fault::new(
                     SCHEDULE,
                     stated.key.clone(),
-                    format!("the schedule has no column {role}"),
+                    say!("the schedule has no column {role}"),
                 )
-                .label("the schedule")
-                .related(place.clone(), "needed here")
-                .help(format!(
+                .label(say!("the schedule"))
+                .related(place.clone(), say!("needed here"))
+                .help(say!(
                     "add \"{role} [unit]\" = […] with one value for each point"
                 )),
             );

@@ -38,18 +38,18 @@ pub(super) fn adopt_named(
     fitted: &FittedModel<'_>,
     cells: &[Cell],
     places: &[(usize, usize)],
-    examination: &Examination,
+    examination: &mut Examination,
     claimed: &Claimed,
 ) -> Result<Option<Adopted>, NoFit> {
     let refit = adopted_fit(fitted, cells, places, examination, claimed)?;
-    let (Some(found), Some((extended, fit))) = (examination.fitted.as_ref(), refit) else {
+    let (Some(found), Some((extended, fit))) = (examination.fitted.clone(), refit) else {
         return Ok(None);
     };
     let design = Design::new(&extended.case);
     let quality = confirm::quality(&design, &fit, claimed, claimed);
     let all = estimates(&design, &fit, claimed, quality.scale);
     let added = extended.additions.len();
-    let confirmation = parts::confirmation(&design, &fit, claimed, added, found);
+    let confirmation = parts::confirmation(&design, &fit, claimed, added, &found);
     let is_added = |estimated: &Estimated| {
         extended
             .additions
@@ -58,18 +58,16 @@ pub(super) fn adopt_named(
     };
     let (mut coefficients, unknowns): (Vec<Estimated>, Vec<Estimated>) =
         all.into_iter().partition(is_added);
+    let atoms = found.atoms.clone();
     for (estimated, addition) in coefficients.iter_mut().zip(&extended.additions) {
-        widen(
-            estimated,
-            found.atoms[addition.effect],
-            addition.coefficient,
-            examination,
-        );
+        let (atom, coefficient) = (atoms[addition.effect], addition.coefficient);
+        restate(examination, atom, coefficient, estimated);
+        widen(estimated, atom, coefficient, examination);
     }
     let residuals = fit.residuals.clone();
     drop(design);
     Ok(Some(Adopted {
-        atoms: found.atoms.clone(),
+        atoms,
         coefficients,
         unknowns,
         quality,
@@ -78,6 +76,37 @@ pub(super) fn adopt_named(
         unsettled: fit.unsettled(ModelVersion::Improved),
         extended,
     }))
+}
+
+impl Adopted {
+    /// Whether it predicts parts of the recording that its fit had not seen worse than the declared model does. ln s² of n
+    /// errors has the variance 2/n, so that the difference of two is beyond this in 5 % of equally good predictions, at most.
+    pub(super) fn predicts_worse(&self, before: &Quality) -> bool {
+        const QUANTILE: f64 = 1.645;
+        let squares = |quality: &Quality| -> f64 {
+            let scaled = quality.held_out.iter().zip(&before.expected);
+            scaled.map(|(e, s)| (e / s) * (e / s)).sum()
+        };
+        let beyond = libm::exp(QUANTILE * 2.0 / (self.residuals.len() as f64).sqrt());
+        squares(&self.quality) > beyond * squares(before)
+    }
+}
+
+/// The size of an effect is that of the adopted model, wherever it is stated.
+fn restate(examination: &mut Examination, atom: usize, coefficient: usize, fitted: &Estimated) {
+    let firsts = (examination.slots.iter_mut()).filter_map(|slot| slot.named.first_mut());
+    let is_it = |first: &&mut evidence::Alternative| {
+        first.variants.first().is_some_and(|one| one.atom == atom)
+            && first.estimate.len() > coefficient
+    };
+    for first in firsts.filter(is_it) {
+        let factor = fitted.u / first.covariance[(coefficient, coefficient)].sqrt();
+        if factor.is_finite() && factor > 0.0 {
+            first.estimate[coefficient] = fitted.value;
+            first.covariance.row_mut(coefficient).scale_mut(factor);
+            first.covariance.column_mut(coefficient).scale_mut(factor);
+        }
+    }
 }
 
 /// Adds to the uncertainty of a fitted coefficient of an atom what the fit does not know: that other effects

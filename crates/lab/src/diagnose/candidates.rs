@@ -4,18 +4,20 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::adopt::{self, Free};
 use super::case::Case;
 use super::catalogue::{self, Cell, Finer, FittedModel, Node, Variation};
 use super::design::Design;
 use super::evidence::{
-    self, Atom, Baseline, Candidate, Examination, Fitted, Prior, Question, Refusal, Shape, TRACE,
+    self, Atom, Baseline, Candidate, Examination, Fitted, Question, Refusal, Shape, TRACE,
 };
 use super::failure::Failure;
 use super::fit::{self, Fit, NoFit};
 use super::noise::{self, Claimed};
+use super::noise_correlation::Courses;
+use super::reduced::reduced;
 
 /// λ from which on it matters that the parameter of an effect lies between the steps of its grid.
 const CLEAR: f64 = 15.0;
@@ -74,7 +76,12 @@ impl<'f> Candidates<'f> {
     }
 
     /// The noise that is left when the named effects are in the model.
-    pub(super) fn noise(&self, examination: &Examination, claimed: &Claimed) -> Claimed {
+    pub(super) fn noise(
+        &self,
+        examination: &Examination,
+        claimed: &Claimed,
+        courses: Option<&Courses>,
+    ) -> Claimed {
         let adopted = adopted_fit(
             &self.fitted,
             &self.cells,
@@ -82,10 +89,68 @@ impl<'f> Candidates<'f> {
             examination,
             claimed,
         );
+        let left = |design: &Design<'_>, fit: &Fit| noise::refined(design, fit, claimed, courses);
         match adopted {
-            Ok(Some((extended, fit))) => noise::refined(&Design::new(&extended.case), &fit),
-            Ok(None) | Err(_) => noise::refined(self.fitted.design, self.fitted.fit),
+            Ok(Some((extended, fit))) => left(&Design::new(&extended.case), &fit),
+            Ok(None) | Err(_) => left(self.fitted.design, self.fitted.fit),
         }
+    }
+
+    /// Whether effects beat noise that is correlated: the probability that they gain as much by noise alone, and the noise
+    /// as it is then, without effects where these do not, else with the best one.
+    ///
+    /// # Errors
+    /// When the recording does not determine the parameters.
+    pub(super) fn against(
+        &self,
+        courses: &Courses,
+        claimed: &Claimed,
+        settings: &evidence::Settings,
+    ) -> Result<(f64, Claimed), Refusal> {
+        let with = |correlated| claimed.noise_with(correlated);
+        let seen = courses.seen(self.fitted.design, self.fitted.fit, &with)?;
+        let contest = evidence::contest(&seen, &self.candidates, &self.atoms, settings)?;
+        let stands = contest.p <= settings.alpha;
+        let log_posterior = if stands {
+            &contest.with
+        } else {
+            &contest.alone
+        };
+        let claimed = Claimed {
+            correlated: courses.likely(log_posterior),
+            ..claimed.clone()
+        };
+        Ok((contest.p, claimed))
+    }
+
+    /// What is found when noise and effects are estimated in turn, from this noise on, with the noise in the end.
+    ///
+    /// # Errors
+    /// When the work was stopped.
+    pub(super) fn in_turn(
+        &mut self,
+        mut claimed: Claimed,
+        settings: &evidence::Settings,
+        courses: Option<&Courses>,
+        progress: &dyn Fn(f64) -> ControlFlow<()>,
+    ) -> Result<(Baseline, Examination, Claimed), Failure> {
+        /// So often.
+        const ROUNDS: u8 = 3;
+        let (mut baseline, mut examination) = self.ask(&claimed, settings, progress)?;
+        for _ in 0..ROUNDS {
+            let atoms = |of: &Examination| of.fitted.as_ref().map(|fitted| fitted.atoms.clone());
+            let before = atoms(&examination);
+            let then = self.noise(&examination, &claimed, courses);
+            if then == claimed {
+                break;
+            }
+            claimed = then;
+            (baseline, examination) = self.ask(&claimed, settings, progress)?;
+            if atoms(&examination) == before {
+                break;
+            }
+        }
+        Ok((baseline, examination, claimed))
     }
 
     /// Adds values about the parameters of strong effects; whether there are any that were not tried.
@@ -124,21 +189,7 @@ pub(super) fn baseline(
     fit: &Fit,
     claimed: &Claimed,
 ) -> Result<Baseline, Refusal> {
-    let known: Vec<(usize, (f64, f64))> = design
-        .unknowns
-        .iter()
-        .enumerate()
-        .filter_map(|(at, unknown)| Some((at, unknown.prior?)))
-        .collect();
-    let mut prior = Prior {
-        jacobian: DMatrix::zeros(known.len(), design.unknowns.len()),
-        residuals: DVector::zeros(known.len()),
-    };
-    for (row, (at, (value, u))) in known.iter().enumerate() {
-        prior.jacobian[(row, *at)] = 1.0 / u;
-        prior.residuals[row] = (value - fit.unknowns[*at]) / u;
-    }
-    Baseline::new(&fit.jacobian, &fit.residuals, &claimed.noise(), &prior)
+    reduced(design, fit, &claimed.noise())
 }
 
 /// Candidates and atoms, and the cell and variation of each atom.

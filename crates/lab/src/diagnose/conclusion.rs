@@ -118,7 +118,7 @@ impl Diagnosis {
         let (open, told): (Vec<&Slot>, Vec<&Slot>) = named.partition(|slot| slot.is_open());
         match self.examination.verdict {
             Verdict::None => return Conclusion::Agreement,
-            Verdict::Identified | Verdict::Ambiguous => {
+            Verdict::Identified | Verdict::Like | Verdict::Ambiguous => {
                 return Conclusion::LeavesOut { told, open };
             }
             Verdict::Partly | Verdict::Contested | Verdict::Unexplained => {}

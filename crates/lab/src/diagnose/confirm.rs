@@ -163,7 +163,10 @@ fn normal(
 pub(super) fn covariance(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> DMatrix<f64> {
     // By orthogonal directions: a normal matrix has lost what hardly differs from another unknown.
     if let Ok(baseline) = baseline(design, fit, &claimed.uncorrelated()) {
-        return baseline.covariance();
+        return match &claimed.correlated {
+            Some(correlated) => baseline.covariance_with(&correlated.matrix),
+            None => baseline.covariance(),
+        };
     }
     let all: Vec<usize> = (0..design.observations()).collect();
     inverse(&normal(design, fit, claimed, &all).0, 1e-13)

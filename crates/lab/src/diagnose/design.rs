@@ -13,6 +13,9 @@ use gumption_core::quantity::Unit;
 /// Prolonged recordings in time are averaged in blocks, unless the case says otherwise.
 const MOST_BLOCKS: usize = 400;
 
+/// So are recordings without a time that have more rows: work and memory grow with their square.
+const MOST_ROWS: usize = 1000;
+
 /// The numbers of a case.
 #[derive(Debug)]
 pub struct Design<'c> {
@@ -320,7 +323,7 @@ fn blocks(case: &Case) -> Vec<Vec<usize>> {
         Blocks::AtMost(most) => case.rows.div_ceil((*most).max(1)),
         Blocks::Auto => {
             let timed = case.with_role(Role::Time).next().is_some();
-            if timed {
+            if timed || case.rows > MOST_ROWS {
                 case.rows.div_ceil(MOST_BLOCKS)
             } else {
                 1

@@ -2,7 +2,7 @@
 
 use super::case::Case;
 use super::confirm::Estimated;
-use super::evidence::{Cell, Located, State, Worth};
+use super::evidence::{Cell, Located, Worth};
 use super::extra::Extra;
 use super::omitted::Omitted;
 use super::parts::Confirmation;
@@ -104,7 +104,7 @@ impl Diagnosis {
 
     /// Whether the first of rivals stands alone all the same: one that looks like it needs more sizes for that.
     pub fn stands_alone(&self, of: &Separating) -> bool {
-        self.examination.slots[of.slot].state == State::Identified
+        self.examination.slots[of.slot].is_alone()
     }
 }
 

@@ -28,6 +28,7 @@
 //! | [`catalogue`] | the effects, and what they do to the rows of a case |
 //! | `candidates` | cells and recording as matrices, asked of `evidence` |
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
+//! | `reduced` | a recording reduced to its residuals |
 //! | `run` | a diagnosis from end to end |
 //! | `adopt`, `adopted` | the model with effects in it: its equations, its fit |
 //! | `confirm`, `parts`, `held_out` | how well a model describes the recording, its parts, and a recording that the fit has not seen |
@@ -73,6 +74,7 @@ mod omitted;
 mod parts;
 mod plan;
 mod prolonged;
+mod reduced;
 mod regions;
 mod replicates;
 mod result;
@@ -93,6 +95,7 @@ pub use fit::{ModelVersion, NoFit, Trouble, Unsettled};
 pub use held_out::{HeldOutQuality, Prediction};
 pub use improved::improved;
 pub use noise::{Claimed, Origin};
+pub use noise_correlation::{Correlated, Memory};
 pub use noise_growth::Growth;
 pub use omitted::Omitted;
 pub use parts::Confirmation;

@@ -5,9 +5,9 @@ use nalgebra::{DMatrix, DVector};
 use super::at_rest;
 use super::case::{Case, NoiseClaim, NoiseOrigin, RestReadings, Role, hours};
 use super::design::Design;
-use super::evidence::{Covariance, Noise};
+use super::evidence::{self, Covariance, Noise};
 use super::fit::{self, Fit, NoFit};
-use super::noise_correlation::{self, Correlated};
+use super::noise_correlation::{Correlated, Courses, Memory};
 use super::noise_growth::{self, Growth, Spread};
 use super::replicates::{self, Scatter};
 
@@ -90,6 +90,22 @@ impl Claimed {
         }
     }
 
+    /// Logarithm of the probability of its correlation beforehand, but for a constant.
+    pub fn log_prior(&self) -> f64 {
+        let correlated = self.correlated.as_ref();
+        correlated.map_or(0.0, |correlated| correlated.log_prior)
+    }
+
+    /// The same with another correlation, and no doubt about it.
+    pub fn noise_with(&self, correlated: Option<Correlated>) -> Noise {
+        let claimed = Claimed {
+            correlated,
+            draws: Vec::new(),
+            ..self.clone()
+        };
+        claimed.noise()
+    }
+
     /// The weights of a fit: no correlation.
     pub fn uncorrelated(&self) -> Claimed {
         Claimed {
@@ -126,11 +142,27 @@ pub fn settle(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
     Ok((fit, claimed))
 }
 
-/// The noise that a model with effects in it leaves: size, growth with the reading, and correlation.
-pub fn refined(design: &Design<'_>, fit: &Fit) -> Claimed {
-    let mut claimed = spread_out(design, fit);
-    claimed.correlated = noise_correlation::estimate(design, &fit.residuals, &claimed.u);
-    claimed
+/// The noise that a model with effects in it leaves: where it is estimated its size and its growth with the reading, and
+/// its correlation where that is open.
+pub fn refined(
+    design: &Design<'_>,
+    fit: &Fit,
+    claimed: &Claimed,
+    courses: Option<&Courses>,
+) -> Claimed {
+    let mut left = if claimed.is_estimated() {
+        spread_out(design, fit)
+    } else {
+        claimed.clone()
+    };
+    if let Some(courses) = courses {
+        let seen = courses.seen(design, fit, &|correlated| left.noise_with(correlated));
+        left.correlated = seen.ok().and_then(|seen| {
+            let likely: Vec<f64> = seen.iter().map(evidence::Course::log_posterior).collect();
+            courses.likely(&likely)
+        });
+    }
+    left
 }
 
 /// The model at the values that the case states, or at one where it states none, with the noise that it
@@ -351,6 +383,9 @@ fn in_time(
         correlated: Some(Correlated {
             draws: draws.collect(),
             matrix: over_u(mean),
+            memory: Memory::Claimed,
+            unit: String::new(),
+            log_prior: 0.0,
         }),
         u: u.clone(),
         ..claimed.clone()
@@ -385,6 +420,9 @@ fn walking(design: &Design<'_>, walk: &[f64], claimed: &Claimed) -> Option<Claim
         correlated: Some(Correlated {
             matrix,
             draws: Vec::new(),
+            memory: Memory::Claimed,
+            unit: String::new(),
+            log_prior: 0.0,
         }),
         u,
         ..claimed.clone()

@@ -1,122 +1,201 @@
-//! Noise that is estimated together with what is found: its size, and for recordings in time its
-//! correlation, from what a model leaves.
+//! Noise that remembers: how the errors of rows that follow each other are correlated, judged together with what is
+//! found.
 //!
-//! The family is white noise and a process that forgets within a time constant: K = (1 − ρ)·I +
-//! ρ·exp(−|Δt|/τ). Its parameters maximise the likelihood of the residuals on a grid. Time constants are
-//! short against the recording, so that slow courses stay for physics, or for "unexplained", to explain.
+//! The family is white noise beside a process that forgets within a time constant (autoregressive of the first order; with
+//! the longest ones a random walk), or beside such processes over all time constants in equal parts (flicker). All of them
+//! have the same standard deviation in every row, so that a stated one stays true. Beforehand white noise is as likely as
+//! all others together.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
+use super::catalogue::FittedModel;
 use super::chance::in_proportion;
 use super::design::Design;
+use super::evidence::{self, Noise, Refusal};
+use super::fit::Fit;
+use super::reduced::reduced;
 
 /// Larger matrices take too long.
-const MOST: usize = 500;
-/// Fewer observations cannot tell white from correlated noise.
-const LEAST: usize = 40;
-/// Gain of the logarithmic likelihood below which noise counts as white.
-const GAIN: f64 = 4.0;
+const MOST: usize = 600;
+/// Fewer degrees of freedom cannot tell white from correlated noise.
+const LEAST: usize = 8;
 /// Matrices that stand for the posterior distribution.
-const DRAWS: usize = 6;
+const DRAWS: usize = 16;
+/// Noise is taken for white unless it is so with less than this probability: what is stated of it has to be true. What is open
+/// is in the draws.
+const DOUBT: f64 = 0.05;
+/// Shares of the variance that is remembered. All of it would make rows of the same moment one.
+const SHARES: [f64; 3] = [0.3, 0.6, 0.95];
+/// Ratio of successive time constants: between two of them no recording tells.
+const RATIO: f64 = 3.0;
 
-/// A correlation of the observations.
+/// How the observations are correlated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correlated {
     /// Correlation matrix of the observations.
     pub matrix: DMatrix<f64>,
-    /// Other matrices that the residuals allow, as likely as they occur.
+    /// Other matrices that the recording allows, as likely as they occur.
     pub draws: Vec<DMatrix<f64>>,
+    /// Its law, where it was found in the recording.
+    pub memory: Memory,
+    /// The unit of its times.
+    pub unit: String,
+    /// Logarithm of its probability beforehand, but for a constant.
+    pub log_prior: f64,
 }
 
-struct Point {
-    time_constant: f64,
-    share: f64,
-    likelihood: f64,
+/// A law of correlation; times are those of the clock of the case, or rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Memory {
+    /// None.
+    White,
+    /// As a recording at rest or the case say.
+    Claimed,
+    /// This share of the variance is forgotten within a time constant.
+    Fading {
+        /// Share of the variance.
+        share: f64,
+        /// Time constant.
+        time_constant: f64,
+    },
+    /// This share of the variance is forgotten over all times alike.
+    Flicker {
+        /// Share of the variance.
+        share: f64,
+    },
 }
 
-/// The correlation that residuals show, if they do; `scale` is the standard uncertainty of each.
-pub(super) fn estimate(
-    design: &Design<'_>,
-    residuals: &DVector<f64>,
-    scale: &DVector<f64>,
-) -> Option<Correlated> {
-    let clock = design.time();
-    let count = design.observations();
-    if clock.column.is_none() || !(LEAST..=MOST).contains(&count) {
-        return None;
+/// What the noise of a recording may be.
+pub(super) struct Courses {
+    responses: usize,
+    /// The unit of their times.
+    unit: String,
+    /// The first is white.
+    all: Vec<(Memory, DMatrix<f64>)>,
+}
+
+impl Courses {
+    /// For a recording with a time or an order.
+    pub(super) fn of(fitted: &FittedModel<'_>) -> Option<Courses> {
+        let design = fitted.design;
+        let count = design.observations();
+        let freedom = count.saturating_sub(design.unknowns.len());
+        let open = fitted.clock.column.is_some();
+        if !open || freedom < LEAST || count > MOST {
+            return None;
+        }
+        let times = design.reduced(&fitted.clock.values);
+        let span = fitted.clock.span();
+        let interval = span / times.len() as f64;
+        let constants = super::catalogue::modifiers::grid(interval, span / 3.0, RATIO, 8);
+        let fading = constants.iter().flat_map(|time_constant| {
+            SHARES.map(|share| Memory::Fading {
+                share,
+                time_constant: *time_constant,
+            })
+        });
+        let flicker = SHARES.map(|share| Memory::Flicker { share });
+        let laws = std::iter::once(Memory::White).chain(fading).chain(flicker);
+        let matrix = |law: Memory| {
+            let of = |apart: f64| law.correlation(apart, &constants);
+            let size = times.len();
+            let rows = |i: usize, j: usize| match i == j {
+                true => 1.0,
+                false => of((times[i] - times[j]).abs()),
+            };
+            (law, DMatrix::from_fn(size, size, rows))
+        };
+        (interval > 0.0).then(|| Courses {
+            responses: design.case.responses.len(),
+            unit: fitted.time_unit(),
+            all: laws.map(matrix).collect(),
+        })
     }
-    let blocks = design.blocks.len();
-    let times = design.reduced(&clock.values);
-    let standardised = residuals.component_div(scale);
-    let span = clock.span();
-    let interval = span / blocks as f64;
-    let mut points = vec![Point {
-        time_constant: 0.0,
-        share: 0.0,
-        likelihood: likelihood(&DMatrix::identity(blocks, blocks), &standardised, blocks)?,
-    }];
-    for time_constant in super::catalogue::modifiers::grid(interval, span / 20.0, 2.0, 5) {
-        for share in [0.2, 0.4, 0.6, 0.8, 0.95] {
-            let kernel = kernel(&times, time_constant, share);
-            if let Some(likelihood) = likelihood(&kernel, &standardised, blocks) {
-                points.push(Point {
-                    time_constant,
-                    share,
-                    likelihood,
-                });
+
+    /// A recording seen with each of them, as the noise with such a correlation; `fit` is of any model with the same rows.
+    ///
+    /// # Errors
+    /// When the recording does not determine the parameters.
+    pub(super) fn seen(
+        &self,
+        design: &Design<'_>,
+        fit: &Fit,
+        noise_with: &dyn Fn(Option<Correlated>) -> Noise,
+    ) -> Result<Vec<evidence::Course>, Refusal> {
+        let course = |(at, (law, _)): (usize, &(Memory, DMatrix<f64>))| {
+            let correlated = (*law != Memory::White).then(|| self.correlated(at, Vec::new()));
+            let noise = noise_with(correlated);
+            let baseline = reduced(design, fit, &noise)?;
+            evidence::Course::new(baseline, &noise.covariance, self.log_prior(at))
+        };
+        self.all.iter().enumerate().map(course).collect()
+    }
+
+    /// The correlation with these logarithms of the probability of each course; `None` where it is white without doubt.
+    pub(super) fn likely(&self, log_posterior: &[f64]) -> Option<Correlated> {
+        let top = log_posterior
+            .iter()
+            .copied()
+            .fold(f64::NEG_INFINITY, f64::max);
+        let weights: Vec<f64> = (log_posterior.iter()).map(|l| libm::exp(l - top)).collect();
+        let places: Vec<usize> = (0..weights.len()).collect();
+        let drawn = in_proportion(&places, &weights, DRAWS);
+        if drawn.iter().all(|at| **at == 0) {
+            return None;
+        }
+        let whole: f64 = weights.iter().sum();
+        let best = match weights[0] > DOUBT * whole {
+            true => 0,
+            false => weights.iter().position(|weight| *weight >= 1.0)?,
+        };
+        let draws = drawn.into_iter().map(|at| self.whole(*at)).collect();
+        Some(self.correlated(best, draws))
+    }
+
+    fn correlated(&self, at: usize, draws: Vec<DMatrix<f64>>) -> Correlated {
+        Correlated {
+            matrix: self.whole(at),
+            draws,
+            memory: self.all[at].0,
+            unit: self.unit.clone(),
+            log_prior: self.log_prior(at),
+        }
+    }
+
+    /// White noise is as likely beforehand as all others together.
+    fn log_prior(&self, at: usize) -> f64 {
+        match at {
+            0 => 0.0,
+            _ => -libm::log((self.all.len() - 1).max(1) as f64),
+        }
+    }
+
+    /// The matrix of all observations; responses are independent of each other.
+    fn whole(&self, at: usize) -> DMatrix<f64> {
+        let own = &self.all[at].1;
+        let size = own.nrows();
+        let mut whole = DMatrix::zeros(size * self.responses, size * self.responses);
+        for response in 0..self.responses {
+            let first = response * size;
+            whole.view_mut((first, first), (size, size)).copy_from(own);
+        }
+        whole
+    }
+}
+
+impl Memory {
+    /// Correlation of two different rows.
+    fn correlation(self, apart: f64, constants: &[f64]) -> f64 {
+        match self {
+            Memory::White | Memory::Claimed => 0.0,
+            Memory::Fading {
+                share,
+                time_constant,
+            } => share * libm::exp(-apart / time_constant),
+            Memory::Flicker { share } => {
+                let each = constants.iter().map(|t| libm::exp(-apart / t));
+                share * each.sum::<f64>() / constants.len() as f64
             }
         }
     }
-    let white = points[0].likelihood;
-    points.sort_by(|a, b| b.likelihood.total_cmp(&a.likelihood));
-    let best = &points[0];
-    if best.likelihood < white + GAIN {
-        return None;
-    }
-    let full = |point: &Point| {
-        block_diagonal(
-            &kernel(&times, point.time_constant, point.share),
-            design.case.responses.len(),
-        )
-    };
-    let weights = points
-        .iter()
-        .map(|point| libm::exp(point.likelihood - best.likelihood));
-    let drawn = in_proportion(&points, &weights.collect::<Vec<f64>>(), DRAWS);
-    Some(Correlated {
-        matrix: full(best),
-        draws: drawn.into_iter().map(full).collect(),
-    })
-}
-
-fn kernel(times: &[f64], time_constant: f64, share: f64) -> DMatrix<f64> {
-    DMatrix::from_fn(times.len(), times.len(), |i, j| {
-        let correlated = share * libm::exp(-(times[i] - times[j]).abs() / time_constant);
-        if i == j { 1.0 } else { correlated }
-    })
-}
-
-/// Logarithm of the likelihood, maximised over the scale; responses are independent of each other.
-fn likelihood(kernel: &DMatrix<f64>, residuals: &DVector<f64>, blocks: usize) -> Option<f64> {
-    let factor = kernel.clone().cholesky()?;
-    let lower = factor.l_dirty();
-    let logarithm: f64 = (0..blocks).map(|i| libm::log(lower[(i, i)])).sum();
-    let responses = residuals.len() / blocks;
-    let mut sum = 0.0;
-    for response in 0..responses {
-        let own = residuals.rows(response * blocks, blocks).into_owned();
-        sum += own.dot(&factor.solve(&own));
-    }
-    let n = residuals.len() as f64;
-    (sum > 0.0).then(|| -logarithm * responses as f64 - 0.5 * n * libm::log(sum / n))
-}
-
-fn block_diagonal(block: &DMatrix<f64>, times: usize) -> DMatrix<f64> {
-    let size = block.nrows();
-    let mut full = DMatrix::zeros(size * times, size * times);
-    for at in 0..times {
-        full.view_mut((at * size, at * size), (size, size))
-            .copy_from(block);
-    }
-    full
 }

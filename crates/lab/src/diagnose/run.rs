@@ -16,6 +16,7 @@ use super::failure::Failure;
 use super::fit::{ModelVersion, Trouble, Unsettled};
 use super::held_out::{self, HeldOutQuality};
 use super::noise::{self, Claimed};
+use super::noise_correlation::Courses;
 use super::omitted::{self, Omitted};
 use super::prolonged::{Known, Recorded};
 use super::regions;
@@ -88,22 +89,46 @@ pub fn diagnose(
     let design = Design::new(case);
     let (fit, mut claimed) = noise::settle_spread_out(&design)?;
     let white = baseline(&design, &fit, &claimed)?;
-    let settings = settings(case);
+    let mut settings = settings(case);
     let mut candidates = Candidates::new(FittedModel::new(&design, &fit), &claimed, &white);
     let part = |from: f64, to: f64| move |share: f64| progress(from + (to - from) * share);
-    let first = if claimed.is_estimated() { 0.4 } else { 0.6 };
-    let (mut baseline, mut examination) = candidates.ask(&claimed, &settings, &part(0.0, first))?;
-    if claimed.is_estimated() && examination.verdict != Verdict::None {
-        // Noise and effects are estimated in turn: what an effect explains is no noise.
-        for round in 0..ROUNDS {
-            let adopted = adopted_atoms(&examination);
-            claimed = candidates.noise(&examination, &claimed);
-            let from = 0.4 + 0.1 * f64::from(round);
-            let part = part(from, from + 0.1);
-            (baseline, examination) = candidates.ask(&claimed, &settings, &part)?;
-            if adopted_atoms(&examination) == adopted {
-                break;
+    let (mut baseline, mut examination) = candidates.ask(&claimed, &settings, &part(0.0, 0.4))?;
+    let courses = Courses::of(&candidates.fitted).filter(|_| claimed.correlated.is_none());
+    let is_open = claimed.is_estimated() || courses.is_some();
+    if let Some(courses) = courses
+        .as_ref()
+        .filter(|_| examination.verdict == Verdict::None)
+    {
+        claimed = noise::refined(&design, &fit, &claimed, Some(courses));
+        baseline = self::baseline(&design, &fit, &claimed)?;
+    } else if is_open {
+        let mut starts = vec![claimed.clone()];
+        if let Some(courses) = &courses {
+            let (p, correlated) = candidates.against(courses, &claimed, &settings)?;
+            settings.by_noise = p;
+            match p > settings.alpha {
+                true => starts = vec![correlated],
+                false if correlated.correlated.is_some() => starts.push(correlated),
+                false => {}
             }
+        }
+        // Noise and effects are estimated in turn: what an effect explains is no noise. Where noise may explain as well what
+        // an effect does, the two are begun with in turn, and the likelier end stays.
+        let (mut best, mut atoms) = (f64::NEG_INFINITY, candidates.places.len());
+        let share = 0.3 / starts.len() as f64;
+        for (at, start) in starts.into_iter().enumerate() {
+            let from = 0.4 + share * at as f64;
+            let part = part(from, from + share);
+            let found = candidates.in_turn(start, &settings, courses.as_ref(), &part)?;
+            let score = found.1.score + found.0.log_likelihood() + found.2.log_prior();
+            if score > best {
+                (best, atoms) = (score, candidates.places.len());
+                (baseline, examination, claimed) = found;
+            }
+        }
+        if atoms != candidates.places.len() {
+            // What cannot have its size with one noise was left out: atoms have other numbers now.
+            (baseline, examination) = candidates.ask(&claimed, &settings, &part(0.7, 0.7))?;
         }
     }
     // Shapes that lie between the steps of a grid: closer and closer.
@@ -119,8 +144,8 @@ pub fn diagnose(
         );
         let from = 0.7 + 0.1 * f64::from(round);
         (baseline, examination) = candidates.ask(&claimed, &settings, &part(from, from + 0.05))?;
-        if claimed.is_estimated() {
-            claimed = candidates.noise(&examination, &claimed);
+        if is_open {
+            claimed = candidates.noise(&examination, &claimed, courses.as_ref());
             let part = part(from + 0.05, from + 0.1);
             (baseline, examination) = candidates.ask(&claimed, &settings, &part)?;
         }
@@ -151,7 +176,7 @@ pub fn diagnose(
     };
     let before = confirm::quality(&design, &fit, &claimed, &claimed);
     let mut unsettled: Vec<Unsettled> = fit.unsettled(ModelVersion::Declared).into_iter().collect();
-    let adopted = match adopt_named(&fitted, &cells, &places, &examination, &claimed) {
+    let mut adopted = match adopt_named(&fitted, &cells, &places, &mut examination, &claimed) {
         Ok(adopted) => adopted,
         Err(why) => {
             unsettled.push(Unsettled {
@@ -161,21 +186,11 @@ pub fn diagnose(
             None
         }
     };
-    unsettled.extend((adopted.iter()).filter_map(|adopted| adopted.unsettled.clone()));
+    if (adopted.as_ref()).is_some_and(|adopted| adopted.predicts_worse(&before)) {
+        examination.refute();
+        adopted = None;
+    }
     let unknowns = estimates(&design, &fit, &claimed, before.scale);
-    let improved = adopted
-        .as_ref()
-        .and_then(|adopted| omitted::improved_baseline(case, adopted, &claimed));
-    let listed = examination.slots.iter().filter(|_| adopted.is_some());
-    let known: Vec<usize> = listed
-        .clone()
-        .flat_map(|slot| slot.named.iter().map(|named| named.candidate))
-        .collect();
-    let choices = listed
-        .map(|slot| omitted::choice(&fitted, &cells, &places, &baseline, slot))
-        .collect();
-    let u: Vec<f64> = unknowns.iter().map(|unknown| unknown.u).collect();
-    let omitted = omitted::lines(&fitted, &cells, &baseline, improved.as_ref(), &known, &u);
     let known = Known {
         case,
         design: &design,
@@ -190,6 +205,20 @@ pub fn diagnose(
         &unknowns,
         adopted.as_ref(),
     );
+    unsettled.extend((adopted.iter()).filter_map(|adopted| adopted.unsettled.clone()));
+    let improved = adopted
+        .as_ref()
+        .and_then(|adopted| omitted::improved_baseline(case, adopted, &claimed));
+    let listed = examination.slots.iter().filter(|_| adopted.is_some());
+    let named: Vec<usize> = listed
+        .clone()
+        .flat_map(|slot| slot.named.iter().map(|named| named.candidate))
+        .collect();
+    let choices = listed
+        .map(|slot| omitted::choice(&fitted, &cells, &places, &baseline, slot))
+        .collect();
+    let u: Vec<f64> = unknowns.iter().map(|unknown| unknown.u).collect();
+    let omitted = omitted::lines(&fitted, &cells, &baseline, improved.as_ref(), &named, &u);
     let recorded = Recorded {
         known: &known,
         fitted: &fitted,
@@ -215,12 +244,5 @@ pub fn diagnose(
     })
 }
 
-fn adopted_atoms(examination: &Examination) -> Option<Vec<usize>> {
-    let fitted = examination.fitted.as_ref();
-    fitted.map(|fitted| fitted.atoms.clone())
-}
-
-/// So often noise and effects are estimated in turn.
-const ROUNDS: u8 = 3;
 /// So often the values about the parameter of an effect are brought closer together.
 const REFINEMENTS: u8 = 3;

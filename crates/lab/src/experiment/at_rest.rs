@@ -7,7 +7,7 @@ use super::faults::NOISE;
 use super::tables::StaticTable;
 use crate::recording::{Heading, Recording, Request};
 use gumption_core::quantity::{Unit, UnitTable};
-use gumption_fault::{Fault, Rejection};
+use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::files::Files;
 use gumption_format::toml::Stated;
 
@@ -39,9 +39,9 @@ impl Checker<'_> {
         time: Option<&Headed>,
     ) -> Option<Vec<RestReadings>> {
         let Some(file) = &stated.value.file else {
-            let message = "a recording at rest has a `file`";
+            let message = say!("a recording at rest has a `file`");
             let fault = Fault::new(NOISE, stated.span.clone(), message);
-            return self.refuse(fault.label("expected `file`"));
+            return self.refuse(fault.label(say!("expected `file`")));
         };
         let place = Rest {
             files: self.files,
@@ -59,7 +59,7 @@ impl Checker<'_> {
             Err(why) => self.refuse(Fault::new(
                 NOISE,
                 file.span.clone(),
-                format!("the recording at rest: {why}"),
+                say!("the recording at rest: {why}"),
             )),
         }
     }
@@ -102,10 +102,10 @@ impl Rest<'_> {
         name: &str,
         output: &Headed,
         times: Option<&[f64]>,
-    ) -> Result<RestReadings, String> {
+    ) -> Result<RestReadings, Said> {
         let recording = self.open("rest", name).map_err(|rejection| {
             let first = rejection.faults.first();
-            first.map_or_else(String::new, |fault| fault.message.clone())
+            first.map_or_else(Said::default, |fault| fault.message.clone())
         })?;
         let column = recording.column("rest");
         let factor = match column.and_then(|column| column.unit.clone()) {
@@ -114,13 +114,13 @@ impl Rest<'_> {
                 .difference()
                 .conversion_to(&output.unit.difference())
                 .map(|conversion| conversion.factor)
-                .ok_or_else(|| format!("the unit of `{name}` is not that of {}", output.name))?,
+                .ok_or_else(|| say!("the unit of `{name}` is not that of {}", output.name))?,
         };
         let all = recording.numbers("rest").unwrap_or(&[]);
         let kept: Vec<usize> = (0..all.len()).filter(|row| all[*row].is_finite()).collect();
         let readings: Vec<f64> = kept.iter().map(|row| all[*row] * factor).collect();
         if readings.len() < 3 || readings.iter().all(|x| *x == readings[0]) {
-            return Err(format!("`{name}` has too few readings, or no scatter"));
+            return Err(say!("`{name}` has too few readings, or no scatter"));
         }
         let times = times.filter(|times| times.len() == all.len());
         Ok(RestReadings {

@@ -6,7 +6,7 @@ use super::faults::{KEY, UNIT};
 use super::purpose::Purpose;
 use super::source::{self, Source, entries};
 use gumption_core::quantity::{Unit, UnitTable};
-use gumption_fault::{Fault, Rejection};
+use gumption_fault::{Fault, Rejection, say};
 use gumption_format::files::Files;
 use gumption_format::toml::{Amount, Stated};
 use gumption_gum::budget::quantities;
@@ -99,9 +99,9 @@ impl<'s> Checker<'s> {
                 Fault::new(
                     UNIT,
                     place.clone(),
-                    format!("{} cannot be converted to {}", own.symbol, unit.symbol),
+                    say!("{} cannot be converted to {}", own.symbol, unit.symbol),
                 )
-                .label(format!("expected {} or a unit like it", unit.symbol)),
+                .label(say!("expected {} or a unit like it", unit.symbol)),
             ),
         }
     }
@@ -126,9 +126,9 @@ impl<'s> Checker<'s> {
             Fault::new(
                 KEY,
                 stated.span.clone(),
-                "a standard uncertainty is positive",
+                say!("a standard uncertainty is positive"),
             )
-            .label("expected a positive number"),
+            .label(say!("expected a positive number")),
         )
     }
 

@@ -12,7 +12,7 @@ use super::source::entries;
 use super::tables::ColumnTable;
 use crate::recording::{Content, Heading, Request, headings, text_of};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, Rejection, nearest};
+use gumption_fault::{Fault, Rejection, nearest, say};
 use gumption_format::toml::Stated;
 use gumption_gum::budget::writing::key;
 
@@ -153,12 +153,11 @@ impl<'s> Checker<'s> {
         let named = names.columns.iter().find(|(other, _)| other == name);
         if stated == Some(RoleWord::Ignore) {
             if let Some((_, place)) = named {
-                let message =
-                    format!("the equations use the column {name}, which is to be ignored");
+                let message = say!("the equations use the column {name}, which is to be ignored");
                 self.faults.push(
                     Fault::new(UNKNOWN_SYMBOL, place.clone(), message)
-                        .label("used here")
-                        .related(entry.key.clone(), "ignored here"),
+                        .label(say!("used here"))
+                        .related(entry.key.clone(), say!("ignored here")),
                 );
             }
             return None;
@@ -194,9 +193,9 @@ impl<'s> Checker<'s> {
             _ => Content::Numbers,
         };
         if let (Content::Labels, Some((_, place))) = (content, named) {
-            let message = format!("{name} holds labels, which a formula cannot use");
-            let fault = Fault::new(LABELS, place.clone(), message).label("not a number");
-            self.faults.push(fault.help(format!(
+            let message = say!("{name} holds labels, which a formula cannot use");
+            let fault = Fault::new(LABELS, place.clone(), message).label(say!("not a number"));
+            self.faults.push(fault.help(say!(
                 "a parameter with a value for each label: [parameter] p = {{ per = \"{name}\" }}"
             )));
             return None;
@@ -236,15 +235,15 @@ impl<'s> Checker<'s> {
         let fault = Fault::new(
             UNKNOWN_SYMBOL,
             place.clone(),
-            format!("{name} is neither a parameter, an input nor a constant, and the recording has no such column"),
+            say!("{name} is neither a parameter, an input nor a constant, and the recording has no such column"),
         )
-        .label("not known");
+        .label(say!("not known"));
         let known = names.known().filter(|other| *other != name);
         self.faults.push(match nearest(name, known.chain(headers.iter().copied())) {
-            Some(near) => fault.help(format!(
+            Some(near) => fault.help(say!(
                 "did you mean `{near}`? If it is to be found, list it under [parameter]"
             )),
-            None => fault.help(format!(
+            None => fault.help(say!(
                 "list it under [parameter] if it is to be found, under [input] or [constant] if it is known; the columns are {}",
                 headers.join(", ")
             )),
@@ -287,9 +286,9 @@ fn no_column(
     let names: Vec<&str> = headings.iter().map(|h| h.name.as_str()).collect();
     let texts = headings.iter().map(|h| h.text.as_str());
     let help = match nearest(header, names.iter().copied().chain(texts)) {
-        Some(near) => format!("did you mean \"{near}\"?"),
-        None if header != name => format!("its columns are: {}", names.join(", ")),
-        None => format!(
+        Some(near) => say!("did you mean \"{near}\"?"),
+        None if header != name => say!("its columns are: {}", names.join(", ")),
+        None => say!(
             "its columns are: {}; to call one of them {name}, write {} = {{ role = \"{}\", column = \"…\" }}",
             names.join(", "),
             key(name),
@@ -299,23 +298,23 @@ fn no_column(
     Fault::new(
         UNKNOWN_SYMBOL,
         place.clone(),
-        format!("the recording has no column \"{header}\""),
+        say!("the recording has no column \"{header}\""),
     )
-    .label("not in the first line of the recording")
+    .label(say!("not in the first line of the recording"))
     .help(help)
 }
 
 /// Numbers of the equations that a key takes for labels.
 fn number_as_labels(name: &str, key: &str, place: &Range<usize>) -> Fault {
-    let message =
-        format!("the equations use the numbers of {name}, and `{key}` takes it for labels");
-    let fault = Fault::new(LABELS, place.clone(), message).label("expected a column of labels");
+    let message = say!("the equations use the numbers of {name}, and `{key}` takes it for labels");
+    let fault =
+        Fault::new(LABELS, place.clone(), message).label(say!("expected a column of labels"));
     match key {
-        "dwells" => fault.help(format!(
+        "dwells" => fault.help(say!(
             "dwells that steps of {name} tell apart are steps = \"{name}\""
         )),
-        _ => {
-            fault.help("name a column that says which run, position or direction a row belongs to")
-        }
+        _ => fault.help(say!(
+            "name a column that says which run, position or direction a row belongs to"
+        )),
     }
 }

@@ -10,7 +10,7 @@ use super::source::entries;
 use super::tables::ScopeWord;
 use gumption_core::distribution::{Distribution, Normal};
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 use gumption_gum::budget::quantities::Quantities;
 use gumption_gum::budget::{Evaluation, Group, Owner};
@@ -233,10 +233,10 @@ fn shared_by_prior(prior: &Stated<String>) -> Fault {
     Fault::new(
         KEY,
         prior.span.clone(),
-        format!("{name} is estimated, and what is known of it shares an error with other inputs or readings"),
+        say!("{name} is estimated, and what is known of it shares an error with other inputs or readings"),
     )
-    .label("listed as a parameter too")
-    .help(format!("state what is known of {name} by an uncertainty of its own, or do not list it as [parameter.{name}]"))
+    .label(say!("listed as a parameter too"))
+    .help(say!("state what is known of {name} by an uncertainty of its own, or do not list it as [parameter.{name}]"))
 }
 
 fn scopes_differ(checker: &Checker<'_>, stated: &Quantities, group: &Group) -> Fault {
@@ -253,11 +253,11 @@ fn scopes_differ(checker: &Checker<'_>, stated: &Quantities, group: &Group) -> F
     Fault::new(
         KEY,
         place,
-        format!(
+        say!(
             "{} are correlated, but one error of one acts on other points than one of another",
             names.join(", ")
         ),
     )
-    .label("their scopes differ")
-    .help("give them the same `scope` or `by`; readings have an error for each point, inputs one in common, unless stated")
+    .label(say!("their scopes differ"))
+    .help(say!("give them the same `scope` or `by`; readings have an error for each point, inputs one in common, unless stated"))
 }

@@ -1,5 +1,6 @@
 //! Keys of an experiment that may be set to values of more than one type.
 
+use gumption_fault::{Said, say};
 use gumption_format::toml::faults::WRONG_TYPE;
 use gumption_format::toml::{
     Cell, FromToml, KeyRow, Named, OneOrMany, Raw, Reader, Stated, Table, words,
@@ -13,7 +14,7 @@ pub trait Shorthand: Table + FromToml {
     type Word: FromToml;
 
     /// What is expected, in words with the article.
-    fn either() -> String;
+    fn either() -> Said;
 
     /// The table that states this key only.
     fn of(word: Stated<Self::Word>) -> Self;
@@ -24,7 +25,7 @@ pub trait Shorthand: Table + FromToml {
 pub struct Short<T>(pub T);
 
 impl<T: Shorthand> FromToml for Short<T> {
-    fn expected() -> String {
+    fn expected() -> Said {
         T::either()
     }
 
@@ -61,8 +62,8 @@ pub enum AverageEntry {
 }
 
 impl FromToml for AverageEntry {
-    fn expected() -> String {
-        "\"auto\", \"none\" or the largest number of means to keep".into()
+    fn expected() -> Said {
+        say!("\"auto\", \"none\" or the largest number of means to keep")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
@@ -70,7 +71,7 @@ impl FromToml for AverageEntry {
             DeValue::String(text) if text == "auto" => Some(AverageEntry::Auto),
             DeValue::String(text) if text == "none" => Some(AverageEntry::Nothing),
             DeValue::Integer(_) => u64::read(value, reader).map(AverageEntry::AtMost),
-            _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+            _ => reader.wrong_type(WRONG_TYPE, value, Self::expected()),
         }
     }
 
@@ -123,8 +124,8 @@ pub enum RowsEntry {
 }
 
 impl FromToml for RowsEntry {
-    fn expected() -> String {
-        "the path of a CSV file, or a table of columns".into()
+    fn expected() -> Said {
+        say!("the path of a CSV file, or a table of columns")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {

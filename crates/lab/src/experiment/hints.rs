@@ -1,5 +1,6 @@
 //! What writers of experiments mistake: keys of an uncertainty, and wordings of former versions.
 
+use gumption_fault::{Said, say};
 use gumption_format::toml::{Hints, Table};
 
 use super::tables::ExperimentTable;
@@ -10,68 +11,80 @@ pub static HINTS: Hints = Hints {
     synonyms: &budget::SYNONYMS,
     top: ExperimentTable::keys,
     unknown_key,
-    list_of_amounts: "quantities that differ from row to row are columns of the recording",
+    list_of_amounts: say!("quantities that differ from row to row are columns of the recording"),
 };
 
 /// Wordings of former versions: the table, the key, and how it is written now.
-const FORMER: [(&str, &str, &str); 10] = [
+static FORMER: [(&str, &str, Said); 10] = [
     (
         "an experiment",
         "scatter",
-        "the scatter of the readings is now their noise: noise = { from = \"dwells\" }, or from = \"residuals\" or \"stated\"",
+        say!(
+            "the scatter of the readings is now their noise: noise = {{ from = \"dwells\" }}, or from = \"residuals\" or \"stated\""
+        ),
     ),
     (
         "an experiment",
         "column",
-        "columns of the recording are now listed as [columns]: U = { role = \"output\", unit = \"V\" }, or [columns.U]",
+        say!(
+            "columns of the recording are now listed as [columns]: U = {{ role = \"output\", unit = \"V\" }}, or [columns.U]"
+        ),
     ),
     (
         "an experiment",
         "candidate",
-        "explanations of your own are now omitted effects: [omitted.NAME] with term = \"NAME * …\", or with formula = \"…\" and node = \"…\"",
+        say!(
+            "explanations of your own are now omitted effects: [omitted.NAME] with term = \"NAME * …\", or with formula = \"…\" and node = \"…\""
+        ),
     ),
     (
         "[recording]",
         "columns",
-        "the name in the first line of the recording now stands with the column: [columns] omega = { column = \"rate\" }",
+        say!(
+            "the name in the first line of the recording now stands with the column: [columns] omega = {{ column = \"rate\" }}"
+        ),
     ),
     (
         "[recording]",
         "time",
-        "the time is now a column of this role: [columns] t = \"time\"",
+        say!("the time is now a column of this role: [columns] t = \"time\""),
     ),
     (
         "[recording]",
         "ranges",
-        "the range of an instrument now stands with its column: [columns] U = { range = [-10, 10] }",
+        say!(
+            "the range of an instrument now stands with its column: [columns] U = {{ range = [-10, 10] }}"
+        ),
     ),
     (
         "[recording]",
         "averages",
-        "rows that are averages already are now told by average = \"none\"; samples need `dwells`, `steps` or `still`",
+        say!(
+            "rows that are averages already are now told by average = \"none\"; samples need `dwells`, `steps` or `still`"
+        ),
     ),
     (
         "[recording]",
         "settle_rows",
-        "write settle = …: a time, or rows where no column has the role \"time\"",
+        say!("write settle = …: a time, or rows where no column has the role \"time\""),
     ),
     (
         "[noise]",
         "scatter",
-        "write from = \"residuals\", \"dwells\" or \"stated\"",
+        say!("write from = \"residuals\", \"dwells\" or \"stated\""),
     ),
     (
         "[omitted]",
         "name",
-        "the name of an omitted effect is that of its table: [omitted.NAME]",
+        say!("the name of an omitted effect is that of its table: [omitted.NAME]"),
     ),
 ];
 
-fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<String> {
+fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Said> {
     let former = FORMER
         .iter()
         .find(|(place, word, _)| *place == table && *word == key);
     former
-        .map(|(_, _, now)| (*now).to_owned())
+        .map(|(_, _, now)| now.clone())
         .or_else(|| budget::unknown_key(key, table, known))
 }

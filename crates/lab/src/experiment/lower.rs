@@ -16,7 +16,7 @@ use gumption_core::equations::{EquationText, Equations, Quantity};
 use gumption_core::model::faults::{CLASH, EXPONENT, NOT_ONE, POINT, RESERVED, RESULT_UNIT};
 use gumption_core::model::{Role, Symbol, outline};
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Stated;
 use gumption_gum::budget::Remark;
 
@@ -132,7 +132,12 @@ impl Checker<'_> {
     /// parameters of which the equations do not say any.
     fn advised(&self, fault: Fault, columns: &[Quantity], open: &[String]) -> Fault {
         if fault.code == RESERVED {
-            let taken = |column: &&Quantity| fault.message.contains(&format!("`{}`", column.name));
+            let taken = |column: &&Quantity| {
+                fault
+                    .message
+                    .to_string()
+                    .contains(&format!("`{}`", column.name))
+            };
             if let Some(column) = columns.iter().find(taken) {
                 let name = &column.name;
                 let declared = entries(&self.source.table.columns).iter();
@@ -141,7 +146,7 @@ impl Checker<'_> {
                 let role = table.and_then(|table| table.role.as_ref());
                 let role = role.map_or(RoleWord::Stimulus, |role| role.value);
                 let header = table.and_then(|table| table.column.as_ref());
-                return fault.help(format!(
+                return fault.help(say!(
                     "call the column otherwise below [columns]: {name}_1 = {{ role = \"{}\", column = \"{}\" }}",
                     role.word(),
                     header.map_or(name, |header| &header.value)
@@ -153,7 +158,7 @@ impl Checker<'_> {
         let (true, Some(one)) = (clash, open.first()) else {
             return fault;
         };
-        fault.help(format!(
+        fault.help(say!(
             "the equations do not say in which units {} are: state them, [parameter] {one} = {{ unit = \"…\" }}, or use columns as numbers: value_in(x, 'unit')",
             open.join(", ")
         ))
@@ -227,7 +232,7 @@ impl Checker<'_> {
         for (place, parameter) in parameters.iter().enumerate() {
             if !used(columns.len() + place) {
                 let at = place_of(entries(&self.source.table.parameter), &parameter.name);
-                faults.push(unused(&parameter.name, at, "parameter"));
+                faults.push(unused(&parameter.name, at, say!("parameter")));
             }
         }
         for (place, input) in inputs.iter().enumerate() {
@@ -235,7 +240,7 @@ impl Checker<'_> {
             let is_response = equations.responses().iter().any(|r| r.name == input.name);
             if !used(place) && !is_response && !in_results(&input.name) {
                 let at = place_of(entries(&self.source.table.input), &input.name);
-                faults.push(unused(&input.name, at, "input"));
+                faults.push(unused(&input.name, at, say!("input")));
             }
         }
         self.faults.extend(faults);
@@ -255,9 +260,9 @@ impl Checker<'_> {
             Fault::new(
                 KEY,
                 name.span.clone(),
-                format!("{} is no parameter", name.value),
+                say!("{} is no parameter", name.value),
             )
-            .label("expected a name of [parameter]")
+            .label(say!("expected a name of [parameter]"))
         };
         self.faults.extend(others.map(fault));
         listed.into_iter().map(|name| name.value.clone()).collect()
@@ -304,8 +309,8 @@ fn place_of<T>(entries: &[(String, Stated<T>)], name: &str) -> Range<usize> {
     entry.map_or(0..0, |(_, entry)| entry.key.clone())
 }
 
-fn unused(name: &str, place: Range<usize>, what: &str) -> Fault {
-    Fault::new(UNUSED, place, format!("no equation uses the {what} {name}"))
-        .label("not used")
-        .help("use it in an equation, or remove it")
+fn unused(name: &str, place: Range<usize>, what: Said) -> Fault {
+    Fault::new(UNUSED, place, say!("no equation uses the {what} {name}"))
+        .label(say!("not used"))
+        .help(say!("use it in an equation, or remove it"))
 }

@@ -9,7 +9,7 @@ use super::faults::{NAME_TWICE, UNKNOWN_SYMBOL};
 use super::purpose::Purpose;
 use super::source::entries;
 use gumption_core::model::outline;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 use gumption_format::toml::StringMap;
 
@@ -153,9 +153,9 @@ impl Names {
 }
 
 fn both_sides(name: &str, place: &Range<usize>) -> Fault {
-    let message = format!("{name} is on both sides of an equation");
+    let message = say!("{name} is on both sides of an equation");
     Fault::new(UNKNOWN_SYMBOL, place.clone(), message)
-        .label("expected columns, parameters, inputs and constants")
+        .label(say!("expected columns, parameters, inputs and constants"))
 }
 
 /// What the file declares.
@@ -174,11 +174,11 @@ fn declared(checker: &mut Checker<'_>) -> HashMap<String, Kind> {
                 Fault::new(
                     NAME_TWICE,
                     place.clone(),
-                    format!("the name {name} is used twice"),
+                    say!("the name {name} is used twice"),
                 )
-                .label("used again here")
-                .related(first, "first used here")
-                .help("choose another name for one of them"),
+                .label(say!("used again here"))
+                .related(first, say!("first used here"))
+                .help(say!("choose another name for one of them")),
             );
         } else {
             kinds

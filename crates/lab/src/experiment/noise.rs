@@ -6,7 +6,7 @@ use super::checker::Checker;
 use super::faults::NOISE;
 use super::tables::{NoiseTable, NoiseWord};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, Rejection};
+use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::toml::{Amount, Stated};
 use gumption_gum::budget::{self, Loaded};
 use gumption_gum::propagate::{self, Freedom};
@@ -60,7 +60,7 @@ impl<'s> Checker<'s> {
             self.faults.push(not_one_way(stated.span.clone(), &said));
         }
         if dof <= 0.0 {
-            let message = "degrees of freedom are positive";
+            let message = say!("degrees of freedom are positive");
             self.faults
                 .push(Fault::new(NOISE, stated.span.clone(), message));
         }
@@ -87,9 +87,8 @@ impl<'s> Checker<'s> {
         let with_u = [("walk", &table.walk), ("resolution", &table.resolution)];
         for (key, stated) in with_u {
             if let (Some(stated), None) = (stated, &table.u) {
-                let fault =
-                    Fault::new(NOISE, stated.span.clone(), format!("`{key}` goes with `u`"));
-                self.faults.push(fault.label("`u` is missing"));
+                let fault = Fault::new(NOISE, stated.span.clone(), say!("`{key}` goes with `u`"));
+                self.faults.push(fault.label(say!("`u` is missing")));
             }
         }
     }
@@ -101,13 +100,14 @@ impl<'s> Checker<'s> {
         if u.value.unit.is_none()
             && let (Some(first), Some(other)) = (first, units.iter().find(differs))
         {
-            let message = format!(
+            let message = say!(
                 "the noise has no unit, and the outputs are in {} and in {}",
-                first.symbol, other.symbol
+                first.symbol,
+                other.symbol
             );
             return self.refuse(Fault::new(NOISE, u.span.clone(), message)
-                .label("in which unit?")
-                .help("state it with its unit, or for each output below [reading.NAME] with from = \"stated\""));
+                .label(say!("in which unit?"))
+                .help(say!("state it with its unit, or for each output below [reading.NAME] with from = \"stated\"")));
         }
         units.iter().map(|unit| self.spread(u, unit)).collect()
     }
@@ -119,19 +119,19 @@ fn of_budget(
     loaded: &Result<Loaded, Rejection>,
     path: &str,
     outputs: &[(String, Unit)],
-) -> Result<(Vec<f64>, f64), String> {
+) -> Result<(Vec<f64>, f64), Said> {
     let loaded = loaded.as_ref().map_err(|rejection| {
         let first = rejection.faults.first();
-        let first = first.map_or_else(String::new, |fault| fault.message.clone());
-        format!("the budget {path} is refused: {first}")
+        let first = first.map_or_else(Said::default, |fault| fault.message.clone());
+        say!("the budget {path} is refused: {first}")
     })?;
-    let row = loaded.rows.first().ok_or("the budget is empty")?;
+    let row = loaded.rows.first().ok_or(say!("the budget is empty"))?;
     let options = propagate::Options {
         monte_carlo: propagate::MonteCarloChoice::Off,
         ..propagate::Options::default()
     };
-    let evaluation = propagate::evaluate(&row.budget, &options)
-        .map_err(|_| "the budget has no result".to_owned())?;
+    let evaluation =
+        propagate::evaluate(&row.budget, &options).map_err(|_| say!("the budget has no result"))?;
     let claimed = row.budget.model.outputs();
     let mut u = Vec::new();
     let mut least = f64::INFINITY;
@@ -139,11 +139,11 @@ fn of_budget(
         let named = claimed.iter().position(|output| output.name == *name);
         let only = (claimed.len() == 1).then_some(0);
         let at = named.or(only);
-        let at = at.ok_or_else(|| format!("the budget has no measurand {name}"))?;
+        let at = at.ok_or_else(|| say!("the budget has no measurand {name}"))?;
         let own = claimed[at].unit.difference();
         let conversion = own.conversion_to(unit).ok_or_else(|| {
             let (own, unit) = (&own.symbol, &unit.symbol);
-            format!("{name} is in {own} in the budget and in {unit} here")
+            say!("{name} is in {own} in the budget and in {unit} here")
         })?;
         let gum = &evaluation.results[at].gum;
         u.push(conversion.apply(gum.u));
@@ -158,13 +158,13 @@ fn of_budget(
 
 /// Noise that is claimed twice, or not at all.
 fn not_one_way(span: Range<usize>, present: &[&str]) -> Fault {
-    let fault = Fault::new(NOISE, span, "the noise is to be stated in one way");
+    let fault = Fault::new(NOISE, span, say!("the noise is to be stated in one way"));
     if present.is_empty() {
-        return fault.label(
-            "expected one of `u`, `replicates`, `at_rest`, `budget`, `from`, or a column \"u\"",
-        );
+        return fault.label(say!(
+            "expected one of `u`, `replicates`, `at_rest`, `budget`, `from`, or a column \"u\""
+        ));
     }
     fault
-        .label(format!("stated by {}", present.join(" and ")))
-        .help("keep one of them")
+        .label(say!("stated by {}", present.join(" and ")))
+        .help(say!("keep one of them"))
 }

@@ -13,7 +13,7 @@ use super::words::words;
 use gumption_core::equations::Quantity;
 use gumption_core::model::{Outline, Symbol, outline};
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::{Amount, Stated};
 
 impl Checker<'_> {
@@ -84,21 +84,21 @@ impl Checker<'_> {
             // Before there are readings, a value is what they will be simulated with.
             return match self.purpose == Purpose::Plan || table.start.is_some() {
                 true => Some(None),
-                false => self.refuse(without(name, value, "`value`", "`u`").help(
-                    "state `u`; a value to start from is `start`, an exact one a [constant]",
-                )),
+                false => self.refuse(without(name, value, "`value`", "`u`").help(say!(
+                    "state `u`; a value to start from is `start`, an exact one a [constant]"
+                ))),
             };
         };
         let is_said = table.unit.is_some() || table.like.is_some();
         if !is_said && value.value.unit.is_some() != u.value.unit.is_some() {
-            let message = format!("`value` and `u` of {name}: one of them has a unit");
+            let message = say!("`value` and `u` of {name}: one of them has a unit");
             return self.refuse(
                 Fault::new(UNIT, u.span.clone(), message)
-                    .label("in which unit?")
-                    .related(value.span.clone(), "the value")
-                    .help(
-                        "state both with their units, or the unit of the parameter: unit = \"mV\"",
-                    ),
+                    .label(say!("in which unit?"))
+                    .related(value.span.clone(), say!("the value"))
+                    .help(say!(
+                        "state both with their units, or the unit of the parameter: unit = \"mV\""
+                    )),
             );
         }
         Some(Some(Prior {
@@ -171,10 +171,10 @@ impl Checker<'_> {
                 Fault::new(
                     UNIT,
                     like.span.clone(),
-                    format!("the unit of `{}` cannot be found", like.value),
+                    say!("the unit of `{}` cannot be found", like.value),
                 )
-                .label("expected a product or quotient of columns and inputs")
-                .help("state the unit itself: unit = \"mV/(deg/s)\""),
+                .label(say!("expected a product or quotient of columns and inputs"))
+                .help(say!("state the unit itself: unit = \"mV/(deg/s)\"")),
             );
         }
         found
@@ -182,8 +182,8 @@ impl Checker<'_> {
 }
 
 fn without(name: &str, there: &Stated<Amount>, own: &str, other: &str) -> Fault {
-    let message = format!("the parameter {name} has {own} without {other}");
-    Fault::new(KEY, there.key.clone(), message).label("how well is it known?")
+    let message = say!("the parameter {name} has {own} without {other}");
+    Fault::new(KEY, there.key.clone(), message).label(say!("how well is it known?"))
 }
 
 /// Parameters that are no plain factors: the first combination of likely units with which the equations compile.

@@ -7,7 +7,7 @@ use super::faults::POSITION;
 use super::tables::PositionsTable;
 use crate::recording::Labels;
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
 
 /// Labels that must occur.
@@ -46,9 +46,9 @@ pub(crate) fn given(
     let (Some(column), Some(gives), Some(at)) = (&table.column, &table.gives, &table.at) else {
         if !table.refused {
             checker.faults.push(
-                Fault::new(POSITION, stated.key.clone(), "[positions] is not complete")
-                    .label("expected `column`, `gives` and `at`")
-                    .help("write column = \"position\", gives = [\"nx\", \"ny\", \"nz\"], at = { \"x up\" = [1, 0, 0] }"),
+                Fault::new(POSITION, stated.key.clone(), say!("[positions] is not complete"))
+                    .label(say!("expected `column`, `gives` and `at`"))
+                    .help(say!("write column = \"position\", gives = [\"nx\", \"ny\", \"nz\"], at = {{ \"x up\" = [1, 0, 0] }}")),
             );
         }
         return None;
@@ -60,13 +60,13 @@ pub(crate) fn given(
                 Fault::new(
                     POSITION,
                     values.span.clone(),
-                    format!(
+                    say!(
                         "\"{label}\" has {} values, `gives` {count} names",
                         values.value.len()
                     ),
                 )
-                .label(format!("expected {count} values"))
-                .related(gives.span.clone(), "the names"),
+                .label(say!("expected {count} values"))
+                .related(gives.span.clone(), say!("the names")),
             );
         }
     }
@@ -76,9 +76,9 @@ pub(crate) fn given(
             Fault::new(
                 POSITION,
                 column.span.clone(),
-                format!("there is no column {}", column.value),
+                say!("there is no column {}", column.value),
             )
-            .label("expected a column of labels"),
+            .label(say!("expected a column of labels")),
         );
     };
     let mut rows: Vec<&[Stated<f64>]> = Vec::new();
@@ -120,9 +120,9 @@ fn given_units(
             Fault::new(
                 POSITION,
                 units.span.clone(),
-                format!("`units` has {} entries, `gives` {count}", units.value.len()),
+                say!("`units` has {} entries, `gives` {count}", units.value.len()),
             )
-            .label(format!("expected {count} units")),
+            .label(say!("expected {count} units")),
         );
         return None;
     }
@@ -144,11 +144,11 @@ fn unknown_position(
     let fault = Fault::new(
         POSITION,
         stated.key.clone(),
-        format!("the position \"{label}\" of {point} is not known"),
+        say!("the position \"{label}\" of {point} is not known"),
     )
-    .label("the known positions");
+    .label(say!("the known positions"));
     match nearest(label, known.iter().copied()) {
-        Some(near) => fault.help(format!("did you mean \"{near}\"?")),
-        None => fault.help(format!("the positions are {}", known.join(", "))),
+        Some(near) => fault.help(say!("did you mean \"{near}\"?")),
+        None => fault.help(say!("the positions are {}", known.join(", "))),
     }
 }

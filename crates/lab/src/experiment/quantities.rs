@@ -15,7 +15,7 @@ use super::words::words;
 use gumption_core::equations::Quantity;
 use gumption_core::model::{Role, Symbol};
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 use gumption_format::toml::{Amount, Named, OneOrMany};
 use gumption_gum::budget::quantities::{Quantities, quantities};
@@ -82,13 +82,15 @@ pub(crate) fn of(checker: &mut Checker<'_>, names: &Names, columns: &[Quantity])
                 Fault::new(
                     KEY,
                     one.entry.key.clone(),
-                    format!(
+                    say!(
                         "{} is a parameter and an input without uncertainty",
                         one.name
                     ),
                 )
-                .label("known exactly?")
-                .help("state how well it is known, or list it in one of the two tables only"),
+                .label(say!("known exactly?"))
+                .help(say!(
+                    "state how well it is known, or list it in one of the two tables only"
+                )),
             );
             return None;
         }
@@ -177,10 +179,10 @@ fn known<'t>(
                 Fault::new(
                     KEY,
                     entry.key.clone(),
-                    format!("no equation uses readings of {name}"),
+                    say!("no equation uses readings of {name}"),
                 )
-                .label("expected a column of the equations")
-                .help(format!("the columns are {}", known.join(", "))),
+                .label(say!("expected a column of the equations"))
+                .help(say!("the columns are {}", known.join(", "))),
             );
             continue;
         };
@@ -195,9 +197,9 @@ fn known<'t>(
                 Fault::new(
                     KEY,
                     place,
-                    format!("{name} is in {}, not in {}", own.symbol, unit.symbol),
+                    say!("{name} is in {}, not in {}", own.symbol, unit.symbol),
                 )
-                .label(format!("expected {} or a unit like it", own.symbol)),
+                .label(say!("expected {} or a unit like it", own.symbol)),
             );
             continue;
         };
@@ -215,10 +217,12 @@ fn known<'t>(
                 Fault::new(
                     KEY,
                     values.key.clone(),
-                    format!("{} is not a vector", one.name),
+                    say!("{} is not a vector", one.name),
                 )
-                .label("no meaning here")
-                .help("quantities that differ from point to point are columns"),
+                .label(say!("no meaning here"))
+                .help(say!(
+                    "quantities that differ from point to point are columns"
+                )),
             );
         }
         if let Some(from) = &one.table().from {
@@ -226,10 +230,12 @@ fn known<'t>(
                 Fault::new(
                     KEY,
                     from.key.clone(),
-                    "results of other budgets are not taken here",
+                    say!("results of other budgets are not taken here"),
                 )
-                .label("no meaning here")
-                .help("state its value, and its uncertainty as certificate = { U = …, k = 2 }"),
+                .label(say!("no meaning here"))
+                .help(say!(
+                    "state its value, and its uncertainty as certificate = {{ U = …, k = 2 }}"
+                )),
             );
         }
     }
@@ -274,9 +280,9 @@ fn state_input(
     let what = what.map_or(String::new(), |text| format!(" ({})", text.value));
     let unit = entry.value.input.unit.as_ref();
     let unit = unit.map_or(String::new(), |text| format!(", unit = \"{}\"", text.value));
-    Fault::new(STATE_INPUT, place, format!("the procedure needs {name}{what}"))
-        .label("needs it")
-        .help(format!(
+    Fault::new(STATE_INPUT, place, say!("the procedure needs {name}{what}"))
+        .label(say!("needs it"))
+        .help(say!(
             "add [input.{name}] with value = …{unit} and its uncertainty; if it is known exactly, [constant] {name} = \"… unit\""
         ))
 }

@@ -7,7 +7,7 @@ use super::faults::NO_PROCEDURE;
 use super::hints::HINTS;
 use super::procedure::{PROCEDURES, procedure_named};
 use super::tables::ExperimentTable;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Named;
 use gumption_format::toml::tables_of;
 use gumption_format::toml::{Stated, Table};
@@ -90,12 +90,12 @@ fn no_procedure(stated: &Stated<String>) -> Fault {
     let fault = Fault::new(
         NO_PROCEDURE,
         stated.span.clone(),
-        format!("there is no procedure \"{}\"", stated.value),
+        say!("there is no procedure \"{}\"", stated.value),
     )
-    .label("not in the library");
+    .label(say!("not in the library"));
     match nearest(&stated.value, known()) {
-        Some(near) => fault.help(format!("did you mean \"{near}\"?")),
-        None => fault.help(format!(
+        Some(near) => fault.help(say!("did you mean \"{near}\"?")),
+        None => fault.help(say!(
             "the procedures are {}; without one, state `equations`",
             known().collect::<Vec<_>>().join(", ")
         )),
@@ -274,9 +274,10 @@ impl Source {
             .rfind('\n')
             .map_or(0, |at| at + 1);
         let said = self.text[line..].lines().next().unwrap_or_default().trim();
-        fault.message = format!(
+        fault.message = say!(
             "{}, in the procedure {}: {said}",
-            fault.message, procedure.value
+            fault.message,
+            procedure.value
         );
         fault.span = procedure.span.clone();
         fault

@@ -1,5 +1,6 @@
 //! Every table of an experiment, as users and the procedures of the library write it.
 
+use gumption_fault::{Said, say};
 use gumption_format::toml::{Amount, Cell, Date, Dof, Named, OneOrMany, Stated, table, words};
 
 use super::entries::{AverageEntry, RoleWord, RowsEntry, Short, Shorthand};
@@ -114,8 +115,8 @@ table! {
 impl Shorthand for RecordingTable {
     type Word = String;
 
-    fn either() -> String {
-        "the path of a CSV file, or a table".into()
+    fn either() -> Said {
+        say!("the path of a CSV file, or a table")
     }
 
     fn of(file: Stated<String>) -> Self {
@@ -159,8 +160,8 @@ table! {
 impl Shorthand for ColumnTable {
     type Word = RoleWord;
 
-    fn either() -> String {
-        "a role such as \"output\", or a table".into()
+    fn either() -> Said {
+        say!("a role such as \"output\", or a table")
     }
 
     fn of(role: Stated<RoleWord>) -> Self {

@@ -1,8 +1,20 @@
 //! What findings say, in both languages.
 
+use gumption_fault::Said;
+
 use super::checks::{Finding, Problem};
 
 impl Finding {
+    /// [`message`](Self::message) in the language of its reader.
+    pub fn said(&self) -> Said {
+        Said::pair(self.message(), self.message_zh())
+    }
+
+    /// [`advice`](Self::advice) in the language of its reader.
+    pub fn mend(&self) -> Said {
+        Said::pair(self.advice(), self.advice_zh())
+    }
+
     /// One sentence without a final stop.
     pub fn message(&self) -> String {
         let column = self.column.as_deref().unwrap_or_default();

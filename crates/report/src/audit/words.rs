@@ -1,6 +1,7 @@
 //! Sentences of an audit.
 
 use gumption_audit::claim::{Row, Shape, Stated};
+use gumption_audit::printed::Printed;
 use gumption_audit::search::{Broken, Gap};
 use gumption_audit::{Audit, Verdict};
 use gumption_core::distribution::Entry;
@@ -73,11 +74,16 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
         (Language::Chinese, n) => format!("{n} 处差错合在一起能给出全部声称值：{}。", slips()),
     };
     let chance = || match language {
-        Language::English => format!(
-            "{} combinations were tried; {} of them would match figures as coarse as these by accident.",
-            found.tried,
-            significant(found.by_chance, 2)
-        ),
+        Language::English => {
+            let tried = match found.tried {
+                1 => "1 combination was tried".to_string(),
+                tried => format!("{tried} combinations were tried"),
+            };
+            let expected = significant(found.by_chance, 2);
+            format!(
+                "{tried}; {expected} of them would match figures as coarse as these by accident."
+            )
+        }
         Language::Chinese => format!(
             "共试 {} 种组合；按声称值的位数，预计有 {} 种会偶然相符。",
             found.tried,
@@ -217,7 +223,16 @@ pub(super) fn stated(row: &Row, language: Language) -> String {
         ),
         Shape::TwoPoint => language.pick("two points", "两点").to_string(),
     };
-    let number = |x: f64| significant(x, 4);
+    // As it is written, where no unit was changed: further digits would be made up.
+    let number = |figure: &Printed| {
+        let own = Printed::parse(&figure.text).is_some_and(|own| own.value == figure.value);
+        if own {
+            let text = figure.text.trim_end_matches(figure.unit.as_str());
+            text.trim_start_matches('±').trim().to_string()
+        } else {
+            significant(figure.value, figure.digits.clamp(1, 4) as u8)
+        }
+    };
     match &row.stated {
         Stated::Nothing => String::new(),
         Stated::Certificate {
@@ -230,38 +245,34 @@ pub(super) fn stated(row: &Row, language: Language) -> String {
             } else {
                 language.pick(" (taken)", "（默认）")
             };
-            format!(
-                "U = {}, k = {}{mark}",
-                number(expanded.value),
-                significant(*k, 3)
-            )
+            format!("U = {}, k = {}{mark}", number(expanded), significant(*k, 3))
         }
         Stated::Limits {
             half_width,
             shape: s,
             ..
-        } => format!("±{}, {}", number(half_width.value), shape(*s)),
+        } => format!("±{}, {}", number(half_width), shape(*s)),
         Stated::FullWidth { width, shape: s } => format!(
             "{} {}, {}",
             language.pick("width", "全宽"),
-            number(width.value),
+            number(width),
             shape(*s)
         ),
         Stated::Step { step } => {
-            format!("{} {}", language.pick("step", "步进"), number(step.value))
+            format!("{} {}", language.pick("step", "步进"), number(step))
         }
         Stated::Unequal { plus, minus } => {
-            format!("+{}/−{}", number(plus.value), number(minus.value))
+            format!("+{}/−{}", number(plus), number(minus))
         }
         Stated::Deviation { s, n, m, pooled } => {
             let n = n.map_or(String::new(), |n| format!(", n = {n}"));
             let pooled = pooled.map_or(String::new(), |dof| {
                 format!(", {} ν = {dof}", language.pick("pooled", "合并"))
             });
-            format!("s = {}{n}, m = {m}{pooled}", number(s.value))
+            format!("s = {}{n}, m = {m}{pooled}", number(s))
         }
-        Stated::Range { range, n, m } => format!("R = {}, n = {n}, m = {m}", number(range.value)),
-        Stated::Standard { u, .. } => format!("u = {}", number(u.value)),
+        Stated::Range { range, n, m } => format!("R = {}, n = {n}, m = {m}", number(range)),
+        Stated::Standard { u, .. } => format!("u = {}", number(u)),
     }
 }
 
@@ -289,6 +300,7 @@ pub(super) fn role(role: &str, language: Language) -> String {
         "rule for k" => "k 的规则",
         "rule for rounding" => "修约规则",
         "note to a row" => "某行的说明",
+        "known, but not in the table" => "已知，但表中没有此项",
         "?" => "未识别",
         other => other,
     };

@@ -8,6 +8,7 @@ mod rule;
 mod words;
 
 use crate::Report;
+use crate::language::Language;
 use gumption_format::document::Block;
 use gumption_gum::propagate::Verdict;
 
@@ -34,6 +35,15 @@ pub(super) fn verdict_code(verdict: Verdict) -> &'static str {
         Verdict::Conforming => "conforming",
         Verdict::NotConforming => "not_conforming",
         Verdict::Undecided => "undecided",
+    }
+}
+
+/// A verdict in a word.
+pub(super) fn verdict_word(l: Language, verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Conforming => l.pick("conforming", "合格"),
+        Verdict::NotConforming => l.pick("not conforming", "不合格"),
+        Verdict::Undecided => l.pick("undecided", "待定"),
     }
 }
 

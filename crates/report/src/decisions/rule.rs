@@ -2,8 +2,8 @@
 
 use super::conformity::Assessment;
 use crate::figures::with_unit;
-use crate::number::{exact, probability};
-use gumption_gum::budget::{DecisionRule, Guard, ISO_14253_PROBABILITY};
+use crate::number::{exact, probability, significant};
+use gumption_gum::budget::{DecisionRule, GlobalRisks, Guard, ISO_14253_PROBABILITY};
 
 impl Assessment<'_> {
     /// The rule, with its guard band or probability.
@@ -63,6 +63,7 @@ impl Assessment<'_> {
                     format!("非二元判定（限附近待定），{both}"),
                 )
             }
+            DecisionRule::GlobalRisks(permitted) => self.permitted(permitted),
             DecisionRule::Jjf1094 => l
                 .pick(
                     "JJF 1094 (simple where U ≤ MPEV/3, else undecided within U of the limits)",
@@ -70,6 +71,51 @@ impl Assessment<'_> {
                 )
                 .to_string(),
         }
+    }
+
+    /// Permissible global risks, and the guard band that keeps them.
+    fn permitted(&self, permitted: GlobalRisks) -> String {
+        let l = self.l;
+        let at_most = |symbol: &str, risk: Option<f64>| {
+            risk.map(|p| format!("{symbol} ≤ {}", probability(p)))
+        };
+        let risks = [
+            at_most("R_C", permitted.consumer),
+            at_most("R_P", permitted.producer),
+        ];
+        let risks: Vec<String> = risks.into_iter().flatten().collect();
+        let risks = risks.join(l.pick(" and ", " 且 "));
+        let (found, tolerance) = (self.found, self.stated.tolerance);
+        let band = match found.acceptance {
+            None => String::new(),
+            Some(accepted) if accepted != found.rejection => l
+                .pick(": undecided between two limits", "：两限之间待定")
+                .to_string(),
+            Some(accepted) if accepted == tolerance => l
+                .pick(": no guard band is needed", "：不需要保护带")
+                .to_string(),
+            Some(accepted) => {
+                let inwards = match tolerance.lower.is_finite() {
+                    true => accepted.lower - tolerance.lower,
+                    false => tolerance.upper - accepted.upper,
+                };
+                let w = with_unit(&significant(inwards.abs(), 3), &self.deviations());
+                match inwards > 0.0 {
+                    true => l.pick(
+                        format!(": guarded acceptance, w = {w}"),
+                        format!("：保护带接受，w = {w}"),
+                    ),
+                    false => l.pick(
+                        format!(": guarded rejection, w = {w}"),
+                        format!("：保护带拒绝，w = {w}"),
+                    ),
+                }
+            }
+        };
+        l.pick(
+            format!("global risk {risks} (JCGM 106, 9.5){band}"),
+            format!("总体风险 {risks}（JCGM 106，9.5）{band}"),
+        )
     }
 
     fn guard(&self, guard: Guard, what: &str) -> String {

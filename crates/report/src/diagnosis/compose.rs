@@ -8,7 +8,7 @@ use gumption_format::document::{
     ColumnKind::{Names as NamesColumn, Numbers},
 };
 use gumption_lab::diagnose::case::Case;
-use gumption_lab::diagnose::evidence::{Alternative, Slot};
+use gumption_lab::diagnose::evidence::{Alternative, Slot, State};
 use gumption_lab::diagnose::{Diagnosis, Doubt};
 
 use super::labels::spoken;
@@ -194,6 +194,13 @@ fn named(case: &Case, diagnosis: &Diagnosis, slot: &Slot, names: Names<'_>) -> V
         if !said.contains(&prose) {
             blocks.push(Block::Paragraph(prose.clone()));
             said.push(prose);
+        }
+        if slot.state == State::Like {
+            let text = names.l.pick(
+                "Nothing else in the catalogue acts like this. Something unlisted of similar shape would look the same at this strength.",
+                "目录中没有其他影响有此表现；但在此强度下，目录之外形状相近的影响看起来会相同。",
+            );
+            blocks.push(Block::Paragraph(text.to_owned()));
         }
         let lines = [names.formula(diagnosis, alternative)].into_iter();
         let lines = lines.chain(multiplied(diagnosis, alternative, names.l));

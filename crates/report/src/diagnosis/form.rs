@@ -30,10 +30,11 @@ form! {
     DiagnosisForm<'a> of (case: &'a Case, d: &'a Diagnosis, names: Names<'a>) {
         /// Title.
         title: &'a str = &case.title,
-        /// `none`, `identified`, `ambiguous`, `partly`, `contested` or `unexplained`.
+        /// `none`, `identified`, `acts-like`, `ambiguous`, `partly`, `contested` or `unexplained`.
         verdict: &'static str = match d.examination.verdict {
             Verdict::None => "none",
             Verdict::Identified => "identified",
+            Verdict::Like => "acts-like",
             Verdict::Ambiguous => "ambiguous",
             Verdict::Partly => "partly",
             Verdict::Contested => "contested",
@@ -127,9 +128,10 @@ form! {
 
     /// An effect that was found.
     EffectForm<'a> of (slot: &'a Slot, case: &'a Case, d: &'a Diagnosis, names: Names<'a>) {
-        /// `identified`, `ambiguous` or `unexplained`.
+        /// `identified`, `acts-like`, `ambiguous` or `unexplained`.
         state: &'static str = match slot.state {
             State::Identified => "identified",
+            State::Like => "acts-like",
             State::Ambiguous => "ambiguous",
             State::Unexplained => "unexplained",
         },

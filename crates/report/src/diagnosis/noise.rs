@@ -3,7 +3,7 @@
 use crate::language::Language;
 use crate::number::{freedom, significant};
 use gumption_lab::diagnose::case::{Case, NoiseClaim};
-use gumption_lab::diagnose::{Claimed, Origin};
+use gumption_lab::diagnose::{Claimed, Memory, Origin};
 
 use super::words::p_is;
 
@@ -61,17 +61,46 @@ pub(super) fn noise(claimed: &Claimed, l: Language) -> String {
             format!("取自不确定度评定文件 {file}"),
         ),
     };
-    text + &dof + &uneven(claimed, l)
+    text + &dof + &memory(claimed, l) + &uneven(claimed, l)
 }
 
 /// That a recording at rest tells nothing of the course of the noise.
 fn white(claimed: &Claimed, l: Language) -> &'static str {
-    match claimed.correlated {
-        Some(_) => "",
-        None => l.pick(
+    match &claimed.correlated {
+        Some(correlated) if correlated.memory == Memory::Claimed => "",
+        _ => l.pick(
             ", as white noise (its course needs the time, by one name in both recordings, and 20 readings)",
             "，按白噪声处理（计入其时间相关性需要两份记录有同名时间列，且至少 20 个读数）",
         ),
+    }
+}
+
+/// How the errors of successive rows are correlated, where the recording shows it.
+fn memory(claimed: &Claimed, l: Language) -> String {
+    let Some(correlated) = &claimed.correlated else {
+        return String::new();
+    };
+    let part = |share: f64| significant(100.0 * share, 2);
+    match correlated.memory {
+        Memory::White | Memory::Claimed => String::new(),
+        Memory::Fading {
+            share,
+            time_constant,
+        } => {
+            let (share, time) = (part(share), significant(time_constant, 2));
+            let unit = &correlated.unit;
+            l.pick(
+                format!("; successive rows are correlated: about {share} % of the variance fades with τ ≈ {time} {unit}"),
+                format!("；相邻各行相关：约 {share} % 的方差以 τ ≈ {time} {unit} 衰减"),
+            )
+        }
+        Memory::Flicker { share } => {
+            let share = part(share);
+            l.pick(
+                format!("; successive rows are correlated: about {share} % of the variance flickers (1/f)"),
+                format!("；相邻各行相关：约 {share} % 的方差为闪烁（1/f）噪声"),
+            )
+        }
     }
 }
 

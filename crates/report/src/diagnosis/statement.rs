@@ -1,7 +1,7 @@
 //! The verdict of a diagnosis in one sentence.
 
 use crate::language::Language;
-use gumption_lab::diagnose::evidence::{Alternative, Slot};
+use gumption_lab::diagnose::evidence::{Alternative, Slot, State};
 use gumption_lab::diagnose::{Conclusion, Diagnosis, Nameless};
 
 use super::names::Names;
@@ -113,6 +113,13 @@ fn joined(texts: impl Iterator<Item = String>, l: Language) -> String {
 /// The names of a slot: joined by "or", unless one of them leads.
 fn slot_name(diagnosis: &Diagnosis, slot: &Slot, names: Names<'_>) -> String {
     let list = names.slot(diagnosis, slot);
+    if slot.state == State::Like {
+        let name = names.l.either(&list);
+        return names.l.pick(
+            format!("something that acts like {name}"),
+            format!("表现如同“{name}”的影响"),
+        );
+    }
     match (list.as_slice(), slot.named.first()) {
         ([first, others @ ..], Some(leading)) if !others.is_empty() && !slot.is_open() => {
             let p = chance(leading.probability);

@@ -2,6 +2,7 @@
 
 use gumption_core::quantity::Rounding;
 use gumption_gum::budget::{CoverageRule, TScale};
+use gumption_gum::propagate::CoverageBasis;
 
 use crate::language::{Language, Word};
 use crate::number::{exact, probability};
@@ -155,26 +156,56 @@ fn taken(report: &Report<'_>) -> Vec<Block> {
     ]
 }
 
+/// Where k comes from, and its probability.
+fn coverage(report: &Report<'_>) -> String {
+    let conventions = &report.budget.conventions;
+    let l = report.language;
+    let p = probability(conventions.coverage_probability);
+    let of_output = probability(conventions.output_probability);
+    let results = || report.evaluation.results.iter();
+    let from_output = results()
+        .filter(|result| matches!(result.gum.coverage.basis, CoverageBasis::Output { .. }))
+        .count();
+    match conventions.coverage_factor {
+        CoverageRule::Fixed(k) => {
+            let k = exact(k);
+            match conventions.state_probability {
+                true => l.pick(format!("p = {p}, k = {k}"), format!("p = {p}，k = {k}")),
+                false => l.pick(
+                    format!("k = {k}, no probability stated (intervals in this report are for {p})"),
+                    format!("k = {k}，不注明包含概率（本报告中的区间取 p = {p}）"),
+                ),
+            }
+        }
+        CoverageRule::Normal => l.pick(
+            format!("p = {p}, k from the normal distribution"),
+            format!("p = {p}，k 取自正态分布"),
+        ),
+        CoverageRule::StudentT => l.pick(
+            format!("p = {p}, k from the t-distribution"),
+            format!("p = {p}，k 取自 t 分布"),
+        ),
+        // A probability of its own, for all that is reported here.
+        CoverageRule::Output if of_output != p && from_output == results().count() => l.pick(
+            format!("p = {of_output}, k from the distribution of the result, in which a few components dominate (intervals in this report are for {p})"),
+            format!("p = {of_output}，少数分量占优势，k 取自输出量的分布（本报告中的区间取 p = {p}）"),
+        ),
+        CoverageRule::Output if of_output != p && from_output > 0 => l.pick(
+            format!("p = {p}, k from t, or for {of_output} from the distribution of the result where a few components dominate"),
+            format!("p = {p}，k 取自 t 分布；少数分量占优势时取自输出量的分布，包含概率 {of_output}"),
+        ),
+        CoverageRule::Output => l.pick(
+            format!("p = {p}, k from t, or from the distribution of the result where a few components dominate"),
+            format!("p = {p}，k 取自 t 分布，少数分量占优势时取自输出量的分布"),
+        ),
+    }
+}
+
 /// Profile, what the file changed in it, and the version.
 fn footer(report: &Report<'_>) -> Vec<String> {
     let conventions = &report.budget.conventions;
     let l = report.language;
-    let p = probability(conventions.coverage_probability);
     let digits = conventions.digits;
-    let k = match (conventions.coverage_factor, l) {
-        (CoverageRule::Output, Language::English) => {
-            "k from t, or from the distribution of the result where a few components dominate"
-                .to_string()
-        }
-        (CoverageRule::Output, Language::Chinese) => {
-            "k 取自 t 分布，少数分量占优势时取自输出量的分布".to_string()
-        }
-        (CoverageRule::StudentT, Language::English) => "k from the t-distribution".to_string(),
-        (CoverageRule::StudentT, Language::Chinese) => "k 取自 t 分布".to_string(),
-        (CoverageRule::Normal, Language::English) => "k from the normal distribution".to_string(),
-        (CoverageRule::Normal, Language::Chinese) => "k 取自正态分布".to_string(),
-        (CoverageRule::Fixed(k), _) => format!("k = {}", exact(k)),
-    };
     let rounding = match (conventions.rounding, l) {
         (Rounding::HalfEven, Language::English) => "rounding to nearest, ties to even",
         (Rounding::HalfEven, Language::Chinese) => "四舍六入五成双",
@@ -194,15 +225,7 @@ fn footer(report: &Report<'_>) -> Vec<String> {
         }
     };
     let profile = &conventions.profile;
-    let fixed = matches!(conventions.coverage_factor, CoverageRule::Fixed(_));
-    let k = match (fixed && !conventions.state_probability, l) {
-        (true, Language::English) => {
-            format!("{k}, no probability stated (intervals in this report are for {p})")
-        }
-        (true, Language::Chinese) => format!("{k}，不注明包含概率（本报告中的区间取 p = {p}）"),
-        (false, Language::English) => format!("p = {p}, {k}"),
-        (false, Language::Chinese) => format!("p = {p}，{k}"),
-    };
+    let k = coverage(report);
     let mut lines = vec![match l {
         Language::English => {
             let plural = if digits == 1 { "digit" } else { "digits" };

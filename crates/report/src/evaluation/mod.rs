@@ -8,6 +8,7 @@ mod decisions;
 mod fits;
 mod joint;
 mod matrix;
+mod plots;
 mod result;
 mod series;
 mod understood;
@@ -16,7 +17,7 @@ mod whole;
 use serde_json::Value;
 
 use self::whole::EvaluationJson;
-use crate::Report;
+use crate::{Report, worksheet};
 use gumption_format::document::Document;
 
 /// One evaluated budget.
@@ -30,6 +31,7 @@ pub fn evaluations(rows: &[Report<'_>], in_full: usize) -> Option<Document> {
     let mut whole = Document::together(documents.collect())?;
     if rows.len() > 1 {
         whole.blocks.splice(0..0, series::blocks(rows));
+        whole = whole.with_plots(plots::series(rows));
     }
     Some(whole)
 }
@@ -39,7 +41,13 @@ fn of(report: &Report<'_>, in_full: bool) -> Document {
         true => compose::compose(report),
         false => Vec::new(),
     };
-    Document::new(&EvaluationJson::new(report), report.language, blocks)
+    let document = Document::new(&EvaluationJson::new(report), report.language, blocks);
+    match in_full {
+        true => document
+            .with_sheets(worksheet::sheets(report))
+            .with_plots(plots::plots(report)),
+        false => document,
+    }
 }
 
 /// JSON Schema of the output of `gumption eval --json`: one evaluation, or an array of them.

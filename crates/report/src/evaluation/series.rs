@@ -1,6 +1,6 @@
 //! A series: the same budget once per row, as compact tables: results, claims, repetitions.
 
-use gumption_gum::budget::Figure;
+use gumption_gum::budget::{Conformity, Figure};
 use gumption_gum::propagate::{Clause8, Comparison};
 
 use crate::figures::Figures;
@@ -8,8 +8,8 @@ use crate::language::Word;
 use crate::number::{
     NONE, STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, print, probability, significant,
 };
-use crate::{Report, claim, remarks, symbol};
-use gumption_format::document::{Block, Cell, ColumnKind, Finding, Table};
+use crate::{Report, claim, decisions, remarks, symbol};
+use gumption_format::document::{Block, Cell, Column, ColumnKind, Finding, Table};
 
 /// The rows of a series.
 pub(super) fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
@@ -113,6 +113,22 @@ impl Series<'_> {
             (interval.as_str(), ColumnKind::Numbers),
             (l.pick("validated", "通过验证"), ColumnKind::Words),
         ]);
+        let assessed = first.budget.conformity.iter().enumerate();
+        let assessed = assessed.filter(|(_, stated)| stated.measurand == self.measurand);
+        let assessed: Vec<(usize, &Conformity)> = assessed.collect();
+        let (name, _) = first.measurand(self.measurand);
+        table
+            .columns
+            .extend(assessed.iter().map(|(_, stated)| Column {
+                head: match stated.name == name {
+                    true => l.pick("verdict", "结论").to_string(),
+                    false => l.pick(
+                        format!("verdict, {}", stated.name),
+                        format!("结论，{}", stated.name),
+                    ),
+                },
+                kind: ColumnKind::Words,
+            }));
         let several_factors = self.one_factor().is_none();
         let cell = |text: Option<String>| text.map_or(Cell::Empty, Cell::from);
         for (report, figures) in self.rows.iter().zip(self.figures()) {
@@ -130,7 +146,12 @@ impl Series<'_> {
                 .find(|v| v.digits == digits)
                 .map_or("", |v| verdict_word(report, v.verdict));
             let k = figures.k().filter(|_| several_factors);
-            table.push(vec![
+            let decided = assessed.iter().map(|(index, _)| {
+                let found = report.evaluation.conformity.get(*index);
+                let verdict = found.and_then(|found| found.verdict);
+                cell(verdict.map(|verdict| decisions::verdict_word(l, verdict).to_string()))
+            });
+            let mut cells = vec![
                 report.label.unwrap_or_default().into(),
                 figures.estimate().into(),
                 cell(figures.u()),
@@ -139,7 +160,9 @@ impl Series<'_> {
                 cell(figures.interval().map(brackets)),
                 trials,
                 verdict.into(),
-            ]);
+            ];
+            cells.extend(decided);
+            table.push(cells);
         }
         table
     }

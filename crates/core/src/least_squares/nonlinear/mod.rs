@@ -14,12 +14,12 @@ use nalgebra::DMatrix;
 use crate::least_squares::derivatives::{Block, Derivatives, blocks_of, derivatives};
 use crate::least_squares::factor::{Qr, square};
 use crate::least_squares::problem::{Problem, Scale};
-use crate::least_squares::solution::{Failure, Solution};
+use crate::least_squares::solution::{Failure, Solution, standard};
 use crate::least_squares::whiten::Whitener;
 
 use linear::FLAT;
 pub use linear::{Linear, Minimum, Residuals, Stuck};
-use search::Search;
+use search::{MOST_STEPS, Search};
 
 /// Trust regions to begin with, in units of the scaled start: MINPACK's own, then shy ones for
 /// starts from which a long step leads onto a plain.
@@ -34,7 +34,7 @@ pub fn minimise(residuals: &dyn Residuals, start: &[f64]) -> Result<Minimum, Stu
     let first = residuals.at(start, None).ok_or(Stuck::Start)?;
     let mut reason = None;
     for region in FIRST_REGIONS {
-        match Search::new(residuals, start, &first, region).run() {
+        match Search::new(residuals, start, &first, region).run(MOST_STEPS) {
             Ok(minimum) => return Ok(minimum),
             Err(stuck) => {
                 reason.get_or_insert(stuck);
@@ -42,6 +42,14 @@ pub fn minimise(residuals: &dyn Residuals, start: &[f64]) -> Result<Minimum, Stu
         }
     }
     Err(reason.unwrap_or(Stuck::Start))
+}
+
+/// The minimum that a short search from a start leads to, if it does.
+pub(super) fn glance(residuals: &dyn Residuals, start: &[f64]) -> Option<Minimum> {
+    /// Enough wherever a start is a good one; a search that creeps may be left alone.
+    const STEPS: usize = 60;
+    let first = residuals.at(start, None)?;
+    Search::new(residuals, start, &first, 1.0).run(STEPS).ok()
 }
 
 /// Estimates, covariance and derivatives of a checked problem with exact predictors.
@@ -124,11 +132,15 @@ impl Minimum {
                     .at(&x, &parameters, &mut by_parameter, &mut by_predictor)
             })
             .collect();
+        let covariance = match problem.errors.scale {
+            Scale::Stated => normal,
+            Scale::Residuals => normal * variance,
+        };
+        let (u, correlation) = standard(&covariance);
         Ok(Solution {
-            covariance: match problem.errors.scale {
-                Scale::Stated => normal,
-                Scale::Residuals => normal * variance,
-            },
+            covariance,
+            u,
+            correlation,
             dof,
             chi_squared,
             residual_sd: variance.sqrt(),

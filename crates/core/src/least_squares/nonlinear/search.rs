@@ -5,7 +5,7 @@ use super::model::{Model, Reduction, scaled_length};
 use crate::least_squares::factor::{Qr, square};
 
 /// Steps after which a search counts as lost.
-const MOST_STEPS: usize = 5000;
+pub(super) const MOST_STEPS: usize = 5000;
 
 /// Relative offset below which the residuals cannot be improved noticeably.
 const OFFSET: f64 = 1e-6;
@@ -52,9 +52,9 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Searches to the end.
-    pub fn run(mut self) -> Result<Minimum, Stuck> {
-        while self.iterations < MOST_STEPS && self.step() == Progress::Moving {}
+    /// Searches to the end, or for so many steps.
+    pub fn run(mut self, most: usize) -> Result<Minimum, Stuck> {
+        while self.iterations < most && self.step() == Progress::Moving {}
         self.polish();
         let qr = Qr::new(self.linear.jacobian.clone(), FLAT);
         if !qr.is_full() {

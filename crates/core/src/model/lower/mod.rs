@@ -16,7 +16,7 @@ use crate::model::printer;
 use crate::model::syntax::{Expr, Name, Span};
 use crate::model::{Place, Symbol};
 use crate::quantity::{Unit, UnitTable};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 /// Expressions and calls inside one another, with user functions written out.
 const MAX_DEPTH: usize = 160;
@@ -137,12 +137,12 @@ impl<'r> Lowering<'r> {
                 } else {
                     inner
                 };
-                let message = format!("in `{name}`: {}", fault.message);
+                let message = say!("in `{name}`: {}", fault.message);
                 (
                     *place,
                     Fault {
                         message,
-                        label: "with these arguments".to_string(),
+                        label: say!("with these arguments"),
                         ..inner
                     },
                 )
@@ -165,10 +165,10 @@ impl<'r> Lowering<'r> {
                 Fault::new(
                     faults::TOO_LARGE,
                     span.clone(),
-                    format!("written out, the model has more than {MAX_WORK} operations"),
+                    say!("written out, the model has more than {MAX_WORK} operations"),
                 )
-                .label("the limit is passed here")
-                .help("shorten the vectors, or give names to quantities that functions compute again and again"),
+                .label(say!("the limit is passed here"))
+                .help(say!("shorten the vectors, or give names to quantities that functions compute again and again")),
             );
         }
         false
@@ -185,10 +185,10 @@ impl<'r> Lowering<'r> {
                 Fault::new(
                     faults::TOO_DEEP,
                     e.span.clone(),
-                    "with the functions written out, the formula is nested too deep",
+                    say!("with the functions written out, the formula is nested too deep"),
                 )
-                .label("too deep")
-                .help("give the inner parts names of their own"),
+                .label(say!("too deep"))
+                .help(say!("give the inner parts names of their own")),
             );
             None
         } else {
@@ -239,14 +239,14 @@ pub fn wrong_count(
         Fault::new(
             faults::ARGUMENTS,
             e.span.clone(),
-            format!(
+            say!(
                 "`{name}` is given {} argument{}",
                 arguments.len(),
                 if arguments.len() == 1 { "" } else { "s" }
             ),
         )
-        .label(format!("expected `{signature}`"))
-        .help(format!("write `{signature}`")),
+        .label(say!("expected `{signature}`"))
+        .help(say!("write `{signature}`")),
     );
     None
 }

@@ -5,7 +5,7 @@ use crate::model::catalogue;
 use crate::model::faults;
 use crate::model::syntax::{Expr, Span, UnitText};
 use crate::quantity::Unit;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 
 impl Lowering<'_> {
     pub fn literal(&mut self, value: f64, unit: Option<&UnitText>) -> Option<Value> {
@@ -39,10 +39,10 @@ impl Lowering<'_> {
             Fault::new(
                 faults::UNIT_TEXT,
                 e.span.clone(),
-                "a unit must stand right after a number",
+                say!("a unit must stand right after a number"),
             )
-            .label("no number before this unit")
-            .help(format!("write `1 '{}'`", unit.text)),
+            .label(say!("no number before this unit"))
+            .help(say!("write `1 '{}'`", unit.text)),
         );
         None
     }
@@ -86,10 +86,10 @@ impl Lowering<'_> {
             Fault::new(
                 faults::FUNCTION_AS_VALUE,
                 span.clone(),
-                format!("`{name}` is a function and needs arguments"),
+                say!("`{name}` is a function and needs arguments"),
             )
-            .label("no arguments")
-            .help(format!("write `{signature}`")),
+            .label(say!("no arguments"))
+            .help(say!("write `{signature}`")),
         );
     }
 
@@ -102,9 +102,9 @@ impl Lowering<'_> {
         }
         if self.later.iter().any(|n| n == name) {
             self.report(
-                Fault::new(faults::USED_BEFORE, span.clone(), format!("`{name}` is used before it is defined"))
-                    .label("not defined yet")
-                    .help(format!(
+                Fault::new(faults::USED_BEFORE, span.clone(), say!("`{name}` is used before it is defined"))
+                    .label(say!("not defined yet"))
+                    .help(say!(
                         "move the definition of `{name}` above this line; if `{name}` depends on itself, use `solve(equation, {name}, start)`"
                     )),
             );
@@ -124,9 +124,9 @@ impl Lowering<'_> {
         );
         known.sort_unstable();
         let help = match nearest(name, known) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None if name == "e" => "write `exp(1)` for the base of natural logarithms".to_string(),
-            None => format!(
+            Some(near) => say!("did you mean `{near}`?"),
+            None if name == "e" => say!("write `exp(1)` for the base of natural logarithms"),
+            None => say!(
                 "state it as `[input.{name}]` or `[constant.{name}]`, or define `{name} = …` above"
             ),
         };
@@ -134,9 +134,9 @@ impl Lowering<'_> {
             Fault::new(
                 faults::UNKNOWN_NAME,
                 span.clone(),
-                format!("`{name}` is not known"),
+                say!("`{name}` is not known"),
             )
-            .label("no input, constant or quantity of this name")
+            .label(say!("no input, constant or quantity of this name"))
             .help(help),
         );
     }

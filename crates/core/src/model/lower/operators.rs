@@ -6,7 +6,7 @@ use crate::model::graph::{Builder, Id};
 use crate::model::printer;
 use crate::model::syntax::{Expr, Infix, Span};
 use crate::model::units::Operand;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 impl Lowering<'_> {
     pub fn power(&mut self, whole: &Expr, base: &Expr, exponent: &Expr) -> Option<Value> {
@@ -120,7 +120,7 @@ impl Lowering<'_> {
             }
             Infix::Power => self.powered(left, right, span)?,
             _ => {
-                let joined = self.join(left, right, "compared")?;
+                let joined = self.join(left, right, &say!("compared"))?;
                 self.apply(infix.symbol(), &joined.left, &joined.right, span)?
                     .with_kind(Kind::Truth)
             }
@@ -150,11 +150,13 @@ impl Lowering<'_> {
             Fault::new(
                 faults::LENGTHS,
                 right.expr.span.clone(),
-                format!("`{x}` has {a} elements, `{y}` has {b}"),
+                say!("`{x}` has {a} elements, `{y}` has {b}"),
             )
-            .label(format!("{b} elements"))
-            .related(left.expr.span.clone(), format!("{a} elements"))
-            .help("vectors are combined element by element and need equal lengths"),
+            .label(say!("{b} elements"))
+            .related(left.expr.span.clone(), say!("{a} elements"))
+            .help(say!(
+                "vectors are combined element by element and need equal lengths"
+            )),
         );
         None
     }
@@ -187,10 +189,12 @@ impl Lowering<'_> {
                 Fault::new(
                     faults::LENGTHS,
                     span.clone(),
-                    format!("a vector of {len} elements meets one of {other}"),
+                    say!("a vector of {len} elements meets one of {other}"),
                 )
-                .label(format!("lengths {len} and {other}"))
-                .help("vectors are combined element by element and need equal lengths"),
+                .label(say!("lengths {len} and {other}"))
+                .help(say!(
+                    "vectors are combined element by element and need equal lengths"
+                )),
             );
             return None;
         }

@@ -6,7 +6,7 @@ use crate::model::printer;
 use crate::model::syntax::{Expr, Node};
 use crate::model::units::Operand;
 use crate::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 impl Lowering<'_> {
     /// Values in the unit of the first, as one vector.
@@ -23,10 +23,10 @@ impl Lowering<'_> {
                 Fault::new(
                     faults::SHAPE,
                     whole.span.clone(),
-                    "this vector has no elements",
+                    say!("this vector has no elements"),
                 )
-                .label("empty")
-                .help("write at least one element"),
+                .label(say!("empty"))
+                .help(say!("write at least one element")),
             );
             return None;
         };
@@ -40,7 +40,7 @@ impl Lowering<'_> {
                     expr: &items[lead],
                 },
                 Operand { value, expr: item },
-                "put into one vector",
+                &say!("put into one vector"),
             )?;
             if joined.unit.is_one() {
                 unit = Some(joined.unit);
@@ -71,23 +71,23 @@ impl Lowering<'_> {
         let (code, help) = match e.node {
             Node::Vector(_) => (
                 faults::NESTED_VECTOR,
-                "write all elements between one pair of brackets".to_string(),
+                say!("write all elements between one pair of brackets"),
             ),
             _ => (
                 faults::SHAPE,
-                format!("take one element, `{text}[1]`, or reduce it, `mean({text})`"),
+                say!("take one element, `{text}[1]`, or reduce it, `mean({text})`"),
             ),
         };
         self.report(
             Fault::new(
                 code,
                 e.span.clone(),
-                format!(
+                say!(
                     "`{text}` is a vector of {} elements, but a single value belongs here",
                     value.elements.len()
                 ),
             )
-            .label("a vector")
+            .label(say!("a vector"))
             .help(help),
         );
         None
@@ -102,10 +102,10 @@ impl Lowering<'_> {
                 Fault::new(
                     faults::SHAPE,
                     vector.span.clone(),
-                    format!("`{text}` is a single value and has no elements"),
+                    say!("`{text}` is a single value and has no elements"),
                 )
-                .label("not a vector")
-                .help("remove the index"),
+                .label(say!("not a vector"))
+                .help(say!("remove the index")),
             );
             return None;
         }
@@ -117,13 +117,13 @@ impl Lowering<'_> {
         let chosen = at.filter(|k| k.fract() == 0.0 && *k >= 1.0 && *k <= len as f64);
         let Some(k) = chosen else {
             let what = match at {
-                Some(k) => format!("`{text}` has elements 1 to {len}, but none {k}"),
-                None => format!("the index of `{text}` is not a number written in the model"),
+                Some(k) => say!("`{text}` has elements 1 to {len}, but none {k}"),
+                None => say!("the index of `{text}` is not a number written in the model"),
             };
             self.report(
                 Fault::new(faults::INDEX, index.span.clone(), what)
-                    .label(format!("expected a whole number from 1 to {len}"))
-                    .help("elements are counted from 1"),
+                    .label(say!("expected a whole number from 1 to {len}"))
+                    .help(say!("elements are counted from 1")),
             );
             return None;
         };
@@ -154,7 +154,7 @@ impl Lowering<'_> {
                 value: &b,
                 expr: no,
             },
-            "alternatives",
+            &say!("alternatives"),
         )?;
         let len = self.common_length(&[&c, &a, &b], &whole.span)?;
         let elements = (0..len)

@@ -3,7 +3,7 @@
 use super::{Parser, fault};
 use crate::model::faults;
 use crate::model::lexer::{Kind, Token};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 
 impl Parser<'_> {
     /// The next token; line ends inside brackets do not count.
@@ -95,19 +95,19 @@ impl Parser<'_> {
     }
 
     /// Something else than `expected` comes next.
-    pub(super) fn unexpected(&mut self, expected: &str) -> Box<Fault> {
+    pub(super) fn unexpected(&mut self, expected: Said) -> Box<Fault> {
         let token = self.peek();
         let found = match &token.kind {
-            Kind::Eof => "the end of the model".to_string(),
-            Kind::End if self.is_line_end(self.at) => "the end of the line".to_string(),
-            _ => format!("`{}`", &self.text[token.span.clone()]),
+            Kind::Eof => say!("the end of the model"),
+            Kind::End if self.is_line_end(self.at) => say!("the end of the line"),
+            _ => say!("`{}`", &self.text[token.span.clone()]),
         };
         let mut made = fault(
             faults::UNEXPECTED,
             token.span,
-            format!("expected {expected}, found {found}"),
+            say!("expected {expected}, found {found}"),
         );
-        made.label = format!("expected {expected}");
+        made.label = say!("expected {expected}");
         made
     }
 }

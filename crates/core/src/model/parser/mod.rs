@@ -8,7 +8,7 @@ mod statements;
 use crate::model::faults;
 use crate::model::lexer::{Kind, Token, tokens};
 use crate::model::syntax::{Span, Statement};
-use gumption_fault::{Code, Fault};
+use gumption_fault::{Code, Fault, Said, say};
 
 type Parsed<T> = Result<T, Box<Fault>>;
 
@@ -78,13 +78,15 @@ struct Parser<'a> {
 
 fn too_long(text: &str) -> Fault {
     let start = 0..text.chars().next().map_or(0, char::len_utf8);
-    let message = format!("the formula has {} characters", text.chars().count());
+    let message = say!("the formula has {} characters", text.chars().count());
     Fault::new(faults::TOO_LARGE, start, message)
-        .label(format!("expected {LONGEST} at most"))
-        .help("put the values into a vector input (`values = [...]`) and write sum(x), mean(x) …")
+        .label(say!("expected {LONGEST} at most"))
+        .help(say!(
+            "put the values into a vector input (`values = [...]`) and write sum(x), mean(x) …"
+        ))
 }
 
-fn fault(code: Code, span: Span, message: impl Into<String>) -> Box<Fault> {
+fn fault(code: Code, span: Span, message: impl Into<Said>) -> Box<Fault> {
     Box::new(Fault::new(code, span, message))
 }
 

@@ -4,7 +4,7 @@ use super::{MapBox, Parsed, Parser, fault};
 use crate::model::faults;
 use crate::model::lexer::{Kind, Token};
 use crate::model::syntax::{Expr, MINUS, NOT, Name, Node, Span, UnitText};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 impl Parser<'_> {
     /// A number, name, call, bracket or sign, with an index if there is one.
@@ -77,7 +77,7 @@ impl Parser<'_> {
     fn no_operand(&mut self, token: &Token) -> Box<Fault> {
         self.at -= usize::from(token.kind != Kind::Eof);
         let before = self.at.checked_sub(1).map(|at| self.kind(at).clone());
-        let fault = self.unexpected("a value");
+        let fault = self.unexpected(say!("a value"));
         let (Some(Kind::Sign(first)), Kind::Sign(second)) = (before, &token.kind) else {
             return fault;
         };
@@ -85,7 +85,7 @@ impl Parser<'_> {
             return fault;
         }
         fault.map(|f| {
-            f.help(format!(
+            f.help(say!(
                 "remove `{first}` or `{second}`, or write the quantity that is missing between them"
             ))
         })
@@ -158,15 +158,15 @@ impl Parser<'_> {
         };
         if !self.accept_word("then") {
             return Err(self
-                .unexpected("`then`")
-                .map(|f| f.help("write `if condition then a else b`")));
+                .unexpected(say!("`then`"))
+                .map(|f| f.help(say!("write `if condition then a else b`"))));
         }
         self.skip_line_ends();
         let yes = self.expression(0)?;
         if !self.accept_word("else") {
             return Err(self
-                .unexpected("`else`")
-                .map(|f| f.help("write `if condition then a else b`")));
+                .unexpected(say!("`else`"))
+                .map(|f| f.help(say!("write `if condition then a else b`"))));
         }
         self.skip_line_ends();
         let no = self.expression(0)?;
@@ -177,8 +177,8 @@ impl Parser<'_> {
         let yes = self.expression(0)?;
         if !self.accept_sign(",") {
             return Err(self
-                .unexpected("`,`")
-                .map(|f| f.help("write `if(condition, a, b)`")));
+                .unexpected(say!("`,`"))
+                .map(|f| f.help(say!("write `if(condition, a, b)`"))));
         }
         let no = self.expression(0)?;
         self.close(")")?;
@@ -210,7 +210,7 @@ impl Parser<'_> {
     fn close(&mut self, closing: &'static str) -> Parsed<()> {
         let token = self.peek();
         let Some((opening, place)) = self.open.last().cloned() else {
-            return Err(self.unexpected("an operator"));
+            return Err(self.unexpected(say!("an operator")));
         };
         match token.kind {
             Kind::Sign(sign) if sign == closing => {
@@ -223,25 +223,25 @@ impl Parser<'_> {
                 Err(fault(
                     faults::UNCLOSED,
                     place,
-                    format!("this `{opening}` is never closed"),
+                    say!("this `{opening}` is never closed"),
                 )
                 .map(|f| {
-                    f.label("opened here")
-                        .related(here, format!("expected `{closing}` before this"))
-                        .help(format!("add `{closing}`"))
+                    f.label(say!("opened here"))
+                        .related(here, say!("expected `{closing}` before this"))
+                        .help(say!("add `{closing}`"))
                 }))
             }
             Kind::Sign(sign @ (")" | "]")) => Err(fault(
                 faults::BRACKET_PAIR,
                 token.span,
-                format!("`{opening}` is closed by `{sign}`"),
+                say!("`{opening}` is closed by `{sign}`"),
             )
             .map(|f| {
-                f.label(format!("expected `{closing}`"))
-                    .related(place, "opened here")
-                    .help(format!("write `{closing}`"))
+                f.label(say!("expected `{closing}`"))
+                    .related(place, say!("opened here"))
+                    .help(say!("write `{closing}`"))
             })),
-            _ => Err(self.unexpected(&format!("an operator, `,` or `{closing}`"))),
+            _ => Err(self.unexpected(say!("an operator, `,` or `{closing}`"))),
         }
     }
 }

@@ -4,7 +4,7 @@ use super::{MapBox, Parsed, Parser, fault};
 use crate::model::faults;
 use crate::model::lexer::{Kind, Token};
 use crate::model::syntax::{Expr, Infix, Node, Span};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 /// Brackets, signs and calls inside one another.
 const MAX_DEPTH: usize = 64;
@@ -18,11 +18,11 @@ impl Parser<'_> {
             return Err(fault(
                 faults::TOO_DEEP,
                 span,
-                format!("more than {MAX_DEPTH} brackets, signs or calls stand inside one another"),
+                say!("more than {MAX_DEPTH} brackets, signs or calls stand inside one another"),
             )
             .map(|f| {
-                f.label("too deep")
-                    .help("give the inner parts names of their own")
+                f.label(say!("too deep"))
+                    .help(say!("give the inner parts names of their own"))
             }));
         }
         let left = self.prefix()?;
@@ -49,12 +49,12 @@ impl Parser<'_> {
                 return Err(fault(
                     faults::CHAINED_COMPARISON,
                     token.span,
-                    "two comparisons follow one another",
+                    say!("two comparisons follow one another"),
                 )
                 .map(|f| {
-                    f.label("second comparison")
-                        .related(first, "first comparison")
-                        .help("write `a < b and b < c`")
+                    f.label(say!("second comparison"))
+                        .related(first, say!("first comparison"))
+                        .help(say!("write `a < b and b < c`"))
                 }));
             }
             self.at += 1;
@@ -86,11 +86,11 @@ impl Parser<'_> {
             Kind::Quoted(_) => Err(fault(
                 faults::UNIT_TEXT,
                 token.span.clone(),
-                "a unit must stand right after a number",
+                say!("a unit must stand right after a number"),
             )
             .map(|f| {
-                f.label("no number before this unit").help(
-                    "give an input its unit where it is stated; write `value_in(x, 'mm')` for the number of x in mm",
+                f.label(say!("no number before this unit")).help(
+                    say!("give an input its unit where it is stated; write `value_in(x, 'mm')` for the number of x in mm"),
                 )
             })),
             _ => Ok(()),
@@ -104,21 +104,23 @@ impl Parser<'_> {
             fault(
                 faults::EQUALS,
                 token.span.clone(),
-                "`=` stands inside an expression",
+                say!("`=` stands inside an expression"),
             )
             .map(|f| {
-                f.label("expected an operator")
-                    .help("to compare, write `==`")
+                f.label(say!("expected an operator"))
+                    .help(say!("to compare, write `==`"))
             })
         } else {
             fault(
                 faults::LEFT_SIDE,
                 whole,
-                format!("`{before}` cannot be defined"),
+                say!("`{before}` cannot be defined"),
             )
             .map(|f| {
-                f.label("only a name, or `f(x, y)` with names, may stand left of `=`")
-                    .help("write `name = expression`; to compare, write `==`")
+                f.label(say!(
+                    "only a name, or `f(x, y)` with names, may stand left of `=`"
+                ))
+                .help(say!("write `name = expression`; to compare, write `==`"))
             })
         }
     }
@@ -128,20 +130,20 @@ impl Parser<'_> {
         let after = &self.text[token.span.clone()];
         let is_number = matches!(left.node, Node::Number { unit: None, .. });
         let help = if is_number && (self.is_unit)(after) {
-            format!("write `{before} * {after}`, or `{before} '{after}'` if {after} is the unit")
+            say!("write `{before} * {after}`, or `{before} '{after}'` if {after} is the unit")
         } else {
             let shown = before
                 .rsplit([' ', '+', '-', '*', '/', ',', '('])
                 .next()
                 .unwrap_or(before);
-            format!("write `{shown} * {after}` for a product")
+            say!("write `{shown} * {after}` for a product")
         };
         fault(
             faults::MISSING_OPERATOR,
             token.span.clone(),
-            format!("there is no operator between `{before}` and `{after}`"),
+            say!("there is no operator between `{before}` and `{after}`"),
         )
-        .map(|f| f.label("expected an operator").help(help))
+        .map(|f| f.label(say!("expected an operator")).help(help))
     }
 }
 

@@ -1,5 +1,7 @@
 //! One statement: a definition, or a value.
 
+use gumption_fault::say;
+
 use super::{MapBox, Parsed, Parser, fault};
 use crate::model::faults;
 use crate::model::lexer::{Kind, Token};
@@ -27,8 +29,8 @@ impl Parser<'_> {
         } else {
             let first = self.peek();
             if let Kind::Sign(sign @ ("+" | "*" | "/" | "^")) = first.kind {
-                return Err(self.unexpected("a statement").map(|f| {
-                    f.help(format!(
+                return Err(self.unexpected(say!("a statement")).map(|f| {
+                    f.help(say!(
                         "to go on with the line before, end that line with `{sign}`"
                     ))
                 }));
@@ -41,13 +43,13 @@ impl Parser<'_> {
             Kind::Sign(sign @ (")" | "]")) => Err(fault(
                 faults::BRACKET_PAIR,
                 token.span,
-                format!("`{sign}` closes a bracket that was never opened"),
+                say!("`{sign}` closes a bracket that was never opened"),
             )
             .map(|f| {
-                f.label("no bracket to close")
-                    .help(format!("remove `{sign}`"))
+                f.label(say!("no bracket to close"))
+                    .help(say!("remove `{sign}`"))
             })),
-            _ => Err(self.unexpected("an operator or the end of the statement")),
+            _ => Err(self.unexpected(say!("an operator or the end of the statement"))),
         }
     }
 
@@ -90,7 +92,7 @@ impl Parser<'_> {
                 self.at += 1;
                 Ok(Name { text, span })
             }
-            _ => Err(self.unexpected("a name")),
+            _ => Err(self.unexpected(say!("a name"))),
         }
     }
 }

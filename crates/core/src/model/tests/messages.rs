@@ -107,9 +107,14 @@ fn faults_mark_their_place_and_say_the_mend() {
         let fits = *place == Place::Measurand(0)
             && fault.code.id == *code
             && found == *marked
-            && fault.help.as_deref().unwrap_or_default().contains(help)
+            && fault
+                .help
+                .clone()
+                .unwrap_or_default()
+                .to_string()
+                .contains(help)
             && !fault.message.is_empty()
-            && !fault.message.ends_with('.');
+            && !fault.message.to_string().ends_with('.');
         if !fits {
             wrong.push(format!(
                 "{text}: `{found}` {} {} help: {:?}",
@@ -142,7 +147,7 @@ fn faults_in_functions_are_shown_at_the_call() {
     let fault = &try_model(INPUTS, text, "mm").unwrap_err()[0].fault;
     assert_eq!(&text[fault.span.clone()], "f(t)");
     assert_eq!(&text[fault.related[0].0.clone()], "L");
-    assert!(fault.message.starts_with("in `f`: "));
+    assert!(fault.message.to_string().starts_with("in `f`: "));
 }
 
 #[test]

@@ -14,12 +14,13 @@ use lines::wrapped;
 pub(super) use plot::lines as plot_lines;
 pub(super) use table::bar;
 
-pub(super) const FORMAT: Format = Format {
+/// The format.
+pub const FORMAT: Format = Format {
     name: "text",
     about: "Print text",
     ending: "txt",
     media_type: "text/plain; charset=utf-8",
-    render: |document, page| text(document, *page).into_bytes(),
+    render: |document, page| Ok(text(document, *page).into_bytes()),
 };
 
 /// A document as text.

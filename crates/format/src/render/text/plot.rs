@@ -22,7 +22,48 @@ struct Grid {
     limits: [[f64; 2]; 2],
 }
 
+/// A line for each bar, on one scale.
+fn bars(panel: &Panel, page: usize) -> Vec<String> {
+    const WIDEST_NAME: usize = 36;
+    let names = panel.bars().map(|bar| bar.name.width());
+    let names = names.max().unwrap_or(0).min(WIDEST_NAME);
+    let width = page.saturating_sub(names + 8).clamp(NARROWEST, WIDEST);
+    let [limits, _] = panel.limits();
+    let mut lines = vec![format!("  {}", panel.title)];
+    for bar in panel.bars() {
+        let (Some(from), Some(to)) = (panel.x.place(bar.from), panel.x.place(bar.to)) else {
+            continue;
+        };
+        let [from, to] = [from, to].map(|place| nearest(place, limits, width));
+        let (start, end) = (from.min(to), from.max(to));
+        let sign = if to < from { "-" } else { "=" };
+        let space = " ".repeat(names.saturating_sub(bar.name.width()));
+        let drawn = sign.repeat((end - start).max(1));
+        lines.push(format!(
+            "  {}{space} |{}{drawn}",
+            bar.name,
+            " ".repeat(start)
+        ));
+    }
+    let [left, right] = limits.map(|place| label(&panel.x, place));
+    let name = panel.x.label();
+    let space = width.saturating_sub(left.width() + name.width() + right.width());
+    let (before, after) = (
+        " ".repeat((space / 2).max(1)),
+        " ".repeat((space - space / 2).max(1)),
+    );
+    lines.push(format!("  {} +{}", " ".repeat(names), "-".repeat(width)));
+    lines.push(format!(
+        "  {}  {left}{before}{name}{after}{right}",
+        " ".repeat(names)
+    ));
+    lines
+}
+
 fn drawn(panel: &Panel, page: usize) -> Vec<String> {
+    if panel.bars().next().is_some() {
+        return bars(panel, page);
+    }
     let limits = panel.limits();
     let [low, high] = limits[1].map(|place| label(&panel.y, place));
     let margin = low.width().max(high.width());
@@ -66,6 +107,8 @@ fn drawn(panel: &Panel, page: usize) -> Vec<String> {
 fn sign(layer: &Layer) -> char {
     match (&layer.marks, layer.tone) {
         (Marks::Band(_), _) => ':',
+        (Marks::Upright(_) | Marks::Whiskers(_), _) => '|',
+        (Marks::Bars(_), _) => '=',
         (Marks::Level(_), _) => '-',
         (Marks::Line(_), Tone::Quiet) => '.',
         (Marks::Line(_), _) => '*',
@@ -90,6 +133,17 @@ impl Grid {
                 self.fill(panel, &path, sign);
             }
             Marks::Band(band) => self.fill(panel, band, sign),
+            Marks::Whiskers(bars) => {
+                for bar in bars {
+                    self.fill(panel, &[*bar, *bar], sign);
+                }
+            }
+            Marks::Upright(x) => {
+                if let Some(x) = panel.x.place(*x) {
+                    (0..HEIGHT).for_each(|row| self.set(self.column(x), row, sign));
+                }
+            }
+            Marks::Bars(_) => {}
             Marks::Level(y) => {
                 if let Some(y) = panel.y.place(*y) {
                     (0..self.width).for_each(|column| self.set(column, self.row(y), sign));

@@ -9,7 +9,7 @@ use super::units;
 use crate::budget::faults::{NOT_POSITIVE, RELATIVE_TO_ZERO, RELATIVE_UNCLEAR, UNIT_CLASH};
 use crate::budget::tables::FileTable;
 use gumption_core::quantity::{Unit, revolutions_as_angle};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
 
@@ -175,12 +175,13 @@ impl Checker<'_> {
                     Fault::new(
                         RELATIVE_UNCLEAR,
                         amount.span.clone(),
-                        format!(
+                        say!(
                             "{number} {} of {} may be meant of its value or as it stands",
-                            own.symbol, context.owner
+                            own.symbol,
+                            context.owner
                         ),
                     )
-                    .label("relative or absolute?")
+                    .label(say!("relative or absolute?"))
                     .help(ratio_help(context, number, fraction, &unit)),
                 );
             }
@@ -190,10 +191,12 @@ impl Checker<'_> {
                 Fault::new(
                     UNIT_CLASH,
                     amount.span.clone(),
-                    format!("a relative uncertainty in {}", own.symbol),
+                    say!("a relative uncertainty in {}", own.symbol),
                 )
-                .label("has a unit")
-                .help("write a fraction (0.001, \"0.1 %\", \"50 ppm\"), or remove `relative`"),
+                .label(say!("has a unit"))
+                .help(say!(
+                    "write a fraction (0.001, \"0.1 %\", \"50 ppm\"), or remove `relative`"
+                )),
             );
         }
         self.difference_in(amount, &own, &unit, context.owner)
@@ -213,13 +216,13 @@ impl Checker<'_> {
         let fault = Fault::new(
             NOT_POSITIVE,
             amount.span.clone(),
-            format!("`{key}` of {} is {}", context.owner, amount.value.number),
+            say!("`{key}` of {} is {}", context.owner, amount.value.number),
         )
-        .label("must be greater than zero");
+        .label(say!("must be greater than zero"));
         self.refuse(if amount.value.number < 0.0 {
-            fault.help("write it without sign")
+            fault.help(say!("write it without sign"))
         } else {
-            fault.help("leave the component out if there is no such doubt; an exact number belongs into [constant]")
+            fault.help(say!("leave the component out if there is no such doubt; an exact number belongs into [constant]"))
         })
     }
 
@@ -235,10 +238,10 @@ impl Checker<'_> {
                 Fault::new(
                     RELATIVE_TO_ZERO,
                     amount.span.clone(),
-                    format!("relative to the value of {}, which is 0", context.owner),
+                    say!("relative to the value of {}, which is 0", context.owner),
                 )
-                .label("a fraction of 0 is 0")
-                .help(format!(
+                .label(say!("a fraction of 0 is 0"))
+                .help(say!(
                     "state it absolutely, in {}",
                     context.unit.difference().symbol
                 )),
@@ -247,13 +250,13 @@ impl Checker<'_> {
                 Fault::new(
                     RELATIVE_TO_ZERO,
                     amount.span.clone(),
-                    format!(
+                    say!(
                         "relative to {}, which has no value of its own",
                         context.owner
                     ),
                 )
-                .label("a fraction of what?")
-                .help(format!(
+                .label(say!("a fraction of what?"))
+                .help(say!(
                     "state it absolutely, in {}",
                     context.unit.difference().symbol
                 )),
@@ -270,31 +273,31 @@ fn share_of_what(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) 
     let (symbol, within) = (
         &own.symbol,
         match unit.is_one() {
-            true => String::new(),
-            false => format!(", in {}", unit.symbol),
+            true => Said::default(),
+            false => say!(", in {}", unit.symbol),
         },
     );
     Fault::new(
         RELATIVE_UNCLEAR,
         amount.span.clone(),
-        format!("{number} {symbol} of {owner} may be meant of its value or as it stands"),
+        say!("{number} {symbol} of {owner} may be meant of its value or as it stands"),
     )
-    .label("relative or absolute?")
-    .help(format!(
+    .label(say!("relative or absolute?"))
+    .help(say!(
         "as it stands, write the plain number {plain}{within}; of the value, write what {number} {symbol} of it is{within}"
     ))
 }
 
 /// The two readings of `"1 %"` for a quantity that is itself a ratio, with their numbers.
-fn ratio_help(context: &Context<'_>, number: f64, fraction: f64, unit: &Unit) -> String {
+fn ratio_help(context: &Context<'_>, number: f64, fraction: f64, unit: &Unit) -> Said {
     let relative = match context.value {
-        Some(value) => format!(
+        Some(value) => say!(
             "for {} of the value {} write {} with relative = true",
             show(fraction),
             show(value),
             show(fraction)
         ),
-        None => format!(
+        None => say!(
             "for a fraction of the value write {} with relative = true",
             show(fraction)
         ),
@@ -303,11 +306,11 @@ fn ratio_help(context: &Context<'_>, number: f64, fraction: f64, unit: &Unit) ->
         .conversion_to(unit)
         .map_or(number, |conversion| conversion.apply(fraction));
     let name = if unit.is_one() {
-        String::new()
+        Said::default()
     } else {
-        format!(" (in {})", unit.symbol)
+        say!(" (in {})", unit.symbol)
     };
-    format!(
+    say!(
         "{relative}; for an absolute amount write the plain number {}{name}",
         show(absolute)
     )
@@ -319,14 +322,14 @@ fn percent_meant(amount: &Stated<Amount>, context: &Context<'_>) -> Fault {
     Fault::new(
         RELATIVE_UNCLEAR,
         amount.span.clone(),
-        format!(
+        say!(
             "a relative uncertainty of {number} is {} % of the value of {}",
             show(100.0 * number),
             context.owner
         ),
     )
-    .label("a fraction")
-    .help(format!(
+    .label(say!("a fraction"))
+    .help(say!(
         "write \"{number} %\" if per cent are meant, or \"{} %\"",
         show(100.0 * number)
     ))
@@ -340,7 +343,7 @@ fn place_of_unit(amount: &Stated<Amount>) -> Range<usize> {
 
 /// Revolutions that are an angle in one of two units and counted in the other.
 fn counted_revolutions(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) -> Fault {
-    clash(amount, own, unit, owner).help(format!(
+    clash(amount, own, unit, owner).help(say!(
         "a revolution is an angle, 2π, in r/min, rpm and °/s, and counted in Hz and seconds: state the amount in {}",
         unit.symbol
     ))
@@ -359,13 +362,13 @@ fn point_for_difference(
     Fault::new(
         UNIT_CLASH,
         place_of_unit(amount),
-        format!(
+        say!(
             "{number} {} is a point on a scale, but {owner} is in {}",
             own.symbol, unit.symbol
         ),
     )
-    .label(format!("a point on the {} scale", own.symbol))
-    .help(format!(
+    .label(say!("a point on the {} scale", own.symbol))
+    .help(say!(
         "a difference, a correction or a limit of one is \"{number} {}\"; the thermodynamic temperature of this point is \"{} {}\"",
         difference.symbol,
         show(converted),
@@ -379,13 +382,13 @@ fn below_absolute_zero(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: 
     Fault::new(
         UNIT_CLASH,
         place_of_unit(amount),
-        format!(
+        say!(
             "{owner} is a temperature in {}, and {number} {} lies below the absolute zero",
             unit.symbol, own.symbol
         ),
     )
-    .label("read as a thermodynamic temperature")
-    .help(format!(
+    .label(say!("read as a thermodynamic temperature"))
+    .help(say!(
         "state the point on the scale, \"{number} {0}\"; where {owner} is a difference or a correction, its unit is {1}: unit = \"{1}\"",
         unit.symbol,
         unit.difference().symbol
@@ -396,19 +399,20 @@ fn clash(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) -> Fault
     let fault = Fault::new(
         UNIT_CLASH,
         place_of_unit(amount),
-        format!(
+        say!(
             "{} cannot be converted to {}, the unit of {owner}",
-            own.symbol, unit.symbol
+            own.symbol,
+            unit.symbol
         ),
     )
-    .label(format!("expected a unit like {}", unit.symbol));
+    .label(say!("expected a unit like {}", unit.symbol));
     if unit.is_one() {
-        fault.help(format!(
+        fault.help(say!(
             "add the missing unit to {owner}: unit = \"{}\"",
             own.symbol
         ))
     } else {
-        fault.help(format!(
+        fault.help(say!(
             "write the amount in a unit like {0}, or as a plain number, which is in {0}",
             unit.symbol
         ))

@@ -13,7 +13,7 @@ use crate::budget::variants::{Groups, ReadingsOf};
 use crate::budget::{Anova, Finding, NestedAnova};
 use gumption_core::quantity::Unit;
 use gumption_core::statistics::{Dd, Group, Nested, Of, OneWay, Policy, Uncertainty, Verdict};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 use gumption_format::csv::{Column, Data, Request as Asked};
 use gumption_format::toml::Stated;
 
@@ -85,7 +85,11 @@ impl Checker<'_> {
     fn one_way(&mut self, groups: &[Group], request: &Request<'_>) -> Option<Evaluated> {
         self.comparable(groups, request)?;
         if groups.len() < 2 {
-            return self.refuse(too_few(request, "a single group", "two groups or more"));
+            return self.refuse(too_few(
+                request,
+                say!("a single group"),
+                say!("two groups or more"),
+            ));
         }
         let table = OneWay::new(groups);
         if table.within.ss == 0.0 {
@@ -117,8 +121,8 @@ impl Checker<'_> {
         if groups.len() < 2 || cells.len() == groups.len() || groups.iter().any(Vec::is_empty) {
             return self.refuse(too_few(
                 request,
-                "too few groups or subgroups",
-                "two groups or more, one of which has two subgroups at least",
+                say!("too few groups or subgroups"),
+                say!("two groups or more, one of which has two subgroups at least"),
             ));
         }
         let table = Nested::new(groups);
@@ -156,9 +160,9 @@ impl Checker<'_> {
                 Fault::new(
                     GROUPS,
                     request.place.clone(),
-                    format!("a group of {} has no readings", request.owner),
+                    say!("a group of {} has no readings", request.owner),
                 )
-                .label("an empty list among them"),
+                .label(say!("an empty list among them")),
             );
         }
         if !groups.is_empty() && groups.iter().all(|group| group.count < 2) {
@@ -166,10 +170,10 @@ impl Checker<'_> {
                 Fault::new(
                     GROUPS,
                     request.place.clone(),
-                    format!("no group of {} has two readings", request.owner),
+                    say!("no group of {} has two readings", request.owner),
                 )
-                .label("the scatter within groups is not known")
-                .help("a single reading a day is `readings = […]`"),
+                .label(say!("the scatter within groups is not known"))
+                .help(say!("a single reading a day is `readings = […]`")),
             );
         }
         Some(())
@@ -244,9 +248,9 @@ impl Checker<'_> {
                 Fault::new(
                     GROUPS,
                     group.span.clone(),
-                    format!("groups named by {} columns", names.len()),
+                    say!("groups named by {} columns", names.len()),
                 )
-                .label("expected one column, or two for groups and subgroups"),
+                .label(say!("expected one column, or two for groups and subgroups")),
             );
         }
         let labels = |name: &'t Stated<String>| (name, Asked::labels("group", &name.value));
@@ -294,10 +298,12 @@ impl Checker<'_> {
                 Fault::new(
                     MISSING_KEY,
                     place.clone(),
-                    format!("the summary of the groups lacks `{missing}`"),
+                    say!("the summary of the groups lacks `{missing}`"),
                 )
-                .label(format!("`{missing}` is missing"))
-                .help("write group_summary = { means = […], s = […], n = 5 }"),
+                .label(say!("`{missing}` is missing"))
+                .help(say!(
+                    "write group_summary = {{ means = […], s = […], n = 5 }}"
+                )),
             );
         };
         let groups = means.value.len();
@@ -308,9 +314,9 @@ impl Checker<'_> {
                     Fault::new(
                         GROUPS,
                         span.clone(),
-                        format!("`{key}` has {length} entries for {groups} means"),
+                        say!("`{key}` has {length} entries for {groups} means"),
                     )
-                    .label(format!("expected {groups} entries")),
+                    .label(say!("expected {groups} entries")),
                 );
             }
         }
@@ -321,19 +327,19 @@ impl Checker<'_> {
             let s = self.deviation(s, context, false)?;
             if count.value < 2 || s < 0.0 {
                 let (span, what) = match count.value < 2 {
-                    true => (&count.span, "two readings or more in every group"),
+                    true => (&count.span, say!("two readings or more in every group")),
                     false => (
                         &table.s.as_ref()?.value[index].span,
-                        "no negative standard deviation",
+                        say!("no negative standard deviation"),
                     ),
                 };
                 return self.refuse(
                     Fault::new(
                         GROUPS,
                         span.clone(),
-                        format!("group {} of {} cannot be", index + 1, context.owner),
+                        say!("group {} of {} cannot be", index + 1, context.owner),
                     )
-                    .label(format!("expected {what}")),
+                    .label(say!("expected {what}")),
                 );
             }
             let count = usize::try_from(count.value).ok()?;
@@ -373,22 +379,22 @@ fn outcome(verdict: Verdict) -> &'static str {
     }
 }
 
-fn too_few(request: &Request<'_>, found: &str, expected: &str) -> Fault {
+fn too_few(request: &Request<'_>, found: Said, expected: Said) -> Fault {
     Fault::new(
         GROUPS,
         request.place.clone(),
-        format!("{found} of readings of {}", request.owner),
+        say!("{found} of readings of {}", request.owner),
     )
-    .label(format!("expected {expected}"))
-    .help("readings that are not in groups are `readings = […]`")
+    .label(say!("expected {expected}"))
+    .help(say!("readings that are not in groups are `readings = […]`"))
 }
 
 fn no_scatter(request: &Request<'_>) -> Fault {
     Fault::new(
         NO_SCATTER,
         request.place.clone(),
-        format!("the readings of {} do not scatter within their groups", request.owner),
+        say!("the readings of {} do not scatter within their groups", request.owner),
     )
-    .label("equal within every group")
-    .help("the scatter is below the resolution: state the means as `readings`, and the resolution, { step = … }, beside them")
+    .label(say!("equal within every group"))
+    .help(say!("the scatter is below the resolution: state the means as `readings`, and the resolution, {{ step = … }}, beside them"))
 }

@@ -11,7 +11,7 @@ use crate::budget::{Group, Owner};
 use gumption_core::distribution::stating::Width;
 use gumption_core::distribution::{Entry, Normal};
 use gumption_core::special::student_t_two_sided_quantile;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 impl Checker<'_> {
@@ -32,11 +32,11 @@ impl Checker<'_> {
                 Fault::new(
                     DOF,
                     outer.key.clone(),
-                    "degrees of freedom are stated twice",
+                    say!("degrees of freedom are stated twice"),
                 )
-                .label("stated again here")
-                .related(inner.key.clone(), "stated in the certificate")
-                .help("leave out one"),
+                .label(say!("stated again here"))
+                .related(inner.key.clone(), say!("stated in the certificate"))
+                .help(say!("leave out one")),
             );
         }
         let dof = match &certificate.value.dof {
@@ -137,9 +137,9 @@ impl Checker<'_> {
         let k = match &table.k {
             Some(k) if k.value == 0.0 => {
                 return self.refuse(
-                    Fault::new(NOT_POSITIVE, k.span.clone(), "a coverage factor of 0")
-                        .label("must be greater than zero")
-                        .help("write the k of the certificate, mostly 2; if it states a coverage probability instead, write p = 0.95"),
+                    Fault::new(NOT_POSITIVE, k.span.clone(), say!("a coverage factor of 0"))
+                        .label(say!("must be greater than zero"))
+                        .help(say!("write the k of the certificate, mostly 2; if it states a coverage probability instead, write p = 0.95")),
                 );
             }
             Some(k) => Some(self.positive(k, "k")?),
@@ -160,26 +160,26 @@ impl Checker<'_> {
                     Fault::new(
                         K_AND_P,
                         k_key,
-                        format!(
+                        say!(
                             "k = {k} does not belong to the stated p, which gives k = {}",
                             show(t)
                         ),
                     )
-                    .label(format!("k = {k}"))
-                    .related(p_key, format!("k = {} follows from p", show(t)))
-                    .help("leave out the one that is not on the certificate"),
+                    .label(say!("k = {k}"))
+                    .related(p_key, say!("k = {} follows from p", show(t)))
+                    .help(say!("leave out the one that is not on the certificate")),
                 )
             }
             (None, None) => self.refuse(
                 Fault::new(
                     NO_COVERAGE_FACTOR,
                     place.clone(),
-                    "U has no coverage factor",
+                    say!("U has no coverage factor"),
                 )
-                .label("k or p is missing")
-                .help(
-                    "add the k of the certificate (k = 2), or its coverage probability (p = 0.95)",
-                ),
+                .label(say!("k or p is missing"))
+                .help(say!(
+                    "add the k of the certificate (k = 2), or its coverage probability (p = 0.95)"
+                )),
             ),
         }
     }
@@ -192,11 +192,11 @@ impl Checker<'_> {
         let fault = Fault::new(
             PROBABILITY,
             p.span.clone(),
-            format!("a probability of {}", p.value),
+            say!("a probability of {}", p.value),
         )
-        .label("expected a number between 0 and 1");
+        .label(say!("expected a number between 0 and 1"));
         self.refuse(if p.value > 1.0 && p.value < 100.0 {
-            fault.help(format!("for {} % write {}", p.value, show(p.value / 100.0)))
+            fault.help(say!("for {} % write {}", p.value, show(p.value / 100.0)))
         } else {
             fault
         })

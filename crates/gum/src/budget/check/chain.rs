@@ -16,7 +16,7 @@ use crate::budget::saved::SavedResults;
 use crate::budget::tables::FileTable;
 use crate::budget::{Budget, Component, Group, Input, Loaded, Owner, Remark, TScale, Term};
 use gumption_core::distribution::Distribution;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 
 /// A budget while results of other files come into it.
 struct Merge<'a> {
@@ -278,7 +278,7 @@ impl<'a> Merge<'a> {
                     let file = &ensemble.members[0].identity.part.file;
                     return Err(stale(
                         file,
-                        &format!("the correlations of {}", names.join(", ")),
+                        say!("the correlations of {}", names.join(", ")),
                         &taken.place,
                     ));
                 }
@@ -346,7 +346,7 @@ impl<'a> Merge<'a> {
                 Ok(*index)
             } else {
                 let file = &identity.part.file;
-                Err(stale(file, &identity.name, &taken.place))
+                Err(stale(file, identity.name.to_string(), &taken.place))
             };
         }
         let owner = match &theirs.owner {
@@ -463,14 +463,14 @@ fn same_group(a: &Ensemble, b: &Ensemble) -> bool {
         && dof
 }
 
-fn stale(file: &Path, what: &str, place: &Range<usize>) -> Box<Fault> {
-    let file = file.file_name().unwrap_or_default().display();
+fn stale(file: &Path, what: impl Into<Said>, place: &Range<usize>) -> Box<Fault> {
+    let (file, what) = (file.file_name().unwrap_or_default().display(), what.into());
     let fault = Fault::new(
         SAVED_STALE,
         place.clone(),
-        format!("{file} has changed since the result was saved, in {what}"),
+        say!("{file} has changed since the result was saved, in {what}"),
     )
-    .label("does not fit the rest of this budget")
-    .help(format!("evaluate {file} again and save its results anew"));
+    .label(say!("does not fit the rest of this budget"))
+    .help(say!("evaluate {file} again and save its results anew"));
     Box::new(fault)
 }

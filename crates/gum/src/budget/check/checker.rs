@@ -9,7 +9,7 @@ use crate::budget::open_files::OpenFiles;
 use crate::budget::tables::FileTable;
 use crate::budget::{Conventions, NamedFigure, Remark, TScale};
 use gumption_core::quantity::{Unit, UnitTable};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 
 /// Where a budget comes from, and with it the files that it names.
 #[derive(Debug, Clone, Copy)]
@@ -24,10 +24,10 @@ pub(in crate::budget) struct Origin<'a> {
 
 impl Origin<'_> {
     /// The folder in words.
-    pub(super) fn folder(&self) -> String {
+    pub(super) fn folder(&self) -> Said {
         match self.directory.as_os_str().is_empty() {
-            true => "the current folder".to_string(),
-            false => format!("the folder {}", self.directory.display()),
+            true => say!("the current folder"),
+            false => say!("the folder {}", self.directory.display()),
         }
     }
 }

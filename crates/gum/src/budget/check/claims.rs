@@ -8,7 +8,7 @@ use crate::budget::faults::{CLAIM, LIMITS, NOT_POSITIVE, UNKNOWN_NAME};
 use crate::budget::tables::{ClaimTable, FileTable, InputClaimTable, MethodWord, ToleranceTable};
 use crate::budget::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, Part};
 use gumption_core::quantity::{Decimal, Unit};
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Amount;
 use gumption_format::toml::{OneOrMany, Stated};
 
@@ -106,9 +106,13 @@ impl Checker<'_> {
         let table = &stated.value;
         if !table.present.iter().any(|(key, _)| FIGURES.contains(key)) {
             return self.refuse(
-                Fault::new(CLAIM, stated.span.clone(), "the claim states no figure")
-                    .label("nothing to compare")
-                    .help(format!("add at least one of {}", FIGURES.join(", "))),
+                Fault::new(
+                    CLAIM,
+                    stated.span.clone(),
+                    say!("the claim states no figure"),
+                )
+                .label(say!("nothing to compare"))
+                .help(say!("add at least one of {}", FIGURES.join(", "))),
             );
         }
         if let Some(digits) = table
@@ -120,10 +124,12 @@ impl Checker<'_> {
                 Fault::new(
                     CLAIM,
                     digits.span.clone(),
-                    format!("{} correct digits cannot be shown", digits.value),
+                    say!("{} correct digits cannot be shown", digits.value),
                 )
-                .label(format!("at most {MOST_DIGITS}"))
-                .help("the numbers of a report are doubles, in which 15 decimal digits survive"),
+                .label(say!("at most {MOST_DIGITS}"))
+                .help(say!(
+                    "the numbers of a report are doubles, in which 15 decimal digits survive"
+                )),
             );
         }
         let about_analyses = table.measurand.is_none()
@@ -201,10 +207,10 @@ impl Checker<'_> {
                     Fault::new(
                         NOT_POSITIVE,
                         amount.span.clone(),
-                        "the claimed uncertainty is negative",
+                        say!("the claimed uncertainty is negative"),
                     )
-                    .label("must not be negative")
-                    .help("write it without sign"),
+                    .label(say!("must not be negative"))
+                    .help(say!("write it without sign")),
                 );
                 continue;
             }
@@ -319,9 +325,9 @@ impl Checker<'_> {
                     Fault::new(
                         LIMITS,
                         stated.span.clone(),
-                        "the claimed interval is not a lower and an upper limit",
+                        say!("the claimed interval is not a lower and an upper limit"),
                     )
-                    .label("expected [lower, upper]"),
+                    .label(say!("expected [lower, upper]")),
                 );
                 continue;
             }
@@ -371,9 +377,11 @@ impl Checker<'_> {
                 Fault::new(
                     CLAIM,
                     stated.span.clone(),
-                    "the claimed verdict is incomplete",
+                    say!("the claimed verdict is incomplete"),
                 )
-                .label("expected { digits = 2, verdict = true } or the like, with 1 or 2 digits"),
+                .label(say!(
+                    "expected {{ digits = 2, verdict = true }} or the like, with 1 or 2 digits"
+                )),
             ),
         }
     }
@@ -471,20 +479,21 @@ impl Checker<'_> {
                 continue;
             }
             let help = match nearest(name, known()) {
-                Some(near) => format!("did you mean \"{near}\"?"),
+                Some(near) => say!("did you mean \"{near}\"?"),
                 None if known().next().is_none() => {
-                    "the file has no analysis (fit, groups of readings, conformity …) with figures"
-                        .into()
+                    say!(
+                        "the file has no analysis (fit, groups of readings, conformity …) with figures"
+                    )
                 }
-                None => format!("figures: {}", known().collect::<Vec<_>>().join(", ")),
+                None => say!("figures: {}", known().collect::<Vec<_>>().join(", ")),
             };
             self.report(
                 Fault::new(
                     UNKNOWN_NAME,
                     stated.key.clone(),
-                    format!("there is no figure \"{name}\""),
+                    say!("there is no figure \"{name}\""),
                 )
-                .label("not known")
+                .label(say!("not known"))
                 .help(help),
             );
         }
@@ -504,12 +513,12 @@ impl Checker<'_> {
         let fault = Fault::new(
             UNKNOWN_NAME,
             stated.key.clone(),
-            format!("there is no input or component \"{name}\""),
+            say!("there is no input or component \"{name}\""),
         )
-        .label("not declared");
+        .label(say!("not declared"));
         self.report(match nearest(name, known) {
-            Some(near) => fault.help(format!("did you mean \"{near}\"?")),
-            None => fault.help("name an input (V) or a component (\"V.calibration\")"),
+            Some(near) => fault.help(say!("did you mean \"{near}\"?")),
+            None => fault.help(say!("name an input (V) or a component (\"V.calibration\")")),
         });
     }
 
@@ -563,10 +572,10 @@ impl Checker<'_> {
                 Fault::new(
                     CLAIM,
                     place.clone(),
-                    "the claim does not say which measurand it is about",
+                    say!("the claim does not say which measurand it is about"),
                 )
-                .label("`measurand` is missing")
-                .help(format!(
+                .label(say!("`measurand` is missing"))
+                .help(say!(
                     "add measurand = \"{}\" (or another of {})",
                     names[0],
                     names.join(", ")
@@ -576,16 +585,16 @@ impl Checker<'_> {
                 Some(index) => Some(index),
                 None => {
                     let help = match nearest(&wanted.value, names.iter().copied()) {
-                        Some(near) => format!("did you mean \"{near}\"?"),
-                        None => format!("measurands: {}", names.join(", ")),
+                        Some(near) => say!("did you mean \"{near}\"?"),
+                        None => say!("measurands: {}", names.join(", ")),
                     };
                     self.refuse(
                         Fault::new(
                             UNKNOWN_NAME,
                             wanted.span.clone(),
-                            format!("there is no measurand \"{}\"", wanted.value),
+                            say!("there is no measurand \"{}\"", wanted.value),
                         )
-                        .label("not declared")
+                        .label(say!("not declared"))
                         .help(help),
                     )
                 }

@@ -6,7 +6,7 @@ use crate::budget::Constant;
 use crate::budget::faults::NO_ESTIMATE;
 use crate::budget::tables::FileTable;
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 impl Checker<'_> {
     /// Reads `[constant]`.
@@ -32,9 +32,9 @@ impl Checker<'_> {
                     Fault::new(
                         NO_ESTIMATE,
                         stated.span.clone(),
-                        format!("the constant {name} has no value"),
+                        say!("the constant {name} has no value"),
                     )
-                    .label("state `value`, or `values` for a vector"),
+                    .label(say!("state `value`, or `values` for a vector")),
                 ),
             };
             constants.push(Constant {

@@ -9,7 +9,7 @@ use crate::budget::tables::{
 use crate::budget::variants::TrialsEntry;
 use crate::budget::{Adaptive, Conventions, CoverageRule, MonteCarloSettings, Points, Trials};
 use gumption_core::quantity::Rounding;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
 use gumption_format::toml::faults::UNKNOWN_WORD;
 
@@ -56,11 +56,11 @@ fn unknown_profile(stated: &Stated<String>) -> Fault {
     let fault = Fault::new(
         UNKNOWN_WORD,
         stated.span.clone(),
-        format!("there is no profile \"{}\"", stated.value),
+        say!("there is no profile \"{}\"", stated.value),
     )
-    .label(format!("expected one of {}", names.join(", ")));
+    .label(say!("expected one of {}", names.join(", ")));
     match nearest(&stated.value, names.iter().copied()) {
-        Some(near) => fault.help(format!("did you mean \"{near}\"?")),
+        Some(near) => fault.help(say!("did you mean \"{near}\"?")),
         None => fault,
     }
 }
@@ -75,10 +75,10 @@ fn numbers(table: &ConventionsTable, conventions: &mut Conventions, faults: &mut
                 Fault::new(
                     PROBABILITY,
                     p.span.clone(),
-                    format!("a coverage probability of {}", p.value),
+                    say!("a coverage probability of {}", p.value),
                 )
-                .label("expected a number between 0 and 1")
-                .help("for 95 % write 0.95"),
+                .label(say!("expected a number between 0 and 1"))
+                .help(say!("for 95 % write 0.95")),
             );
         }
     }
@@ -90,9 +90,9 @@ fn numbers(table: &ConventionsTable, conventions: &mut Conventions, faults: &mut
                 Fault::new(
                     NOT_POSITIVE,
                     k.span.clone(),
-                    format!("a coverage factor of {}", k.value),
+                    say!("a coverage factor of {}", k.value),
                 )
-                .label("must be greater than zero"),
+                .label(say!("must be greater than zero")),
             );
         }
     }
@@ -101,11 +101,11 @@ fn numbers(table: &ConventionsTable, conventions: &mut Conventions, faults: &mut
             Fault::new(
                 CONVENTIONS,
                 rule.key.clone(),
-                "the coverage factor is stated in two ways",
+                say!("the coverage factor is stated in two ways"),
             )
-            .label("as a rule here")
-            .related(k.key.clone(), "as a number here")
-            .help("leave out one"),
+            .label(say!("as a rule here"))
+            .related(k.key.clone(), say!("as a number here"))
+            .help(say!("leave out one")),
         );
     }
     if let Some(digits) = &table.digits {
@@ -116,10 +116,12 @@ fn numbers(table: &ConventionsTable, conventions: &mut Conventions, faults: &mut
                 Fault::new(
                     CONVENTIONS,
                     digits.span.clone(),
-                    format!("{other} significant digits"),
+                    say!("{other} significant digits"),
                 )
-                .label("expected 1 or 2")
-                .help("an uncertainty is reported to at most two significant digits (GUM 7.2.6)"),
+                .label(say!("expected 1 or 2"))
+                .help(say!(
+                    "an uncertainty is reported to at most two significant digits (GUM 7.2.6)"
+                )),
             ),
         }
     }
@@ -226,16 +228,18 @@ impl Checker<'_> {
                 let fault = Fault::new(
                     TRIALS,
                     span.clone(),
-                    format!("`{key}` goes with trials = \"adaptive\""),
+                    say!("`{key}` goes with trials = \"adaptive\""),
                 )
-                .label("no meaning for a fixed number of trials");
+                .label(say!("no meaning for a fixed number of trials"));
                 let fault = match trials {
-                    Some(trials) => fault.related(trials.span.clone(), "a fixed number of trials"),
+                    Some(trials) => {
+                        fault.related(trials.span.clone(), say!("a fixed number of trials"))
+                    }
                     None => fault,
                 };
                 self.messages
                     .faults
-                    .push(fault.help("add trials = \"adaptive\", or remove it"));
+                    .push(fault.help(say!("add trials = \"adaptive\", or remove it")));
             }
         }
         if let Some(trials) = trials.filter(|trials| fixed(trials) < FEWEST_TRIALS) {
@@ -243,10 +247,12 @@ impl Checker<'_> {
                 Fault::new(
                     TRIALS,
                     trials.span.clone(),
-                    format!("{} trials are too few", fixed(trials)),
+                    say!("{} trials are too few", fixed(trials)),
                 )
-                .label(format!("expected at least {FEWEST_TRIALS}"))
-                .help("write 1_000_000, which takes a moment and gives two stable digits"),
+                .label(say!("expected at least {FEWEST_TRIALS}"))
+                .help(say!(
+                    "write 1_000_000, which takes a moment and gives two stable digits"
+                )),
             );
         }
     }
@@ -265,8 +271,8 @@ impl Checker<'_> {
                     .as_ref()
                     .map_or(0..0, |digits| digits.span.clone());
                 self.report(
-                    Fault::new(TRIALS, span, format!("{other} significant digits"))
-                        .label("expected 1 or 2"),
+                    Fault::new(TRIALS, span, say!("{other} significant digits"))
+                        .label(say!("expected 1 or 2")),
                 );
                 2
             }
@@ -280,9 +286,9 @@ impl Checker<'_> {
                 Fault::new(
                     TRIALS,
                     max.span.clone(),
-                    format!("at most {} trials are too few", max.value),
+                    say!("at most {} trials are too few", max.value),
                 )
-                .label(format!("expected at least {FEWEST_TRIALS}")),
+                .label(say!("expected at least {FEWEST_TRIALS}")),
             );
         }
         let max = table

@@ -15,7 +15,7 @@ use crate::budget::faults::{
 };
 use crate::budget::tables::{CorrelationTable, FileTable};
 use crate::budget::{Component, Group, Owner};
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
 use gumption_format::toml::faults::WRONG_TYPE;
 
@@ -83,10 +83,10 @@ impl Checker<'_> {
                 Fault::new(
                     MISSING_KEY,
                     stated.span.clone(),
-                    format!("the correlation lacks `{missing}`"),
+                    say!("the correlation lacks `{missing}`"),
                 )
-                .label(format!("`{missing}` is missing"))
-                .help("write between = [\"a\", \"b\"] and r = 0.3"),
+                .label(say!("`{missing}` is missing"))
+                .help(say!("write between = [\"a\", \"b\"] and r = 0.3")),
             );
         };
         if between.value.len() < 2 {
@@ -94,12 +94,12 @@ impl Checker<'_> {
                 Fault::new(
                     WRONG_TYPE,
                     between.span.clone(),
-                    "a correlation between fewer than two quantities",
+                    say!("a correlation between fewer than two quantities"),
                 )
-                .label("expected two names or more")
-                .help(
-                    "write between = [\"a\", \"b\"]; with more names r holds for each pair of them",
-                ),
+                .label(say!("expected two names or more"))
+                .help(say!(
+                    "write between = [\"a\", \"b\"]; with more names r holds for each pair of them"
+                )),
             );
         }
         let sides: Vec<Option<Side>> = between
@@ -134,10 +134,10 @@ impl Checker<'_> {
             Fault::new(
                 NOT_A_CORRELATION,
                 r.span.clone(),
-                format!("a correlation coefficient of {}", r.value),
+                say!("a correlation coefficient of {}", r.value),
             )
-            .label("expected a number from -1 to 1")
-            .help("r is the covariance divided by both standard uncertainties; a covariance itself is stated in [[joint]]"),
+            .label(say!("expected a number from -1 to 1"))
+            .help(say!("r is the covariance divided by both standard uncertainties; a covariance itself is stated in [[joint]]")),
         );
         false
     }
@@ -160,11 +160,11 @@ impl Checker<'_> {
                 Fault::new(
                     SELF_PAIR,
                     b.span.clone(),
-                    format!("{} is correlated with itself", a.name),
+                    say!("{} is correlated with itself", a.name),
                 )
-                .label("the same quantity")
-                .related(a.span.clone(), "as this one")
-                .help("name two different quantities; for successive readings of one quantity write autocorrelated = true"),
+                .label(say!("the same quantity"))
+                .related(a.span.clone(), say!("as this one"))
+                .help(say!("name two different quantities; for successive readings of one quantity write autocorrelated = true")),
             );
         }
         let common = register.covariance(a.place, b.place);
@@ -176,13 +176,16 @@ impl Checker<'_> {
                 Fault::new(
                     NOT_A_CORRELATION,
                     r.span.clone(),
-                    format!(
+                    say!(
                         "the standard uncertainties of {} and {} are too small to be correlated",
-                        a.name, b.name
+                        a.name,
+                        b.name
                     ),
                 )
-                .label("cannot be computed")
-                .help("choose smaller units, so that the uncertainties are not below 1e-150"),
+                .label(say!("cannot be computed"))
+                .help(say!(
+                    "choose smaller units, so that the uncertainties are not below 1e-150"
+                )),
             );
         }
         if own.abs() > 1.0 + ROUNDING {
@@ -190,16 +193,20 @@ impl Checker<'_> {
                 Fault::new(
                     NOT_A_CORRELATION,
                     r.span.clone(),
-                    format!(
+                    say!(
                         "r = {} cannot be reached beside the shared sources of {} and {}",
-                        r.value, a.name, b.name
+                        r.value,
+                        a.name,
+                        b.name
                     ),
                 )
-                .label(format!(
+                .label(say!(
                     "the shared sources alone give r = {}",
                     show(common / (a.total * b.total))
                 ))
-                .help("leave the correlation out if it comes from those sources"),
+                .help(say!(
+                    "leave the correlation out if it comes from those sources"
+                )),
             );
         }
         let pairs = a
@@ -259,12 +266,14 @@ impl Checker<'_> {
                 Fault::new(
                     UNKNOWN_NAME,
                     name.span.clone(),
-                    format!(
+                    say!(
                         "{} has no uncertainty of its own to be correlated",
                         name.value
                     ),
                 )
-                .label("its uncertainty comes from shared sources, whose correlation is known"),
+                .label(say!(
+                    "its uncertainty comes from shared sources, whose correlation is known"
+                )),
             );
         }
         let place = register
@@ -307,11 +316,11 @@ impl Checker<'_> {
                     Fault::new(
                         PAIR_TWICE,
                         later.place.clone(),
-                        format!("the correlation of {a} and {b} is stated twice"),
+                        say!("the correlation of {a} and {b} is stated twice"),
                     )
-                    .label("second statement")
-                    .related(earlier.place.clone(), "first statement")
-                    .help("leave out one"),
+                    .label(say!("second statement"))
+                    .related(earlier.place.clone(), say!("first statement"))
+                    .help(say!("leave out one")),
                 );
             }
         }
@@ -334,10 +343,12 @@ impl Checker<'_> {
                     Fault::new(
                         CORRELATION_TWICE,
                         statement.place.clone(),
-                        format!("{} is already in a [[joint]] statement", component.name),
+                        say!("{} is already in a [[joint]] statement", component.name),
                     )
-                    .label("correlated again here")
-                    .help("put all its correlations into one matrix, or leave out this one"),
+                    .label(say!("correlated again here"))
+                    .help(say!(
+                        "put all its correlations into one matrix, or leave out this one"
+                    )),
                 );
             }
         }
@@ -348,23 +359,23 @@ fn unknown(name: &Stated<String>, register: &Register) -> Fault {
     let fault = Fault::new(
         UNKNOWN_NAME,
         name.span.clone(),
-        format!("nothing is called \"{}\"", name.value),
+        say!("nothing is called \"{}\"", name.value),
     )
-    .label("not an input, a source or a component");
+    .label(say!("not an input, a source or a component"));
     if let Some(entry) = register
         .entries
         .iter()
         .find(|entry| entry.vector && entry.name == name.value)
     {
-        return fault.help(format!(
+        return fault.help(say!(
             "{0} is a vector: name its elements, \"{0}[1]\" and so on",
             entry.name
         ));
     }
     let names = register.names();
     match nearest(&name.value, names.iter().map(String::as_str)) {
-        Some(near) => fault.help(format!("did you mean \"{near}\"?")),
-        None => fault.help(format!("known names: {}", names.join(", "))),
+        Some(near) => fault.help(say!("did you mean \"{near}\"?")),
+        None => fault.help(say!("known names: {}", names.join(", "))),
     }
 }
 

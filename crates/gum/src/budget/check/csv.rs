@@ -8,7 +8,7 @@ use crate::budget::tables::{ColumnTable, ComponentTable};
 use crate::budget::variants::{Amounts, Numbers};
 use gumption_core::quantity::Unit;
 use gumption_core::statistics::Dd;
-use gumption_fault::{Fault, Rejection};
+use gumption_fault::{Fault, Rejection, say};
 use gumption_format::csv::faults::{NO_COLUMN, NOT_UTF8, UNREADABLE};
 use gumption_format::csv::{Recording, Request};
 use gumption_format::toml::Amount;
@@ -35,9 +35,9 @@ impl Checker<'_> {
         match &numbers.value {
             Numbers::List(list) => Some(self.exact(list)),
             Numbers::Lists(_) => self.refuse(
-                Fault::new(VECTOR, numbers.span.clone(), "several lists of readings for a single quantity")
-                    .label("lists in a list")
-                    .help("readings in groups are `groups = [[…], […]]`; the elements of a vector have `values`, and a list of readings each"),
+                Fault::new(VECTOR, numbers.span.clone(), say!("several lists of readings for a single quantity"))
+                    .label(say!("lists in a list"))
+                    .help(say!("readings in groups are `groups = [[…], […]]`; the elements of a vector have `values`, and a list of readings each")),
             ),
             Numbers::Column(table) if table.refused => None,
             Numbers::Column(table) => self.column(table, unit, &numbers.span),
@@ -156,22 +156,22 @@ impl Checker<'_> {
             .into_iter()
             .partition(|fault| fault.code == NO_COLUMN);
         for fault in unknown {
-            let quoted = |name: &str| fault.message.ends_with(&format!("\"{name}\""));
+            let quoted = |name: &str| fault.message.to_string().ends_with(&format!("\"{name}\""));
             let named = columns.iter().find(|(name, _)| quoted(name.value.trim()));
             let (place, name) = named.map_or((file, ""), |(name, _)| (*name, &name.value));
-            let message = format!("{} has no column \"{name}\"", file.value);
+            let message = say!("{} has no column \"{name}\"", file.value);
             self.report(Fault {
                 help: fault.help,
-                ..Fault::new(CSV, place.span.clone(), message).label("no such column")
+                ..Fault::new(CSV, place.span.clone(), message).label(say!("no such column"))
             });
         }
         rejection.faults = faults;
         if let (true, Some(fault)) = (rejection.text.is_empty(), rejection.faults.first()) {
             let folder = self.source.origin.folder();
-            let message = fault.message.replace(&shown, &file.value);
-            let message = match fault.code == UNREADABLE && message.starts_with("there is no file")
-            {
-                true => format!("{message} in {folder}"),
+            let message = fault.message.clone().renamed(&shown, &file.value);
+            let absent = message.to_string().starts_with("there is no file");
+            let message = match fault.code == UNREADABLE && absent {
+                true => say!("{message} in {folder}"),
                 false => message,
             };
             return self.refuse(Fault {
@@ -181,7 +181,7 @@ impl Checker<'_> {
                     UNREADABLE_FILE
                 },
                 message,
-                label: "expected a CSV file".into(),
+                label: say!("expected a CSV file"),
                 span: file.span.clone(),
                 ..fault.clone()
             });
@@ -191,10 +191,10 @@ impl Checker<'_> {
                 Fault::new(
                     CSV,
                     file.span.clone(),
-                    format!("{} cannot be used as it is", file.value),
+                    say!("{} cannot be used as it is", file.value),
                 )
-                .label("has faults itself")
-                .help("its faults are listed after those of this file"),
+                .label(say!("has faults itself"))
+                .help(say!("its faults are listed after those of this file")),
             );
             self.source.origin.files.refused(rejection);
         }
@@ -213,8 +213,8 @@ pub(super) fn decimals(column: &Stated<String>, unit: Option<&Unit>) -> Request 
 
 /// A table that names no file, or not all that is needed to find a column in it.
 pub(super) fn lacks(missing: &str, place: &Range<usize>, example: &str) -> Fault {
-    let message = format!("the CSV column lacks `{missing}`");
+    let message = say!("the CSV column lacks `{missing}`");
     Fault::new(MISSING_KEY, place.clone(), message)
-        .label(format!("`{missing}` is missing"))
-        .help(format!("write {example}"))
+        .label(say!("`{missing}` is missing"))
+        .help(say!("write {example}"))
 }

@@ -7,7 +7,7 @@ use crate::budget::Detection;
 use crate::budget::faults::{DETECTION, MISSING_KEY, NOT_POSITIVE};
 use crate::budget::tables::{DetectionTable, FileTable};
 use gumption_core::special::normal_sf;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 /// α and β where the file states none (ISO 11929).
@@ -27,10 +27,10 @@ impl Checker<'_> {
                     Fault::new(
                         DETECTION,
                         one.span.clone(),
-                        "the characteristic limits of this measurand are asked for twice",
+                        say!("the characteristic limits of this measurand are asked for twice"),
                     )
-                    .label("second time")
-                    .help("leave out one [[detection]]"),
+                    .label(say!("second time"))
+                    .help(say!("leave out one [[detection]]")),
                 );
             }
             if let Some((name, _)) = entries(&file.measurand).get(detection.measurand) {
@@ -57,10 +57,12 @@ impl Checker<'_> {
                 Fault::new(
                     MISSING_KEY,
                     stated.span.clone(),
-                    "[detection] does not say which input carries the value",
+                    say!("[detection] does not say which input carries the value"),
                 )
-                .label("`gross` is missing")
-                .help("name the input that changes when the measurand does: gross = \"n_g\""),
+                .label(say!("`gross` is missing"))
+                .help(say!(
+                    "name the input that changes when the measurand does: gross = \"n_g\""
+                )),
             ),
         };
         let alpha = self.error_probability(&table.alpha, &table.k_alpha);
@@ -78,9 +80,9 @@ impl Checker<'_> {
                 Fault::new(
                     NOT_POSITIVE,
                     amount.span.clone(),
-                    "the guideline value is not positive",
+                    say!("the guideline value is not positive"),
                 )
-                .label("must be greater than zero"),
+                .label(say!("must be greater than zero")),
             ),
             Some(amount) => self.quantity(amount, &unit, name).map(Some),
             None => Some(None),
@@ -113,10 +115,10 @@ impl Checker<'_> {
                     Fault::new(
                         DETECTION,
                         k.span.clone(),
-                        format!("a quantile of {}", k.value),
+                        say!("a quantile of {}", k.value),
                     )
-                    .label("expected a number above 0, such as 1.645")
-                    .help("state the quantile of the normal distribution for 1 − α, or `alpha` itself"),
+                    .label(say!("expected a number above 0, such as 1.645"))
+                    .help(say!("state the quantile of the normal distribution for 1 − α, or `alpha` itself")),
                 );
             }
             (Some(p), Some(k)) => {
@@ -124,11 +126,11 @@ impl Checker<'_> {
                     Fault::new(
                         DETECTION,
                         k.key.clone(),
-                        "the probability of a wrong decision is stated twice",
+                        say!("the probability of a wrong decision is stated twice"),
                     )
-                    .label("the quantile")
-                    .related(p.key.clone(), "the probability")
-                    .help("leave out one of them"),
+                    .label(say!("the quantile"))
+                    .related(p.key.clone(), say!("the probability"))
+                    .help(say!("leave out one of them")),
                 );
             }
         };
@@ -140,10 +142,12 @@ impl Checker<'_> {
             Fault::new(
                 DETECTION,
                 stated.span.clone(),
-                format!("a wrong decision with probability {p}"),
+                say!("a wrong decision with probability {p}"),
             )
-            .label("expected less than 0.5")
-            .help("state the probability of a wrong decision, such as 0.05"),
+            .label(say!("expected less than 0.5"))
+            .help(say!(
+                "state the probability of a wrong decision, such as 0.05"
+            )),
         )
     }
 }

@@ -9,7 +9,7 @@ use crate::budget::{Certificate, Evaluation, Finding, Follows, TScale};
 use gumption_core::distribution::{Distribution, Normal, StudentT};
 use gumption_core::quantity::Unit;
 pub(super) use gumption_core::quantity::show;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 /// What a component is drafted for.
@@ -115,11 +115,11 @@ impl Checker<'_> {
                 Fault::new(
                     DOF,
                     reliability.key.clone(),
-                    "degrees of freedom are stated in two ways",
+                    say!("degrees of freedom are stated in two ways"),
                 )
-                .label("as reliability here")
-                .related(dof.key.clone(), "as dof here")
-                .help("leave out one of `dof` and `reliability`"),
+                .label(say!("as reliability here"))
+                .related(dof.key.clone(), say!("as dof here"))
+                .help(say!("leave out one of `dof` and `reliability`")),
             );
         }
         if let Some(dof) = &table.dof {
@@ -142,10 +142,12 @@ impl Checker<'_> {
             Fault::new(
                 DOF,
                 dof.span.clone(),
-                format!("degrees of freedom of {}", dof.value),
+                say!("degrees of freedom of {}", dof.value),
             )
-            .label("must be greater than zero")
-            .help("for a perfectly known uncertainty leave out `dof`, or write `dof = inf`"),
+            .label(say!("must be greater than zero"))
+            .help(say!(
+                "for a perfectly known uncertainty leave out `dof`, or write `dof = inf`"
+            )),
         )
     }
 
@@ -157,11 +159,11 @@ impl Checker<'_> {
         let fault = Fault::new(
             NOT_POSITIVE,
             number.span.clone(),
-            format!("`{key}` is {}", number.value),
+            say!("`{key}` is {}", number.value),
         )
-        .label("must be greater than zero");
+        .label(say!("must be greater than zero"));
         self.refuse(if number.value < 0.0 {
-            fault.help("write it without sign")
+            fault.help(say!("write it without sign"))
         } else {
             fault
         })
@@ -198,10 +200,12 @@ impl Checker<'_> {
                 Fault::new(
                     DOF,
                     place.clone(),
-                    format!("a t distribution with ν = {dof} has no standard deviation"),
+                    say!("a t distribution with ν = {dof} has no standard deviation"),
                 )
-                .label(format!("ν = {dof}"))
-                .help("take more readings, or write `t_scale = \"scale\"` in [conventions]"),
+                .label(say!("ν = {dof}"))
+                .help(say!(
+                    "take more readings, or write `t_scale = \"scale\"` in [conventions]"
+                )),
             ),
         }
     }

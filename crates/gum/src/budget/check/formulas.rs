@@ -14,7 +14,7 @@ use gumption_core::model::{
     MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile,
 };
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 use gumption_format::toml::StringMap;
 
@@ -137,9 +137,11 @@ impl Checker<'_> {
         }
         let end = self.source.text.trim_end().len();
         self.refuse(
-            Fault::new(NO_MEASURAND, end..end, "the file has no measurand")
-                .label("expected a [measurand.NAME]")
-                .help("add for example:\n[measurand.R]\nmodel = \"V / I\"\nunit = \"ohm\""),
+            Fault::new(NO_MEASURAND, end..end, say!("the file has no measurand"))
+                .label(say!("expected a [measurand.NAME]"))
+                .help(say!(
+                    "add for example:\n[measurand.R]\nmodel = \"V / I\"\nunit = \"ohm\""
+                )),
         )
     }
 
@@ -252,13 +254,15 @@ impl Checker<'_> {
             Fault::new(
                 NO_MEASURAND,
                 end..end,
-                format!(
+                say!(
                     "the file has no input, so nothing makes {} uncertain",
                     names.join(", ")
                 ),
             )
-            .label("expected an [input.NAME]")
-            .help("add for example:\n[input.V]\nvalue = 5.0\nunit = \"V\"\nu = 0.01"),
+            .label(say!("expected an [input.NAME]"))
+            .help(say!(
+                "add for example:\n[input.V]\nvalue = 5.0\nunit = \"V\"\nu = 0.01"
+            )),
         );
     }
 
@@ -294,14 +298,14 @@ impl Checker<'_> {
             let place = self.symbol_place(index, file, constants, register);
             let (kind, name) = if index < constants {
                 (
-                    "constant",
+                    say!("constant"),
                     entries(&file.constant)
                         .get(index)
                         .map(|(name, _)| name.as_str()),
                 )
             } else {
                 (
-                    "input",
+                    say!("input"),
                     register
                         .entries
                         .get(index - constants)
@@ -313,10 +317,10 @@ impl Checker<'_> {
                 Fault::new(
                     UNUSED,
                     place,
-                    format!("no measurand depends on the {kind} {name}"),
+                    say!("no measurand depends on the {kind} {name}"),
                 )
-                .label("not used in any model")
-                .help(format!("use {name} in a model, or remove it")),
+                .label(say!("not used in any model"))
+                .help(say!("use {name} in a model, or remove it")),
             );
         }
     }

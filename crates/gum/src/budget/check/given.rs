@@ -8,7 +8,7 @@ use crate::budget::faults::{COUNT, DISTRIBUTION, MISSING_KEY, TOO_FEW_READINGS};
 use crate::budget::tables::{ComponentTable, PriorWord};
 use gumption_core::distribution::stating::Parametric;
 use gumption_core::distribution::{Distribution, Empirical, StudentT, binomial, poisson};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 impl Checker<'_> {
@@ -36,9 +36,9 @@ impl Checker<'_> {
                 Fault::new(
                     TOO_FEW_READINGS,
                     stated.span.clone(),
-                    format!("the sample of {} has no spread", context.owner),
+                    say!("the sample of {} has no spread", context.owner),
                 )
-                .label("needs at least two different values"),
+                .label(say!("needs at least two different values")),
             );
         }
         sample.sort_by(f64::total_cmp);
@@ -107,12 +107,12 @@ impl Checker<'_> {
                 Fault::new(
                     MISSING_KEY,
                     stated.key.clone(),
-                    format!(
+                    say!(
                         "the successes of {} have no number of trials",
                         context.owner
                     ),
                 )
-                .label("`trials` is missing"),
+                .label(say!("`trials` is missing")),
             );
         };
         if stated.value > trials.value || trials.value == 0 {
@@ -120,10 +120,10 @@ impl Checker<'_> {
                 Fault::new(
                     COUNT,
                     stated.span.clone(),
-                    format!("{} successes in {} trials", stated.value, trials.value),
+                    say!("{} successes in {} trials", stated.value, trials.value),
                 )
-                .label("more than there were trials")
-                .related(trials.span.clone(), "trials"),
+                .label(say!("more than there were trials"))
+                .related(trials.span.clone(), say!("trials")),
             );
         }
         let (s, f) = (stated.value as f64, (trials.value - stated.value) as f64);
@@ -146,8 +146,8 @@ impl Checker<'_> {
     ) -> Option<Core> {
         if let Err(reason) = distribution.validate() {
             return self.refuse(
-                Fault::new(DISTRIBUTION, place.clone(), reason.to_string())
-                    .label("parameters do not fit"),
+                Fault::new(DISTRIBUTION, place.clone(), reason.said())
+                    .label(say!("parameters do not fit")),
             );
         }
         // A t distribution with ν ≤ 1 has no mean; its location takes the place.
@@ -177,11 +177,12 @@ fn no_events(stated: &Stated<u64>, context: &Context<'_>) -> Fault {
     Fault::new(
         COUNT,
         stated.span.clone(),
-        format!(
+        say!(
             "the prior \"reciprocal\" of {} needs a count other than {}",
-            context.owner, stated.value
+            context.owner,
+            stated.value
         ),
     )
-    .label("gives no proper distribution")
-    .help("write prior = \"jeffreys\" or \"uniform\"")
+    .label(say!("gives no proper distribution"))
+    .help(say!("write prior = \"jeffreys\" or \"uniform\""))
 }

@@ -12,7 +12,7 @@ use super::statement::{ROUNDING, Statement};
 use crate::budget::faults::{NOT_SEMIDEFINITE, UNATTAINABLE};
 use crate::budget::{Component, Group, Law};
 use gumption_core::distribution::{Distribution, StudentT, latent_correlation};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 impl Checker<'_> {
     pub(super) fn group(
@@ -132,9 +132,9 @@ impl Checker<'_> {
                     }
                     Err(reason) => {
                         return self.refuse(
-                            Fault::new(UNATTAINABLE, place.clone(), format!("{} and {} cannot have r = {}", a.name, b.name, show(r)))
-                                .label(reason.to_string())
-                                .help("lower the correlation, or state the common cause as a [source.NAME]"),
+                            Fault::new(UNATTAINABLE, place.clone(), say!("{} and {} cannot have r = {}", a.name, b.name, show(r)))
+                                .label(reason.said())
+                                .help(say!("lower the correlation, or state the common cause as a [source.NAME]")),
                         );
                     }
                 }
@@ -147,13 +147,15 @@ impl Checker<'_> {
             Fault::new(
                 UNATTAINABLE,
                 place.clone(),
-                "no joint distribution with these shapes has these correlations",
+                say!("no joint distribution with these shapes has these correlations"),
             )
-            .label(format!(
+            .label(say!(
                 "smallest eigenvalue of the latent correlation matrix {}",
                 show(smallest)
             ))
-            .help("lower the correlations a little, or state the common cause as a [source.NAME]"),
+            .help(say!(
+                "lower the correlations a little, or state the common cause as a [source.NAME]"
+            )),
         )
     }
 }
@@ -269,9 +271,9 @@ fn contradiction(members: &[usize], statements: &[&Statement], r: &[f64], smalle
     let mut fault = Fault::new(
         NOT_SEMIDEFINITE,
         statements[blamed].place.clone(),
-        "these correlation coefficients cannot occur together",
+        say!("these correlation coefficients cannot occur together"),
     )
-    .label(format!(
+    .label(say!(
         "smallest eigenvalue of the correlation matrix {}",
         show(smallest)
     ));
@@ -282,16 +284,16 @@ fn contradiction(members: &[usize], statements: &[&Statement], r: &[f64], smalle
     {
         fault = fault.related(
             other.place.clone(),
-            format!("r({}, {}) = {}", other.names[0], other.names[1], r[index]),
+            say!("r({}, {}) = {}", other.names[0], other.names[1], r[index]),
         );
     }
     match best {
-        Some((index, mended, _)) => fault.help(format!(
+        Some((index, mended, _)) => fault.help(say!(
             "check the signs; with the others as they are, the nearest possible r({a}, {b}) is {}, not {}",
             show(mended), r[index]
         )),
-        None if tried == 0 => fault.help("check the signs, and coefficients near 1 or -1"),
-        None => fault.help("check the signs; changing a single coefficient does not mend it"),
+        None if tried == 0 => fault.help(say!("check the signs, and coefficients near 1 or -1")),
+        None => fault.help(say!("check the signs; changing a single coefficient does not mend it")),
     }
 }
 
@@ -310,16 +312,16 @@ fn alike(statements: &[&Statement], r: &[f64], smallest: f64) -> Option<Fault> {
     let fault = Fault::new(
         NOT_SEMIDEFINITE,
         first.place.clone(),
-        format!(
+        say!(
             "{n} quantities cannot have r = {} with one another",
             r.first()?
         ),
     )
-    .label(format!(
+    .label(say!(
         "smallest eigenvalue of the correlation matrix {}",
         show(smallest)
     ))
-    .help(format!(
+    .help(say!(
         "r cannot be less than -1/(n - 1) = {} for n = {n} quantities",
         show(least)
     ));

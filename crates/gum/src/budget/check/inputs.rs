@@ -13,7 +13,7 @@ use crate::budget::tables::{ComponentTable, FileTable, InputTable, ResolutionWor
 use crate::budget::variants::ReadingsOf;
 use crate::budget::{Follows, Owner};
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 /// A reason for doubt of one input.
@@ -102,11 +102,11 @@ impl Checker<'_> {
                 Fault::new(
                     TWO_WAYS,
                     span.clone(),
-                    format!("{name} has `components` and the key `{key}` beside them"),
+                    say!("{name} has `components` and the key `{key}` beside them"),
                 )
-                .label("not inside a component")
-                .related(list.key.clone(), "the components of the input")
-                .help(format!("move `{key}` into one of the `components`")),
+                .label(say!("not inside a component"))
+                .related(list.key.clone(), say!("the components of the input"))
+                .help(say!("move `{key}` into one of the `components`")),
             );
         }
         let tables: Vec<(&ComponentTable, Range<usize>)> = match list {
@@ -154,10 +154,10 @@ impl Checker<'_> {
                     Fault::new(
                         TWO_WAYS,
                         span.clone(),
-                        format!("the uncertainty of {name} is stated twice, by `{key}` and by the `covariance` of a [[joint]]"),
+                        say!("the uncertainty of {name} is stated twice, by `{key}` and by the `covariance` of a [[joint]]"),
                     )
-                    .label("the covariance matrix states it already")
-                    .help(format!(
+                    .label(say!("the covariance matrix states it already"))
+                    .help(say!(
                         "leave out `{key}`; if it is another reason for doubt, write components = [{{ name = \"…\", {key} = … }}]"
                     )),
                 );
@@ -271,15 +271,15 @@ impl Checker<'_> {
         match found.as_slice() {
             [(mean, _)] => Some(*mean),
             [] => self.refuse(
-                Fault::new(NO_ESTIMATE, stated.span.clone(), format!("{name} has no value"))
-                    .label("`value` is missing")
-                    .help(format!("add `value`, in {}; readings or a distribution with a stated location would do too", unit.symbol)),
+                Fault::new(NO_ESTIMATE, stated.span.clone(), say!("{name} has no value"))
+                    .label(say!("`value` is missing"))
+                    .help(say!("add `value`, in {}; readings or a distribution with a stated location would do too", unit.symbol)),
             ),
             [(_, first), (_, second), ..] => self.refuse(
-                Fault::new(TWO_ESTIMATES, second.clone(), format!("two components of {name} state where it is"))
-                    .label("second estimate")
-                    .related(first.clone(), "first estimate")
-                    .help("add `value`: the estimate that is reported"),
+                Fault::new(TWO_ESTIMATES, second.clone(), say!("two components of {name} state where it is"))
+                    .label(say!("second estimate"))
+                    .related(first.clone(), say!("first estimate"))
+                    .help(say!("add `value`: the estimate that is reported")),
             ),
         }
     }
@@ -385,10 +385,10 @@ impl Checker<'_> {
                 if !(lower..=upper).contains(&value) =>
             {
                 return self.refuse(
-                    Fault::new(LIMITS, draft.stated.clone(), format!("the limits {lower} and {upper} do not contain the value of {name}, {value}"))
-                        .label("limits of the quantity itself")
-                        .related(place, "the value")
-                        .help("for limits of a deviation write `half_width`, or `plus` and `minus`"),
+                    Fault::new(LIMITS, draft.stated.clone(), say!("the limits {lower} and {upper} do not contain the value of {name}, {value}"))
+                        .label(say!("limits of the quantity itself"))
+                        .related(place, say!("the value"))
+                        .help(say!("for limits of a deviation write `half_width`, or `plus` and `minus`")),
                 );
             }
             (Location::Between { expectation, .. }, Some(value))
@@ -398,10 +398,10 @@ impl Checker<'_> {
             }
             (Location::Expectation(mean), Some(value)) if (mean - value).abs() > 1e-9 * draft.u => {
                 return self.refuse(
-                    Fault::new(TWO_ESTIMATES, place, format!("the value of {name} is {value}, the expectation of its distribution {}", show(mean)))
-                        .label("another estimate than that of the distribution")
-                        .related(draft.stated.clone(), format!("expectation {}", show(mean)))
-                        .help("leave out `value`, or make the deviation an input of its own in the model"),
+                    Fault::new(TWO_ESTIMATES, place, say!("the value of {name} is {value}, the expectation of its distribution {}", show(mean)))
+                        .label(say!("another estimate than that of the distribution"))
+                        .related(draft.stated.clone(), say!("expectation {}", show(mean)))
+                        .help(say!("leave out `value`, or make the deviation an input of its own in the model")),
                 );
             }
             _ => return Some(0.0),
@@ -473,11 +473,11 @@ impl Checker<'_> {
                     Fault::new(
                         NAME_TWICE,
                         name.clone(),
-                        format!("two components of {owner} are called \"{}\"", draft.label),
+                        say!("two components of {owner} are called \"{}\"", draft.label),
                     )
-                    .label("second one")
-                    .related(earlier.clone(), "first one")
-                    .help("give each component a name of its own"),
+                    .label(say!("second one"))
+                    .related(earlier.clone(), say!("first one"))
+                    .help(say!("give each component a name of its own")),
                 );
             }
             let same = before

@@ -15,7 +15,7 @@ use super::type_a::{mean_and_squares, student};
 use crate::budget::faults::{CORRELATION_TWICE, JOINT, MODIFIER, NOT_SEMIDEFINITE, TWO_WAYS};
 use crate::budget::tables::{FileTable, JointTable};
 use crate::budget::{Evaluation, Group, Owner, TScale};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Stated;
 
 pub(super) type Matrix = Stated<Vec<Stated<Vec<Stated<f64>>>>>;
@@ -56,11 +56,13 @@ impl Checker<'_> {
                     Fault::new(
                         TWO_WAYS,
                         second.key.clone(),
-                        "a covariance and a correlation matrix of the same inputs",
+                        say!("a covariance and a correlation matrix of the same inputs"),
                     )
-                    .label("second matrix")
-                    .related(first.key.clone(), "first matrix")
-                    .help("keep one; the covariance matrix also states the uncertainties"),
+                    .label(say!("second matrix"))
+                    .related(first.key.clone(), say!("first matrix"))
+                    .help(say!(
+                        "keep one; the covariance matrix also states the uncertainties"
+                    )),
                 ),
                 (Some(covariance), None) => {
                     self.by_covariance(stated, covariance, &inputs, register)
@@ -87,9 +89,9 @@ impl Checker<'_> {
                     Fault::new(
                         CORRELATION_TWICE,
                         stated.span.clone(),
-                        "an input is in two [[joint]] statements",
+                        say!("an input is in two [[joint]] statements"),
                     )
-                    .label("second statement"),
+                    .label(say!("second statement")),
                 );
                 continue;
             }
@@ -112,9 +114,9 @@ impl Checker<'_> {
                 Fault::new(
                     JOINT,
                     stated.span.clone(),
-                    "the joint statement names no inputs",
+                    say!("the joint statement names no inputs"),
                 )
-                .label("`inputs` is missing"),
+                .label(say!("`inputs` is missing")),
             );
         };
         let mut places: Vec<(usize, Stated<String>)> = Vec::new();
@@ -146,15 +148,15 @@ impl Checker<'_> {
             Fault::new(
                 JOINT,
                 span,
-                "a joint statement needs at least two different inputs",
+                say!("a joint statement needs at least two different inputs"),
             )
-            .label("expected two or more"),
+            .label(say!("expected two or more")),
         )
     }
 
     /// A square symmetric matrix with one row for each input.
     fn matrix(&mut self, stated: &Matrix, size: usize) -> Option<DMatrix<f64>> {
-        self.symmetric(stated, size, "inputs")
+        self.symmetric(stated, size, say!("inputs"))
     }
 
     /// A square symmetric matrix with one row for each of so many `what`.
@@ -162,16 +164,16 @@ impl Checker<'_> {
         &mut self,
         stated: &Matrix,
         size: usize,
-        what: &str,
+        what: Said,
     ) -> Option<DMatrix<f64>> {
         if let Some(row) = stated.value.iter().find(|row| row.value.len() != size) {
             return self.refuse(
                 Fault::new(
                     JOINT,
                     row.span.clone(),
-                    format!("a row of {} numbers for {size} {what}", row.value.len()),
+                    say!("a row of {} numbers for {size} {what}", row.value.len()),
                 )
-                .label(format!("expected {size} numbers")),
+                .label(say!("expected {size} numbers")),
             );
         }
         if stated.value.len() != size {
@@ -179,9 +181,9 @@ impl Checker<'_> {
                 Fault::new(
                     JOINT,
                     stated.span.clone(),
-                    format!("{} rows for {size} {what}", stated.value.len()),
+                    say!("{} rows for {size} {what}", stated.value.len()),
                 )
-                .label(format!("expected {size} rows")),
+                .label(say!("expected {size} rows")),
             );
         }
         let matrix = DMatrix::from_fn(size, size, |i, j| stated.value[i].value[j].value);
@@ -195,10 +197,10 @@ impl Checker<'_> {
                         Fault::new(
                             JOINT,
                             lower_at.span.clone(),
-                            format!("the matrix is not symmetric: {lower} and {upper}"),
+                            say!("the matrix is not symmetric: {lower} and {upper}"),
                         )
-                        .label("this element")
-                        .related(upper_at.span.clone(), "and this one must be equal"),
+                        .label(say!("this element"))
+                        .related(upper_at.span.clone(), say!("and this one must be equal")),
                     );
                 }
             }
@@ -233,13 +235,13 @@ impl Checker<'_> {
                 Fault::new(
                     JOINT,
                     covariance.value[i].value[i].span.clone(),
-                    format!(
+                    say!(
                         "the variance of {} is {}",
                         inputs[i].1.value,
                         matrix[(i, i)]
                     ),
                 )
-                .label("must be greater than zero"),
+                .label(say!("must be greater than zero")),
             );
         }
         let u: Vec<f64> = (0..inputs.len()).map(|i| matrix[(i, i)].sqrt()).collect();
@@ -256,9 +258,9 @@ impl Checker<'_> {
                 let half = self.halves_of_covariance(covariance, &matrix);
                 let Some(nearest) = within_rounding(&correlation, &half) else {
                     return self.refuse(
-                        Fault::new(NOT_SEMIDEFINITE, covariance.span.clone(), "no quantities can have this covariance matrix")
-                            .label(format!("smallest eigenvalue of the correlation matrix {}", show(smallest)))
-                            .help("check the signs, and that |covariance| does not exceed the product of the standard uncertainties"),
+                        Fault::new(NOT_SEMIDEFINITE, covariance.span.clone(), say!("no quantities can have this covariance matrix"))
+                            .label(say!("smallest eigenvalue of the correlation matrix {}", show(smallest)))
+                            .help(say!("check the signs, and that |covariance| does not exceed the product of the standard uncertainties")),
                     );
                 };
                 self.remark_rounded(smallest, &correlation, &nearest);
@@ -352,9 +354,9 @@ impl Checker<'_> {
     ) {
         if let Some(dof) = &stated.value.dof {
             self.report(
-                Fault::new(MODIFIER, dof.key.clone(), "`dof` does not go with a correlation matrix")
-                    .label("no meaning here")
-                    .help("state the degrees of freedom with the uncertainties of the inputs, or give `covariance`"),
+                Fault::new(MODIFIER, dof.key.clone(), say!("`dof` does not go with a correlation matrix"))
+                    .label(say!("no meaning here"))
+                    .help(say!("state the degrees of freedom with the uncertainties of the inputs, or give `covariance`")),
             );
         }
         let Some(matrix) = self.matrix(correlation, inputs.len()) else {
@@ -366,14 +368,14 @@ impl Checker<'_> {
                     Fault::new(
                         JOINT,
                         correlation.value[i].value[i].span.clone(),
-                        format!(
+                        say!(
                             "the correlation of {} with itself is {}",
                             inputs[i].1.value,
                             matrix[(i, i)]
                         ),
                     )
-                    .label("must be 1")
-                    .help("for variances and covariances write `covariance`"),
+                    .label(say!("must be 1"))
+                    .help(say!("for variances and covariances write `covariance`")),
                 );
                 return;
             }
@@ -422,10 +424,12 @@ impl Checker<'_> {
                     Fault::new(
                         JOINT,
                         name.span.clone(),
-                        format!("{} has no readings", name.value),
+                        say!("{} has no readings", name.value),
                     )
-                    .label("expected an input with `readings`")
-                    .help("without readings state a matrix: `covariance` or `correlation`"),
+                    .label(say!("expected an input with `readings`"))
+                    .help(say!(
+                        "without readings state a matrix: `covariance` or `correlation`"
+                    )),
                 );
             };
             members.push(component);
@@ -437,14 +441,14 @@ impl Checker<'_> {
                 Fault::new(
                     JOINT,
                     inputs[other].1.span.clone(),
-                    format!(
+                    say!(
                         "{} has {} readings, {} has {n}",
                         inputs[other].1.value,
                         series[other].len(),
                         inputs[0].1.value
                     ),
                 )
-                .label("taken together means equally many"),
+                .label(say!("taken together means equally many")),
             );
         }
         if n <= series.len() {
@@ -500,13 +504,13 @@ impl Checker<'_> {
                     Fault::new(
                         JOINT,
                         name.span.clone(),
-                        format!(
+                        say!(
                             "the readings of {} are not evaluated as a plain mean",
                             name.value
                         ),
                     )
-                    .label("has `of`, `autocorrelated` or `gum_u`")
-                    .help("joint readings state the uncertainty of their means"),
+                    .label(say!("has `of`, `autocorrelated` or `gum_u`"))
+                    .help(say!("joint readings state the uncertainty of their means")),
                 );
             }
             component.distribution = student(scale, dof);

@@ -7,7 +7,7 @@ use super::checker::Checker;
 use super::entries::{entries, shared};
 use crate::budget::faults::{BAD_NAME, NAME_TWICE};
 use crate::budget::tables::FileTable;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 
 /// Whether the model language reads the text as one name.
 fn is_identifier(name: &str) -> bool {
@@ -44,18 +44,18 @@ impl Checker<'_> {
         let mut used: HashMap<String, Range<usize>> = HashMap::new();
         let constants = entries(&file.constant)
             .iter()
-            .map(|(name, stated)| (name, stated.key.clone(), "constant"));
+            .map(|(name, stated)| (name, stated.key.clone(), say!("a constant")));
         let inputs = entries(&file.input)
             .iter()
-            .map(|(name, stated)| (name, stated.key.clone(), "input"));
+            .map(|(name, stated)| (name, stated.key.clone(), say!("an input")));
         for (name, place, kind) in constants.chain(inputs) {
             if !unnamed.contains(name) {
-                self.check_name(name, &place, kind);
+                self.check_name(name, &place, &kind);
             }
             self.check_use(&mut used, name, place);
         }
         for (name, stated) in entries(&file.measurand) {
-            self.check_name(name, &stated.key, "measurand");
+            self.check_name(name, &stated.key, &say!("a measurand"));
             self.check_use(&mut used, name, stated.key.clone());
         }
         for (name, stated) in shared(file) {
@@ -71,32 +71,29 @@ impl Checker<'_> {
     ) {
         if let Some(first) = used.get(name) {
             self.report(
-                Fault::new(NAME_TWICE, place, format!("the name {name} is used twice"))
-                    .label("used again here")
-                    .related(first.clone(), "first used here")
-                    .help("inputs, constants, measurands and sources need different names"),
+                Fault::new(NAME_TWICE, place, say!("the name {name} is used twice"))
+                    .label(say!("used again here"))
+                    .related(first.clone(), say!("first used here"))
+                    .help(say!(
+                        "inputs, constants, measurands and sources need different names"
+                    )),
             );
         } else {
             used.insert(name.to_string(), place);
         }
     }
 
-    pub(super) fn check_name(&mut self, name: &str, place: &Range<usize>, kind: &str) {
+    pub(super) fn check_name(&mut self, name: &str, place: &Range<usize>, kind: &Said) {
         if !is_identifier(name) {
             self.names.hidden = true;
-            let article = if kind.starts_with(['a', 'e', 'i', 'o', 'u']) {
-                "an"
-            } else {
-                "a"
-            };
             self.report(
                 Fault::new(
                     BAD_NAME,
                     place.clone(),
-                    format!("\"{name}\" cannot be the name of {article} {kind}"),
+                    say!("\"{name}\" cannot be the name of {kind}"),
                 )
-                .label("a formula cannot name it")
-                .help(format!(
+                .label(say!("a formula cannot name it"))
+                .help(say!(
                     "write {}; the full words belong into `description`",
                     mended(name)
                 )),

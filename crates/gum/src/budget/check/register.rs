@@ -10,7 +10,7 @@ use crate::budget::tables::InputTable;
 use crate::budget::{Analysis, Component, Following, Follows, Input, Owner, Term};
 use gumption_core::distribution::{Distribution, StudentT};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
 
 /// One `[input.X]`.
@@ -234,12 +234,12 @@ pub(super) fn t_dof(distribution: &Distribution) -> Option<f64> {
 /// A name that is none of the inputs.
 pub(super) fn no_such_input(name: &Stated<String>, known: &[&str]) -> Fault {
     let help = match nearest(&name.value, known.iter().copied()) {
-        Some(near) => format!("did you mean \"{near}\"?"),
-        None => format!("inputs: {}", known.join(", ")),
+        Some(near) => say!("did you mean \"{near}\"?"),
+        None => say!("inputs: {}", known.join(", ")),
     };
-    let message = format!("there is no input \"{}\"", name.value);
+    let message = say!("there is no input \"{}\"", name.value);
     Fault::new(UNKNOWN_NAME, name.span.clone(), message)
-        .label("not declared")
+        .label(say!("not declared"))
         .help(help)
 }
 

@@ -11,7 +11,7 @@ use crate::budget::faults::{
 use crate::budget::open_files::{DEEPEST, Missing};
 use crate::budget::tables::{FromTable, InputTable};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, Said, nearest, say};
 use gumption_format::toml::Stated;
 use gumption_format::toml::faults::UNREADABLE_FILE;
 
@@ -84,14 +84,14 @@ impl Checker<'_> {
                     FROM,
                     from.span.clone(),
                     match budget {
-                        Some(_) => format!("{name} comes from two files"),
-                        None => format!("it is not said from which file {name} comes"),
+                        Some(_) => say!("{name} comes from two files"),
+                        None => say!("it is not said from which file {name} comes"),
                     },
                 );
                 return self.refuse(
                     fault
-                        .label("expected `budget` or `result`")
-                        .help("write from = { budget = \"other.toml\", measurand = \"Y\" }, or result = \"saved.json\" for a saved result"),
+                        .label(say!("expected `budget` or `result`"))
+                        .help(say!("write from = {{ budget = \"other.toml\", measurand = \"Y\" }}, or result = \"saved.json\" for a saved result")),
                 );
             }
         };
@@ -117,14 +117,15 @@ impl Checker<'_> {
                         Fault::new(
                             UNIT_CLASH,
                             text.span.clone(),
-                            format!(
+                            say!(
                                 "the result in {file} is in {}, {name} in {}",
-                                theirs.symbol, unit.symbol
+                                theirs.symbol,
+                                unit.symbol
                             ),
                         )
-                        .label("units do not fit")
-                        .related(from.span.clone(), format!("a result in {}", theirs.symbol))
-                        .help(format!(
+                        .label(say!("units do not fit"))
+                        .related(from.span.clone(), say!("a result in {}", theirs.symbol))
+                        .help(say!(
                             "write unit = \"{}\", or leave the unit out",
                             theirs.symbol
                         )),
@@ -150,13 +151,13 @@ impl Checker<'_> {
             Fault::new(
                 FROM,
                 place.clone(),
-                format!("{name} comes from another file, and `{key}` is stated beside it"),
+                say!("{name} comes from another file, and `{key}` is stated beside it"),
             )
-            .label("stated there already")
-            .related(from.key.clone(), "the other file")
-            .help(
-                "remove it; a further reason for doubt is an input of its own that the model adds",
-            ),
+            .label(say!("stated there already"))
+            .related(from.key.clone(), say!("the other file"))
+            .help(say!(
+                "remove it; a further reason for doubt is an input of its own that the model adds"
+            )),
         );
         false
     }
@@ -175,13 +176,10 @@ impl Checker<'_> {
                 Fault::new(
                     FROM,
                     file.span.clone(),
-                    format!("{} is no budget by its name", file.value),
+                    say!("{} is no budget by its name", file.value),
                 )
-                .label("expected a budget (*.toml)")
-                .help(format!(
-                    "for a saved result write result = \"{}\"",
-                    file.value
-                )),
+                .label(say!("expected a budget (*.toml)"))
+                .help(say!("for a saved result write result = \"{}\"", file.value)),
             );
         }
         let loaded = match self.source.origin.files.budget(&path) {
@@ -259,9 +257,16 @@ impl Checker<'_> {
             .row
             .as_ref()
             .map(|row| row.map(|row| row.0.clone()));
-        let row = self.one(file, from, "row", "row", row.as_ref(), &rows)?;
+        let row = self.one(file, from, "row", What::Row, row.as_ref(), &rows)?;
         let measurand = from.value.measurand.as_ref();
-        let measurand = self.one(file, from, "measurand", "measurand", measurand, &measurands)?;
+        let measurand = self.one(
+            file,
+            from,
+            "measurand",
+            What::Measurand,
+            measurand,
+            &measurands,
+        )?;
         candidates
             .iter()
             .position(|c| c.row == row.as_deref() && Some(c.measurand) == measurand.as_deref())
@@ -273,7 +278,7 @@ impl Checker<'_> {
         file: &str,
         from: &Stated<FromTable>,
         key: &str,
-        word: &str,
+        word: What,
         stated: Option<&Stated<String>>,
         names: &[String],
     ) -> Option<Option<String>> {
@@ -284,37 +289,37 @@ impl Checker<'_> {
             (Some(stated), _) => {
                 let wanted = &stated.value;
                 let message = match names {
-                    [] => format!("{file} has no series, and so no row \"{wanted}\""),
-                    _ => format!("{file} has no {word} {wanted}"),
+                    [] => say!("{file} has no series, and so no row \"{wanted}\""),
+                    _ => word.absent(file, wanted),
                 };
-                let fault = Fault::new(FROM_MEASURAND, stated.span.clone(), message)
-                    .label(format!("no such {word}"));
+                let fault =
+                    Fault::new(FROM_MEASURAND, stated.span.clone(), message).label(word.no_such());
                 let near = nearest(wanted, names.iter().map(String::as_str));
                 self.refuse(match (near, names) {
-                    (_, []) => fault.help("leave out `row`"),
-                    (Some(near), _) => fault.help(format!("did you mean \"{near}\"?")),
-                    (None, _) => fault.help(format!("it has: {}", shortened(names))),
+                    (_, []) => fault.help(say!("leave out `row`")),
+                    (Some(near), _) => fault.help(say!("did you mean \"{near}\"?")),
+                    (None, _) => fault.help(say!("it has: {}", shortened(names))),
                 })
             }
             (None, _) => self.refuse(
                 Fault::new(
                     FROM_MEASURAND,
                     from.span.clone(),
-                    format!("{file} has {} {word}s", names.len()),
+                    word.several(file, names.len()),
                 )
-                .label(format!("which {word}?"))
-                .help(format!("add {key} = \"…\", one of: {}", shortened(names))),
+                .label(word.which())
+                .help(say!("add {key} = \"…\", one of: {}", shortened(names))),
             ),
         }
     }
 
     fn missing<T>(&mut self, file: &Stated<String>, missing: Missing) -> Option<T> {
         let name = &file.value;
-        let fault = |code, message: String| Fault::new(code, file.span.clone(), message);
+        let fault = |code, message: Said| Fault::new(code, file.span.clone(), message);
         let fault = match missing {
-            Missing::Refused => fault(FROM_REFUSED, format!("{name} has faults itself"))
-                .label("cannot be used as it is")
-                .help("its faults are listed after those of this file"),
+            Missing::Refused => fault(FROM_REFUSED, say!("{name} has faults itself"))
+                .label(say!("cannot be used as it is"))
+                .help(say!("its faults are listed after those of this file")),
             Missing::Circle(files) => {
                 let names: Vec<String> = files
                     .iter()
@@ -323,54 +328,95 @@ impl Checker<'_> {
                     .collect();
                 let (message, label) = if names.len() == 2 {
                     (
-                        "a budget uses its own result".into(),
-                        "this file itself".into(),
+                        say!("a budget uses its own result"),
+                        say!("this file itself"),
                     )
                 } else {
-                    let circle = format!("a circle: {}", names.join(" uses "));
+                    let chain = names.iter().skip(1).fold(
+                        names.first().map(|first| say!("{first}")).unwrap_or_default(),
+                        |chain, next| say!("{chain} uses {next}"),
+                    );
+                    let circle = say!("a circle: {chain}");
                     (
-                        format!("{name} needs the result of this file itself"),
+                        say!("{name} needs the result of this file itself"),
                         circle,
                     )
                 };
                 fault(FROM_CIRCLE, message)
                     .label(label)
-                    .help("a result cannot depend on itself: put what both need into a third file")
+                    .help(say!("a result cannot depend on itself: put what both need into a third file"))
             }
             Missing::Deep => fault(
                 FROM_DEEP,
-                format!("more than {DEEPEST} budgets use one another, down to {name}"),
+                say!("more than {DEEPEST} budgets use one another, down to {name}"),
             )
-            .label("one too many")
-            .help("save the result of a budget in between with --save, and go on from it with `from = { result = … }`"),
+            .label(say!("one too many"))
+            .help(say!("save the result of a budget in between with --save, and go on from it with `from = {{ result = … }}`")),
             Missing::Unfit(_) if name.ends_with(".toml") => fault(
                 SAVED_RESULT,
-                format!("{name} is a budget, not a file of saved results"),
+                say!("{name} is a budget, not a file of saved results"),
             )
-            .label("expected a file that `gumption eval --save` wrote")
-            .help(format!("for another budget write budget = \"{name}\"")),
+            .label(say!("expected a file that `gumption eval --save` wrote"))
+            .help(say!("for another budget write budget = \"{name}\"")),
             Missing::Unfit(why) => fault(
                 SAVED_RESULT,
-                format!("{name} holds no saved results: {why}"),
+                say!("{name} holds no saved results: {why}"),
             )
-            .label("expected a file that `gumption eval --save` wrote")
-            .help(format!("write it with: gumption eval BUDGET --save {name}")),
-            Missing::Folder => fault(UNREADABLE_FILE, format!("{name} is a folder, not a file"))
-                .label("expected a file"),
+            .label(say!("expected a file that `gumption eval --save` wrote"))
+            .help(say!("write it with: gumption eval BUDGET --save {name}")),
+            Missing::Folder => fault(UNREADABLE_FILE, say!("{name} is a folder, not a file"))
+                .label(say!("expected a file")),
             Missing::Unreadable(error) => {
                 let message = match error.kind() {
                     ErrorKind::NotFound => {
-                        format!("there is no file {name} in {}", self.source.origin.folder())
+                        say!("there is no file {name} in {}", self.source.origin.folder())
                     }
-                    ErrorKind::PermissionDenied => format!("{name} may not be read"),
-                    _ => format!("{name} cannot be read: {error}"),
+                    ErrorKind::PermissionDenied => say!("{name} may not be read"),
+                    _ => say!("{name} cannot be read: {error}"),
                 };
                 fault(UNREADABLE_FILE, message)
-                    .label("expected a file")
-                    .help("the path starts from the folder of the budget")
+                    .label(say!("expected a file"))
+                    .help(say!("the path starts from the folder of the budget"))
             }
         };
         self.refuse(fault)
+    }
+}
+
+/// What is chosen in another file.
+#[derive(Clone, Copy)]
+enum What {
+    Row,
+    Measurand,
+}
+
+impl What {
+    fn absent(self, file: &str, wanted: &str) -> Said {
+        match self {
+            What::Row => say!("{file} has no row {wanted}"),
+            What::Measurand => say!("{file} has no measurand {wanted}"),
+        }
+    }
+
+    fn no_such(self) -> Said {
+        match self {
+            What::Row => say!("no such row"),
+            What::Measurand => say!("no such measurand"),
+        }
+    }
+
+    fn several(self, file: &str, count: usize) -> Said {
+        match self {
+            What::Row => say!("{file} has {count} rows"),
+            What::Measurand => say!("{file} has {count} measurands"),
+        }
+    }
+
+    fn which(self) -> Said {
+        match self {
+            What::Row => say!("which row?"),
+            What::Measurand => say!("which measurand?"),
+        }
     }
 }
 

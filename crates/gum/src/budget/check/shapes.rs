@@ -10,7 +10,7 @@ use crate::budget::tables::ComponentTable;
 use gumption_core::distribution::stating::{Bell, ParameterError, ParameterRule, Width, Word};
 use gumption_core::distribution::{Distribution, Entry, Normal, REGISTRY, Uniform};
 use gumption_core::special::student_t_two_sided_quantile;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 
 /// A width from the file, whose shape is still to be found.
 struct Unshaped<'a> {
@@ -29,11 +29,12 @@ impl Unshaped<'_> {
     }
 
     /// A parameter of the shape is missing.
-    fn lacks(&self, key: &str, meaning: &str) -> Fault {
-        let message = format!("the distribution of {} needs `{key}`", self.context.owner);
+    fn lacks(&self, key: &str, meaning: &'static str) -> Fault {
+        let meaning = Said::plain(meaning);
+        let message = say!("the distribution of {} needs `{key}`", self.context.owner);
         Fault::new(MISSING_KEY, self.place(), message)
-            .label(format!("`{key}` is missing"))
-            .help(format!("add `{key}`: {meaning}"))
+            .label(say!("`{key}` is missing"))
+            .help(say!("add `{key}`: {meaning}"))
     }
 }
 
@@ -82,19 +83,16 @@ impl Checker<'_> {
             Err(ParameterError::NotAllowed { key, value, must }) => {
                 let stated = unshaped.table.modifiers().find(|(name, _)| *name == key);
                 let place = stated.map_or(unshaped.place(), |(_, place)| place.span);
-                let message = format!("`{key}` of {} is {}", unshaped.context.owner, show(value));
-                let fault =
-                    Fault::new(DISTRIBUTION, place, message).label(format!("must be {must}"));
+                let message = say!("`{key}` of {} is {}", unshaped.context.owner, show(value));
+                let fault = Fault::new(DISTRIBUTION, place, message).label(say!("must be {must}"));
                 self.refuse(match shape.word {
-                    Word::LimitsAnd(rule) => fault.help(format!("`{key}`: {}", rule.meaning)),
+                    Word::LimitsAnd(rule) => {
+                        fault.help(say!("`{key}`: {}", Said::plain(rule.meaning)))
+                    }
                     _ => fault,
                 })
             }
-            Err(error) => self.refuse(Fault::new(
-                DISTRIBUTION,
-                unshaped.place(),
-                error.to_string(),
-            )),
+            Err(error) => self.refuse(Fault::new(DISTRIBUTION, unshaped.place(), error.said())),
         }
     }
 
@@ -130,10 +128,10 @@ impl Checker<'_> {
                 Fault::new(
                     MODIFIER,
                     place.key.clone(),
-                    format!("`{name}` is no parameter of a {word} distribution"),
+                    say!("`{name}` is no parameter of a {word} distribution"),
                 )
-                .label(format!("goes with distribution = \"{owner}\""))
-                .related(distribution, format!("{word} here")),
+                .label(say!("goes with distribution = \"{owner}\""))
+                .related(distribution, say!("{word} here")),
             );
         }
         if let Some(p) = table
@@ -145,10 +143,12 @@ impl Checker<'_> {
                 Fault::new(
                     MODIFIER,
                     p.key.clone(),
-                    format!("`p` does not go with a {word} distribution"),
+                    say!("`p` does not go with a {word} distribution"),
                 )
-                .label("its limits hold everything")
-                .help("write distribution = \"normal\" if the half-width is a coverage interval"),
+                .label(say!("its limits hold everything"))
+                .help(say!(
+                    "write distribution = \"normal\" if the half-width is a coverage interval"
+                )),
             );
         }
     }
@@ -157,11 +157,11 @@ impl Checker<'_> {
     fn bell(&mut self, unshaped: &Unshaped<'_>, bell: Option<Bell>, dof: f64) -> Option<Core> {
         let owner = unshaped.context.owner;
         if bell == Some(Bell::StudentT) && dof.is_infinite() {
-            let message = format!("the t distribution of {owner} has no degrees of freedom");
+            let message = say!("the t distribution of {owner} has no degrees of freedom");
             return self.refuse(
                 Fault::new(DOF, unshaped.place(), message)
-                    .label("`dof` is missing")
-                    .help("add `dof`, or write distribution = \"normal\""),
+                    .label(say!("`dof` is missing"))
+                    .help(say!("add `dof`, or write distribution = \"normal\"")),
             );
         }
         let (u, how) = match unshaped.width {
@@ -169,11 +169,13 @@ impl Checker<'_> {
             Width::Half(a) => {
                 let Some(p) = &unshaped.table.p else {
                     let message =
-                        format!("the normal half-width of {owner} has no coverage probability");
+                        say!("the normal half-width of {owner} has no coverage probability");
                     return self.refuse(
                         Fault::new(NO_COVERAGE_FACTOR, unshaped.place(), message)
-                            .label("`p` is missing")
-                            .help("add `p`, for example p = 0.95; a normal distribution has no limits"),
+                            .label(say!("`p` is missing"))
+                            .help(say!(
+                                "add `p`, for example p = 0.95; a normal distribution has no limits"
+                            )),
                     );
                 };
                 let p = self.probability(p)?;

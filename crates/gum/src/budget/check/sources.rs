@@ -9,7 +9,7 @@ use crate::budget::faults::{TWO_ESTIMATES, UNIT_CLASH, UNKNOWN_NAME, UNUSED, VEC
 use crate::budget::tables::SourceTable;
 use crate::budget::{Follows, Owner};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
 
 impl Checker<'_> {
@@ -75,9 +75,9 @@ impl Checker<'_> {
                     Fault::new(
                         VECTOR,
                         entry.place,
-                        format!("the source {name} refers to another source"),
+                        say!("the source {name} refers to another source"),
                     )
-                    .label("a source states its own uncertainty"),
+                    .label(say!("a source states its own uncertainty")),
                 );
             }
             let draft = self.draft(entry.table, entry.way, &context)?;
@@ -94,15 +94,15 @@ impl Checker<'_> {
                     Fault::new(
                         TWO_ESTIMATES,
                         entry.place,
-                        format!(
+                        say!(
                             "the source {name} has the expectation {}, not 0",
                             show(moved)
                         ),
                     )
-                    .label("a source is an error about zero")
-                    .help(
-                        "correct the inputs for the known part, and state limits about zero here",
-                    ),
+                    .label(say!("a source is an error about zero"))
+                    .help(say!(
+                        "correct the inputs for the known part, and state limits about zero here"
+                    )),
                 );
             }
             drafts.push(draft);
@@ -124,9 +124,9 @@ impl Checker<'_> {
                 .any(|source| source.name == *name && !source.used)
             {
                 self.report(
-                    Fault::new(UNUSED, stated.key.clone(), format!("no input refers to the source {name}"))
-                        .label("not used")
-                        .help(format!("add source = \"{name}\" to the components of the inputs that it acts on, or remove it")),
+                    Fault::new(UNUSED, stated.key.clone(), say!("no input refers to the source {name}"))
+                        .label(say!("not used"))
+                        .help(say!("add source = \"{name}\" to the components of the inputs that it acts on, or remove it")),
                 );
             }
         }
@@ -153,8 +153,8 @@ impl Checker<'_> {
             .find(|source| source.name == stated.value)
         else {
             let help = match nearest(&stated.value, names.iter().map(String::as_str)) {
-                Some(near) => format!("did you mean \"{near}\"?"),
-                None => format!(
+                Some(near) => say!("did you mean \"{near}\"?"),
+                None => say!(
                     "declare it: [source.{}]; where a number comes from is `reference`",
                     stated.value
                 ),
@@ -163,9 +163,9 @@ impl Checker<'_> {
                 Fault::new(
                     UNKNOWN_NAME,
                     stated.span.clone(),
-                    format!("there is no source \"{}\"", stated.value),
+                    say!("there is no source \"{}\"", stated.value),
                 )
-                .label("not declared")
+                .label(say!("not declared"))
                 .help(help),
             );
         };
@@ -232,15 +232,18 @@ impl Checker<'_> {
                 Fault::new(
                     UNIT_CLASH,
                     place,
-                    format!(
+                    say!(
                         "the source acts in {}, {} is in {}",
-                        unit.symbol, context.owner, target.symbol
+                        unit.symbol,
+                        context.owner,
+                        target.symbol
                     ),
                 )
-                .label("units do not fit")
-                .help(format!(
+                .label(say!("units do not fit"))
+                .help(say!(
                     "add the sensitivity: sensitivity = \"… ({})/({})\"",
-                    target.symbol, source.symbol
+                    target.symbol,
+                    source.symbol
                 )),
             ),
         }

@@ -4,7 +4,7 @@ use super::checker::Checker;
 use super::draft::Context;
 use crate::budget::faults::{MISSING_KEY, NOT_POSITIVE, UNIT};
 use crate::budget::tables::SpecificationTable;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
 
@@ -37,9 +37,9 @@ impl Checker<'_> {
                     Fault::new(
                         MISSING_KEY,
                         stated.span.clone(),
-                        format!("the specification has `{has}` and not `{lacks}`"),
+                        say!("the specification has `{has}` and not `{lacks}`"),
                     )
-                    .label(format!("`{lacks}` is missing")),
+                    .label(say!("`{lacks}` is missing")),
                 );
             }
         }
@@ -73,9 +73,9 @@ impl Checker<'_> {
             Fault::new(
                 NOT_POSITIVE,
                 stated.span.clone(),
-                format!("the specification of {} allows no deviation", context.owner),
+                say!("the specification of {} allows no deviation", context.owner),
             )
-            .label("all parts are zero"),
+            .label(say!("all parts are zero")),
         )
     }
 
@@ -92,12 +92,13 @@ impl Checker<'_> {
                 Fault::new(
                     UNIT,
                     amount.span.clone(),
-                    format!("`{key}` does not say whether it is a fraction or a percentage"),
+                    say!("`{key}` does not say whether it is a fraction or a percentage"),
                 )
-                .label("a unit is missing")
-                .help(format!(
+                .label(say!("a unit is missing"))
+                .help(say!(
                     "write {key} = \"{} %\" or \"{} ppm\"",
-                    amount.value.number, amount.value.number
+                    amount.value.number,
+                    amount.value.number
                 )),
             );
         }

@@ -10,7 +10,7 @@ use crate::budget::Loaded;
 use crate::budget::faults::FROM;
 use crate::budget::saved::SavedResults;
 use gumption_core::model::Model;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 /// What an input takes over.
 #[derive(Debug, Clone)]
@@ -31,11 +31,11 @@ impl Taken {
         Fault::new(
             FROM,
             name.span.clone(),
-            format!("{} is a result of {}, and no correlation of it can be stated", name.value, self.file),
+            say!("{} is a result of {}, and no correlation of it can be stated", name.value, self.file),
         )
-        .label("what it has in common with others follows from its components")
-        .related(self.place.clone(), "the other file")
-        .help("use a common budget or a common [source] in the other files; for a bare coefficient state the result as an input with `value` and `u`")
+        .label(say!("what it has in common with others follows from its components"))
+        .related(self.place.clone(), say!("the other file"))
+        .help(say!("use a common budget or a common [source] in the other files; for a bare coefficient state the result as an input with `value` and `u`"))
     }
 }
 

@@ -6,14 +6,15 @@ use super::checker::Checker;
 use super::draft::{Context, Core, Location, show};
 use crate::budget::faults::{
     MISSING_KEY, MODIFIER, NO_SCATTER, OUTLIER_TEST, PROBABILITY, SERIAL, TOO_FEW_READINGS,
-    TWO_WAYS,
+    TWO_TURNS, TWO_WAYS,
 };
 use crate::budget::tables::{ComponentTable, OutlierWord, PooledTable};
 use crate::budget::variants::{Numbers, ReadingsOf};
 use crate::budget::{Finding, Outlier, Statistics};
 use gumption_core::distribution::{Distribution, StudentT};
+use gumption_core::quantity::Decimal;
 use gumption_core::statistics::{Dd, OutlierTest, Series, pooled};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 /// Mean and sum of squared deviations, by two passes.
@@ -67,6 +68,9 @@ impl Checker<'_> {
         };
         let numbers = self.exact_numbers(readings, Some(context.unit))?;
         let plain: Vec<f64> = numbers.iter().map(|number| number.value()).collect();
+        if let Some(fault) = on_two_turns(readings, &plain, context) {
+            return self.refuse(fault);
+        }
         if let Some(pooled) = &table.pooled {
             let findings = match plain.len() > 1 && !all_equal(&plain) {
                 true => self.describe(&numbers, None, readings, table)?,
@@ -121,10 +125,12 @@ impl Checker<'_> {
                 Fault::new(
                     MODIFIER,
                     significance.key.clone(),
-                    "a level of significance without a test",
+                    say!("a level of significance without a test"),
                 )
-                .label("no meaning here")
-                .help("add outlier_test = \"grubbs\" or \"dixon\", or leave it out"),
+                .label(say!("no meaning here"))
+                .help(say!(
+                    "add outlier_test = \"grubbs\" or \"dixon\", or leave it out"
+                )),
             );
         }
         Some(findings)
@@ -148,18 +154,18 @@ impl Checker<'_> {
         let (n, word) = (numbers.len(), stated.value.word());
         if n < fewest || n > most {
             let range = match most {
-                usize::MAX => format!("{fewest} or more"),
-                _ => format!("{fewest} to {most}"),
+                usize::MAX => say!("{fewest} or more"),
+                _ => say!("{fewest} to {most}"),
             };
             return self.refuse(
                 Fault::new(
                     OUTLIER_TEST,
                     stated.span.clone(),
-                    format!("the test \"{word}\" is not for {n} readings"),
+                    say!("the test \"{word}\" is not for {n} readings"),
                 )
-                .label(format!("for {range} readings"))
-                .related(readings.key.clone(), format!("{n} readings"))
-                .help("\"grubbs\" is for any number of readings from 3 on"),
+                .label(say!("for {range} readings"))
+                .related(readings.key.clone(), say!("{n} readings"))
+                .help(say!("\"grubbs\" is for any number of readings from 3 on")),
             );
         }
         if let (false, Some(significance)) = (leveled, &table.significance) {
@@ -167,11 +173,11 @@ impl Checker<'_> {
                 Fault::new(
                     OUTLIER_TEST,
                     significance.key.clone(),
-                    format!("the test \"{word}\" has no level of significance"),
+                    say!("the test \"{word}\" has no level of significance"),
                 )
-                .label("no meaning here")
-                .related(stated.key.clone(), "the test")
-                .help("leave it out, or choose \"grubbs\" or \"dixon\""),
+                .label(say!("no meaning here"))
+                .related(stated.key.clone(), say!("the test"))
+                .help(say!("leave it out, or choose \"grubbs\" or \"dixon\"")),
             );
         }
         let significance = self.significance(table)?;
@@ -196,10 +202,10 @@ impl Checker<'_> {
             Fault::new(
                 PROBABILITY,
                 stated.span.clone(),
-                format!("a level of significance of {}", stated.value),
+                say!("a level of significance of {}", stated.value),
             )
-            .label("expected a number between 0 and 1")
-            .help("write 0.05 for 5 %"),
+            .label(say!("expected a number between 0 and 1"))
+            .help(say!("write 0.05 for 5 %")),
         )
     }
 
@@ -292,10 +298,12 @@ impl Checker<'_> {
                     Fault::new(
                         MODIFIER,
                         pooled.key.clone(),
-                        "it is not stated how many readings the value is the mean of",
+                        say!("it is not stated how many readings the value is the mean of"),
                     )
-                    .label("s of a single reading")
-                    .help("add the readings, `of = 3` for the mean of three, or `of = \"single\"`"),
+                    .label(say!("s of a single reading"))
+                    .help(say!(
+                        "add the readings, `of = 3` for the mean of three, or `of = \"single\"`"
+                    )),
                 );
             }
         };
@@ -328,9 +336,9 @@ impl Checker<'_> {
             }
             let missing = if pooled.value.s.is_none() { "s" } else { "dof" };
             return self.refuse(
-                Fault::new(MISSING_KEY, pooled.span.clone(), format!("the pooled standard deviation lacks `{missing}`"))
-                    .label(format!("`{missing}` is missing"))
-                    .help("write pooled = { s = …, dof = … }; dof is the sum of n - 1 over the earlier series"),
+                Fault::new(MISSING_KEY, pooled.span.clone(), say!("the pooled standard deviation lacks `{missing}`"))
+                    .label(say!("`{missing}` is missing"))
+                    .help(say!("write pooled = {{ s = …, dof = … }}; dof is the sum of n - 1 over the earlier series")),
             );
         };
         let s = self.positive_deviation(s, "s", context, false);
@@ -351,11 +359,14 @@ impl Checker<'_> {
                 Fault::new(
                     TWO_WAYS,
                     span.clone(),
-                    format!("the pooled standard deviation has readings and `{key}`"),
+                    say!("the pooled standard deviation has readings and `{key}`"),
                 )
-                .label("stated again here")
-                .related(stated.key.clone(), "s and ν follow from these readings")
-                .help(format!("leave out `{key}`, or the readings")),
+                .label(say!("stated again here"))
+                .related(
+                    stated.key.clone(),
+                    say!("s and ν follow from these readings"),
+                )
+                .help(say!("leave out `{key}`, or the readings")),
             );
         }
         let lists: Vec<Vec<Dd>> = stated
@@ -374,9 +385,11 @@ impl Checker<'_> {
                 Fault::new(
                     TOO_FEW_READINGS,
                     stated.span.clone(),
-                    format!("the earlier readings of {} do not scatter", context.owner),
+                    say!("the earlier readings of {} do not scatter", context.owner),
                 )
-                .label("at least one series of two different readings is needed"),
+                .label(say!(
+                    "at least one series of two different readings is needed"
+                )),
             );
         }
         Some((s, dof))
@@ -400,10 +413,10 @@ impl Checker<'_> {
                 Fault::new(
                     MODIFIER,
                     place,
-                    "serial correlation changes the uncertainty of a mean only",
+                    say!("serial correlation changes the uncertainty of a mean only"),
                 )
-                .label("not the mean of the readings")
-                .help("leave out `autocorrelated`"),
+                .label(say!("not the mean of the readings"))
+                .help(say!("leave out `autocorrelated`")),
             );
         }
         if numbers.len() < FEWEST_FOR_SERIAL {
@@ -411,12 +424,12 @@ impl Checker<'_> {
                 Fault::new(
                     SERIAL,
                     readings.span.clone(),
-                    format!(
+                    say!(
                         "{} readings are too few to estimate their serial correlation",
                         numbers.len()
                     ),
                 )
-                .label(format!("at least {FEWEST_FOR_SERIAL} are needed")),
+                .label(say!("at least {FEWEST_FOR_SERIAL} are needed")),
             );
         }
         let n = numbers.len() as f64;
@@ -428,13 +441,13 @@ impl Checker<'_> {
                 Fault::new(
                     SERIAL,
                     readings.span.clone(),
-                    format!(
+                    say!(
                         "the {n} readings are worth only {} independent ones",
                         show(effective)
                     ),
                 )
-                .label("they drift")
-                .help("model the drift, or take readings over a longer time"),
+                .label(say!("they drift"))
+                .help(say!("model the drift, or take readings over a longer time")),
             );
         }
         // E Σ(x − x̄)² = σ²(n − factor), because the mean takes up factor/n of the variance.
@@ -473,17 +486,53 @@ fn too_few(readings: &Stated<Numbers>, count: usize, context: &Context<'_>) -> F
     Fault::new(
         TOO_FEW_READINGS,
         readings.span.clone(),
-        format!("{} has {count} reading{plural}", context.owner),
+        say!("{} has {count} reading{plural}", context.owner),
     )
-    .label("at least two are needed for a standard deviation")
-    .help("with a single reading, add pooled = { s = …, dof = … } from earlier work")
+    .label(say!("at least two are needed for a standard deviation"))
+    .help(say!(
+        "with a single reading, add pooled = {{ s = …, dof = … }} from earlier work"
+    ))
 }
 
 fn no_scatter(readings: &Stated<Numbers>, numbers: &[f64], context: &Context<'_>) -> Fault {
     let value = numbers.first().copied().unwrap_or_default();
-    Fault::new(NO_SCATTER, readings.span.clone(), format!("all {} readings of {} are {value}", numbers.len(), context.owner))
-        .label("no scatter, so no uncertainty follows from them")
-        .help("the scatter is below the resolution: state `value` and the resolution, { step = … }, or add the resolution to `components`")
+    Fault::new(NO_SCATTER, readings.span.clone(), say!("all {} readings of {} are {value}", numbers.len(), context.owner))
+        .label(say!("no scatter, so no uncertainty follows from them"))
+        .help(say!("the scatter is below the resolution: state `value` and the resolution, {{ step = … }}, or add the resolution to `components`"))
+}
+
+/// Directions that lie within half a turn of one another, written on two turns: their arithmetic mean points elsewhere.
+fn on_two_turns(readings: &Stated<Numbers>, plain: &[f64], context: &Context<'_>) -> Option<Fault> {
+    let turn = context.unit.full_turn()?;
+    let first = *plain.first()?;
+    let spread = |angles: &[f64]| {
+        let low = angles.iter().copied().fold(f64::INFINITY, f64::min);
+        angles.iter().copied().fold(f64::NEG_INFINITY, f64::max) - low
+    };
+    let beside = |angle: f64| angle - turn * ((angle - first) / turn).round();
+    let unwrapped: Vec<f64> = plain.iter().map(|angle| beside(*angle)).collect();
+    if spread(plain) <= turn / 2.0 || spread(&unwrapped) > turn / 2.0 {
+        return None;
+    }
+    let other = plain
+        .iter()
+        .copied()
+        .find(|angle| (angle - first).abs() > turn / 2.0)?;
+    let unit = &context.unit.symbol;
+    Some(
+        Fault::new(
+            TWO_TURNS,
+            readings.span.clone(),
+            say!("the readings of {} lie on both sides of the end of a turn: {first} {unit} and {other} {unit}", context.owner),
+        )
+        .label(say!("their arithmetic mean is another direction"))
+        .help(say!("write all of them on one turn: {} in place of {other}", Decimal::from_f64(at_twelve(beside(other))))),
+    )
+}
+
+/// Twelve digits: what the subtraction of a turn leaves behind them is not the file's.
+fn at_twelve(x: f64) -> f64 {
+    format!("{x:.11e}").parse().unwrap_or(x)
 }
 
 /// Zero-mean t distribution of a mean of readings, for reuse by joint readings.

@@ -9,7 +9,7 @@ use crate::budget::tables::ComponentTable;
 use crate::budget::variants::Amounts;
 use gumption_core::distribution::stating::Width;
 use gumption_core::distribution::{Entry, Normal, Uniform};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
 use gumption_format::toml::faults::WRONG_TYPE;
@@ -87,14 +87,14 @@ impl Checker<'_> {
             // The column was read already, and refused.
             Amounts::Column(table) if table.refused => None,
             Amounts::Column(_) => self.refuse(
-                Fault::new(VECTOR, stated.span.clone(), format!("`{key}` of {} is a column of a CSV file", context.owner))
-                    .label("expected one amount")
-                    .help("a column states the uncertainties of the data of a fit, or of the elements of a vector"),
+                Fault::new(VECTOR, stated.span.clone(), say!("`{key}` of {} is a column of a CSV file", context.owner))
+                    .label(say!("expected one amount"))
+                    .help(say!("a column states the uncertainties of the data of a fit, or of the elements of a vector")),
             ),
             Amounts::Each(_) => self.refuse(
-                Fault::new(VECTOR, stated.span.clone(), format!("`{key}` of {} is a list, but {} is a single quantity", context.owner, context.owner))
-                    .label("expected one amount")
-                    .help("several reasons for doubt are `components = [{ … }, { … }]`; the elements of a vector are `values = […]`"),
+                Fault::new(VECTOR, stated.span.clone(), say!("`{key}` of {} is a list, but {} is a single quantity", context.owner, context.owner))
+                    .label(say!("expected one amount"))
+                    .help(say!("several reasons for doubt are `components = [{{ … }}, {{ … }}]`; the elements of a vector are `values = […]`")),
             ),
         }
     }
@@ -107,13 +107,13 @@ impl Checker<'_> {
                 Fault::new(
                     LIMITS,
                     stated.span.clone(),
-                    format!("the limits of {} are {lower} and {upper}", context.owner),
+                    say!("the limits of {} are {lower} and {upper}", context.owner),
                 )
-                .label("expected the lower limit first")
+                .label(say!("expected the lower limit first"))
                 .help(if lower > upper {
-                    format!("write [{upper}, {lower}]")
+                    say!("write [{upper}, {lower}]")
                 } else {
-                    "between equal limits there is no doubt: state different ones".to_string()
+                    say!("between equal limits there is no doubt: state different ones")
                 }),
             );
         }
@@ -145,9 +145,9 @@ impl Checker<'_> {
                 Fault::new(
                     WRONG_TYPE,
                     stated.span.clone(),
-                    format!("`{key}` has {} entries", stated.value.len()),
+                    say!("`{key}` has {} entries", stated.value.len()),
                 )
-                .label("expected the lower and the upper one"),
+                .label(say!("expected the lower and the upper one")),
             );
         };
         let first = self.quantity(first, context.unit, context.owner);
@@ -175,10 +175,12 @@ impl Checker<'_> {
                 Fault::new(
                     MISSING_KEY,
                     place,
-                    format!("{} lacks `{missing}`", context.owner),
+                    say!("{} lacks `{missing}`", context.owner),
                 )
-                .label(format!("`{missing}` is missing"))
-                .help("asymmetric limits need both; for symmetric ones write `half_width`"),
+                .label(say!("`{missing}` is missing"))
+                .help(say!(
+                    "asymmetric limits need both; for symmetric ones write `half_width`"
+                )),
             );
         };
         let plus = self.positive_deviation(plus, "plus", context, relative);
@@ -211,10 +213,12 @@ impl Checker<'_> {
                 Fault::new(
                     MISSING_KEY,
                     place,
-                    format!("the quantiser of {} has no range", context.owner),
+                    say!("the quantiser of {} has no range", context.owner),
                 )
-                .label("`range` is missing")
-                .help("add the ends of its range: range = [0, 10] or range = [-5, 5]"),
+                .label(say!("`range` is missing"))
+                .help(say!(
+                    "add the ends of its range: range = [0, 10] or range = [-5, 5]"
+                )),
             );
         };
         let [lower, upper] = self.two(range, "range", context)?;
@@ -223,9 +227,9 @@ impl Checker<'_> {
                 Fault::new(
                     LIMITS,
                     range.span.clone(),
-                    format!("the range is {lower} to {upper}"),
+                    say!("the range is {lower} to {upper}"),
                 )
-                .label("lower end first"),
+                .label(say!("lower end first")),
             );
         }
         if !(1..=64).contains(&bits.value) {
@@ -233,9 +237,9 @@ impl Checker<'_> {
                 Fault::new(
                     NOT_POSITIVE,
                     bits.span.clone(),
-                    format!("a quantiser of {} bits", bits.value),
+                    say!("a quantiser of {} bits", bits.value),
                 )
-                .label("expected 1 to 64"),
+                .label(say!("expected 1 to 64")),
             );
         }
         let step = (upper - lower) / libm::pow(2f64, bits.value as f64);

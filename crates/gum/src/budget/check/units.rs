@@ -1,7 +1,7 @@
 //! `[unit]`: units of the file's own.
 
 use gumption_core::quantity::{DefinitionError, UnitTable};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::{Stated, StringMap};
 
 /// The units of the program and of the file, and what is wrong with their definitions in `text`.
@@ -31,7 +31,7 @@ pub(in crate::budget) fn defined(
             _ if !in_circle => faults.push(fault),
             None => circle = Some(fault),
             Some(first) => {
-                let label = format!("`{name}` waits for another one, too");
+                let label = say!("`{name}` waits for another one, too");
                 first.related.push((fault.span, label));
             }
         }

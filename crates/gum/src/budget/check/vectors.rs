@@ -11,7 +11,7 @@ use crate::budget::tables::{ComponentTable, InputTable};
 use crate::budget::variants::{Amounts, Numbers};
 use gumption_core::quantity::Unit;
 use gumption_core::statistics::Series;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 /// Elements of a vector. More of them would keep the Monte Carlo method busy for hours.
@@ -60,11 +60,11 @@ impl Checker<'_> {
                 Fault::new(
                     VECTOR,
                     values.key.clone(),
-                    format!("{name} has `value` and `values`"),
+                    say!("{name} has `value` and `values`"),
                 )
-                .label("values of a vector")
-                .related(value.key.clone(), "value of a scalar")
-                .help("leave out one"),
+                .label(say!("values of a vector"))
+                .related(value.key.clone(), say!("value of a scalar"))
+                .help(say!("leave out one")),
             );
         }
         if values.is_empty() {
@@ -73,7 +73,8 @@ impl Checker<'_> {
                 .as_ref()
                 .map_or(stated.span.clone(), |values| values.span.clone());
             return self.refuse(
-                Fault::new(VECTOR, place, format!("{name} has no values")).label("an empty vector"),
+                Fault::new(VECTOR, place, say!("{name} has no values"))
+                    .label(say!("an empty vector")),
             );
         }
         if values.len() > MOST_ELEMENTS {
@@ -82,9 +83,9 @@ impl Checker<'_> {
                 .as_ref()
                 .map_or(stated.span.clone(), |values| values.key.clone());
             return self.refuse(
-                Fault::new(VECTOR, place, format!("{name} has {} values", values.len()))
-                    .label(format!("expected {MOST_ELEMENTS} at most"))
-                    .help("each element is an input of its own; repeated readings of one quantity are `readings`"),
+                Fault::new(VECTOR, place, say!("{name} has {} values", values.len()))
+                    .label(say!("expected {MOST_ELEMENTS} at most"))
+                    .help(say!("each element is an input of its own; repeated readings of one quantity are `readings`")),
             );
         }
         let list = self.entries_of(name, stated, unit, register)?;
@@ -212,10 +213,10 @@ impl Checker<'_> {
             None => self.draft_following(entry.table, entry.way, &context)?,
         };
         if !matches!(draft.location, Location::None | Location::Mean(_)) {
-            let message = format!("this component would move the elements of {}", vector.name);
+            let message = say!("this component would move the elements of {}", vector.name);
             return self.refuse(
                 Fault::new(VECTOR, entry.place.clone(), message)
-                    .label("only symmetric deviations for a vector"),
+                    .label(say!("only symmetric deviations for a vector")),
             );
         }
         self.other_mean(vector.name, element, vector.values[element], &draft);
@@ -339,10 +340,10 @@ impl Checker<'_> {
                     Fault::new(
                         VECTOR,
                         span,
-                        format!("`{key}` has {entries} entries, {name} has {length} values"),
+                        say!("`{key}` has {entries} entries, {name} has {length} values"),
                     )
-                    .label(format!("expected {length} entries"))
-                    .help("state one for each element, or a single one for all"),
+                    .label(say!("expected {length} entries"))
+                    .help(say!("state one for each element, or a single one for all")),
                 );
             }
         }
@@ -382,10 +383,10 @@ fn states_one_estimate(entry: &Entry<'_>) -> bool {
 }
 
 fn one_estimate(name: &str, entry: &Entry<'_>) -> Fault {
-    let message = format!("this component would state one estimate for all elements of {name}");
+    let message = say!("this component would state one estimate for all elements of {name}");
     Fault::new(VECTOR, entry.place.clone(), message)
-        .label("not for a vector")
-        .help("state a deviation (`u`, `half_width`, `step` …), or readings for each element: readings = [[…], […]]")
+        .label(say!("not for a vector"))
+        .help(say!("state a deviation (`u`, `half_width`, `step` …), or readings for each element: readings = [[…], […]]"))
 }
 
 /// The component as it stands for one element, if it lists an amount for each.

@@ -9,7 +9,7 @@ use crate::budget::faults::{MISSING_KEY, MODIFIER, NO_DOUBT, TWO_WAYS};
 use crate::budget::tables::{CertificateTable, ComponentTable};
 use crate::budget::{Certificate, Evaluation, Follows};
 use gumption_core::distribution::Distribution as Shape;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 
 /// Declares the ways in which a component can state its uncertainty: the key that states it, what the component is called
 /// in the budget table where the file gives it no name, whether the way determines the estimate by itself, and which other
@@ -81,59 +81,75 @@ use Way::{
 };
 
 /// Keys that go with some ways only, and what to say where they stand with others.
-const MODIFIERS: [(&str, &str); 20] = [
-    ("prior", "`prior` goes with `count` or `successes`"),
-    ("range", "`range` goes with `bits`"),
-    ("trials", "`trials` goes with `successes`"),
-    ("beta", "`beta` goes with distribution = \"trapezoidal\""),
+static MODIFIERS: [(&str, Said); 20] = [
+    ("prior", say!("`prior` goes with `count` or `successes`")),
+    ("range", say!("`range` goes with `bits`")),
+    ("trials", say!("`trials` goes with `successes`")),
+    (
+        "beta",
+        say!("`beta` goes with distribution = \"trapezoidal\""),
+    ),
     (
         "d",
-        "`d` goes with distribution = \"curvilinear-trapezoid\"",
+        say!("`d` goes with distribution = \"curvilinear-trapezoid\""),
     ),
     (
         "p",
-        "`p` goes with a normal `half_width`; inside a certificate write certificate = { U = …, p = … }",
+        say!(
+            "`p` goes with a normal `half_width`; inside a certificate write certificate = {{ U = …, p = … }}"
+        ),
     ),
     (
         "distribution",
-        "the distribution follows from the way the uncertainty is stated",
+        say!("the distribution follows from the way the uncertainty is stated"),
     ),
     (
         "dof",
-        "the degrees of freedom follow from the way the uncertainty is stated",
+        say!("the degrees of freedom follow from the way the uncertainty is stated"),
     ),
     (
         "reliability",
-        "the degrees of freedom follow from the way the uncertainty is stated",
+        say!("the degrees of freedom follow from the way the uncertainty is stated"),
     ),
     (
         "relative",
-        "`relative` goes with `u`, `half_width`, `plus` and `minus`, `certificate` or `source`",
+        say!(
+            "`relative` goes with `u`, `half_width`, `plus` and `minus`, `certificate` or `source`"
+        ),
     ),
     (
         "of",
-        "`of` goes with `readings`, `groups`, `pooled` or `residual_of`",
+        say!("`of` goes with `readings`, `groups`, `pooled` or `residual_of`"),
     ),
     (
         "pooled",
-        "`pooled` takes the place of the scatter of `readings`",
+        say!("`pooled` takes the place of the scatter of `readings`"),
     ),
-    ("autocorrelated", "`autocorrelated` goes with `readings`"),
-    ("between", "`between` goes with `groups` or `group_summary`"),
+    (
+        "autocorrelated",
+        say!("`autocorrelated` goes with `readings`"),
+    ),
+    (
+        "between",
+        say!("`between` goes with `groups` or `group_summary`"),
+    ),
     (
         "significance",
-        "`significance` goes with `groups`, or with `readings` and their `outlier_test`",
+        say!("`significance` goes with `groups`, or with `readings` and their `outlier_test`"),
     ),
-    ("outlier_test", "`outlier_test` goes with `readings`"),
+    ("outlier_test", say!("`outlier_test` goes with `readings`")),
     (
         "type",
-        "the type follows from the way the uncertainty is stated",
+        say!("the type follows from the way the uncertainty is stated"),
     ),
-    ("sensitivity", "`sensitivity` goes with `source`"),
-    ("gum_u", "`gum_u` goes with a distribution of known shape"),
+    ("sensitivity", say!("`sensitivity` goes with `source`")),
+    (
+        "gum_u",
+        say!("`gum_u` goes with a distribution of known shape"),
+    ),
     (
         "common",
-        "the component cannot be shared by the elements of a vector",
+        say!("the component cannot be shared by the elements of a vector"),
     ),
 ];
 
@@ -180,23 +196,23 @@ impl Checker<'_> {
                     Fault::new(
                         MISSING_KEY,
                         place,
-                        format!("the certificate of {} states no uncertainty", context.owner),
+                        say!("the certificate of {} states no uncertainty", context.owner),
                     )
-                    .label("`U` is missing")
-                    .help("add U and k: certificate = { U = …, k = 2 }"),
+                    .label(say!("`U` is missing"))
+                    .help(say!("add U and k: certificate = {{ U = …, k = 2 }}")),
                 )
             }
             [] => self.refuse(
                 Fault::new(
                     NO_DOUBT,
                     context.place.clone(),
-                    format!("{} has no uncertainty", context.owner),
+                    say!("{} has no uncertainty", context.owner),
                 )
-                .label("nothing here states an uncertainty")
-                .help(
+                .label(say!("nothing here states an uncertainty"))
+                .help(say!(
                     "state it by `u`, `half_width`, `certificate`, `readings`, `step` …; \
-                         a number that is exact belongs into [constant]",
-                ),
+                         a number that is exact belongs into [constant]"
+                )),
             ),
             [(_, _, first), (_, _, second), more @ ..] => {
                 let keys: Vec<String> = ways.iter().map(|(_, key, _)| format!("`{key}`")).collect();
@@ -204,21 +220,21 @@ impl Checker<'_> {
                     .iter()
                     .map(|(_, key, _)| format!("{{ {key} = … }}"))
                     .collect();
-                let message = format!(
+                let message = say!(
                     "the uncertainty of {} is stated in {} ways, {}",
                     context.owner,
                     keys.len(),
                     keys.join(" and "),
                 );
                 let mut fault = Fault::new(TWO_WAYS, second.clone(), message)
-                    .label("stated again here")
-                    .related(first.clone(), "first stated here")
-                    .help(format!(
+                    .label(say!("stated again here"))
+                    .related(first.clone(), say!("first stated here"))
+                    .help(say!(
                         "keep one; where they are different reasons for doubt, make each an entry: components = [{}]",
                         entries.join(", ")
                     ));
                 for (_, _, span) in more {
-                    fault = fault.related(span.clone(), "and here");
+                    fault = fault.related(span.clone(), say!("and here"));
                 }
                 self.refuse(fault)
             }
@@ -242,11 +258,11 @@ impl Checker<'_> {
                     Fault::new(
                         MODIFIER,
                         span.clone(),
-                        format!("`{key}` does not go with `{way_key}`"),
+                        say!("`{key}` does not go with `{way_key}`"),
                     )
-                    .label("no meaning here")
-                    .related(way_span.clone(), "the uncertainty is stated here")
-                    .help(*help),
+                    .label(say!("no meaning here"))
+                    .related(way_span.clone(), say!("the uncertainty is stated here"))
+                    .help(help.clone()),
                 );
             }
         }

@@ -1,5 +1,6 @@
 //! `[constant.NAME]`.
 
+use gumption_fault::{Said, say};
 use serde_json::{Value, json};
 use toml::de::DeValue;
 
@@ -27,8 +28,8 @@ table! {
 pub struct ConstantEntry(pub ConstantTable);
 
 impl FromToml for ConstantEntry {
-    fn expected() -> String {
-        "a number, an amount or a table".into()
+    fn expected() -> Said {
+        say!("a number, an amount or a table")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {

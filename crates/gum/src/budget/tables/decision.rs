@@ -30,6 +30,14 @@ table! {
         conformance_probability: f64,
         /// Guarded rejection: least probability that a rejected item does not conform.
         nonconformance_probability: f64,
+        /// In place of `conformance_probability`: largest specific consumer's risk, its complement.
+        specific_consumer_risk: f64,
+        /// In place of `nonconformance_probability`: largest specific producer's risk, its complement.
+        specific_producer_risk: f64,
+        /// Largest global consumer's risk R_C: that an item of the process does not conform and is accepted.
+        global_consumer_risk: f64,
+        /// Largest global producer's risk R_P: that an item of the process conforms and is rejected.
+        global_producer_risk: f64,
         /// Acceptance limits: one for every tolerance limit.
         acceptance: List<Amount>,
         /// What is known of the items before one is measured.

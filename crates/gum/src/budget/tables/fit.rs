@@ -1,5 +1,7 @@
 //! Curves fitted to data.
 
+use gumption_fault::{Said, say};
+
 use super::component::ComponentTable;
 use super::list::List;
 use crate::budget::variants::Numbers;
@@ -82,8 +84,8 @@ words! {
 pub struct FitParameters(pub Named<FitParameterTable>);
 
 impl FromToml for FitParameters {
-    fn expected() -> String {
-        "tables of parameters, or a list of their names".into()
+    fn expected() -> Said {
+        say!("tables of parameters, or a list of their names")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
@@ -100,7 +102,7 @@ impl FromToml for FitParameters {
                     refused: false,
                 }))
             }
-            _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+            _ => reader.wrong_type(WRONG_TYPE, value, Self::expected()),
         }
     }
 

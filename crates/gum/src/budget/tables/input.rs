@@ -3,7 +3,7 @@
 use super::component::ComponentTable;
 use super::list::List;
 use crate::budget::variants::RowLabel;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::faults::WRONG_TYPE;
 use gumption_format::toml::{Amount, FromToml, KeyRow, Named, Raw, Reader, table};
 use serde_json::Value;
@@ -62,15 +62,23 @@ table! {
 pub struct Sources(pub Named<SourceTable>);
 
 impl FromToml for Sources {
-    fn expected() -> String {
-        "tables [source.NAME]".into()
+    fn expected() -> Said {
+        say!("tables [source.NAME]")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         if matches!(value.get_ref(), DeValue::String(_)) {
-            let fault = Fault::new(WRONG_TYPE, value.span(), "`source` is not a text here")
-                .label("expected tables [source.NAME], the causes that several inputs share")
-                .help("to say where the figures come from, write reference = \"…\"");
+            let fault = Fault::new(
+                WRONG_TYPE,
+                value.span(),
+                say!("`source` is not a text here"),
+            )
+            .label(say!(
+                "expected tables [source.NAME], the causes that several inputs share"
+            ))
+            .help(say!(
+                "to say where the figures come from, write reference = \"…\""
+            ));
             return reader.refuse(fault);
         }
         Named::read(value, reader).map(Sources)

@@ -144,13 +144,13 @@ pub(super) enum Verdict {
 impl Verdict {
     /// Judges one output from what is known beforehand and from its trials.
     pub(super) fn new(known: Option<&HeavyComponent>, tail: &Tail) -> Verdict {
-        if let Some(cause) = known.filter(|cause| !cause.has_mean()) {
+        if let Some(cause) = known.filter(|cause| !cause.leaves(1.0)) {
             return Verdict::NoMean(cause.reason());
         }
         if !tail.settles(1.0) {
             return Verdict::NoMean(tail.reason());
         }
-        if let Some(cause) = known {
+        if let Some(cause) = known.filter(|cause| !cause.leaves(2.0)) {
             return Verdict::NoDeviation(cause.reason());
         }
         if tail.settles(2.0) {
@@ -323,7 +323,7 @@ mod tests {
             index: 9.0,
             at_most: 9.0,
         };
-        let component = |dof| HeavyComponent::new("V.readings", dof);
+        let component = |dof| HeavyComponent::new("V.readings", dof, 1.0);
         let two = Verdict::new(Some(&component(2.0)), &tail);
         assert!(
             matches!(&two, Verdict::NoDeviation(MissingMoments::HeavyComponent { name, .. }) if name == "V.readings"),

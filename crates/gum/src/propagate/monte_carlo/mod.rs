@@ -15,7 +15,7 @@
 //! | [`moments`] | mean, standard deviation, skewness, kurtosis |
 //! | [`interval`] | median, symmetric and shortest coverage interval |
 //! | [`existence`] | whether the moments exist at all, judged from the trials |
-//! | [`heavy_components`] | components that are known to leave the output without moments |
+//! | [`heavy_components`] | components of few degrees of freedom that leave the output without moments |
 //! | [`draws`] | the values of trials themselves |
 //! | [`fractions`] | fractions of the trials between given limits |
 //! | [`adaptive`] | how many trials |
@@ -93,7 +93,7 @@ pub(super) fn run(
         settings,
         p: budget.conventions.coverage_probability,
         pivots: gum.iter().map(|g| Pivot::new(g.estimate, g.u)).collect(),
-        heavy: heavy_components::heavy_components(budget),
+        heavy: heavy_components::heavy_components(budget, settings.trials.most()),
         threads: workers.threads,
     };
     let mut outcome = question
@@ -290,18 +290,17 @@ impl Question<'_> {
         let (has_mean, has_deviation) = (verdict.has_mean(), verdict.has_deviation());
         let symmetric = order.symmetric(ranks);
         let given = |given: bool, value: f64| given.then_some(value);
+        let exists = |order: f64| {
+            has_deviation && tail.exists(order) && heavy.is_none_or(|heavy| heavy.leaves(order))
+        };
         let result = MonteCarlo {
             estimate: given(has_mean, moments.mean()),
             u: given(has_deviation, moments.sd()),
             median: order.median(),
             symmetric,
             shortest: order.shortest(ranks),
-            skewness: moments
-                .skewness()
-                .filter(|_| has_deviation && tail.exists(3.0)),
-            excess_kurtosis: moments
-                .excess_kurtosis()
-                .filter(|_| has_deviation && tail.exists(4.0)),
+            skewness: moments.skewness().filter(|_| exists(3.0)),
+            excess_kurtosis: moments.excess_kurtosis().filter(|_| exists(4.0)),
             standard_errors: [
                 given(has_deviation, moments.mean_error()).unwrap_or(f64::NAN),
                 given(has_deviation, moments.sd_error()).unwrap_or(f64::NAN),

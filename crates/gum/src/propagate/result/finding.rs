@@ -3,7 +3,7 @@
 use gumption_format::document::Severity;
 
 use super::monte_carlo::MissingMoments;
-use crate::budget::LackOfFit;
+use crate::budget::{FitDoubt, LackOfFit};
 use gumption_core::model::Notice;
 
 /// Something the reader must know before using the numbers.
@@ -148,6 +148,13 @@ pub enum FindingKind {
         /// The test.
         test: LackOfFit,
     },
+    /// Something else speaks against the curve of a fit.
+    DoubtfulFit {
+        /// Name of the fit.
+        fit: String,
+        /// What.
+        doubt: FitDoubt,
+    },
     /// The residuals of a fit are smaller than the stated uncertainties of its data let expect.
     ResidualsTooSmall {
         /// Name of the fit.
@@ -171,6 +178,8 @@ pub struct FewReadings {
     pub component: String,
     /// ν of the t-distribution from which Monte Carlo draws it.
     pub dof: f64,
+    /// Its part of u², GUM; the parts of all components are one.
+    pub share: f64,
 }
 
 impl FindingKind {

@@ -80,13 +80,15 @@ pub struct AdaptiveRun {
 /// Why the mean or the standard deviation of an output is not given.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub enum MissingMoments {
-    /// The output depends linearly on a component with a t distribution that has no standard
-    /// deviation (ν ≤ 2) or not even a mean (ν ≤ 1).
+    /// As far as the trials reach, the output grows like a power of a component whose t distribution has moments of
+    /// order below ν only: no standard deviation for ν ≤ 2·power, no mean for ν ≤ power.
     HeavyComponent {
         /// Its name.
         name: String,
         /// Its ν.
         dof: f64,
+        /// Like which power of the component the output grows; one in sums, products and quotients.
+        power: f64,
     },
     /// Simultaneous readings: the means are multivariate t with ν = n − N ≤ 2 (JCGM 102 5.3.2).
     JointReadings {

@@ -7,7 +7,7 @@ use crate::experiment::checker::Checker;
 use crate::experiment::entries::RowsEntry;
 use crate::experiment::tables::{ActionTable, ExperimentTable, OrderWord};
 use crate::recording::Labels;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 use gumption_format::toml::{Cell, Named, OneOrMany};
 
@@ -41,8 +41,9 @@ impl Checker<'_> {
             .as_ref()
             .filter(|cost| cost.value.is_nan() || cost.value <= 0.0)
         {
-            let fault = Fault::new(SETTING, cost.span.clone(), "a cost is positive");
-            self.faults.push(fault.label("expected a positive number"));
+            let fault = Fault::new(SETTING, cost.span.clone(), say!("a cost is positive"));
+            self.faults
+                .push(fault.label(say!("expected a positive number")));
         }
         let again = table.again.is_some() || table.order.is_some();
         let (Some(name), true) = (&table.name, table.rows.is_some() != again) else {
@@ -51,10 +52,10 @@ impl Checker<'_> {
                     Fault::new(
                         MISSING,
                         stated.span.clone(),
-                        "a further measurement has a `name` and one of `rows` and `again`",
+                        say!("a further measurement has a `name` and one of `rows` and `again`"),
                     )
-                    .label("expected both")
-                    .help("rows = \"more.csv\", rows = { x = [1, 2, 3] }, or again = { mount = 90 } for the rows of the recording once more"),
+                    .label(say!("expected both"))
+                    .help(say!("rows = \"more.csv\", rows = {{ x = [1, 2, 3] }}, or again = {{ mount = 90 }} for the rows of the recording once more")),
                 );
             }
             return None;
@@ -97,10 +98,10 @@ impl Checker<'_> {
             };
             let cells = &list.value.0;
             if cells.len() != 1 && cells.len() != count {
-                let message = format!("{name} has {} values, others {count}", cells.len());
+                let message = say!("{name} has {} values, others {count}", cells.len());
                 let fault = Fault::new(ROWS, list.span.clone(), message);
                 self.faults
-                    .push(fault.label("expected one value, or as many as the others"));
+                    .push(fault.label(say!("expected one value, or as many as the others")));
                 continue;
             }
             let cells = (0..count).map(|row| &cells[row.min(cells.len() - 1)]);
@@ -111,10 +112,10 @@ impl Checker<'_> {
             match own.or_else(|| continued(column, count)) {
                 Some(own) => data.push(own),
                 None if self.faults.len() == before => {
-                    let message = format!("the rows do not say what {} is", column.name);
+                    let message = say!("the rows do not say what {} is", column.name);
                     let fault = Fault::new(ROWS, entry.span.clone(), message);
                     self.faults
-                        .push(fault.label(format!("{} is missing", column.name)));
+                        .push(fault.label(say!("{} is missing", column.name)));
                 }
                 None => {}
             }
@@ -184,10 +185,10 @@ impl Checker<'_> {
         let mut numbers = Vec::new();
         for cell in cells {
             let Cell::Number(number) = cell.value else {
-                let message = format!("{} holds numbers", column.name);
+                let message = say!("{} holds numbers", column.name);
                 let fault = Fault::new(ROWS, cell.span.clone(), message);
                 self.faults
-                    .push(fault.label(format!("expected a number in {}", column.unit.symbol)));
+                    .push(fault.label(say!("expected a number in {}", column.unit.symbol)));
                 return None;
             };
             numbers.push(number);

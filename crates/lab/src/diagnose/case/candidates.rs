@@ -8,7 +8,7 @@ use crate::experiment::tables::{ExperimentTable, OmittedTable};
 use gumption_core::equations::{EquationText, Equations, Quantity};
 use gumption_core::model::{Role, Symbol, outline};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
 
 /// The left side of a candidate: no user calls a column so.
@@ -38,11 +38,11 @@ pub(super) fn candidates(
                 let fault = Fault::new(
                     UNKNOWN_NAME,
                     node.span.clone(),
-                    format!("{} is neither a parameter nor a column", node.value),
+                    say!("{} is neither a parameter nor a column", node.value),
                 )
-                .label("not known");
+                .label(say!("not known"));
                 checker.faults.push(match nearest(&node.value, names) {
-                    Some(near) => fault.help(format!("did you mean `{near}`?")),
+                    Some(near) => fault.help(say!("did you mean `{near}`?")),
                     None => fault,
                 });
                 continue;
@@ -85,12 +85,12 @@ fn per_unit(
         (one, _) => {
             if !table.refused {
                 let label = match one {
-                    Some(_) => "keep one of `term` and `formula`",
-                    None => "expected `term` or `formula`",
+                    Some(_) => say!("keep one of `term` and `formula`"),
+                    None => say!("expected `term` or `formula`"),
                 };
-                let message = format!("what does the omitted effect {name} add?");
+                let message = say!("what does the omitted effect {name} add?");
                 let fault = Fault::new(CANDIDATE, stated.key.clone(), message).label(label);
-                let help = format!("write for example term = \"{name} * x^2\"");
+                let help = say!("write for example term = \"{name} * x^2\"");
                 checker.faults.push(fault.help(help));
             }
             None

@@ -12,7 +12,7 @@ use crate::experiment::tables::ExperimentTable;
 use crate::experiment::{Purpose as Use, inferred, positions};
 use crate::recording::{Recording, Request};
 use gumption_core::equations::Quantity;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::faults::TOML_SYNTAX;
 use gumption_gum::budget::quantities::text_of;
 use gumption_gum::budget::{Files, Rejection};
@@ -57,9 +57,9 @@ impl Checker<'_> {
             return Ok(None);
         };
         let Some(csv) = recording.value.0.file.as_ref() else {
-            let message = "the recording has no file";
+            let message = say!("the recording has no file");
             let fault = Fault::new(MISSING, recording.key.clone(), message);
-            self.faults.push(fault.label("`file` is missing"));
+            self.faults.push(fault.label(say!("`file` is missing")));
             return Ok(None);
         };
         let headings = self.headings(csv)?;
@@ -167,11 +167,11 @@ impl Checker<'_> {
             let stated = file.present.iter().any(|(name, _)| *name == key);
             if !present && !stated {
                 self.faults.push(
-                    Fault::new(MISSING, 0..0, format!("the experiment has no `{key}`"))
-                        .label("missing in this file")
+                    Fault::new(MISSING, 0..0, say!("the experiment has no `{key}`"))
+                        .label(say!("missing in this file"))
                         .help(match key == "equations" && file.model.is_some() {
-                            true => "`model` holds statements that all equations see; the equation of an output is written equations = \"y = a + b * x\"".to_owned(),
-                            false => format!("add for example {example}"),
+                            true => say!("`model` holds statements that all equations see; the equation of an output is written equations = \"y = a + b * x\""),
+                            false => say!("add for example {example}"),
                         }),
                 );
             }

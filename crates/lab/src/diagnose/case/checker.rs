@@ -3,7 +3,7 @@
 use super::Column;
 use crate::diagnose::faults::UNKNOWN_NAME;
 use crate::experiment::checker::Checker;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
 
 impl Checker<'_> {
@@ -15,12 +15,12 @@ impl Checker<'_> {
             let fault = Fault::new(
                 UNKNOWN_NAME,
                 name.span.clone(),
-                format!("the experiment has no column {}", name.value),
+                say!("the experiment has no column {}", name.value),
             )
-            .label("not a column of this experiment");
+            .label(say!("not a column of this experiment"));
             self.faults.push(match nearest(&name.value, names) {
-                Some(near) => fault.help(format!("did you mean \"{near}\"?")),
-                None => fault.help("declare it below [columns]"),
+                Some(near) => fault.help(say!("did you mean \"{near}\"?")),
+                None => fault.help(say!("declare it below [columns]")),
             });
         }
         found

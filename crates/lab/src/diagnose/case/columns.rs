@@ -9,7 +9,7 @@ use crate::experiment::positions::Given;
 use crate::experiment::tables::ColumnTable;
 use crate::recording::{Labels, Recording};
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::{Amount, Stated};
 
 impl Checker<'_> {
@@ -110,15 +110,15 @@ pub(super) fn nothing_left(
     let fault = Fault::new(
         TOO_FEW,
         file.span.clone(),
-        format!(
+        say!(
             "no row of {} has a number in every declared column",
             file.value
         ),
     )
-    .label("this recording");
+    .label(say!("this recording"));
     let there = wanted.iter().filter(|one| one.is_there);
     match there.max_by_key(|one| lacks(one)) {
-        Some(one) if lacks(one) > 0 => fault.help(format!(
+        Some(one) if lacks(one) > 0 => fault.help(say!(
             "`{}` has none in {} of {} rows; a column that does not matter may have the role \"ignore\"",
             one.name,
             lacks(one),

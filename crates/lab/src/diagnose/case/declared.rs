@@ -8,7 +8,7 @@ use crate::experiment::names::Names;
 use crate::experiment::{Experiment, Observed as Of};
 use gumption_core::equations::{Equations, Quantity};
 use gumption_core::model::{Role, Symbol};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 /// The declared model of a case.
 pub(super) struct Declared {
@@ -83,17 +83,18 @@ impl Checker<'_> {
         }
         let found = columns.iter().position(|column| column.name == name);
         let Some(at) = found.filter(|at| !matches!(columns[*at].data, Data::Labels(_))) else {
-            let fault = Fault::new(LEFT_SIDE, place, format!("{name} was not observed"));
-            return self.refuse(fault.label("neither a column of the recording nor exactly known"));
+            let fault = Fault::new(LEFT_SIDE, place, say!("{name} was not observed"));
+            return self
+                .refuse(fault.label(say!("neither a column of the recording nor exactly known")));
         };
         if columns[at].role == RoleWord::Output {
             return Some(Observed::Column(at));
         }
-        let message = format!("{name} is on the left of an equation, but is no output");
+        let message = say!("{name} is on the left of an equation, but is no output");
         self.refuse(
             Fault::new(ROLE, place, message)
-                .label("expected an output")
-                .help(format!("write {name} = \"output\" below [columns]")),
+                .label(say!("expected an output"))
+                .help(say!("write {name} = \"output\" below [columns]")),
         )
     }
 
@@ -105,12 +106,16 @@ impl Checker<'_> {
         let equations = self.source.table.equations.as_ref();
         let place = equations.map_or(0..0, |list| list.span.clone());
         self.faults.push(
-            Fault::new(START, place, "the model is not linear in its parameters")
-                .label("its parameters are found by a search")
-                .help(format!(
-                    "state roughly where the search begins, below [parameter]: {}",
-                    example.join(", ")
-                )),
+            Fault::new(
+                START,
+                place,
+                say!("the model is not linear in its parameters"),
+            )
+            .label(say!("its parameters are found by a search"))
+            .help(say!(
+                "state roughly where the search begins, below [parameter]: {}",
+                example.join(", ")
+            )),
         );
     }
 }

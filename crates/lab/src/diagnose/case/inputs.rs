@@ -9,7 +9,7 @@ use crate::experiment::names::Names;
 use crate::experiment::source::entries;
 use crate::experiment::{Doubt, Experiment, Scope, Target};
 use gumption_core::model::{Role, Symbol};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 impl Checker<'_> {
     /// The parameters of the experiment and its uncertain inputs, in the order in which the equations name them.
@@ -61,10 +61,10 @@ impl Checker<'_> {
                 Some(column) => {
                     let place = self.known(column, columns)?;
                     if columns[place].labels().is_none() {
-                        let message = format!("{} holds no labels", column.value);
+                        let message = say!("{} holds no labels", column.value);
                         let fault = Fault::new(PER, column.span.clone(), message);
                         return self
-                            .refuse(fault.label("expected a run, factor, position or axis"));
+                            .refuse(fault.label(say!("expected a run, factor, position or axis")));
                     }
                     Some(place)
                 }

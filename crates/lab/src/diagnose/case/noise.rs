@@ -11,7 +11,7 @@ use crate::experiment::faults::NOISE;
 use crate::experiment::noise::Way;
 use crate::experiment::tables::{ExperimentTable, NoiseTable, NoiseWord, StaticTable};
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 impl Checker<'_> {
@@ -79,11 +79,13 @@ impl Checker<'_> {
         };
         let u: Vec<f64> = responses.iter().map(of).collect();
         if u.iter().any(|u| *u <= 0.0) {
-            let fault = Fault::new(NOISE, place, "no error of the readings is stated");
+            let fault = Fault::new(NOISE, place, say!("no error of the readings is stated"));
             self.faults.push(
                 fault
-                    .label("the stated errors are all there is")
-                    .help("state it: [reading.NAME] with u = …, or noise = { u = … }"),
+                    .label(say!("the stated errors are all there is"))
+                    .help(say!(
+                        "state it: [reading.NAME] with u = …, or noise = {{ u = … }}"
+                    )),
             );
             return NoiseClaim::Estimated;
         }
@@ -104,10 +106,11 @@ impl Checker<'_> {
     ) -> NoiseClaim {
         let recording = file.recording.as_ref();
         let Some(dwells) = recording.and_then(|stated| stated.value.0.dwells.as_ref()) else {
-            let fault = Fault::new(NOISE, place, "no labels tell the dwells apart");
-            let help = "name their columns: recording = { file = \"…\", dwells = [\"position\"] }";
+            let fault = Fault::new(NOISE, place, say!("no labels tell the dwells apart"));
+            let help =
+                say!("name their columns: recording = {{ file = \"…\", dwells = [\"position\"] }}");
             self.faults
-                .push(fault.label("samples of each dwell").help(help));
+                .push(fault.label(say!("samples of each dwell")).help(help));
             return NoiseClaim::Estimated;
         };
         let names = dwells.value.0.iter();
@@ -134,7 +137,7 @@ impl Checker<'_> {
         let named = stated.value.column.as_ref();
         let outputs: Option<Vec<Headed>> = responses.iter().map(column).collect();
         let Some(outputs) = outputs else {
-            let message = "what is observed at rest is a column";
+            let message = say!("what is observed at rest is a column");
             self.faults
                 .push(Fault::new(NOISE, stated.span.clone(), message));
             return NoiseClaim::Estimated;
@@ -186,9 +189,15 @@ impl Checker<'_> {
         });
         if !timed {
             self.faults.push(
-                Fault::new(NOISE, stated.span.clone(), "a random walk needs a time")
-                    .label("no column has the role \"time\" and a unit of time")
-                    .help("declare the time with its unit: t = { role = \"time\", unit = \"h\" }"),
+                Fault::new(
+                    NOISE,
+                    stated.span.clone(),
+                    say!("a random walk needs a time"),
+                )
+                .label(say!("no column has the role \"time\" and a unit of time"))
+                .help(say!(
+                    "declare the time with its unit: t = {{ role = \"time\", unit = \"h\" }}"
+                )),
             );
         }
         let of = |response: &Response| self.spread(stated, &response.unit).unwrap_or(0.0);

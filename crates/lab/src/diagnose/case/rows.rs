@@ -9,7 +9,7 @@ use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::tables::ExperimentTable;
 use crate::recording::{Content, Labels, Recording, Request, headings, text_of};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Stated;
 
 /// Rows with a value for each column of a case, in their order.
@@ -167,8 +167,12 @@ impl Checker<'_> {
         let stated = file.held_out.as_ref()?;
         let Some(path) = &stated.value.file else {
             if !stated.value.refused {
-                let fault = Fault::new(MISSING, stated.span.clone(), "[held_out] has no `file`");
-                self.faults.push(fault.label("`file` is missing"));
+                let fault = Fault::new(
+                    MISSING,
+                    stated.span.clone(),
+                    say!("[held_out] has no `file`"),
+                );
+                self.faults.push(fault.label(say!("`file` is missing")));
             }
             return None;
         };
@@ -187,8 +191,12 @@ impl Checker<'_> {
         complete: Complete,
     ) -> Option<Rows> {
         let full = self.folder.join(&path.value);
-        let refused = |message: String| Fault::new(ROWS, path.span.clone(), message);
-        let first = |faults: &[Fault]| faults.first().map_or("", |f| &f.message).to_owned();
+        let refused = |message: Said| Fault::new(ROWS, path.span.clone(), message);
+        let first = |faults: &[Fault]| {
+            faults
+                .first()
+                .map_or_else(Said::default, |f| f.message.clone())
+        };
         let text = match text_of(self.files, &full, &path.value) {
             Ok(text) => text,
             Err(rejection) => {
@@ -199,7 +207,7 @@ impl Checker<'_> {
         let known = match headings(&text, &self.units) {
             Ok(known) => known,
             Err(fault) => {
-                let message = format!("{}: {}", path.value, fault.message);
+                let message = say!("{}: {}", path.value, fault.message);
                 self.faults.push(refused(message));
                 return None;
             }
@@ -226,7 +234,7 @@ impl Checker<'_> {
         let recorded = match Recording::read(&path.value, &text, &requests, &self.units) {
             Ok(recorded) => recorded,
             Err(rejection) => {
-                let message = format!("{}: {}", path.value, first(&rejection.faults));
+                let message = say!("{}: {}", path.value, first(&rejection.faults));
                 self.faults.push(refused(message));
                 return None;
             }
@@ -252,14 +260,16 @@ impl Checker<'_> {
             match found {
                 Some(found) => data.push(found),
                 None if own.is_some() => {
-                    let message = format!(
+                    let message = say!(
                         "{}: {} is not in a unit such as {}",
-                        path.value, column.name, column.unit.symbol
+                        path.value,
+                        column.name,
+                        column.unit.symbol
                     );
                     self.faults.push(refused(message));
                 }
                 None => {
-                    let message = format!("{} has no column \"{}\"", path.value, column.header);
+                    let message = say!("{} has no column \"{}\"", path.value, column.header);
                     self.faults.push(refused(message));
                 }
             }

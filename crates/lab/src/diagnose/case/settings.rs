@@ -6,7 +6,7 @@ use crate::diagnose::faults::{ROLE, SETTING, UNKNOWN_NAME};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::AverageEntry;
 use crate::experiment::tables::{DiagnosisTable, ExperimentTable};
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::{Amount, Stated};
 
 impl Checker<'_> {
@@ -29,9 +29,9 @@ impl Checker<'_> {
                             Fault::new(
                                 ROLE,
                                 name.span.clone(),
-                                format!("{} holds numbers, not labels", name.value),
+                                say!("{} holds numbers, not labels", name.value),
                             )
-                            .label("expected a run, factor or position"),
+                            .label(say!("expected a run, factor or position")),
                         );
                     }
                     found.push(column);
@@ -54,12 +54,12 @@ impl Checker<'_> {
         let timed = columns.iter().find(|column| column.role == Role::Time);
         let Some((column, times)) = timed.and_then(|c| c.numbers().map(|times| (c, times))) else {
             if stated.value.unit.is_some() {
-                let message = "a time to settle needs a column with the role \"time\"";
+                let message = say!("a time to settle needs a column with the role \"time\"");
                 let fault = Fault::new(SETTING, stated.span.clone(), message);
                 self.faults.push(
                     fault
-                        .label("no column of time")
-                        .help("state rows: settle = 5"),
+                        .label(say!("no column of time"))
+                        .help(say!("state rows: settle = 5")),
                 );
             }
             return stated.value.number.max(0.0) as usize;
@@ -94,9 +94,9 @@ impl Checker<'_> {
                 Fault::new(
                     SETTING,
                     span,
-                    format!("alpha = {alpha} is not a small probability"),
+                    say!("alpha = {alpha} is not a small probability"),
                 )
-                .label("expected a number between 0 and 0.5"),
+                .label(say!("expected a number between 0 and 0.5")),
             );
         }
         Settings {
@@ -123,9 +123,9 @@ impl Checker<'_> {
                 Fault::new(
                     SETTING,
                     draws.span.clone(),
-                    format!("draws = {} is too few or too many", draws.value),
+                    say!("draws = {} is too few or too many", draws.value),
                 )
-                .label(format!(
+                .label(say!(
                     "expected a number from {} to {}",
                     RANGE.start(),
                     RANGE.end()
@@ -148,13 +148,13 @@ impl Checker<'_> {
             let fault = Fault::new(
                 UNKNOWN_NAME,
                 name.span.clone(),
-                format!("the catalogue has no family or effect {}", name.value),
+                say!("the catalogue has no family or effect {}", name.value),
             )
-            .label("not known");
+            .label(say!("not known"));
             self.faults.push(match nearest(&name.value, known()) {
-                Some(near) => fault.help(format!("did you mean \"{near}\"?")),
+                Some(near) => fault.help(say!("did you mean \"{near}\"?")),
                 None => fault.help(
-                    "docs/diagnose.md lists the families; `gumption plan` lists the effects that a case can have",
+                    say!("docs/diagnose.md lists the families; `gumption plan` lists the effects that a case can have"),
                 ),
             });
         }
@@ -171,17 +171,23 @@ impl Checker<'_> {
                 let fault = Fault::new(
                     UNKNOWN_NAME,
                     share.key.clone(),
-                    format!("the catalogue has no effect {id}"),
+                    say!("the catalogue has no effect {id}"),
                 )
-                .label("not known");
+                .label(say!("not known"));
                 self.faults.push(match nearest(id, ids) {
-                    Some(near) => fault.help(format!("did you mean \"{near}\"?")),
-                    None => fault.help("`gumption plan` lists the effects that a case can have"),
+                    Some(near) => fault.help(say!("did you mean \"{near}\"?")),
+                    None => fault.help(say!(
+                        "`gumption plan` lists the effects that a case can have"
+                    )),
                 });
             } else if !(share.value > 0.0 && share.value.is_finite()) {
                 self.faults.push(
-                    Fault::new(SETTING, share.span.clone(), "a typical size is positive")
-                        .label("expected a share of full scale such as 1e-4"),
+                    Fault::new(
+                        SETTING,
+                        share.span.clone(),
+                        say!("a typical size is positive"),
+                    )
+                    .label(say!("expected a share of full scale such as 1e-4")),
                 );
             } else {
                 sizes.push((id.clone(), share.value));

@@ -149,6 +149,16 @@ impl Baseline {
         &self.inverse * self.inverse.transpose()
     }
 
+    /// The same where whitened rows are weighted alike but have this correlation.
+    pub fn covariance_with(&self, correlation: &DMatrix<f64>) -> DMatrix<f64> {
+        let gain = &self.inverse * self.absorbed.transpose();
+        let (rows, known) = (
+            gain.columns(0, self.rows).into_owned(),
+            gain.columns_range(self.rows..).into_owned(),
+        );
+        &rows * correlation * rows.transpose() + &known * known.transpose()
+    }
+
     /// PWH: what columns of output units leave in the space of z.
     pub fn project(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
         let whitened = self.whiten(columns);
@@ -188,6 +198,22 @@ impl Baseline {
             self.whitener.times(columns),
             &DMatrix::zeros(prior_rows, columns.ncols()),
         )
+    }
+
+    /// Logarithm of |Σ|^(−½)·|JᵀΣ⁻¹J|^(−½): what a restricted likelihood has beside the residuals.
+    pub(super) fn log_determinant(&self) -> f64 {
+        let of_parameters = self
+            .inverse
+            .diagonal()
+            .iter()
+            .map(|x| libm::log(x.abs()))
+            .sum::<f64>();
+        self.whitener.log_determinant() + of_parameters
+    }
+
+    /// With other draws of the covariance matrix, as L with Σ = LLᵀ.
+    pub(super) fn with_draws(self, draws: Vec<Factor>) -> Baseline {
+        Baseline { draws, ..self }
     }
 
     /// Q of WJ.

@@ -109,7 +109,7 @@ pub(super) fn combined(observed: [f64; 2], draws: &[[f64; 2]]) -> f64 {
 }
 
 /// All blocks that may be left beside a set, side by side.
-struct Panel<'a> {
+pub(super) struct Panel<'a> {
     beside: Remainders<'a>,
     frame: &'a Frame,
     /// Named rests that differ in their directions only: the best of them is the one with the best fit.
@@ -118,7 +118,7 @@ struct Panel<'a> {
 }
 
 impl<'a> Panel<'a> {
-    fn new(space: &'a Space, question: &Question, frame: &'a Frame) -> Panel<'a> {
+    pub(super) fn new(space: &'a Space, question: &Question, frame: &'a Frame) -> Panel<'a> {
         let beside = Remainders::new(space, question, frame);
         let mut classes: BTreeMap<(usize, u64), Vec<usize>> = BTreeMap::new();
         let mut generics = Vec::new();
@@ -140,7 +140,7 @@ impl<'a> Panel<'a> {
         }
     }
 
-    fn observed(&self, space: &Space) -> (Option<usize>, f64) {
+    pub(super) fn observed(&self, space: &Space) -> (Option<usize>, f64) {
         let components = self.beside.observed();
         let mut best = (None, f64::NEG_INFINITY);
         for rest in &self.beside.rests {
@@ -155,7 +155,11 @@ impl<'a> Panel<'a> {
         best
     }
 
-    fn simulated(&self, recordings: &Recordings, pairs: Option<&Pairs>) -> Vec<[f64; 2]> {
+    pub(super) fn simulated(
+        &self,
+        recordings: &Recordings,
+        pairs: Option<&Pairs>,
+    ) -> Vec<[f64; 2]> {
         let lanes = recordings.errors.nrows();
         let set = &recordings.errors * &self.frame.basis;
         let residuals = recordings.residuals(&set, self.beside.residual);

@@ -4,17 +4,16 @@ use std::ops::ControlFlow;
 
 use nalgebra::DMatrix;
 
-use super::choice;
 use super::closed_form::Scale;
 use super::confusion::confusions;
 use super::findings::{Examination, Fitted, Invisible, Slot, State, Verdict};
 use super::fit::fitted;
-use super::look_alikes;
+use super::grades::{alike, graded};
 use super::null::Simulated;
 use super::question::{Question, Shape};
 use super::refusal::Refusal;
 use super::search::{Search, search};
-use super::slots::{Member, contest, slot};
+use super::slots::{Explanation, LISTED, slots};
 use super::space::Space;
 use super::unlisted::{Restated, Rivalry, leftover, unlisted};
 
@@ -104,7 +103,7 @@ pub fn examine(
                 doubt_single(&mut slots);
             }
         }
-        Verdict::None | Verdict::Identified | Verdict::Ambiguous => {}
+        Verdict::None | Verdict::Identified | Verdict::Like | Verdict::Ambiguous => {}
     }
     if generic_probability >= OPEN && rivalry.margin.is_some_and(|margin| margin < CLEARLY_BETTER) {
         doubt_unless_stronger(&mut slots);
@@ -112,17 +111,37 @@ pub fn examine(
     if slots.iter().any(|slot| slot.state == State::Unexplained) {
         doubt_close(&mut slots);
     }
-    let verdict = if search.complete.as_ref().is_some_and(Vec::is_empty) {
-        Verdict::None
-    } else if before == Verdict::Contested {
-        before
-    } else {
-        verdict(&slots, explained)
+    let nothing = search.complete.as_ref().is_some_and(Vec::is_empty);
+    let mut verdict = match before {
+        _ if nothing => Verdict::None,
+        Verdict::Contested => before,
+        _ => verdict(&slots, explained),
     };
+    let mut named = named.clone();
+    if matches!(
+        verdict,
+        Verdict::Partly | Verdict::Contested | Verdict::Unexplained
+    ) && let Some((core, found)) = alike(&space, question, &search, &named, &again)
+    {
+        (named, slots) = (core, found);
+        verdict = self::verdict(&slots, 1.0);
+    }
+    graded(&mut slots);
+    if verdict == Verdict::Identified {
+        verdict = self::verdict(&slots, explained);
+    }
+    for slot in slots
+        .iter_mut()
+        .filter(|slot| slot.state == State::Unexplained)
+    {
+        // What has no name has a few tentative ones, which tell what it resembles.
+        slot.named.truncate(LISTED);
+    }
+    let set = space.frame_of(&named);
     Ok(Examination {
         verdict,
         fitted: (!named.is_empty()).then(|| Fitted {
-            confusions: confusions(&space, question, named, &slots, &simulated),
+            confusions: confusions(&space, question, &named, &slots, &simulated),
             ..fitted(&space, question, &set)
         }),
         slots,
@@ -130,6 +149,7 @@ pub fn examine(
         generic_probability,
         margin: rivalry.margin.unwrap_or(f64::INFINITY),
         leftover,
+        score: search.best().map_or(0.0, |best| best.score),
         chi_squared: question.baseline.chi_squared(),
         dof: question.baseline.dof(),
         invisible: invisible(&space, question),
@@ -138,6 +158,15 @@ pub fn examine(
 }
 
 impl Examination {
+    /// Takes all names away: the model with them predicts worse than without.
+    pub fn refute(&mut self) {
+        for slot in &mut self.slots {
+            slot.state = State::Unexplained;
+        }
+        self.verdict = Verdict::Unexplained;
+        self.fitted = None;
+    }
+
     /// Takes the names away from some slots: they become tentative.
     pub fn demote(&mut self, slots: &[usize]) {
         for slot in slots {
@@ -147,14 +176,6 @@ impl Examination {
             self.verdict = verdict(&self.slots, self.explained);
         }
     }
-}
-
-/// The most probable explanation.
-struct Explanation {
-    named: Vec<usize>,
-    generic: Option<usize>,
-    /// A smooth effect without a name competes with the named ones.
-    contested: bool,
 }
 
 fn explanation(search: &Search, generic_probability: f64) -> Explanation {
@@ -205,51 +226,6 @@ fn nameless() -> Slot {
         generic_share: 1.0,
         family: None,
     }
-}
-
-fn slots(
-    space: &Space,
-    question: &Question,
-    search: &Search,
-    explanation: &Explanation,
-    again: &Restated,
-) -> Vec<Slot> {
-    let (named, generic) = (&explanation.named[..], explanation.generic);
-    let members = named
-        .iter()
-        .map(|block| Member::Named(*block))
-        .chain(generic.map(Member::Generic));
-    let mut slots: Vec<(Option<usize>, Slot)> = members
-        .map(|member| {
-            let block = match member {
-                Member::Named(block) => Some(block),
-                Member::Generic(_) => None,
-            };
-            let mut slot = slot(space, question, named, generic, member, again);
-            if block.is_some() {
-                contest(space, question, search, named, &mut slot);
-            }
-            (block, slot)
-        })
-        .collect();
-    choice::complete(space, question, named, &mut slots);
-    // The strongest effect first, what has no name last.
-    let strength = |slot: &Slot| match (slot.state, slot.named.first()) {
-        (State::Unexplained, _) | (_, None) => f64::NEG_INFINITY,
-        (_, Some(first)) => first.lambda,
-    };
-    slots.sort_by(|a, b| strength(&b.1).total_cmp(&strength(&a.1)));
-    let has_name = |(_, slot): &&(Option<usize>, Slot)| slot.state != State::Unexplained;
-    let order: Vec<usize> = (slots.iter().filter(has_name))
-        .filter_map(|(block, _)| *block)
-        .collect();
-    let shapes = look_alikes::shapes(space, question, &order);
-    for (block, slot) in &mut slots {
-        if block.is_some_and(|block| shapes.contains(&block)) {
-            slot.state = State::Unexplained;
-        }
-    }
-    slots.into_iter().map(|(_, slot)| slot).collect()
 }
 
 /// A single name beside which something remains may be the next of kin of what is there.
@@ -362,9 +338,10 @@ fn explained(space: &Space, fit: f64, d: usize) -> f64 {
 
 fn verdict(slots: &[Slot], explained: f64) -> Verdict {
     let some = |state| slots.iter().any(|slot| slot.state == state);
-    let named = some(State::Identified) || some(State::Ambiguous);
+    let named = slots.iter().any(|slot| slot.state != State::Unexplained);
     match (named, some(State::Unexplained)) {
         (true, false) if some(State::Ambiguous) => Verdict::Ambiguous,
+        (true, false) if some(State::Like) => Verdict::Like,
         (true, false) => Verdict::Identified,
         (true, true) if explained >= MOST => Verdict::Partly,
         _ => Verdict::Unexplained,

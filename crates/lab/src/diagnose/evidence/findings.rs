@@ -16,6 +16,8 @@ pub enum Verdict {
     None,
     /// Every effect has one name.
     Identified,
+    /// Every effect has one name, and something of similar shape might look the same.
+    Like,
     /// Every effect has a name or a list of names that the recording cannot tell apart.
     Ambiguous,
     /// Some effects are named, and something without a name is left.
@@ -47,6 +49,8 @@ pub struct Examination {
     /// Probability that as much is left beside the named effects as there is, in the directions that the
     /// catalogue cares for or at all, if they are all there is.
     pub leftover: f64,
+    /// Logarithm of the evidence of the most probable explanation, with or without names, against none.
+    pub score: f64,
     /// χ² before any effect is added.
     pub chi_squared: f64,
     /// Its degrees of freedom.
@@ -91,8 +95,10 @@ pub struct Slot {
 /// What can be said of a slot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum State {
-    /// One name.
+    /// One name, and a departure from its shape would have been seen.
     Identified,
+    /// One name; its shape is off by less than makes it another, or it is too weak to show that.
+    Like,
     /// Several names.
     Ambiguous,
     /// No name: names in the list are tentative.
@@ -122,6 +128,13 @@ pub struct Alternative {
     pub lambda: f64,
     /// What is left of λ after the nearest rival is fitted in its place.
     pub nearest: Option<Rival>,
+}
+
+impl Slot {
+    /// Whether one name stands alone for it.
+    pub fn is_alone(&self) -> bool {
+        matches!(self.state, State::Identified | State::Like)
+    }
 }
 
 impl Alternative {

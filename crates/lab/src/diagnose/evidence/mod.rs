@@ -36,9 +36,11 @@
 //! | `remainders` | all directions beside a set |
 //! | `null` | simulated recordings that the model alone explains |
 //! | `detection` | the test whether an effect is left |
+//! | `contest` | correlated noise as the rival of every effect |
 //! | `pairs` | two effects that mask each other |
 //! | `search` | the set of effects that explains a recording |
 //! | `slots` | which candidates could stand for each effect |
+//! | `grades` | whether a name is more than a likeness |
 //! | `choice` | what sizes owe to the choice between explanations of the others |
 //! | `selection` | what sizes owe to having been found |
 //! | `fit` | estimates, strength, distance to rivals |
@@ -59,11 +61,13 @@ mod baseline;
 mod choice;
 mod closed_form;
 mod confusion;
+mod contest;
 mod detection;
 mod directions;
 mod examine;
 mod findings;
 mod fit;
+mod grades;
 mod locate;
 mod look_alikes;
 mod noise;
@@ -82,6 +86,7 @@ mod space;
 mod unlisted;
 
 pub use baseline::{Baseline, Prior};
+pub use contest::{Contest, Course, contest};
 pub use directions::{TRACE, determined, left, left_beside};
 pub use examine::examine;
 pub use findings::{

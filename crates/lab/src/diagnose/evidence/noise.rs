@@ -129,6 +129,23 @@ impl Factor {
         }
     }
 
+    /// Logarithm of its determinant.
+    pub(super) fn log_determinant(&self) -> f64 {
+        match self {
+            Factor::Diagonal(factors) => factors.iter().map(|x| libm::log(*x)).sum(),
+            Factor::Groups(groups) => (groups.iter())
+                .flat_map(|group| {
+                    group
+                        .matrix
+                        .diagonal()
+                        .iter()
+                        .map(|x| libm::log(*x))
+                        .collect::<Vec<_>>()
+                })
+                .sum(),
+        }
+    }
+
     /// The factor times the columns.
     pub(super) fn times(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
         match self {

@@ -132,6 +132,11 @@ impl<'a> Simulated<'a> {
 }
 
 impl Recordings {
+    /// Sums of squares when the parameters are fitted.
+    pub(super) fn chi_squared(&self) -> &[f64] {
+        &self.chi_squared
+    }
+
     /// What the residuals of each recording are when a set is absorbed, along whose basis the recordings
     /// have these components; degrees of freedom and scale as those of `like`.
     pub(super) fn residuals(&self, set: &DMatrix<f64>, like: Residual) -> Vec<Residual> {

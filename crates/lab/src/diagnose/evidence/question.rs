@@ -117,6 +117,9 @@ pub struct Settings {
     pub seed: u64,
     /// Draws of each simulated null distribution.
     pub draws: usize,
+    /// Probability that correlated noise alone gives effects as much as they gain here, where it is a rival: no effect is
+    /// found unless that is small as well.
+    pub by_noise: f64,
 }
 
 impl Default for Settings {
@@ -128,6 +131,7 @@ impl Default for Settings {
             beam: 10,
             seed: 1,
             draws: 4000,
+            by_noise: 0.0,
         }
     }
 }

@@ -63,13 +63,16 @@ pub(super) fn search(
         let Some(best) = beam.first().and_then(|(_, set)| space.frame(set)) else {
             break;
         };
-        let outcome = detection::test(
+        let mut outcome = detection::test(
             space,
             question,
             &best,
             (level == 0).then_some(&pairs),
             simulated,
         );
+        if level == 0 {
+            outcome.p = outcome.p.max(question.settings.by_noise);
+        }
         let Some(strongest) = outcome.strongest else {
             search.complete = Some(best.blocks);
             break;

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::choice;
 use super::closed_form::log_sum;
 use super::findings::{ALONE, Alternative, Slot, State, Variant};
 use super::fit::{estimate, nearest};
@@ -21,19 +22,73 @@ const NAMELESS: f64 = 0.3;
 /// … and one in which they have this has no unique name.
 const DOUBTFUL: f64 = 0.1;
 /// Generics, and tentative names, that are listed at most.
-const LISTED: usize = 3;
+pub(super) const LISTED: usize = 3;
 
 /// One member of the set that explains the recording.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Member {
+enum Member {
     Named(usize),
     Generic(usize),
+}
+
+/// The most probable explanation.
+pub(super) struct Explanation {
+    pub(super) named: Vec<usize>,
+    pub(super) generic: Option<usize>,
+    /// A smooth effect without a name competes with the named ones.
+    pub(super) contested: bool,
+}
+
+/// The slots of an explanation.
+pub(super) fn slots(
+    space: &Space,
+    question: &Question,
+    search: &Search,
+    explanation: &Explanation,
+    again: &Restated,
+) -> Vec<Slot> {
+    let (named, generic) = (&explanation.named[..], explanation.generic);
+    let members = named
+        .iter()
+        .map(|block| Member::Named(*block))
+        .chain(generic.map(Member::Generic));
+    let mut slots: Vec<(Option<usize>, Slot)> = members
+        .map(|member| {
+            let block = match member {
+                Member::Named(block) => Some(block),
+                Member::Generic(_) => None,
+            };
+            let mut slot = slot(space, question, named, generic, member, again);
+            if block.is_some() {
+                contest(space, question, search, named, &mut slot);
+            }
+            (block, slot)
+        })
+        .collect();
+    choice::complete(space, question, named, &mut slots);
+    // The strongest effect first, what has no name last.
+    let strength = |slot: &Slot| match (slot.state, slot.named.first()) {
+        (State::Unexplained, _) | (_, None) => f64::NEG_INFINITY,
+        (_, Some(first)) => first.lambda,
+    };
+    slots.sort_by(|a, b| strength(&b.1).total_cmp(&strength(&a.1)));
+    let has_name = |(_, slot): &&(Option<usize>, Slot)| slot.state != State::Unexplained;
+    let order: Vec<usize> = (slots.iter().filter(has_name))
+        .filter_map(|(block, _)| *block)
+        .collect();
+    let shapes = look_alikes::shapes(space, question, &order);
+    for (block, slot) in &mut slots {
+        if block.is_some_and(|block| shapes.contains(&block)) {
+            slot.state = State::Unexplained;
+        }
+    }
+    slots.into_iter().map(|(_, slot)| slot).collect()
 }
 
 /// The slot of one member of a set (`named` blocks and perhaps a generic beside them).
 ///
 /// Generics that only say again what the set says have their odds discounted.
-pub(super) fn slot(
+fn slot(
     space: &Space,
     question: &Question,
     named: &[usize],
@@ -74,16 +129,10 @@ pub(super) fn slot(
         Member::Named(_) if list.len() == 1 => State::Identified,
         Member::Named(_) => State::Ambiguous,
     };
-    // What has no name has a few tentative ones, which tell what it resembles.
-    let most = match state {
-        State::Unexplained => LISTED,
-        State::Identified | State::Ambiguous => list.len(),
-    };
     Slot {
         state,
         named: list
             .into_iter()
-            .take(most)
             .map(|ranked| alternative(space, question, &rest, ranked, 1.0 - generic_share))
             .collect(),
         generic: ranking(space, question, &scores, Kind::Generic, all)
@@ -191,13 +240,7 @@ fn listed(space: &Space, question: &Question, rest: &Frame, ranked: Vec<Ranked>)
 }
 
 /// Puts beside a unique name what other sets have instead of it: two effects together may do what one does.
-pub(super) fn contest(
-    space: &Space,
-    question: &Question,
-    search: &Search,
-    named: &[usize],
-    slot: &mut Slot,
-) {
+fn contest(space: &Space, question: &Question, search: &Search, named: &[usize], slot: &mut Slot) {
     let unique = slot
         .named
         .first()

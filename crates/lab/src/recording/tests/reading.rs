@@ -94,7 +94,7 @@ fn all_faults_at_once_at_their_places() {
             (ROW_LENGTH.id, "3"),
         ]
     );
-    let help = |i: usize| faults[i].help.clone().unwrap_or_default();
+    let help = |i: usize| faults[i].help.clone().unwrap_or_default().to_string();
     assert!(help(0).starts_with("did you mean \"time\"?"), "{}", help(0));
     assert_eq!(help(2), "write 1.5, with a decimal point");
     assert_eq!(
@@ -125,7 +125,7 @@ fn units_that_are_missing_or_contradict() {
         Request::numbers("acceleration", "a").like(unit("m/s^2")),
     );
     assert_eq!(fault.code, UNIT_CLASH);
-    assert!(fault.help.unwrap_or_default().contains("`gn`"));
+    assert!(fault.help.unwrap_or_default().to_string().contains("`gn`"));
     let fault = only(
         "U_mV\n1\n",
         Request::numbers("output", "U").in_unit(unit("V")),
@@ -154,6 +154,7 @@ fn long_lists_of_faults_are_cut_and_counted() {
     assert!(
         faults[4]
             .message
+            .to_string()
             .ends_with("7 more fields of the column are no numbers")
     );
 }

@@ -13,7 +13,7 @@ use crate::budget::faults::{CLAIM, NAME_TWICE, RELATIVE_UNCLEAR, TOLERANCE};
 use crate::budget::tables::{ConformityTable, FileTable};
 use crate::budget::{Conformity, Interval};
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
 
@@ -41,10 +41,10 @@ impl Checker<'_> {
                     Fault::new(
                         NAME_TWICE,
                         one.span.clone(),
-                        format!("two conformity assessments are called {}", conformity.name),
+                        say!("two conformity assessments are called {}", conformity.name),
                     )
-                    .label("second one")
-                    .help("give each a name of its own: name = \"…\""),
+                    .label(say!("second one"))
+                    .help(say!("give each a name of its own: name = \"…\"")),
                 );
             }
             let names = Conformity::FIGURES.map(|figure| format!("{}.{figure}", conformity.name));
@@ -105,10 +105,10 @@ impl Checker<'_> {
                 Fault::new(
                     TOLERANCE,
                     nominal.key.clone(),
-                    "a nominal value without `mpe`",
+                    say!("a nominal value without `mpe`"),
                 )
-                .label("how far from it may the value be?")
-                .help("add `mpe`, the distance of both limits from it, or state `lower` and `upper` in its place"),
+                .label(say!("how far from it may the value be?"))
+                .help(say!("add `mpe`, the distance of both limits from it, or state `lower` and `upper` in its place")),
             );
         }
         let mut limit = |amount: &Option<Stated<Amount>>, missing: f64| match amount {
@@ -124,22 +124,22 @@ impl Checker<'_> {
                 Fault::new(
                     TOLERANCE,
                     stated.span.clone(),
-                    format!("{} has no tolerance limit", subject.name),
+                    say!("{} has no tolerance limit", subject.name),
                 )
-                .label("`lower` and `upper` are missing")
-                .help("state the permissible values: `lower`, `upper`, or both; or the maximum permissible error, `mpe`"),
+                .label(say!("`lower` and `upper` are missing"))
+                .help(say!("state the permissible values: `lower`, `upper`, or both; or the maximum permissible error, `mpe`")),
             ),
             (Some(first), Some(second)) if lower >= upper => self.refuse(
                 Fault::new(
                     TOLERANCE,
                     second.span.clone(),
-                    format!(
+                    say!(
                         "the tolerance limits of {} are {lower} and {upper}",
                         subject.name
                     ),
                 )
-                .label("must be above the lower limit")
-                .related(first.span.clone(), "lower limit"),
+                .label(say!("must be above the lower limit"))
+                .related(first.span.clone(), say!("lower limit")),
             ),
             _ => Some(Interval { lower, upper }),
         }
@@ -157,11 +157,11 @@ impl Checker<'_> {
                 Fault::new(
                     TOLERANCE,
                     mpe.key.clone(),
-                    "the tolerance is stated twice, by limits and by `mpe`",
+                    say!("the tolerance is stated twice, by limits and by `mpe`"),
                 )
-                .label("the maximum permissible error")
-                .related(limit.key.clone(), "a limit")
-                .help("keep one of them"),
+                .label(say!("the maximum permissible error"))
+                .related(limit.key.clone(), say!("a limit"))
+                .help(say!("keep one of them")),
             );
         }
         let nominal = match &table.nominal {
@@ -172,10 +172,10 @@ impl Checker<'_> {
                     Fault::new(
                         TOLERANCE,
                         mpe.key.clone(),
-                        format!("{} is a temperature in {symbol}: from which value may it be so far?", subject.name),
+                        say!("{} is a temperature in {symbol}: from which value may it be so far?", subject.name),
                     )
-                    .label("`nominal` is missing")
-                    .help(format!("add nominal = \"100 {symbol}\", or let the measurand be the error of indication, in K")),
+                    .label(say!("`nominal` is missing"))
+                    .help(say!("add nominal = \"100 {symbol}\", or let the measurand be the error of indication, in K")),
                 );
             }
             None => None,
@@ -191,10 +191,12 @@ impl Checker<'_> {
                 Fault::new(
                     TOLERANCE,
                     mpe.span.clone(),
-                    "the maximum permissible error is not positive",
+                    say!("the maximum permissible error is not positive"),
                 )
-                .label("must be greater than zero")
-                .help("write it without sign; both limits are `nominal` ± `mpe`"),
+                .label(say!("must be greater than zero"))
+                .help(say!(
+                    "write it without sign; both limits are `nominal` ± `mpe`"
+                )),
             );
         }
         if let Some(own) = self.amount_unit(&mpe.value)?
@@ -242,10 +244,10 @@ impl Checker<'_> {
                 Fault::new(
                     CLAIM,
                     place.clone(),
-                    format!("[{table}] does not say which measurand it is about"),
+                    say!("[{table}] does not say which measurand it is about"),
                 )
-                .label("`measurand` is missing")
-                .help(format!(
+                .label(say!("`measurand` is missing"))
+                .help(say!(
                     "add measurand = \"{}\" (of {})",
                     names[0],
                     names.join(", ")
@@ -271,28 +273,28 @@ fn part_or_points(
     };
     let points = show(number_in(unit));
     let which = if unit.is_one() {
-        String::new()
+        Said::default()
     } else {
-        format!(", which is in {}", unit.symbol)
+        say!(", which is in {}", unit.symbol)
     };
     let mut help =
-        format!("write the plain number {points}{which}, if the error of {name} itself is meant");
+        say!("write the plain number {points}{which}, if the error of {name} itself is meant");
     if let Some(nominal) = nominal {
         let part = show(number_in(&Unit::one()) * nominal.abs());
-        help += &format!(
-            "; for {number} {} of the nominal value write {part}",
+        help = say!(
+            "{help}; for {number} {} of the nominal value write {part}",
             own.symbol
         );
     }
     Fault::new(
         RELATIVE_UNCLEAR,
         mpe.span.clone(),
-        format!(
+        say!(
             "{number} {} of {name} may be meant of the nominal value or as it stands",
             own.symbol
         ),
     )
-    .label("relative or absolute?")
+    .label(say!("relative or absolute?"))
     .help(help)
 }
 

@@ -7,7 +7,7 @@ use crate::budget::faults::{MISSING_KEY, PROCESS, TWO_WAYS};
 use crate::budget::tables::ProcessTable;
 use gumption_core::distribution::{Distribution, Normal};
 use gumption_core::special::normal_two_sided_quantile;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 impl Checker<'_> {
@@ -23,18 +23,18 @@ impl Checker<'_> {
                 Fault::new(
                     TWO_WAYS,
                     second.key.clone(),
-                    "the process is described twice",
+                    say!("the process is described twice"),
                 )
-                .label("by the fraction in tolerance here")
-                .related(first.key.clone(), "by its distribution here")
-                .help("leave out one"),
+                .label(say!("by the fraction in tolerance here"))
+                .related(first.key.clone(), say!("by its distribution here"))
+                .help(say!("leave out one")),
             ),
             (Some(entry), None) => {
                 let DistributionEntry::Full(full) = &entry.value else {
                     return self.refuse(
-                        Fault::new(PROCESS, entry.span.clone(), "the distribution of the process has no parameters")
-                            .label("only its shape is stated")
-                            .help("write for example distribution = { normal = { mean = 1500, sd = 0.12 } }"),
+                        Fault::new(PROCESS, entry.span.clone(), say!("the distribution of the process has no parameters"))
+                            .label(say!("only its shape is stated"))
+                            .help(say!("write for example distribution = {{ normal = {{ mean = 1500, sd = 0.12 }} }}")),
                     );
                 };
                 match distributions::parametric(full, &entry.map(|_| ())) {
@@ -43,16 +43,18 @@ impl Checker<'_> {
                         Fault::new(
                             PROCESS,
                             entry.span.clone(),
-                            "the distribution of the process has no location",
+                            say!("the distribution of the process has no location"),
                         )
-                        .label("where are the items?")
-                        .help("add its `mean` (or `location`, or `lower` and `upper`)"),
+                        .label(say!("where are the items?"))
+                        .help(say!(
+                            "add its `mean` (or `location`, or `lower` and `upper`)"
+                        )),
                     ),
                     Ok(found) => match found.distribution.validate() {
                         Ok(()) => Some(found.distribution),
                         Err(reason) => self.refuse(
-                            Fault::new(PROCESS, entry.span.clone(), reason.to_string())
-                                .label("parameters do not fit"),
+                            Fault::new(PROCESS, entry.span.clone(), reason.said())
+                                .label(say!("parameters do not fit")),
                         ),
                     },
                 }
@@ -61,9 +63,9 @@ impl Checker<'_> {
                 let value = self.probability(p)?;
                 let Some(width) = tolerance.width() else {
                     return self.refuse(
-                        Fault::new(PROCESS, p.span.clone(), "a fraction in tolerance and one tolerance limit do not say how the items scatter")
-                            .label("needs `lower` and `upper`")
-                            .help("state the distribution: process = { distribution = { normal = { mean = …, sd = … } } }"),
+                        Fault::new(PROCESS, p.span.clone(), say!("a fraction in tolerance and one tolerance limit do not say how the items scatter"))
+                            .label(say!("needs `lower` and `upper`"))
+                            .help(say!("state the distribution: process = {{ distribution = {{ normal = {{ mean = …, sd = … }} }} }}")),
                     );
                 };
                 Some(Distribution::Normal(Normal {
@@ -73,8 +75,14 @@ impl Checker<'_> {
             }
             (None, None) if table.refused => None,
             (None, None) => self.refuse(
-                Fault::new(MISSING_KEY, stated.span.clone(), "`process` says nothing")
-                    .label("expected `distribution` or `in_tolerance_probability`"),
+                Fault::new(
+                    MISSING_KEY,
+                    stated.span.clone(),
+                    say!("`process` says nothing"),
+                )
+                .label(say!(
+                    "expected `distribution` or `in_tolerance_probability`"
+                )),
             ),
         }
     }

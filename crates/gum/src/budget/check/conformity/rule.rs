@@ -4,14 +4,15 @@ use std::ops::Range;
 
 use super::Subject;
 use crate::budget::check::Checker;
+use crate::budget::check::draft::show;
 use crate::budget::faults::{DECISION_RULE, LIMITS, NOT_POSITIVE, TOLERANCE, TWO_WAYS};
 use crate::budget::tables::{ConformityTable, RuleWord};
-use crate::budget::{DecisionRule, Guard, ISO_14253_PROBABILITY, Interval};
-use gumption_fault::Fault;
+use crate::budget::{DecisionRule, GlobalRisks, Guard, ISO_14253_PROBABILITY, Interval};
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
 
-const BAND_AND_PROBABILITY: &str = "a guard band beside a probability";
+const BAND_AND_PROBABILITY: Said = say!("a guard band beside a probability");
 
 /// A guard band, and the place of its key.
 struct Band {
@@ -80,11 +81,21 @@ impl Checker<'_> {
     ) -> Option<DecisionRule> {
         let table = &stated.value;
         if let Some(limits) = &table.acceptance {
-            self.alone(table, "acceptance")?;
+            self.alone(table, &["acceptance"])?;
             return self.stated_acceptance(limits, subject, tolerance?);
         }
-        let inner = self.stated_probability(&table.conformance_probability);
-        let outer = self.stated_probability(&table.nonconformance_probability);
+        if table.global_consumer_risk.is_some() || table.global_producer_risk.is_some() {
+            self.alone(table, &["global_consumer_risk", "global_producer_risk"])?;
+            return self.permitted_risks(table);
+        }
+        let inner = self.right_decision(
+            &table.conformance_probability,
+            &table.specific_consumer_risk,
+        );
+        let outer = self.right_decision(
+            &table.nonconformance_probability,
+            &table.specific_producer_risk,
+        );
         let band = self.band(table, subject);
         let guards = Guards {
             inner: inner?,
@@ -101,25 +112,29 @@ impl Checker<'_> {
             .conformance_probability
             .as_ref()
             .or(table.nonconformance_probability.as_ref())
+            .or(table.specific_consumer_risk.as_ref())
+            .or(table.specific_producer_risk.as_ref())
             .map(|stated| stated.key.clone())
             .or(guards.band.as_ref().map(|band| band.key.clone()));
         let Some(rule) = guards.rule(word.value) else {
             let key = extra.unwrap_or(word.key.clone());
-            let what = format!("rule = \"{}\" is complete without it", word.value.word());
-            return self.clash(&key, &what);
+            let what = say!("rule = \"{}\" is complete without it", word.value.word());
+            return self.clash(&key, what);
         };
         if rule == DecisionRule::Jjf1094 && tolerance.is_some_and(|t| t.width().is_none()) {
             return self.refuse(
                 Fault::new(
                     DECISION_RULE,
                     word.span.clone(),
-                    format!(
+                    say!(
                         "{} has one tolerance limit, JJF 1094 a maximum permissible error",
                         subject.name
                     ),
                 )
-                .label("needs `lower` and `upper`")
-                .help("with one limit write for example rule = \"non-binary\""),
+                .label(say!("needs `lower` and `upper`"))
+                .help(say!(
+                    "with one limit write for example rule = \"non-binary\""
+                )),
             );
         }
         Some(rule)
@@ -141,55 +156,117 @@ impl Checker<'_> {
         }
     }
 
-    fn clash<T>(&mut self, key: &Range<usize>, what: &str) -> Option<T> {
+    fn clash<T>(&mut self, key: &Range<usize>, what: Said) -> Option<T> {
         self.refuse(
-            Fault::new(DECISION_RULE, key.clone(), format!("the decision rule is stated twice: {what}"))
-                .label("leave this out, or the other one")
-                .help("a guard band goes with \"guarded-acceptance\", \"guarded-rejection\" and \"non-binary\"; probabilities stand in its place"),
+            Fault::new(DECISION_RULE, key.clone(), say!("the decision rule is stated twice: {what}"))
+                .label(say!("leave this out, or the other one"))
+                .help(say!("a guard band goes with \"guarded-acceptance\", \"guarded-rejection\" and \"non-binary\"; probabilities stand in its place")),
         )
     }
 
-    /// Nothing else may state the rule beside the acceptance limits.
-    fn alone(&mut self, table: &ConformityTable, key: &str) -> Option<()> {
-        const RULES: [&str; 5] = [
+    /// Nothing else may state the rule beside keys that are complete by themselves.
+    fn alone(&mut self, table: &ConformityTable, keys: &[&str]) -> Option<()> {
+        const RULES: [&str; 10] = [
             "rule",
             "guard_band",
             "guard_band_factor",
             "conformance_probability",
             "nonconformance_probability",
+            "specific_consumer_risk",
+            "specific_producer_risk",
+            "global_consumer_risk",
+            "global_producer_risk",
+            "acceptance",
         ];
-        let other = table
-            .present
-            .iter()
-            .find(|(present, _)| RULES.contains(present));
+        let mut present = table.present.iter();
+        let other = present.find(|(key, _)| RULES.contains(key) && !keys.contains(key));
         match other {
             None => Some(()),
             Some((name, span)) => {
-                let what = format!("`{name}` beside `{key}`");
+                let mut stated = table.present.iter().map(|(key, _)| *key);
+                let complete = stated.find(|key| keys.contains(key)).unwrap_or(keys[0]);
+                let what = say!("`{name}` beside `{complete}`");
                 let span = span.clone();
-                self.clash(&span, &what)
+                self.clash(&span, what)
             }
         }
     }
 
-    /// A probability that decides: better than tossing a coin.
-    fn stated_probability(&mut self, stated: &Option<Stated<f64>>) -> Option<Option<Guard>> {
-        let Some(stated) = stated else {
-            return Some(None);
+    /// A probability that decides, or the risk that is its complement: better than tossing a coin.
+    fn right_decision(
+        &mut self,
+        probability: &Option<Stated<f64>>,
+        risk: &Option<Stated<f64>>,
+    ) -> Option<Option<Guard>> {
+        let (stated, right, expected, such) = match (probability, risk) {
+            (None, None) => return Some(None),
+            (Some(first), Some(second)) => {
+                return self.refuse(
+                    Fault::new(
+                        TWO_WAYS,
+                        second.key.clone(),
+                        say!("a risk and its complement are both stated"),
+                    )
+                    .label(say!("the risk here"))
+                    .related(first.key.clone(), say!("the probability here"))
+                    .help(say!("leave out one")),
+                );
+            }
+            (Some(p), None) => (
+                p,
+                self.probability(p)?,
+                say!("expected at least 0.5"),
+                say!("state the probability of a right decision, such as 0.95"),
+            ),
+            (None, Some(p)) => (
+                p,
+                1.0 - self.probability(p)?,
+                say!("expected at most 0.5"),
+                say!("state the permissible risk of a wrong decision, such as 0.05"),
+            ),
         };
-        let p = self.probability(stated)?;
-        if p >= 0.5 {
-            return Some(Some(Guard::Probability(p)));
+        if right >= 0.5 {
+            return Some(Some(Guard::Probability(right)));
         }
         self.refuse(
             Fault::new(
                 DECISION_RULE,
                 stated.span.clone(),
-                format!("a decision that is right with probability {p}"),
+                say!("a decision that is right with probability {}", show(right)),
             )
-            .label("expected at least 0.5")
-            .help("state the probability of a right decision, such as 0.95"),
+            .label(expected)
+            .help(such),
         )
+    }
+
+    /// Permissible risks over all items, of which something must be known.
+    fn permitted_risks(&mut self, table: &ConformityTable) -> Option<DecisionRule> {
+        let mut risk = |stated: &Option<Stated<f64>>| match stated {
+            Some(stated) => self.probability(stated).map(Some),
+            None => Some(None),
+        };
+        let consumer = risk(&table.global_consumer_risk);
+        let producer = risk(&table.global_producer_risk);
+        let (consumer, producer) = (consumer?, producer?);
+        let stated = table
+            .global_consumer_risk
+            .as_ref()
+            .or(table.global_producer_risk.as_ref())?;
+        if table.process.is_none() {
+            return self.refuse(
+                Fault::new(
+                    DECISION_RULE,
+                    stated.key.clone(),
+                    say!("a global risk, and nothing is known of the items"),
+                )
+                .label(say!("is an average over all items: `process` is missing"))
+                .help(say!("add process = {{ in_tolerance_probability = 0.95 }} or its distribution; for the risk of the one item that was measured write `specific_consumer_risk` or `specific_producer_risk`")),
+            );
+        }
+        Some(DecisionRule::GlobalRisks(GlobalRisks {
+            consumer,
+            producer,
+        }))
     }
 
     /// The guard band, if there is one.
@@ -199,11 +276,11 @@ impl Checker<'_> {
                 Fault::new(
                     TWO_WAYS,
                     factor.key.clone(),
-                    "the guard band is stated in two ways",
+                    say!("the guard band is stated in two ways"),
                 )
-                .label("as a multiple of U here")
-                .related(amount.key.clone(), "as an amount here")
-                .help("leave out one"),
+                .label(say!("as a multiple of U here"))
+                .related(amount.key.clone(), say!("as an amount here"))
+                .help(say!("leave out one")),
             );
         }
         if let Some(factor) = &table.guard_band_factor {
@@ -218,9 +295,9 @@ impl Checker<'_> {
         };
         if amount.value.number <= 0.0 {
             return self.refuse(
-                Fault::new(NOT_POSITIVE, amount.span.clone(), "the guard band is not positive")
-                    .label("must be greater than zero")
-                    .help("the rule says on which side of the tolerance limits it lies; without a guard band write rule = \"simple\""),
+                Fault::new(NOT_POSITIVE, amount.span.clone(), say!("the guard band is not positive"))
+                    .label(say!("must be greater than zero"))
+                    .help(say!("the rule says on which side of the tolerance limits it lies; without a guard band write rule = \"simple\"")),
             );
         }
         let w = self.difference(amount, subject.unit, subject.name)?;
@@ -264,9 +341,9 @@ impl Checker<'_> {
                     Fault::new(
                         TOLERANCE,
                         stated.span.clone(),
-                        format!("{} acceptance limits", limits.len()),
+                        say!("{} acceptance limits", limits.len()),
                     )
-                    .label("expected one for every tolerance limit"),
+                    .label(say!("expected one for every tolerance limit")),
                 );
             }
         };
@@ -275,9 +352,9 @@ impl Checker<'_> {
                 Fault::new(
                     LIMITS,
                     stated.span.clone(),
-                    "the acceptance interval is empty",
+                    say!("the acceptance interval is empty"),
                 )
-                .label("expected [lower, upper]"),
+                .label(say!("expected [lower, upper]")),
             );
         }
         Some(DecisionRule::Stated(interval))
@@ -292,10 +369,10 @@ fn no_rule(stated: &Stated<ConformityTable>) -> Fault {
         .map(|amount| &amount.key)
         .or(stated.value.guard_band_factor.as_ref().map(|r| &r.key))
     {
-        Some(key) => (key.clone(), "a guard band without a decision rule"),
-        None => (stated.span.clone(), "the decision rule is missing"),
+        Some(key) => (key.clone(), say!("a guard band without a decision rule")),
+        None => (stated.span.clone(), say!("the decision rule is missing")),
     };
     Fault::new(DECISION_RULE, place, message)
-        .label("`rule` is missing")
-        .help("add `rule`: \"simple\", \"guarded-acceptance\", \"guarded-rejection\", \"non-binary\", \"ILAC-G8\", \"ISO 14253-1\" or \"JJF 1094\"; or `conformance_probability`")
+        .label(say!("`rule` is missing"))
+        .help(say!("add `rule`: \"simple\", \"guarded-acceptance\", \"guarded-rejection\", \"non-binary\", \"ILAC-G8\", \"ISO 14253-1\" or \"JJF 1094\"; or a permissible risk: `specific_consumer_risk`, or `global_consumer_risk` where `process` is known"))
 }

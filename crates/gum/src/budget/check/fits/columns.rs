@@ -17,7 +17,7 @@ use crate::budget::tables::{FitColumnTable, FitTable};
 use crate::budget::variants::Numbers;
 use gumption_core::least_squares::Spread;
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 /// Points of a fit. More of them would need more memory than is good for a budget.
@@ -85,9 +85,9 @@ impl Checker<'_> {
                 return None;
             }
             return self.refuse(
-                Fault::new(FIT, stated.key.clone(), format!("the fit {name} has no data"))
-                    .label("`data` is missing")
-                    .help(format!(
+                Fault::new(FIT, stated.key.clone(), say!("the fit {name} has no data"))
+                    .label(say!("`data` is missing"))
+                    .help(say!(
                         "add for example:\n[fit.{name}.data]\nx = {{ values = [1.0, 2.0, 3.0] }}\ny = {{ values = [2.1, 3.9, 6.2], u = 0.1 }}"
                     )),
             );
@@ -95,7 +95,7 @@ impl Checker<'_> {
         let mut columns = Vec::new();
         let mut complete = !data.value.refused;
         for (column, stated) in entries(&table.data) {
-            self.check_name(column, &stated.key, "column");
+            self.check_name(column, &stated.key, &say!("a column"));
             match self.fit_column(column, stated) {
                 Some(column) => columns.push(column),
                 None => complete = false,
@@ -110,14 +110,14 @@ impl Checker<'_> {
                     Fault::new(
                         FIT_COLUMNS,
                         other.key.clone(),
-                        format!(
+                        say!(
                             "{} has {} values, {named} has {length}",
                             other.name,
                             other.values.len()
                         ),
                     )
-                    .label("a point has one value in every column")
-                    .related(place.clone(), format!("{length} values")),
+                    .label(say!("a point has one value in every column"))
+                    .related(place.clone(), say!("{length} values")),
                 );
             }
         }
@@ -143,10 +143,10 @@ impl Checker<'_> {
                 Fault::new(
                     MISSING_KEY,
                     stated.span.clone(),
-                    format!("the column {name} has no values"),
+                    say!("the column {name} has no values"),
                 )
-                .label("`values` is missing")
-                .help("write values = [1.0, 2.0], or values = { file = \"data.csv\", column = \"x\" }"),
+                .label(say!("`values` is missing"))
+                .help(say!("write values = [1.0, 2.0], or values = {{ file = \"data.csv\", column = \"x\" }}")),
             );
         };
         let values = self.numbers(numbers, unit.as_ref())?;
@@ -155,9 +155,9 @@ impl Checker<'_> {
                 Fault::new(
                     FIT_COLUMNS,
                     numbers.span.clone(),
-                    format!("{name} has {} values", values.len()),
+                    say!("{name} has {} values", values.len()),
                 )
-                .label(format!("expected 1 to {MOST_POINTS}")),
+                .label(say!("expected 1 to {MOST_POINTS}")),
             );
         }
         Some(Column {
@@ -193,7 +193,7 @@ impl Checker<'_> {
         let Independent { variance, known } = errors;
         let spread = match &table.covariance {
             Some(covariance) => {
-                let mut matrix = self.symmetric(covariance, variance.len(), "values")?;
+                let mut matrix = self.symmetric(covariance, variance.len(), say!("values"))?;
                 for (i, v) in variance.iter().enumerate() {
                     matrix[(i, i)] += v;
                 }
@@ -251,14 +251,14 @@ impl Checker<'_> {
                 Fault::new(
                     FIT_COLUMNS,
                     stated.span.clone(),
-                    format!(
+                    say!(
                         "{} weights for the {} values of {}",
                         weights.len(),
                         column.values.len(),
                         column.name
                     ),
                 )
-                .label(format!("expected {}", column.values.len())),
+                .label(say!("expected {}", column.values.len())),
             );
         }
         if let Some(place) = weights.iter().position(|w| *w <= 0.0) {
@@ -270,15 +270,17 @@ impl Checker<'_> {
                 Fault::new(
                     NOT_POSITIVE,
                     span,
-                    format!(
+                    say!(
                         "weight {} of {} is {}",
                         place + 1,
                         column.name,
                         weights[place]
                     ),
                 )
-                .label("must be greater than zero")
-                .help("a weight is 1/u²; leave out points that are not to count"),
+                .label(say!("must be greater than zero"))
+                .help(say!(
+                    "a weight is 1/u²; leave out points that are not to count"
+                )),
             );
         }
         Some(weights.into_iter().map(|w| 1.0 / w).collect())
@@ -296,12 +298,11 @@ impl Checker<'_> {
             return self.fit_source(name, entry, column, register);
         }
         if entry.way.locates() && !single(entry.table) && entry.way != Way::Distribution {
-            let message =
-                format!("this component would state one estimate for all values of {name}");
+            let message = say!("this component would state one estimate for all values of {name}");
             return self.refuse(
                 Fault::new(VECTOR, entry.place.clone(), message)
-                    .label("not for a column")
-                    .help("state a deviation: `u`, `half_width`, `step` …"),
+                    .label(say!("not for a column"))
+                    .help(say!("state a deviation: `u`, `half_width`, `step` …")),
             );
         }
         let listed = self.with_columns(entry.table, &column.unit);
@@ -325,10 +326,10 @@ impl Checker<'_> {
                 Fault::new(
                     FIT_ERRORS,
                     first.stated.clone(),
-                    format!("the uncertainties of {name} have {} degrees of freedom", first.dof),
+                    say!("the uncertainties of {name} have {} degrees of freedom", first.dof),
                 )
-                .label("the fit takes stated uncertainties as known")
-                .help("leave out the degrees of freedom; if only the ratios of the uncertainties are known, write scale = \"residuals\" for the fit"),
+                .label(say!("the fit takes stated uncertainties as known"))
+                .help(say!("leave out the degrees of freedom; if only the ratios of the uncertainties are known, write scale = \"residuals\" for the fit")),
             );
         }
         Some(Cause::Independent(u.into_iter().map(f64::abs).collect()))
@@ -357,10 +358,10 @@ impl Checker<'_> {
                 None => self.draft(entry.table, entry.way, &context)?,
             };
             if !matches!(draft.location, Location::None | Location::Mean(_)) {
-                let message = format!("this component would move the values of {name}");
+                let message = say!("this component would move the values of {name}");
                 return self.refuse(
                     Fault::new(VECTOR, entry.place.clone(), message)
-                        .label("only symmetric deviations for a column"),
+                        .label(say!("only symmetric deviations for a column")),
                 );
             }
             u.push(draft.u * if relative { value.signum() } else { 1.0 });
@@ -472,15 +473,15 @@ fn stated_twice(column: &Column<'_>) -> Option<Fault> {
     let (key, again) = covariance
         .map(|stated| ("covariance", &stated.key))
         .or(weights.map(|stated| ("weights", &stated.key)))?;
-    let message = format!(
+    let message = say!(
         "the uncertainty of {} is stated twice, by `{own}` and by `{key}`",
         column.name
     );
     Some(
         Fault::new(TWO_WAYS, again.clone(), message)
-            .label("stated again here")
-            .related(first.clone(), "first stated here")
-            .help(format!(
+            .label(say!("stated again here"))
+            .related(first.clone(), say!("first stated here"))
+            .help(say!(
                 "keep one; another reason for doubt stands in components = [{{ name = \"…\", {own} = … }}]"
             )),
     )

@@ -9,8 +9,9 @@ use crate::budget::faults::{FIT_ERRORS, FIT_FAILED, FIT_INDISTINCT, FIT_POINTS, 
 use crate::budget::fit::column_of;
 use crate::budget::tables::FitTable;
 use crate::budget::variants::Numbers;
-use gumption_core::least_squares::{Failure, Observed};
-use gumption_fault::Fault;
+use gumption_core::least_squares::{Elsewhere, Failure, Observed};
+use gumption_core::quantity::{Decimal, Rounding};
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Stated;
 
 /// A fit that has no solution.
@@ -21,6 +22,8 @@ pub(super) struct Unsolved<'f> {
     pub formula: &'f Formula,
     /// In the order of the solver: response first.
     pub columns: &'f [&'f Column<'f>],
+    /// Minima that other starts lead to, the best first.
+    pub elsewhere: Vec<Elsewhere>,
 }
 
 impl Unsolved<'_> {
@@ -46,26 +49,27 @@ impl Unsolved<'_> {
     }
 
     fn too_few_points(&self, points: usize, parameters: usize) -> Fault {
-        let (points, parameters, needed) = (
-            count(points, "point"),
-            count(parameters, "parameter"),
-            count(parameters, "point"),
+        let message = say!(
+            "{} for {}",
+            self::points(points),
+            self::parameters(parameters)
         );
-        Fault::new(
-            FIT_POINTS,
-            self.data(),
-            format!("{points} for {parameters}"),
-        )
-        .label(format!("at least {needed} are needed"))
-        .related(self.place(), format!("{parameters} to be found"))
-        .help("take more points, or a formula with fewer parameters")
+        Fault::new(FIT_POINTS, self.data(), message)
+            .label(say!("at least {} are needed", self::points(parameters)))
+            .related(
+                self.place(),
+                say!("{} to be found", self::parameters(parameters)),
+            )
+            .help(say!("take more points, or a formula with fewer parameters"))
     }
 
     fn no_freedom(&self, points: usize) -> Fault {
-        let message = format!("{} for as many parameters", count(points, "point"));
+        let message = say!("{} for as many parameters", self::points(points));
         Fault::new(FIT_POINTS, self.data(), message)
-            .label("no residuals are left to tell how far the points may be off")
-            .help(format!(
+            .label(say!(
+                "no residuals are left to tell how far the points may be off"
+            ))
+            .help(say!(
                 "take more points, or state the uncertainty of the response: {} = {{ …, u = … }}",
                 self.columns[0].name
             ))
@@ -74,10 +78,10 @@ impl Unsolved<'_> {
     fn no_uncertainty(&self) -> Fault {
         let scale = self.stated.value.scale.as_ref();
         let place = scale.map_or_else(|| self.place(), |scale| scale.span.clone());
-        let message = format!("no column of the fit {} states an uncertainty", self.name);
+        let message = say!("no column of the fit {} states an uncertainty", self.name);
         Fault::new(FIT_ERRORS, place, message)
-            .label("nothing is stated")
-            .help(format!(
+            .label(say!("nothing is stated"))
+            .help(say!(
                 "state the uncertainty of the response, {} = {{ …, u = … }}, or leave out `scale`: the residuals then tell it",
                 self.columns[0].name
             ))
@@ -86,17 +90,17 @@ impl Unsolved<'_> {
     fn exact_value(&self, observed: Observed, point: usize) -> Fault {
         let column = self.columns[column_of(observed)];
         let help = if column_of(observed) == 0 {
-            "an exact point would have to lie on the curve; state what it may be off"
+            say!("an exact point would have to lie on the curve; state what it may be off")
         } else {
-            "state what it may be off, or no uncertainty at all for the column"
+            say!("state what it may be off, or no uncertainty at all for the column")
         };
-        let message = format!(
+        let message = say!(
             "the uncertainty of value {} of {} is not greater than zero",
             point + 1,
             column.name
         );
         Fault::new(FIT_ERRORS, value_place(column, point), message)
-            .label("no uncertainty")
+            .label(say!("no uncertainty"))
             .help(help)
     }
 
@@ -105,26 +109,28 @@ impl Unsolved<'_> {
         let place = list
             .and_then(|list| list.value.get(point))
             .map_or_else(|| self.place(), |r| r.span.clone());
-        let message = format!(
+        let message = say!(
             "the correlation coefficient of point {} is not possible",
             point + 1
         );
         Fault::new(FIT_ERRORS, place, message)
-            .label("must be between -1 and 1")
-            .help("at 1 or -1 the errors may leave the point nowhere to go across the curve")
+            .label(say!("must be between -1 and 1"))
+            .help(say!(
+                "at 1 or -1 the errors may leave the point nowhere to go across the curve"
+            ))
     }
 
     fn covariance(&self, observed: Observed) -> Fault {
         let column = self.columns[column_of(observed)];
         let covariance = column.table.covariance.as_ref();
         let place = covariance.map_or(column.key.clone(), |stated| stated.span.clone());
-        let message = format!(
+        let message = say!(
             "the values of {} cannot have this covariance matrix",
             column.name
         );
         Fault::new(NOT_SEMIDEFINITE, place, message)
-            .label("not positive definite")
-            .help("check the signs, and that |covariance| does not exceed the product of the standard uncertainties; causes common to all points stand in `components`")
+            .label(say!("not positive definite"))
+            .help(say!("check the signs, and that |covariance| does not exceed the product of the standard uncertainties; causes common to all points stand in `components`"))
     }
 
     fn indistinct(&self, parameters: &[usize]) -> Fault {
@@ -133,58 +139,81 @@ impl Unsolved<'_> {
             .filter_map(|index| self.formula.parameters.get(*index))
             .map(|parameter| parameter.name.as_str())
             .collect();
-        let message = format!("the data do not tell {} apart", names.join(" and "));
-        Fault::new(FIT_INDISTINCT, self.place(), message)
-            .label("they can change together and leave the curve as it is")
-            .related(self.data(), "at these points")
-            .help(match names.as_slice() {
-                [one] => format!("{one} does not act at these points: leave it out of the formula, or add points where it does"),
-                _ => format!("leave out one of {}, or add points where they act differently", names.join(", ")),
+        let message = say!("the data do not tell {} apart", names.join(" and "));
+        let fault = Fault::new(FIT_INDISTINCT, self.place(), message)
+            .label(say!(
+                "they can change together and leave the curve as it is"
+            ))
+            .related(self.data(), say!("at these points"));
+        if let Some(start) = self.better_start() {
+            return fault.help(start);
+        }
+        fault.help(match names.as_slice() {
+                [one] => say!("{one} does not act at these points: leave it out of the formula, or add points where it does"),
+                _ => say!("leave out one of {}, or add points where they act differently", names.join(", ")),
             })
     }
 
     fn undefined(&self, point: usize) -> Fault {
         let last = self.columns[self.columns.len() - 1];
-        let message = format!(
+        let message = say!(
             "the formula of the fit {} has no finite value at point {}",
             self.name,
             point + 1
         );
         Fault::new(FIT_FAILED, self.place(), message)
-            .label("at the start values of its parameters")
-            .related(value_place(last, point), "this point")
-            .help("choose start values for which every point has a value")
+            .label(say!("at the start values of its parameters"))
+            .related(value_place(last, point), say!("this point"))
+            .help(
+                self.better_start().unwrap_or_else(|| {
+                    say!("choose start values for which every point has a value")
+                }),
+            )
     }
 
     fn no_convergence(&self, iterations: usize, parameters: &[f64]) -> Fault {
-        let best: Vec<String> = self
-            .formula
-            .parameters
-            .iter()
-            .zip(parameters)
-            .map(|(parameter, value)| format!("{} = {}", parameter.name, show(*value)))
-            .collect();
-        let message = format!(
+        let message = say!(
             "the fit {} was not found within {}",
             self.name,
-            count(iterations, "step")
+            steps(iterations)
         );
         Fault::new(FIT_FAILED, self.place(), message)
-            .label("the search does not settle")
-            .help(format!(
-                "choose other start values; it stopped at {}",
-                best.join(", ")
-            ))
+            .label(say!("the search does not settle"))
+            .help(self.better_start().unwrap_or_else(|| {
+                let stopped = self.values(parameters, 6);
+                say!("choose other start values; it stopped at {stopped}")
+            }))
+    }
+
+    /// That the start is a bad one, where other starts lead to a minimum.
+    fn better_start(&self) -> Option<Said> {
+        let best = self.elsewhere.first()?;
+        Some(say!(
+            "these start values are bad ones; others lead to a minimum at {}: write such values as `start`, and see whether the curve is the one that is meant",
+            self.values(&best.parameters, 3)
+        ))
+    }
+
+    /// `a = 2.5, b = 0.31`.
+    fn values(&self, parameters: &[f64], digits: u8) -> String {
+        let pairs = self.formula.parameters.iter().zip(parameters);
+        let values = pairs.map(|(parameter, value)| {
+            let value = Decimal::from_f64(*value).round_to_significant(digits, Rounding::HalfEven);
+            format!("{} = {}", parameter.name, show(value.to_f64()))
+        });
+        values.collect::<Vec<_>>().join(", ")
     }
 
     fn not_finite(&self) -> Fault {
-        let message = format!(
+        let message = say!(
             "the fit {} has no finite values at all its points",
             self.name
         );
         Fault::new(FIT_FAILED, self.place(), message)
-            .label("not defined everywhere")
-            .help("check the formula at the smallest and largest values of the columns")
+            .label(say!("not defined everywhere"))
+            .help(say!(
+                "check the formula at the smallest and largest values of the columns"
+            ))
     }
 
     /// The place of the formula.
@@ -213,7 +242,23 @@ fn value_place(column: &Column<'_>, point: usize) -> Range<usize> {
 }
 
 /// `1 point`, `3 points`.
-fn count(n: usize, noun: &str) -> String {
-    let plural = if n == 1 { "" } else { "s" };
-    format!("{n} {noun}{plural}")
+fn points(n: usize) -> Said {
+    match n {
+        1 => say!("1 point"),
+        n => say!("{n} points"),
+    }
+}
+
+fn parameters(n: usize) -> Said {
+    match n {
+        1 => say!("1 parameter"),
+        n => say!("{n} parameters"),
+    }
+}
+
+fn steps(n: usize) -> Said {
+    match n {
+        1 => say!("1 step"),
+        n => say!("{n} steps"),
+    }
 }

@@ -6,6 +6,7 @@
 //! through ∂parameter/∂datum, as components of their own.
 
 mod columns;
+mod doubts;
 mod failures;
 mod fitted;
 mod formula;
@@ -29,7 +30,7 @@ use crate::budget::tables::{FileTable, FitTable, MeasurandTable};
 use crate::budget::{Constant, Evaluation, Group, Input, Owner};
 use gumption_core::model::Model;
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Named;
 use gumption_format::toml::Stated;
 
@@ -49,7 +50,7 @@ impl Checker<'_> {
         let mut taken = names(file);
         let mut fitted = Vec::new();
         for (name, stated) in entries(&file.fit) {
-            self.check_name(name, &stated.key, "fit");
+            self.check_name(name, &stated.key, &say!("a fit"));
             // Claims may name figures of a fit that was refused.
             let found = self.fit(name, stated, constants, file, register, &mut taken);
             self.scatters.push(Scatter::of(name, found.as_ref()));
@@ -114,17 +115,19 @@ impl Checker<'_> {
         let first = register.inputs.len();
         for parameter in parameters {
             let name = &parameter.name;
-            self.check_name(name, &parameter.place, "parameter");
+            self.check_name(name, &parameter.place, &say!("a parameter"));
             if let Some(other) = taken.insert(name.clone(), parameter.place.clone()) {
                 self.report(
                     Fault::new(
                         NAME_TWICE,
                         parameter.place.clone(),
-                        format!("the name {name} is used twice"),
+                        say!("the name {name} is used twice"),
                     )
-                    .label(format!("a parameter of the fit {fit}"))
-                    .related(other, "first used here")
-                    .help("parameters of fits, inputs, constants and sources need different names"),
+                    .label(say!("a parameter of the fit {fit}"))
+                    .related(other, say!("first used here"))
+                    .help(say!(
+                        "parameters of fits, inputs, constants and sources need different names"
+                    )),
                 );
             }
             let place = register.inputs.len();
@@ -276,10 +279,10 @@ impl Checker<'_> {
                 Fault::new(
                     UNUSED,
                     stated.key.clone(),
-                    format!("no measurand depends on the fit {name}"),
+                    say!("no measurand depends on the fit {name}"),
                 )
-                .label("not used in any model")
-                .help(format!(
+                .label(say!("not used in any model"))
+                .help(say!(
                     "use {} in a model, or remove the fit; without any [measurand] its parameters are reported",
                     scatter.parameters.join(" or ")
                 )),

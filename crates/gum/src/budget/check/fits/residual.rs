@@ -6,7 +6,7 @@ use crate::budget::faults::{MODIFIER, RESIDUAL_OF, UNIT_CLASH, UNKNOWN_NAME};
 use crate::budget::tables::ComponentTable;
 use crate::budget::variants::ReadingsOf;
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
 
 impl Checker<'_> {
@@ -65,11 +65,11 @@ impl Checker<'_> {
             ReadingsOf::Single => Some(1.0),
             ReadingsOf::Several(count) => Some(count as f64),
             ReadingsOf::Mean => {
-                let message = format!("it is not stated how many readings {owner} is the mean of");
+                let message = say!("it is not stated how many readings {owner} is the mean of");
                 self.refuse(
                     Fault::new(MODIFIER, of.span.clone(), message)
-                        .label("of how many?")
-                        .help("write `of = 3` for the mean of three, or leave it out for a single reading"),
+                        .label(say!("of how many?"))
+                        .help(say!("write `of = 3` for the mean of three, or leave it out for a single reading")),
                 )
             }
         }
@@ -78,39 +78,45 @@ impl Checker<'_> {
     fn no_such_fit(&self, stated: &Stated<String>) -> Fault {
         let known: Vec<&str> = self.scatters.iter().map(|s| s.fit.as_str()).collect();
         let help = match nearest(&stated.value, known.iter().copied()) {
-            Some(near) => format!("did you mean \"{near}\"?"),
-            None if known.is_empty() => format!("declare it: [fit.{}]", stated.value),
-            None => format!("fits: {}", known.join(", ")),
+            Some(near) => say!("did you mean \"{near}\"?"),
+            None if known.is_empty() => say!("declare it: [fit.{}]", stated.value),
+            None => say!("fits: {}", known.join(", ")),
         };
-        let message = format!("there is no fit \"{}\"", stated.value);
+        let message = say!("there is no fit \"{}\"", stated.value);
         Fault::new(UNKNOWN_NAME, stated.span.clone(), message)
-            .label("not declared")
+            .label(say!("not declared"))
             .help(help)
     }
 }
 
 fn own_uncertainties(fit: &str, stated: &Stated<String>, owner: &str) -> Fault {
-    let message = format!("the data of the fit {fit} have uncertainties of their own");
+    let message = say!("the data of the fit {fit} have uncertainties of their own");
     Fault::new(RESIDUAL_OF, stated.span.clone(), message)
-        .label("its residuals do not stand for the scatter of a reading")
-        .help(format!(
+        .label(say!(
+            "its residuals do not stand for the scatter of a reading"
+        ))
+        .help(say!(
             "state the uncertainty of {owner} as that of the data: u = …"
         ))
 }
 
 fn other_unit(fit: &str, unit: &Unit, stated: &Stated<String>, context: &Context<'_>) -> Fault {
-    let message = format!(
+    let message = say!(
         "the fit {fit} scatters in {}, {} is in {}",
-        unit.symbol, context.owner, context.unit.symbol
+        unit.symbol,
+        context.owner,
+        context.unit.symbol
     );
     Fault::new(UNIT_CLASH, stated.span.clone(), message)
-        .label("units do not fit")
-        .help("the scatter is that of the column on the left of the formula")
+        .label(say!("units do not fit"))
+        .help(say!(
+            "the scatter is that of the column on the left of the formula"
+        ))
 }
 
 fn no_scatter(fit: &str, stated: &Stated<String>) -> Fault {
-    let message = format!("the fit {fit} passes through all its points");
+    let message = say!("the fit {fit} passes through all its points");
     Fault::new(RESIDUAL_OF, stated.span.clone(), message)
-        .label("no scatter")
-        .help("state the resolution of the readings: { step = … }")
+        .label(say!("no scatter"))
+        .help(say!("state the resolution of the readings: {{ step = … }}"))
 }

@@ -5,13 +5,14 @@ use nalgebra::{DMatrix, DVector};
 use super::super::checker::Checker;
 use super::super::register::Register;
 use super::columns::{Column, ColumnErrors, Common};
+use super::doubts;
 use super::failures::Unsolved;
 use super::formula::Formula;
 use crate::budget::faults::{FIT_COLUMNS, FIT_ERRORS};
-use crate::budget::fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest};
+use crate::budget::fit::{Fit, FitColumn, FitDoubt, FitParameter, LackOfFit, LackOfFitTest};
 use crate::budget::tables::{FitTable, ScaleWord};
 use gumption_core::least_squares::{self, Errors, Problem, Scale, Solution, Spread};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 /// Residuals of this share of the largest response are what the arithmetic leaves of none.
@@ -30,6 +31,7 @@ pub(super) struct Solved {
     causes: Vec<(usize, Vec<f64>)>,
     normalised: Option<Vec<f64>>,
     lack_of_fit: Option<LackOfFit>,
+    doubts: Vec<FitDoubt>,
 }
 
 impl Checker<'_> {
@@ -83,12 +85,15 @@ impl Checker<'_> {
                     stated,
                     formula,
                     columns,
+                    elsewhere: least_squares::elsewhere(&problem),
                 };
                 return self.refuse(unsolved.fault(&failure));
             }
         };
         if !weighted && solution.residual_sd <= NOISE * problem.y.amax() {
             solution.covariance.fill(0.0);
+            solution.correlation.fill_with_identity();
+            solution.u.fill(0.0);
             solution.chi_squared = 0.0;
             solution.residual_sd = 0.0;
         }
@@ -99,6 +104,7 @@ impl Checker<'_> {
             weighted,
             normalised,
             lack_of_fit: lack_of_fit(&problem, &solution),
+            doubts: doubts::of(formula, columns, &problem, &solution),
             u,
             common: errors
                 .iter()
@@ -130,10 +136,12 @@ impl Checker<'_> {
                 Fault::new(
                     FIT_ERRORS,
                     list.key.clone(),
-                    format!("`correlation` with {} predictors", columns.len() - 1),
+                    say!("`correlation` with {} predictors", columns.len() - 1),
                 )
-                .label("of one predictor and the response")
-                .help("leave it out; a common cause of several columns is a [source.NAME]"),
+                .label(say!("of one predictor and the response"))
+                .help(say!(
+                    "leave it out; a common cause of several columns is a [source.NAME]"
+                )),
             );
         }
         if list.value.len() != n {
@@ -141,13 +149,13 @@ impl Checker<'_> {
                 Fault::new(
                     FIT_COLUMNS,
                     list.span.clone(),
-                    format!(
+                    say!(
                         "{} correlation coefficients for {n} points",
                         list.value.len()
                     ),
                 )
-                .label(format!("expected {n}"))
-                .help("state one for each point"),
+                .label(say!("expected {n}"))
+                .help(say!("state one for each point")),
             );
         }
         Some(Some(list.value.iter().map(|r| r.value).collect()))
@@ -208,14 +216,17 @@ fn normalised(
                 &mut by_parameter,
                 &mut by_predictor,
             );
-            let mut variance = of(0, i).powi(2);
-            for (k, slope) in by_predictor.iter().enumerate() {
-                variance += (slope * of(k + 1, i)).powi(2);
-            }
+            let own = of(0, i);
+            let slopes = by_predictor.iter().enumerate();
+            let moved: Vec<f64> = slopes.map(|(k, slope)| slope * of(k + 1, i)).collect();
+            // In units of the largest part: squares of 10¹⁶⁰ are infinite.
+            let size = moved.iter().fold(own, |most, part| part.abs().max(most));
+            let mut variance = (own / size).powi(2);
+            variance += moved.iter().map(|part| (part / size).powi(2)).sum::<f64>();
             if let Some(r) = &problem.errors.correlation {
-                variance -= 2.0 * r[i] * by_predictor[0] * of(0, i) * of(1, i);
+                variance -= 2.0 * r[i] * (moved[0] / size) * (own / size);
             }
-            (problem.y[i] - f) / (factor * variance.sqrt())
+            (problem.y[i] - f) / (factor * size * variance.sqrt())
         })
         .collect();
     distances.iter().all(|d| d.is_finite()).then_some(distances)
@@ -235,7 +246,8 @@ fn lack_of_fit(problem: &Problem<'_>, solution: &Solution) -> Option<LackOfFit> 
     }
     let test = least_squares::replicates(problem, solution)?;
     // Repetitions that are equal to the last digit tell nothing of the scatter.
-    (problem.errors.scale == Scale::Residuals && test.pure_error > 0.0).then_some(LackOfFit {
+    let tells = test.pure_error > 0.0 && test.f.is_finite();
+    (problem.errors.scale == Scale::Residuals && tells).then_some(LackOfFit {
         test: LackOfFitTest::Replicates,
         statistic: test.f,
         dof: test.lack_of_fit_dof as f64,
@@ -256,7 +268,7 @@ impl Solved {
         register: &mut Register,
     ) -> Fit {
         self.enter_estimates(first, register);
-        let u = self.standard_uncertainties();
+        let u = &self.solution.u;
         let parameters: Vec<FitParameter> = formula
             .parameters
             .iter()
@@ -275,7 +287,6 @@ impl Solved {
         let columns = columns
             .map(|((column, u), common)| fit_column(column, u.clone(), common, register))
             .collect();
-        let correlation = correlation(&self.solution.covariance, &u);
         let solution = self.solution;
         let text = |stated: &Option<Stated<String>>| stated.as_ref().map(|text| text.value.clone());
         Fit {
@@ -285,7 +296,7 @@ impl Solved {
             equation: formula.equation.clone(),
             columns,
             parameters,
-            correlation,
+            correlation: solution.correlation,
             stated: self.scale == Scale::Stated,
             weighted: self.weighted,
             dof: solution.dof,
@@ -294,6 +305,7 @@ impl Solved {
             r_squared: solution.r_squared,
             normalised: self.normalised,
             lack_of_fit: self.lack_of_fit,
+            doubts: self.doubts,
             linear: formula.shape.response().is_linear(),
             iterations: solution.iterations,
             condition: solution.condition,
@@ -322,31 +334,14 @@ impl Solved {
         }
     }
 
-    /// Of the parameters, from the fit alone.
-    fn standard_uncertainties(&self) -> Vec<f64> {
-        let variances = self.solution.covariance.diagonal();
-        variances.iter().map(|v| v.max(0.0).sqrt()).collect()
-    }
-
     /// Standard uncertainty of a parameter with the common causes.
     fn combined(&self, place: usize, u: f64, register: &Register) -> f64 {
         let causes = self.causes.iter().map(|(component, actions)| {
             let u = register.components.get(*component).map_or(0.0, |c| c.u);
-            (u * actions[place]).powi(2)
+            u * actions[place]
         });
-        (u.powi(2) + causes.sum::<f64>()).sqrt()
+        causes.fold(u, libm::hypot)
     }
-}
-
-/// Correlation coefficients; none for parameters that are exact.
-fn correlation(covariance: &DMatrix<f64>, u: &[f64]) -> DMatrix<f64> {
-    DMatrix::from_fn(u.len(), u.len(), |i, j| {
-        if i == j || u[i] * u[j] == 0.0 {
-            f64::from(u8::from(i == j))
-        } else {
-            (covariance[(i, j)] / (u[i] * u[j])).clamp(-1.0, 1.0)
-        }
-    })
 }
 
 /// A column for the report, with the names of its common causes.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::budget::{Budget, Law, Rejection, read};
+use crate::budget::{Budget, FitDoubt, Law, Rejection, read};
 
 fn budget(text: &str) -> Result<Budget, Rejection> {
     let mut loaded = read(text, "test.toml", Path::new(""))?;
@@ -230,4 +230,153 @@ fn uncertainties_stand_in_a_csv_file() {
     // One in the table, and where the budget asks for it.
     assert_eq!(message.matches("error[").count(), 2, "{message}");
     std::fs::remove_dir_all(&folder).expect("the folder of the test");
+}
+
+/// A fit of one predictor in the file's words.
+fn fit_of(model: &str, x: &[f64], y: &[f64], starts: &str) -> String {
+    format!(
+        "[fit.f]\nmodel = \"{model}\"\n[fit.f.data]\nx = {{ values = {x:?} }}\ny = {{ values = {y:?} }}\n{starts}"
+    )
+}
+
+/// Errors that look like chance and are always the same: a golden-section sequence about zero.
+fn errors(n: usize, size: f64) -> Vec<f64> {
+    let place = |i: usize| (i as f64 * 0.618_033_988_749_894_9).fract() - 0.5;
+    (1..=n).map(|i| size * place(i * i)).collect()
+}
+
+fn noisy(x: &[f64], size: f64, f: impl Fn(f64) -> f64) -> Vec<f64> {
+    let pairs = x.iter().zip(errors(x.len(), size));
+    pairs.map(|(x, error)| f(*x) + error).collect()
+}
+
+fn steps(n: usize, step: f64) -> Vec<f64> {
+    (0..n).map(|i| step * i as f64).collect()
+}
+
+#[test]
+fn a_frequency_far_off_ends_in_a_minimum_that_is_not_the_best() {
+    let x = steps(40, 0.25);
+    let y = noisy(&x, 0.1, |x| 1.3 * (2.1 * x + 0.4).sin());
+    let from = |w: f64| {
+        let starts = format!(
+            "[fit.f.parameters]\nA = {{ start = 1 }}\nw = {{ start = {w} }}\np = {{ start = 0.1 }}\n"
+        );
+        accepted(&fit_of("y = A*sin(w*x + p)", &x, &y, &starts))
+    };
+    let good = from(2.0);
+    assert!((good.inputs[1].estimate - 2.1).abs() < 0.01);
+    assert_eq!(good.fits[0].doubts, []);
+    let bad = from(5.0);
+    assert!((bad.inputs[1].estimate - 2.1).abs() > 0.5);
+    let better = bad.fits[0].doubts.iter().find_map(|doubt| match doubt {
+        FitDoubt::BetterMinimum {
+            parameters,
+            residuals,
+        } => Some((parameters.clone(), *residuals)),
+        _ => None,
+    });
+    let (parameters, residuals) = better.expect("a better minimum");
+    close_to(parameters[1].1.abs(), good.inputs[1].estimate, 1e-5);
+    let ratio = (good.fits[0].chi_squared / bad.fits[0].chi_squared).sqrt();
+    close_to(residuals, ratio, 1e-6);
+}
+
+fn close_to(found: f64, expected: f64, relative: f64) {
+    assert!(
+        (found / expected - 1.0).abs() < relative,
+        "{found} is not {expected}"
+    );
+}
+
+#[test]
+fn a_pole_between_the_points_is_found_where_it_is() {
+    let x = steps(7, 1.0);
+    let y = noisy(&x, 0.001, |x| 1.0 / (1.0 - 0.3 * x));
+    let starts = "[fit.f.parameters]\na = { start = 1 }\nb = { start = -0.3 }\n";
+    let budget = accepted(&fit_of("y = a/(1 + b*x)", &x, &y, starts));
+    let pole = &budget.fits[0].doubts[0];
+    assert!(
+        matches!(pole, FitDoubt::Pole { argument, between: [3.0, 4.0], .. } if argument == "1 + b * x"),
+        "{pole:?}"
+    );
+    // The same curve where it has none.
+    let far = noisy(&x, 0.001, |x| 1.0 / (1.0 + 0.3 * x));
+    let starts = "[fit.f.parameters]\na = { start = 1 }\nb = { start = 0.3 }\n";
+    let budget = accepted(&fit_of("y = a/(1 + b*x)", &x, &far, starts));
+    assert_eq!(budget.fits[0].doubts, []);
+}
+
+#[test]
+fn residuals_of_a_line_through_a_curve_follow_a_pattern() {
+    let x = steps(20, 0.5);
+    let bent = noisy(&x, 0.01, |x| 1.0 + x + 0.1 * x * x);
+    let budget = accepted(&fit_of("y = a + b*x", &x, &bent, ""));
+    // Above, below, above: three runs of twenty points.
+    let [
+        FitDoubt::Pattern {
+            runs: 3,
+            points: 20,
+            p,
+        },
+    ] = budget.fits[0].doubts[..]
+    else {
+        panic!("{:?}", budget.fits[0].doubts);
+    };
+    assert!(p < 1e-3);
+    let straight = noisy(&x, 0.01, |x| 1.0 + x);
+    let budget = accepted(&fit_of("y = a + b*x", &x, &straight, ""));
+    assert_eq!(budget.fits[0].doubts, []);
+}
+
+/// A fit does not depend on the unit of its response, however large or small that makes the numbers.
+#[test]
+fn a_response_of_any_size() {
+    let x = [1.0, 2.0, 3.0, 4.0, 5.0];
+    let y = [1.01, 2.02, 3.98, 8.01, 16.03];
+    let sized = |model: &str, exponent: i32| {
+        let size = 10f64.powi(exponent);
+        let y = y.map(|y| y * size);
+        let starts = match model.contains("exp") {
+            true => format!(
+                "[fit.f.parameters]\na = {{ start = 1e{exponent} }}\nb = {{ start = 0.5 }}\n"
+            ),
+            false => String::new(),
+        };
+        let budget = accepted(&fit_of(model, &x, &y, &starts));
+        let fit = &budget.fits[0];
+        let parts = fit.parameters.iter().map(|p| (p.estimate, p.u));
+        let s = fit.residual_sd.expect("residuals");
+        (parts.collect::<Vec<_>>(), s, fit.correlation[(0, 1)])
+    };
+    for exponent in [160, 250, -160, -250] {
+        let size = 10f64.powi(exponent);
+        let (one, s, r) = sized("y = a*exp(b*x)", 0);
+        let (far, s_far, r_far) = sized("y = a*exp(b*x)", exponent);
+        close_to(far[0].0 / size, one[0].0, 1e-9);
+        close_to(far[0].1 / size, one[0].1, 1e-6);
+        close_to(far[1].0, one[1].0, 1e-9);
+        close_to(far[1].1, one[1].1, 1e-6);
+        close_to(s_far / size, s, 1e-9);
+        close_to(r_far, r, 1e-6);
+        let (one, s, r) = sized("y = a + b*x", 0);
+        let (far, s_far, r_far) = sized("y = a + b*x", exponent);
+        for (far, one) in far.iter().zip(&one) {
+            close_to(far.0 / size, one.0, 1e-12);
+            close_to(far.1 / size, one.1, 1e-12);
+        }
+        close_to(s_far / size, s, 1e-12);
+        close_to(r_far, r, 1e-12);
+    }
+}
+
+#[test]
+fn a_bad_start_is_called_that() {
+    let x = steps(7, 1.0);
+    let y = noisy(&x, 0.01, |x| (0.5 * x).exp());
+    let starts = "[fit.f.parameters]\na = { start = 1 }\nb = { start = 300 }\n";
+    let refused = budget(&fit_of("y = a*exp(b*x)", &x, &y, starts)).map(|_| ());
+    let text = refused.expect_err("e^1800").render(false);
+    assert!(text.contains("these start values are bad ones"), "{text}");
+    assert!(text.contains("b = 0.5"), "{text}");
 }

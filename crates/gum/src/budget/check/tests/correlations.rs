@@ -85,7 +85,7 @@ fn impossible_correlations_are_refused_with_the_nearest_possible_one() {
     let rejection = refused(&three(&all));
     assert_eq!(rejection.faults[0].code.id, "B0305");
     // With r = 0.9 twice the third is at least 2·0.81 − 1 = 0.62.
-    let help = rejection.faults[0].help.clone().unwrap();
+    let help = rejection.faults[0].help.clone().unwrap().to_string();
     assert!(help.contains("0.62") || help.contains("-0.62"), "{help}");
     assert_eq!(
         faults(&three(&correlation("a", "b", 1.5)))[0],

@@ -88,6 +88,7 @@ fn an_expanded_uncertainty_is_not_taken_for_a_standard_one() {
             .help
             .as_ref()
             .unwrap()
+            .to_string()
             .contains("certificate = {")
     );
 }

@@ -20,7 +20,7 @@ fn a_point_is_no_limit_of_a_difference() {
     ] {
         let rejection = refused(&difference(more));
         let fault = &rejection.faults[0];
-        let help = fault.help.as_deref().unwrap_or_default();
+        let help = fault.help.clone().unwrap_or_default().to_string();
         assert_eq!(fault.code.id, "B0112", "{more}{rejection}");
         assert!(
             help.contains("\"1 K\"") && help.contains("\"274.15 K\""),

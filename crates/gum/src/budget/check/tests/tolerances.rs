@@ -67,7 +67,8 @@ fn a_percentage_of_a_percentage_says_what_to_write() {
         );
         let rejection = refused(&text);
         assert_eq!(rejection.faults[0].code.id, "B0113", "{text}");
-        let found = rejection.faults[0].help.as_deref().unwrap_or_default();
+        let found = rejection.faults[0].help.clone().unwrap_or_default();
+        let found = found.to_string();
         assert!(
             found.contains(help) && !found.contains("relative ="),
             "{found}"

@@ -6,11 +6,12 @@ use super::text::Written;
 use crate::budget::Constant;
 use crate::budget::faults::FIT_START;
 use gumption_core::least_squares::Gradient;
+use gumption_core::model::faults::{Wording, reworded};
 use gumption_core::model::{
     MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile,
 };
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 /// What a formula uses beside its parameters.
@@ -44,7 +45,8 @@ impl Checker<'_> {
         Ok(Formula {
             response: formula.response,
             predictors: known.predictors,
-            shape: Shape::Compiled(response(model, parameters.len(), linear)),
+            shape: Shape::Compiled(response(model.clone(), parameters.len(), linear)),
+            model: Some(model),
             parameters,
             equation: formula.outline.printed.clone(),
             place: formula.text.span.clone(),
@@ -217,41 +219,32 @@ fn response(model: Model, parameters: usize, linear: bool) -> Compiled {
 
 fn without_start(missing: &[&str], text: &Stated<String>) -> Fault {
     let what = if missing.len() == 1 {
-        "has no start value"
+        say!("has no start value")
     } else {
-        "have no start values"
+        say!("have no start values")
     };
     let example: Vec<String> = missing
         .iter()
         .map(|name| format!("{name} = {{ start = … }}"))
         .collect();
-    let message = format!(
+    let message = say!(
         "the formula is not linear in its parameters, and {} {what}",
         missing.join(", ")
     );
     Fault::new(FIT_START, text.span.clone(), message)
-        .label("a nonlinear formula is solved by a search")
-        .help(format!(
+        .label(say!("a nonlinear formula is solved by a search"))
+        .help(say!(
             "state roughly where the search begins, in the table of the parameters: {}",
             example.join(", ")
         ))
 }
 
 /// A fault of the formula in the words of a fit: its left side is a column, not a measurand.
-fn of_the_fit(mut fault: Fault, column: &str) -> Fault {
-    fault.message = reworded(&fault.message, column);
-    fault.help = fault.help.map(|help| reworded(&help, column));
-    fault
-}
-
-fn reworded(text: &str, column: &str) -> String {
-    text.replace("for the measurand", &format!("for the column {column}"))
-        .replace(
-            "the measurand's unit",
-            &format!("the unit of the column {column}"),
-        )
-        .replace(
-            "an input or constant of the file",
-            "a column, parameter or constant",
-        )
+fn of_the_fit(fault: Fault, column: &str) -> Fault {
+    let own = Wording {
+        measurand: say!("the column {column}"),
+        unit: say!("the unit of the column {column}"),
+        given: say!("a column, parameter or constant"),
+    };
+    reworded(fault, &own)
 }

@@ -16,7 +16,7 @@ mod text;
 
 use super::super::checker::Checker;
 use crate::budget::faults::{FIT, TWO_WAYS};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 
 pub(super) use parts::{Formula, Parameter, Scope};
 
@@ -32,19 +32,19 @@ impl Checker<'_> {
             (Some(model), Some(polynomial)) => Fault::new(
                 TWO_WAYS,
                 polynomial.key.clone(),
-                format!("the fit {name} has a `model` and a `polynomial`"),
+                say!("the fit {name} has a `model` and a `polynomial`"),
             )
-            .label("second formula")
-            .related(model.key.clone(), "first formula")
-            .help("keep one"),
+            .label(say!("second formula"))
+            .related(model.key.clone(), say!("first formula"))
+            .help(say!("keep one")),
             (None, None) if table.refused => return Err(Vec::new()),
             (None, None) => Fault::new(
                 FIT,
                 fit.stated.key.clone(),
-                format!("the fit {name} has no formula"),
+                say!("the fit {name} has no formula"),
             )
-            .label("`model` is missing")
-            .help("add for example model = \"y = a + b*x\", or polynomial = 2 with `response` and `predictor`"),
+            .label(say!("`model` is missing"))
+            .help(say!("add for example model = \"y = a + b*x\", or polynomial = 2 with `response` and `predictor`")),
         };
         self.report(fault);
         Err(Vec::new())

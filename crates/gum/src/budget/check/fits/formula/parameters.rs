@@ -9,7 +9,7 @@ use super::parts::{Parameter, Scope};
 use super::text::Written;
 use crate::budget::faults::{FIT, NAME_TWICE, UNKNOWN_NAME, UNUSED};
 use crate::budget::tables::FitParameterTable;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, Said, nearest, say};
 use gumption_format::toml::Stated;
 
 /// What a name on the right side of a formula is.
@@ -81,9 +81,9 @@ impl Checker<'_> {
                     found.misspelt.push(near);
                     let fault = unknown(formula.fit, name, place);
                     self.messages.faults
-                        .push(fault.help(format!("did you mean the column `{near}`?")));
+                        .push(fault.help(say!("did you mean the column `{near}`?")));
                 }
-                Meaning::Input => self.report(unknown(formula.fit, name, place).help(format!(
+                Meaning::Input => self.report(unknown(formula.fit, name, place).help(say!(
                     "make {name} a [constant], and let a component common to all points stand for its uncertainty; or correct the column for it beforehand"
                 ))),
                 Meaning::Unlisted => {
@@ -151,22 +151,21 @@ impl<'f> Written<'f> {
     fn fault_of(&self, parameter: &str, stated: &Stated<FitParameterTable>) -> Option<Fault> {
         let (fit, place) = (self.fit.name, stated.key.clone());
         if self.fit.column(parameter).is_some() {
-            let message = format!("{parameter} is a column and a parameter of the fit {fit}");
+            let message = say!("{parameter} is a column and a parameter of the fit {fit}");
             return Some(
                 Fault::new(NAME_TWICE, place, message)
-                    .label("used again here")
-                    .help("choose another name for one of them"),
+                    .label(say!("used again here"))
+                    .help(say!("choose another name for one of them")),
             );
         }
         if self.uses(parameter) {
             return None;
         }
-        let message =
-            format!("the formula of the fit {fit} does not use the parameter {parameter}");
+        let message = say!("the formula of the fit {fit} does not use the parameter {parameter}");
         Some(
             Fault::new(UNUSED, place, message)
-                .label("not used")
-                .help("use it in the formula, or remove it"),
+                .label(say!("not used"))
+                .help(say!("use it in the formula, or remove it")),
         )
     }
 }
@@ -197,29 +196,30 @@ fn unlisted(name: &str, place: Range<usize>) -> Parameter {
 }
 
 fn both_sides(name: &str, place: Range<usize>) -> Fault {
-    let message = format!("{name} is on both sides of the formula");
-    Fault::new(FIT, place, message)
-        .label("expected columns, parameters and constants other than the left side")
+    let message = say!("{name} is on both sides of the formula");
+    Fault::new(FIT, place, message).label(say!(
+        "expected columns, parameters and constants other than the left side"
+    ))
 }
 
 fn unknown(fit: &Scope<'_>, name: &str, place: Range<usize>) -> Fault {
     let message = if fit.is_input(name) {
-        format!("{name} is an input; a fit knows its columns, its parameters and constants")
+        say!("{name} is an input; a fit knows its columns, its parameters and constants")
     } else {
-        format!(
+        say!(
             "{name} is neither a column nor a parameter of the fit {}, nor a constant",
             fit.name
         )
     };
-    Fault::new(UNKNOWN_NAME, place, message).label("not known here")
+    Fault::new(UNKNOWN_NAME, place, message).label(say!("not known here"))
 }
 
 /// The mend for a name that is missing in the list of the parameters.
-fn not_in_the_list(fit: &Scope<'_>, name: &str) -> String {
+fn not_in_the_list(fit: &Scope<'_>, name: &str) -> Said {
     let list = fit.declared().unwrap_or_default();
     match nearest(name, list.iter().map(|(name, _)| name.as_str())) {
-        Some(near) => format!("did you mean the parameter `{near}`?"),
-        None => format!(
+        Some(near) => say!("did you mean the parameter `{near}`?"),
+        None => say!(
             "add it to the others: [fit.{}.parameters], {name} = {{ unit = \"…\" }}",
             fit.name
         ),
@@ -227,21 +227,24 @@ fn not_in_the_list(fit: &Scope<'_>, name: &str) -> String {
 }
 
 fn unused_column(fit: &Scope<'_>, column: &Column<'_>) -> Fault {
-    let message = format!(
+    let message = say!(
         "the formula of the fit {} does not use the column {}",
-        fit.name, column.name
+        fit.name,
+        column.name
     );
     Fault::new(UNUSED, column.key.clone(), message)
-        .label("not used")
-        .help("use it in the formula, or remove it")
+        .label(say!("not used"))
+        .help(say!("use it in the formula, or remove it"))
 }
 
 fn no_parameters(formula: &Written<'_>) -> Fault {
-    let message = format!(
+    let message = say!(
         "the formula of the fit {} has no parameters",
         formula.fit.name
     );
     Fault::new(FIT, formula.text.span.clone(), message)
-        .label("nothing is to be found")
-        .help("every name that is neither a column nor a constant is a parameter: \"y = a + b*x\"")
+        .label(say!("nothing is to be found"))
+        .help(say!(
+            "every name that is neither a column nor a constant is a parameter: \"y = a + b*x\""
+        ))
 }

@@ -9,8 +9,9 @@ use crate::budget::Constant;
 use crate::budget::faults::UNKNOWN_NAME;
 use crate::budget::tables::{FileTable, FitParameterTable, FitTable};
 use gumption_core::least_squares::{Gradient, Polynomial, Response};
+use gumption_core::model::Model;
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 
 /// A compiled formula: parameters first in its input vector, then the predictors.
 pub(crate) type Compiled = Gradient<Box<dyn Fn(&[f64], &mut [f64]) -> f64>>;
@@ -33,6 +34,8 @@ pub(crate) struct Formula {
     pub predictors: Vec<usize>,
     pub parameters: Vec<Parameter>,
     pub shape: Shape,
+    /// The compiled formula, parameters before predictors; none of a polynomial.
+    pub model: Option<Model>,
     /// In printed form.
     pub equation: String,
     /// Place to which faults of the fit as a whole point.
@@ -87,12 +90,12 @@ impl<'f> Scope<'f> {
     ) -> Fault {
         let known = self.columns.iter().map(|column| column.name);
         let help = match nearest(name, known.clone()) {
-            Some(near) => format!("did you mean {}?", quoted(near)),
-            None => format!("its columns are: {}", known.collect::<Vec<_>>().join(", ")),
+            Some(near) => say!("did you mean {}?", quoted(near)),
+            None => say!("its columns are: {}", known.collect::<Vec<_>>().join(", ")),
         };
-        let message = format!("the fit {} has no column {name}", self.name);
+        let message = say!("the fit {} has no column {name}", self.name);
         Fault::new(UNKNOWN_NAME, place, message)
-            .label("expected a column of the data")
+            .label(say!("expected a column of the data"))
             .help(help)
     }
 }

@@ -6,7 +6,7 @@ use crate::budget::faults::{FIT, MISSING_KEY, MODIFIER, UNIT_CLASH, UNUSED};
 use crate::budget::tables::FitParameterTable;
 use gumption_core::least_squares::{Polynomial, Response};
 use gumption_core::quantity::Unit;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 /// The highest degree of a polynomial.
@@ -59,6 +59,7 @@ impl Checker<'_> {
             equation: between.equation(&parameters),
             parameters,
             shape: Shape::Polynomial(between.polynomial),
+            model: None,
             place: degree.span.clone(),
         })
     }
@@ -113,20 +114,20 @@ impl Checker<'_> {
                 .conversion_to(natural)
                 .is_some_and(|conversion| conversion.is_identity());
             if !same {
-                let message = format!("{name} is in {}, not in {}", natural.symbol, found.symbol);
+                let message = say!("{name} is in {}, not in {}", natural.symbol, found.symbol);
                 return self.refuse(
                     Fault::new(UNIT_CLASH, unit.span.clone(), message)
-                        .label(format!("expected {}", natural.symbol))
-                        .help("the units of the columns determine those of the coefficients; leave it out"),
+                        .label(say!("expected {}", natural.symbol))
+                        .help(say!("the units of the columns determine those of the coefficients; leave it out")),
                 );
             }
         }
         if let Some(start) = &table.start {
-            let message = "a polynomial needs no start values";
+            let message = say!("a polynomial needs no start values");
             self.report(
                 Fault::new(MODIFIER, start.key.clone(), message)
-                    .label("no meaning here")
-                    .help("leave it out"),
+                    .label(say!("no meaning here"))
+                    .help(say!("leave it out")),
             );
         }
         Some(())
@@ -163,16 +164,16 @@ impl Between<'_> {
         let parameters = self.fit.stated.value.parameters.as_ref();
         let place = parameters.map_or(degree.span.clone(), |stated| stated.span.clone());
         let with = if self.polynomial.intercept {
-            "with"
+            say!("with")
         } else {
-            "without"
+            say!("without")
         };
-        let message = format!(
+        let message = say!(
             "{} parameters for a polynomial of degree {} {with} constant term",
             wrong.unwrap_or(count),
             degree.value,
         );
-        Some(Fault::new(FIT, place, message).label(format!("expected {} parameters", count.max(1))))
+        Some(Fault::new(FIT, place, message).label(say!("expected {} parameters", count.max(1))))
     }
 
     /// In printed form.
@@ -193,25 +194,22 @@ impl Between<'_> {
 }
 
 fn too_high(degree: &Stated<u64>) -> Fault {
-    let message = format!("a polynomial of degree {}", degree.value);
-    Fault::new(FIT, degree.span.clone(), message).label(format!("expected {HIGHEST} at most"))
+    let message = say!("a polynomial of degree {}", degree.value);
+    Fault::new(FIT, degree.span.clone(), message).label(say!("expected {HIGHEST} at most"))
 }
 
 fn idle_column(fit: &Scope<'_>, idle: usize) -> Fault {
     let column = &fit.columns[idle];
-    let message = format!("the polynomial does not use the column {}", column.name);
+    let message = say!("the polynomial does not use the column {}", column.name);
     Fault::new(UNUSED, column.key.clone(), message)
-        .label("not used")
-        .help("remove it")
+        .label(say!("not used"))
+        .help(say!("remove it"))
 }
 
 fn missing_side(fit: &Scope<'_>, key: &str) -> Fault {
     let known: Vec<&str> = fit.columns.iter().map(|column| column.name).collect();
-    let message = format!("the polynomial of the fit {} has no `{key}`", fit.name);
+    let message = say!("the polynomial of the fit {} has no `{key}`", fit.name);
     Fault::new(MISSING_KEY, fit.stated.key.clone(), message)
-        .label(format!("`{key}` is missing"))
-        .help(format!(
-            "write {key} = \"…\" with one of {}",
-            known.join(", ")
-        ))
+        .label(say!("`{key}` is missing"))
+        .help(say!("write {key} = \"…\" with one of {}", known.join(", ")))
 }

@@ -8,7 +8,7 @@ use super::parts::{Formula, Parameter, Scope};
 use crate::budget::faults::{FIT, MODIFIER};
 use gumption_core::model::faults::LEFT_SIDE;
 use gumption_core::model::{Outline, outline};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 /// A formula that was read, and whose left side is a column.
@@ -81,10 +81,10 @@ impl Checker<'_> {
                 Fault::new(
                     MODIFIER,
                     place,
-                    format!("`{name}` does not go with `model`"),
+                    say!("`{name}` does not go with `model`"),
                 )
-                .label("no meaning here")
-                .help("it belongs to `polynomial`; a formula says by itself what it gives and from what")
+                .label(say!("no meaning here"))
+                .help(say!("it belongs to `polynomial`; a formula says by itself what it gives and from what"))
             }));
         }
     }
@@ -123,14 +123,14 @@ fn without_left_side(fit: &Scope<'_>, text: &Stated<String>, outline: &Outline) 
     let place = text.span.clone();
     // `ln(y) = …` reads as the definition of a function.
     let last = outline.printed.lines().last().unwrap_or_default();
-    if let Some((left, _)) = last.split_once(" = ") {
-        let message = format!("`{left}` cannot be defined");
+    if let Some((before, _)) = last.split_once(" = ") {
+        let message = say!("`{before}` cannot be defined");
         return left_side(Fault::new(LEFT_SIDE, place, message));
     }
-    let message = format!("the formula of the fit {} has no left side", fit.name);
+    let message = say!("the formula of the fit {} has no left side", fit.name);
     Fault::new(FIT, place, message)
-        .label("expected a column, `=` and the formula for it")
-        .help(format!(
+        .label(say!("expected a column, `=` and the formula for it"))
+        .help(say!(
             "write for example \"{} = …\"",
             fit.columns.last().map_or("y", |column| column.name)
         ))
@@ -139,12 +139,11 @@ fn without_left_side(fit: &Scope<'_>, text: &Stated<String>, outline: &Outline) 
 /// An expression left of `=`, in words of a fit: there stands a column, not a measurand.
 fn left_side(mut fault: Fault) -> Fault {
     if fault.code == LEFT_SIDE {
-        fault.message = fault.message.replace("cannot be defined", "is no column");
-        fault.label = "only the name of a column may stand left of `=`".into();
-        fault.help = Some(
+        fault.message = say!("`{before}` is no column", before = "").with_values_of(fault.message);
+        fault.label = say!("only the name of a column may stand left of `=`");
+        fault.help = Some(say!(
             "solve the formula for a column (a predictor may have the larger uncertainty, too), or give the transformed values a column of their own"
-                .into(),
-        );
+        ));
     }
     fault
 }

@@ -1,0 +1,94 @@
+//! Tables whose rows and columns are exchanged: heads down the first column, one quantity in each column behind it.
+
+use crate::sheet::{Cell, Grid};
+
+use super::columns::{self, Role};
+
+/// The fewest heads below one another that are no chance.
+const FEWEST: usize = 4;
+
+/// The sheet with such a table the usual way round; as it is where there is none.
+pub fn upright(grid: &Grid) -> Grid {
+    let Some((start, end)) = (0..grid.rows.len()).find_map(|start| heads_below(grid, start)) else {
+        return grid.clone();
+    };
+    let first = grid.filled(start).next().map_or(0, |(column, _)| column);
+    let width = (start..end)
+        .map(|row| grid.rows[row].len())
+        .max()
+        .unwrap_or(0);
+    let turned = (first..width)
+        .map(|column| {
+            (start..end)
+                .map(|row| grid.cell(row, column).clone())
+                .collect::<Vec<Cell>>()
+        })
+        .filter(|row| row.iter().any(|cell| !cell.is_empty()));
+    let rows = grid.rows[..start]
+        .iter()
+        .cloned()
+        .chain(turned)
+        .chain(grid.rows[end..].iter().cloned());
+    Grid {
+        name: grid.name.clone(),
+        rows: rows.collect(),
+    }
+}
+
+/// Rows from here on that begin with heads of different columns, one of which names a quantity and one of which is a
+/// figure of its uncertainty.
+fn heads_below(grid: &Grid, start: usize) -> Option<(usize, usize)> {
+    let mut roles: Vec<Role> = Vec::new();
+    let mut end = start;
+    while let Some((column, cell)) = grid.filled(end).next() {
+        let Some((role, _)) = columns::role(&cell.text) else {
+            break;
+        };
+        let same_column = grid
+            .filled(start)
+            .next()
+            .is_some_and(|(first, _)| first == column);
+        if !same_column || roles.contains(&role) || grid.filled(end).count() < 2 {
+            break;
+        }
+        roles.push(role);
+        end += 1;
+    }
+    let has = |wanted: &[Role]| roles.iter().any(|role| wanted.contains(role));
+    let is_table = roles.len() >= FEWEST
+        && has(&[Role::Symbol, Role::Name])
+        && has(&[Role::Used, Role::U, Role::Contribution]);
+    is_table.then_some((start, end))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid(rows: &[&str]) -> Grid {
+        let cells = |row: &&str| row.split('|').map(Cell::new).collect();
+        Grid {
+            name: String::new(),
+            rows: rows.iter().map(cells).collect(),
+        }
+    }
+
+    #[test]
+    fn heads_in_the_first_column_are_turned() {
+        let turned = upright(&grid(&[
+            "Budget",
+            "",
+            "Symbol|a|b",
+            "Divisor|2|√3",
+            "u(x_i)|0.1|0.2",
+            "c_i|1|-1",
+            "",
+            "U = 0.4",
+        ]));
+        assert_eq!(turned.rows[2][2].text, "u(xi)".replace("xi", "x_i"));
+        assert_eq!(turned.rows[4][1].text, "√3");
+        assert_eq!(turned.rows.len(), 7);
+        let usual = grid(&["Symbol|u(x_i)|c_i", "a|0.1|1", "b|0.2|1"]);
+        assert_eq!(upright(&usual), usual);
+    }
+}

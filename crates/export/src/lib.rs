@@ -1,0 +1,27 @@
+//! Documents in the formats that laboratories hand over, and the list of all formats.
+//!
+//! What rests on large libraries stands here, above `gumption_format`, so that whatever composes documents is compiled
+//! without them.
+
+mod xlsx;
+
+pub use gumption_format::render::{Format, Page, Unfit, html, json, markdown, svg, text};
+
+/// Every format; the first is the one that is printed where none is asked for.
+pub const FORMATS: &[Format] = &[
+    text::FORMAT,
+    markdown::FORMAT,
+    html::FORMAT,
+    json::FORMAT,
+    xlsx::FORMAT,
+];
+
+/// The format of a name.
+pub fn named(name: &str) -> Option<&'static Format> {
+    FORMATS.iter().find(|format| format.name == name)
+}
+
+/// The format of a file's ending.
+pub fn with_ending(ending: &str) -> Option<&'static Format> {
+    FORMATS.iter().find(|format| format.ending == ending)
+}

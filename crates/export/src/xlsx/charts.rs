@@ -1,0 +1,257 @@
+//! The plots: their data in columns, and a chart of the spreadsheet's own for each panel.
+
+use rust_xlsxwriter::{
+    Chart, ChartFormat, ChartLine, ChartLineDashType, ChartMarker, ChartMarkerType, ChartType,
+    Workbook, Worksheet, XlsxError,
+};
+
+use super::looks::Looks;
+use super::names::Names;
+use super::report::cut;
+use gumption_format::document::{Axis, Bar, Document, Layer, Marks, Panel, Scale, Tone};
+
+/// Rows of a chart on its sheet.
+const HEIGHT: u32 = 18;
+
+/// One sheet for each plot.
+pub(super) fn plots(
+    document: &Document,
+    workbook: &mut Workbook,
+    looks: &Looks,
+    names: &mut Names,
+) -> Result<(), XlsxError> {
+    for plot in document.plots() {
+        let name = names.like(&plot.id.replace('_', " "));
+        let sheet = workbook.add_worksheet();
+        sheet.set_name(&name)?;
+        let mut column = 0;
+        let mut charts = Vec::new();
+        for panel in &plot.panels {
+            charts.push(chart(panel, &name, sheet, looks, &mut column)?);
+            column += 1;
+        }
+        for (chart, at) in charts.iter().zip(0u32..) {
+            sheet.insert_chart(HEIGHT * at, column, chart)?;
+        }
+    }
+    Ok(())
+}
+
+/// Columns of a layer, each with its head.
+fn columns(layer: &Layer, panel: &Panel) -> Vec<(String, Vec<Option<f64>>)> {
+    let [across, up] = panel.limits();
+    let values = |limits: [f64; 2], axis: &Axis| {
+        limits.map(|place| match axis.scale {
+            Scale::Linear => place,
+            Scale::Logarithmic => libm::exp10(place),
+        })
+    };
+    let (ends, heights) = (values(across, &panel.x), values(up, &panel.y));
+    let x = panel.x.label();
+    let some = |numbers: Vec<f64>| -> Vec<Option<f64>> {
+        numbers
+            .into_iter()
+            .map(|x| Some(x).filter(|x| x.is_finite()))
+            .collect()
+    };
+    let name = |what: &str| match what {
+        "" => layer.name.clone(),
+        what => format!("{} {what}", layer.name),
+    };
+    match &layer.marks {
+        Marks::Points(points) | Marks::Line(points) => vec![
+            (x, some(points.iter().map(|[x, _]| *x).collect())),
+            (name(""), some(points.iter().map(|[_, y]| *y).collect())),
+        ],
+        Marks::Band(band) => vec![
+            (x, some(band.iter().map(|[x, ..]| *x).collect())),
+            (
+                name("−"),
+                some(band.iter().map(|[_, low, _]| *low).collect()),
+            ),
+            (
+                name("+"),
+                some(band.iter().map(|[.., high]| *high).collect()),
+            ),
+        ],
+        Marks::Whiskers(bars) => vec![
+            (x, some(bars.iter().map(|[x, ..]| *x).collect())),
+            (
+                name("−"),
+                some(bars.iter().map(|[_, low, _]| *low).collect()),
+            ),
+            (
+                name("+"),
+                some(bars.iter().map(|[.., high]| *high).collect()),
+            ),
+        ],
+        Marks::Upright(at) => vec![(x, some(vec![*at; 2])), (name(""), some(heights.to_vec()))],
+        // Bars have a chart of their own kind.
+        Marks::Bars(_) => Vec::new(),
+        Marks::Level(y) => vec![(x, some(ends.to_vec())), (name(""), some(vec![*y; 2]))],
+    }
+}
+
+fn chart(
+    panel: &Panel,
+    name: &str,
+    sheet: &mut Worksheet,
+    looks: &Looks,
+    column: &mut u16,
+) -> Result<Chart, XlsxError> {
+    let is_bars = |layer: &Layer| matches!(layer.marks, Marks::Bars(_));
+    let mut chart = match panel.layers.iter().any(is_bars) {
+        true => Chart::new(ChartType::BarStacked),
+        false => Chart::new(ChartType::Scatter),
+    };
+    for layer in &panel.layers {
+        if let Marks::Bars(bars) = &layer.marks {
+            self::bars(&mut chart, layer, bars, name, sheet, looks, column)?;
+            continue;
+        }
+        let columns = columns(layer, panel);
+        let first = *column;
+        for (head, numbers) in &columns {
+            sheet.write_string_with_format(0, *column, cut(head), &looks.head)?;
+            sheet.set_column_width(*column, 16)?;
+            for (number, row) in numbers.iter().zip(1u32..) {
+                if let Some(number) = number {
+                    sheet.write_number(row, *column, *number)?;
+                }
+            }
+            *column += 1;
+        }
+        let rows = u32::try_from(columns[0].1.len()).unwrap_or(0);
+        if rows == 0 {
+            continue;
+        }
+        for y in first + 1..*column {
+            let series = chart.add_series();
+            series
+                .set_categories((name, 1, first, rows, first))
+                .set_values((name, 1, y, rows, y))
+                .set_name(said(&columns[usize::from(y - first)].0).as_str());
+            draw(series, layer);
+        }
+    }
+    chart.title().set_name(said(&panel.title).as_str());
+    if panel.layers.iter().any(is_bars) {
+        // The first bar on top.
+        chart.y_axis().set_reverse();
+    } else {
+        axis(chart.x_axis(), &panel.x);
+        axis(chart.y_axis(), &panel.y);
+    }
+    if panel.layers.iter().any(is_bars) {
+        chart.legend().set_hidden();
+    } else {
+        chart
+            .legend()
+            .set_position(rust_xlsxwriter::ChartLegendPosition::Bottom);
+    }
+    chart.set_width(720).set_height(20 * HEIGHT - 10);
+    Ok(chart)
+}
+
+/// Bars from one number to another: the first part of each is not seen.
+fn bars(
+    chart: &mut Chart,
+    layer: &Layer,
+    bars: &[Bar],
+    name: &str,
+    sheet: &mut Worksheet,
+    looks: &Looks,
+    column: &mut u16,
+) -> Result<(), XlsxError> {
+    let first = *column;
+    let heads = ["", "from", "to", "start", layer.name.as_str()];
+    for (head, at) in heads.into_iter().zip(first..) {
+        sheet.write_string_with_format(0, at, cut(head), &looks.head)?;
+    }
+    for (bar, row) in bars.iter().zip(1u32..) {
+        sheet.write_string(row, first, cut(&bar.name))?;
+        let (low, high) = (bar.from.min(bar.to), bar.from.max(bar.to));
+        for (number, at) in [bar.from, bar.to, low, high - low]
+            .into_iter()
+            .zip(first + 1..)
+        {
+            if number.is_finite() {
+                sheet.write_number(row, at, number)?;
+            }
+        }
+    }
+    let rows = u32::try_from(bars.len()).unwrap_or(0);
+    *column += 5;
+    if rows == 0 {
+        return Ok(());
+    }
+    let mut unseen = ChartFormat::new();
+    unseen.set_no_fill().set_no_line();
+    let mut seen = ChartFormat::new();
+    seen.set_solid_fill(rust_xlsxwriter::ChartSolidFill::new().set_color(0x0000_72B2));
+    for (at, format) in [(first + 3, &mut unseen), (first + 4, &mut seen)] {
+        chart
+            .add_series()
+            .set_categories((name, 1, first, rows, first))
+            .set_values((name, 1, at, rows, at))
+            .set_gap(40)
+            .set_format(format);
+    }
+    Ok(())
+}
+
+/// Words of a chart. Those that begin as a formula does would be one.
+fn said(text: &str) -> String {
+    let formula = text.starts_with('=');
+    cut(&if formula {
+        format!(" {text}")
+    } else {
+        text.to_string()
+    })
+}
+
+fn axis(axis: &mut rust_xlsxwriter::ChartAxis, of: &Axis) {
+    axis.set_name(said(&of.label()).as_str());
+    if of.scale == Scale::Logarithmic {
+        axis.set_log_base(10);
+    }
+}
+
+/// Points without lines, lines without points; told apart by shape and dashes too.
+fn draw(series: &mut rust_xlsxwriter::ChartSeries, layer: &Layer) {
+    let (colour, shape, dashes) = match layer.tone {
+        Tone::Main => (
+            0x0000_72B2,
+            ChartMarkerType::Circle,
+            ChartLineDashType::Solid,
+        ),
+        Tone::Contrast => (
+            0x00D5_5E00,
+            ChartMarkerType::Diamond,
+            ChartLineDashType::Dash,
+        ),
+        Tone::Quiet => (
+            0x0044_4444,
+            ChartMarkerType::Circle,
+            ChartLineDashType::RoundDot,
+        ),
+    };
+    let mut marker = ChartMarker::new();
+    let mut format = ChartFormat::new();
+    match layer.marks {
+        Marks::Points(_) => {
+            marker.set_type(shape).set_size(5);
+            let mut look = ChartFormat::new();
+            look.set_solid_fill(rust_xlsxwriter::ChartSolidFill::new().set_color(colour));
+            marker.set_format(&mut look);
+            format.set_no_line();
+        }
+        _ => {
+            marker.set_none();
+            let mut line = ChartLine::new();
+            line.set_color(colour).set_width(1.5).set_dash_type(dashes);
+            format.set_line(&line);
+        }
+    }
+    series.set_marker(&marker).set_format(&mut format);
+}

@@ -1,0 +1,188 @@
+//! Correlated noise as the rival of every effect: what wanders through a recording may be either.
+//!
+//! Each course of the noise (white, forgetting within a time, flickering) has a restricted likelihood of its own, without
+//! an effect and with the best one. The gain by the best effect, both maximised over the courses, is compared with what
+//! recordings have that nothing but noise of the likely courses made: with the same choice of course and effect in each.
+
+use super::baseline::Baseline;
+use super::closed_form::Scale;
+use super::detection::Panel;
+use super::noise::{Covariance, Factor};
+use super::null::{Simulated, side_by_side};
+use super::question::{Atom, Candidate, Question, Settings};
+use super::refusal::Refusal;
+use super::space::Space;
+use crate::diagnose::chance::in_proportion;
+
+/// Simulated recordings behind the probability, at most: at 1 % its standard error is 0.3 %.
+const DRAWS: usize = 1024;
+/// Courses from which recordings are simulated, in proportion to their probability.
+const COURSES: usize = 16;
+/// Logarithm of the odds beyond which a course is out of the question.
+const HOPELESS: f64 = 9.0;
+
+/// A recording seen with one course of its noise, and the logarithm of what stands for that course beforehand.
+#[derive(Debug, Clone)]
+pub struct Course {
+    /// The residuals, whitened.
+    pub baseline: Baseline,
+    /// The covariance matrix as L with Σ = LLᵀ.
+    lower: Factor,
+    /// Logarithm of its probability beforehand.
+    pub log_prior: f64,
+}
+
+/// Courses of the noise with and without an effect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contest {
+    /// Probability that effects gain as much where there is nothing but correlated noise.
+    pub p: f64,
+    /// For each course the logarithm of its probability without an effect, but for a constant …
+    pub alone: Vec<f64>,
+    /// … and with the best one.
+    pub with: Vec<f64>,
+}
+
+impl Course {
+    /// A course with its covariance matrix.
+    ///
+    /// # Errors
+    /// A matrix that is no covariance matrix.
+    pub fn new(
+        baseline: Baseline,
+        covariance: &Covariance,
+        log_prior: f64,
+    ) -> Result<Course, Refusal> {
+        let lower = Factor::of(covariance)?;
+        Ok(Course {
+            baseline,
+            lower,
+            log_prior,
+        })
+    }
+
+    /// Logarithm of the probability of the course without an effect, but for a constant.
+    pub fn log_posterior(&self) -> f64 {
+        self.log_prior + self.baseline.log_likelihood()
+    }
+}
+
+/// One course, with all candidates seen through it.
+struct Seen<'c> {
+    course: &'c Course,
+    space: Space,
+    question: Question<'c>,
+    alone: f64,
+    with: f64,
+}
+
+/// Whether effects beat correlated noise.
+///
+/// # Errors
+/// Atoms that do not fit the recording.
+pub fn contest(
+    courses: &[Course],
+    candidates: &[Candidate],
+    atoms: &[Atom],
+    settings: &Settings,
+) -> Result<Contest, Refusal> {
+    let alone: Vec<f64> = courses.iter().map(Course::log_posterior).collect();
+    let top = maximum(&alone);
+    let weights: Vec<f64> = alone.iter().map(|l| libm::exp(l - top)).collect();
+    let null: Vec<Factor> = in_proportion(courses, &weights, COURSES)
+        .into_iter()
+        .map(|course| course.lower.clone())
+        .collect();
+    let simulated: Vec<Baseline> = (courses.iter())
+        .map(|course| course.baseline.clone().with_draws(null.clone()))
+        .collect();
+    let look = |at: usize| -> Result<Seen<'_>, Refusal> {
+        let question = Question {
+            baseline: &simulated[at],
+            candidates,
+            atoms,
+            settings: settings.clone(),
+        };
+        let space = Space::new(&question)?;
+        let frame = space.empty();
+        let gain = Panel::new(&space, &question, &frame).observed(&space).1;
+        Ok(Seen {
+            course: &courses[at],
+            alone: alone[at],
+            with: alone[at] + gain.max(0.0),
+            space,
+            question,
+        })
+    };
+    let seen: Vec<Seen<'_>> = side_by_side(courses.len(), look)
+        .into_iter()
+        .collect::<Result<_, _>>()?;
+    let with: Vec<f64> = seen.iter().map(|one| one.with).collect();
+    let observed = maximum(&with) - top;
+    let likely =
+        |one: &&Seen<'_>| one.alone > top - HOPELESS || one.with > maximum(&with) - HOPELESS;
+    let likely: Vec<&Seen<'_>> = seen.iter().filter(likely).collect();
+    let each = side_by_side(likely.len(), |at| likely[at].simulated());
+    let draws = each.first().map_or(0, Vec::len);
+    let gain = |draw: usize| {
+        let best = |of: fn(&[f64; 2]) -> f64| {
+            each.iter()
+                .map(|own| of(&own[draw]))
+                .fold(f64::NEG_INFINITY, f64::max)
+        };
+        best(|[_, with]| *with) - best(|[alone, _]| *alone)
+    };
+    let as_much = (0..draws).filter(|draw| gain(*draw) >= observed).count();
+    Ok(Contest {
+        p: (as_much + 1) as f64 / (draws + 1) as f64,
+        alone,
+        with,
+    })
+}
+
+impl Seen<'_> {
+    /// Logarithms of the probability of this course without an effect and with the best one, for each simulated
+    /// recording.
+    fn simulated(&self) -> Vec<[f64; 2]> {
+        let settings = &self.question.settings;
+        let draws = settings.draws.min(DRAWS);
+        let simulated = Simulated::new(self.question.baseline, &self.space, settings.seed, draws);
+        let frame = self.space.empty();
+        let panel = Panel::new(&self.space, &self.question, &frame);
+        let chunk = |index: usize| {
+            let recordings = simulated.chunk(index);
+            let gains = panel.simulated(recordings, None);
+            let sums = recordings.chi_squared().iter();
+            let both = sums.zip(gains).map(|(sum, [gain, _])| {
+                let alone = self.course.log_prior + self.course.baseline.log_likelihood_of(*sum);
+                [alone, alone + gain.max(0.0)]
+            });
+            both.collect::<Vec<_>>()
+        };
+        (0..simulated.chunks()).flat_map(chunk).collect()
+    }
+}
+
+impl Baseline {
+    /// Logarithm of the restricted likelihood of the declared model, but for a constant.
+    pub fn log_likelihood(&self) -> f64 {
+        self.log_likelihood_of(self.chi_squared())
+    }
+
+    /// Logarithm of the restricted likelihood, but for a constant, of residuals with this sum of squares: the parameters
+    /// are integrated over, and so is the scale of the noise where it is not known.
+    fn log_likelihood_of(&self, chi_squared: f64) -> f64 {
+        let squares = match Scale::new(self.dof(), self.scale_dof()) {
+            Scale::Known => 0.5 * chi_squared,
+            Scale::Estimated { total } => {
+                let known = self.scale_dof();
+                0.5 * total * libm::log((chi_squared + known).max(f64::MIN_POSITIVE))
+            }
+        };
+        self.log_determinant() - squares
+    }
+}
+
+fn maximum(values: &[f64]) -> f64 {
+    values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+}

@@ -1,0 +1,77 @@
+//! Results as rows of numbers, for spreadsheets and scripts.
+
+use super::{Report, decisions};
+use gumption_core::quantity::Unit;
+use gumption_gum::propagate::ReportedUncertainty;
+
+/// One line for every row, exact, as comma-separated values: label, and for every measurand what is reported of it, with its
+/// unit in the head; for every assessment its verdict and conformance probability. What a row has not is empty.
+///
+/// # Errors
+/// Only where the text cannot be put together, which memory alone could prevent.
+pub fn rows(rows: &[Report<'_>]) -> Result<Vec<u8>, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    if let Some(first) = rows.first() {
+        writer.write_record(heads(first))?;
+    }
+    for row in rows {
+        writer.write_record(cells(row))?;
+    }
+    writer
+        .into_inner()
+        .map_err(|error| error.into_error().into())
+}
+
+fn heads(report: &Report<'_>) -> Vec<String> {
+    let in_unit = |head: String, unit: &Unit| match unit.is_one() {
+        true => head,
+        false => format!("{head} [{}]", unit.symbol),
+    };
+    let mut heads = vec!["label".to_string()];
+    for measurand in 0..report.evaluation.results.len() {
+        let (name, unit) = report.measurand(measurand);
+        let deviation = unit.difference();
+        heads.push(in_unit(name.to_string(), unit));
+        heads.push(in_unit(format!("u({name})"), &deviation));
+        heads.push(format!("nu({name})"));
+        heads.push(format!("k({name})"));
+        heads.push(in_unit(format!("U({name})"), &deviation));
+        heads.push(in_unit(format!("lower({name})"), unit));
+        heads.push(in_unit(format!("upper({name})"), unit));
+    }
+    for assessment in &report.budget.conformity {
+        heads.push(format!("verdict({})", assessment.name));
+        heads.push(format!("p_c({})", assessment.name));
+    }
+    heads
+}
+
+fn cells(report: &Report<'_>) -> Vec<String> {
+    let number = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:?}"));
+    let mut cells = vec![report.label.unwrap_or_default().to_string()];
+    for result in &report.evaluation.results {
+        let found = result.reported(&report.budget.conventions);
+        let ends = match (found.uncertainty, found.expanded()) {
+            (ReportedUncertainty::Interval { ends, .. }, _) => Some(ends),
+            (_, Some(expanded)) => Some([found.estimate - expanded, found.estimate + expanded]),
+            _ => None,
+        };
+        cells.extend([
+            number(Some(found.estimate)),
+            number(found.u),
+            number(found.dof),
+            number(found.coverage_factor()),
+            number(found.expanded()),
+            number(ends.map(|ends| ends[0])),
+            number(ends.map(|ends| ends[1])),
+        ]);
+    }
+    for found in &report.evaluation.conformity {
+        let verdict = found.verdict.map_or("", decisions::verdict_code);
+        cells.push(verdict.to_string());
+        cells.push(number(
+            found.conformance.and_then(|known| known.probability),
+        ));
+    }
+    cells
+}

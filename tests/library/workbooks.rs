@@ -1,0 +1,64 @@
+//! Workbooks: the same bytes every time, and formulas that give the evaluation's figures when another spreadsheet engine
+//! calculates them.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use super::common::{program, root};
+
+/// Budgets with t, a fixed k, correlations, corners, several measurands, shared sources.
+const BUDGETS: [&str; 6] = [
+    "electrical/dmm-100v-ea402-s9",
+    "electrical/impedance-gum-h2",
+    "length/end-gauge-gum-h1",
+    "mass/weight-10kg-ea402-s2",
+    "calibration-lines/voltage-bevington-6-1",
+    "chemistry/sodium-hydroxide-quam-a2",
+];
+
+fn folder() -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("gumption-workbooks-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+fn written(budget: &str, file: &PathBuf) -> Vec<u8> {
+    let path = root().join(format!("budgets/{budget}.toml"));
+    let run = program()
+        .args(["eval", "--force"])
+        .arg(path)
+        .arg("-o")
+        .arg(file)
+        .output()
+        .expect("the program runs");
+    assert_ne!(run.status.code(), Some(2), "{budget}");
+    std::fs::read(file).expect("a workbook")
+}
+
+#[test]
+fn workbooks_are_the_same_every_time() {
+    let file = folder().join("again.xlsx");
+    let first = written(BUDGETS[0], &file);
+    assert!(first.starts_with(b"PK"));
+    assert_eq!(first, written(BUDGETS[0], &file));
+}
+
+#[test]
+fn another_engine_calculates_the_same_figures() {
+    let files = BUDGETS.map(|budget| {
+        let file = folder().join(format!("{}.xlsx", budget.replace('/', "_")));
+        written(budget, &file);
+        file
+    });
+    let run = Command::new("python3")
+        .arg(root().join("tests/library/recalculated.py"))
+        .args(&files)
+        .output();
+    let Some(run) = run.ok().filter(|run| run.status.code() != Some(77)) else {
+        eprintln!("skipped: needs Python with the packages formulas and openpyxl");
+        return;
+    };
+    let said = String::from_utf8_lossy(&run.stdout);
+    let errors = String::from_utf8_lossy(&run.stderr);
+    assert!(run.status.success(), "{said}{errors}");
+}

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use gumption::budget::{self, Budget, PROFILES, Trials};
+use gumption::budget::{self, Budget, Heading, PROFILES, Trials};
 use gumption::document::{Block, Document};
 use gumption::propagate::{
     self, Evaluation, MonteCarloChoice, Options, Reported, ReportedUncertainty,
@@ -49,7 +49,8 @@ impl Printed {
         let mantissa = text[..end].trim_end_matches('.').replace('−', "-");
         let mut exponent = 0;
         if let Some(power) = text[end..].strip_prefix("×10^") {
-            exponent = power[..taken(power)].replace('−', "-").parse().ok()?;
+            let power = power[..taken(power)].trim_end_matches('.');
+            exponent = power.replace('−', "-").parse().ok()?;
         }
         let decimals = mantissa.split_once('.').map_or(0, |(_, after)| after.len());
         let significant = mantissa.trim_start_matches(['-', '0', '.']);
@@ -153,7 +154,11 @@ impl Expected<'_> {
     fn holds_pair(&self, y: Printed, half: Printed) -> bool {
         let half = half.of_digits(usize::from(self.budget.conventions.digits));
         let finer = (half.unit / y.unit).log10().round() as usize;
-        let y = y.of_digits(y.digits.saturating_sub(finer));
+        let mut y = y.of_digits(y.digits.saturating_sub(finer));
+        if y.digits == 0 && y.unit == 1.0 {
+            // A nought has the place of U, whose noughts fill up.
+            y.unit = half.unit.max(1.0);
+        }
         self.reported.iter().any(|reported| {
             let expanded = reported.expanded();
             let expanded = expanded.is_some_and(|u| self.is_expanded(half, u));
@@ -268,12 +273,11 @@ fn pairs(text: &str) -> Vec<(Printed, Printed, String)> {
             at + before[at..].chars().next().map_or(1, char::len_utf8)
         });
         let after = &text[at + " ± ".len()..];
-        let power = after.split_once(')').map_or("", |(_, power)| power);
-        let power = if power.starts_with("×10^") {
-            power
-        } else {
-            ""
-        };
+        let half = after.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
+        let power = half.strip_prefix(')');
+        let power = power
+            .filter(|power| power.starts_with("×10^"))
+            .unwrap_or_default();
         if let (Some(y), Some(half)) = (
             Printed::at_start(&before[start..]),
             Printed::at_start(after),
@@ -287,6 +291,12 @@ fn pairs(text: &str) -> Vec<(Printed, Printed, String)> {
 
 /// Holds every document of a budget against what is reported.
 fn hold(budget: &Budget, what: &str) -> usize {
+    // Notes may name any figure.
+    let budget = &Budget {
+        heading: Heading::default(),
+        claims: Vec::new(),
+        ..budget.clone()
+    };
     let Ok(evaluation) = propagate::evaluate(
         budget,
         &Options {

@@ -23,7 +23,7 @@ pub struct Outcome {
     pub ids: Vec<Id>,
     pub vector: bool,
     /// See [`Output`](super::Output).
-    pub scaled_twice: bool,
+    pub scaled_twice: Option<f64>,
     pub unit: Unit,
     /// The statement that gives it.
     pub statement: usize,

@@ -211,11 +211,45 @@ impl<'a> Lexer<'a> {
         let rest = self.rest();
         let end = rest.find(|c| !is_name_part(c)).unwrap_or(rest.len());
         let (text, span) = (&rest[..end], self.at..self.at + end);
+        if let Some((span, name)) = self.dotted(end) {
+            return self.push(Kind::Name(name), span);
+        }
         let kind = match WORDS.iter().find(|w| **w == text) {
             Some(word) => Kind::Word(word),
             None => Kind::Name(text.to_string()),
         };
         self.push(kind, span);
+    }
+
+    /// Names joined by dots from here on, the first of which ends there: refused, and read as the last of them, which
+    /// is how the parameter of a fit or the element of a table is called.
+    fn dotted(&mut self, first: usize) -> Option<(Span, String)> {
+        let rest = self.rest();
+        let mut end = first;
+        let mut last = 0;
+        while let Some(after) = rest[end..].strip_prefix('.') {
+            let own = after.find(|c| !is_name_part(c)).unwrap_or(after.len());
+            if !after.starts_with(|c: char| c.is_alphabetic() || c == '_') {
+                break;
+            }
+            (last, end) = (end + 1, end + 1 + own);
+        }
+        let (whole, name) = (rest[..end].to_string(), rest[last..end].to_string());
+        let span = self.at..self.at + end;
+        (last > 0).then(|| {
+            self.faults.push(
+                Fault::new(
+                    faults::CHARACTER,
+                    span.clone(),
+                    say!("`{whole}` has a dot, and names have none"),
+                )
+                .label(say!("not a name"))
+                .help(say!(
+                    "quantities, also parameters of a fit, go by their own names: `{name}`"
+                )),
+            );
+            (span, name)
+        })
     }
 
     /// `x²` is `x ^ 2`.

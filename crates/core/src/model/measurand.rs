@@ -319,23 +319,23 @@ impl Check<'_> {
     }
 }
 
-/// Whether a pure number gets the factor of its unit although the formula holds it already.
-fn scaled_twice(value: &Value, expr: &Expr, wanted: &Unit) -> bool {
-    let factor = value
-        .unit()
-        .filter(|found| found.is_one())
-        .and_then(|found| found.conversion_to(wanted))
-        .map(|conversion| conversion.factor)
-        .filter(|factor| *factor > 1.0 && wanted.factor.pi == 0);
-    let Some(factor) = factor else { return false };
+/// The number by which a formula converts its value to the wanted unit, although units are converted without it: a factor
+/// of a hundred for percent, or of a thousand from mL to L.
+fn scaled_twice(value: &Value, expr: &Expr, wanted: &Unit) -> Option<f64> {
+    let factor = value.unit()?.conversion_to(wanted)?.factor;
+    if factor == 1.0 || wanted.factor.pi != 0 {
+        return None;
+    }
     let mut open = vec![expr];
     while let Some(e) = open.pop() {
-        if matches!(&e.node, Node::Number { value, unit: None, .. } if *value == factor) {
-            return true;
+        match &e.node {
+            Node::Number {
+                value, unit: None, ..
+            } if *value == factor || *value == 1.0 / factor => return Some(*value),
+            _ => open.extend(e.children()),
         }
-        open.extend(e.children());
     }
-    false
+    None
 }
 
 /// How a quantity takes part in a product.

@@ -155,9 +155,9 @@ pub struct Output {
     pub source: usize,
     /// Unit of its value.
     pub unit: Unit,
-    /// Whether the formula gives a pure number, which the unit (%, ppm …) multiplies, and holds that very
-    /// factor as well: `100 * (a - b) / b` with the unit %.
-    pub scaled_twice: bool,
+    /// The number of the formula that converts its value to this unit (%, mg/L …), which is done without it as well:
+    /// 100 of `100 * (a - b) / b` with the unit %.
+    pub scaled_twice: Option<f64>,
     /// The defining statements in printed form, one per line (`R = V / I * cos(phi)`).
     pub equation: String,
 }

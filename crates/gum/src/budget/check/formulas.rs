@@ -11,7 +11,7 @@ use crate::budget::tables::{FileTable, MeasurandTable};
 use crate::budget::{Constant, Measurand};
 use gumption_core::model::faults::{NO_MODEL, UNKNOWN_FUNCTION, UNKNOWN_NAME};
 use gumption_core::model::{
-    MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile,
+    MeasurandSource, Model, ModelFault, Output, Place, Request, Role, Symbol, compile,
 };
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
@@ -228,13 +228,19 @@ impl Checker<'_> {
             .map_or(0..0, |entry| entry.place.clone())
     }
 
-    /// Remarks on formulas that bring their value to percent by a factor, which the unit does again.
+    /// Remarks on formulas that bring their value to its unit by a factor, which the program does again.
     fn scaled_twice(&mut self, model: &Model) {
-        for output in model.outputs().iter().filter(|output| output.scaled_twice) {
-            let (name, unit) = (&output.name, &output.unit.symbol);
+        let scaled = |output: &Output| {
+            Some((
+                output.name.clone(),
+                output.scaled_twice?,
+                output.unit.symbol.clone(),
+            ))
+        };
+        for (name, factor, unit) in model.outputs().iter().filter_map(scaled) {
             self.remark(
-                format!("The formula of {name} gives a pure number, which is converted to {unit} because that is the unit of {name}. It also holds this conversion as a factor of its own. If the factor is meant to make the number one in {unit}, remove it: units are converted without it."),
-                format!("{name} 的公式给出纯数，程序按 {name} 的单位将其换算为 {unit}，而公式中又含有同一换算因子。如果该因子是为了换算成 {unit}，请将其去掉，单位由程序换算。"),
+                format!("The formula of {name} holds the number {factor}, and units are converted without it: the value, with that number, is converted to {unit} by the same factor once more. If the number is meant to make it {unit}, remove it."),
+                format!("{name} 的公式中含有数 {factor}，而单位由程序自动换算：带有该数的值又以同一因子换算为 {unit}。如果该数是为了换算成 {unit}，请将其去掉。"),
             );
         }
     }

@@ -140,3 +140,19 @@ fn the_schema_knows_every_key() {
         "{rows:#?}"
     );
 }
+
+/// mL to L is converted without the 1000 that the formula holds for it.
+#[test]
+fn a_conversion_that_is_made_twice_is_remarked_on() {
+    let remarks = |model: &str| {
+        let text = format!(
+            "[measurand.c]\nmodel = \"{model}\"\nunit = \"mg/L\"\n[input.m]\nvalue = 100\nu = 0.1\nunit = \"mg\"\n\
+             [input.V]\nvalue = 100\nu = 0.1\nunit = \"mL\"\n"
+        );
+        budget(&text).remarks
+    };
+    for twice in ["1000 * m / V", "m / (V / 1000)", "m / (V * 0.001)"] {
+        assert!(remarks(twice)[0].en.contains("holds the number"), "{twice}");
+    }
+    assert_eq!(remarks("m / V"), []);
+}

@@ -41,7 +41,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     requests.extend(args.time.iter().map(|name| Request::numbers("time", name)));
     let recording = match Recording::open(Files::Disk, &args.file, &requests, &units) {
         Ok(recording) => recording,
-        Err(rejection) => return output::refused(&rejection, args.form.lang),
+        Err(rejection) => return output::refused(&rejection, args.form.language()),
     };
     analysed(args, &recording)
         .unwrap_or_else(|why| output::complain(format!("{}: {why}", args.file.display())))
@@ -54,16 +54,19 @@ fn analysed(args: &Args, recording: &Recording) -> Result<Outcome, Complaint> {
     let noises = allan.noises();
     let column = recording.column("readings");
     let unit = column.and_then(|column| column.unit.clone());
+    let unit = unit.unwrap_or_else(Unit::one);
     let name = column.map_or(args.column.as_str(), |column| column.name.as_str());
-    let shown = AllanReport {
-        title: &format!("{name}, {}", args.file.display()),
-        unit: &unit.unwrap_or_else(Unit::one),
-        time: &time,
-        allan: &allan,
-        noises: noises.as_ref(),
-        language: args.form.lang,
-    };
-    Ok(args.form.write(&report::allan(&shown)))
+    let document = args.form.compose(|language| {
+        report::allan(&AllanReport {
+            title: &format!("{name}, {}", args.file.display()),
+            unit: &unit,
+            time: &time,
+            allan: &allan,
+            noises: noises.as_ref(),
+            language,
+        })
+    });
+    Ok(args.form.write(&document))
 }
 
 /// Time between readings, and its unit.

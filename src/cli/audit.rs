@@ -47,7 +47,10 @@ pub(super) fn run(args: &Args) -> Outcome {
             )));
         }
         outcome = outcome.max(audits.iter().map(of).max().unwrap_or(Outcome::Done));
-        documents.push(report::audit(&name, &audits, args.form.lang));
+        documents.push(
+            args.form
+                .compose(|language| report::audit(&name, &audits, language)),
+        );
     }
     match Document::together(documents) {
         Some(document) => outcome.max(args.form.write(&document)),

@@ -31,7 +31,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         .map(|wanted| Beside::File(asked(wanted).1.into()));
     let beside: Vec<Beside> = beside.collect();
     let campaign = args.form.is_possible(&beside).and_then(|()| {
-        let campaign = read(&args.file, Purpose::Calibrate, args.form.lang)?;
+        let campaign = read(&args.file, Purpose::Calibrate, args.form.language())?;
         // Now it is known what was read, too.
         args.form.is_possible(&beside).map(|()| campaign)
     });
@@ -41,10 +41,11 @@ pub(super) fn run(args: &Args) -> Outcome {
     };
     let found = match calibrate::calibrate(&campaign) {
         Ok(found) => found,
-        Err(trouble) => return failed(&args.file, &trouble, args.form.lang),
+        Err(trouble) => return failed(&args.file, &trouble, args.form.language()),
     };
-    let lang = args.form.lang;
-    let document = report::calibration(&campaign, &found, lang);
+    let document = args
+        .form
+        .compose(|language| report::calibration(&campaign, &found, language));
     match budgets(args, &campaign, &found) {
         Ok(budgets) => args.form.write_with(&document, budgets),
         Err(complaint) => output::complain(complaint).max(args.form.write(&document)),
@@ -53,16 +54,16 @@ pub(super) fn run(args: &Args) -> Outcome {
 
 /// What a calibration would tell, from its schedule.
 pub(super) fn plan(file: &std::path::Path, form: &Form) -> Outcome {
-    let campaign = match read(file, Purpose::Plan, form.lang) {
+    let campaign = match read(file, Purpose::Plan, form.language()) {
         Ok(campaign) => campaign,
         Err(outcome) => return outcome,
     };
-    let lang = form.lang;
+    let lang = form.language();
     let plan = match calibrate::plan(&campaign) {
         Ok(plan) => plan,
         Err(trouble) => return failed(file, &trouble, lang),
     };
-    form.write(&report::plan(&campaign, &plan, lang))
+    form.write(&form.compose(|language| report::plan(&campaign, &plan, language)))
 }
 
 fn failed(file: &std::path::Path, trouble: &Trouble, lang: Language) -> Outcome {
@@ -111,7 +112,7 @@ fn budgets(
         };
         files.push(Output {
             path: path.into(),
-            content: calibrate::budget(campaign, found, &places, args.form.lang).into_bytes(),
+            content: calibrate::budget(campaign, found, &places, args.form.language()).into_bytes(),
         });
     }
     Ok(files)

@@ -45,7 +45,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         .collect();
     let case = args.form.is_possible(&planned).and_then(|()| {
         let case = Case::load(&args.case, Purpose::Diagnosis);
-        let case = case.map_err(|rejection| output::refused(&rejection, args.form.lang))?;
+        let case = case.map_err(|rejection| output::refused(&rejection, args.form.language()))?;
         // Now it is known what was read, too.
         args.form.is_possible(&planned).map(|()| case)
     });
@@ -56,19 +56,20 @@ pub(super) fn run(args: &Args) -> Outcome {
     if let Some(seed) = args.seed {
         case.settings.seed = seed;
     }
-    remarks(&case, args.form.lang);
+    remarks(&case, args.form.language());
     let steps = Steps::shown(say!("diagnosis"));
     let found = diagnose::diagnose(&case, &|share| steps.at(share));
     drop(steps);
     match found {
         Ok(diagnosis) => {
-            let document = report::diagnosis(&case, &diagnosis, args.form.lang);
+            let compose = |language| report::diagnosis(&case, &diagnosis, language);
+            let document = args.form.compose(compose);
             match beside(args, &case, &diagnosis, &document) {
                 Ok(beside) => args.form.write_with(&document, beside),
                 Err(complaint) => output::complain(complaint).max(args.form.write(&document)),
             }
         }
-        Err(failure) => failed(&args.case, &case, &failure, args.form.lang),
+        Err(failure) => failed(&args.case, &case, &failure, args.form.language()),
     }
 }
 

@@ -2,15 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
+use super::evaluated::{Row, Settings, of_rows, options};
 use super::form::Form;
 use super::output::{Beside, Complaint};
 use super::progress::Progress;
-use super::{Outcome, output};
-use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Points, Profile, Trials};
-use gumption::document::Document;
+use super::{Outcome, archive, output};
+use gumption::Files;
+use gumption::budget;
+use gumption::document::{Attachment, Document};
 use gumption::fault::say;
 use gumption::files::write::Output;
-use gumption::propagate::{self, ConformityResult, Evaluation, MonteCarloChoice, Options, Verdict};
+use gumption::propagate::{self, ConformityResult, Verdict};
 use gumption::report::{self, Language, Report};
 
 #[derive(Debug, clap::Args)]
@@ -18,32 +20,14 @@ pub(super) struct Args {
     /// Budget files
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
-    /// Do not run Monte Carlo
-    #[arg(long, conflicts_with_all = ["trials", "seed"])]
-    no_mc: bool,
-    /// Monte Carlo trials, or `adaptive` to run until the results are stable
-    #[arg(long, value_name = "N|adaptive", value_parser = parse_trials)]
-    trials: Option<Trials>,
-    /// Seed of the random numbers; the same seed gives the same result to the last bit
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
-    /// `quasi-random`: scrambled Sobol' points until the results are stable, where they are far more accurate
-    /// than random trials; `random` as in JCGM 101 [default: as the file says, else random]
-    #[arg(long, value_name = "KIND", value_parser = parse_points, conflicts_with = "no_mc")]
-    points: Option<Points>,
-    /// Give Sobol' sensitivity indices, too: the part of the variance that each input makes
-    #[arg(long, conflicts_with = "no_mc")]
-    indices: bool,
+    #[command(flatten)]
+    settings: Settings,
     /// Worker threads; results do not depend on it [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// Print every row of a series in full, not only the first
     #[arg(long)]
     full: bool,
-    /// Evaluate under this profile in place of the file's (`gumption explain` lists them); what the
-    /// file's [conventions] change still holds
-    #[arg(long, value_name = "NAME", value_parser = parse_profile)]
-    profile: Option<&'static Profile>,
     /// Save the results for other budgets, which name this file in `from = { result = … }`
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
@@ -51,48 +35,49 @@ pub(super) struct Args {
     /// the heads
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    /// Put everything that the results are computed from into an archive, too: budget, data, results, version, seed, hashes.
+    /// `gumption verify FILE.zip` evaluates it again
+    #[arg(long, value_name = "FILE.zip")]
+    archive: Option<PathBuf>,
+    /// Data of a certificate: number, dates, laboratory, customer, item (`gumption new --certificate FILE` writes them to
+    /// fill in). They head the document, and a digital certificate (-o FILE.xml) is made with them
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
     #[command(flatten)]
     form: Form,
 }
 
-/// An evaluated row of a file.
-struct Row {
-    label: Option<String>,
-    budget: Budget,
-    evaluation: Evaluation,
-}
-
-impl Row {
-    fn report(&self, language: Language) -> Report<'_> {
-        Report {
-            budget: &self.budget,
-            evaluation: &self.evaluation,
-            label: self.label.as_deref(),
-            language,
-        }
-    }
-}
-
 pub(super) fn run(args: &Args) -> Outcome {
-    let of_one_file = [("--save", &args.save), ("--csv", &args.csv)];
+    let of_one_file = [
+        ("--save", &args.save),
+        ("--csv", &args.csv),
+        ("--archive", &args.archive),
+        ("--certificate", &args.certificate),
+    ];
     let asked = of_one_file.iter().find(|(_, path)| path.is_some());
     if let (Some((flag, _)), 2..) = (asked, args.files.len()) {
         return output::complain(say!(
             "{flag} takes the results of one budget file; evaluate the files one after the other"
         ));
     }
-    let files = args.save.iter().chain(&args.csv);
+    let files = args.save.iter().chain(&args.csv).chain(&args.archive);
     let beside: Vec<Beside> = files.cloned().map(Beside::File).collect();
     if let Err(outcome) = args.form.is_possible(&beside) {
         return outcome;
     }
+    let administration = args.certificate.as_deref();
+    let administration = administration.map(|path| report::administration(Files::Disk, path));
+    let administration = match administration.transpose() {
+        Ok(administration) => administration,
+        Err(rejection) => return output::refused(&rejection, args.form.language()),
+    };
     let mut worst = Outcome::Done;
     let mut documents = Vec::new();
     let mut saved = Vec::new();
     for file in &args.files {
         let rows = evaluate_file(args, file, &mut worst);
         if let (Some(path), false) = (&args.save, rows.is_empty()) {
-            match save(&rows, path, args.form.lang) {
+            match save(&rows, path, args.form.language()) {
                 Ok(output) => saved.push(output),
                 Err(complaint) => worst = worst.max(output::complain(complaint)),
             }
@@ -103,14 +88,41 @@ pub(super) fn run(args: &Args) -> Outcome {
                 Err(complaint) => worst = worst.max(output::complain(complaint)),
             }
         }
-        let reports: Vec<Report<'_>> = rows.iter().map(|row| row.report(args.form.lang)).collect();
-        let in_full = if args.full { reports.len() } else { 1 };
-        documents.extend(report::evaluations(&reports, in_full));
+        if let (Some(path), false) = (&args.archive, rows.is_empty()) {
+            match archived(args, file, &rows, path) {
+                Ok(output) => saved.push(output),
+                Err(complaint) => worst = worst.max(output::complain(complaint)),
+            }
+        }
+        let document = document(args, &rows);
+        documents.extend(match &administration {
+            Some(given) => document.map(|whole| report::certified(whole, given, attached(file))),
+            None => document,
+        });
     }
     match Document::together(documents) {
         Some(document) => worst.max(args.form.write_with(&document, saved)),
         None => worst,
     }
+}
+
+/// The budget file, to be handed over with a certificate.
+fn attached(file: &Path) -> Vec<Attachment> {
+    let content = Files::Disk.read(file).ok();
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    let attachment = content.map(|content| Attachment {
+        name: name.into_owned(),
+        media_type: "application/toml",
+        content,
+    });
+    attachment.into_iter().collect()
+}
+
+/// The document of a file's rows; none of none.
+fn document(args: &Args, rows: &[Row]) -> Option<Document> {
+    let in_full = if args.full { rows.len() } else { 1 };
+    args.form
+        .compose_some(|language| of_rows(rows, language, in_full))
 }
 
 /// The results for other budgets.
@@ -125,6 +137,15 @@ fn save(rows: &[Row], path: &Path, language: Language) -> Result<Output, Complai
     Ok(Output {
         path: path.to_path_buf(),
         content: text.into_bytes(),
+    })
+}
+
+/// Everything that the results are computed from.
+fn archived(args: &Args, file: &Path, rows: &[Row], path: &Path) -> Result<Output, Complaint> {
+    let result = of_rows(rows, Language::English, 1).ok_or_else(|| say!("there are no results"))?;
+    Ok(Output {
+        path: path.to_path_buf(),
+        content: archive::packed(file, &args.settings, &result)?,
     })
 }
 
@@ -143,10 +164,10 @@ fn table(rows: &[Row], path: &Path) -> Result<Output, Complaint> {
 
 /// Reads and evaluates one file; says on standard error what fails, and goes on.
 fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
-    let loaded = match budget::load_under(file, args.profile) {
+    let loaded = match budget::load_under(file, args.settings.profile) {
         Ok(loaded) => loaded,
         Err(rejection) => {
-            *worst = output::refused(&rejection, args.form.lang);
+            *worst = output::refused(&rejection, args.form.language());
             return Vec::new();
         }
     };
@@ -154,7 +175,10 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
     let trials = propagate::Progress::default();
     let progress = Progress::shown(&trials);
     for budget::Row { label, budget } in loaded.rows {
-        match propagate::evaluate(&budget, &options(args, &budget, &trials)) {
+        match propagate::evaluate(
+            &budget,
+            &options(&args.settings, args.threads, &budget, &trials),
+        ) {
             Ok(evaluation) => {
                 let rejected =
                     |found: &ConformityResult| found.verdict == Some(Verdict::NotConforming);
@@ -170,102 +194,12 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
             Err(error) => {
                 let row = label.map(|l| format!(", {l}")).unwrap_or_default();
                 let place = format!("{}{row}", file.display());
-                let why = report::failure(&error, args.form.lang);
-                output::no_result(place, None, &why, args.form.lang);
+                let why = report::failure(&error, args.form.language());
+                output::no_result(place, None, &why, args.form.language());
                 *worst = (*worst).max(Outcome::Negative);
             }
         }
     }
     drop(progress);
     rows
-}
-
-/// What the arguments change in the budget's own settings.
-fn options(args: &Args, budget: &Budget, progress: &propagate::Progress) -> Options {
-    let monte_carlo = if args.no_mc {
-        MonteCarloChoice::Off
-    } else {
-        MonteCarloChoice::With(settings(args, &budget.monte_carlo))
-    };
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    Options {
-        monte_carlo,
-        threads: args.threads.map_or(cores, usize::from),
-        progress: progress.clone(),
-    }
-}
-
-/// The budget's settings with what the arguments change.
-fn settings(args: &Args, of: &MonteCarloSettings) -> MonteCarloSettings {
-    let trials = match (&args.trials, args.points, &of.trials) {
-        (Some(trials), _, _) => trials.clone(),
-        // Such points are run until the results are stable, if the file does not say how many.
-        (None, Some(Points::QuasiRandom), Trials::Decisive { .. }) => ADAPTIVE,
-        (None, _, trials) => trials.clone(),
-    };
-    MonteCarloSettings {
-        seed: args.seed.unwrap_or(of.seed),
-        trials,
-        points: args.points.unwrap_or(of.points),
-        indices: args.indices || of.indices,
-    }
-}
-
-/// Until two digits are stable.
-const ADAPTIVE: Trials = Trials::Adaptive {
-    procedure: Adaptive::Stein,
-    digits: 2,
-    max: 100_000_000,
-};
-
-/// `1000000`, `1_000_000`, `1e6`, `adaptive`.
-fn parse_trials(text: &str) -> Result<Trials, Complaint> {
-    /// Fewer say nothing about an interval; more would run for days.
-    const RANGE: std::ops::RangeInclusive<f64> = 1e3..=1e12;
-    if text == "adaptive" {
-        return Ok(ADAPTIVE);
-    }
-    let number: f64 = text
-        .replace('_', "")
-        .parse()
-        .map_err(|_| "write a number such as 1_000_000 or 1e6, or `adaptive`")?;
-    if !RANGE.contains(&number) || number.fract() != 0.0 {
-        return Err("write a whole number of trials from 1000 to 1e12, or `adaptive`".into());
-    }
-    Ok(Trials::Fixed(number as u64))
-}
-
-fn parse_points(text: &str) -> Result<Points, Complaint> {
-    match text {
-        "random" => Ok(Points::Random),
-        "quasi-random" => Ok(Points::QuasiRandom),
-        _ => Err("write `random` or `quasi-random`".into()),
-    }
-}
-
-fn parse_profile(text: &str) -> Result<&'static Profile, Complaint> {
-    budget::profile_named(text).ok_or_else(|| {
-        let names: Vec<&str> = budget::PROFILES.iter().map(|p| p.name).collect();
-        say!("the profiles are {}", names.join(", ")).into()
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn trials_are_written_in_several_ways() {
-        assert_eq!(parse_trials("1_000_000"), Ok(Trials::Fixed(1_000_000)));
-        assert_eq!(parse_trials("2e5"), Ok(Trials::Fixed(200_000)));
-        assert!(matches!(
-            parse_trials("adaptive"),
-            Ok(Trials::Adaptive { .. })
-        ));
-        assert!(
-            ["10", "-1", "1.5e3x", "1e13", "nan", "1000.5", ""]
-                .iter()
-                .all(|t| parse_trials(t).is_err())
-        );
-    }
 }

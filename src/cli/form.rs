@@ -2,7 +2,7 @@
 
 use std::io::{IsTerminal, stdout};
 
-use super::language::system_language;
+use super::language::{Languages, spoken, system_language};
 use super::output::{Beside, Complaint, Target};
 use super::{Outcome, output};
 use clap::{Arg, ArgAction, ArgMatches, Command};
@@ -16,9 +16,9 @@ use gumption::report::Language;
 pub(super) struct Form {
     #[command(flatten)]
     format: Choice,
-    /// Language of the report: en or zh [default: that of the system]
+    /// Language of the report: en, zh, or both side by side [default: that of the system]
     #[arg(long, value_name = "LANG", default_value = system_language(), hide_default_value = true)]
-    pub lang: Language,
+    lang: Languages,
     /// Columns of the text [default: those of the terminal, else 100]
     #[arg(long, value_name = "N", value_parser = parse_width)]
     width: Option<usize>,
@@ -61,13 +61,39 @@ impl clap::FromArgMatches for Choice {
 }
 
 impl Form {
+    /// The language in which the command speaks about what it does.
+    pub fn language(&self) -> Language {
+        match self.lang {
+            Languages::One(language) => language,
+            Languages::Both => spoken(),
+        }
+    }
+
+    /// A document in the languages that are asked for.
+    pub fn compose(&self, compose: impl Fn(Language) -> Document) -> Document {
+        let first = compose(self.language());
+        match self.lang {
+            Languages::One(_) => first,
+            Languages::Both => first.beside_the_words_of(compose(self.language().other())),
+        }
+    }
+
+    /// Likewise, where there may be none.
+    pub fn compose_some(&self, compose: impl Fn(Language) -> Option<Document>) -> Option<Document> {
+        let first = compose(self.language())?;
+        Some(match self.lang {
+            Languages::One(_) => first,
+            Languages::Both => first.beside_the_words_of(compose(self.language().other())?),
+        })
+    }
+
     /// Makes sure, before any work is done, that the document can be written as it is asked for, and these files
     /// beside it.
     pub fn is_possible(&self, beside: &[Beside]) -> Result<(), Outcome> {
         let format = self.format().map_err(output::complain)?;
         if !format.is_text() && self.target.file().is_none() && stdout().is_terminal() {
             let name = format.name;
-            return Err(output::complain(self.lang.pick(
+            return Err(output::complain(self.language().pick(
                 format!(
                     "--{name} is not for terminals; write it to a file with -o FILE.{0}",
                     format.ending
@@ -78,7 +104,7 @@ impl Form {
                 ),
             )));
         }
-        self.target.is_allowed(beside, self.lang)
+        self.target.is_allowed(beside, self.language())
     }
 
     /// Writes a document in the form that was asked for.
@@ -90,7 +116,7 @@ impl Form {
     pub fn write_with(&self, document: &Document, beside: Vec<Output>) -> Outcome {
         match self.format() {
             Ok(format) => match (format.render)(document, &self.page()) {
-                Ok(bytes) => self.target.write(bytes, beside, self.lang),
+                Ok(bytes) => self.target.write(bytes, beside, self.language()),
                 Err(unfit) => output::complain(unfit.0),
             },
             Err(complaint) => output::complain(complaint),

@@ -25,7 +25,12 @@ pub(super) fn run(args: &Args) -> Outcome {
         return outcome;
     }
     match graded(args) {
-        Ok(graded) => args.form.write(&grade::document(&graded, args.form.lang)),
+        Ok(graded) => {
+            let document = args
+                .form
+                .compose(|language| grade::document(&graded, language));
+            args.form.write(&document)
+        }
         Err(refused) => output::complain(words(&refused)),
     }
 }

@@ -4,6 +4,29 @@ use std::sync::LazyLock;
 
 use gumption::language::Language;
 
+/// The languages of a document.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Languages {
+    /// This one.
+    One(Language),
+    /// Each beside the other, that of the system first.
+    Both,
+}
+
+impl std::str::FromStr for Languages {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match (text, text.parse()) {
+            ("both", _) => Ok(Languages::Both),
+            (_, Ok(language)) => Ok(Languages::One(language)),
+            (other, Err(_)) => Err(format!(
+                "`{other}` is not a language of the report: write `en`, `zh` or `both`"
+            )),
+        }
+    }
+}
+
 /// The code of the language that the system is set to, by the first of LC_ALL, LC_MESSAGES and LANG that says something
 /// (POSIX, 8.2); English where the program does not speak it.
 pub(super) fn system_language() -> &'static str {
@@ -42,7 +65,14 @@ pub(super) fn spoken() -> Language {
 
 #[cfg(test)]
 mod tests {
-    use super::code_of_locale;
+    use super::{Language, Languages, code_of_locale};
+
+    #[test]
+    fn a_document_speaks_one_language_or_both() {
+        assert_eq!("zh".parse(), Ok(Languages::One(Language::Chinese)));
+        assert_eq!("both".parse(), Ok(Languages::Both));
+        assert!("de".parse::<Languages>().is_err());
+    }
 
     #[test]
     fn the_system_says_its_language() {

@@ -1,6 +1,7 @@
 //! Subcommands, exit codes and output.
 
 mod allan;
+mod archive;
 mod audit;
 mod calibrate;
 mod challenge;
@@ -8,6 +9,7 @@ mod concepts;
 mod date;
 mod diagnose;
 mod eval;
+mod evaluated;
 mod explain;
 mod form;
 mod grade;

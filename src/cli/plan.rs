@@ -48,15 +48,15 @@ pub(super) fn run(args: &Args) -> Outcome {
 fn case(file: &Path, form: &Form) -> Outcome {
     let case = match Case::load(file, Purpose::Plan) {
         Ok(case) => case,
-        Err(rejection) => return output::refused(&rejection, form.lang),
+        Err(rejection) => return output::refused(&rejection, form.language()),
     };
-    super::diagnose::remarks(&case, form.lang);
+    super::diagnose::remarks(&case, form.language());
     let steps = Steps::shown(say!("plan"));
     let found = diagnose::plan(&case, &|share| steps.at(share));
     drop(steps);
-    let lang = form.lang;
+    let lang = form.language();
     match found {
-        Ok(outlook) => form.write(&report::outlook(&case, &outlook, lang)),
+        Ok(outlook) => form.write(&form.compose(|lang| report::outlook(&case, &outlook, lang))),
         Err(failure) => failed(file, &case, &failure, lang),
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::form::Form;
 use super::output::{Beside, Complaint};
-use super::{Outcome, date, output};
+use super::{Outcome, archive, date, output};
 use gumption::budget::Files;
 use gumption::fault::{Said, say};
 use gumption::files::write::Output;
@@ -16,7 +16,7 @@ use gumption::verify::{Environment, Example, LIBRARY, Problem, Verification};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Budget files with claims, or folders of them [default: the published examples inside the program]
+    /// Budget files with claims, folders of them, or an archive that `gumption eval --archive` wrote [default: the published examples inside the program]
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Write the dossier for the file of the laboratory: verification.md and verification.json
@@ -45,6 +45,11 @@ struct Candidate {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
+    if let [only] = args.files.as_slice()
+        && only.extension().is_some_and(|ending| ending == "zip")
+    {
+        return archive::verify(only, &args.form);
+    }
     let beside = args.report.iter().cloned();
     let beside = beside.map(|folder| Beside::Folder(folder, DOSSIER));
     if let Err(outcome) = args.form.is_possible(&beside.collect::<Vec<_>>()) {
@@ -60,14 +65,16 @@ pub(super) fn run(args: &Args) -> Outcome {
     };
     let verification = verify(files, &candidates, args, day);
     let dossier = match &args.report {
-        Some(folder) => dossier(folder, &verification, args.form.lang),
+        Some(folder) => dossier(folder, &verification, args.form.language()),
         None => Ok(Vec::new()),
     };
     let detail = match args.quiet {
         true => Detail::Failed,
         false => Detail::All,
     };
-    let document = report::verification(&verification, args.form.lang, detail);
+    let document = args
+        .form
+        .compose(|language| report::verification(&verification, language, detail));
     let written = match dossier {
         Ok(dossier) => args.form.write_with(&document, dossier),
         Err(complaint) => output::complain(complaint).max(args.form.write(&document)),
@@ -89,7 +96,7 @@ fn missing_claims(args: &Args, verification: &Verification) -> Outcome {
     } else {
         output::warn(&format!(
             "{}\n",
-            say!("not counted, since without [claim]: {names}").in_language(args.form.lang)
+            say!("not counted, since without [claim]: {names}").in_language(args.form.language())
         ));
         Outcome::Done
     }

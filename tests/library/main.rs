@@ -9,10 +9,13 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod archives;
 mod bit_identity;
 mod budgets;
+mod certificates;
 mod chains;
 mod decimals;
+mod formats;
 mod fuzzed;
 mod independent;
 mod interruption;

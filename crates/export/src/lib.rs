@@ -3,7 +3,14 @@
 //! What rests on large libraries stands here, above `gumption_format`, so that whatever composes documents is compiled
 //! without them.
 
+pub mod archive;
+
+mod dcc;
+mod docx;
+#[cfg(feature = "pdf")]
+mod pdf;
 mod xlsx;
+mod xml;
 
 pub use gumption_format::render::{Format, Page, Unfit, html, json, markdown, svg, text};
 
@@ -14,6 +21,10 @@ pub const FORMATS: &[Format] = &[
     html::FORMAT,
     json::FORMAT,
     xlsx::FORMAT,
+    docx::FORMAT,
+    dcc::FORMAT,
+    #[cfg(feature = "pdf")]
+    pdf::FORMAT,
 ];
 
 /// The format of a name.

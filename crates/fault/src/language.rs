@@ -19,6 +19,11 @@ impl Language {
         }
     }
 
+    /// The other one.
+    pub fn other(self) -> Self {
+        self.pick(Language::Chinese, Language::English)
+    }
+
     /// Joins names: `a, b and c`.
     pub fn list(self, names: &[String]) -> String {
         match (self, names) {

@@ -4,7 +4,7 @@
 //! result that rests on Monte Carlo states half the width of its coverage interval as U where that
 //! interval is symmetric about y, and the interval itself where it is not.
 
-use gumption_gum::budget::{Conventions, StatementForm};
+use gumption_gum::budget::{Conventions, StatementForm, profile_named};
 use gumption_gum::propagate::{
     Basis, CoverageBasis, Freedom, Gum, IntervalKind, Reason, ReportedUncertainty,
     StatedProbability,
@@ -20,27 +20,44 @@ pub fn statement(report: &Report<'_>) -> Vec<String> {
     let mut sentences: Vec<String> = (0..report.evaluation.results.len())
         .filter_map(|m| of_measurand(report, m))
         .collect();
+    let evaluated = match sentences.is_empty() {
+        true => None,
+        false => certified(report),
+    };
     sentences.extend(correlations(report));
     sentences.extend(decisions::sentences(report));
+    sentences.extend(evaluated);
     sentences
 }
 
-fn of_measurand(report: &Report<'_>, measurand: usize) -> Option<String> {
+/// How the uncertainty was evaluated, as the profile has it said.
+pub(super) fn certified(report: &Report<'_>) -> Option<String> {
+    let profile = profile_named(&report.budget.conventions.profile)?;
+    let sentence = report
+        .language
+        .pick(profile.certified_en, profile.certified_zh);
+    Some(sentence.to_string())
+}
+
+/// Whether what was measured is stated as y with its uncertainty: not where nothing was measured, nor where ISO 11929
+/// has a sentence of its own.
+pub(super) fn states_result(report: &Report<'_>, measurand: usize) -> bool {
     let budget = report.budget;
-    let planned = budget
-        .conformity
-        .iter()
-        .any(|c| c.planning && c.measurand == measurand);
-    // Nothing was measured, or ISO 11929 has a sentence of its own.
+    let mut conformity = budget.conformity.iter();
+    let planned = conformity.any(|c| c.planning && c.measurand == measurand);
     let own_sentence = budget.detection.iter().any(|d| d.measurand == measurand);
-    if planned || own_sentence {
+    !(planned || own_sentence)
+}
+
+fn of_measurand(report: &Report<'_>, measurand: usize) -> Option<String> {
+    if !states_result(report, measurand) {
         return None;
     }
     let subject = Subject {
         figures: Figures::new(report, measurand),
         gum: &report.evaluation.results[measurand].gum,
         trials: grouped(report.evaluation.run.as_ref().map_or(0, |run| run.trials)),
-        conventions: &budget.conventions,
+        conventions: &report.budget.conventions,
         language: report.language,
     };
     Some(subject.sentence())

@@ -7,6 +7,7 @@ mod clash;
 mod decimal;
 mod dimension;
 mod docs;
+mod dsi;
 mod factor;
 pub mod faults;
 mod print;

@@ -136,6 +136,20 @@ pub(super) fn names(symbol: &str) -> Vec<String> {
         .collect()
 }
 
+/// Names in a symbol with their exponents in sixtieths, equal names merged; nothing of a symbol that does not follow the
+/// syntax.
+pub(super) fn terms(symbol: &str) -> Option<Vec<(String, i32)>> {
+    parse(symbol, Numbers::OneOnly).ok()?;
+    let mut composer = Composer::new();
+    composer.times(symbol, 1);
+    let factors = composer.factors.into_iter();
+    let kept = factors.filter(|factor| factor.exponent != 0);
+    Some(
+        kept.map(|factor| (unified(&factor.name), factor.exponent))
+            .collect(),
+    )
+}
+
 /// A symbol as names with exponents. One that does not follow the syntax is a single name in
 /// parentheses.
 fn read(symbol: &str) -> Vec<(String, i32)> {

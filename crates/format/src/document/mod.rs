@@ -3,6 +3,9 @@
 //! A [`Document`] holds the same thing twice: as [`Block`]s in the order in which a person reads them, and as one
 //! typed structure for machines. Whoever composes it has decided everything; a renderer only draws.
 
+mod bilingual;
+mod certificate;
+mod math;
 mod plot;
 mod sheet;
 mod table;
@@ -11,6 +14,11 @@ mod texts;
 use gumption_fault::language::Language;
 use serde_json::Value;
 
+pub use certificate::{
+    Administration, Attachment, Certificate, Certified, CertifiedConformity, CertifiedPoint,
+    CertifiedUncertainty, CertifiedVerdict, Condition, Contact, Item, Person, Region, Told,
+};
+pub use math::Math;
 pub use plot::{Axis, Bar, Layer, Marks, Panel, Plot, Scale, Tone};
 pub use sheet::{Bars, Entry, Held, Sheet, address};
 pub use table::{Cell, Column, ColumnKind, Row, Table};
@@ -34,6 +42,8 @@ pub struct Document {
     pub beside: Vec<Plot>,
     /// Sheets that calculate, for spreadsheets.
     pub sheets: Vec<Sheet>,
+    /// What is certified, for digital certificates.
+    pub certificate: Option<Box<Certificate>>,
 }
 
 impl Document {
@@ -52,6 +62,7 @@ impl Document {
             machine: machine::value(machine),
             beside: Vec::new(),
             sheets: Vec::new(),
+            certificate: None,
         }
     }
 
@@ -76,7 +87,7 @@ impl Document {
     }
 
     /// One document of several of one kind: their blocks one after the other; for machines one value, or an array
-    /// where there are more. `None` of none.
+    /// where there are more. `None` of none. A certificate is that of the first.
     pub fn together(documents: Vec<Document>) -> Option<Document> {
         let mut documents = documents.into_iter();
         let mut whole = documents.next()?;

@@ -13,9 +13,21 @@ pub(super) fn made_harmless(text: &mut String) {
     }
 }
 
+/// The texts of a walk.
+fn all(walk: impl FnOnce(&mut dyn FnMut(&mut String))) -> Vec<String> {
+    let mut texts = Vec::new();
+    walk(&mut |text| texts.push(text.clone()));
+    texts
+}
+
 impl Block {
+    /// Every text.
+    pub(super) fn texts_of(&mut self) -> Vec<String> {
+        all(|work| self.texts(work))
+    }
+
     /// Does something to every text.
-    pub(super) fn texts(&mut self, work: &mut impl FnMut(&mut String)) {
+    pub(super) fn texts(&mut self, work: &mut dyn FnMut(&mut String)) {
         match self {
             Block::Title(text) | Block::Section(text) | Block::Paragraph(text) => work(text),
             Block::Fields(fields) => {
@@ -44,7 +56,7 @@ impl Block {
 }
 
 impl Table {
-    fn texts(&mut self, work: &mut impl FnMut(&mut String)) {
+    fn texts(&mut self, work: &mut dyn FnMut(&mut String)) {
         self.columns.iter_mut().for_each(|one| work(&mut one.head));
         for row in &mut self.rows {
             match row {
@@ -63,8 +75,13 @@ impl Table {
 }
 
 impl Plot {
+    /// Every text.
+    pub(super) fn texts_of(&mut self) -> Vec<String> {
+        all(|work| self.texts(work))
+    }
+
     /// Does something to every text.
-    pub(super) fn texts(&mut self, work: &mut impl FnMut(&mut String)) {
+    pub(super) fn texts(&mut self, work: &mut dyn FnMut(&mut String)) {
         for panel in &mut self.panels {
             work(&mut panel.title);
             for axis in [&mut panel.x, &mut panel.y] {
@@ -82,8 +99,13 @@ impl Plot {
 }
 
 impl Sheet {
+    /// Every text that is no formula.
+    pub(super) fn texts_of(&mut self) -> Vec<String> {
+        all(|work| self.texts(work))
+    }
+
     /// Does something to every text that is no formula; formulas are made of numbers and names of cells.
-    pub(super) fn texts(&mut self, work: &mut impl FnMut(&mut String)) {
+    pub(super) fn texts(&mut self, work: &mut dyn FnMut(&mut String)) {
         work(&mut self.name);
         if let Some(bars) = &mut self.bars {
             work(&mut bars.title);

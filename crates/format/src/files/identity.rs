@@ -21,6 +21,11 @@ impl FileId {
         Some(FileId { path, node })
     }
 
+    /// Its path without links.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Whether both are one file: the same place, or the same content under two names.
     pub fn is(&self, other: &FileId) -> bool {
         self.path == other.path || (self.node.is_some() && self.node == other.node)

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 use std::fs::Metadata;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::identity::FileId;
@@ -20,6 +20,15 @@ pub(super) fn note(path: &Path) {
     if let (Some(mut read), Some(file)) = (ledger(), FileId::of(path)) {
         read.insert(file);
     }
+}
+
+/// The files of the disk that have been read, by their paths without links.
+pub fn reads() -> Vec<PathBuf> {
+    let read = ledger();
+    let read = read.iter().flat_map(|read| read.iter());
+    let mut paths: Vec<PathBuf> = read.map(|file| file.path().to_path_buf()).collect();
+    paths.sort();
+    paths
 }
 
 /// Whether a file of the disk has been read, under any of its names.

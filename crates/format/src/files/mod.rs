@@ -18,7 +18,7 @@ pub mod write;
 mod written;
 
 pub use identity::FileId;
-pub use ledger::{remember_reads, was_read_as};
+pub use ledger::{reads, remember_reads, was_read_as};
 
 use std::io::{Error, ErrorKind, Read, Result};
 use std::path::{Component, Path, PathBuf};

@@ -6,7 +6,9 @@ use super::format::Format;
 use super::inline::{Run, runs};
 use super::parts::{Part, parts};
 use super::svg::svg;
-use crate::document::{Block, Cell, ColumnKind, Document, Finding, Plot, Row, Severity, Table};
+use crate::document::{
+    Block, Cell, ColumnKind, Document, Finding, Math, Plot, Row, Severity, Table,
+};
 use gumption_fault::language::Language;
 
 /// The format.
@@ -145,8 +147,14 @@ impl Page {
             }
             Block::Paragraph(text) => self.line(format_args!("<p>{}</p>", inline(text))),
             Block::Formula(lines) => {
-                let lines = escaped(&lines.join("\n"));
-                self.line(format_args!("<pre tabindex=\"0\">{lines}</pre>"));
+                let formulas: Option<Vec<Math>> = lines.iter().map(|line| Math::of(line)).collect();
+                match formulas {
+                    Some(formulas) => self.formulas(lines, &formulas),
+                    None => {
+                        let lines = escaped(&lines.join("\n"));
+                        self.line(format_args!("<pre tabindex=\"0\">{lines}</pre>"));
+                    }
+                }
             }
             Block::Table(table) => self.table(table, heading),
             Block::Plot(plot) => self.plot(plot),
@@ -165,6 +173,18 @@ impl Page {
             Block::Closing(lines) => self.lines("closing", lines),
             Block::Footer(lines) => self.lines("small", lines),
         }
+    }
+
+    /// Formulas one below the other, which move sideways where the page is too narrow for them.
+    fn formulas(&mut self, lines: &[String], formulas: &[Math]) {
+        self.line(format_args!("<div class=\"formulas\" tabindex=\"0\">"));
+        for (line, formula) in lines.iter().zip(formulas) {
+            let (alternative, formula) = (escaped(line), mathml(formula));
+            self.line(format_args!(
+                "<math display=\"block\" alttext=\"{alternative}\">{formula}</math>"
+            ));
+        }
+        self.line(format_args!("</div>"));
     }
 
     /// A finding, with a word before what is more than a note.
@@ -276,6 +296,40 @@ fn inline(text: &str) -> String {
         Run::Raised(text) => format!("<sup>{}</sup>", text.replace('-', "−")),
     });
     drawn.collect()
+}
+
+/// A formula in MathML Core.
+fn mathml(math: &Math) -> String {
+    let name = |text: &str| format!("<mi>{}</mi>", escaped(text));
+    match math {
+        Math::Name(base, None) => name(base),
+        Math::Name(base, Some(index)) => {
+            format!(
+                "<msub>{}<mtext>{}</mtext></msub>",
+                name(base),
+                escaped(index)
+            )
+        }
+        Math::Number(number) => format!("<mn>{}</mn>", escaped(number)),
+        Math::Sign(sign) => format!("<mo>{}</mo>", escaped(sign)),
+        Math::Row(parts) => {
+            let parts: String = parts.iter().map(mathml).collect();
+            format!("<mrow>{parts}</mrow>")
+        }
+        Math::Group(open, inside, close) => {
+            format!(
+                "<mrow><mo>{open}</mo>{}<mo>{close}</mo></mrow>",
+                mathml(inside)
+            )
+        }
+        Math::Fraction(above, below) => {
+            format!("<mfrac>{}{}</mfrac>", mathml(above), mathml(below))
+        }
+        Math::Power(base, exponent) => {
+            format!("<msup>{}{}</msup>", mathml(base), mathml(exponent))
+        }
+        Math::Root(inside) => format!("<msqrt>{}</msqrt>", mathml(inside)),
+    }
 }
 
 fn escaped(text: &str) -> String {

@@ -235,6 +235,11 @@ correlation is not known. Evaluate the changed budget again and save its results
 FROM_DEEP = "B0707", "too many budgets use one another", "评定文件逐层引用过深",
 "A chain of budgets may be 32 files deep. Save the result of one in between (`gumption eval FILE --save saved.json`) and go \
 on from it with `from = { result = … }`.";
+
+DIGITAL_CERTIFICATE = "B0708", "a digital certificate is not usable", "数字校准证书不可用",
+"A certificate named by `dcc` is XML in the form of the DCC 2.x or 3.x, with quantities of the D-SI: numbers with a decimal \
+point, units such as `\\milli\\volt`, lists of one length, k of at least 1, p between 0 and 1, and an uncertainty of the \
+result that is wanted.";
 }
 
 #[cfg(test)]

@@ -16,6 +16,7 @@ mod checked;
 mod claim;
 mod components;
 mod conventions;
+mod dcc;
 mod decision;
 mod distributions;
 pub mod faults;

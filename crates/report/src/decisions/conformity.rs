@@ -99,7 +99,7 @@ impl Assessment<'_> {
         self.l.pick(english, chinese)
     }
 
-    fn tolerance(&self) -> String {
+    pub(super) fn tolerance(&self) -> String {
         self.interval(self.stated.tolerance, &exact)
     }
 

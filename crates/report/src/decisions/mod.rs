@@ -29,6 +29,33 @@ pub(super) fn sentences(report: &Report<'_>) -> Vec<String> {
     conformity.chain(detection).collect()
 }
 
+/// Tolerance, rule and verdict of one decision, as a line of a table of results has them.
+pub(super) struct Decided<'a> {
+    /// Name of the item.
+    pub name: &'a str,
+    /// The tolerance.
+    pub tolerance: String,
+    /// The rule.
+    pub rule: String,
+    /// The verdict.
+    pub verdict: Option<Verdict>,
+    /// Whether the value lies inside the tolerance.
+    pub inside: bool,
+}
+
+/// The decisions about a measurand.
+pub(super) fn decided<'a>(report: &'a Report<'a>, measurand: usize) -> Vec<Decided<'a>> {
+    let about = assessments(report).filter(|subject| subject.stated.measurand == measurand);
+    let decided = about.map(|subject| Decided {
+        name: &subject.stated.name,
+        tolerance: subject.tolerance(),
+        rule: subject.rule(),
+        verdict: subject.found.verdict,
+        inside: subject.stated.tolerance.contains(subject.found.estimate),
+    });
+    decided.collect()
+}
+
 /// Stable name of a verdict for machines.
 pub(super) fn verdict_code(verdict: Verdict) -> &'static str {
     match verdict {

@@ -2,6 +2,7 @@
 //!
 //! Every field of the machine form is always present; `null` means that there is no such figure.
 
+mod certificate;
 mod claims;
 mod compose;
 mod decisions;
@@ -17,7 +18,7 @@ mod whole;
 use serde_json::Value;
 
 use self::whole::EvaluationJson;
-use crate::{Report, worksheet};
+use crate::{Report, statement, worksheet};
 use gumption_format::document::Document;
 
 /// One evaluated budget.
@@ -30,10 +31,19 @@ pub fn evaluations(rows: &[Report<'_>], in_full: usize) -> Option<Document> {
     let documents = rows.iter().enumerate().map(|(i, row)| of(row, i < in_full));
     let mut whole = Document::together(documents.collect())?;
     if rows.len() > 1 {
-        whole.blocks.splice(0..0, series::blocks(rows));
+        let mut series = series::blocks(rows);
+        series.extend(certificate::blocks(rows));
+        whole.blocks.splice(0..0, series);
         whole = whole.with_plots(plots::series(rows));
     }
-    Some(whole)
+    let sentences = match rows {
+        [one] => statement::statement(one),
+        rows => certificate::sentences(rows),
+    };
+    Some(match crate::certificate::of(rows, sentences) {
+        Some(certificate) => whole.with_certificate(certificate),
+        None => whole,
+    })
 }
 
 fn of(report: &Report<'_>, in_full: bool) -> Document {

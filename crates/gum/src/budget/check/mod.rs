@@ -44,8 +44,11 @@ mod ways;
 use std::path::Path;
 
 use super::checked::Quantities;
+use super::dcc;
 use super::tables::FileTable;
-use super::{Budget, Component, Heading, MonteCarloSettings, NamedFigure, Owner, Row, Trials};
+use super::{
+    Budget, Component, Heading, MonteCarloSettings, NamedFigure, Owner, Remark, Row, Trials,
+};
 pub(super) use checker::Origin;
 use checker::{Checker, Source};
 use entries::{entries, shared};
@@ -80,10 +83,22 @@ pub(super) fn rows(
         .unwrap_or_default();
     let several = variants.len() > 1;
     let mut rows = Vec::new();
-    for (index, variant) in variants.into_iter().enumerate() {
+    for (index, mut variant) in variants.into_iter().enumerate() {
+        let found = dcc::fill(&mut variant.file, origin.files, origin.directory);
+        if !found.faults.is_empty() {
+            faults.extend(found.faults);
+            continue;
+        }
         let number = || several.then(|| (index + 1).to_string());
         let row = variant.label.clone().or_else(number);
-        match budget(&variant.file, text, origin, &heading, row.as_deref()) {
+        match budget(
+            &variant.file,
+            text,
+            origin,
+            &heading,
+            row.as_deref(),
+            found.remarks,
+        ) {
             Ok(budget) => rows.push(Row {
                 label: variant.label,
                 budget,
@@ -150,6 +165,12 @@ pub(super) fn quantities(
     text: &str,
     origin: Origin<'_>,
 ) -> Result<Quantities, Vec<Fault>> {
+    let mut filled = file.clone();
+    let found = dcc::fill(&mut filled, origin.files, origin.directory);
+    if !found.faults.is_empty() {
+        return Err(found.faults);
+    }
+    let file = &filled;
     let (conventions, resolution, faults) = conventions::conventions(file);
     let source = Source {
         text,
@@ -158,6 +179,7 @@ pub(super) fn quantities(
     };
     let mut checker = Checker::new(source, file, conventions);
     checker.messages.faults = faults;
+    checker.messages.remarks = found.remarks;
     checker.names.units = units.clone();
     checker.check_names(file, unnamed);
     checker.monte_carlo(file);
@@ -186,6 +208,7 @@ fn budget(
     origin: Origin<'_>,
     heading: &Heading,
     row: Option<&str>,
+    remarks: Vec<Remark>,
 ) -> Result<Budget, Vec<Fault>> {
     let (conventions, resolution, faults) = conventions::conventions(file);
     let source = Source {
@@ -195,6 +218,7 @@ fn budget(
     };
     let mut checker = Checker::new(source, file, conventions);
     checker.messages.faults = faults;
+    checker.messages.remarks = remarks;
     let budget = checker.budget(file, resolution, heading, row);
     match budget {
         Some(budget) if checker.messages.faults.is_empty() => Ok(budget),

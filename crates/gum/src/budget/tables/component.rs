@@ -171,6 +171,12 @@ words! {
 table! {
     /// Expanded uncertainty from a certificate.
     CertificateTable "certificate" {
+        /// Digital calibration certificate (XML): its file. Value, U, k, ν, unit, number, laboratory and date come from it.
+        dcc: String,
+        /// With `dcc`: which result, by its identifier or name; may be left out where it has only one.
+        result: String,
+        /// With `dcc`: which point of a result that has several, by its label or number.
+        point: String,
         /// Expanded uncertainty U.
         U: Amount,
         /// Coverage factor k.

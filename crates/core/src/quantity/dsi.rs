@@ -1,0 +1,215 @@
+//! Units as the D-SI writes them (`\milli\volt\second\tothe{-1}`; Digital System of Units, 2.2), there and back.
+
+use super::builtin::{PREFIXES, UNITS};
+use super::dimension::STEPS;
+use super::symbol;
+use super::{Unit, UnitKind, UnitTable};
+
+/// Names of the prefixes, by their power of ten.
+const NAMES: &[(i32, &str)] = &[
+    (30, "quetta"),
+    (27, "ronna"),
+    (24, "yotta"),
+    (21, "zetta"),
+    (18, "exa"),
+    (15, "peta"),
+    (12, "tera"),
+    (9, "giga"),
+    (6, "mega"),
+    (3, "kilo"),
+    (2, "hecto"),
+    (1, "deca"),
+    (-1, "deci"),
+    (-2, "centi"),
+    (-3, "milli"),
+    (-6, "micro"),
+    (-9, "nano"),
+    (-12, "pico"),
+    (-15, "femto"),
+    (-18, "atto"),
+    (-21, "zepto"),
+    (-24, "yocto"),
+    (-27, "ronto"),
+    (-30, "quecto"),
+];
+
+impl Unit {
+    /// The unit in the notation of the D-SI; `None` where the D-SI has no name for a part of it (inch, standard gravity),
+    /// so that values must be given in the [coherent](Unit::coherent) unit.
+    pub fn dsi(&self) -> Option<String> {
+        if self.is_one() {
+            return Some("\\one".to_owned());
+        }
+        let terms = symbol::terms(&self.symbol)?;
+        let written = terms
+            .iter()
+            .map(|(name, exponent)| Some(format!("{}{}", named(name)?, power(*exponent))));
+        written.collect()
+    }
+}
+
+/// `\kilo\ohm` for `kΩ`.
+fn named(symbol: &str) -> Option<String> {
+    let known = |symbol: &str| {
+        let mut units = UNITS.iter();
+        units.find(|unit| unit.symbol == symbol || unit.aliases.contains(&symbol))
+    };
+    if let Some(unit) = known(symbol) {
+        return Some(format!("\\{}", unit.dsi()?));
+    }
+    PREFIXES.iter().find_map(|(prefix, ten)| {
+        let unit = known(symbol.strip_prefix(prefix)?)?.dsi()?;
+        let (_, prefix) = NAMES.iter().find(|(power, _)| power == ten)?;
+        Some(format!("\\{prefix}\\{unit}"))
+    })
+}
+
+/// `\tothe{-2}` of an exponent in sixtieths; nothing of one.
+fn power(exponent: i32) -> String {
+    match (exponent, exponent % STEPS) {
+        (STEPS, _) => String::new(),
+        (_, 0) => format!("\\tothe{{{}}}", exponent / STEPS),
+        _ => format!("\\tothe{{{}}}", f64::from(exponent) / f64::from(STEPS)),
+    }
+}
+
+impl UnitTable {
+    /// The unit that the notation of the D-SI names; `None` where it is not in that notation.
+    pub fn parse_dsi(&self, text: &str) -> Option<Unit> {
+        // Alternatives of the same unit may follow.
+        let text = text.split('|').next().unwrap_or_default().trim();
+        if matches!(text, "\\one" | "1" | "") {
+            return (!text.is_empty()).then(Unit::one);
+        }
+        let mut product = String::new();
+        let (mut prefix, mut below) = (None, false);
+        let mut words = text.strip_prefix('\\')?.split('\\').peekable();
+        while let Some(word) = words.next() {
+            let word = word.trim();
+            if word == "per" {
+                below = true;
+                continue;
+            }
+            if let Some((ten, _)) = NAMES.iter().find(|(_, name)| *name == word) {
+                prefix = PREFIXES.iter().find(|(_, power)| power == ten);
+                continue;
+            }
+            let symbol = symbol_of(word)?;
+            let exponent = match words
+                .peek()
+                .and_then(|next| next.trim().strip_prefix("tothe"))
+            {
+                Some(braced) => {
+                    words.next();
+                    exponent(braced)?
+                }
+                None => STEPS,
+            };
+            let exponent = if below { -exponent } else { exponent };
+            let prefix = prefix.take().map_or("", |(prefix, _)| prefix);
+            let dot = if product.is_empty() { "" } else { "·" };
+            let power = super::dimension::exponent_text(exponent);
+            product += &format!("{dot}{prefix}{symbol}{power}");
+            below = false;
+        }
+        match (prefix, below) {
+            (None, false) => self.parse(&product).ok(),
+            _ => None,
+        }
+    }
+}
+
+fn symbol_of(name: &str) -> Option<&'static str> {
+    let mut units = UNITS.iter();
+    let unit = units.find(|unit| unit.dsi().as_deref() == Some(name))?;
+    Some(unit.symbol)
+}
+
+/// Sixtieths of `{-2}` or `{0.5}`.
+fn exponent(braced: &str) -> Option<i32> {
+    let inside = braced.trim().strip_prefix('{')?.strip_suffix('}')?;
+    let number: f64 = inside.trim().parse().ok()?;
+    let steps = number * f64::from(STEPS);
+    let whole = steps.round();
+    ((steps - whole).abs() < 1e-6 && whole.abs() < 3600.0).then_some(whole as i32)
+}
+
+impl super::BuiltinUnit {
+    /// Its name in the D-SI, if it has one: the English name in one word.
+    fn dsi(&self) -> Option<String> {
+        let name = match (self.kind, self.symbol) {
+            (UnitKind::Si, _) => self.name_en.to_lowercase().replace(' ', ""),
+            (UnitKind::Accepted, "°") => "degree".into(),
+            (UnitKind::Accepted, "′") => "arcminute".into(),
+            (UnitKind::Accepted, "″") => "arcsecond".into(),
+            (UnitKind::Accepted, "au") => "astronomicalunit".into(),
+            (UnitKind::Accepted, "dB") => "decibel".into(),
+            (UnitKind::Accepted, "ppm") => "ppm".into(),
+            (UnitKind::Accepted, "%" | "%RH") => "percent".into(),
+            (
+                UnitKind::Accepted,
+                "min" | "h" | "d" | "ha" | "L" | "t" | "Da" | "eV" | "Np" | "bit",
+            ) => self.name_en.into(),
+            _ => return None,
+        };
+        Some(name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unit(text: &str) -> Unit {
+        UnitTable::default().parse(text).expect("a unit")
+    }
+
+    #[test]
+    fn units_are_written_and_read() {
+        for (text, dsi) in [
+            ("1", "\\one"),
+            ("m", "\\metre"),
+            ("kg", "\\kilogram"),
+            ("mg", "\\milli\\gram"),
+            ("m·s^-2", "\\metre\\second\\tothe{-2}"),
+            ("µV/V", "\\micro\\volt\\volt\\tothe{-1}"),
+            ("kohm", "\\kilo\\ohm"),
+            ("°C", "\\degreecelsius"),
+            ("V/√Hz", "\\volt\\hertz\\tothe{-0.5}"),
+            ("°/s", "\\degree\\second\\tothe{-1}"),
+            ("%", "\\percent"),
+            ("dB", "\\decibel"),
+            ("L", "\\litre"),
+        ] {
+            assert_eq!(unit(text).dsi().as_deref(), Some(dsi), "{text}");
+            let back = UnitTable::default().parse_dsi(dsi).expect(dsi);
+            let same = back.conversion_to(&unit(text)).expect(text);
+            assert!(same.is_identity(), "{text}: {back:?}");
+        }
+    }
+
+    #[test]
+    fn others_have_no_name() {
+        for text in ["in", "mA/gn", "psi", "count", "ft"] {
+            assert_eq!(unit(text).dsi(), None, "{text}");
+        }
+        for text in [
+            "kV",
+            "\\kilo",
+            "\\metre\\per",
+            "\\furlong",
+            "",
+            "\\metre\\tothe{x}",
+        ] {
+            assert_eq!(UnitTable::default().parse_dsi(text), None, "{text}");
+        }
+        let speed = UnitTable::default().parse_dsi("\\kilo\\metre\\per\\hour");
+        assert!(
+            speed
+                .unwrap()
+                .conversion_to(&unit("km/h"))
+                .unwrap()
+                .is_identity()
+        );
+    }
+}

@@ -1,0 +1,199 @@
+//! A document on pages: what goes on a certificate first in each part, as on screens.
+
+use gumption_fault::language::Language;
+use gumption_format::document::{Block, Document, Severity};
+use gumption_format::render::parts::{Part, parts};
+use gumption_format::render::svg;
+
+use super::flow::{BLACK, BLUE, Flow, GREY, PALE, WIDTH};
+use super::fonts::Style;
+use super::{picture, table, text};
+
+/// Size of running text.
+const SIZE: f32 = 9.5;
+const LEADING: f32 = 13.2;
+
+/// Lays a document out.
+pub(super) fn lay(flow: &mut Flow<'_>, document: &Document) {
+    for (at, part) in parts(&document.blocks).iter().enumerate() {
+        if at > 0 {
+            flow.begin_page();
+        }
+        lay_part(flow, part, document.language);
+    }
+    if !document.beside.is_empty() {
+        heading(flow, document.language.pick("Plots", "图"));
+        for plot in &document.beside {
+            picture::draw(flow, &svg(plot));
+        }
+    }
+}
+
+fn lay_part(flow: &mut Flow<'_>, part: &Part<'_>, language: Language) {
+    if let Some(title) = part.title {
+        let letters = flow.set(title, Style::Bold, 17.0);
+        flow.lines(&letters, [flow.left(), WIDTH], 22.0, BLACK);
+        flow.y += 6.0;
+    }
+    part.head
+        .iter()
+        .for_each(|block| lay_block(flow, block, language));
+    for section in &part.sections {
+        heading(flow, section.heading);
+        let blocks = section.blocks.iter();
+        blocks.for_each(|block| lay_block(flow, block, language));
+    }
+    part.foot
+        .iter()
+        .for_each(|block| lay_block(flow, block, language));
+}
+
+/// The head of a section, with room for what begins below it.
+fn heading(flow: &mut Flow<'_>, words: &str) {
+    flow.skip(10.0);
+    flow.room(70.0);
+    let letters = flow.set(words, Style::Bold, 12.0);
+    flow.lines(&letters, [flow.left(), WIDTH], 16.0, BLACK);
+    flow.y += 3.0;
+}
+
+fn lay_block(flow: &mut Flow<'_>, block: &Block, language: Language) {
+    match block {
+        Block::Title(words) | Block::Section(words) => heading(flow, words),
+        Block::Fields(fields) => pairs(
+            flow,
+            fields
+                .iter()
+                .map(|(name, text)| (name.as_str(), text.clone())),
+        ),
+        Block::Figures(figures) => {
+            let figures = figures
+                .iter()
+                .map(|figure| (figure.name.as_str(), figure.text()));
+            figures_of(flow, figures);
+        }
+        Block::Paragraph(words) => paragraph(flow, words, Style::Regular),
+        Block::Formula(lines) => {
+            for line in lines {
+                let letters = flow.plain(line, Style::Mono, 8.8);
+                flow.lines(&letters, [flow.left() + 10.0, WIDTH - 10.0], 12.0, BLACK);
+            }
+            flow.y += 5.0;
+        }
+        Block::Table(one) => table::draw(flow, one),
+        Block::Plot(plot) => picture::draw(flow, &svg(plot)),
+        Block::List(items) => items.iter().for_each(|item| item_of(flow, item, "")),
+        Block::Findings(findings) => {
+            for finding in findings {
+                let word = match finding.severity {
+                    Severity::Note => "",
+                    Severity::Warning => language.pick("Caution: ", "注意："),
+                    Severity::Failure => language.pick("Not to be used: ", "不可采用："),
+                };
+                item_of(flow, &finding.text, word);
+            }
+        }
+        Block::Statement(sentences) => statement(flow, sentences),
+        Block::Closing(lines) => lines
+            .iter()
+            .for_each(|line| paragraph(flow, line, Style::Bold)),
+        Block::Footer(lines) => {
+            flow.skip(4.0);
+            for line in lines {
+                let letters = flow.set(line, Style::Regular, 7.5);
+                flow.lines(&letters, [flow.left(), WIDTH], 10.0, GREY);
+            }
+        }
+    }
+}
+
+fn paragraph(flow: &mut Flow<'_>, words: &str, style: Style) {
+    let letters = flow.set(words, style, SIZE);
+    flow.lines(&letters, [flow.left(), WIDTH], LEADING, BLACK);
+    flow.y += 5.0;
+}
+
+/// Names at the left, texts beside them.
+fn pairs<'t>(flow: &mut Flow<'_>, pairs: impl Iterator<Item = (&'t str, String)>) {
+    const NAMES: f32 = 130.0;
+    for (name, words) in pairs {
+        let (name, words) = (
+            flow.set(name, Style::Regular, SIZE),
+            flow.set(&words, Style::Regular, SIZE),
+        );
+        beside(flow, &name, &words, NAMES);
+    }
+    flow.y += 6.0;
+}
+
+fn figures_of<'t>(flow: &mut Flow<'_>, pairs: impl Iterator<Item = (&'t str, String)>) {
+    const NAMES: f32 = 190.0;
+    for (name, words) in pairs {
+        let (name, words) = (
+            flow.set(name, Style::Regular, SIZE),
+            flow.set(&words, Style::Bold, SIZE + 1.0),
+        );
+        beside(flow, &name, &words, NAMES);
+    }
+    flow.y += 6.0;
+}
+
+fn beside(flow: &mut Flow<'_>, name: &[text::Letter], words: &[text::Letter], names: f32) {
+    let room = WIDTH - names - 8.0;
+    let of_name = text::lines(name, names).len();
+    let height = of_name.max(text::lines(words, room).len()) as f32 * LEADING;
+    flow.room(height.min(120.0));
+    let (page, top) = (flow.pages.len(), flow.y);
+    flow.lines(name, [flow.left(), names], LEADING, GREY);
+    let after = flow.y;
+    if flow.pages.len() == page {
+        flow.y = top;
+    }
+    let page = flow.pages.len();
+    flow.lines(words, [flow.left() + names + 8.0, room], LEADING, BLACK);
+    if flow.pages.len() == page {
+        flow.y = flow.y.max(after);
+    }
+}
+
+fn item_of(flow: &mut Flow<'_>, words: &str, first: &str) {
+    const INDENT: f32 = 12.0;
+    let mut letters = flow.plain(first, Style::Bold, SIZE);
+    letters.extend(flow.set(words, Style::Regular, SIZE));
+    flow.room(LEADING);
+    let mark = flow.plain("•", Style::Regular, SIZE);
+    let y = flow.y;
+    flow.lines(&mark, [flow.left(), INDENT], LEADING, BLUE);
+    flow.y = y;
+    flow.lines(
+        &letters,
+        [flow.left() + INDENT, WIDTH - INDENT],
+        LEADING,
+        BLACK,
+    );
+    flow.y += 3.0;
+}
+
+/// Sentences for the certificate, with a line at their left.
+fn statement(flow: &mut Flow<'_>, sentences: &[String]) {
+    const INDENT: f32 = 12.0;
+    for sentence in sentences {
+        let letters = flow.set(sentence, Style::Regular, SIZE + 0.5);
+        let leading = LEADING + 1.0;
+        let height = text::lines(&letters, WIDTH - INDENT).len() as f32 * leading;
+        flow.room(height.min(200.0));
+        let (page, top) = (flow.pages.len(), flow.y);
+        flow.lines(
+            &letters,
+            [flow.left() + INDENT, WIDTH - INDENT],
+            leading,
+            BLACK,
+        );
+        if flow.pages.len() == page {
+            let (x, bottom) = (flow.left() + 2.0, flow.y);
+            flow.rule([x, top + 1.0], [x, bottom], PALE, 3.0);
+        }
+        flow.y += 4.0;
+    }
+    flow.y += 4.0;
+}

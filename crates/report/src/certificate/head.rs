@@ -1,0 +1,116 @@
+//! What stands at the head of a certificate, in every format.
+
+use gumption_fault::language::Language;
+use gumption_format::document::{Administration, Attachment, Block, Contact, Document, Item};
+
+/// The document of an evaluation as that of a certificate: its number, dates, laboratory, customer and items stand first,
+/// and a digital certificate can be written of it, with these files in it.
+#[must_use]
+pub fn certified(
+    mut document: Document,
+    given: &Administration,
+    attachments: Vec<Attachment>,
+) -> Document {
+    let Some(certificate) = document.certificate.as_mut() else {
+        return document;
+    };
+    let languages = certificate.languages.clone();
+    certificate.administration = Some(given.clone());
+    certificate.attachments = attachments;
+    let mut heads = languages.iter().map(|l| fields(given, *l));
+    let Some(mut head) = heads.next() else {
+        return document;
+    };
+    for other in heads {
+        for ((name, text), (other_name, other_text)) in head.iter_mut().zip(other) {
+            join(name, &other_name);
+            join(text, &other_text);
+        }
+    }
+    let behind_title = usize::from(matches!(document.blocks.first(), Some(Block::Title(_))));
+    document.blocks.insert(behind_title, Block::Fields(head));
+    document
+}
+
+fn join(text: &mut String, other: &str) {
+    if text != other {
+        text.push_str(" / ");
+        text.push_str(other);
+    }
+}
+
+fn fields(given: &Administration, l: Language) -> Vec<(String, String)> {
+    let mut fields = Vec::new();
+    let mut add = |english: &'static str, chinese: &'static str, text: Option<String>| {
+        let text = text.filter(|text| !text.is_empty());
+        fields.extend(text.map(|text| (l.pick(english, chinese).to_owned(), text)));
+    };
+    add("Certificate", "证书编号", Some(given.number.clone()));
+    let laboratory = contact(&given.laboratory, l);
+    let code = given
+        .code
+        .as_ref()
+        .map(|code| format!("{laboratory} ({code})"));
+    add("Laboratory", "实验室", Some(code.unwrap_or(laboratory)));
+    add("Customer", "委托方", Some(contact(&given.customer, l)));
+    for one in &given.items {
+        add("Item", "被校对象", Some(item(one, l)));
+    }
+    add("Received", "接收日期", given.received.clone());
+    let [begin, end] = &given.performed;
+    let days = match begin == end {
+        true => begin.clone(),
+        false => format!("{begin} – {end}"),
+    };
+    add("Measured", "测量日期", Some(days));
+    let place = match given.place.as_str() {
+        "laboratory" => l.pick("laboratory", "实验室"),
+        "customer" => l.pick("customer's premises", "委托方现场"),
+        "laboratoryBranch" => l.pick("branch of the laboratory", "实验室分支机构"),
+        "customerBranch" => l.pick("branch of the customer", "委托方分支机构"),
+        _ => l.pick("elsewhere", "其他地点"),
+    };
+    add("Place", "测量地点", Some(place.to_owned()));
+    for condition in &given.conditions {
+        let text = format!("{}: {}", condition.name.text(l), condition.text);
+        add("Condition", "环境条件", Some(text));
+    }
+    add("Issued", "签发日期", given.issued.clone());
+    for person in &given.persons {
+        let role = person.role.as_ref().map(|role| role.text(l));
+        let text = role.map_or(person.name.clone(), |role| {
+            format!("{}, {role}", person.name)
+        });
+        add("Responsible", "责任人", Some(text));
+    }
+    fields
+}
+
+fn contact(contact: &Contact, l: Language) -> String {
+    let town = [contact.post_code.as_deref(), contact.city.as_deref()];
+    let town: Vec<&str> = town.into_iter().flatten().collect();
+    let town = (!town.is_empty()).then(|| town.join(" "));
+    let parts = [
+        Some(contact.name.text(l).to_owned()),
+        contact.street.clone(),
+        town,
+        contact.country.clone(),
+    ];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
+fn item(item: &Item, l: Language) -> String {
+    let numbered = |english: &str, chinese: &str, number: &Option<String>| {
+        let number = number.as_ref()?;
+        Some(l.pick(format!("{english} {number}"), format!("{chinese} {number}")))
+    };
+    let parts = [
+        Some(item.name.text(l).to_owned()),
+        item.manufacturer.clone(),
+        item.model.clone(),
+        numbered("serial number", "出厂编号", &item.serial),
+        numbered("customer's number", "委托方编号", &item.customer_number),
+        numbered("laboratory's number", "实验室编号", &item.laboratory_number),
+    ];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}

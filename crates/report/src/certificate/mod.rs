@@ -1,0 +1,206 @@
+//! The data of a digital certificate, from an evaluation and from the file of the laboratory.
+
+mod file;
+mod head;
+mod number;
+mod tables;
+
+pub use file::{administration, certificate_template};
+pub use head::certified;
+
+use gumption_core::quantity::{Decimal, Unit};
+use gumption_format::document::{
+    Certificate, Certified, CertifiedConformity, CertifiedPoint, CertifiedUncertainty,
+    CertifiedVerdict, Region, Told,
+};
+use gumption_gum::budget::profile_named;
+use gumption_gum::propagate::{CoverageBasis, ReportedUncertainty, StatedProbability, Verdict};
+
+use crate::Report;
+use crate::decisions::{self, Decided};
+use crate::figures::Figures;
+use crate::number::{at_place, print};
+use crate::statement::{Coefficients, states_result};
+use number::Notation;
+
+/// The certificate of the rows of one file, with the sentences that it states; nothing of none.
+pub(crate) fn of(rows: &[Report<'_>], statement: Vec<String>) -> Option<Certificate> {
+    let first = rows.first()?;
+    let l = first.language;
+    let heading = &first.budget.heading;
+    let measurands = 0..first.evaluation.results.len();
+    let stated: Vec<usize> = measurands.filter(|m| states_result(first, *m)).collect();
+    let results = stated.iter().filter_map(|m| of_measurand(rows, *m));
+    let profile = profile_named(&first.budget.conventions.profile);
+    Some(Certificate {
+        languages: vec![l],
+        administration: None,
+        title: match heading.title.is_empty() {
+            true => Told::default(),
+            false => Told::everywhere(&heading.title),
+        },
+        method: heading.method.as_ref().map(Told::everywhere),
+        guide: profile.map_or_else(String::new, |profile| profile.source.to_owned()),
+        statement: statement
+            .into_iter()
+            .map(|sentence| Told::in_language(l, sentence))
+            .collect(),
+        results: results.collect(),
+        region: match (rows, stated.len() == first.evaluation.results.len()) {
+            ([one], true) => region(one),
+            _ => None,
+        },
+        attachments: Vec::new(),
+    })
+}
+
+fn of_measurand(rows: &[Report<'_>], measurand: usize) -> Option<Certified> {
+    let first = &rows[0];
+    let l = first.language;
+    let (name, unit) = first.measurand(measurand);
+    let notation = Notation::of(unit)?;
+    let points = rows.iter().map(|row| point(row, measurand, &notation));
+    let about = &first.budget.measurands[measurand].description;
+    let decided: Vec<Vec<Decided<'_>>> = rows
+        .iter()
+        .map(|row| decisions::decided(row, measurand))
+        .collect();
+    let conformity = decided[0].iter().enumerate().map(|(at, one)| {
+        let rule = l.pick(
+            format!("Tolerance {}. Decision rule: {}.", one.tolerance, one.rule),
+            format!("容许区间 {}。判定规则：{}。", one.tolerance, one.rule),
+        );
+        let verdicts = decided.iter().filter_map(|row| verdict(row.get(at)?));
+        CertifiedConformity {
+            name: one.name.to_owned(),
+            rule: Told::in_language(l, rule),
+            verdicts: verdicts.collect(),
+        }
+    });
+    Some(Certified {
+        name: name.to_owned(),
+        description: about.as_ref().map(Told::everywhere),
+        unit: notation.unit.clone(),
+        deviation_unit: notation.deviation_unit.clone(),
+        conformity: conformity.collect(),
+        points: points.collect(),
+    })
+}
+
+fn verdict(decided: &Decided<'_>) -> Option<CertifiedVerdict> {
+    Some(match (decided.verdict?, decided.inside) {
+        (Verdict::Conforming, _) => CertifiedVerdict::Pass,
+        (Verdict::NotConforming, _) => CertifiedVerdict::Fail,
+        (Verdict::Undecided, true) => CertifiedVerdict::ConditionalPass,
+        (Verdict::Undecided, false) => CertifiedVerdict::ConditionalFail,
+    })
+}
+
+fn point(row: &Report<'_>, measurand: usize, notation: &Notation) -> CertifiedPoint {
+    let figures = Figures::new(row, measurand);
+    let reported = &figures.reported;
+    let p = match reported.probability {
+        StatedProbability::Of(p) => Some(notation.plain(p)),
+        _ => None,
+    };
+    let ends = |ends: [String; 2]| ends.map(|end| notation.printed_value(&end));
+    // The D-SI has no factors below one.
+    let k = figures
+        .k()
+        .filter(|_| reported.coverage_factor().is_some_and(|k| k >= 1.0));
+    let uncertainty = match (figures.expanded(), k, figures.interval()) {
+        (Some(expanded), Some(k), _) => CertifiedUncertainty::Expanded {
+            expanded: notation.printed_deviation(&expanded),
+            k: k.to_owned(),
+            p,
+            distribution: distribution(row, measurand, reported.uncertainty),
+        },
+        (Some(expanded), None, _) => {
+            // Half an interval, of a distribution without a standard deviation.
+            let number = |text: &str| Decimal::from_text(text).filter(Decimal::is_finite);
+            let ends =
+                number(&expanded)
+                    .zip(number(&figures.estimate()))
+                    .and_then(|(half, value)| {
+                        let place = half.place()?;
+                        let end = |end: f64| notation.printed_value(&print(&at_place(end, place)));
+                        let (half, value) = (half.to_f64(), value.to_f64());
+                        Some([end(value - half), end(value + half)])
+                    });
+            match ends {
+                Some(ends) => CertifiedUncertainty::Interval {
+                    standard: None,
+                    ends,
+                    p,
+                },
+                None => CertifiedUncertainty::None,
+            }
+        }
+        (None, _, Some(interval)) => CertifiedUncertainty::Interval {
+            standard: figures.u().map(|u| notation.printed_deviation(&u)),
+            ends: ends(interval),
+            p,
+        },
+        (None, _, None) => CertifiedUncertainty::None,
+    };
+    let freedom = figures.freedom().filter(|freedom| freedom != "∞");
+    CertifiedPoint {
+        label: row.label.unwrap_or_default().to_owned(),
+        value: notation.printed_value(&figures.estimate()),
+        uncertainty,
+        freedom: freedom.filter(|_| k.is_some()),
+    }
+}
+
+/// What k was taken from, where it was.
+fn distribution(
+    row: &Report<'_>,
+    measurand: usize,
+    uncertainty: ReportedUncertainty,
+) -> Option<String> {
+    let basis = &row.evaluation.results[measurand].gum.coverage.basis;
+    match (uncertainty, basis) {
+        (ReportedUncertainty::Multiple { .. }, CoverageBasis::Normal) => Some("normal".into()),
+        (ReportedUncertainty::Multiple { .. }, CoverageBasis::StudentT { .. }) => {
+            Some("Student-t".into())
+        }
+        _ => None,
+    }
+}
+
+/// The covariance of all measurands with the ellipsoid that covers them.
+fn region(report: &Report<'_>) -> Option<Region> {
+    let joint = report.evaluation.joint.as_ref()?;
+    if joint.degenerate {
+        return None;
+    }
+    let trials = joint
+        .monte_carlo_covariance
+        .as_ref()
+        .zip(joint.regions.as_ref());
+    let (matrix, k) = match (Coefficients::of(report), trials) {
+        (Coefficients::MonteCarlo, Some((matrix, regions))) => (matrix, regions.k_ellipsoid),
+        (Coefficients::Gum, _) => (&joint.covariance, joint.k_ellipsoid),
+        _ => return None,
+    };
+    if !(k.is_finite() && k >= 1.0 && matrix.iter().all(|x| x.is_finite())) {
+        return None;
+    }
+    let unit = |at: usize| report.measurand(at).1.difference();
+    let entry = |row: usize, column: usize| {
+        let unit: Unit = unit(row).product(&unit(column));
+        let notation = Notation::of(&unit)?;
+        Some((
+            notation.deviation(matrix[(row, column)]),
+            notation.unit.clone(),
+        ))
+    };
+    let n = matrix.nrows();
+    let columns = (0..n).map(|column| (0..n).map(|row| entry(row, column)).collect());
+    let one = Notation::of(&Unit::one())?;
+    Some(Region {
+        columns: columns.collect::<Option<_>>()?,
+        k: at_place(k, -3).print_plain(crate::number::STYLE),
+        p: one.plain(report.coverage_probability()),
+    })
+}

@@ -1,0 +1,209 @@
+//! Certificates: in both languages with every figure once, and as digital certificates that are valid, hold the figures of
+//! the statement, and come in again.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use super::common::{assert_fresh, program, root, stale};
+
+/// One result, results with their covariance, a unit that the D-SI does not know, series with conformity and without.
+const BUDGETS: [&str; 7] = [
+    "electrical/dmm-100v-ea402-s9",
+    "electrical/impedance-gum-h2",
+    "inertial/mimu-gyro-scale-factor",
+    "mass/weight-10kg-ea402-s2",
+    "conformity/suspended-particulate-gum5-10",
+    "inertial/four-point-tumble-runs",
+    "calibration-lines/voltage-bevington-6-1",
+];
+
+fn folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("gumption-{name}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+fn run(arguments: &[&str], files: &[&Path]) -> String {
+    let run = program().args(arguments).args(files).output();
+    let run = run.expect("the program runs");
+    let said = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert_ne!(run.status.code(), Some(2), "{arguments:?}: {said}");
+    said
+}
+
+/// A certificate of a budget of the library, with the data that `gumption new --certificate` writes.
+fn certificate(budget: &str, folder: &Path, ending: &str) -> PathBuf {
+    let data = folder.join("laboratory.toml");
+    if !data.exists() {
+        run(&["new", "--certificate"], &[&data]);
+    }
+    let file = folder.join(format!("{}.{ending}", budget.replace('/', "_")));
+    let budget = root().join(format!("budgets/{budget}.toml"));
+    let arguments = [
+        "eval",
+        "--force",
+        "--lang",
+        "both",
+        "--trials",
+        "10000",
+        "--certificate",
+    ];
+    let mut all: Vec<&str> = arguments.to_vec();
+    all.push(data.to_str().expect("a path"));
+    all.extend(["-o", file.to_str().expect("a path")]);
+    run(&all, &[&budget]);
+    file
+}
+
+#[test]
+fn digital_certificates_are_valid() {
+    let folder = folder("digital");
+    let files = BUDGETS.map(|budget| certificate(budget, &folder, "xml"));
+    let again = std::fs::read(&files[0]).expect("a certificate");
+    certificate(BUDGETS[0], &folder, "xml");
+    assert_eq!(again, std::fs::read(&files[0]).expect("a certificate"));
+    let schema = root().join("../shared/dcc/v3.3.0/dcc.xsd");
+    let checked = Command::new("python3")
+        .arg(root().join("tests/library/valid.py"))
+        .arg(&schema)
+        .args(&files)
+        .output();
+    let Some(checked) = checked.ok().filter(|run| run.status.code() != Some(77)) else {
+        eprintln!("skipped: needs Python with lxml and the schemas of the DCC");
+        return;
+    };
+    let said = String::from_utf8_lossy(&checked.stdout);
+    assert!(checked.status.success(), "{said}");
+}
+
+#[test]
+fn the_examples_are_fresh() {
+    let folder = folder("examples");
+    let data = root().join("reports/certificates/laboratory.toml");
+    std::fs::copy(data, folder.join("laboratory.toml")).expect("the data of a certificate");
+    let old = ["html", "md", "xml"].into_iter().filter_map(|ending| {
+        let file = certificate("mass/weight-10kg-ea402-s2", &folder, ending);
+        let fresh = std::fs::read_to_string(&file).expect("a certificate");
+        let path = root().join(format!("reports/certificates/weight-10kg.{ending}"));
+        stale(&path, &fresh)
+    });
+    assert_fresh(&old.collect::<Vec<_>>());
+}
+
+/// What `gumption eval --json` says of a text beside a certificate.
+fn evaluated(folder: &Path, text: &str) -> serde_json::Value {
+    let file = folder.join("uses.toml");
+    std::fs::write(&file, text).expect("a budget");
+    let run = program()
+        .args(["eval", "--json", "--no-mc"])
+        .arg(&file)
+        .output();
+    let run = run.expect("the program runs");
+    let said = String::from_utf8_lossy(&run.stderr);
+    serde_json::from_slice(&run.stdout).unwrap_or_else(|error| panic!("{error}: {said}"))
+}
+
+#[test]
+fn a_certificate_comes_in_as_it_went_out() {
+    let folder = folder("again");
+    let file = certificate("mass/weight-10kg-ea402-s2", &folder, "xml");
+    let content = std::fs::read_to_string(&file).expect("a certificate");
+    let (_, result) = content.split_once("id=\"result1\"").expect("a result");
+    let between = |name: &str| {
+        let (_, rest) = result.split_once(&format!("<si:{name}>")).expect(name);
+        rest.split_once('<').expect("an end").0.to_owned()
+    };
+    let [value, expanded, k] = ["value", "valueExpandedMU", "coverageFactor"].map(between);
+    let name = result.split_once("<dcc:content>").expect("a name").1;
+    let name = name.split_once('<').expect("an end").0;
+    let found = evaluated(
+        &folder,
+        &format!(
+            "[measurand.y]\nmodel = \"x\"\nunit = \"g\"\n[input.x]\ncertificate = {{ dcc = {:?}, result = {name:?} }}\n",
+            file.file_name().expect("a name")
+        ),
+    );
+    let told = &found["measurands"][0]["reported"];
+    let number = |text: &str| text.parse::<f64>().expect("a number");
+    let estimate = told["estimate"].as_f64().expect("a value");
+    assert!(
+        (estimate - number(&value)).abs() < 1e-9,
+        "{estimate} {value}"
+    );
+    let u = told["standard_uncertainty"].as_f64().expect("u");
+    assert!((u / (number(&expanded) / number(&k)) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_document_of_both_languages_has_each_figure_once() {
+    let folder = folder("both");
+    let file = certificate("electrical/dmm-100v-ea402-s9", &folder, "txt");
+    let both = std::fs::read_to_string(&file).expect("a document");
+    for words in [
+        "2026-0001",
+        "Calibration laboratory",
+        "校准实验室",
+        "Customer / 委托方",
+        "证书用语",
+    ] {
+        assert!(both.contains(words), "{words} is not in\n{both}");
+    }
+    let table = both
+        .lines()
+        .filter(|line| line.contains('│') || line.contains("E_X"));
+    assert!(table.count() > 0);
+}
+
+#[test]
+fn faults_of_a_certificate_are_told_at_their_place() {
+    let folder = folder("faults");
+    let file = certificate("mass/weight-10kg-ea402-s2", &folder, "xml");
+    let content = std::fs::read_to_string(&file).expect("a certificate");
+    let (before, result) = content.split_once("<dcc:results>").expect("results");
+    let result = result.replacen("<si:coverageFactor>2", "<si:coverageFactor>0", 1);
+    let broken = format!("{before}<dcc:results>{result}");
+    assert_ne!(broken, content);
+    std::fs::write(folder.join("broken.xml"), broken).expect("a certificate");
+    let text = "[measurand.y]\nmodel = \"x\"\nunit = \"g\"\n[input.x]\ncertificate = { dcc = \"broken.xml\" }\n";
+    std::fs::write(folder.join("uses.toml"), text).expect("a budget");
+    let run = program()
+        .arg("eval")
+        .arg(folder.join("uses.toml"))
+        .output()
+        .expect("it runs");
+    let said = String::from_utf8_lossy(&run.stderr);
+    assert_eq!(run.status.code(), Some(2), "{said}");
+    for words in [
+        "broken.xml has faults itself",
+        "is no coverage factor",
+        "<si:coverageFactor>0.",
+    ] {
+        assert!(said.contains(words), "{words} is not in\n{said}");
+    }
+}
+
+#[test]
+fn what_is_missing_in_the_data_of_a_certificate_is_told() {
+    let folder = folder("missing");
+    let data = folder.join("laboratory.toml");
+    std::fs::write(&data, "nummer = \"1\"\n[laboratory]\ncountry = \"China\"\n").expect("a file");
+    let budget = root().join("budgets/mass/weight-10kg-ea402-s2.toml");
+    let run = program()
+        .arg("eval")
+        .arg(&budget)
+        .arg("--certificate")
+        .arg(&data)
+        .output();
+    let run = run.expect("the program runs");
+    let said = String::from_utf8_lossy(&run.stderr);
+    assert_eq!(run.status.code(), Some(2), "{said}");
+    for words in [
+        "nummer",
+        "`customer`",
+        "`item`",
+        "two capital letters",
+        "`name` is missing",
+    ] {
+        assert!(said.contains(words), "{words} is not in\n{said}");
+    }
+}

@@ -1,0 +1,172 @@
+//! The proof of `gumption audit` on concealed slips: makes sealed budgets, audits and grades them, and writes
+//! `audit.md`.
+//!
+//! ```text
+//! cargo run --release --example audit -- --out reports
+//! ```
+//!
+//! `--sheets N` (400) and `--first-seed N` take other budgets, to develop with; `--misses` prints what went wrong, and
+//! `--keep DIR` writes those sheets.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use gumption::audit::read::{self, Mapping};
+use gumption::audit::{audit, sheet};
+use gumption::challenge::budget::{self, Sheet, SheetAnswer, SheetGrade};
+use gumption::files::write::{Output, Replacing, write};
+use gumption::report::{self, Language};
+
+struct Options {
+    sheets: u64,
+    first_seed: u64,
+    misses: bool,
+    keep: Option<PathBuf>,
+    out: Option<PathBuf>,
+}
+
+/// Grades of one group of budgets.
+#[derive(Default)]
+struct Tally {
+    grades: BTreeMap<SheetGrade, usize>,
+    /// Those of which the digits leave no other reading.
+    unique: usize,
+    first_of_unique: usize,
+    listed: usize,
+}
+
+impl Tally {
+    fn add(&mut self, case: &Sheet, grade: SheetGrade) {
+        *self.grades.entry(grade).or_default() += 1;
+        let unique = case.truth.rivals == 0;
+        self.unique += usize::from(unique);
+        self.first_of_unique += usize::from(unique && grade == SheetGrade::Exact);
+        self.listed += usize::from(matches!(grade, SheetGrade::Exact | SheetGrade::Listed));
+    }
+
+    fn row(&self, name: &str) -> String {
+        let count: usize = self.grades.values().sum();
+        let of = |grade| self.grades.get(&grade).copied().unwrap_or(0);
+        let percent = |part: usize, whole: usize| match whole {
+            0 => "-".to_string(),
+            whole => format!("{:.1} %", 100.0 * part as f64 / whole as f64),
+        };
+        format!(
+            "| {name} | {count} | {} | {} | {} | {} | {} | {} |\n",
+            percent(self.first_of_unique, self.unique),
+            percent(self.listed, count),
+            of(SheetGrade::Listed),
+            of(SheetGrade::Wrong),
+            of(SheetGrade::Missed),
+            of(SheetGrade::FalseAlarm),
+        )
+    }
+}
+
+fn main() -> Result<(), String> {
+    let options = options()?;
+    let mut tallies: BTreeMap<(&str, String), Tally> = BTreeMap::new();
+    for seed in options.first_seed..options.first_seed + options.sheets {
+        let case = budget::sheet(seed);
+        let name = format!("{seed}.{}", case.ending);
+        let answer = answer(&name, &case.bytes);
+        let grade = budget::grade(&case.truth, &answer);
+        let kind = match case.truth.slips.len() {
+            2 => "two slips".to_string(),
+            1 => "one slip".to_string(),
+            _ => case.truth.verdict.clone(),
+        };
+        for group in [
+            ("concealed", kind),
+            ("layout", case.truth.layout.clone()),
+            ("file", case.ending.to_string()),
+        ] {
+            tallies.entry(group).or_default().add(&case, grade);
+        }
+        if options.misses && grade != SheetGrade::Exact {
+            println!(
+                "{name} {}: {grade:?}, truth {} ({} rivals), answer {} {:?}",
+                case.truth.layout,
+                case.truth.slips.join(" + "),
+                case.truth.rivals,
+                answer.verdict,
+                answer.candidates.first()
+            );
+            if let Some(folder) = &options.keep {
+                save(folder.join(&name), case.bytes)?;
+            }
+        }
+    }
+    let report = report(&tallies, &options);
+    match options.out {
+        Some(folder) => save(folder.join("audit.md"), report.into_bytes()),
+        None => {
+            print!("{report}");
+            Ok(())
+        }
+    }
+}
+
+fn options() -> Result<Options, String> {
+    let mut options = Options {
+        sheets: 400,
+        first_seed: 1,
+        misses: false,
+        keep: None,
+        out: None,
+    };
+    let mut arguments = std::env::args().skip(1);
+    while let Some(name) = arguments.next() {
+        let mut value = || arguments.next().ok_or(format!("{name} needs a value"));
+        let number = |text: String| text.parse().map_err(|_| format!("{text} is no number"));
+        match name.as_str() {
+            "--sheets" => options.sheets = number(value()?)?,
+            "--first-seed" => options.first_seed = number(value()?)?,
+            "--misses" => options.misses = true,
+            "--keep" => options.keep = Some(value()?.into()),
+            "--out" => options.out = Some(value()?.into()),
+            other => return Err(format!("there is no option {other}")),
+        }
+    }
+    Ok(options)
+}
+
+fn save(path: PathBuf, content: Vec<u8>) -> Result<(), String> {
+    write(&[Output { path, content }], Replacing::Anything)
+        .map_err(|why| why.words(Language::English))
+}
+
+fn answer(name: &str, bytes: &[u8]) -> SheetAnswer {
+    let grids = sheet::grids(name, bytes).unwrap_or_default();
+    let claims = read::budgets(&grids, &Mapping::default());
+    let audits: Vec<_> = claims.iter().map(audit).collect();
+    let machine = report::audit(name, &audits, Language::English).machine;
+    let unread = SheetAnswer {
+        verdict: "not recomputed".into(),
+        candidates: Vec::new(),
+    };
+    serde_json::from_value(machine).unwrap_or(unread)
+}
+
+fn report(tallies: &BTreeMap<(&str, String), Tally>, options: &Options) -> String {
+    let mut text = String::from("# Audits on concealed slips\n\n");
+    let _ = writeln!(
+        text,
+        "{} budgets of seeds from {} on, made by `crates/challenge/src/budget`, which knows nothing of how the audit reads or searches. First: the truth is\n\
+         the first answer, of budgets of which no other set of as many slips gives the same sheet. In the list: it is one of the answers.\n",
+        options.sheets, options.first_seed
+    );
+    for group in ["concealed", "layout", "file"] {
+        let _ = writeln!(
+            text,
+            "| {group} | budgets | first | in the list | listed, not first | wrong | missed | false alarm |\n|{}",
+            "---|".repeat(8)
+        );
+        for ((_, name), tally) in tallies.iter().filter(|((of, _), _)| *of == group) {
+            text += &tally.row(name);
+        }
+        text.push('\n');
+    }
+    text
+}

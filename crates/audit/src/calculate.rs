@@ -19,6 +19,8 @@ pub struct Case<'a> {
     pub right: Calculation,
     /// Derivatives of the model by the rows, where there is a model that is understood.
     pub derivatives: Option<Vec<f64>>,
+    /// Rows whose derivative depends on estimates that the sheet does not state.
+    pub unknown_slopes: Vec<bool>,
     /// The value of the model at the estimates.
     pub y: Option<f64>,
     /// How the estimates enter the model, text by text: why it was not understood.
@@ -360,8 +362,12 @@ impl Row {
 impl<'a> Case<'a> {
     /// The right calculation of what is claimed.
     pub fn of(claimed: &'a Claimed) -> Case<'a> {
+        let mut unknown_slopes = vec![false; claimed.rows.len()];
         let (derivatives, y, trouble) = match differentiate(claimed) {
-            Ok(Some((y, slopes))) => (Some(slopes), Some(y), None),
+            Ok(Some(known)) => {
+                unknown_slopes = known.unknown;
+                (Some(known.slopes), known.y, None)
+            }
             Ok(None) => (None, None, None),
             Err(trouble) => (None, None, Some(trouble)),
         };
@@ -382,6 +388,7 @@ impl<'a> Case<'a> {
             claimed,
             right,
             derivatives,
+            unknown_slopes,
             y,
             trouble,
         }
@@ -520,42 +527,51 @@ fn unit_of_y(claimed: &Claimed) -> &str {
     if own.is_empty() { &claimed.unit } else { own }
 }
 
+/// What a model gives at the estimates.
+struct Differentiated {
+    slopes: Vec<f64>,
+    /// Which slopes depend on estimates that are not stated; the claimed coefficients stand in their places.
+    unknown: Vec<bool>,
+    y: Option<f64>,
+}
+
 /// Value and derivatives of the model at the estimates. `None` without a model.
-fn differentiate(claimed: &Claimed) -> Result<Option<(f64, Vec<f64>)>, String> {
+fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>, String> {
     let Some(text) = &claimed.model else {
         return Ok(None);
     };
-    let values: Vec<f64> = claimed
-        .rows
-        .iter()
-        .map(|row| row.value.as_ref().map_or(0.0, |v| v.value))
-        .collect();
-    let used: Vec<bool> = claimed
-        .rows
+    let rows = &claimed.rows;
+    let used: Vec<bool> = rows
         .iter()
         .map(|row| crate::read::has_symbol(text, &row.symbol))
         .collect();
     // Several rows of one symbol are reasons to doubt one input.
     let first = |i: usize| {
         (0..i)
-            .find(|j| claimed.rows[*j].symbol == claimed.rows[i].symbol)
+            .find(|j| rows[*j].symbol == rows[i].symbol)
             .unwrap_or(i)
     };
-    if !used.iter().any(|used| *used)
-        || (0..values.len()).any(|i| used[i] && claimed.rows[first(i)].value.is_none())
-    {
-        return Err("the model names inputs whose estimates the sheet does not state".into());
+    let missing = |i: usize| used[i] && rows[first(i)].value.is_none();
+    let any_missing = (0..rows.len()).any(missing);
+    let at = |unknown: f64| -> Vec<f64> {
+        let value = |(i, row): (usize, &Row)| match &row.value {
+            Some(value) => value.value,
+            None => unknown * (1.0 + 0.37 * i as f64),
+        };
+        rows.iter().enumerate().map(value).collect()
+    };
+    let values = at(1.0);
+    if !used.iter().any(|used| *used) {
+        return Ok(None);
     }
     let formula = renamed(text, claimed);
     let unit_of = |row: &Row| row.value.as_ref().and_then(|v| units::parse(&v.unit));
     let with_units = !unit_of_y(claimed).is_empty()
-        && claimed
-            .rows
+        && rows
             .iter()
             .zip(&used)
             .all(|(row, used)| !used || unit_of(row).is_some());
-    let units: Vec<Unit> = claimed
-        .rows
+    let units: Vec<Unit> = rows
         .iter()
         .map(|row| {
             unit_of(row)
@@ -576,16 +592,30 @@ fn differentiate(claimed: &Claimed) -> Result<Option<(f64, Vec<f64>)>, String> {
             model = degrees;
         }
     }
-    let y = model.values(&values)[0];
     let slopes = model.gradients(&values);
+    // A slope that is the same wherever the unknown estimates are does not need them.
+    let elsewhere = model.gradients(&at(2.9));
+    let moves = |i: usize| {
+        any_missing && (slopes[(0, i)] - elsewhere[(0, i)]).abs() > 1e-9 * slopes[(0, i)].abs()
+    };
+    let unknown: Vec<bool> = (0..rows.len())
+        .map(|i| used[i] && moves(first(i)))
+        .collect();
     let derivative = |i: usize| {
-        if used[i] {
+        if used[i] && !unknown[i] {
             slopes[(0, first(i))]
         } else {
-            claimed.rows[i].c.as_ref().map_or(1.0, |c| c.value)
+            rows[i].c.as_ref().map_or(1.0, |c| c.value)
         }
     };
-    Ok(Some((y, (0..values.len()).map(derivative).collect())))
+    if (0..rows.len()).all(|i| !used[i] || unknown[i]) {
+        return Err("the model names inputs whose estimates the sheet does not state".into());
+    }
+    Ok(Some(Differentiated {
+        slopes: (0..rows.len()).map(derivative).collect(),
+        y: (!any_missing).then(|| model.values(&values)[0]),
+        unknown,
+    }))
 }
 
 /// How many of the claimed coefficients, and of y, a model gives to a percent.

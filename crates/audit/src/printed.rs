@@ -43,9 +43,9 @@ pub struct Printed {
     pub at: Place,
 }
 
-/// Beyond the digits that are printed, figures agree to this relative difference: what is left of a double after the
-/// few operations of a budget, and of constants written with nine digits.
-const DOUBLE: f64 = 1e-9;
+/// Beyond the digits that are printed, figures agree to this relative difference: sheets hold derivatives that were found
+/// as quotients of differences, and constants written with seven digits.
+const DOUBLE: f64 = 1e-6;
 
 impl Printed {
     /// A figure that is known exactly.

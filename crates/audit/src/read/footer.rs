@@ -131,10 +131,8 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
             .next()
             .unwrap_or_default()
             .trim_end_matches('.');
-        let number = front
-            .rsplit(['(', '=', ' '])
-            .find(|part| !part.trim().is_empty())
-            .and_then(leading);
+        // `(50.001 ± 0.054) mm` and `50.001 mm ± 0.054 mm`
+        let number = front.rsplit(['(', '=', ' ']).find_map(leading);
         if let Some((y, _)) = number {
             take(
                 Whole::Y,
@@ -236,7 +234,10 @@ fn assigned(text: &str, name: &str) -> Option<Printed> {
 /// Whether a text is a product and no sentence: `k·u_c`, and not `k·u_c with k`.
 fn is_formula(text: &str) -> bool {
     let word = |part: &str| {
-        part.chars().count() >= 3 && part.chars().all(|c| c.is_ascii_alphabetic()) && part != "sqrt"
+        part.chars().count() >= 3
+            && part.chars().all(|c| c.is_ascii_alphabetic())
+            && part != "sqrt"
+            && !super::columns::is_unit(part)
     };
     let chinese = |c: char| ('\u{4e00}'..='\u{9fff}').contains(&c);
     !text.contains([',', ';'])

@@ -4,7 +4,11 @@ use crate::claim::{Relative, Shape, Stated};
 use crate::printed::Printed;
 use crate::units;
 
-use super::words::{count_after, count_before, figure_after, has, signed_pair, sole_figure};
+use super::converter;
+use super::words::{
+    count_after, count_before, figure_after, figure_before, has, signed_pair, sole_figure,
+    trailing_count,
+};
 
 /// Everything that a row says of what is known.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +42,7 @@ mod family {
     pub const DEVIATION: &[&str] = &["standard deviation", "repeatability", "type a", "标准偏差", "标准差", "重复性", "s of", "s =", "s=", "a类", "experimental", "scatter", "readings agree", "readings are equal", "equal readings", "贝塞尔", "bessel", "次测量", "repeated"];
     pub const CERTIFICATE: &[&str] = &["certificate", "calibration certificate", "expanded", "证书", "扩展不确定度", "cert.", "calibration of", "calibrated", "u(k", "u (k", "k=2", "k = 2"];
     pub const FULL_WIDTH: &[&str] = &["full width", "total width", "whole width", "full range", "full interval", "peak-to-peak", "peak to peak", "全宽", "总宽", "全区间", "峰峰", "峰-峰", "区间宽度", "区间全", "width of the interval", "total span", "interval of width", "overall width", "全范围"];
-    pub const STEP: &[&str] = &["resolution", "digital step", "step", "increment", "scale interval", "least significant", "last digit", "digit", "分辨力", "分辨率", "步进", "分度值", "末位", "lsb", "量化", "quantisation", "quantization", "least count", "readability", "最小分度", "数字化"];
+    pub const STEP: &[&str] = &["resolution", "digital step", "step", "increment", "scale interval", "scale division", "division", "graduation", "least significant", "last digit", "digit", "分辨力", "分辨率", "步进", "分度值", "末位", "lsb", "量化", "quantisation", "quantization", "least count", "readability", "最小分度", "数字化", "刻度"];
     pub const CYCLING: &[&str] = &["cycling", "cyclic", "cycles", "amplitude", "sinusoid", "arcsine", "u-shaped", "u shaped", "oscillat", "幅值", "振幅", "周期", "正弦", "反正弦", "u形", "循环"];
     pub const LIMITS: &[&str] = &["limit", "limits", "maximum permissible", "mpe", "tolerance", "specification", "accuracy", "within", "bound", "允许误差", "允差", "误差限", "极限", "最大允许", "界限", "半宽", "half-width", "half width", "rectang", "uniform", "均匀", "矩形", "spec.", "±", "不超过", "at most", "准确度", "误差范围", "范围"];
     pub const STANDARD: &[&str] = &["standard uncertainty", "标准不确定度"];
@@ -76,6 +80,9 @@ fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
     // What the heads and the laboratory's columns call a distribution is its own; words decide.
     if let Some(unequal) = unequal(e.words) {
         return Some(unequal);
+    }
+    if let Some(step) = converter::step(e.words) {
+        return Some(Stated::Step { step });
     }
     let shape = shape(text);
     if has(text, RANGE)
@@ -273,8 +280,14 @@ fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         "resolution",
         "increment",
         "scale interval",
+        "scale division",
+        "division",
+        "graduation",
         "readability",
         "least count",
+        "最小分度",
+        "最小刻度",
+        "刻度",
         "分辨力",
         "分辨率",
         "步进",
@@ -446,21 +459,17 @@ fn after_mean(text: &str, mean: Option<usize>) -> Option<f64> {
 
 /// Readings behind the reported value.
 fn mean(text: &str, e: &Evidence<'_>) -> Option<f64> {
+    // `取 3 次测量的平均值`: a count with 平均 behind it in the same clause.
     let chinese = || {
-        let at = [
-            "次平均",
-            "次测量的平均",
-            "次测量平均",
-            "次读数的平均",
-            "次读数平均",
-            "次的平均",
-            "次重复测量的平均",
-            "次测量的算术平均",
-            "次算术平均",
-            "次测得值的平均",
-            "次示值的平均",
-        ];
-        at.iter().find_map(|key| count_before(text, &[key]))
+        let counts = text.match_indices('次').filter(|(at, _)| {
+            let behind = text[at + '次'.len_utf8()..].split([',', ';', '。', '、', '(']);
+            behind
+                .take(1)
+                .any(|clause| clause.contains("平均") || clause.contains("均值"))
+        });
+        counts
+            .filter_map(|(at, _)| trailing_count(&text[..at]))
+            .last()
     };
     let single = has(
         text,
@@ -574,7 +583,15 @@ fn by_columns(e: &Evidence<'_>, columns: &str) -> Option<Stated> {
 
 /// A figure of the words; its half unit counts as that of a printed figure.
 fn in_text(text: &str, keys: &[&str]) -> Option<Printed> {
-    figure_after(text, keys).or_else(|| sole_figure(text))
+    let of_clause = || {
+        let clauses = text.split(';').rev();
+        let said = clauses.filter(|clause| has(&clause.to_lowercase(), keys));
+        said.filter_map(sole_figure).next()
+    };
+    figure_after(text, keys)
+        .or_else(|| figure_before(text, keys))
+        .or_else(|| sole_figure(text))
+        .or_else(of_clause)
 }
 
 fn relative(stated: &Stated, text: &str, e: &Evidence<'_>) -> Relative {

@@ -346,7 +346,7 @@ fn symbols(text: &str, symbol: &str) -> usize {
 }
 
 /// Whether a symbol is what the text gives a value to.
-fn is_assigned(text: &str, symbol: &str) -> bool {
+pub fn is_assigned(text: &str, symbol: &str) -> bool {
     symbol_at(text, symbol, 0).is_some_and(|at| {
         text[at + symbol.len()..]
             .trim_start()

@@ -117,6 +117,7 @@ pub fn locate(grid: &Grid, mapping: &Mapping) -> Vec<Located> {
                 second_line(grid, &mut located, mapping);
                 body(grid, &mut located, mapping);
                 row = located.end.max(row + 1);
+                by_content(grid, &mut located);
                 nameless_figures(grid, &mut located);
                 if !located.rows.is_empty() {
                     located.unit = located.unit(Role::Contribution).to_string();
@@ -283,6 +284,47 @@ fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
         }
         strange = 0;
         located.end = row + 1;
+    }
+}
+
+/// What stands in a column decides where its head is doubtful: figures below a name are what was put in, and words below
+/// a head that says nothing are remarks.
+fn by_content(grid: &Grid, located: &mut Located) {
+    let rows = located.rows.clone();
+    let mostly = |index: usize, is: &dyn Fn(&str) -> bool| {
+        let cells = rows.iter().map(|row| grid.cell(*row, index).text.as_str());
+        2 * cells.filter(|text| is(text)).count() > rows.len()
+    };
+    let is_figure = |text: &str| Printed::parse(text).is_some();
+    let is_words = |text: &str| !is_figure(text) && text.chars().count() >= 8;
+    let named = |located: &Located, except: usize| {
+        let mut others = located.columns.iter().filter(|c| c.index != except);
+        others.any(|c| matches!(c.role, Role::Symbol | Role::Name) && !mostly(c.index, &is_figure))
+    };
+    for place in 0..located.columns.len() {
+        let Column { index, role, .. } = located.columns[place];
+        let doubtful = matches!(role, Role::Symbol | Role::Name | Role::Remark | Role::Type);
+        if doubtful && mostly(index, &is_figure) && named(located, index) {
+            let free = [Role::Used, Role::Value]
+                .into_iter()
+                .find(|role| !located.has(*role));
+            located.columns[place].role = free.unwrap_or(Role::Derived);
+        }
+    }
+    let head: Vec<(usize, String)> = grid
+        .filled(located.head)
+        .filter(|(i, _)| !located.columns.iter().any(|c| c.index == *i))
+        .map(|(i, cell)| (i, cell.text.clone()))
+        .collect();
+    for (index, head) in head {
+        if mostly(index, &is_words) {
+            located.columns.push(Column {
+                index,
+                role: Role::Remark,
+                head,
+                unit: String::new(),
+            });
+        }
     }
 }
 

@@ -33,8 +33,11 @@ pub(super) fn guessed(text: &str) -> Grid {
     let separators = ['\t', ';', '|', ','];
     let mut best = (widths(&|line| aligned_fields(line).len()), None);
     for separator in separators.into_iter().rev() {
+        if separator == ',' && is_punctuation(text) {
+            continue;
+        }
         let count = widths(&|line| fields(line, separator).len());
-        if count > 0 && count >= best.0 {
+        if count > 1 && count >= best.0 {
             best = (count, Some(separator));
         }
     }
@@ -42,6 +45,29 @@ pub(super) fn guessed(text: &str) -> Grid {
         Some(separator) => separated(text, separator),
         None => aligned(text),
     }
+}
+
+/// Whether commas are those of sentences and numbers, and part no fields: some have a blank behind them and some have
+/// none, or all stand between digits.
+fn is_punctuation(text: &str) -> bool {
+    let (mut all, mut blank, mut inside) = (0_usize, 0_usize, 0_usize);
+    for line in text.lines() {
+        let mut quoted = false;
+        let mut before = ' ';
+        let mut chars = line.chars().peekable();
+        while let Some(c) = chars.next() {
+            quoted ^= c == '"';
+            if c == ',' && !quoted {
+                let next = chars.peek().copied().unwrap_or(',');
+                all += 1;
+                blank += usize::from(next == ' ');
+                inside += usize::from(before.is_ascii_digit() && next.is_ascii_digit());
+            }
+            before = c;
+        }
+    }
+    let mixed = 10 * blank > all && blank < all;
+    mixed || all > 0 && inside + blank == all && blank < all
 }
 
 fn is_markdown(line: &str) -> bool {

@@ -31,6 +31,7 @@ pub struct SheetTruth {
     /// The combined standard uncertainty that is right.
     pub u_c: f64,
     /// The expanded uncertainty that is right, not rounded.
+    #[serde(rename = "U")]
     pub expanded: f64,
     /// The layout.
     pub layout: String,
@@ -38,9 +39,9 @@ pub struct SheetTruth {
     pub rivals: usize,
 }
 
-/// The budget of a seed.
-pub fn sheet(seed: u64) -> Sheet {
-    let mut random = source(seed, Stream::Case, 1);
+/// The `number`-th budget of a seed.
+pub fn sheet(seed: u64, number: u64) -> Sheet {
+    let mut random = source(seed, Stream::Case, number);
     loop {
         if let Some(sheet) = attempt(&mut random) {
             return sheet;

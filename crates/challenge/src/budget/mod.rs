@@ -13,16 +13,24 @@
 //! | `paper` | pages as files |
 //! | `case` | a sealed budget from a seed |
 //! | `grade` | an answer held against the truth |
+//! | `sealed` | sealed budgets as a folder |
+//! | `document` | graded answers as a document |
 
 mod case;
+mod document;
 mod grade;
 mod laboratory;
 mod page;
 mod paper;
 mod quantity;
+mod sealed;
 mod spoil;
 mod words;
 mod working;
 
 pub use case::{Sheet, SheetTruth, sheet};
-pub use grade::{SheetAnswer, SheetGrade, grade};
+pub use document::{sheet_grades_document, sheet_grades_schema};
+pub use grade::{GradedSheet, SheetAnswer, SheetGrade, grade, grade_sheets};
+pub use sealed::{
+    SealedSheet, SealedSheets, SheetsTruth, read_sheet_answers, sealed_sheets, sealed_sheets_truth,
+};

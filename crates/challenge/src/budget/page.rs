@@ -82,7 +82,6 @@ impl Form {
             Form::M3003 | Form::Free | Form::Squares | Form::Short | Form::Groups
         )
     }
-
 }
 
 /// How a page is written.

@@ -138,7 +138,12 @@ pub(super) fn possible(budget: &Budget) -> Vec<Slip> {
             ["k2-low-dof", "veff-up", "k-of-typeA", "k-level"]
                 .into_iter()
                 .for_each(|id| add(id, None, 1));
-            add("veff-wrong", None, 2);
+            let finite = |item: &super::laboratory::Item| {
+                !item.contained && item.known.right(0.0).nu.is_finite()
+            };
+            if budget.items.iter().any(finite) {
+                add("veff-wrong", None, 2);
+            }
         }
         Rule::Rectangle => add("k2-rect", None, 1),
         Rule::Two => add("k-twice", None, 1),

@@ -51,8 +51,8 @@ record! {
         gaps: Vec<String>,
         /// Combinations that were tried.
         tried: usize,
-        /// How many would match by accident.
-        expected_by_chance: Number,
+        /// The probability that figures as coarse as these, which have nothing to do with slips, would be matched.
+        accident: Number,
         /// Rows as they were understood.
         rows: Vec<RowJson>,
         /// Cells as they were understood.
@@ -159,7 +159,7 @@ fn budget(audit: &Audit<'_>) -> BudgetJson {
             .map(|gap| words::gap(audit, gap, Language::English))
             .collect(),
         tried: found.tried,
-        expected_by_chance: Number(found.by_chance),
+        accident: Number(found.accident),
         rows: claimed
             .rows
             .iter()

@@ -495,6 +495,17 @@ fn to_y(claimed: &Claimed, row: &Row, from_model: bool) -> f64 {
             }
         };
         let value = row.value.as_ref().map_or("", |v| v.unit.as_str());
+        let bare_c = row
+            .c
+            .as_ref()
+            .is_none_or(|c| units::parse(&c.unit).is_none());
+        // A zero without a unit, among estimates in the unit of the result.
+        if value.is_empty()
+            && bare_c
+            && let Some(factor) = units::factor(&row.unit, y_unit)
+        {
+            return factor;
+        }
         return of(&row.unit, value) * of(unit_of_y(claimed), y_unit);
     }
     if row.unit.is_empty() || y_unit.is_empty() {

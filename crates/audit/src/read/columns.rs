@@ -109,7 +109,7 @@ const WORDS: &[(Role, How, &[&str])] = &[
     (Role::Contribution, How::Has, &["ui(y)", "uy(", "u(y)", "|ci|u", "|c|u", "ciu(", "|ci|·u", "cu(", "|ci|×u", "contributiontou", "uncertaintycontribution", "contribution", "贡献", "|u(y", "uncertaintyiny"]),
     (Role::Name, How::Has, &["来源", "source", "influence", "因素", "影响量", "description", "contributor", "origin", "cause"]),
     (Role::Contribution, How::Has, &["不确定度分量", "分量值", "componentofu", "uncertaintycomponentu"]),
-    (Role::Contribution, How::Is, &["分量", "cu", "c.u", "ci.u", "ciu", "c·u", "ui(y)", "|c|u", "component/y"]),
+    (Role::Contribution, How::Is, &["分量", "cu", "uc", "u.c", "c.u", "ci.u", "ciu", "c·u", "ui(y)", "|c|u", "component/y"]),
     (Role::Dof, How::Has, &["degreesoffreedom", "degreeoffreedom", "dof", "d.o.f", "自由度", "freedom", "νi", "νeff", "veff", "deg.fr", "d.f."]),
     (Role::Dof, How::Is, &["ν", "v", "vi", "df", "nu", "nui", "viorveff", "νioreff", "ν_i"]),
     (Role::C, How::Has, &["sensitivity", "sens.", "灵敏", "敏感系数", "传播系数", "partial", "∂", "coefficient", "传递系数"]),

@@ -357,6 +357,18 @@ fn certificate(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     })
 }
 
+/// What says that a figure is that of the mean already.
+const OF_THE_MEAN: &[&str] = &[
+    "deviation of the mean",
+    "deviation of mean",
+    "s of mean",
+    "s of the mean",
+    "esdm",
+    "平均值的标准",
+    "平均值的实验标准",
+    "均值的标准",
+];
+
 fn deviation(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
     const KEYS: &[&str] = &[
         "standard deviation",
@@ -391,7 +403,9 @@ fn deviation(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
         .filter(|m| *m > 1.2 && (m - libm::round(*m)).abs() < 0.03 * m);
     // Nothing is stated of how many readings are behind the value: the laboratory's own divisor is all there is.
     let unsaid = n.is_none() && !has(text, &["single", "单次"]);
-    let m = m
+    let m = has(text, OF_THE_MEAN)
+        .then_some(1.0)
+        .or(m)
         .or(e.mean_of)
         .or_else(|| squared.filter(|_| unsaid).map(libm::round))
         .unwrap_or(1.0);

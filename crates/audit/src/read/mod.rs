@@ -298,6 +298,8 @@ fn missing_input(claimed: &Claimed, all: &[&Line]) -> Option<Row> {
 /// Lines beside a table: each to the whole, or to the row that it is about.
 fn place_lines(all: &[&Line], claimed: &mut Claimed) {
     let mut of_row = vec![String::new(); claimed.rows.len()];
+    let texts: Vec<&str> = all.iter().map(|line| line.text.as_str()).collect();
+    claimed.words = texts.join("\n");
     let title = claimed.title.clone();
     for line in all.iter().filter(|line| line.text != title) {
         place_line(line, claimed, &mut of_row);
@@ -396,7 +398,7 @@ fn symbols_of_model(raw: &mut [table::Raw], claimed: &mut Claimed) {
             row.name
                 .rsplit_once('(')
                 .and_then(|(_, tail)| tail.strip_suffix(')'))
-                .filter(|s| s.chars().count() <= 12 && !s.contains(' '))
+                .filter(|s| s.chars().count() <= 12 && !s.contains([' ', '=']))
         };
         let first = || {
             row.name

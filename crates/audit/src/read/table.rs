@@ -132,10 +132,12 @@ pub fn locate(grid: &Grid, mapping: &Mapping) -> Vec<Located> {
 
 /// The columns of a row that is a head.
 fn head(grid: &Grid, row: usize, mapping: &Mapping) -> Option<Vec<Column>> {
-    let filled: Vec<(usize, &str)> = grid
+    let mut filled: Vec<(usize, &str)> = grid
         .filled(row)
         .map(|(i, cell)| (i, cell.text.as_str()))
         .collect();
+    // What is hidden gives way to what is shown.
+    filled.sort_by_key(|(column, _)| grid.hidden_columns.contains(column));
     let figures = filled
         .iter()
         .filter(|(_, text)| Printed::parse(text).is_some())
@@ -159,6 +161,9 @@ fn head(grid: &Grid, row: usize, mapping: &Mapping) -> Option<Vec<Column>> {
 
 fn roles(filled: &[(usize, &str)], mapping: &Mapping) -> Vec<Column> {
     let mut columns: Vec<Column> = Vec::new();
+    let contributions = filled
+        .iter()
+        .any(|(_, text)| columns::role(text).is_some_and(|(role, _)| role == Role::Contribution));
     for (index, text) in filled {
         let named = mapping
             .role(text)
@@ -180,7 +185,9 @@ fn roles(filled: &[(usize, &str)], mapping: &Mapping) -> Vec<Column> {
         let taken = |role: Role| columns.iter().any(|c: &Column| c.role == role);
         let role = match role {
             // A second column of the same kind is what comes next in the calculation.
-            Role::U if taken(Role::U) && !taken(Role::Contribution) => Role::Contribution,
+            Role::U if taken(Role::U) && !contributions && !taken(Role::Contribution) => {
+                Role::Contribution
+            }
             Role::Symbol if taken(Role::Symbol) => Role::Name,
             Role::Name if taken(Role::Name) && !taken(Role::Symbol) => Role::Remark,
             Role::Value if taken(Role::Value) && !taken(Role::Used) => Role::Used,
@@ -287,45 +294,161 @@ fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
     }
 }
 
-/// What stands in a column decides where its head is doubtful: figures below a name are what was put in, and words below
-/// a head that says nothing are remarks.
+/// What stands in a column decides where its head is doubtful: figures below a name are what was put in, running numbers
+/// are no names, and words below a head that says nothing are remarks.
 fn by_content(grid: &Grid, located: &mut Located) {
-    let rows = located.rows.clone();
-    let mostly = |index: usize, is: &dyn Fn(&str) -> bool| {
-        let cells = rows.iter().map(|row| grid.cell(*row, index).text.as_str());
-        2 * cells.filter(|text| is(text)).count() > rows.len()
+    let column = |index: usize| Cells {
+        grid,
+        rows: &located.rows,
+        index,
     };
-    let is_figure = |text: &str| Printed::parse(text).is_some();
-    let is_words = |text: &str| !is_figure(text) && text.chars().count() >= 8;
-    let named = |located: &Located, except: usize| {
-        let mut others = located.columns.iter().filter(|c| c.index != except);
-        others.any(|c| matches!(c.role, Role::Symbol | Role::Name) && !mostly(c.index, &is_figure))
-    };
-    for place in 0..located.columns.len() {
-        let Column { index, role, .. } = located.columns[place];
-        let doubtful = matches!(role, Role::Symbol | Role::Name | Role::Remark | Role::Type);
-        if doubtful && mostly(index, &is_figure) && named(located, index) {
-            let free = [Role::Used, Role::Value]
+    let mut roles: Vec<(usize, Role)> = located.columns.iter().map(|c| (c.index, c.role)).collect();
+    for place in 0..roles.len() {
+        let (index, role) = roles[place];
+        let cells = column(index);
+        let is_name = |role: Role| matches!(role, Role::Symbol | Role::Name);
+        let other_name = roles.iter().any(|(other, role)| {
+            *other != index && is_name(*role) && !column(*other).mostly(is_figure)
+        });
+        let said = |role: Role| {
+            move |c: &&Column| columns::role(&c.head).is_some_and(|(said, _)| said == role)
+        };
+        let free = |wanted: Role| roles.iter().all(|(_, role)| *role != wanted);
+        // The head of another column that was passed over because this one had its role.
+        let passed_over = |wanted: Role| {
+            let others = located.columns.iter().filter(|c| c.index != index);
+            others.filter(said(wanted)).map(|c| c.index).next()
+        };
+        if is_name(role) && cells.are_running() {
+            roles[place].1 = Role::Number;
+            let name = passed_over(Role::Name)
+                .or(passed_over(Role::Symbol))
+                .filter(|_| !other_name);
+            if let Some(other) = roles.iter_mut().find(|(index, _)| Some(*index) == name) {
+                other.1 = role;
+            }
+        } else if role == Role::Used && cells.mostly(is_words) {
+            roles[place].1 = Role::Remark;
+            let used = passed_over(Role::Used);
+            if let Some(other) = roles
+                .iter_mut()
+                .find(|(index, role)| Some(*index) == used && *role == Role::Derived)
+            {
+                other.1 = Role::Used;
+            }
+        } else if (is_name(role) || matches!(role, Role::Remark | Role::Type))
+            && cells.mostly(is_figure)
+            && other_name
+        {
+            let open = [Role::Used, Role::Value]
                 .into_iter()
-                .find(|role| !located.has(*role));
-            located.columns[place].role = free.unwrap_or(Role::Derived);
+                .find(|role| free(*role));
+            roles[place].1 = open.unwrap_or(Role::Derived);
         }
     }
-    let head: Vec<(usize, String)> = grid
-        .filled(located.head)
-        .filter(|(i, _)| !located.columns.iter().any(|c| c.index == *i))
-        .map(|(i, cell)| (i, cell.text.clone()))
-        .collect();
-    for (index, head) in head {
-        if mostly(index, &is_words) {
-            located.columns.push(Column {
-                index,
-                role: Role::Remark,
-                head,
-                unit: String::new(),
-            });
+    for (column, (_, role)) in located.columns.iter_mut().zip(roles) {
+        column.role = role;
+    }
+    value_is_used(grid, located);
+    nameless_words(grid, located);
+}
+
+/// The cells of a column in the rows of a table.
+struct Cells<'g> {
+    grid: &'g Grid,
+    rows: &'g [usize],
+    index: usize,
+}
+
+fn is_figure(text: &str) -> bool {
+    Printed::parse(text).is_some()
+}
+
+fn is_words(text: &str) -> bool {
+    !is_figure(text) && text.chars().count() >= 8 && !text.starts_with(|c: char| c.is_ascii_digit())
+}
+
+impl Cells<'_> {
+    fn texts(&self) -> impl Iterator<Item = &str> {
+        let rows = self.rows.iter();
+        rows.map(|row| self.grid.cell(*row, self.index).text.as_str())
+    }
+
+    fn mostly(&self, is: fn(&str) -> bool) -> bool {
+        2 * self.texts().filter(|text| is(text)).count() > self.rows.len()
+    }
+
+    /// 1, 2, 3 …
+    fn are_running(&self) -> bool {
+        let number = |text: &str| text.trim_end_matches(['.', ')']).parse::<usize>().ok();
+        let numbers: Vec<usize> = self.texts().filter_map(number).collect();
+        numbers.len() >= 2
+            && numbers[0] <= 1
+            && 2 * numbers.len() > self.rows.len()
+            && numbers.windows(2).all(|two| two[1] == two[0] + 1)
+    }
+}
+
+/// `Value` and a divisor that give u: the value is what was put in.
+fn value_is_used(grid: &Grid, located: &mut Located) {
+    if located.has(Role::Used) {
+        return;
+    }
+    let (Some(value), Some(divisor), Some(u)) = (
+        at(located, Role::Value),
+        at(located, Role::Divisor),
+        at(located, Role::U),
+    ) else {
+        return;
+    };
+    let figure =
+        |row: usize, index: usize| Printed::parse(&grid.cell(row, index).text).map(|p| p.value);
+    let divides = |row: &&usize| {
+        let pair = figure(**row, value).zip(figure(**row, divisor));
+        let quotient = pair.map(|(a, d)| a / d);
+        let pair = quotient.zip(figure(**row, u));
+        pair.is_some_and(|(q, u)| (q - u).abs() <= 0.05 * u.abs())
+    };
+    if 2 * located.rows.iter().filter(divides).count() > located.rows.len() {
+        let mut columns = located.columns.iter_mut();
+        if let Some(column) = columns.find(|c| c.index == value) {
+            column.role = Role::Used;
         }
     }
+}
+
+/// Columns of words whose heads say nothing: short ones in front are symbols, long ones are remarks.
+fn nameless_words(grid: &Grid, located: &mut Located) {
+    let width = grid.rows[located.head].len();
+    for index in 0..width {
+        if located.columns.iter().any(|c| c.index == index) {
+            continue;
+        }
+        let cells = Cells {
+            grid,
+            rows: &located.rows,
+            index,
+        };
+        let head = grid.cell(located.head, index).text.clone();
+        let short = |text: &str| !text.is_empty() && text.chars().count() <= 8 && !is_figure(text);
+        let role = if cells.mostly(is_words) {
+            Role::Remark
+        } else if head.is_empty() && !located.has(Role::Symbol) && cells.mostly(short) {
+            Role::Symbol
+        } else {
+            continue;
+        };
+        located.columns.push(Column {
+            index,
+            role,
+            head,
+            unit: String::new(),
+        });
+    }
+}
+
+fn at(located: &Located, role: Role) -> Option<usize> {
+    located.column(role).map(|column| column.index)
 }
 
 /// A column of figures whose head says nothing that is known is the ± column, if there is none and it is the only one.
@@ -500,11 +623,27 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
     let used_text = located
         .column(Role::Used)
         .map_or("", |c| grid.cell(row, c.index).text.as_str());
-    let remark_of_used = if Printed::parse(used_text).is_none() {
-        used_text
-    } else {
-        ""
+    // `0.0060 (s of 10 readings, mean reported)`: figure and what it is.
+    let bracketed = crate::printed::leading(used_text)
+        .filter(|(_, behind)| behind.trim_start().starts_with('('));
+    let remark_of_used = match &bracketed {
+        Some((_, behind)) if units::parse(behind.trim().trim_matches(['(', ')'])).is_none() => {
+            *behind
+        }
+        _ if Printed::parse(used_text).is_none() => used_text,
+        _ => "",
     };
+    let used = figure(Role::Used).or_else(|| {
+        let column = located.column(Role::Used)?.index;
+        let (figure, _) = bracketed.clone()?;
+        let unit = unit_cell
+            .split(';')
+            .next()
+            .unwrap_or_default()
+            .trim()
+            .to_string();
+        Some(Printed { unit, ..figure }.at(Place { sheet, row, column }))
+    });
     let words = [name.as_str(), &text(Role::Remark), remark_of_used]
         .iter()
         .filter(|t| !t.is_empty())
@@ -531,13 +670,16 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
                 column: grid.filled(row).next().map_or(0, |(i, _)| i),
             },
             value: figure(Role::Value),
-            used: figure(Role::Used).map(positive),
+            used: used.map(positive),
             divisor: figure(Role::Divisor),
             u: figure(Role::U).map(positive),
             c: figure(Role::C),
             contribution: figure(Role::Contribution),
             dof: figure(Role::Dof),
             unit: unit_cell,
+            is_hidden: grid.hidden_rows.contains(&row),
+            distribution: text(Role::Distribution),
+            share: share(grid, row, located),
             formulas: [
                 formula(Role::U, Figure::U),
                 formula(Role::Contribution, Figure::Contribution),
@@ -551,6 +693,19 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
             ..Row::default()
         },
     }
+}
+
+/// The share of a row in the variance, where a column has it.
+fn share(grid: &Grid, row: usize, located: &Located) -> Option<Printed> {
+    let is_share = |head: &str| {
+        let head = head.to_lowercase();
+        has(&head, &["share", "index", "percent"])
+            || head.contains(['%', '％'])
+            || has(&head, &["贡献率", "占比", "百分比"])
+    };
+    let mut columns = located.columns.iter();
+    let column = columns.find(|c| c.role == Role::Derived && is_share(&c.head))?;
+    Printed::parse(&grid.cell(row, column.index).text)
 }
 
 fn positive(mut figure: Printed) -> Printed {
@@ -648,7 +803,11 @@ fn footer_row(
         .filled(row)
         .map(|(i, cell)| (i, cell.text.clone()))
         .collect();
-    if cells.len() < 2 {
+    let of_row = |text: &str| {
+        let mut rows = claimed.rows.iter();
+        rows.any(|row| !row.symbol.is_empty() && row.symbol == text)
+    };
+    if cells.len() < 2 || of_row(&cells[0].1) {
         return false;
     }
     let inside = located.used.contains(&row) || row < located.end;

@@ -11,9 +11,9 @@ use crate::printed::Printed;
 
 use super::check::Checked;
 
-/// How far about a figure its neighbourhood reaches, in logarithms on either side: it should hold many combinations and
-/// have their density at the figure. Twice or half as much changes little.
-const NEAR: f64 = 0.2;
+/// How far about a figure its neighbourhood reaches, in logarithms on either side: a figure that has nothing to do with
+/// slips is known to a factor of two, as what it should be is known.
+const NEAR: f64 = std::f64::consts::LN_2;
 
 /// What one combination gives, as the logarithm of its ratio to the claim, and what the rounding of the claim leaves open.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -150,10 +150,10 @@ mod tests {
         let share = covered(vec![
             interval(0.0, 0.1),
             interval(0.05, 0.1),
-            interval(-0.5, -0.15),
-            interval(0.3, 0.4),
+            interval(-0.9, NEAR - 1.0),
+            interval(0.8, 0.9),
         ]);
-        assert!((share - 0.15 / 0.4).abs() < 1e-12);
+        assert!((share - (0.1 + 2.0 * NEAR - 1.0) / (2.0 * NEAR)).abs() < 1e-12);
         assert_eq!(covered(Vec::new()), 0.0);
     }
 }

@@ -19,6 +19,15 @@ pub(super) fn guessed(text: &str) -> Grid {
     if text.lines().filter(|line| is_markdown(line)).count() >= 2 {
         return markdown(text);
     }
+    // Strokes between the cells, without any at the edges.
+    if text
+        .lines()
+        .filter(|line| line.matches('|').count() >= 3)
+        .count()
+        >= 3
+    {
+        return separated(text, '|');
+    }
     // The way of parting lines that gives most of them one number of columns; a comma may be inside numbers and sentences,
     // so that others come first where they do as well.
     let widths = |part: &dyn Fn(&str) -> usize| {
@@ -85,12 +94,19 @@ pub(super) fn separated(text: &str, separator: char) -> Grid {
         }
         open.push_str(line);
         if open.matches('"').count().is_multiple_of(2) {
-            rows.push(
+            // What stands below a table of strokes is parted by blanks.
+            let parted = if separator == '|' && !open.contains('|') {
+                aligned_fields(&open)
+                    .into_iter()
+                    .map(str::to_string)
+                    .collect()
+            } else {
                 fields(&open, separator)
-                    .iter()
-                    .map(|field| Cell::new(&field.replace('\n', " ")))
-                    .collect(),
-            );
+            };
+            let cells = parted
+                .iter()
+                .map(|field| Cell::new(&field.replace('\n', " ")));
+            rows.push(cells.collect());
             open.clear();
         }
     }
@@ -101,8 +117,8 @@ pub(super) fn separated(text: &str, separator: char) -> Grid {
         );
     }
     Grid {
-        name: String::new(),
         rows,
+        ..Grid::default()
     }
 }
 
@@ -157,8 +173,8 @@ pub(super) fn markdown(text: &str) -> Grid {
         }
     }
     Grid {
-        name: String::new(),
         rows,
+        ..Grid::default()
     }
 }
 
@@ -186,8 +202,8 @@ fn aligned(text: &str) -> Grid {
             .collect()
     };
     Grid {
-        name: String::new(),
         rows: text.lines().map(row).collect(),
+        ..Grid::default()
     }
 }
 

@@ -5,7 +5,7 @@
 //! cargo run --release --example audit -- --out reports
 //! ```
 //!
-//! `--sheets N` and `--seed N` take other budgets, to develop with; `--keep DIR` writes them, with the truth, and
+//! Beside it stand the audits of two published tables, `audit-sources.md`. `--sheets N` and `--seed N` take other budgets, to develop with; `--keep DIR` writes them, with the truth, and
 //! `--misses` prints what went wrong.
 
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ use gumption::files::write::{Output, Replacing, write};
 use gumption::report::{self, Language};
 
 /// The seed of the published table: drawn once, after everything else was done.
-const SEED: u64 = 0;
+const SEED: u64 = 14026003;
 
 struct Options {
     sheets: u64,
@@ -113,7 +113,10 @@ fn main() -> Result<(), String> {
     }
     let report = report(&tallies, &options);
     match options.out {
-        Some(folder) => save(folder.join("audit.md"), report.into_bytes()),
+        Some(folder) => {
+            save(folder.join("audit.md"), report.into_bytes())?;
+            save(folder.join("audit-sources.md"), sources()?)
+        }
         None => {
             print!("{report}");
             Ok(())
@@ -162,6 +165,33 @@ fn answer(name: &str, bytes: &[u8]) -> SheetAnswer {
     let audits: Vec<_> = claims.iter().map(audit).collect();
     let machine = report::audit(name, &audits, Language::English).machine;
     serde_json::from_value(machine).unwrap_or_default()
+}
+
+/// Audits of two published tables: annex A of JJF 2003-2022 and the four-point tumble, which states another u_c than its
+/// figures give.
+fn sources() -> Result<Vec<u8>, String> {
+    let format = gumption::render::with_ending("md").ok_or("no Markdown")?;
+    let page = gumption::render::Page {
+        width: 100,
+        styled: false,
+    };
+    let mut text = Vec::new();
+    for path in [
+        "docs/examples/jjf-2003-annex-a.csv",
+        "docs/examples/four-point-tumble.md",
+    ] {
+        let bytes = gumption::Files::Disk
+            .read(path.as_ref())
+            .map_err(|error| error.to_string())?;
+        let grids = sheet::grids(path, &bytes).map_err(|why| why.0)?;
+        let claims = read::budgets(&grids, &Mapping::default());
+        let audits: Vec<_> = claims.iter().map(audit).collect();
+        let document = report::audit(path, &audits, Language::English);
+        let rendered = (format.render)(&document, &page);
+        text.extend(rendered.map_err(|unfit| unfit.0.in_language(Language::English))?);
+        text.push(b'\n');
+    }
+    Ok(text)
 }
 
 fn report(tallies: &BTreeMap<(&str, String), Tally>, options: &Options) -> String {

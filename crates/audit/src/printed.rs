@@ -101,7 +101,7 @@ impl Printed {
 
     /// Half a unit in the last digit that says something: the zeros of `2800` may be no digits.
     pub fn half_of_digits(&self) -> f64 {
-        let zeros = self.half == 0.5 && self.digits > 0 && self.digits < 4;
+        let zeros = self.half == 0.5 && self.digits > 0;
         let place = libm::floor(libm::log10(self.value.abs())) + 1.0 - self.digits as f64;
         if zeros && place > 0.0 {
             0.5 * libm::exp10(place)

@@ -103,7 +103,7 @@ enum How {
 /// In this order: the first that fits decides. Words are compact ones.
 #[rustfmt::skip]
 const WORDS: &[(Role, How, &[&str])] = &[
-    (Role::Derived, How::Has, &["贡献率", "百分比", "占比", "权重", "比例", "%contribution", "contribution%", "contribution(%)", "contribution/%", "percentcontribution", "shareof", "significance", "相对贡献", "贡献/%", "贡献(%)", "index"]),
+    (Role::Derived, How::Has, &["贡献率", "百分比", "占比", "权重", "比例", "%contribution", "contribution%", "contribution(%)", "contribution/%", "percentcontribution", "share", "significance", "相对贡献", "贡献/%", "贡献(%)", "index"]),
     (Role::Derived, How::Is, &["share", "%", "percent", "weight", "h", "比重"]),
     (Role::Derived, How::Has, &["ui^2", "u^2", "(y)^2", "^2", "平方", "squared", "variance", "方差"]),
     (Role::Contribution, How::Has, &["ui(y)", "uy(", "u(y)", "|ci|u", "|c|u", "ciu(", "|ci|·u", "cu(", "|ci|×u", "contributiontou", "uncertaintycontribution", "contribution", "贡献", "|u(y", "uncertaintyiny"]),

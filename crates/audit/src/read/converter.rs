@@ -47,6 +47,21 @@ fn bits(lower: &str) -> Option<f64> {
 
 fn span(words: &str, lower: &str) -> Option<Printed> {
     let doubled = |figure: Printed| figure.scaled(2.0);
+    // Limits of what the converter does are no range.
+    if has(
+        lower,
+        &[
+            "limit",
+            "极限",
+            "误差",
+            "error",
+            "within",
+            "half-width",
+            "半宽",
+        ],
+    ) {
+        return None;
+    }
     if let Some(figure) = figure_after(words, &["±", "+/-"]) {
         return Some(doubled(figure));
     }
@@ -104,6 +119,7 @@ mod tests {
             ("quantisation of the 16-bit ADC, 0 to 5 V", lsb(5.0, 16.0)),
             ("16 位 A/D 转换器，量程 ±10 V", lsb(20.0, 16.0)),
             ("digital step 0.01 V", None),
+            ("数据采集 12 位，极限 ±2.4414E-4", None),
         ] {
             assert_eq!(read(text), expected, "{text}");
         }

@@ -484,6 +484,48 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
     }
 }
 
+/// The row whose remark refers to the footnote that a line is: `[2] …`, `2) …`, `Note 2: …`, `注2：…`.
+fn footnote(text: &str, claimed: &Claimed) -> Option<usize> {
+    let lower = text.trim().to_lowercase();
+    let inner = ["note", "注", "[", "("]
+        .iter()
+        .fold(lower.as_str(), |rest, lead| {
+            rest.strip_prefix(lead).unwrap_or(rest).trim_start()
+        });
+    let digits = inner.bytes().take_while(u8::is_ascii_digit).count();
+    let marked = digits > 0
+        && digits <= 2
+        && inner[digits..]
+            .trim_start()
+            .starts_with([']', ')', ':', '.']);
+    let number = inner.get(..digits).filter(|_| marked)?;
+    let marks = [
+        format!("[{number}]"),
+        format!("{number})"),
+        format!("({number})"),
+        format!("note {number}"),
+        format!("注{number}"),
+    ];
+    let refers = |words: &str| {
+        let lower = words.to_lowercase();
+        let mut parts = lower.split(';').map(str::trim);
+        parts.any(|part| {
+            marks
+                .iter()
+                .any(|mark| part == mark || part.ends_with(&format!(" {mark}")))
+        })
+    };
+    let mut rows = claimed
+        .rows
+        .iter()
+        .enumerate()
+        .filter(|(_, row)| refers(&row.words));
+    match (rows.next(), rows.next()) {
+        (Some((row, _)), None) => Some(row),
+        _ => None,
+    }
+}
+
 /// The row that a line is about: the one whose symbol or name comes first in it, or whose number it gives.
 fn row_of_line(text: &str, lower: &str, claimed: &Claimed) -> Option<usize> {
     let numbered = words::count_after(lower, &["row", "note to row", "line", "第"])
@@ -493,6 +535,9 @@ fn row_of_line(text: &str, lower: &str, claimed: &Claimed) -> Option<usize> {
         && n as usize <= claimed.rows.len()
     {
         return Some(n as usize - 1);
+    }
+    if let Some(row) = footnote(text, claimed) {
+        return Some(row);
     }
     let symbol = (0..claimed.rows.len())
         .filter_map(|row| Some((words::symbol_at(text, &claimed.rows[row].symbol, 0)?, row)))

@@ -41,10 +41,7 @@ pub fn note(text: &str, at: Place, claimed: &mut Claimed) -> Option<&'static str
         claimed.correlations.extend(correlation);
         return Some("correlation");
     }
-    if rule(&lower, claimed) {
-        return Some("rule for k");
-    }
-    let mut role = None;
+    let mut role = rule(&lower, claimed).then_some("rule for k");
     if has(
         &lower,
         &["round", "修约", "只进不舍", "进位", "舍入", "四舍"],
@@ -78,7 +75,7 @@ pub fn note(text: &str, at: Place, claimed: &mut Claimed) -> Option<&'static str
         } else if has(&lower, &nearest) {
             claimed.rounding = RoundingStated::Nearest;
         }
-        role = Some("rule for rounding");
+        role = role.or(Some("rule for rounding"));
     }
     role
 }

@@ -170,6 +170,19 @@ pub fn figure_before(text: &str, keys: &[&str]) -> Option<Printed> {
     .next()
 }
 
+/// A figure of the words; its half unit counts as that of a printed figure.
+pub fn in_text(text: &str, keys: &[&str]) -> Option<Printed> {
+    let of_clause = || {
+        let clauses = text.split(';').rev();
+        let said = clauses.filter(|clause| has(&clause.to_lowercase(), keys));
+        said.filter_map(sole_figure).next()
+    };
+    figure_after(text, keys)
+        .or_else(|| figure_before(text, keys))
+        .or_else(|| sole_figure(text))
+        .or_else(of_clause)
+}
+
 /// The only figure with a unit in a text, where there is one and no more.
 pub fn sole_figure(text: &str) -> Option<Printed> {
     let lower = text.to_lowercase();

@@ -5,15 +5,19 @@
 //! covers the width of its rounding there; the share of the neighbourhood that all of them cover together is the
 //! probability that a number which has nothing to do with slips is matched all the same.
 
-use crate::calculate::Case;
+use crate::calculate::{Case, Figures};
 use crate::claim::RoundingStated;
 use crate::printed::Printed;
 
 use super::check::Checked;
 
-/// How far about a figure its neighbourhood reaches, in logarithms on either side: a figure that has nothing to do with
-/// slips is known to a factor of two, as what it should be is known.
-const NEAR: f64 = std::f64::consts::LN_2;
+/// How far about a figure its neighbourhood reaches at most, in logarithms on either side: a figure that has nothing to
+/// do with slips is known to a factor of two, as what it should be is known.
+const WIDEST: f64 = std::f64::consts::LN_2;
+
+/// Where combinations are many, they are counted no farther than this many of them reach: their density at the figure is
+/// what matters, and so many give it to a fifth.
+const NEAREST: usize = 30;
 
 /// What one combination gives, as the logarithm of its ratio to the claim, and what the rounding of the claim leaves open.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,23 +39,39 @@ impl Interval {
         self.low <= 0.0 && self.high >= 0.0
     }
 
-    /// The share of the neighbourhood that it covers.
-    fn share(self) -> f64 {
-        (self.high.min(NEAR) - self.low.max(-NEAR)).max(0.0) / (2.0 * NEAR)
+    /// How far its middle is from the figure.
+    fn distance(self) -> f64 {
+        (0.5 * (self.low + self.high)).abs()
     }
+
+    /// The share of a neighbourhood that it covers.
+    fn share(self, near: f64) -> f64 {
+        (self.high.min(near) - self.low.max(-near)).max(0.0) / (2.0 * near)
+    }
+}
+
+/// How far the nearest reach, and not less than the widths of a few of them.
+fn reach(mut distances: Vec<f64>, width: f64) -> f64 {
+    distances.sort_by(f64::total_cmp);
+    let nearest = distances.get(NEAREST - 1).copied().unwrap_or(WIDEST);
+    nearest.max(10.0 * width).min(WIDEST)
 }
 
 /// The share of the neighbourhood that intervals cover together.
 fn covered(mut intervals: Vec<Interval>) -> f64 {
-    intervals.retain(|interval| interval.share() > 0.0);
+    let Some(width) = intervals.first().map(|one| one.high - one.low) else {
+        return 0.0;
+    };
+    let near = reach(intervals.iter().map(|one| one.distance()).collect(), width);
+    intervals.retain(|interval| interval.share(near) > 0.0);
     intervals.sort_by(|a, b| a.low.total_cmp(&b.low));
-    let (mut share, mut reached) = (0.0, -NEAR);
+    let (mut share, mut reached) = (0.0, -near);
     for Interval { low, high } in intervals {
         let part = Interval {
             low: low.max(reached),
             high,
         };
-        share += part.share();
+        share += part.share(near);
         reached = high.max(reached);
     }
     share
@@ -68,8 +88,17 @@ pub struct Chance {
 impl Chance {
     /// Notes a combination; `further` says whether it has slips that the rows do not show.
     pub fn count(&mut self, case: &Case<'_>, checked: &Checked, further: bool) {
+        // A claim may follow from unrounded contributions or from the printed ones: both were open.
+        for figures in [Some(checked.figures), checked.of_printed]
+            .into_iter()
+            .flatten()
+        {
+            self.add(case, figures, checked.nu_eff && checked.k, further);
+        }
+    }
+
+    fn add(&mut self, case: &Case<'_>, figures: Figures, met: bool, further: bool) {
         let footer = &case.claimed.footer;
-        let figures = checked.figures;
         let u_c = footer.u_c.as_ref().map(|claimed| {
             let half = claimed.half_of_digits() / claimed.value;
             Interval::about(figures.u_c, claimed.value, half, half)
@@ -91,7 +120,7 @@ impl Chance {
         });
         let point = [u_c, ratio];
         if further {
-            if checked.nu_eff && checked.k {
+            if met {
                 self.points.push(point);
             }
             return;
@@ -113,10 +142,6 @@ impl Chance {
             [false, true] => along(0),
             [true, false] => along(1),
             [false, false] => {
-                let share = |point: &[Option<Interval>; 2]| {
-                    let figures = point.iter().flatten();
-                    figures.map(|one| one.share()).product::<f64>()
-                };
                 let mut different = self.points.clone();
                 let low =
                     |point: &[Option<Interval>; 2]| point.map(|one| one.map_or(0.0, |one| one.low));
@@ -126,6 +151,25 @@ impl Chance {
                         .then(low(a)[1].total_cmp(&low(b)[1]))
                 });
                 different.dedup();
+                let farthest = |point: &[Option<Interval>; 2]| {
+                    point
+                        .iter()
+                        .flatten()
+                        .map(|one| one.distance())
+                        .fold(0.0, f64::max)
+                };
+                let width = different.first().map_or(0.0, |point| {
+                    let widths = point.iter().flatten().map(|one| one.high - one.low);
+                    widths.fold(0.0, f64::max)
+                });
+                let near = reach(different.iter().map(farthest).collect(), width);
+                let share = |point: &[Option<Interval>; 2]| {
+                    point
+                        .iter()
+                        .flatten()
+                        .map(|one| one.share(near))
+                        .product::<f64>()
+                };
                 -libm::expm1(-different.iter().map(share).sum::<f64>())
             }
         }
@@ -148,12 +192,16 @@ mod tests {
     fn what_is_covered_twice_counts_once() {
         let interval = |low, high| Interval { low, high };
         let share = covered(vec![
-            interval(0.0, 0.1),
-            interval(0.05, 0.1),
-            interval(-0.9, NEAR - 1.0),
+            interval(0.0, 0.05),
+            interval(0.03, 0.08),
+            interval(-0.9, WIDEST - 1.0),
             interval(0.8, 0.9),
         ]);
-        assert!((share - (0.1 + 2.0 * NEAR - 1.0) / (2.0 * NEAR)).abs() < 1e-12);
+        assert!((share - (0.08 + 2.0 * WIDEST - 1.0) / (2.0 * WIDEST)).abs() < 1e-12);
+        // A thousand about the figure: their density there, and not that of the whole neighbourhood.
+        let many = (0..1000).map(|i| f64::from(i - 500) * 2e-4);
+        let dense = covered(many.map(|x| interval(x - 1e-5, x + 1e-5)).collect());
+        assert!((dense - 0.1).abs() < 0.01, "{dense}");
         assert_eq!(covered(Vec::new()), 0.0);
     }
 }

@@ -18,8 +18,7 @@ use crate::claim::Claimed;
 use crate::slips::{self, Act};
 
 use chance::Chance;
-pub use check::{Checked, Gap};
-pub use row::Broken;
+pub use check::{Broken, Checked, Gap};
 use row::Options;
 
 /// What was found about a claim.

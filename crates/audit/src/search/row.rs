@@ -6,6 +6,7 @@ use crate::printed::Printed;
 use crate::slips::{Act, Change, Group};
 
 use super::chance;
+use super::check::Broken;
 
 /// What the figures of a row say.
 #[derive(Debug, Clone)]
@@ -20,19 +21,6 @@ pub struct Options {
     pub broken: Option<Broken>,
     /// The probability that a figure which has nothing to do with slips would be explained, too.
     pub accident: f64,
-}
-
-/// A figure of a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Broken {
-    /// Standard uncertainty.
-    U,
-    /// Sensitivity coefficient.
-    C,
-    /// Contribution.
-    Contribution,
-    /// Degrees of freedom.
-    Dof,
 }
 
 impl Options {
@@ -177,10 +165,13 @@ fn mismatch(row: &Row, line: &Line) -> Option<Broken> {
         .as_ref()
         .map_or(0.0, |d| d.relative_half().min(0.01));
     let near = |figure: &Printed, x: f64, slack: f64| {
-        figure.is_met_within(
-            x.abs(),
-            figure.half_of_digits() + slack * figure.value.abs(),
-        )
+        // A bare 0 is nothing at all; 0.00 is what was rounded.
+        let half = if figure.value == 0.0 && figure.half >= 0.5 {
+            0.0
+        } else {
+            figure.half_of_digits()
+        };
+        figure.is_met_within(x.abs(), half + slack * figure.value.abs())
     };
     let counted = row.not_counted.is_none();
     if let Some(u) = row.u.as_ref().filter(|u| counted || u.value != 0.0) {

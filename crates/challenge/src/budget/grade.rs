@@ -2,6 +2,7 @@
 
 use super::case::SheetTruth;
 use super::sealed::{SealedSheet, SheetsTruth};
+use crate::grade::Refused;
 
 /// What an auditor says of a file, in the neutral answer form.
 #[derive(Debug, Clone, PartialEq, Default, serde::Deserialize)]
@@ -112,4 +113,14 @@ pub fn grade(truth: &SheetTruth, answer: &SheetAnswer) -> SheetGrade {
         (_, "slips") => SheetGrade::FalseAlarm,
         _ => SheetGrade::Wrong,
     }
+}
+
+/// Reads answers about budgets: one, or a list of them.
+///
+/// # Errors
+/// When the text is neither.
+pub fn read_sheet_answers(text: &str) -> Result<Vec<SheetAnswer>, Refused> {
+    let one = |text: &str| serde_json::from_str(text).map(|answer| vec![answer]);
+    let list = serde_json::from_str(text).or_else(|error| one(text).map_err(|_| error));
+    list.map_err(|error| Refused::NoAnswer(error.to_string()))
 }

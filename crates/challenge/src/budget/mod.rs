@@ -5,6 +5,7 @@
 //! | chapter | holds |
 //! |---|---|
 //! | `words` | words and figures on sheets |
+//! | `statement` | what a sheet says of what is known |
 //! | `quantity` | what is known of a quantity, and what follows from it |
 //! | `laboratory` | right budgets of several fields |
 //! | `working` | the calculation of a laboratory |
@@ -25,12 +26,11 @@ mod paper;
 mod quantity;
 mod sealed;
 mod spoil;
+mod statement;
 mod words;
 mod working;
 
 pub use case::{Sheet, SheetTruth, sheet};
 pub use document::{sheet_grades_document, sheet_grades_schema};
-pub use grade::{GradedSheet, SheetAnswer, SheetGrade, grade, grade_sheets};
-pub use sealed::{
-    SealedSheet, SealedSheets, SheetsTruth, read_sheet_answers, sealed_sheets, sealed_sheets_truth,
-};
+pub use grade::{GradedSheet, SheetAnswer, SheetGrade, grade, grade_sheets, read_sheet_answers};
+pub use sealed::{SealedSheet, SealedSheets, SheetsTruth, sealed_sheets, sealed_sheets_truth};

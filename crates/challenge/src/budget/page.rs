@@ -5,7 +5,8 @@ use rand::seq::IndexedRandom;
 
 use super::laboratory::{Budget, Item, Rounding, Rule};
 use super::quantity::Divisor;
-use super::words::{Said, plain, said, typed};
+use super::statement::said;
+use super::words::{Said, plain, typed};
 use super::working::{Figures, Working};
 use crate::random::Random;
 

@@ -72,7 +72,7 @@ impl Paper {
                 decimal_comma,
                 gbk,
             } => separated(pages, separator, decimal_comma, gbk),
-            Paper::Markdown => markdown(pages).into_bytes(),
+            Paper::Markdown => strokes(pages).into_bytes(),
             Paper::Plain => plain(pages).into_bytes(),
         }
     }
@@ -172,7 +172,7 @@ fn separated(pages: &[Page], separator: char, decimal_comma: bool, gbk: bool) ->
     }
 }
 
-fn markdown(pages: &[Page]) -> String {
+fn strokes(pages: &[Page]) -> String {
     let mut text = String::new();
     for page in pages {
         let mut in_table = false;

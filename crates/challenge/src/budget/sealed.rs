@@ -5,7 +5,6 @@ use std::path::Path;
 use gumption_format::files::Files;
 
 use super::case::{SheetTruth, sheet};
-use super::grade::SheetAnswer;
 use crate::grade::Refused;
 use crate::truth::{salt, seal};
 
@@ -120,14 +119,4 @@ pub fn sealed_sheets_truth(folder: &Path) -> Result<SheetsTruth, Refused> {
         }
     }
     Ok(truth)
-}
-
-/// Reads answers about budgets: one, or a list of them.
-///
-/// # Errors
-/// When the text is neither.
-pub fn read_sheet_answers(text: &str) -> Result<Vec<SheetAnswer>, Refused> {
-    let one = |text: &str| serde_json::from_str(text).map(|answer| vec![answer]);
-    let list = serde_json::from_str(text).or_else(|error| one(text).map_err(|_| error));
-    list.map_err(|error| Refused::NoAnswer(error.to_string()))
 }

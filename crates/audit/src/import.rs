@@ -25,7 +25,7 @@ pub fn budget_file(case: &Case<'_>) -> String {
     let model = claimed
         .model
         .as_ref()
-        .filter(|model| case.y.is_some() && has_all(claimed, model));
+        .filter(|model| case.y.is_some() && case.by_units && has_all(claimed, model));
     let _ = write!(text, "\n[measurand.{measurand}]\n");
     match model {
         Some(model) => {
@@ -39,7 +39,7 @@ pub fn budget_file(case: &Case<'_>) -> String {
                 .zip(&names)
                 .filter(|(row, _)| row.not_counted.is_none());
             let sum: Vec<&str> = counted.map(|(_, name)| name.as_str()).collect();
-            text += "# The sheet has no model with all estimates: inputs are contributions to the result, coefficients included.\n";
+            text += "# The sheet has no model that holds with its estimates and their units: inputs are contributions to the result, coefficients included.\n";
             let _ = writeln!(text, "model = {}", quoted(&sum.join(" + ")));
         }
     }

@@ -17,6 +17,8 @@ pub struct Case<'a> {
     pub derivatives: Option<Vec<f64>>,
     /// Rows whose derivative depends on estimates that the sheet does not state.
     pub unknown_slopes: Vec<bool>,
+    /// Whether the model holds with the units of its estimates.
+    pub by_units: bool,
     /// The value of the model at the estimates.
     pub y: Option<f64>,
     /// How the estimates enter the model, text by text: why it was not understood.
@@ -27,9 +29,11 @@ impl<'a> Case<'a> {
     /// The right calculation of what is claimed.
     pub fn of(claimed: &'a Claimed) -> Case<'a> {
         let mut unknown_slopes = vec![false; claimed.rows.len()];
+        let mut by_units = false;
         let (derivatives, y, trouble) = match differentiate(claimed) {
             Ok(Some(known)) => {
                 unknown_slopes = known.unknown;
+                by_units = known.by_units;
                 (Some(known.slopes), known.y, None)
             }
             Ok(None) => (None, None, None),
@@ -53,6 +57,7 @@ impl<'a> Case<'a> {
             right,
             derivatives,
             unknown_slopes,
+            by_units,
             y,
             trouble,
         }

@@ -18,6 +18,8 @@ pub(super) struct Differentiated {
     /// Which slopes depend on estimates that are not stated; the claimed coefficients stand in their places.
     pub(super) unknown: Vec<bool>,
     pub(super) y: Option<f64>,
+    /// Whether the model holds with the units of its estimates.
+    pub(super) by_units: bool,
 }
 
 /// Value and derivatives of the model at the estimates. `None` without a model.
@@ -69,6 +71,9 @@ pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>,
         .unwrap_or_else(Unit::one);
     let plain = vec![Unit::one(); units.len()];
     let bare = |formula: &str| compiled(formula, &plain, Unit::one(), &used);
+    let bare_sheet = rows.iter().all(|row| unit_of(row).is_none());
+    let by_units =
+        (with_units || bare_sheet) && compiled(&formula, &units, target.clone(), &used).is_ok();
     let mut model = compiled(&formula, &units, target, &used).or_else(|_| bare(&formula))?;
     // Without units, an angle may be in degrees: the claimed coefficients and y tell.
     if !with_units && let Ok(degrees) = bare(&in_degrees(&formula)) {
@@ -100,6 +105,7 @@ pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>,
         slopes: (0..rows.len()).map(derivative).collect(),
         y: (!any_missing).then(|| model.values(&values)[0]),
         unknown,
+        by_units,
     }))
 }
 

@@ -171,9 +171,11 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
 
 /// Whether a line, in small letters, says what u_c, ν_eff or U are.
 pub fn states_figures(lower: &str) -> bool {
-    ["u_c", "uc", "u(y)", "ν_eff", "νeff", "v_eff", "veff", "u"]
-        .iter()
-        .any(|name| assigned(lower, name).is_some())
+    [
+        "u_c", "uc", "u(y)", "ν_eff", "νeff", "v_eff", "veff", "u", "u_rel", "urel", "u95", "u_95",
+    ]
+    .iter()
+    .any(|name| assigned(lower, name).is_some())
         || lower.contains('±')
 }
 

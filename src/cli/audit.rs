@@ -1,14 +1,16 @@
 //! `gumption audit`: a claimed budget in, the slip out.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::form::Form;
 use super::{Outcome, output};
+use gumption::audit::claim::Claimed;
 use gumption::audit::read::{self, Mapping};
 use gumption::audit::{Audit, Verdict, audit, sheet};
 use gumption::document::Document;
-use gumption::fault::say;
+use gumption::fault::{Said, say};
 use gumption::files::Files;
+use gumption::files::write::{Output, Replacing};
 use gumption::report;
 
 #[derive(Debug, clap::Args)]
@@ -16,30 +18,31 @@ pub(super) struct Args {
     /// Spreadsheets (.xlsx, .xls, .ods), tables (.csv, .tsv, .md, .txt)
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
+    /// What the columns hold, in a small file; one that does not exist is written, to be mended
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
     #[command(flatten)]
     form: Form,
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
+    let (mapping, wanted) = match Map::of(args.map.as_deref()) {
+        Ok(Map::Read(mapping)) => (mapping, None),
+        Ok(Map::Wanted(path)) => (Mapping::default(), Some(path)),
+        Err(complaint) => return output::complain(complaint),
+    };
     let mut outcome = Outcome::Done;
+    let mut understood = Vec::new();
     let mut documents = Vec::new();
     for path in &args.files {
         let name = path.display().to_string();
-        let grids = match Files::Disk.read(path) {
-            Ok(bytes) => sheet::grids(&name, &bytes),
-            Err(error) => {
-                outcome = outcome.max(output::complain(say!("cannot read {name}: {error}")));
+        let claims = match claims(path, &mapping) {
+            Ok(claims) => claims,
+            Err(complaint) => {
+                outcome = outcome.max(output::complain(complaint));
                 continue;
             }
         };
-        let grids = match grids {
-            Ok(grids) => grids,
-            Err(sheet::Unreadable(why)) => {
-                outcome = outcome.max(output::complain(say!("cannot read {name}: {why}")));
-                continue;
-            }
-        };
-        let claims = read::budgets(&grids, &Mapping::default());
         let audits: Vec<Audit<'_>> = claims.iter().map(audit).collect();
         if audits.is_empty() {
             outcome = outcome.max(output::complain(say!(
@@ -51,11 +54,51 @@ pub(super) fn run(args: &Args) -> Outcome {
             args.form
                 .compose(|language| report::audit(&name, &audits, language)),
         );
+        understood.extend(claims.iter().cloned());
+    }
+    if let Some(path) = wanted {
+        let content = Mapping::template(&understood).into_bytes();
+        let map = [Output { path, content }];
+        outcome = outcome.max(output::written(&map, Replacing::Nothing, args.form.language()));
     }
     match Document::together(documents) {
         Some(document) => outcome.max(args.form.write(&document)),
         None => outcome,
     }
+}
+
+/// What the user says of the columns.
+enum Map {
+    /// What he said, or nothing.
+    Read(Mapping),
+    /// A file that is to be written.
+    Wanted(PathBuf),
+}
+
+impl Map {
+    fn of(path: Option<&Path>) -> Result<Map, Said> {
+        let Some(path) = path else {
+            return Ok(Map::Read(Mapping::default()));
+        };
+        let name = path.display();
+        if !path.exists() {
+            return Ok(Map::Wanted(path.into()));
+        }
+        let bytes = Files::Disk.read(path);
+        let bytes = bytes.map_err(|error| say!("cannot read {name}: {error}"))?;
+        let mapping = Mapping::parse(&String::from_utf8_lossy(&bytes));
+        mapping.map(Map::Read).map_err(|why| say!("{name}: {why}"))
+    }
+}
+
+/// The budgets of a file.
+pub(super) fn claims(path: &Path, mapping: &Mapping) -> Result<Vec<Claimed>, Said> {
+    let name = path.display().to_string();
+    let bytes = Files::Disk.read(path);
+    let bytes = bytes.map_err(|error| say!("cannot read {name}: {error}"))?;
+    let grids = sheet::grids(&name, &bytes);
+    let grids = grids.map_err(|sheet::Unreadable(why)| say!("cannot read {name}: {why}"))?;
+    Ok(read::budgets(&grids, mapping))
 }
 
 /// A sound claim is 0; one that departs, whether that changes the result or not, is 1.

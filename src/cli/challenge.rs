@@ -1,8 +1,9 @@
-//! `gumption challenge`: a sealed case to diagnose.
+//! `gumption challenge`: a sealed case to diagnose, or sealed budgets to audit.
 
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use gumption::challenge::budget::sealed_sheets;
 use gumption::challenge::{
     Bench, Class, Further, NoiseKnowledge, Request, Scenario, challenge, seal,
 };
@@ -38,6 +39,12 @@ pub(super) struct Args {
     /// What is measured after the calibration: again, reversed, "mount=90", "head between" …
     #[arg(long, value_name = "WHAT", requires = "seed")]
     further: Option<Further>,
+    /// Claimed budgets with concealed slips, as spreadsheets, instead of a recording
+    #[arg(long, conflicts_with_all = ["rig", "class", "scenario", "noise", "further", "list"])]
+    audit: bool,
+    /// So many budgets
+    #[arg(long, value_name = "N", requires = "audit", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    count: u64,
     /// Print the names of all scenarios of rigs, and of all instruments
     #[arg(long, conflicts_with_all = ["seed", "out", "rig", "class", "scenario", "noise", "further"])]
     list: bool,
@@ -79,6 +86,10 @@ pub(super) fn run(args: &Args) -> Outcome {
         return output::print(&(names.join("\n") + "\n"));
     };
     let entropy = entropy();
+    if args.audit {
+        let sealed = sealed_sheets(args.seed.unwrap_or(entropy), entropy, args.count);
+        return write(out, sealed.files, &sealed.truth_text);
+    }
     let request = Request {
         seed: args.seed.unwrap_or(entropy),
         entropy,
@@ -88,7 +99,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         noise: args.noise,
         further: args.further,
     };
-    write(out, &request)
+    one_case(out, &request)
 }
 
 /// Nanoseconds and process number: enough that the truth cannot be found by trying seeds.
@@ -99,7 +110,7 @@ fn entropy() -> u64 {
     now.rotate_left(20) ^ u64::from(std::process::id())
 }
 
-fn write(out: &Path, request: &Request) -> Outcome {
+fn one_case(out: &Path, request: &Request) -> Outcome {
     let case = challenge(request);
     let rig = &case.truth.bench;
     let can = |what: &Further| rig.parse().is_ok_and(|rig| what.is_possible(rig));
@@ -108,6 +119,17 @@ fn write(out: &Path, request: &Request) -> Outcome {
             "this case is a calibration on the rig {rig}, which cannot do `{further}`"
         ));
     }
+    let files = case.files.into_iter();
+    let files = files.map(|file| (file.name.to_string(), file.text.into_bytes()));
+    write(out, files, &case.truth_text)
+}
+
+/// Writes what is handed out and what is kept.
+fn write(
+    out: &Path,
+    files: impl IntoIterator<Item = (String, Vec<u8>)>,
+    truth_text: &str,
+) -> Outcome {
     let handed_out = out.join("case");
     let truth_path = out.join("truth.json");
     if truth_path.exists() {
@@ -116,24 +138,22 @@ fn write(out: &Path, request: &Request) -> Outcome {
             truth_path.display()
         ));
     }
-    let files = case.files.into_iter();
-    let files = files.map(|file| (file.name.to_string(), file.text.into_bytes()));
     let mut files = match output::in_folder(&handed_out, files) {
         Ok(files) => files,
         Err(complaint) => return output::complain(complaint),
     };
     files.push(Output {
         path: truth_path.clone(),
-        content: case.truth_text.clone().into_bytes(),
+        content: truth_text.as_bytes().to_vec(),
     });
     let written = output::written(&files, Replacing::Nothing, Language::English);
     if written != Outcome::Done {
         return written;
     }
     output::print(&*harmless(&format!(
-        "To hand out: {}\nTo keep:     {}\nSHA-256 of the truth, which the experiment states too:\n{}\n",
+        "To hand out: {}\nTo keep:     {}\nSHA-256 of the truth, which is handed out too:\n{}\n",
         handed_out.display(),
         truth_path.display(),
-        seal(&case.truth_text)
+        seal(truth_text)
     )))
 }

@@ -47,17 +47,19 @@ enum Section {
     Functions,
     Profiles,
     Slips,
+    Rules,
     Keys,
     Errors,
 }
 
 impl Section {
-    const ALL: [Section; 7] = [
+    const ALL: [Section; 8] = [
         Section::Concepts,
         Section::Distributions,
         Section::Functions,
         Section::Profiles,
         Section::Slips,
+        Section::Rules,
         Section::Keys,
         Section::Errors,
     ];
@@ -70,6 +72,7 @@ impl Section {
             Section::Functions => "functions",
             Section::Profiles => "profiles",
             Section::Slips => "slips",
+            Section::Rules => "rules",
             Section::Keys => "keys",
             Section::Errors => "errors",
         }
@@ -82,6 +85,7 @@ impl Section {
             Section::Functions => say!("Functions of the model language"),
             Section::Profiles => say!("Profiles"),
             Section::Slips => say!("Slips that an audit can name"),
+            Section::Rules => say!("Rules that an audit checks"),
             Section::Keys => say!("Keys of a budget file"),
             Section::Errors => say!("Error codes"),
         }
@@ -89,7 +93,10 @@ impl Section {
 
     /// Whether there are too many topics for the overview to say what each one is.
     fn is_long(self) -> bool {
-        matches!(self, Section::Slips | Section::Keys | Section::Errors)
+        matches!(
+            self,
+            Section::Slips | Section::Rules | Section::Keys | Section::Errors
+        )
     }
 }
 
@@ -336,6 +343,13 @@ fn topics(lang: Language) -> Vec<Topic> {
             }
         },
     }));
+    topics.extend(audit::rules::RULES.iter().map(|rule| Topic {
+        section: Section::Rules,
+        name: format!("rule-{}", rule.number),
+        aliases: vec![rule.number.to_string(), format!("rule {}", rule.number)],
+        title: lang.pick(rule.en, rule.zh).to_string(),
+        text: rule_text(rule, lang),
+    }));
     topics.extend(keys::topics(lang));
     topics.extend(codes().map(|code| Topic {
         section: Section::Errors,
@@ -348,6 +362,26 @@ fn topics(lang: Language) -> Vec<Topic> {
         },
     }));
     topics
+}
+
+/// Source, weight and what speaks for the other side.
+fn rule_text(rule: &audit::rules::Rule, lang: Language) -> String {
+    let weight = rule.weight.said();
+    let mut text = say!("{weight}; {}.", rule.clause).in_language(lang);
+    let fine = lang.pick(rule.fine_en, rule.fine_zh);
+    text += "\n\n";
+    text += &say!("Why it may be right: {fine}.").in_language(lang);
+    if !rule.is_seen() {
+        text += "\n\n";
+        text += &say!(
+            "No sheet shows it: it needs readings, dates or results that a budget does not hold."
+        )
+        .in_language(lang);
+    }
+    match lang {
+        Language::English => format!("{}\n\n{text}", rule.zh),
+        Language::Chinese => text,
+    }
 }
 
 fn owned(words: &[&str]) -> Vec<String> {

@@ -13,6 +13,7 @@ mod evaluated;
 mod explain;
 mod form;
 mod grade;
+mod import;
 mod interrupt;
 mod language;
 mod new;
@@ -65,6 +66,8 @@ enum Command {
     Eval(eval::Args),
     /// Recompute a claimed budget from its sheet, and name the slip behind its figures
     Audit(audit::Args),
+    /// Write a budget file from a laboratory's spreadsheet
+    Import(import::Args),
     /// Confront a model with a recording: do they agree, and what was left out
     Diagnose(diagnose::Args),
     /// Write the recording that a declared model and its claimed noise predict
@@ -97,6 +100,7 @@ pub(crate) fn run() -> ExitCode {
     let outcome = match command {
         Command::Eval(args) => eval::run(&args),
         Command::Audit(args) => audit::run(&args),
+        Command::Import(args) => import::run(&args),
         Command::Diagnose(args) => diagnose::run(&args),
         Command::Simulate(args) => simulate::run(&args),
         Command::Verify(args) => verify::run(&args),

@@ -35,6 +35,8 @@ enum Which {
     Grade,
     /// The output of `gumption audit --json`
     Audit,
+    /// The output of `gumption grade --audit --json`
+    SheetGrades,
     /// The output of `gumption verify --json`
     Verification,
 }
@@ -52,6 +54,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         Which::Allan => report::allan_schema(),
         Which::Grade => challenge::grade::grade_schema(),
         Which::Audit => report::audit_schema(),
+        Which::SheetGrades => challenge::budget::sheet_grades_schema(),
         Which::Verification => report::verification_schema(),
     };
     output::print(format!("{schema:#}\n"))

@@ -129,6 +129,7 @@ fn generated_pages_are_fresh() {
         "keys",
         "profiles",
         "slips",
+        "rules",
     ] {
         let path = docs.join("reference").join(section).with_extension("md");
         let page = gumption(&["explain", section, "--markdown"]);

@@ -312,6 +312,58 @@ fn audits() {
     }
 }
 
+/// Sealed budgets are audited and graded, by the program and against its own seal.
+#[test]
+fn grades_of_budgets() {
+    let folder = cases::folder("schemas-budgets");
+    let made = [
+        "challenge",
+        "--audit",
+        "--seed",
+        "11",
+        "--count",
+        "12",
+        "--out",
+        "sealed",
+    ];
+    let (good, said) = cases::gumption(&folder, &made);
+    assert!(good, "{said}");
+    let case = folder.join("sealed/case");
+    let mut arguments = vec!["audit".to_string()];
+    for entry in std::fs::read_dir(&case).expect("a folder") {
+        let name = entry.expect("a file").file_name();
+        let name = name.to_string_lossy();
+        if name.starts_with("budget-") {
+            arguments.push(format!("sealed/case/{name}"));
+        }
+    }
+    assert_eq!(arguments.len(), 13);
+    let output = common::program()
+        .current_dir(&folder)
+        .args(&arguments)
+        .arg("--json")
+        .output()
+        .expect("the program runs");
+    std::fs::write(folder.join("answers.json"), &output.stdout).expect("written");
+    let grades = cases::json(
+        &folder,
+        &["grade", "sealed", "--audit", "answers.json", "--json"],
+    );
+    Schema::of("sheet-grades").holds(&grades, "graded budgets");
+    let exact = grades["exact"].as_u64().expect("a number");
+    assert!(exact >= 9, "{grades}");
+    // A sheet that was changed is not graded.
+    let first = std::fs::read_dir(&case)
+        .expect("a folder")
+        .filter_map(Result::ok);
+    let first = first
+        .map(|entry| entry.path())
+        .find(|path| path.to_string_lossy().contains("budget-"));
+    std::fs::write(first.expect("a budget"), "changed").expect("written");
+    let (good, said) = cases::gumption(&folder, &["grade", "sealed", "--audit", "answers.json"]);
+    assert!(!good && said.contains("seal"), "{said}");
+}
+
 #[test]
 fn verifications() {
     let schema = Schema::of("verification");

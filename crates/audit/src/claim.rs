@@ -29,6 +29,8 @@ pub struct Claimed {
     pub reported_mean_of: Option<f64>,
     /// What notes know of quantities that no row has; rows of their own once the table is understood.
     pub absent: Vec<Row>,
+    /// Everything that the sheet says beside its tables.
+    pub words: String,
     /// Whether u_c is a number where the other computed cells are formulas.
     pub typed: bool,
     /// How the columns and cells were understood.
@@ -87,6 +89,12 @@ pub struct Row {
     pub not_counted: Option<String>,
     /// Whether only a note knows of it, and the table has no such row.
     pub is_absent: bool,
+    /// What the laboratory's own column calls the distribution.
+    pub distribution: String,
+    /// The share in the variance that the sheet prints.
+    pub share: Option<Printed>,
+    /// Whether the row is hidden in its workbook.
+    pub is_hidden: bool,
     /// Cells of the row that hold formulas.
     pub formulas: Vec<(Figure, String)>,
 }

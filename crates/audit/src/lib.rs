@@ -6,8 +6,10 @@
 
 pub mod calculate;
 pub mod claim;
+pub mod import;
 pub mod printed;
 pub mod read;
+pub mod rules;
 pub mod search;
 pub mod sheet;
 pub mod slips;

@@ -43,9 +43,9 @@ pub struct Printed {
     pub at: Place,
 }
 
-/// Beyond the digits that are printed, figures agree to this relative difference: what is left of a double after the
-/// few operations of a budget, and of constants written with nine digits.
-const DOUBLE: f64 = 1e-9;
+/// Beyond the digits that are printed, figures agree to this relative difference: sheets hold derivatives that were found
+/// as quotients of differences, and constants written with seven digits.
+const DOUBLE: f64 = 1e-6;
 
 impl Printed {
     /// A figure that is known exactly.
@@ -101,7 +101,7 @@ impl Printed {
 
     /// Half a unit in the last digit that says something: the zeros of `2800` may be no digits.
     pub fn half_of_digits(&self) -> f64 {
-        let zeros = self.half == 0.5 && self.digits > 0 && self.digits < 4;
+        let zeros = self.half == 0.5 && self.digits > 0;
         let place = libm::floor(libm::log10(self.value.abs())) + 1.0 - self.digits as f64;
         if zeros && place > 0.0 {
             0.5 * libm::exp10(place)

@@ -24,12 +24,14 @@
 //! | `truth` | the sealed truth |
 //! | `files` | the case as files |
 //! | `case` | a sealed case from a seed |
+//! | [`budget`] | claimed budgets in which slips are concealed, as sheets |
 //! | [`grade`](mod@grade) | a diagnosis held against the truth |
 //! | [`study`] | many cases, and the tables of the proof |
 
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+pub mod budget;
 mod case;
 mod climate;
 mod effect;

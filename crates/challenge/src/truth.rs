@@ -218,9 +218,9 @@ pub(super) fn salt(seed: u64, entropy: u64) -> String {
     format!("{:032x}", random.random::<u128>())
 }
 
-/// SHA-256 of a text, as 64 hexadecimal digits.
-pub fn seal(text: &str) -> String {
-    Sha256::digest(text.as_bytes())
+/// SHA-256 of a text or a file, as 64 hexadecimal digits.
+pub fn seal(content: impl AsRef<[u8]>) -> String {
+    Sha256::digest(content)
         .iter()
         .map(|byte| format!("{byte:02x}"))
         .collect()

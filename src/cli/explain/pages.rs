@@ -54,6 +54,12 @@ fn introduction(section: Section) -> Said {
              the rules that it breaks."
             )
         }
+        Section::Rules => {
+            say!(
+                "[The audit](../audit.md) holds every sheet against them. Below each stands the Chinese text, its weight, \
+                 its source, and why it may be right after all."
+            )
+        }
         Section::Keys => say!("[The budget file](../budget-file.md) shows every key by example."),
         Section::Errors => {
             say!(

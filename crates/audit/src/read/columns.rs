@@ -103,13 +103,13 @@ enum How {
 /// In this order: the first that fits decides. Words are compact ones.
 #[rustfmt::skip]
 const WORDS: &[(Role, How, &[&str])] = &[
-    (Role::Derived, How::Has, &["贡献率", "百分比", "占比", "权重", "比例", "%contribution", "contribution%", "contribution(%)", "contribution/%", "percentcontribution", "shareof", "significance", "相对贡献", "贡献/%", "贡献(%)", "index"]),
+    (Role::Derived, How::Has, &["贡献率", "百分比", "占比", "权重", "比例", "%contribution", "contribution%", "contribution(%)", "contribution/%", "percentcontribution", "share", "significance", "相对贡献", "贡献/%", "贡献(%)", "index"]),
     (Role::Derived, How::Is, &["share", "%", "percent", "weight", "h", "比重"]),
     (Role::Derived, How::Has, &["ui^2", "u^2", "(y)^2", "^2", "平方", "squared", "variance", "方差"]),
-    (Role::Contribution, How::Has, &["ui(y)", "uy(", "u(y)", "|ci|u", "|c|u", "ciu", "|ci|·u", "c.u", "cu(", "|ci|×u", "contributiontou", "uncertaintycontribution", "contribution", "贡献", "ci.u", "|u(y", "uncertaintyiny"]),
+    (Role::Contribution, How::Has, &["ui(y)", "uy(", "u(y)", "|ci|u", "|c|u", "ciu(", "|ci|·u", "cu(", "|ci|×u", "contributiontou", "uncertaintycontribution", "contribution", "贡献", "|u(y", "uncertaintyiny"]),
     (Role::Name, How::Has, &["来源", "source", "influence", "因素", "影响量", "description", "contributor", "origin", "cause"]),
     (Role::Contribution, How::Has, &["不确定度分量", "分量值", "componentofu", "uncertaintycomponentu"]),
-    (Role::Contribution, How::Is, &["分量", "cu", "c·u", "ui(y)", "|c|u", "component/y"]),
+    (Role::Contribution, How::Is, &["分量", "cu", "uc", "u.c", "c.u", "ci.u", "ciu", "c·u", "ui(y)", "|c|u", "component/y"]),
     (Role::Dof, How::Has, &["degreesoffreedom", "degreeoffreedom", "dof", "d.o.f", "自由度", "freedom", "νi", "νeff", "veff", "deg.fr", "d.f."]),
     (Role::Dof, How::Is, &["ν", "v", "vi", "df", "nu", "nui", "viorveff", "νioreff", "ν_i"]),
     (Role::C, How::Has, &["sensitivity", "sens.", "灵敏", "敏感系数", "传播系数", "partial", "∂", "coefficient", "传递系数"]),
@@ -151,7 +151,7 @@ fn of(head: &str) -> Option<Role> {
     // `X_i` is a name and `x_i` its estimate.
     match head.trim().replace(['_', ' '], "").as_str() {
         "" => return None,
-        "Xi" | "X" => return Some(Role::Symbol),
+        "Xi" | "X" | "量Xi" | "量X" | "输入量Xi" => return Some(Role::Symbol),
         "U" => return Some(Role::Used),
         _ => {}
     }

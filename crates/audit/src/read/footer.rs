@@ -38,7 +38,7 @@ impl Whole {
 const WORDS: &[(Whole, &[&str])] = &[
     (Whole::Freedom, &["effective degrees of freedom", "effective number of degrees", "effective dof", "有效自由度", "ν_eff", "νeff", "veff", "v_eff", "nu_eff", "ν eff", "deg. of freedom (eff", "ν_{eff}"]),
     (Whole::Factor, &["coverage factor", "包含因子", "覆盖因子", "扩展因子", "k-factor", "k ="]),
-    (Whole::Expanded, &["expanded uncertainty", "expanded measurement uncertainty", "扩展不确定度", "reported uncertainty", "u95", "u_95", "expanded unc", "总不确定度"]),
+    (Whole::Expanded, &["expanded uncertainty", "expanded measurement uncertainty", "扩展不确定度", "reported uncertainty", "u95", "u_95", "expanded unc", "总不确定度", "expanded"]),
     (Whole::Combined, &["combined standard uncertainty", "combined uncertainty", "合成标准不确定度", "合成不确定度", "standard uncertainty of the result", "standard uncertainty of y", "combined std", "combined standard", "root sum of squares", "rss", "combined", "total standard uncertainty"]),
     (Whole::Y, &["measurement result", "测量结果", "result", "结果", "measured value", "value of the measurand", "被测量值", "reported value", "被测量"]),
 ];
@@ -58,9 +58,11 @@ fn symbol(text: &str) -> Option<Whole> {
         return Some(Whole::Expanded);
     }
     match compact(name).as_str() {
-        "uc" | "uc(y)" | "u(y)" | "ucombined" | "uccombined" | "uy" | "u" => Some(Whole::Combined),
+        "uc" | "uc(y)" | "u(y)" | "ucombined" | "uccombined" | "uy" | "u" | "sum" | "rss" => {
+            Some(Whole::Combined)
+        }
         "νeff" | "veff" | "nueff" | "νeff(y)" => Some(Whole::Freedom),
-        "k" | "kp" | "k95" => Some(Whole::Factor),
+        "k" | "kp" | "k95" | "k(95%)" | "k(95.45%)" | "k(p)" => Some(Whole::Factor),
         "y" => Some(Whole::Y),
         _ => None,
     }
@@ -121,8 +123,15 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
     {
         take(Whole::Y, figure);
     }
-    // y = (50.001 ± 0.054) mm
-    if let Some((front, behind)) = text.split_once('±')
+    // y = (50.001 ± 0.054) mm; of an air temperature of (20 ± 5) °C it is not said that it is the result.
+    let claims = |front: &str| {
+        front.contains('=')
+            || has(
+                &text.to_lowercase(),
+                &["result", "结果", "uncertainty", "不确定度", "k =", "k="],
+            )
+    };
+    if let Some((front, behind)) = text.split_once('±').filter(|(front, _)| claims(front))
         && let Some((expanded, rest)) = leading(behind)
     {
         let unit = rest
@@ -131,10 +140,8 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
             .next()
             .unwrap_or_default()
             .trim_end_matches('.');
-        let number = front
-            .rsplit(['(', '=', ' '])
-            .find(|part| !part.trim().is_empty())
-            .and_then(leading);
+        // `(50.001 ± 0.054) mm` and `50.001 mm ± 0.054 mm`
+        let number = front.rsplit(['(', '=', ' ']).find_map(leading);
         if let Some((y, _)) = number {
             take(
                 Whole::Y,
@@ -164,21 +171,33 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
 
 /// Whether a line, in small letters, says what u_c, ν_eff or U are.
 pub fn states_figures(lower: &str) -> bool {
-    ["u_c", "uc", "u(y)", "ν_eff", "νeff", "v_eff", "veff", "u"]
-        .iter()
-        .any(|name| assigned(lower, name).is_some())
+    [
+        "u_c", "uc", "u(y)", "ν_eff", "νeff", "v_eff", "veff", "u", "u_rel", "urel", "u95", "u_95",
+    ]
+    .iter()
+    .any(|name| assigned(lower, name).is_some())
         || lower.contains('±')
 }
 
 /// Names that are followed by `=`, in their own case.
 const NAMES: &[(Whole, &[&str])] = &[
-    (Whole::Combined, &["u_c(y)", "uc(y)", "u_c", "uc", "u(y)"]),
+    (
+        Whole::Combined,
+        &[
+            "u_c(y)", "uc(y)", "u_c", "uc", "u(y)", "u_crel", "u_c,rel", "ucrel", "u_cr", "u_c_rel",
+        ],
+    ),
     (
         Whole::Freedom,
         &["ν_eff", "νeff", "v_eff", "veff", "nu_eff", "νₑff"],
     ),
     (Whole::Factor, &["k", "k_p", "k95", "k_95"]),
-    (Whole::Expanded, &["U", "U95", "U_95", "U(y)"]),
+    (
+        Whole::Expanded,
+        &[
+            "U", "U95", "U_95", "U(y)", "U_rel", "Urel", "U_95rel", "U_r",
+        ],
+    ),
     (Whole::Y, &["y"]),
 ];
 
@@ -236,10 +255,17 @@ fn assigned(text: &str, name: &str) -> Option<Printed> {
 /// Whether a text is a product and no sentence: `k·u_c`, and not `k·u_c with k`.
 fn is_formula(text: &str) -> bool {
     let word = |part: &str| {
-        part.chars().count() >= 3 && part.chars().all(|c| c.is_ascii_alphabetic()) && part != "sqrt"
+        part.chars().count() >= 3
+            && part.chars().all(|c| c.is_ascii_alphabetic())
+            && part != "sqrt"
+            && !super::columns::is_unit(part)
     };
     let chinese = |c: char| ('\u{4e00}'..='\u{9fff}').contains(&c);
-    !text.contains([',', ';'])
+    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+    let decimal =
+        |at: usize| digit(text[..at].chars().next_back()) && digit(text[at + 1..].chars().next());
+    !text.contains(';')
+        && text.match_indices(',').all(|(at, _)| decimal(at))
         && !text.contains(chinese)
         && !text
             .split(|c: char| !c.is_alphanumeric() && c != '_')

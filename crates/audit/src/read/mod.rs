@@ -5,6 +5,7 @@
 //! | `columns` | what a column is, by its head |
 //! | `table` | where a table stands, and its rows |
 //! | `kind` | what is known of a quantity, by the words for it |
+//! | `converter` | the step of a converter, from its bits and range |
 //! | `footer` | claimed figures of the whole |
 //! | `notes` | model, correlations, rules |
 //! | `mapping` | what a user says of a sheet |
@@ -13,6 +14,7 @@
 //! | `words` | words and figures in texts |
 
 mod columns;
+mod converter;
 mod footer;
 mod kind;
 mod mapping;
@@ -28,7 +30,7 @@ pub(crate) use words::{figure_after, has_symbol, symbol_at};
 
 use std::ops::Range;
 
-use crate::claim::{Claimed, Understood};
+use crate::claim::{Claimed, Row, Understood};
 
 use crate::printed::{Place, Printed};
 use crate::sheet::Grid;
@@ -229,6 +231,7 @@ fn budget(
     let own = own(&located);
     let all: Vec<&Line> = own.iter().chain(common).collect();
     place_lines(&all, &mut claimed);
+    let missing = missing_input(&claimed, &all);
     // Some sheets have their result in front of the table.
     if claimed.footer.u_c.is_none() && claimed.footer.expanded.is_none() {
         let above = bounds.start..located.head;
@@ -239,31 +242,66 @@ fn budget(
     }
     let full = located.is_evaluated();
     table::interpret(&raw, full, &mut claimed);
+    claimed.rows.extend(missing);
     claimed
 }
 
-/// Whether u_c stands as a number where other computed cells of the sheet hold formulas.
+/// Whether u_c stands as a number where U and the computed cells of the rows are formulas.
 fn typed(grid: &Grid, sheet: usize, claimed: &Claimed) -> bool {
-    let Some(u_c) = claimed
-        .footer
-        .u_c
-        .as_ref()
-        .filter(|u_c| u_c.at.sheet == sheet)
-    else {
-        return false;
+    let is_formula = |figure: &Option<Printed>| {
+        let at = figure.as_ref().map(|figure| figure.at);
+        at.filter(|at| at.sheet == sheet)
+            .map(|at| grid.cell(at.row, at.column).formula.is_some())
     };
-    let computed = claimed
-        .rows
-        .iter()
-        .filter(|row| !row.formulas.is_empty())
-        .count();
-    2 * computed > claimed.rows.len() && grid.cell(u_c.at.row, u_c.at.column).formula.is_none()
+    let rows = &claimed.rows;
+    let computed = rows.iter().filter(|row| !row.formulas.is_empty()).count();
+    2 * computed > rows.len()
+        && is_formula(&claimed.footer.u_c) == Some(false)
+        && is_formula(&claimed.footer.expanded) == Some(true)
+}
+
+/// An input of the model that no row has and no line gives a value to, where everything else of the model has its row.
+fn missing_input(claimed: &Claimed, all: &[&Line]) -> Option<Row> {
+    const FUNCTIONS: [&str; 12] = [
+        "sin", "cos", "tan", "exp", "ln", "log", "lg", "sqrt", "abs", "pi", "arctan", "atan",
+    ];
+    let model = claimed.model.as_deref()?;
+    let named = |row: &Row| words::has_symbol(model, &row.symbol);
+    if claimed.rows.len() < 2 || !claimed.rows.iter().all(named) {
+        return None;
+    }
+    let part = |c: char| c.is_alphanumeric() || c == '_' || c == '\'';
+    let is_name = |word: &&str| {
+        word.starts_with(char::is_alphabetic)
+            && !word.contains(|c: char| ('\u{4e00}'..='\u{9fff}').contains(&c))
+            && !FUNCTIONS.contains(word)
+    };
+    let known = |word: &&str| {
+        let of = |rows: &[Row]| rows.iter().any(|row| row.symbol == *word);
+        of(&claimed.rows) || of(&claimed.absent) || *word == claimed.measurand
+    };
+    let mut open: Vec<&str> = model.split(|c: char| !part(c)).filter(is_name).collect();
+    open.retain(|word| !known(word));
+    open.sort_unstable();
+    open.dedup();
+    let [symbol] = open.as_slice() else {
+        return None;
+    };
+    let given = |line: &&Line| notes::is_assigned(&line.text, symbol);
+    (!all.iter().any(given)).then(|| Row {
+        symbol: (*symbol).into(),
+        is_absent: true,
+        ..Row::default()
+    })
 }
 
 /// Lines beside a table: each to the whole, or to the row that it is about.
 fn place_lines(all: &[&Line], claimed: &mut Claimed) {
     let mut of_row = vec![String::new(); claimed.rows.len()];
-    for line in all {
+    let texts: Vec<&str> = all.iter().map(|line| line.text.as_str()).collect();
+    claimed.words = texts.join("\n");
+    let title = claimed.title.clone();
+    for line in all.iter().filter(|line| line.text != title) {
         place_line(line, claimed, &mut of_row);
     }
     for (row, words) in claimed.rows.iter_mut().zip(&of_row) {
@@ -360,7 +398,7 @@ fn symbols_of_model(raw: &mut [table::Raw], claimed: &mut Claimed) {
             row.name
                 .rsplit_once('(')
                 .and_then(|(_, tail)| tail.strip_suffix(')'))
-                .filter(|s| s.chars().count() <= 12 && !s.contains(' '))
+                .filter(|s| s.chars().count() <= 12 && !s.contains([' ', '=']))
         };
         let first = || {
             row.name
@@ -446,6 +484,48 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
     }
 }
 
+/// The row whose remark refers to the footnote that a line is: `[2] …`, `2) …`, `Note 2: …`, `注2：…`.
+fn footnote(text: &str, claimed: &Claimed) -> Option<usize> {
+    let lower = text.trim().to_lowercase();
+    let inner = ["note", "注", "[", "("]
+        .iter()
+        .fold(lower.as_str(), |rest, lead| {
+            rest.strip_prefix(lead).unwrap_or(rest).trim_start()
+        });
+    let digits = inner.bytes().take_while(u8::is_ascii_digit).count();
+    let marked = digits > 0
+        && digits <= 2
+        && inner[digits..]
+            .trim_start()
+            .starts_with([']', ')', ':', '.']);
+    let number = inner.get(..digits).filter(|_| marked)?;
+    let marks = [
+        format!("[{number}]"),
+        format!("{number})"),
+        format!("({number})"),
+        format!("note {number}"),
+        format!("注{number}"),
+    ];
+    let refers = |words: &str| {
+        let lower = words.to_lowercase();
+        let mut parts = lower.split(';').map(str::trim);
+        parts.any(|part| {
+            marks
+                .iter()
+                .any(|mark| part == mark || part.ends_with(&format!(" {mark}")))
+        })
+    };
+    let mut rows = claimed
+        .rows
+        .iter()
+        .enumerate()
+        .filter(|(_, row)| refers(&row.words));
+    match (rows.next(), rows.next()) {
+        (Some((row, _)), None) => Some(row),
+        _ => None,
+    }
+}
+
 /// The row that a line is about: the one whose symbol or name comes first in it, or whose number it gives.
 fn row_of_line(text: &str, lower: &str, claimed: &Claimed) -> Option<usize> {
     let numbered = words::count_after(lower, &["row", "note to row", "line", "第"])
@@ -455,6 +535,9 @@ fn row_of_line(text: &str, lower: &str, claimed: &Claimed) -> Option<usize> {
         && n as usize <= claimed.rows.len()
     {
         return Some(n as usize - 1);
+    }
+    if let Some(row) = footnote(text, claimed) {
+        return Some(row);
     }
     let symbol = (0..claimed.rows.len())
         .filter_map(|row| Some((words::symbol_at(text, &claimed.rows[row].symbol, 0)?, row)))

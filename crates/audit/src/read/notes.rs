@@ -41,10 +41,7 @@ pub fn note(text: &str, at: Place, claimed: &mut Claimed) -> Option<&'static str
         claimed.correlations.extend(correlation);
         return Some("correlation");
     }
-    if rule(&lower, claimed) {
-        return Some("rule for k");
-    }
-    let mut role = None;
+    let mut role = rule(&lower, claimed).then_some("rule for k");
     if has(
         &lower,
         &["round", "修约", "只进不舍", "进位", "舍入", "四舍"],
@@ -78,7 +75,7 @@ pub fn note(text: &str, at: Place, claimed: &mut Claimed) -> Option<&'static str
         } else if has(&lower, &nearest) {
             claimed.rounding = RoundingStated::Nearest;
         }
-        role = Some("rule for rounding");
+        role = role.or(Some("rule for rounding"));
     }
     role
 }
@@ -346,7 +343,7 @@ fn symbols(text: &str, symbol: &str) -> usize {
 }
 
 /// Whether a symbol is what the text gives a value to.
-fn is_assigned(text: &str, symbol: &str) -> bool {
+pub fn is_assigned(text: &str, symbol: &str) -> bool {
     symbol_at(text, symbol, 0).is_some_and(|at| {
         text[at + symbol.len()..]
             .trim_start()

@@ -32,6 +32,7 @@ pub fn upright(grid: &Grid) -> Grid {
     Grid {
         name: grid.name.clone(),
         rows: rows.collect(),
+        ..Grid::default()
     }
 }
 
@@ -68,8 +69,8 @@ mod tests {
     fn grid(rows: &[&str]) -> Grid {
         let cells = |row: &&str| row.split('|').map(Cell::new).collect();
         Grid {
-            name: String::new(),
             rows: rows.iter().map(cells).collect(),
+            ..Grid::default()
         }
     }
 

@@ -124,6 +124,13 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
     for _ in 0..8 {
         if let Some((figure, behind)) = leading(rest).filter(|_| !rest.starts_with("inf")) {
             let text = behind.trim_start();
+            // `U = 2 × 17.4 kPa = 35 kPa`: what the product comes to.
+            if text.starts_with(['×', '*', '·'])
+                && let Some((_, result)) = text.split_once('=')
+            {
+                rest = result.trim_start();
+                continue;
+            }
             let counted = starts_counted(text);
             let level = text.starts_with('%') && (figure.value - 95.0).abs() < 1.0
                 || figure.value == 99.0 && text.starts_with('%');
@@ -147,6 +154,33 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
         rest = rest[lead.len()..].trim_start();
     }
     None
+}
+
+/// The figure in front of one of the keys, with its unit: `0.38 K peak to peak`.
+pub fn figure_before(text: &str, keys: &[&str]) -> Option<Printed> {
+    let lower = text.to_lowercase();
+    let ends = keys.iter().filter_map(|key| find(&lower, key, 0));
+    ends.filter_map(|end| {
+        let clause = lower[..end].rfind([';', ',']).map_or(0, |at| at + 1);
+        let front = text.get(clause..end)?;
+        let figure = sole_figure(front)?;
+        let unit = front.trim_end().ends_with(figure.unit.as_str());
+        unit.then_some(figure)
+    })
+    .next()
+}
+
+/// A figure of the words; its half unit counts as that of a printed figure.
+pub fn in_text(text: &str, keys: &[&str]) -> Option<Printed> {
+    let of_clause = || {
+        let clauses = text.split(';').rev();
+        let said = clauses.filter(|clause| has(&clause.to_lowercase(), keys));
+        said.filter_map(sole_figure).next()
+    };
+    figure_after(text, keys)
+        .or_else(|| figure_before(text, keys))
+        .or_else(|| sole_figure(text))
+        .or_else(of_clause)
 }
 
 /// The only figure with a unit in a text, where there is one and no more.
@@ -185,7 +219,7 @@ pub fn sole_figure(text: &str) -> Option<Printed> {
 
 /// Limits above and below, each with its sign: `+0.03 / −0.01 mm`, `between −0.01 mm and +0.03 mm`.
 pub fn signed_pair(text: &str) -> Option<(Printed, Printed)> {
-    let mut signed: Vec<(bool, Printed)> = Vec::new();
+    let mut signed: Vec<(usize, bool, Printed)> = Vec::new();
     for (at, sign) in text.char_indices().filter(|(_, c)| matches!(c, '+' | '-')) {
         let before = text[..at].chars().next_back();
         let free = before.is_none_or(|c| " (/,;[:".contains(c) || !c.is_ascii());
@@ -199,17 +233,23 @@ pub fn signed_pair(text: &str) -> Option<(Printed, Printed)> {
             } else {
                 String::new()
             };
-            signed.push((sign == '+', Printed { unit, ..figure }));
+            signed.push((at, sign == '+', Printed { unit, ..figure }));
         }
     }
-    let [(first, a), (second, b)] = signed.as_slice() else {
-        return None;
-    };
-    let (mut plus, mut minus) = match (first, second) {
-        (true, false) => (a.clone(), b.clone()),
-        (false, true) => (b.clone(), a.clone()),
-        _ => return None,
-    };
+    /// The two stand together, with a unit, an `and` or a slash between them.
+    const APART: usize = 24;
+    let pairs = signed.windows(2).filter(|two| two[1].0 - two[0].0 <= APART);
+    let (mut plus, mut minus) = pairs
+        .filter(|two| two[0].1 != two[1].1)
+        .map(|two| {
+            let (first, second) = (two[0].2.clone(), two[1].2.clone());
+            if two[0].1 {
+                (first, second)
+            } else {
+                (second, first)
+            }
+        })
+        .next()?;
     if plus.unit.is_empty() {
         plus.unit.clone_from(&minus.unit);
     }
@@ -281,7 +321,8 @@ pub fn count_before(lower: &str, words: &[&str]) -> Option<f64> {
     None
 }
 
-fn trailing_count(front: &str) -> Option<f64> {
+/// The whole number at the end of a text.
+pub fn trailing_count(front: &str) -> Option<f64> {
     let front = front.trim_end();
     let digits = front.bytes().rev().take_while(u8::is_ascii_digit).count();
     if digits == 0 {

@@ -5,8 +5,6 @@ use crate::claim::RoundingStated;
 use crate::printed::Printed;
 use crate::slips::{Act, Change};
 
-use super::row::Broken;
-
 /// Which claimed figures a calculation gives; true where none is claimed.
 #[derive(Debug, Clone, Copy)]
 pub struct Checked {
@@ -20,6 +18,21 @@ pub struct Checked {
     pub expanded: bool,
     /// What the calculation gives without rounding.
     pub figures: Figures,
+    /// What it gives from the contributions as they are printed, where they are.
+    pub of_printed: Option<Figures>,
+}
+
+/// A figure of a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Broken {
+    /// Standard uncertainty.
+    U,
+    /// Sensitivity coefficient.
+    C,
+    /// Contribution.
+    Contribution,
+    /// Degrees of freedom.
+    Dof,
 }
 
 /// Where a claim departs.
@@ -99,7 +112,7 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         // Where u_c is the sum of squares, ν_eff may have been found before.
         let before = (calculation.combined == Combined::Squares).then(|| rooted.figures(&[], cmc));
         let mut all = of.iter().chain(&before);
-        all.any(|f| freedom(figure, f.nu_eff, calculation))
+        all.any(|f| freedom(figure, f.nu_eff, calculation, coarse))
     });
     let mut factors: Vec<f64> = of.iter().map(|f| f.k).collect();
     let claimed_k = footer.k.as_ref();
@@ -155,6 +168,7 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         k,
         expanded,
         figures: exact,
+        of_printed: of.get(1).copied(),
     }
 }
 
@@ -178,7 +192,7 @@ fn unexchanged(figure: &Printed, calculation: &Calculation, which: Printout) -> 
 
 /// Whether ν_eff, cut to a whole number or printed with decimals, is what is claimed. Beyond a hundred the fourth
 /// powers of rounded contributions decide nothing.
-fn freedom(figure: &Printed, nu: f64, calculation: &Calculation) -> bool {
+fn freedom(figure: &Printed, nu: f64, calculation: &Calculation, coarse: f64) -> bool {
     const MANY: f64 = 100.0;
     if nu.is_infinite() || figure.value.is_infinite() {
         // From a thousand on k has the two decimals of the normal distribution.
@@ -189,16 +203,19 @@ fn freedom(figure: &Printed, nu: f64, calculation: &Calculation) -> bool {
         Freedom::Up => libm::ceil(nu),
         _ => libm::floor(nu * (1.0 + 1e-9)).max(1.0),
     };
-    let raised = whole && figure.value == libm::ceil(nu);
+    // Coefficients are known as they are shown, and enter with their fourth powers.
+    let same = (nu - figure.value).abs() <= 4.0 * coarse * nu;
+    let raised = whole && !same && figure.value == libm::ceil(nu);
     let near = nu >= MANY
         && !raised
         && calculation.freedom != Freedom::Up
         && (nu - figure.value).abs() <= 0.01 * nu;
-    near || if whole {
-        figure.value == cut
-    } else {
-        figure.is_met_by(nu) && calculation.freedom != Freedom::Up || figure.value == cut
-    }
+    near || same
+        || if whole {
+            figure.value == cut
+        } else {
+            figure.is_met_by(nu) && calculation.freedom != Freedom::Up || figure.value == cut
+        }
 }
 
 /// Whether a factor is printed like this. A whole number has been rounded to two decimals before.

@@ -18,8 +18,7 @@ use crate::claim::Claimed;
 use crate::slips::{self, Act};
 
 use chance::Chance;
-pub use check::{Checked, Gap};
-pub use row::Broken;
+pub use check::{Broken, Checked, Gap};
 use row::Options;
 
 /// What was found about a claim.
@@ -35,8 +34,8 @@ pub struct Found<'a> {
     pub gaps: Vec<Gap>,
     /// Sets of slips that were tried.
     pub tried: usize,
-    /// How many of them would match figures as coarse as these by accident.
-    pub by_chance: f64,
+    /// The probability that figures as coarse as these, which have nothing to do with slips, would be matched by one.
+    pub accident: f64,
     /// Matches that were not named because they are likely to be chance.
     pub withheld: usize,
 }
@@ -58,11 +57,10 @@ const ODDS_OF_NO_NAME: f64 = 2.0;
 /// Explanations are named if they are no accident with this probability at least.
 const SURE: f64 = 0.95;
 
-/// The probability that a set of `slips` which matches is no accident, where `expected` would match by accident: at least
-/// one of them does with 1 − exp(−expected).
-fn no_accident(slips: usize, expected: f64) -> f64 {
+/// The probability that a set of `slips` which matches is no accident, where a claim that has nothing to do with slips is
+/// matched with the probability `accident`.
+fn no_accident(slips: usize, accident: f64) -> f64 {
     let odds = ODDS[slips.min(2)];
-    let accident = -libm::expm1(-expected);
     odds / (odds + ODDS_OF_NO_NAME * accident)
 }
 
@@ -112,7 +110,6 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
         .collect();
     let most = if free.len() > MOST_FOR_PAIRS { 1 } else { 2 };
     for extra in 0..=most {
-        search.chance = Chance::default();
         for (set, start) in &bases {
             // Slips come alone and in pairs; what the rows show is beyond doubt, whatever its number.
             if extra < 2 || set.is_empty() {
@@ -123,14 +120,14 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
             break;
         }
     }
-    let (tried, by_chance) = (search.tried, search.chance.expected());
+    let tried = search.tried;
+    let open = options.iter().map(|o| 1.0 - o.accident).product::<f64>();
+    let accident = 1.0 - open * (1.0 - search.chance.accident());
     let mut explanations = search.found;
-    let extra = explanations
-        .first()
-        .map_or(0, |e| e.acts.len().saturating_sub(bases[0].0.len()));
-    let unlikely = broken.is_empty() && (extra == 0 || no_accident(extra, by_chance) >= SURE);
-    let withheld = if unlikely { 0 } else { explanations.len() };
-    if !unlikely {
+    let slips = explanations.first().map_or(0, |e| e.acts.len());
+    let named = broken.is_empty() && no_accident(slips, accident) >= SURE;
+    let withheld = if named { 0 } else { explanations.len() };
+    if !named {
         explanations.clear();
     }
     rank(&case, &mut explanations);
@@ -150,7 +147,7 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
         explanations,
         gaps,
         tried,
-        by_chance,
+        accident,
         withheld,
         case,
     }
@@ -247,7 +244,7 @@ impl Search<'_, '_> {
             }
         }
         let checked = check::check(self.case, &calculation, &printed);
-        self.chance.count(self.case, &checked);
+        self.chance.count(self.case, &checked, !extra.is_empty());
         if checked.meets_all() {
             let acts = [set, extra].concat();
             self.found.push(Explanation { acts, calculation });

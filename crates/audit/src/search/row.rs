@@ -1,9 +1,12 @@
 //! Slips that the figures of a row show.
 
 use crate::calculate::{Case, Line};
-use crate::claim::Row;
+use crate::claim::{Row, Stated};
 use crate::printed::Printed;
 use crate::slips::{Act, Change, Group};
+
+use super::chance;
+use super::check::Broken;
 
 /// What the figures of a row say.
 #[derive(Debug, Clone)]
@@ -16,19 +19,8 @@ pub struct Options {
     pub contribution: Option<f64>,
     /// The figure that nothing explains.
     pub broken: Option<Broken>,
-}
-
-/// A figure of a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Broken {
-    /// Standard uncertainty.
-    U,
-    /// Sensitivity coefficient.
-    C,
-    /// Contribution.
-    Contribution,
-    /// Degrees of freedom.
-    Dof,
+    /// The probability that a figure which has nothing to do with slips would be explained, too.
+    pub accident: f64,
 }
 
 impl Options {
@@ -63,7 +55,11 @@ pub fn options(case: &Case<'_>, i: usize, acts: &[Act]) -> Options {
             .chain([None])
     };
     let mut sets: Vec<Vec<Act>> = Vec::new();
-    if fits(&[]) {
+    let unknown = row.is_absent && (row.stated == Stated::Nothing || case.unknown_slopes[i]);
+    if unknown {
+        // Nothing is known of it but that the model has it.
+        sets.push(own.clone());
+    } else if fits(&[]) {
         sets.push(Vec::new());
     } else {
         for u in of(Group::U) {
@@ -97,11 +93,53 @@ pub fn options(case: &Case<'_>, i: usize, acts: &[Act]) -> Options {
             || broken.is_none() && row.contribution.is_none() && act.group() == Group::C
     });
     let contribution = row.contribution.as_ref().map(|c| c.value.abs());
+    let explained = sets.first().is_some_and(|set| !set.is_empty());
+    let accident = if explained {
+        accident(row, right, &own)
+    } else {
+        0.0
+    };
     Options {
+        accident,
         room: room.map(|act| (act.slip.id, act.change)).collect(),
         contribution,
         broken,
         sets,
+    }
+}
+
+/// The probability that the first figure of a row that departs would be explained if it had nothing to do with slips.
+/// Where the ± and the divisor of the laboratory give the same figure, it has.
+fn accident(row: &Row, right: Line, own: &[Act]) -> f64 {
+    let worked = row.used.as_ref().zip(row.divisor.as_ref());
+    let worked = worked.map(|(used, divisor)| used.value / divisor.value);
+    let lines = |group: Group| {
+        let acts = own.iter().filter(move |act| act.group() == group);
+        acts.map(|act| changed(right, &[*act]))
+    };
+    let slack = |figure: &Printed| figure.half_of_digits() + 0.01 * figure.value;
+    match (mismatch(row, &right), &row.u, &row.contribution) {
+        (Some(Broken::U), Some(u), _) => {
+            if worked.is_some_and(|x| u.is_met_within(x, slack(u))) {
+                return 0.0;
+            }
+            chance::of_row(u, lines(Group::U).map(|line| line.u))
+        }
+        (Some(Broken::Contribution), _, Some(figure)) => {
+            let figure = Printed {
+                value: figure.value.abs(),
+                ..figure.clone()
+            };
+            let c = row.c.as_ref().map_or(right.c, |c| c.value) * right.to_y;
+            if row.u.is_none()
+                && worked.is_some_and(|x| figure.is_met_within((c * x).abs(), slack(&figure)))
+            {
+                return 0.0;
+            }
+            let all = lines(Group::U).chain(lines(Group::C));
+            chance::of_row(&figure, all.map(|line| line.contribution().abs()))
+        }
+        _ => 0.0,
     }
 }
 
@@ -127,10 +165,13 @@ fn mismatch(row: &Row, line: &Line) -> Option<Broken> {
         .as_ref()
         .map_or(0.0, |d| d.relative_half().min(0.01));
     let near = |figure: &Printed, x: f64, slack: f64| {
-        figure.is_met_within(
-            x.abs(),
-            figure.half_of_digits() + slack * figure.value.abs(),
-        )
+        // A bare 0 is nothing at all; 0.00 is what was rounded.
+        let half = if figure.value == 0.0 && figure.half >= 0.5 {
+            0.0
+        } else {
+            figure.half_of_digits()
+        };
+        figure.is_met_within(x.abs(), half + slack * figure.value.abs())
     };
     let counted = row.not_counted.is_none();
     if let Some(u) = row.u.as_ref().filter(|u| counted || u.value != 0.0) {
@@ -148,13 +189,21 @@ fn mismatch(row: &Row, line: &Line) -> Option<Broken> {
             return Some(Broken::U);
         }
     }
+    // A coefficient of one whole digit is no rounded one: 1 is not 0.5002.
+    let open = |c: &Printed| {
+        if c.half >= 0.5 && c.digits < 2 {
+            0.0
+        } else {
+            c.half
+        }
+    };
     // The derivative is exact; sheets round theirs.
     let sensitivity = |c: &Printed| {
         Printed {
             value: c.value.abs(),
             ..c.clone()
         }
-        .is_met_within(line.c.abs(), c.half + 1e-3 * line.c.abs())
+        .is_met_within(line.c.abs(), open(c) + 1e-3 * line.c.abs())
     };
     if row.c.as_ref().is_some_and(|c| !sensitivity(c)) {
         return Some(Broken::C);
@@ -215,19 +264,36 @@ pub fn surprise(case: &Case<'_>, act: &Act) -> u32 {
         "input-transposed" | "digits-transposed" => 5,
         "range-C" | "intermediates-rounded" => 3,
         "cert-k-2" | "triangle" | "counted-twice" => 2,
+        // Degrees of freedom from here on are not few (rule 39).
+        "k2-low-dof" if case.right.figures(&[], None).nu_eff >= 50.0 => 3,
         _ => 1,
     };
-    of_kind + 2 * u32::from(contradicted(case, act))
+    of_kind + unnatural(case, act) + 2 * u32::from(contradicted(case, act))
 }
 
-/// Whether the laboratory's own column of divisors shows another divisor than the slip would have.
+/// What is stated as ± is halved by mistake, what is stated as a width is doubled; the other way round is odd.
+fn unnatural(case: &Case<'_>, act: &Act) -> u32 {
+    let stated = act.row.map(|row| &case.claimed.rows[row].stated);
+    u32::from(matches!(
+        (act.slip.id, stated),
+        ("full-width", Some(Stated::Limits { .. }))
+            | (
+                "half-again",
+                Some(Stated::FullWidth { .. } | Stated::Step { .. })
+            )
+    ))
+}
+
+/// Whether the laboratory's own columns of ±, divisor and coefficient show other figures than the slip would have.
 fn contradicted(case: &Case<'_>, act: &Act) -> bool {
-    let Some(row) = act.row.map(|row| &case.claimed.rows[row]) else {
+    let Some(row) = act.row else {
         return false;
     };
-    let (Some(divisor), Some(used), Change::U(u)) = (&row.divisor, &row.used, act.change) else {
-        return false;
-    };
-    let by_columns = used.value / divisor.value;
-    (by_columns - u).abs() > 0.02 * u.abs()
+    let line = changed(case.right.lines[row], &[*act]);
+    let row = &case.claimed.rows[row];
+    let worked = row.used.as_ref().zip(row.divisor.as_ref());
+    let by_columns = worked.map(|(used, divisor)| used.value / divisor.value);
+    let apart = |a: f64, b: f64| (a.abs() - b.abs()).abs() > 0.02 * b.abs();
+    by_columns.is_some_and(|u| apart(u, line.u))
+        || row.c.as_ref().is_some_and(|c| apart(c.value, line.c))
 }

@@ -3,10 +3,14 @@
 //! | chapter | holds |
 //! |---|---|
 //! | `workbook` | `.xlsx`, `.xls`, `.ods`, with formulas beside their cached values |
+//! | `hidden` | which rows and columns of a workbook are hidden |
 //! | `text` | separated values, Markdown tables, plain text |
 
+mod hidden;
 mod text;
 mod workbook;
+
+use std::collections::BTreeSet;
 
 /// One sheet.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -15,6 +19,10 @@ pub struct Grid {
     pub name: String,
     /// Its rows, of different lengths.
     pub rows: Vec<Vec<Cell>>,
+    /// Columns that are hidden, from 0.
+    pub hidden_columns: BTreeSet<usize>,
+    /// Rows that are hidden, from 0.
+    pub hidden_rows: BTreeSet<usize>,
 }
 
 /// One cell.

@@ -19,6 +19,15 @@ pub(super) fn guessed(text: &str) -> Grid {
     if text.lines().filter(|line| is_markdown(line)).count() >= 2 {
         return markdown(text);
     }
+    // Strokes between the cells, without any at the edges.
+    if text
+        .lines()
+        .filter(|line| line.matches('|').count() >= 3)
+        .count()
+        >= 3
+    {
+        return separated(text, '|');
+    }
     // The way of parting lines that gives most of them one number of columns; a comma may be inside numbers and sentences,
     // so that others come first where they do as well.
     let widths = |part: &dyn Fn(&str) -> usize| {
@@ -33,8 +42,11 @@ pub(super) fn guessed(text: &str) -> Grid {
     let separators = ['\t', ';', '|', ','];
     let mut best = (widths(&|line| aligned_fields(line).len()), None);
     for separator in separators.into_iter().rev() {
+        if separator == ',' && is_punctuation(text) {
+            continue;
+        }
         let count = widths(&|line| fields(line, separator).len());
-        if count > 0 && count >= best.0 {
+        if count > 1 && count >= best.0 {
             best = (count, Some(separator));
         }
     }
@@ -42,6 +54,29 @@ pub(super) fn guessed(text: &str) -> Grid {
         Some(separator) => separated(text, separator),
         None => aligned(text),
     }
+}
+
+/// Whether commas are those of sentences and numbers, and part no fields: some have a blank behind them and some have
+/// none, or all stand between digits.
+fn is_punctuation(text: &str) -> bool {
+    let (mut all, mut blank, mut inside) = (0_usize, 0_usize, 0_usize);
+    for line in text.lines() {
+        let mut quoted = false;
+        let mut before = ' ';
+        let mut chars = line.chars().peekable();
+        while let Some(c) = chars.next() {
+            quoted ^= c == '"';
+            if c == ',' && !quoted {
+                let next = chars.peek().copied().unwrap_or(',');
+                all += 1;
+                blank += usize::from(next == ' ');
+                inside += usize::from(before.is_ascii_digit() && next.is_ascii_digit());
+            }
+            before = c;
+        }
+    }
+    let mixed = 10 * blank > all && blank < all;
+    mixed || all > 0 && inside + blank == all && blank < all
 }
 
 fn is_markdown(line: &str) -> bool {
@@ -59,12 +94,19 @@ pub(super) fn separated(text: &str, separator: char) -> Grid {
         }
         open.push_str(line);
         if open.matches('"').count().is_multiple_of(2) {
-            rows.push(
+            // What stands below a table of strokes is parted by blanks.
+            let parted = if separator == '|' && !open.contains('|') {
+                aligned_fields(&open)
+                    .into_iter()
+                    .map(str::to_string)
+                    .collect()
+            } else {
                 fields(&open, separator)
-                    .iter()
-                    .map(|field| Cell::new(&field.replace('\n', " ")))
-                    .collect(),
-            );
+            };
+            let cells = parted
+                .iter()
+                .map(|field| Cell::new(&field.replace('\n', " ")));
+            rows.push(cells.collect());
             open.clear();
         }
     }
@@ -75,8 +117,8 @@ pub(super) fn separated(text: &str, separator: char) -> Grid {
         );
     }
     Grid {
-        name: String::new(),
         rows,
+        ..Grid::default()
     }
 }
 
@@ -131,8 +173,8 @@ pub(super) fn markdown(text: &str) -> Grid {
         }
     }
     Grid {
-        name: String::new(),
         rows,
+        ..Grid::default()
     }
 }
 
@@ -160,8 +202,8 @@ fn aligned(text: &str) -> Grid {
             .collect()
     };
     Grid {
-        name: String::new(),
         rows: text.lines().map(row).collect(),
+        ..Grid::default()
     }
 }
 

@@ -13,14 +13,18 @@ pub(super) fn grids(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
     let mut book = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(|e| unreadable(&e))?;
     let mut sheets = book.sheets_metadata().to_vec();
     sheets.sort_by_key(|sheet| sheet.visible != SheetVisible::Visible);
+    let mut hidden = super::hidden::hidden(bytes);
     let mut grids = Vec::new();
     for sheet in sheets {
         let Ok(values) = book.worksheet_range(&sheet.name) else {
             continue;
         };
+        let hidden = hidden.remove(&sheet.name).unwrap_or_default();
         let mut grid = Grid {
             name: sheet.name.clone(),
-            rows: Vec::new(),
+            hidden_columns: hidden.columns,
+            hidden_rows: hidden.rows,
+            ..Grid::default()
         };
         let (top, left) = values.start().unwrap_or((0, 0));
         for (row, column, value) in values.used_cells() {

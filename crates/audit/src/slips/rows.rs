@@ -62,7 +62,7 @@ fn any(_: Shape) -> bool {
 
 fn deviation(row: &Row, wrong: impl Fn(f64, Option<f64>, f64) -> Vec<f64>) -> Vec<f64> {
     match &row.stated {
-        Stated::Deviation { s, n, m, .. } => wrong(s.value, *n, *m),
+        Stated::Deviation { s, n, m, .. } if s.value > 0.0 => wrong(s.value, *n, *m),
         _ => Vec::new(),
     }
 }
@@ -228,7 +228,9 @@ pub(super) const SLIPS: &[Slip] = &[
             let c = case.right.lines[i].c;
             let text = case.claimed.model.as_deref().unwrap_or_default();
             let angle = ["°", "deg", "度", "rad"].iter().any(|unit| row.unit.contains(unit)) && !row.unit.contains('C')
-                || ["sin", "cos", "tan"].iter().any(|function| text.contains(function));
+                || ["sin(", "cos(", "tan("].iter().any(|function| {
+                    text.split(function).skip(1).any(|rest| crate::read::has_symbol(rest.split(')').next().unwrap_or_default(), &row.symbol))
+                });
             if angle { vec![Change::C(c * radian), Change::C(c / radian)] } else { Vec::new() }
         }) },
     Slip { id: "c-wrong", rule: "6", weight: Warning,

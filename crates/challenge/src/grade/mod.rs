@@ -38,6 +38,8 @@ pub enum Refused {
     Changed(String),
     /// The diagnosis is not in a form that is known.
     NoDiagnosis(String),
+    /// The answers about budgets are not in a form that is known.
+    NoAnswer(String),
 }
 
 /// Reads the truth of a folder that `challenge` wrote, and makes sure that neither it nor the case was

@@ -51,14 +51,32 @@ record! {
         gaps: Vec<String>,
         /// Combinations that were tried.
         tried: usize,
-        /// How many would match by accident.
-        expected_by_chance: Number,
+        /// The probability that figures as coarse as these, which have nothing to do with slips, would be matched.
+        accident: Number,
+        /// What is against a rule.
+        findings: Vec<FindingJson>,
         /// Rows as they were understood.
         rows: Vec<RowJson>,
         /// Cells as they were understood.
         understood: Vec<CellJson>,
         /// Lines that were not used.
         unplaced: Vec<CellJson>,
+    }
+
+    /// Something that is against a rule.
+    FindingJson {
+        /// Number of the rule.
+        rule: usize,
+        /// Its name.
+        name: &'static str,
+        /// `error`, `warning` or `information`.
+        weight: &'static str,
+        /// The row, where it is about one.
+        row: Option<String>,
+        /// The numbers.
+        numbers: String,
+        /// U if this alone were corrected, where that is known.
+        corrected: Option<Number>,
     }
 
     /// One row.
@@ -159,7 +177,18 @@ fn budget(audit: &Audit<'_>) -> BudgetJson {
             .map(|gap| words::gap(audit, gap, Language::English))
             .collect(),
         tried: found.tried,
-        expected_by_chance: Number(found.by_chance),
+        accident: Number(found.accident),
+        findings: gumption_audit::rules::findings(found)
+            .iter()
+            .map(|finding| FindingJson {
+                rule: usize::from(finding.rule),
+                name: finding.rule().id,
+                weight: finding.rule().weight.name(),
+                row: finding.row.map(|row| claimed.rows[row].label().to_string()),
+                numbers: finding.numbers.clone(),
+                corrected: finding.corrected.map(Number),
+            })
+            .collect(),
         rows: claimed
             .rows
             .iter()

@@ -5,6 +5,7 @@ mod words;
 
 use gumption_audit::claim::Claimed;
 use gumption_audit::printed::Printed;
+use gumption_audit::rules;
 use gumption_audit::search::{Explanation, Gap};
 use gumption_audit::{Audit, Verdict};
 use gumption_format::document::{Block, Cell, ColumnKind, Document, KeyFigure, Table};
@@ -66,6 +67,7 @@ fn one(file: &str, audit: &Audit<'_>, language: Language) -> Vec<Block> {
                 .collect(),
         ));
     }
+    blocks.extend(findings(audit, language));
     blocks.push(Block::Section(pick(
         "Recomputed from what is stated",
         "由所述信息重新计算",
@@ -243,6 +245,49 @@ fn rows(audit: &Audit<'_>, language: Language) -> Table {
         ]);
     }
     table.without_empty_columns()
+}
+
+/// What is against a rule, with its numbers and what U would be.
+fn findings(audit: &Audit<'_>, language: Language) -> Vec<Block> {
+    let claimed = audit.found.case.claimed;
+    let all = rules::findings(&audit.found);
+    if all.is_empty() {
+        return Vec::new();
+    }
+    let mut table = Table::new([
+        (language.pick("rule", "规则"), ColumnKind::Numbers),
+        (language.pick("weight", "程度"), ColumnKind::Names),
+        (language.pick("finding", "发现"), ColumnKind::Wrapped),
+        (language.pick("where", "位置"), ColumnKind::Words),
+        (language.pick("numbers", "数值"), ColumnKind::Words),
+        (
+            language.pick("U corrected", "改正后 U"),
+            ColumnKind::Numbers,
+        ),
+        (language.pick("source", "依据"), ColumnKind::Words),
+    ]);
+    for finding in &all {
+        let rule = finding.rule();
+        let place = finding.row.map_or(String::new(), |row| {
+            words::place(&claimed.rows[row], row, language)
+        });
+        table.push(vec![
+            rule.number.to_string().into(),
+            rule.weight.said().in_language(language).into(),
+            language.pick(rule.en, rule.zh).into(),
+            place.into(),
+            finding.numbers.clone().into(),
+            finding
+                .corrected
+                .map_or(String::new(), |u| significant(u, 3))
+                .into(),
+            rule.clause.into(),
+        ]);
+    }
+    vec![
+        Block::Section(language.pick("Findings", "检查发现").to_string()),
+        Block::Table(table.without_empty_columns()),
+    ]
 }
 
 fn understood(claimed: &Claimed, language: Language) -> Table {

@@ -79,15 +79,15 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
                 1 => "1 combination was tried".to_string(),
                 tried => format!("{tried} combinations were tried"),
             };
-            let expected = significant(found.by_chance, 2);
+            let accident = significant(100.0 * found.accident, 2);
             format!(
-                "{tried}; {expected} of them would match figures as coarse as these by accident."
+                "{tried}; figures as coarse as these that have nothing to do with slips would be matched with a probability of {accident} %."
             )
         }
         Language::Chinese => format!(
-            "共试 {} 种组合；按声称值的位数，预计有 {} 种会偶然相符。",
+            "共试 {} 种组合；与差错无关、位数相同的数值偶然相符的概率为 {} %。",
             found.tried,
-            significant(found.by_chance, 2)
+            significant(100.0 * found.accident, 2)
         ),
     };
     match audit.verdict {
@@ -118,8 +118,8 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
             }];
             if found.withheld > 0 {
                 sentences.push(match language {
-                    Language::English => format!("{} combinations of slips match, but {} would by accident: none is named.", found.withheld, significant(found.by_chance, 2)),
-                    Language::Chinese => format!("有 {} 种差错组合相符，但预计偶然相符的就有 {} 种，故不作判定。", found.withheld, significant(found.by_chance, 2)),
+                    Language::English => format!("{} combinations of slips match, but figures as coarse as these would be matched by accident with a probability of {} %: none is named.", found.withheld, significant(100.0 * found.accident, 2)),
+                    Language::Chinese => format!("有 {} 种差错组合相符，但位数如此之少的数值偶然相符的概率为 {} %，故不作判定。", found.withheld, significant(100.0 * found.accident, 2)),
                 });
             }
             sentences

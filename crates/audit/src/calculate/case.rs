@@ -1,0 +1,207 @@
+//! What is known, computed once: the right calculation of a claim.
+
+use crate::claim::{Claimed, Coverage, Row, Stated};
+use crate::units;
+
+use super::calculation::{Calculation, Combined, Factor, Freedom, Line, Report};
+use super::model::{differentiate, unit_of_y};
+
+/// What is known, computed once.
+#[derive(Debug, Clone)]
+pub struct Case<'a> {
+    /// The claim.
+    pub claimed: &'a Claimed,
+    /// The right calculation.
+    pub right: Calculation,
+    /// Derivatives of the model by the rows, where there is a model that is understood.
+    pub derivatives: Option<Vec<f64>>,
+    /// Rows whose derivative depends on estimates that the sheet does not state.
+    pub unknown_slopes: Vec<bool>,
+    /// Whether the model holds with the units of its estimates.
+    pub by_units: bool,
+    /// The value of the model at the estimates.
+    pub y: Option<f64>,
+    /// How the estimates enter the model, text by text: why it was not understood.
+    pub trouble: Option<String>,
+}
+
+impl<'a> Case<'a> {
+    /// The right calculation of what is claimed.
+    pub fn of(claimed: &'a Claimed) -> Case<'a> {
+        let mut unknown_slopes = vec![false; claimed.rows.len()];
+        let mut by_units = false;
+        let (derivatives, y, trouble) = match differentiate(claimed) {
+            Ok(Some(known)) => {
+                unknown_slopes = known.unknown;
+                by_units = known.by_units;
+                (Some(known.slopes), known.y, None)
+            }
+            Ok(None) => (None, None, None),
+            Err(trouble) => (None, None, Some(trouble)),
+        };
+        let lines = claimed
+            .rows
+            .iter()
+            .enumerate()
+            .map(|(i, row)| line(claimed, row, derivatives.as_ref().map(|d| d[i])));
+        let right = Calculation {
+            lines: lines.collect(),
+            correlations: claimed.correlations.clone(),
+            combined: Combined::Root,
+            freedom: Freedom::Welch,
+            factor: factors(claimed)[0],
+            report: Report::default(),
+        };
+        Case {
+            claimed,
+            right,
+            derivatives,
+            unknown_slopes,
+            by_units,
+            y,
+            trouble,
+        }
+    }
+}
+
+/// The rules for k that the sheet allows; the first is the usual one.
+pub fn factors(claimed: &Claimed) -> Vec<Factor> {
+    match claimed.coverage {
+        Coverage::Fixed(k) => vec![Factor::Fixed(k)],
+        Coverage::StudentT(p) => vec![Factor::StudentT(p)],
+        Coverage::Rectangle => vec![Factor::Rectangle],
+        Coverage::Unstated => {
+            let mut rules = vec![
+                Factor::Fixed(2.0),
+                Factor::StudentT(0.95),
+                Factor::StudentT(0.9545),
+            ];
+            let usual = claimed
+                .footer
+                .k
+                .as_ref()
+                .map(|k| k.value)
+                .filter(|k| [1.96, 3.0, 2.58, 1.65].contains(k));
+            if let Some(k) = usual {
+                rules.insert(0, Factor::Fixed(k));
+            }
+            rules
+        }
+    }
+}
+
+fn line(claimed: &Claimed, row: &Row, derivative: Option<f64>) -> Line {
+    let (u, stated_dof) = row.stated.standard().unwrap_or((0.0, f64::INFINITY));
+    let mut u = u * row.relative_factor();
+    if u == 0.0
+        && let Some(step) = silent_step(row)
+    {
+        u = step / libm::sqrt(12.0);
+    }
+    if row.stated == Stated::Nothing {
+        // Only the contribution is stated.
+        u = row.contribution.as_ref().map_or(0.0, |p| p.value.abs());
+    }
+    let to_y = to_y(claimed, row, derivative.is_some());
+    let mut c = derivative
+        .or(row.c.as_ref().map(|c| c.value))
+        .unwrap_or(1.0);
+    let mut rest = to_y;
+    // A sheet may have its coefficients for contributions in another unit than the result, and say it or not.
+    if let (Some(derivative), Some(claimed_c)) = (derivative, &row.c)
+        && (to_y - 1.0).abs() > 1e-12
+        && far(claimed_c.value, derivative * to_y) < far(claimed_c.value, derivative)
+    {
+        c = derivative * to_y;
+        rest = 1.0;
+    }
+    let given = row
+        .dof
+        .as_ref()
+        .map(|dof| dof.value)
+        .filter(|dof| *dof > 0.0);
+    let open = !row.stated.is_type_a()
+        || matches!(
+            row.stated,
+            Stated::Deviation {
+                n: None,
+                pooled: None,
+                ..
+            }
+        );
+    let dof = if open {
+        given.unwrap_or(stated_dof)
+    } else {
+        stated_dof
+    };
+    Line {
+        u,
+        c,
+        to_y: rest,
+        dof,
+        counted: row.not_counted.is_none(),
+        typed: None,
+    }
+}
+
+/// The step of an indication whose readings are all equal.
+fn silent_step(row: &Row) -> Option<f64> {
+    let is_zero = matches!(&row.stated, Stated::Deviation { s, .. } if s.value == 0.0);
+    let keys = ["step", "resolution", "分辨力", "步进", "分度值"];
+    is_zero.then(|| crate::read::figure_after(&row.words, &keys).map(|step| step.value))?
+}
+
+/// From the unit of c·u to that of the result, where units are written that say so.
+fn to_y(claimed: &Claimed, row: &Row, from_model: bool) -> f64 {
+    let y_unit = claimed.unit.as_str();
+    if from_model {
+        // The derivative is in the units of the estimates.
+        let of = |from: &str, to: &str| {
+            if from.is_empty() || to.is_empty() {
+                1.0
+            } else {
+                units::factor(from, to).unwrap_or(1.0)
+            }
+        };
+        let value = row.value.as_ref().map_or("", |v| v.unit.as_str());
+        let bare_c = row
+            .c
+            .as_ref()
+            .is_none_or(|c| units::parse(&c.unit).is_none());
+        // A zero without a unit, among estimates in the unit of the result.
+        if value.is_empty()
+            && bare_c
+            && let Some(factor) = units::factor(&row.unit, y_unit)
+        {
+            return factor;
+        }
+        return of(&row.unit, value) * of(unit_of_y(claimed), y_unit);
+    }
+    if row.unit.is_empty() || y_unit.is_empty() {
+        return 1.0;
+    }
+    let c_unit = row.c.as_ref().map_or("", |c| c.unit.as_str());
+    let product = if c_unit.is_empty() || c_unit == "1" {
+        None
+    } else {
+        units::parse(c_unit).zip(units::parse(&row.unit))
+    };
+    match product {
+        Some((c, u)) => {
+            let target = units::parse(y_unit);
+            let conversion = target.and_then(|target| {
+                c.product(&u.difference())
+                    .conversion_to(&target.difference())
+            });
+            conversion.map_or(1.0, |conversion| {
+                conversion.apply(1.0) - conversion.apply(0.0)
+            })
+        }
+        None => units::factor(&row.unit, y_unit).unwrap_or(1.0),
+    }
+}
+
+/// How far two figures are apart, as a ratio.
+fn far(a: f64, b: f64) -> f64 {
+    libm::log(a.abs() / b.abs()).abs()
+}

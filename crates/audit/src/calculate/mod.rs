@@ -1,0 +1,20 @@
+//! The calculation that a sheet states: from the lowest level of every row to U.
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | `calculation` | a calculation, right or with slips in it |
+//! | `known` | standard uncertainties from what is known |
+//! | `model` | value and derivatives of the model |
+//! | `case` | the right calculation of a claim |
+
+mod calculation;
+mod case;
+mod known;
+mod model;
+
+pub use calculation::{
+    Calculation, Combined, Factor, Figures, Freedom, Line, Printout, Report, dominates, t, welch,
+};
+pub use case::{Case, factors};
+pub use known::{RANGE, range_factor, shape_of};
+pub(crate) use model::formula;

@@ -1,0 +1,217 @@
+//! The measurement model of a sheet: its value and its derivatives at the estimates.
+
+use gumption_core::model::{MeasurandSource, Model, Request, Role, Symbol, compile};
+use gumption_core::quantity::{Unit, UnitTable};
+
+use crate::claim::{Claimed, Row};
+use crate::units;
+
+/// The unit of the result itself, which its uncertainty need not be in.
+pub(super) fn unit_of_y(claimed: &Claimed) -> &str {
+    let own = claimed.footer.y.as_ref().map_or("", |y| y.unit.as_str());
+    if own.is_empty() { &claimed.unit } else { own }
+}
+
+/// What a model gives at the estimates.
+pub(super) struct Differentiated {
+    pub(super) slopes: Vec<f64>,
+    /// Which slopes depend on estimates that are not stated; the claimed coefficients stand in their places.
+    pub(super) unknown: Vec<bool>,
+    pub(super) y: Option<f64>,
+    /// Whether the model holds with the units of its estimates.
+    pub(super) by_units: bool,
+}
+
+/// Value and derivatives of the model at the estimates. `None` without a model.
+pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>, String> {
+    let Some(text) = &claimed.model else {
+        return Ok(None);
+    };
+    let rows = &claimed.rows;
+    let used: Vec<bool> = rows
+        .iter()
+        .map(|row| crate::read::has_symbol(text, &row.symbol))
+        .collect();
+    // Several rows of one symbol are reasons to doubt one input.
+    let first = |i: usize| {
+        (0..i)
+            .find(|j| rows[*j].symbol == rows[i].symbol)
+            .unwrap_or(i)
+    };
+    let missing = |i: usize| used[i] && rows[first(i)].value.is_none();
+    let any_missing = (0..rows.len()).any(missing);
+    let at = |unknown: f64| -> Vec<f64> {
+        let value = |(i, row): (usize, &Row)| match &row.value {
+            Some(value) => value.value,
+            None => unknown * (1.0 + 0.37 * i as f64),
+        };
+        rows.iter().enumerate().map(value).collect()
+    };
+    let values = at(1.0);
+    if !used.iter().any(|used| *used) {
+        return Ok(None);
+    }
+    let formula = renamed(text, claimed);
+    let unit_of = |row: &Row| row.value.as_ref().and_then(|v| units::parse(&v.unit));
+    let with_units = !unit_of_y(claimed).is_empty()
+        && rows
+            .iter()
+            .zip(&used)
+            .all(|(row, used)| !used || unit_of(row).is_some());
+    let units: Vec<Unit> = rows
+        .iter()
+        .map(|row| {
+            unit_of(row)
+                .filter(|_| with_units)
+                .unwrap_or_else(Unit::one)
+        })
+        .collect();
+    let target = units::parse(unit_of_y(claimed))
+        .filter(|_| with_units)
+        .unwrap_or_else(Unit::one);
+    let plain = vec![Unit::one(); units.len()];
+    let bare = |formula: &str| compiled(formula, &plain, Unit::one(), &used);
+    let bare_sheet = rows.iter().all(|row| unit_of(row).is_none());
+    let by_units =
+        (with_units || bare_sheet) && compiled(&formula, &units, target.clone(), &used).is_ok();
+    let mut model = compiled(&formula, &units, target, &used).or_else(|_| bare(&formula))?;
+    // Without units, an angle may be in degrees: the claimed coefficients and y tell.
+    if !with_units && let Ok(degrees) = bare(&in_degrees(&formula)) {
+        let fit = |model: &Model| agreement(claimed, &values, &used, model);
+        if fit(&degrees) > fit(&model) {
+            model = degrees;
+        }
+    }
+    let slopes = model.gradients(&values);
+    // A slope that is the same wherever the unknown estimates are does not need them.
+    let elsewhere = model.gradients(&at(2.9));
+    let moves = |i: usize| {
+        any_missing && (slopes[(0, i)] - elsewhere[(0, i)]).abs() > 1e-9 * slopes[(0, i)].abs()
+    };
+    let unknown: Vec<bool> = (0..rows.len())
+        .map(|i| used[i] && moves(first(i)))
+        .collect();
+    let derivative = |i: usize| {
+        if used[i] && !unknown[i] {
+            slopes[(0, first(i))]
+        } else {
+            rows[i].c.as_ref().map_or(1.0, |c| c.value)
+        }
+    };
+    if (0..rows.len()).all(|i| !used[i] || unknown[i]) {
+        return Err("the model names inputs whose estimates the sheet does not state".into());
+    }
+    Ok(Some(Differentiated {
+        slopes: (0..rows.len()).map(derivative).collect(),
+        y: (!any_missing).then(|| model.values(&values)[0]),
+        unknown,
+        by_units,
+    }))
+}
+
+/// How many of the claimed coefficients, and of y, a model gives to a percent.
+fn agreement(claimed: &Claimed, values: &[f64], used: &[bool], model: &Model) -> usize {
+    let close = |a: f64, b: f64| (a.abs() - b.abs()).abs() <= 0.01 * b.abs();
+    let slopes = model.gradients(values);
+    let rows = claimed.rows.iter().enumerate().filter(|(i, _)| used[*i]);
+    let coefficients = rows
+        .filter(|(i, row)| {
+            row.c
+                .as_ref()
+                .is_some_and(|c| close(c.value, slopes[(0, *i)]))
+        })
+        .count();
+    let y = claimed.footer.y.as_ref();
+    coefficients + usize::from(y.is_some_and(|y| close(y.value, model.values(values)[0])))
+}
+
+/// The formula with the arguments of its circular functions in degrees.
+fn in_degrees(formula: &str) -> String {
+    let mut out = String::new();
+    let mut rest = formula;
+    while let Some((at, name)) = ["sin(", "cos(", "tan("]
+        .iter()
+        .filter_map(|name| Some((rest.find(name)?, *name)))
+        .min()
+    {
+        let inner = &rest[at + name.len()..];
+        let mut depth = 1;
+        let end = inner.char_indices().find_map(|(i, c)| {
+            depth += match c {
+                '(' => 1,
+                ')' => -1,
+                _ => 0,
+            };
+            (depth == 0).then_some(i)
+        });
+        let Some(end) = end else { break };
+        out.push_str(&rest[..at]);
+        out.push_str(&format!("{name}(pi/180)*({}))", in_degrees(&inner[..end])));
+        rest = &inner[end + 1..];
+    }
+    out + rest
+}
+
+fn compiled(formula: &str, units: &[Unit], target: Unit, used: &[bool]) -> Result<Model, String> {
+    let symbols: Vec<Symbol> = units
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| used[*i])
+        .map(|(i, unit)| Symbol {
+            name: format!("x_{i}_"),
+            unit: unit.clone(),
+            role: Role::Input(i),
+        })
+        .collect();
+    let measurand = MeasurandSource {
+        name: "y__",
+        model: Some(formula),
+        unit: Some(target),
+    };
+    let table = UnitTable::default();
+    let request = Request {
+        symbols: &symbols,
+        shared: None,
+        measurands: &[measurand],
+        units: &table,
+    };
+    compile(&request).map_err(|faults| {
+        faults
+            .first()
+            .map_or(String::new(), |fault| fault.fault.message.to_string())
+    })
+}
+
+/// The formula in the model language, its symbols by number: what a sheet writes is no identifier.
+fn renamed(text: &str, claimed: &Claimed) -> String {
+    let names: Vec<String> = (0..claimed.rows.len()).map(|i| format!("x_{i}_")).collect();
+    formula(text, claimed, &names)
+}
+
+/// The formula in the model language, its symbols by these names.
+pub(crate) fn formula(text: &str, claimed: &Claimed, names: &[String]) -> String {
+    let mut order: Vec<usize> = (0..claimed.rows.len())
+        .filter(|i| !claimed.rows[*i].symbol.is_empty())
+        .collect();
+    order.sort_by_key(|i| (std::cmp::Reverse(claimed.rows[*i].symbol.len()), *i));
+    let mut out = text.to_string();
+    for i in order {
+        let symbol = &claimed.rows[i].symbol;
+        let first = (0..i)
+            .find(|j| claimed.rows[*j].symbol == *symbol)
+            .unwrap_or(i);
+        let mut from = 0;
+        while let Some(at) = crate::read::symbol_at(&out, symbol, from) {
+            let name = &names[first];
+            out.replace_range(at..at + symbol.len(), name);
+            from = at + name.len();
+        }
+    }
+    out.replace(['·', '×', '⋅'], "*")
+        .replace('÷', "/")
+        .replace("**", "^")
+        .replace('√', "sqrt")
+        .replace(['[', '{'], "(")
+        .replace([']', '}'], ")")
+        .replace('π', "pi")
+}

@@ -1,0 +1,321 @@
+//! A claimed budget as a budget file: what the sheet states, not what it computes.
+
+use std::fmt::Write as _;
+
+use crate::calculate::Case;
+use crate::claim::{Claimed, Coverage, Relative, RoundingStated, Row, Shape, Stated};
+use crate::printed::Printed;
+use crate::units;
+
+/// A budget file, with remarks as comments where the sheet leaves something open.
+pub fn budget_file(case: &Case<'_>) -> String {
+    let claimed = case.claimed;
+    let names = names(claimed);
+    let mut text = String::new();
+    let title = if claimed.title.is_empty() {
+        "Imported budget"
+    } else {
+        &claimed.title
+    };
+    let _ = writeln!(text, "title = {}", quoted(title));
+    text += &conventions(claimed);
+    let measurand = identifier(&claimed.measurand, "y");
+    let unit = unit_of_result(claimed);
+    // A model needs the estimates of all its inputs; without them, contributions are added.
+    let model = claimed
+        .model
+        .as_ref()
+        .filter(|model| case.y.is_some() && case.by_units && has_all(claimed, model));
+    let _ = write!(text, "\n[measurand.{measurand}]\n");
+    match model {
+        Some(model) => {
+            let formula = crate::calculate::formula(model, claimed, &names);
+            let _ = writeln!(text, "model = {}", quoted(&formula));
+        }
+        None => {
+            let counted = claimed
+                .rows
+                .iter()
+                .zip(&names)
+                .filter(|(row, _)| row.not_counted.is_none());
+            let sum: Vec<&str> = counted.map(|(_, name)| name.as_str()).collect();
+            text += "# The sheet has no model that holds with its estimates and their units: inputs are contributions to the result, coefficients included.\n";
+            let _ = writeln!(text, "model = {}", quoted(&sum.join(" + ")));
+        }
+    }
+    if units::parse(&unit).is_some() {
+        let _ = writeln!(text, "unit = {}", quoted(&unit));
+    }
+    for (i, row) in claimed.rows.iter().enumerate() {
+        let input = Input {
+            case,
+            row,
+            line: i,
+            name: &names[i],
+            of_model: model.is_some(),
+        };
+        text += &input.text(&unit);
+    }
+    for pair in &claimed.correlations {
+        let _ = write!(
+            text,
+            "\n[[correlation]]\nbetween = [{}, {}]\nr = {}\n",
+            quoted(&names[pair.a]),
+            quoted(&names[pair.b]),
+            pair.r
+        );
+    }
+    text
+}
+
+/// Whether every row is an input of the model, and only one is.
+fn has_all(claimed: &Claimed, model: &str) -> bool {
+    let rows = claimed.rows.iter().enumerate();
+    rows.clone().all(|(i, row)| {
+        let others = rows.clone().filter(|(j, _)| *j != i);
+        let alone = others
+            .map(|(_, other)| &other.symbol)
+            .all(|symbol| *symbol != row.symbol);
+        alone && row.not_counted.is_none() && crate::read::has_symbol(model, &row.symbol)
+    })
+}
+
+fn conventions(claimed: &Claimed) -> String {
+    let mut lines = Vec::new();
+    match claimed.coverage {
+        Coverage::Fixed(k) => lines.push(format!("coverage_factor = {k:?}")),
+        Coverage::StudentT(p) => {
+            lines.push(format!("coverage_probability = {p}"));
+            lines.push("coverage_factor_from = \"t\"".into());
+        }
+        Coverage::Rectangle => lines.push("output_distribution = \"dominant\"".into()),
+        Coverage::Unstated => {
+            lines.push("# The sheet states no rule for k.".into());
+            lines.push("coverage_factor = 2.0".into());
+        }
+    }
+    match claimed.rounding {
+        RoundingStated::Up => lines.push("rounding = \"up\"".into()),
+        RoundingStated::Nearest | RoundingStated::Unstated => {}
+    }
+    format!("\n[conventions]\n{}\n", lines.join("\n"))
+}
+
+fn unit_of_result(claimed: &Claimed) -> String {
+    let own = claimed.footer.y.as_ref().map_or("", |y| y.unit.as_str());
+    if own.is_empty() {
+        claimed.unit.clone()
+    } else {
+        own.to_string()
+    }
+}
+
+/// Names that the model language takes, one for each row.
+fn names(claimed: &Claimed) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for (i, row) in claimed.rows.iter().enumerate() {
+        let wanted = identifier(&row.symbol, &format!("x_{}", i + 1));
+        let free = !names.contains(&wanted) && wanted != identifier(&claimed.measurand, "y");
+        names.push(if free { wanted } else { format!("x_{}", i + 1) });
+    }
+    names
+}
+
+/// A symbol as an identifier; another name where it is none.
+fn identifier(symbol: &str, otherwise: &str) -> String {
+    let plain = symbol
+        .chars()
+        .all(|c| c.is_ascii_alphanumeric() || c == '_');
+    let begins = symbol.starts_with(|c: char| c.is_ascii_alphabetic());
+    // Names of units and functions are taken.
+    const TAKEN: [&str; 10] = [
+        "pi", "e", "sin", "cos", "tan", "exp", "ln", "log", "sqrt", "abs",
+    ];
+    if plain && begins && !TAKEN.contains(&symbol) {
+        symbol.to_string()
+    } else {
+        otherwise.to_string()
+    }
+}
+
+fn quoted(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            c if c.is_control() => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
+
+/// One input of the file.
+struct Input<'a> {
+    case: &'a Case<'a>,
+    row: &'a Row,
+    line: usize,
+    name: &'a str,
+    of_model: bool,
+}
+
+impl Input<'_> {
+    fn text(&self, y_unit: &str) -> String {
+        let row = self.row;
+        let mut text = String::new();
+        if let Some(why) = &row.not_counted {
+            return format!("\n# {} is not counted: {}\n", row.label(), comment(why));
+        }
+        let _ = write!(text, "\n[input.{}]\n", self.name);
+        let description = if row.name.is_empty() {
+            row.label()
+        } else {
+            &row.name
+        };
+        let _ = writeln!(text, "description = {}", quoted(description));
+        let said = comment(&row.words);
+        if !said.is_empty() {
+            let _ = writeln!(text, "# The sheet: {said}");
+        }
+        let unit = self.unit(y_unit);
+        let value = row.value.as_ref().filter(|_| self.of_model);
+        let _ = writeln!(
+            text,
+            "value = {}",
+            value.map_or("0".into(), |v| number(v.value))
+        );
+        if units::parse(&unit).is_some() {
+            let _ = writeln!(text, "unit = {}", quoted(&unit));
+        }
+        text + &self.knowledge(&unit)
+    }
+
+    /// The unit of the estimate, or of the result for a contribution.
+    fn unit(&self, y_unit: &str) -> String {
+        if !self.of_model {
+            return y_unit.to_string();
+        }
+        let value = self
+            .row
+            .value
+            .as_ref()
+            .map_or("", |value| value.unit.as_str());
+        if value.is_empty() {
+            self.row.unit.clone()
+        } else {
+            value.to_string()
+        }
+    }
+
+    /// What a figure of the row is multiplied by to be in the unit of the input.
+    fn factor(&self, unit: &str) -> f64 {
+        let line = &self.case.right.lines[self.line];
+        if self.of_model {
+            units::factor(&self.row.unit, unit).unwrap_or(1.0)
+        } else {
+            let to_result = units::factor(&self.case.claimed.unit, unit).unwrap_or(1.0);
+            (line.c * line.to_y).abs() * to_result
+        }
+    }
+
+    fn knowledge(&self, unit: &str) -> String {
+        let factor = self.factor(unit) * self.row.relative_factor();
+        let scaled = |figure: &Printed| number(figure.value * factor);
+        let line = &self.case.right.lines[self.line];
+        let mut text = String::new();
+        if self.row.relative != Relative::No {
+            text += "# Relative on the sheet.\n";
+        }
+        let standard = || {
+            let dof = if line.dof.is_finite() {
+                format!("\ndof = {}", number(line.dof))
+            } else {
+                String::new()
+            };
+            format!("u = {}{dof}\n", number(line.u * self.factor(unit)))
+        };
+        let limits = |half: f64, shape: Shape| {
+            let distribution = match shape {
+                Shape::Rectangular => String::new(),
+                Shape::Triangular => "distribution = \"triangular\"\n".into(),
+                Shape::Arcsine => "distribution = \"arcsine\"\n".into(),
+                Shape::Trapezoidal(beta) => {
+                    format!("distribution = \"trapezoidal\"\nbeta = {beta}\n")
+                }
+                Shape::Normal(_) | Shape::TwoPoint => return standard(),
+            };
+            format!("half_width = {}\n{distribution}", number(half * factor))
+        };
+        text += &match &self.row.stated {
+            Stated::Certificate {
+                expanded,
+                k,
+                k_stated,
+            } => {
+                let open = if *k_stated {
+                    ""
+                } else {
+                    "# The sheet does not state k.\n"
+                };
+                format!(
+                    "{open}certificate = {{ U = {}, k = {k:?} }}\n",
+                    scaled(expanded)
+                )
+            }
+            Stated::Limits {
+                half_width,
+                shape,
+                shape_stated,
+            } => {
+                let open = if *shape_stated {
+                    ""
+                } else {
+                    "# Nothing but limits is stated: rectangular.\n"
+                };
+                format!("{open}{}", limits(half_width.value, *shape))
+            }
+            Stated::FullWidth { width, shape } => limits(width.value / 2.0, *shape),
+            Stated::Step { step } => format!("step = {}\n", scaled(step)),
+            Stated::Unequal { plus, minus } => {
+                let value = self
+                    .row
+                    .value
+                    .as_ref()
+                    .filter(|_| self.of_model)
+                    .map_or(0.0, |v| v.value);
+                let (low, high) = (value - minus.value * factor, value + plus.value * factor);
+                format!("limits = [{}, {}]\n", number(low), number(high))
+            }
+            Stated::Deviation { m, .. } | Stated::Range { m, .. } => {
+                format!("# Of the mean of {m} readings.\n{}", standard())
+            }
+            Stated::Standard { .. } | Stated::Nothing => {
+                format!(
+                    "# The sheet states no more than this figure.\n{}",
+                    standard()
+                )
+            }
+        };
+        text
+    }
+}
+
+fn comment(text: &str) -> String {
+    let plain: String = text
+        .chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect();
+    plain.trim_matches([' ', ';']).to_string()
+}
+
+/// A number as it was typed: no digits that a product of doubles adds.
+fn number(x: f64) -> String {
+    let rounded: f64 = format!("{x:.12e}").parse().unwrap_or(x);
+    if rounded != 0.0 && !(1e-4..1e9).contains(&rounded.abs()) {
+        format!("{rounded:e}")
+    } else {
+        format!("{rounded}")
+    }
+}

@@ -1,0 +1,184 @@
+//! What is known as limits, steps and certificates.
+
+use crate::claim::{Shape, Stated};
+use crate::read::words::{figure_after, has, in_text, signed_pair};
+
+use super::evidence::Evidence;
+use super::family::*;
+
+pub(super) fn limits(e: &Evidence<'_>, text: &str, shape: Option<Shape>) -> Option<Stated> {
+    const KEYS: &[&str] = &[
+        "±",
+        "+/-",
+        "limits",
+        "limit",
+        "mpe",
+        "maximum permissible error",
+        "tolerance",
+        "accuracy",
+        "within",
+        "half-width",
+        "half width",
+        "允许误差",
+        "最大允差",
+        "允差",
+        "误差限",
+        "极限",
+        "界限",
+        "半宽",
+        "不超过",
+        "specification",
+        "bound",
+        "范围",
+        "误差",
+    ];
+    let half_width = in_text(e.words, KEYS).or_else(|| e.used.cloned())?;
+    let level = has(
+        text,
+        &[
+            "95 %",
+            "95%",
+            "confidence of",
+            "level of confidence",
+            "置信",
+        ],
+    ) && !has(
+        text,
+        &[
+            "no level",
+            "without a level",
+            "nothing else",
+            "without level",
+            "未给出置信",
+            "无置信",
+        ],
+    );
+    let shape = shape.or_else(|| level.then(|| Shape::Normal(normal_factor(e, text))));
+    Some(Stated::Limits {
+        half_width,
+        shape: shape.unwrap_or(Shape::Rectangular),
+        shape_stated: shape.is_some(),
+    })
+}
+
+/// The factor that limits at 95 % stand for: as stated, else 1.96 or 2, as the laboratory has it.
+fn normal_factor(e: &Evidence<'_>, text: &str) -> f64 {
+    let stated = figure_after(text, &["k"])
+        .map(|k| k.value)
+        .filter(|k| (1.0..5.0).contains(k));
+    stated.unwrap_or(if e.divisor == Some(2.0) { 2.0 } else { 1.96 })
+}
+
+pub(super) fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
+    const KEYS: &[&str] = &[
+        "digital step",
+        "step",
+        "resolution",
+        "increment",
+        "scale interval",
+        "scale division",
+        "division",
+        "graduation",
+        "readability",
+        "least count",
+        "最小分度",
+        "最小刻度",
+        "刻度",
+        "分辨力",
+        "分辨率",
+        "步进",
+        "分度值",
+        "末位",
+        "量化单位",
+        "lsb",
+        "digit",
+    ];
+    if let Some(step) = in_text(e.words, KEYS) {
+        // `resolution ± 0.005` is half of it.
+        let half = step.text.trim_start().starts_with('±')
+            || text.contains(&format!("± {}", step.text))
+            || text.contains(&format!("±{}", step.text));
+        let shape = (Shape::Rectangular, true);
+        return Some(if half {
+            Stated::Limits {
+                half_width: step,
+                shape: shape.0,
+                shape_stated: shape.1,
+            }
+        } else {
+            Stated::Step { step }
+        });
+    }
+    let used = e.used?.clone();
+    let by_twice_root3 = e
+        .divisor
+        .is_some_and(|d| (d - 2.0 * libm::sqrt(3.0)).abs() < 0.02);
+    let whole = !e.full || by_twice_root3;
+    Some(if whole {
+        Stated::Step { step: used }
+    } else {
+        Stated::Step {
+            step: used.scaled(2.0),
+        }
+    })
+}
+
+pub(super) fn certificate(e: &Evidence<'_>, text: &str) -> Option<Stated> {
+    const KEYS: &[&str] = &[
+        "expanded uncertainty",
+        "扩展不确定度",
+        "u =",
+        "u=",
+        "u(k=2)",
+        "u95",
+        "u",
+        "uncertainty",
+        "不确定度",
+    ];
+    let expanded = in_text(e.words, KEYS).or_else(|| e.used.cloned())?;
+    let stated = figure_after(text, &["k =", "k=", "k", "coverage factor", "包含因子"])
+        .map(|k| k.value)
+        .filter(|k| (1.0..5.0).contains(k));
+    let head = figure_after(&e.used_head.to_lowercase(), &["k"])
+        .map(|k| k.value)
+        .filter(|k| (1.0..5.0).contains(k));
+    let by_divisor = e
+        .divisor
+        .filter(|d| (1.6..3.5).contains(d) && (d - libm::sqrt(3.0)).abs() > 0.01);
+    let k = stated.or(head).unwrap_or_else(|| by_divisor.unwrap_or(2.0));
+    Some(Stated::Certificate {
+        expanded,
+        k,
+        k_stated: stated.or(head).is_some(),
+    })
+}
+
+/// `+0.03 / −0.01`, as positive numbers; limits where both are the same.
+pub(super) fn unequal(text: &str) -> Option<Stated> {
+    let (plus, minus) = signed_pair(text)?;
+    Some(if plus.value == minus.value {
+        let shape = shape(text);
+        Stated::Limits {
+            half_width: plus,
+            shape: shape.unwrap_or(Shape::Rectangular),
+            shape_stated: shape.is_some(),
+        }
+    } else {
+        Stated::Unequal { plus, minus }
+    })
+}
+
+pub(super) fn shape(text: &str) -> Option<Shape> {
+    let beta = || figure_after(text, &["β", "beta"]).map_or(0.5, |b| b.value);
+    if has(text, TRIANGULAR) {
+        Some(Shape::Triangular)
+    } else if has(text, TRAPEZOID) {
+        Some(Shape::Trapezoidal(beta()))
+    } else if has(text, &["arcsine", "u-shaped", "u shaped", "反正弦", "u形"]) {
+        Some(Shape::Arcsine)
+    } else if has(text, TWO_POINT) {
+        Some(Shape::TwoPoint)
+    } else {
+        has(text, RECTANGULAR).then_some(Shape::Rectangular)
+    }
+}

@@ -1,0 +1,379 @@
+//! What is known of a quantity, from the words that a sheet has for it.
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | `evidence` | what a row says |
+//! | `family` | families of words |
+//! | `readings` | what is known from readings |
+//! | `limits` | limits, steps and certificates |
+
+mod evidence;
+mod family;
+mod limits;
+mod readings;
+
+use crate::claim::{Relative, Shape, Stated};
+use crate::printed::Printed;
+use crate::units;
+
+use super::converter;
+use super::words::{count_before, figure_after, find, has, in_text};
+
+pub use evidence::Evidence;
+use family::*;
+use limits::{certificate, limits, shape, step, unequal};
+use readings::{count, deviation, mean};
+
+/// What is stated, and whether it is relative.
+pub fn stated(e: &Evidence<'_>) -> (Stated, Relative) {
+    let text = e.words.to_lowercase();
+    let columns = e.columns.to_lowercase();
+    let stated = by_words(e, &text, &columns).or_else(|| by_columns(e, &columns));
+    let stated = stated.unwrap_or_else(|| match e.u {
+        Some(u) => Stated::Standard {
+            u: u.clone(),
+            dof: None,
+        },
+        None => e.used.map_or(Stated::Nothing, |used| Stated::Standard {
+            u: used.clone(),
+            dof: None,
+        }),
+    });
+    let relative = relative(&stated, &text, e);
+    (stated, relative)
+}
+
+fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
+    // What the heads and the laboratory's columns call a distribution is its own; words decide.
+    if let Some(unequal) = unequal(e.words) {
+        return Some(unequal);
+    }
+    if let Some(step) = converter::step(e.words) {
+        return Some(Stated::Step { step });
+    }
+    let shape = shape(text);
+    if has(text, RANGE)
+        && (has(text, &["极差"]) || count(text, e).is_some())
+        && !has(text, &["full range", "measuring range"])
+    {
+        let range = in_text(e.words, &["range method", "range r", "range", "极差"])
+            .or_else(|| e.used.cloned())?;
+        return Some(Stated::Range {
+            range,
+            n: count(text, e)?,
+            m: mean(text, e).unwrap_or(1.0),
+        });
+    }
+    if has(text, FULL_WIDTH) {
+        let width = in_text(
+            e.words,
+            &[
+                "full width",
+                "total width",
+                "whole width",
+                "overall width",
+                "interval of width",
+                "full interval",
+                "width",
+                "peak-to-peak",
+                "peak to peak",
+                "全宽",
+                "总宽",
+                "宽度",
+                "峰峰值",
+                "峰-峰值",
+                "total span",
+                "span",
+            ],
+        );
+        let used = || {
+            e.used.map(|used| {
+                if e.full {
+                    used.clone().scaled(2.0)
+                } else {
+                    used.clone()
+                }
+            })
+        };
+        let shape = shape.unwrap_or(Shape::Rectangular);
+        return width
+            .or_else(used)
+            .map(|width| Stated::FullWidth { width, shape });
+    }
+    if has(text, ALIKE) {
+        // No scatter: what is left is the step of the indication, which the words have.
+        return Some(Stated::Deviation {
+            s: Printed::exact(0.0, "0"),
+            n: None,
+            m: 1.0,
+            pooled: None,
+        });
+    }
+    let reading = has(text, DEVIATION) || count_before(text, &["reading", "observation"]).is_some();
+    let certified = has(text, CERTIFICATE) && !has(text, &["specification", "允许误差", "limit"]);
+    // `resolution contained in the repeatability` is about a resolution: what comes first is the subject.
+    let first = |keys: &[&str]| keys.iter().filter_map(|key| find(text, key, 0)).min();
+    let step_first = first(STEP).is_some_and(|step| {
+        first(DEVIATION).is_none_or(|s| step < s) && first(CERTIFICATE).is_none_or(|c| step < c)
+    });
+    let about_step = first(STEP)
+        .map(|at| text[at..].split([';', '(', ',']).next().unwrap_or_default())
+        .unwrap_or_default();
+    if step_first
+        && !has(
+            about_step,
+            &[
+                "half the",
+                "half of",
+                "half a step =",
+                "half step",
+                "1/2",
+                "半宽",
+                "半个",
+            ],
+        )
+    {
+        return step(e, text);
+    }
+    if certified && (!reading || first(CERTIFICATE) < first(DEVIATION)) {
+        return certificate(e, text);
+    }
+    if reading && !(has(text, LIMITS) && first(LIMITS) < first(DEVIATION)) {
+        return deviation(e, text, columns);
+    }
+    if has(text, CYCLING) {
+        let half_width = in_text(
+            e.words,
+            &[
+                "amplitude",
+                "±",
+                "幅值",
+                "振幅",
+                "cycling",
+                "within",
+                "limits",
+            ],
+        )
+        .or_else(|| e.used.cloned())?;
+        return Some(Stated::Limits {
+            half_width,
+            shape: Shape::Arcsine,
+            shape_stated: true,
+        });
+    }
+    if has(text, LIMITS) || shape.is_some() {
+        return limits(e, text, shape);
+    }
+    if has(text, STANDARD) {
+        let u = in_text(e.words, STANDARD)
+            .or_else(|| e.used.cloned())
+            .or_else(|| e.u.cloned())?;
+        return Some(Stated::Standard { u, dof: None });
+    }
+    None
+}
+
+/// Where words say nothing, the laboratory's own columns are what there is.
+fn by_columns(e: &Evidence<'_>, columns: &str) -> Option<Stated> {
+    let used = e.used?.clone();
+    if let Some(shape) = shape(columns) {
+        return Some(Stated::Limits {
+            half_width: used,
+            shape,
+            shape_stated: true,
+        });
+    }
+    let type_a = columns
+        .split(|c: char| !c.is_alphanumeric())
+        .any(|word| word == "a" || word == "a类" || word == "t");
+    if type_a {
+        return deviation(e, "", columns);
+    }
+    if has(columns, NORMAL) {
+        let k = figure_after(columns, &["k"]).map(|k| k.value);
+        let k_stated = k.is_some();
+        // A divisor of 1 under a normal distribution is a standard uncertainty.
+        let k = k.or(e.divisor).unwrap_or(2.0);
+        return Some(match k {
+            1.0 => Stated::Standard { u: used, dof: None },
+            k => Stated::Certificate {
+                expanded: used,
+                k,
+                k_stated,
+            },
+        });
+    }
+    let divisor = e.divisor?;
+    let close = |x: f64| (divisor - x).abs() < 0.01 * x;
+    let limits = |shape| {
+        Some(Stated::Limits {
+            half_width: used.clone(),
+            shape,
+            shape_stated: false,
+        })
+    };
+    match () {
+        () if close(libm::sqrt(3.0)) => limits(Shape::Rectangular),
+        () if close(libm::sqrt(6.0)) => limits(Shape::Triangular),
+        () if close(2.0 * libm::sqrt(3.0)) => Some(Stated::Step { step: used }),
+        () if close(libm::sqrt(2.0)) => limits(Shape::Arcsine),
+        () if close(1.0) => Some(Stated::Standard { u: used, dof: None }),
+        () => Some(Stated::Certificate {
+            expanded: used,
+            k: divisor,
+            k_stated: false,
+        }),
+    }
+}
+
+fn relative(stated: &Stated, text: &str, e: &Evidence<'_>) -> Relative {
+    let unit = stated.figure().map_or("", |figure| figure.unit.as_str());
+    let Some(fraction) = units::fraction(unit) else {
+        return Relative::No;
+    };
+    let full_scale = figure_after(
+        text,
+        &[
+            "full scale of",
+            "full scale",
+            "fs =",
+            "f.s.",
+            "fs",
+            "range of",
+            "满量程",
+            "满度",
+            "量程",
+        ],
+    );
+    let of_full_scale = has(
+        text,
+        &[
+            "of full scale",
+            "full scale",
+            "f.s.",
+            "fs",
+            "满量程",
+            "满度",
+            "量程",
+            "of range",
+            "of the range",
+        ],
+    );
+    let _ = e;
+    match full_scale {
+        Some(scale) if of_full_scale => Relative::OfFullScale(fraction, scale.value),
+        _ => Relative::OfValue(fraction),
+    }
+}
+
+impl Stated {
+    /// The figure that is stated; the larger one of unequal limits.
+    pub fn figure(&self) -> Option<&Printed> {
+        match self {
+            Stated::Nothing => None,
+            Stated::Certificate { expanded, .. } => Some(expanded),
+            Stated::Limits { half_width, .. } => Some(half_width),
+            Stated::FullWidth { width, .. } => Some(width),
+            Stated::Step { step } => Some(step),
+            Stated::Unequal { plus, minus } => Some(if plus.value >= minus.value {
+                plus
+            } else {
+                minus
+            }),
+            Stated::Deviation { s, .. } => Some(s),
+            Stated::Range { range, .. } => Some(range),
+            Stated::Standard { u, .. } => Some(u),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(words: &str, used: Option<f64>, full: bool) -> Stated {
+        let used = used.map(|x| Printed::parse(&x.to_string()).unwrap());
+        let e = Evidence {
+            words,
+            columns: "",
+            used: used.as_ref(),
+            used_head: "",
+            u: None,
+            divisor: None,
+            readings: None,
+            full,
+            mean_of: None,
+        };
+        stated(&e).0
+    }
+
+    #[test]
+    fn kinds_in_english_and_chinese() {
+        let certificate = |words: &str| match read(words, None, true) {
+            Stated::Certificate { expanded, k, .. } => (expanded.value, k),
+            other => panic!("{words}: {other:?}"),
+        };
+        assert_eq!(
+            certificate("certificate M-12: U = 0.05 g, k = 2"),
+            (0.05, 2.0)
+        );
+        assert_eq!(
+            certificate("标准砝码证书给出扩展不确定度 U=0.05 g，k=2.13"),
+            (0.05, 2.13)
+        );
+        let step = |words: &str, used| match read(words, used, false) {
+            Stated::Step { step } => step.value,
+            other => panic!("{words}: {other:?}"),
+        };
+        assert_eq!(step("digital step 0.01 mm", None), 0.01);
+        assert_eq!(step("数显分辨力", Some(0.01)), 0.01);
+        let deviation = |words: &str| match read(words, Some(0.012), true) {
+            Stated::Deviation { s, n, m, pooled } => (s.value, n, m, pooled),
+            other => panic!("{words}: {other:?}"),
+        };
+        assert_eq!(
+            deviation("s of 10 readings, mean of 4 reported"),
+            (0.012, Some(10.0), 4.0, None)
+        );
+        assert_eq!(
+            deviation("repeatability: standard deviation of 10 readings, the mean is reported"),
+            (0.012, Some(10.0), 10.0, None)
+        );
+        assert_eq!(
+            deviation("重复测量10次的实验标准偏差，取4次平均值"),
+            (0.012, Some(10.0), 4.0, None)
+        );
+        assert_eq!(
+            deviation("pooled s from 6 series of 5 readings, mean of 3 readings"),
+            (0.012, Some(5.0), 3.0, Some(24.0))
+        );
+        let shape = |words: &str| match read(words, Some(0.3), true) {
+            Stated::Limits {
+                half_width, shape, ..
+            } => (half_width.value, shape),
+            other => panic!("{words}: {other:?}"),
+        };
+        assert_eq!(shape("limits ±0.5 °C"), (0.5, Shape::Rectangular));
+        assert_eq!(
+            shape("cycling of the air conditioning, amplitude 0.4 °C"),
+            (0.4, Shape::Arcsine)
+        );
+        assert_eq!(shape("最大允许误差 ±0.2 mV"), (0.2, Shape::Rectangular));
+        assert_eq!(
+            shape("within the limits, triangular"),
+            (0.3, Shape::Triangular)
+        );
+        assert!(matches!(
+            read("tolerance +0.03/-0.01 mm", None, true),
+            Stated::Unequal { .. }
+        ));
+        assert!(matches!(
+            read("total width 0.4 K", None, true),
+            Stated::FullWidth { .. }
+        ));
+        assert!(matches!(
+            read("极差法，n=4", Some(0.3), true),
+            Stated::Range { n: 4.0, .. }
+        ));
+    }
+}

@@ -1,0 +1,162 @@
+//! What is known from readings: their standard deviation, how many they were, and how many are behind the value.
+
+use crate::claim::Stated;
+use crate::printed::Printed;
+use crate::read::words::{
+    count_after, count_before, figure_after, find, has, in_text, trailing_count,
+};
+
+use super::evidence::Evidence;
+use super::family::*;
+
+/// What says that a figure is that of the mean already.
+const OF_THE_MEAN: &[&str] = &[
+    "deviation of the mean",
+    "deviation of mean",
+    "s of mean",
+    "s of the mean",
+    "esdm",
+    "平均值的标准",
+    "平均值的实验标准",
+    "均值的标准",
+];
+
+pub(super) fn deviation(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
+    const KEYS: &[&str] = &[
+        "standard deviation",
+        "s_p =",
+        "s_p",
+        "sp =",
+        "s(x)",
+        "s =",
+        "s=",
+        "s",
+        "标准偏差",
+        "标准差",
+        "重复性",
+        "repeatability",
+    ];
+    let s = in_text(e.words, KEYS).or_else(|| e.used.cloned());
+    let s = s.or_else(|| {
+        has(text, &["equal", "all alike", "相同", "一致"]).then(|| Printed::exact(0.0, "0"))
+    })?;
+    let n = count(text, e);
+    let pooled = has(text, POOLED).then(|| pooled_freedom(text, n)).flatten();
+    let mut m = mean(text, e);
+    if m.is_none()
+        && has(text, &["mean", "average", "平均", "均值"])
+        && !has(text, &["single", "单次"])
+    {
+        m = n;
+    }
+    let squared = e
+        .divisor
+        .map(|d| d * d)
+        .filter(|m| *m > 1.2 && (m - libm::round(*m)).abs() < 0.03 * m);
+    // Nothing is stated of how many readings are behind the value: the laboratory's own divisor is all there is.
+    let unsaid = n.is_none() && !has(text, &["single", "单次"]);
+    let m = has(text, OF_THE_MEAN)
+        .then_some(1.0)
+        .or(m)
+        .or(e.mean_of)
+        .or_else(|| squared.filter(|_| unsaid).map(libm::round))
+        .unwrap_or(1.0);
+    let _ = columns;
+    Some(Stated::Deviation { s, n, m, pooled })
+}
+
+/// Degrees of freedom of a pooled standard deviation: as stated, or series × (readings − 1).
+fn pooled_freedom(text: &str, n: Option<f64>) -> Option<f64> {
+    let stated = figure_after(text, &["degrees of freedom", "ν", "dof", "自由度"]).map(|p| p.value);
+    let before = || count_before(text, &["degrees of freedom", "dof"]);
+    let series = || {
+        count_before(
+            text,
+            &[
+                "series", "sets", "groups", "组", "系列", "days", "天", "runs",
+            ],
+        )
+    };
+    stated
+        .or_else(before)
+        .or_else(|| Some(series()? * (n? - 1.0)))
+}
+
+/// Readings from which s was computed.
+pub(super) fn count(text: &str, e: &Evidence<'_>) -> Option<f64> {
+    const OF: &[&str] = &[
+        "n =",
+        "n=",
+        "series of",
+        "sets of",
+        "组每组",
+        "每组",
+        "each of",
+        "from",
+        "s of",
+        "study of",
+        "of",
+    ];
+    let mean = MEAN.iter().filter_map(|key| find(text, key, 0)).min();
+    let before_mean = mean.map_or(text, |at| &text[..at]);
+    let direct = count_after(text, &["n =", "n=", "n"]);
+    let each = || count_after(text, &["series of", "sets of", "每组"]).filter(|n| *n > 1.0);
+    let counted = || {
+        count_before(before_mean, READINGS)
+            .or_else(|| count_after(before_mean, OF).filter(|_| has(before_mean, READINGS)))
+    };
+    direct
+        .or_else(each)
+        .or_else(counted)
+        .or_else(|| after_mean(text, mean))
+        .or(e.readings)
+        .filter(|n| *n > 1.0)
+}
+
+/// `mean of 5 readings; s from 10 readings`: a count behind that of the mean.
+fn after_mean(text: &str, mean: Option<usize>) -> Option<f64> {
+    let rest = text.get(mean?..)?;
+    let clause = rest.find([';', ',', '。', '('])?;
+    count_before(&rest[clause..], READINGS)
+}
+
+/// Readings behind the reported value.
+pub(super) fn mean(text: &str, e: &Evidence<'_>) -> Option<f64> {
+    // `取 3 次测量的平均值`: a count with 平均 behind it in the same clause.
+    let chinese = || {
+        let counts = text.match_indices('次').filter(|(at, _)| {
+            let behind = text[at + '次'.len_utf8()..].split([',', ';', '。', '、', '(']);
+            behind
+                .take(1)
+                .any(|clause| clause.contains("平均") || clause.contains("均值"))
+        });
+        counts
+            .filter_map(|(at, _)| trailing_count(&text[..at]))
+            .next_back()
+    };
+    let single = has(
+        text,
+        &[
+            "single reading is reported",
+            "one reading",
+            "单次测量结果",
+            "单次测得",
+        ],
+    )
+    .then_some(1.0);
+    chinese()
+        .or_else(|| count_after(text, MEAN))
+        .or_else(|| {
+            count_before(
+                text,
+                &[
+                    "readings are averaged",
+                    "readings averaged",
+                    "readings behind",
+                    "readings reported",
+                ],
+            )
+        })
+        .or(single)
+        .or(e.mean_of)
+}

@@ -1,0 +1,217 @@
+//! The claimed figures of the whole, in rows of the sheet.
+
+use std::ops::Range;
+
+use crate::claim::{Claimed, Understood};
+use crate::printed::{Place, Printed};
+use crate::read::columns::{self, Role};
+use crate::read::footer::{self, Whole};
+use crate::sheet::Grid;
+use crate::units;
+
+use super::located::Located;
+use super::rows::positive;
+
+/// The claimed figures in some rows of the sheet. Rows that were used are no text any more.
+pub fn footers(
+    grid: &Grid,
+    sheet: usize,
+    located: &mut Located,
+    rows: Range<usize>,
+    skip: impl Fn(usize) -> bool,
+    claimed: &mut Claimed,
+) {
+    for row in rows {
+        let of_table = located.rows.contains(&row) || row == located.head;
+        if !of_table && !skip(row) && footer_row(grid, sheet, row, located, claimed) {
+            located.used.insert(row);
+        }
+    }
+}
+
+fn footer_row(
+    grid: &Grid,
+    sheet: usize,
+    row: usize,
+    located: &Located,
+    claimed: &mut Claimed,
+) -> bool {
+    let cells: Vec<(usize, String)> = grid
+        .filled(row)
+        .map(|(i, cell)| (i, cell.text.clone()))
+        .collect();
+    let of_row = |text: &str| {
+        let mut rows = claimed.rows.iter();
+        rows.any(|row| !row.symbol.is_empty() && row.symbol == text)
+    };
+    if cells.len() < 2 || of_row(&cells[0].1) {
+        return false;
+    }
+    let inside = located.used.contains(&row) || row < located.end;
+    let contribution = located
+        .column(Role::Contribution)
+        .or(located.column(Role::U))
+        .map(|c| c.index);
+    let measurand = claimed.measurand.clone();
+    let (mut open, mut open_unit, mut found): (Option<Whole>, String, bool) =
+        (None, String::new(), false);
+    let labels = cells
+        .iter()
+        .filter(|(_, text)| footer::label(text, &measurand).is_some())
+        .count();
+    for (position, (column, text)) in cells.iter().enumerate() {
+        let place = Place {
+            sheet,
+            row,
+            column: *column,
+        };
+        let figure = Printed::parse(text);
+        if figure.is_none() {
+            // `U (k = 2)`, `k = 2.05`: the words hold figures.
+            if text.contains('=') && !footer_words_only(text) {
+                let found_here = footer::sentence(text, &measurand, place, &mut claimed.footer);
+                found |= !found_here.is_empty();
+                understood(claimed, place, text, found_here.first().copied());
+                // `U | Expanded uncertainty | k = 2 | 0.056`: U is still open behind its k.
+                let own = footer::label(text, &measurand);
+                if own.is_some_and(|own| found_here.contains(&own)) {
+                    if open == own {
+                        open = None;
+                    }
+                    continue;
+                }
+            }
+            if let Some(whole) = footer::label(text, &measurand) {
+                // `U | Expanded uncertainty`: symbol and words of the same figure.
+                open = Some(whole);
+                open_unit = columns::apart(text).1;
+            }
+            continue;
+        }
+        let Some(mut figure) = figure else { continue };
+        let by_column = located
+            .columns
+            .iter()
+            .find(|c| c.index == *column)
+            .filter(|_| inside)
+            .map(|c| c.role);
+        let whole = match (open, by_column) {
+            (Some(Whole::Y), Some(Role::Contribution | Role::U)) => Some(Whole::Combined),
+            (Some(Whole::Y), Some(Role::Dof)) => Some(Whole::Freedom),
+            (Some(Whole::Combined), Some(Role::Dof)) => Some(Whole::Freedom),
+            (Some(Whole::Expanded), Some(Role::Dof)) => Some(Whole::Freedom),
+            (Some(Whole::Expanded), Some(Role::Divisor)) => Some(Whole::Factor),
+            (Some(Whole::Combined | Whole::Expanded), Some(Role::Derived | Role::Number)) => None,
+            (Some(Whole::Combined), Some(Role::Value))
+                if contribution.is_some_and(|c| {
+                    cells
+                        .iter()
+                        .any(|(i, t)| *i == c && Printed::parse(t).is_some())
+                }) =>
+            {
+                Some(Whole::Y)
+            }
+            (open, _) => open,
+        };
+        let Some(whole) = whole else { continue };
+        if figure.unit.is_empty() {
+            let next = cells
+                .get(position + 1)
+                .map(|(_, t)| t.as_str())
+                .filter(|t| units::parse(t).is_some() && Printed::parse(t).is_none());
+            let head = by_column
+                .filter(|role| matches!(role, Role::Contribution | Role::U))
+                .map(|role| located.unit(role));
+            figure.unit = [open_unit.as_str(), next.unwrap_or(""), head.unwrap_or("")]
+                .into_iter()
+                .find(|u| !u.is_empty())
+                .unwrap_or_default()
+                .to_string();
+        }
+        let figure = if whole == Whole::Y {
+            figure
+        } else {
+            positive(figure)
+        };
+        if footer::set(&mut claimed.footer, whole, figure.at(place)) {
+            understood(claimed, place, text, Some(whole));
+            found = true;
+        }
+        let keeps = by_column.is_some() && inside;
+        if !keeps && labels > 1 {
+            open = None;
+        } else if !keeps {
+            break;
+        }
+    }
+    found || across(grid, sheet, row, &cells, claimed)
+}
+
+/// Whether an equation in a label only says how it is computed: `U = k·u_c`.
+fn footer_words_only(text: &str) -> bool {
+    text.rsplit('=').next().is_some_and(|right| {
+        Printed::parse(right).is_none() && crate::printed::leading(right).is_none()
+    })
+}
+
+/// Whether a row is of labels side by side with their figures in the row below.
+pub(super) fn labels_across(grid: &Grid, row: usize, measurand: &str) -> bool {
+    let labelled: Vec<usize> = grid
+        .filled(row)
+        .filter(|(_, cell)| footer::label(&cell.text, measurand).is_some())
+        .map(|(column, _)| column)
+        .collect();
+    let figure = |column: &usize| Printed::parse(&grid.cell(row + 1, *column).text).is_some();
+    let no_figures = grid
+        .filled(row)
+        .all(|(_, cell)| Printed::parse(&cell.text).is_none());
+    labelled.len() >= 2
+        && labelled.len() * 2 >= grid.filled(row).count()
+        && no_figures
+        && labelled.iter().any(figure)
+}
+
+/// Labels side by side with their figures in the row below.
+fn across(
+    grid: &Grid,
+    sheet: usize,
+    row: usize,
+    cells: &[(usize, String)],
+    claimed: &mut Claimed,
+) -> bool {
+    if !labels_across(grid, row, &claimed.measurand) {
+        return false;
+    }
+    let labels: Vec<(usize, Whole)> = cells
+        .iter()
+        .filter_map(|(i, text)| Some((*i, footer::label(text, &claimed.measurand)?)))
+        .collect();
+    let below = |column: usize| Printed::parse(&grid.cell(row + 1, column).text);
+    for (column, whole) in labels {
+        if let Some(mut figure) = below(column) {
+            if figure.unit.is_empty() {
+                figure.unit = columns::apart(&grid.cell(row, column).text).1;
+            }
+            footer::set(
+                &mut claimed.footer,
+                whole,
+                figure.at(Place {
+                    sheet,
+                    row: row + 1,
+                    column,
+                }),
+            );
+        }
+    }
+    true
+}
+
+fn understood(claimed: &mut Claimed, at: Place, text: &str, whole: Option<Whole>) {
+    if let Some(whole) = whole {
+        claimed.understood.push(Understood {
+            at,
+            text: text.into(),
+            role: whole.name(),
+        });
+    }
+}

@@ -1,0 +1,211 @@
+//! Words and columns of rows turned into what is known, and their figures into one unit.
+
+use crate::claim::{Claimed, Relative, Row, Stated};
+use crate::printed::Printed;
+use crate::read::kind::{self, Evidence};
+use crate::read::words::has;
+use crate::units;
+
+use super::rows::Raw;
+
+/// Turns words and columns of each row into what is known of it, and its figures into one unit.
+pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
+    let mean_of = claimed.reported_mean_of;
+    let y_unit = claimed.unit.clone();
+    for (raw, row) in raw.iter().zip(&mut claimed.rows) {
+        let evidence = Evidence {
+            words: &row.words,
+            columns: &raw.columns_text,
+            used: row.used.as_ref(),
+            used_head: &raw.used_head,
+            u: row.u.as_ref(),
+            divisor: row.divisor.as_ref().map(|d| d.value),
+            readings: raw.readings,
+            full: full && !raw.stated_apart,
+            mean_of,
+        };
+        (row.stated, row.relative) = kind::stated(&evidence);
+        row.not_counted = not_counted(&row.words);
+        row.convert_to_one_unit(&y_unit);
+    }
+    add_absent(claimed);
+    for figure in [
+        &mut claimed.footer.u_c,
+        &mut claimed.footer.expanded,
+        &mut claimed.cmc,
+    ]
+    .into_iter()
+    .flatten()
+    {
+        if let Some(factor) = units::factor(&figure.unit, &y_unit)
+            .filter(|_| !figure.unit.is_empty() && !y_unit.is_empty())
+        {
+            *figure = figure.clone().scaled(factor);
+        }
+    }
+}
+
+/// What a note knows of a quantity that no row has, unless a row has its figure.
+fn add_absent(claimed: &mut Claimed) {
+    let known = |row: &Row| {
+        let figure = row.stated.figure().map(|figure| figure.value);
+        claimed
+            .rows
+            .iter()
+            .filter(|other| matches!(other.stated, Stated::Certificate { .. }))
+            .any(|other| other.stated.figure().map(|f| f.value) == figure)
+    };
+    let absent: Vec<Row> = std::mem::take(&mut claimed.absent)
+        .into_iter()
+        .filter(|row| !known(row))
+        .collect();
+    let y_unit = claimed.unit.clone();
+    for mut row in absent {
+        row.convert_to_one_unit(&y_unit);
+        row.is_absent = true;
+        claimed.rows.push(row);
+    }
+}
+
+fn not_counted(words: &str) -> Option<String> {
+    let lower = words.to_lowercase();
+    let of_clause = |lower: &str| {
+        let said = has(
+            lower,
+            &[
+                "contained in",
+                "already contained",
+                "already included",
+                "included in",
+                "is not counted",
+                "not counted",
+                "left out",
+                "for information only",
+                "not added",
+                "已包含",
+                "包含在",
+                "已含",
+                "不再计",
+                "不计入",
+                "不重复计",
+                "不另计",
+                "已计入",
+                "略去",
+                "不予计",
+                "不单独",
+            ],
+        );
+        let counted = has(
+            lower,
+            &[
+                "an indication of its own",
+                "counted beside",
+                "not contained",
+                "not included",
+                "独立示值",
+                "单独计入",
+                "另行计入",
+                "另计",
+            ],
+        ) && !has(lower, &["不另计"]);
+        said && !counted
+    };
+    // `r is left out; z is counted beside it`: each clause is about one thing.
+    lower
+        .split([';', '。'])
+        .any(of_clause)
+        .then(|| words.to_string())
+}
+
+impl Row {
+    /// Figures of ± and of what is stated in the unit of u, where all units are known.
+    fn convert_to_one_unit(&mut self, y_unit: &str) {
+        let stated_unit = self
+            .stated
+            .figure()
+            .map(|f| f.unit.clone())
+            .unwrap_or_default();
+        let unit_of =
+            |figure: &Option<Printed>| figure.as_ref().map(|f| f.unit.clone()).unwrap_or_default();
+        let (u, used, value) = (unit_of(&self.u), unit_of(&self.used), unit_of(&self.value));
+        let relative_y = units::fraction(y_unit).is_some();
+        let fraction = units::fraction(&stated_unit).is_some();
+        let candidates = if fraction && !relative_y {
+            [&u, &value, &self.unit, &used]
+        } else {
+            [&u, &used, &self.unit, &value]
+        };
+        let known = candidates
+            .into_iter()
+            .find(|unit| !unit.is_empty())
+            .cloned();
+        // Nothing but the percentage has a unit: it is of the value, which has none.
+        let bare = known.is_none() && fraction && !relative_y && self.relative != Relative::No;
+        let target = match known {
+            Some(unit) => unit,
+            None if bare => String::new(),
+            None => stated_unit.clone(),
+        };
+        let of_value = matches!(self.relative, Relative::OfValue(_));
+        if units::fraction(&target).is_some() {
+            if of_value {
+                self.relative = Relative::No;
+            }
+        } else if of_value && self.value.is_none() {
+            // A percentage of a value that the sheet does not state: what was used of it is all there is.
+            self.relative = Relative::No;
+            if let Some(used) = self.used.clone().or_else(|| {
+                self.u
+                    .clone()
+                    .zip(self.divisor.as_ref())
+                    .map(|(u, d)| u.scaled(d.value))
+            }) {
+                self.stated.replace_figure(used);
+            } else if let Some(u) = self.u.clone() {
+                self.stated = Stated::Standard { u, dof: None };
+            }
+        }
+        let convert = |figure: &mut Printed| {
+            let factor = units::factor(&figure.unit, &target)
+                .filter(|_| !figure.unit.is_empty() && !target.is_empty());
+            // A percentage of a value is converted by the value.
+            if let Some(factor) = factor.filter(|_| {
+                units::fraction(&figure.unit).is_none() || units::fraction(&target).is_some()
+            }) {
+                *figure = figure.clone().scaled(factor);
+            }
+        };
+        for figure in self.stated.figures_mut() {
+            if figure.unit.is_empty() {
+                figure.unit.clone_from(&used);
+            }
+            convert(figure);
+        }
+        if let Some(used) = &mut self.used {
+            convert(used);
+        }
+        self.unit = target;
+    }
+}
+
+impl Stated {
+    fn replace_figure(&mut self, figure: Printed) {
+        if let [own] = self.figures_mut().as_mut_slice() {
+            **own = figure;
+        }
+    }
+
+    fn figures_mut(&mut self) -> Vec<&mut Printed> {
+        match self {
+            Stated::Nothing => Vec::new(),
+            Stated::Certificate { expanded: x, .. }
+            | Stated::Limits { half_width: x, .. }
+            | Stated::FullWidth { width: x, .. }
+            | Stated::Step { step: x }
+            | Stated::Deviation { s: x, .. }
+            | Stated::Range { range: x, .. }
+            | Stated::Standard { u: x, .. } => vec![x],
+            Stated::Unequal { plus, minus } => vec![plus, minus],
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! Where a table stands, and which rows of the sheet are its rows.
+
+use std::collections::BTreeSet;
+
+use crate::printed::Printed;
+use crate::read::columns::Role;
+use crate::read::footer;
+use crate::read::mapping::Mapping;
+use crate::read::words::has;
+use crate::sheet::Grid;
+
+use super::content::{by_content, nameless_figures};
+use super::footers::labels_across;
+use super::head::{head, second_line};
+use super::located::Located;
+
+/// Every table of a sheet that is a budget.
+pub fn locate(grid: &Grid, mapping: &Mapping) -> Vec<Located> {
+    let mut found: Vec<Located> = Vec::new();
+    let mut row = 0;
+    while row < grid.rows.len() {
+        match head(grid, row, mapping) {
+            Some(columns) => {
+                let mut located = Located {
+                    head: row,
+                    end: row + 1,
+                    columns,
+                    unit: String::new(),
+                    rows: Vec::new(),
+                    used: BTreeSet::from([row]),
+                };
+                second_line(grid, &mut located, mapping);
+                body(grid, &mut located, mapping);
+                row = located.end.max(row + 1);
+                by_content(grid, &mut located);
+                nameless_figures(grid, &mut located);
+                if !located.rows.is_empty() {
+                    located.unit = located.unit(Role::Contribution).to_string();
+                    found.push(located);
+                }
+            }
+            None => row += 1,
+        }
+    }
+    found
+}
+
+fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
+    /// Lines of other kinds that may stand between the rows of one table: a blank one, a subheading.
+    const STRANGE: usize = 3;
+    let mut strange = 0;
+    for row in located.end..grid.rows.len() {
+        let repeated = head(grid, row, mapping).is_some();
+        if repeated || labels_across(grid, row, "") {
+            break;
+        }
+        match what(grid, row, located, strange == 0) {
+            What::Row => {
+                located.rows.push(row);
+                located.used.insert(row);
+            }
+            What::Footer => {}
+            What::Other => {
+                strange += 1;
+                if strange > STRANGE {
+                    break;
+                }
+                continue;
+            }
+        }
+        strange = 0;
+        located.end = row + 1;
+    }
+}
+
+enum What {
+    Row,
+    Footer,
+    Other,
+}
+
+/// What a row of the sheet is; `joined` to the rows above it without a gap.
+fn what(grid: &Grid, row: usize, located: &Located, joined: bool) -> What {
+    let text = |role: Role| {
+        located
+            .column(role)
+            .map_or("", |c| grid.cell(row, c.index).text.as_str())
+    };
+    let figure = |role: Role| Printed::parse(text(role)).is_some();
+    let named = !text(Role::Symbol).is_empty() || !text(Role::Name).is_empty();
+    let count = Role::ALL
+        .iter()
+        .filter(|role| role.is_figure() && figure(**role))
+        .count();
+    // Words about a row, its figures and its distribution label nothing.
+    let labels = |column: usize| {
+        use Role::{Distribution, Remark, Used, Value};
+        let role = located.columns.iter().find(|c| c.index == column);
+        role.is_none_or(|c| !matches!(c.role, Remark | Value | Used | Distribution))
+    };
+    let first = grid.filled(row).next().map_or(0, |(column, _)| column);
+    let labelled = grid.filled(row).take(3).any(|(column, cell)| {
+        (column == first || labels(column))
+            && footer::label(&cell.text, "").is_some()
+            && Printed::parse(&cell.text).is_none()
+    });
+    let inputs = figure(Role::Used) || figure(Role::C);
+    let explained = !text(Role::Distribution).is_empty()
+        && !text(Role::Distribution).to_lowercase().contains("k")
+        || text(Role::Type).len() == 1;
+    let strong = [text(Role::Symbol), text(Role::Name), text(Role::Number)]
+        .iter()
+        .any(|t| {
+            let lower = t.to_lowercase();
+            has(
+                &lower,
+                &[
+                    "combined",
+                    "expanded uncertainty u",
+                    "effective degrees",
+                    "coverage factor",
+                    "合成标准不确定度",
+                    "合成不确定度",
+                    "有效自由度",
+                    "包含因子",
+                ],
+            ) || lower.starts_with("expanded uncertainty")
+                || lower.starts_with("扩展不确定度")
+                || matches!(
+                    t.trim(),
+                    "u_c" | "uc" | "U" | "k" | "u_c(y)" | "ν_eff" | "νeff"
+                )
+        });
+    if labelled && (strong && !figure(Role::C) || !inputs && !explained) {
+        return What::Footer;
+    }
+    let told = joined && !text(Role::Remark).is_empty() && grid.filled(row).count() >= 2;
+    if named && (count >= if joined { 1 } else { 2 } || told) {
+        return What::Row;
+    }
+    // A merged cell: the name stands above.
+    if !named && count >= 3 && !located.rows.is_empty() {
+        return What::Row;
+    }
+    What::Other
+}

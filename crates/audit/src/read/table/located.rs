@@ -1,0 +1,81 @@
+//! A table that was found: its head, its columns and its rows on the sheet.
+
+use std::collections::BTreeSet;
+
+use crate::claim::Understood;
+use crate::printed::Place;
+use crate::read::columns::Role;
+use crate::sheet::Grid;
+
+/// A table that was found.
+#[derive(Debug, Clone)]
+pub struct Located {
+    /// Row of its head.
+    pub head: usize,
+    /// Behind its last row.
+    pub end: usize,
+    /// Its columns.
+    pub columns: Vec<Column>,
+    /// Unit of the contributions, where the head has one.
+    pub unit: String,
+    /// Rows of the sheet that are rows of the budget.
+    pub(super) rows: Vec<usize>,
+    /// Rows that are the head, a row of the budget or its footer.
+    pub(super) used: BTreeSet<usize>,
+}
+
+/// A column that was understood.
+#[derive(Debug, Clone)]
+pub struct Column {
+    pub(super) index: usize,
+    pub(super) role: Role,
+    pub(super) head: String,
+    pub(super) unit: String,
+}
+
+impl Located {
+    /// Rows that are no text beside the table.
+    pub fn is_used(&self, row: usize) -> bool {
+        self.used.contains(&row)
+    }
+
+    /// How its columns were understood.
+    pub fn understood(&self, grid: &Grid, sheet: usize) -> Vec<Understood> {
+        let place = |column: usize| Place {
+            sheet,
+            row: self.head,
+            column,
+        };
+        let known = self.columns.iter().map(|c| Understood {
+            at: place(c.index),
+            text: c.head.clone(),
+            role: c.role.name(),
+        });
+        let unknown = grid
+            .filled(self.head)
+            .filter(|(i, _)| !self.columns.iter().any(|c| c.index == *i));
+        let unknown = unknown.map(|(i, cell)| Understood {
+            at: place(i),
+            text: cell.text.clone(),
+            role: "?",
+        });
+        known.chain(unknown).collect()
+    }
+
+    pub(super) fn column(&self, role: Role) -> Option<&Column> {
+        self.columns.iter().find(|column| column.role == role)
+    }
+
+    /// Whether it has figures that were computed for each row.
+    pub fn is_evaluated(&self) -> bool {
+        self.has(Role::U) || self.has(Role::Contribution)
+    }
+
+    pub(super) fn has(&self, role: Role) -> bool {
+        self.column(role).is_some()
+    }
+
+    pub(super) fn unit(&self, role: Role) -> &str {
+        self.column(role).map_or("", |column| &column.unit)
+    }
+}

@@ -1,0 +1,25 @@
+//! Tables on a sheet.
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | `located` | a table that was found |
+//! | `head` | its head: one line, or two |
+//! | `content` | what stands in a column, where its head is doubtful |
+//! | `locate` | where a table stands, and which rows are its rows |
+//! | `rows` | its rows with their figures |
+//! | `footers` | the claimed figures of the whole |
+//! | `interpret` | what is known of each row |
+
+mod content;
+mod footers;
+mod head;
+mod interpret;
+mod locate;
+mod located;
+mod rows;
+
+pub use footers::footers;
+pub use interpret::interpret;
+pub use locate::locate;
+pub use located::Located;
+pub use rows::{Raw, rows};

@@ -1,0 +1,253 @@
+//! What the words of a sheet show.
+
+use super::{Hit, Seen};
+
+/// Whether the sheet speaks of something, in its rows or beside its tables.
+fn speaks(seen: &Seen<'_>, keys: &[&str]) -> bool {
+    let has = |text: &str| {
+        let lower = text.to_lowercase();
+        keys.iter().any(|key| lower.contains(key))
+    };
+    let rows = &seen.claimed.rows;
+    has(&seen.claimed.words)
+        || has(&seen.claimed.title)
+        || rows.iter().any(|row| has(&row.words) || has(&row.name))
+}
+
+/// Whether a row speaks of something.
+fn rows_speak(seen: &Seen<'_>, keys: &[&str]) -> bool {
+    let rows = &seen.claimed.rows;
+    rows.iter().any(|row| {
+        let lower = format!("{} {}", row.words, row.name).to_lowercase();
+        keys.iter().any(|key| lower.contains(key))
+    })
+}
+
+fn missing(so: bool) -> Vec<Hit> {
+    if so {
+        vec![Hit::of(None, "–".into())]
+    } else {
+        Vec::new()
+    }
+}
+
+/// A budget of a calibration: it has a certificate in it.
+fn is_calibration(seen: &Seen<'_>) -> bool {
+    use crate::claim::Stated;
+    let rows = &seen.claimed.rows;
+    rows.iter()
+        .any(|row| matches!(row.stated, Stated::Certificate { .. }))
+}
+
+pub(super) fn no_resolution(seen: &Seen<'_>) -> Vec<Hit> {
+    use crate::claim::Stated;
+    let rows = &seen.claimed.rows;
+    let step = rows
+        .iter()
+        .any(|row| matches!(row.stated, Stated::Step { .. }));
+    let words = [
+        "resolution",
+        "digital step",
+        "increment",
+        "readability",
+        "quantis",
+        "scale",
+        "分辨",
+        "步进",
+        "分度",
+        "量化",
+        "估读",
+    ];
+    missing(is_calibration(seen) && !step && !rows_speak(seen, &words))
+}
+
+pub(super) fn no_repeatability(seen: &Seen<'_>) -> Vec<Hit> {
+    let type_a = seen.claimed.rows.iter().any(|row| row.stated.is_type_a());
+    let words = [
+        "repeatab",
+        "scatter",
+        "type a",
+        "standard deviation",
+        "重复性",
+        "标准偏差",
+        "a类",
+    ];
+    missing(is_calibration(seen) && !type_a && !rows_speak(seen, &words))
+}
+
+pub(super) fn no_drift(seen: &Seen<'_>) -> Vec<Hit> {
+    let words = [
+        "drift",
+        "stabil",
+        "ageing",
+        "aging",
+        "since last",
+        "漂移",
+        "稳定性",
+        "年变化",
+        "老化",
+    ];
+    missing(is_calibration(seen) && !rows_speak(seen, &words))
+}
+
+/// A quantity that depends on temperature, as its unit or the title says, without a row for it.
+pub(super) fn no_temperature(seen: &Seen<'_>) -> Vec<Hit> {
+    let depends = [
+        "length",
+        "gauge block",
+        "volume",
+        "flask",
+        "pipette",
+        "resist",
+        "density",
+        "量块",
+        "长度",
+        "容量",
+        "电阻",
+        "密度",
+    ];
+    let words = [
+        "temperature",
+        "thermal",
+        "expansion",
+        "温度",
+        "膨胀",
+        "温差",
+    ];
+    let title = seen.claimed.title.to_lowercase();
+    let thermal = depends.iter().any(|word| title.contains(word));
+    missing(thermal && !rows_speak(seen, &words))
+}
+
+pub(super) fn known_bias(seen: &Seen<'_>) -> Vec<Hit> {
+    let words = [
+        "not corrected",
+        "uncorrected",
+        "without correction",
+        "correction is not applied",
+        "correction not applied",
+        "bias is included",
+        "未修正",
+        "不作修正",
+        "不修正",
+        "未作修正",
+    ];
+    missing(speaks(seen, &words))
+}
+
+pub(super) fn conformity_without_rule(seen: &Seen<'_>) -> Vec<Hit> {
+    let verdict = [
+        "conforms",
+        "conformity",
+        "complies",
+        "in tolerance",
+        "within specification",
+        "passed",
+        "合格",
+        "符合要求",
+    ];
+    let rule = [
+        "decision rule",
+        "guard band",
+        "simple acceptance",
+        "ilac-g8",
+        "14253",
+        "jjf 1094",
+        "jjf1094",
+        "判定规则",
+        "判据",
+        "接受限",
+    ];
+    missing(speaks(seen, &verdict) && !speaks(seen, &rule))
+}
+
+/// Slope and intercept of one fit, as independent inputs.
+pub(super) fn fit_without_covariance(seen: &Seen<'_>) -> Vec<Hit> {
+    let of = |keys: &[&str]| {
+        let rows = seen.claimed.rows.iter();
+        rows.enumerate()
+            .find(|(_, row)| {
+                let lower = format!("{} {}", row.words, row.name).to_lowercase();
+                keys.iter().any(|key| lower.contains(key))
+            })
+            .map(|(i, _)| i)
+    };
+    let (Some(slope), Some(intercept)) = (of(&["slope", "斜率"]), of(&["intercept", "截距"]))
+    else {
+        return Vec::new();
+    };
+    let pairs = &seen.claimed.correlations;
+    let given = pairs.iter().any(|pair| {
+        (pair.a, pair.b) == (slope, intercept) || (pair.b, pair.a) == (slope, intercept)
+    });
+    if given || slope == intercept {
+        return Vec::new();
+    }
+    let label = |i: usize| seen.claimed.rows[i].label().to_string();
+    vec![Hit::of(
+        Some(slope),
+        format!("r({}, {}) = 0", label(slope), label(intercept)),
+    )]
+}
+
+pub(super) fn expired(seen: &Seen<'_>) -> Vec<Hit> {
+    let measured = dates(
+        &seen.claimed.words,
+        &[
+            "measured on",
+            "date of calibration",
+            "calibrated on",
+            "校准日期",
+            "测量日期",
+        ],
+    );
+    let valid = dates(
+        &seen.claimed.words,
+        &["valid until", "expires", "due", "有效期至", "有效期"],
+    );
+    let Some(measured) = measured.into_iter().max() else {
+        return Vec::new();
+    };
+    let old = valid.into_iter().filter(|date| *date < measured);
+    old.map(|date| Hit::of(None, format!("{date} < {measured}")))
+        .collect()
+}
+
+/// Dates `2026-01-31` on lines that hold one of the words.
+fn dates(text: &str, words: &[&str]) -> Vec<String> {
+    let mut found = Vec::new();
+    for line in text.lines() {
+        let lower = line.to_lowercase();
+        if !words.iter().any(|word| lower.contains(word)) {
+            continue;
+        }
+        for part in lower.split(|c: char| !(c.is_ascii_digit() || c == '-')) {
+            let figures: Vec<&str> = part.split('-').collect();
+            if let [year, month, day] = figures.as_slice()
+                && (year.len(), month.len(), day.len()) == (4, 2, 2)
+            {
+                found.push(part.to_string());
+            }
+        }
+    }
+    found
+}
+
+/// `U = ±0.2 mm`: a lone uncertainty has no sign (JJF 1059.1).
+pub(super) fn sign_before_u(seen: &Seen<'_>) -> Vec<Hit> {
+    let footer = &seen.claimed.footer;
+    let text = footer
+        .expanded
+        .as_ref()
+        .map(|figure| figure.text.trim().to_string());
+    let in_words = seen.claimed.words.lines().find(|line| {
+        let compact: String = line.split_whitespace().collect();
+        compact.contains("U=±") || compact.contains("U:±")
+    });
+    let of_cell = text.filter(|text| text.starts_with('±'));
+    of_cell
+        .or(in_words.map(str::to_string))
+        .map(|text| Hit::of(None, text))
+        .into_iter()
+        .collect()
+}

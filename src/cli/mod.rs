@@ -21,6 +21,7 @@ mod output;
 mod plan;
 mod progress;
 mod schema;
+mod serve;
 mod simulate;
 mod verify;
 
@@ -82,6 +83,8 @@ enum Command {
     Plan(plan::Args),
     /// Write a commented budget file to start from
     New(new::Args),
+    /// Open the workbench: budgets of a folder edited and seen in the browser
+    Serve(serve::Args),
     /// Make a sealed case: simulated recordings in which something is concealed
     Challenge(challenge::Args),
     /// Hold a diagnosis against the truth of a sealed case
@@ -108,6 +111,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Calibrate(args) => calibrate::run(&args),
         Command::Plan(args) => plan::run(&args),
         Command::New(args) => new::run(&args),
+        Command::Serve(args) => serve::run(&args),
         Command::Challenge(args) => challenge::run(&args),
         Command::Grade(args) => grade::run(&args),
         Command::Schema(args) => schema::run(&args),

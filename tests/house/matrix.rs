@@ -10,7 +10,7 @@ use super::modules::{Sources, Uses};
 use super::rings::{folders, rings};
 
 /// The crates, lowest first: each may use those before it.
-pub const CRATES: [&str; 13] = [
+pub const CRATES: [&str; 14] = [
     "lanes",
     "say",
     "fault",
@@ -23,6 +23,7 @@ pub const CRATES: [&str; 13] = [
     "verify",
     "report",
     "challenge",
+    "serve",
     "gumption",
 ];
 

@@ -24,5 +24,6 @@ mod one_figure;
 mod peers;
 mod published;
 mod references;
+mod serve;
 mod strd;
 mod workbooks;

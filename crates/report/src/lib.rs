@@ -28,6 +28,7 @@ mod number;
 mod phrase;
 mod quasi;
 mod remarks;
+mod requirements;
 mod rows;
 mod save;
 mod statement;
@@ -52,6 +53,7 @@ pub use diagnosis::{
 pub use evaluation::{evaluation, evaluation_schema, evaluations};
 pub use language::Language;
 pub use remarks::failure;
+pub use requirements::requirements;
 pub use rows::rows;
 pub use save::{Unsaved, saved};
 pub use statement::statement;

@@ -38,6 +38,36 @@ pub enum Files<'a> {
     Disk,
     /// Files in memory: path from the top of the library with `/` between its parts, and content.
     Library(&'a [(&'a str, &'a [u8])]),
+    /// A folder of the computer, outside of which nothing is read.
+    Folder(&'a Folder<'a>),
+}
+
+/// A folder from which alone files are read, whatever their names and links say. Paths are those from the folder on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Folder<'a> {
+    /// Where it is, without links ([`std::fs::canonicalize`]).
+    pub root: &'a Path,
+    /// Contents that are read in place of those on the disk, as those that are being edited.
+    pub instead: &'a [(&'a str, &'a [u8])],
+}
+
+impl Folder<'_> {
+    /// Where a file or a folder is; `NotFound` outside.
+    fn place(&self, path: &Path) -> Result<PathBuf> {
+        let place = std::fs::canonicalize(self.root.join(path))?;
+        match place.starts_with(self.root) {
+            true => Ok(place),
+            false => Err(Error::from(ErrorKind::NotFound)),
+        }
+    }
+}
+
+/// The content among some that are in memory.
+fn held<'a>(contents: &[(&str, &'a [u8])], path: &Path) -> Option<&'a [u8]> {
+    let wanted = plain(path);
+    let mut contents = contents.iter();
+    let found = contents.find(|(name, _)| Path::new(name) == wanted);
+    found.map(|(_, content)| *content)
 }
 
 impl Files<'_> {
@@ -52,14 +82,13 @@ impl Files<'_> {
                 ledger::note(path);
                 content_of(path)
             }
-            Files::Library(files) => {
-                let wanted = plain(path);
-                files
-                    .iter()
-                    .find(|(name, _)| Path::new(name) == wanted)
-                    .map(|(_, content)| content.to_vec())
-                    .ok_or_else(|| Error::from(ErrorKind::NotFound))
-            }
+            Files::Library(files) => held(files, path)
+                .map(<[u8]>::to_vec)
+                .ok_or_else(|| Error::from(ErrorKind::NotFound)),
+            Files::Folder(folder) => match held(folder.instead, path) {
+                Some(content) => Ok(content.to_vec()),
+                None => content_of(&folder.place(path)?),
+            },
         }
     }
 
@@ -73,6 +102,7 @@ impl Files<'_> {
                     Path::new(name) != wanted && Path::new(name).starts_with(&wanted)
                 })
             }
+            Files::Folder(folder) => folder.place(path).is_ok_and(|place| place.is_dir()),
         }
     }
 
@@ -83,6 +113,10 @@ impl Files<'_> {
                 .or_else(|_| std::path::absolute(path).map(|path| plain(&path)))
                 .unwrap_or_else(|_| plain(path)),
             Files::Library(_) => plain(path),
+            Files::Folder(folder) => {
+                let place = folder.place(path);
+                place.unwrap_or_else(|_| folder.root.join(plain(path)))
+            }
         }
     }
 }
@@ -144,6 +178,31 @@ mod tests {
             files.identity(Path::new("mass/../mass/a.toml")),
             Path::new("mass/a.toml")
         );
+    }
+
+    #[test]
+    fn nothing_is_read_outside_a_folder() {
+        let root = std::fs::canonicalize(concat!(env!("CARGO_MANIFEST_DIR"), "/src"));
+        let root = root.expect("the sources");
+        let instead: &[(&str, &[u8])] = &[("lib.rs", b"edited")];
+        let folder = Folder {
+            root: &root,
+            instead,
+        };
+        let files = Files::Folder(&folder);
+        let read = |path: &str| files.read(Path::new(path));
+        assert_eq!(read("toml/../lib.rs").expect("edited"), b"edited");
+        assert!(read("machine.rs").is_ok() && files.is_folder(Path::new("files")));
+        let absolute = root.join("machine.rs");
+        assert!(files.read(&absolute).is_ok());
+        for outside in ["../Cargo.toml", "/etc/hostname", "files/../../Cargo.toml"] {
+            let refused = read(outside).expect_err("outside");
+            assert_eq!(refused.kind(), ErrorKind::NotFound, "{outside}");
+        }
+        assert!(!files.is_folder(Path::new("..")));
+        let identity = |path: &str| files.identity(Path::new(path));
+        assert_eq!(identity("toml/../machine.rs"), absolute);
+        assert_eq!(identity("new.toml"), root.join("new.toml"));
     }
 
     #[test]

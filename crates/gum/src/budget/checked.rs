@@ -178,4 +178,16 @@ impl Budget {
         }
         moved
     }
+
+    /// The budget as it would be were the uncertainty of the input this multiple of what it is, every component of it
+    /// alike; other inputs that share a component keep theirs.
+    #[must_use]
+    pub fn with_uncertainty(&self, input: usize, factor: f64) -> Budget {
+        let mut scaled = self.clone();
+        let terms = scaled.inputs.get_mut(input).into_iter();
+        for term in terms.flat_map(|input| &mut input.terms) {
+            term.coefficient *= factor;
+        }
+        scaled
+    }
 }

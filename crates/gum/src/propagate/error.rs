@@ -29,6 +29,8 @@ pub enum EvaluationError {
         /// Its name.
         measurand: String,
     },
+    /// Whoever waited for it has stopped it.
+    Stopped,
 }
 
 impl fmt::Display for EvaluationError {
@@ -50,6 +52,7 @@ impl fmt::Display for EvaluationError {
                 f,
                 "Not one Monte Carlo trial gave a finite value of {measurand}. Check the distributions of the inputs and the formula."
             ),
+            EvaluationError::Stopped => write!(f, "The evaluation was stopped before its end."),
         }
     }
 }

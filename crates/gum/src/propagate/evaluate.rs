@@ -19,8 +19,17 @@ use crate::budget::{Budget, MonteCarloSettings, Points, Trials};
 /// # Errors
 /// When the model has no finite value or derivative at the estimates, so that nothing can be said.
 /// A missing derivative is no error when Monte Carlo is run: u(y) of the GUM is not finite then, and
-/// the statement uses Monte Carlo.
+/// the statement uses Monte Carlo. When its progress is stopped.
 pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationError> {
+    let found = both(budget, options);
+    // What a run has found that was stopped on the way means nothing.
+    match options.progress.is_stopped() {
+        true => Err(EvaluationError::Stopped),
+        false => found,
+    }
+}
+
+fn both(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationError> {
     let settings = options.monte_carlo.settings(budget);
     let linear = gum::linearise(budget)?;
     let second_order = second_order::evaluate(budget, &linear);
@@ -32,6 +41,9 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
             measurand: output.map(|output| output.name.clone()).unwrap_or_default(),
             error,
         });
+    }
+    if options.progress.is_stopped() {
+        return Err(EvaluationError::Stopped);
     }
     let unresolved = resolution::unresolved_trials(budget, &linear, &second_order);
     let settings = settings.filter(|_| unresolved.is_empty());

@@ -20,6 +20,7 @@ mod monte_carlo;
 mod options;
 mod progress;
 mod reported;
+mod requirements;
 mod resolution;
 mod result;
 mod second_order;
@@ -36,6 +37,7 @@ pub use findings::is_residue;
 pub use options::{MonteCarloChoice, Options};
 pub use progress::Progress;
 pub use reported::{IntervalKind, Reason, Reported, ReportedUncertainty, StatedProbability};
+pub use requirements::{MOST as MOST_MULTIPLE, Needed, Requirement, Requirements, requirements};
 pub use result::{
     AdaptiveRun, Basis, BestEstimate, CharacteristicLimits, Clause8, Conformance, ConformityResult,
     Consequence, Contribution, Coverage, CoverageBasis, DetectionLimit, DetectionResult,

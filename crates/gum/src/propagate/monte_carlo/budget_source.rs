@@ -1,6 +1,6 @@
 //! Trials of a budget's model.
 
-use gumption_lanes::Block;
+use gumption_lanes::{Block, LANES};
 
 use super::engine::Source;
 use super::joint_draw::{JointDraw, Scratch};
@@ -53,7 +53,12 @@ impl<'b> Source for BudgetSource<'b> {
         self.draw.start(&mut worker.scratch, chunk);
     }
 
+    /// Of a run that was stopped no trial has a value: nothing is drawn, and whoever takes trials in comes to its end.
     fn next(&self, worker: &mut Worker<'b>, outputs: &mut [Block]) {
+        if self.progress.is_stopped() {
+            outputs.fill(Block([f64::NAN; LANES]));
+            return;
+        }
         self.draw.next(&mut worker.scratch, &mut worker.inputs);
         worker.runner.run(&worker.inputs, outputs);
     }

@@ -1,0 +1,159 @@
+//! What U would need: the uncertainty that each input would have to have, alone.
+
+use gumption_format::document::{Block, Cell, ColumnKind, Document, Table};
+use gumption_format::machine::{Machine, Number, record};
+use gumption_gum::propagate::{MOST_MULTIPLE, Needed, Requirement, Requirements};
+
+use crate::language::{Language, Word};
+use crate::number::{NONE, TABLE_DIGITS, significant};
+use crate::{Report, difference_symbol};
+
+/// The document of what U would need of every input.
+pub fn requirements(report: &Report<'_>, found: &Requirements) -> Document {
+    let blocks = blocks(report, found);
+    Document::new(&form(report, found), report.language, blocks)
+}
+
+record! {
+    /// What every input would have to be, alone, so that U of a measurand is not above what is wished for.
+    RequirementsJson<'a> {
+        /// The measurand.
+        measurand: &'a str,
+        /// Unit of U.
+        unit: String,
+        /// U as it is.
+        expanded: Number,
+        /// U that is wished for.
+        wished: Number,
+        /// Inputs that contribute, the largest contribution first.
+        inputs: Vec<RequirementJson<'a>>,
+    }
+
+    /// What U would need of one input alone.
+    RequirementJson<'a> {
+        /// The input.
+        input: &'a str,
+        /// Unit of its uncertainty.
+        unit: String,
+        /// Its standard uncertainty.
+        u: Number,
+        /// What it would have to be at most; null where it cannot be, or need not be anything.
+        needed: Option<Number>,
+        /// What is left of U where the input is known exactly and U is still above what is wished for.
+        floor: Option<Number>,
+    }
+}
+
+impl Machine for RequirementsJson<'_> {
+    const KIND: &'static str = "requirements";
+    const VERSION: u32 = 1;
+}
+
+fn form<'a>(report: &Report<'a>, found: &Requirements) -> RequirementsJson<'a> {
+    let (name, unit) = report.measurand(found.measurand);
+    let inputs = found.inputs.iter().map(|one| {
+        let input = &report.budget.inputs[one.input];
+        let (needed, floor) = match one.needed {
+            Needed::Below(u) => (Some(Number(u)), None),
+            Needed::Floor(floor) => (None, Some(Number(floor))),
+            Needed::Any => (None, None),
+        };
+        RequirementJson {
+            input: &input.name,
+            unit: difference_symbol(&input.unit),
+            u: Number(one.u),
+            needed,
+            floor,
+        }
+    });
+    RequirementsJson {
+        measurand: name,
+        unit: difference_symbol(unit),
+        expanded: Number(found.expanded),
+        wished: Number(found.wished),
+        inputs: inputs.collect(),
+    }
+}
+
+fn blocks(report: &Report<'_>, found: &Requirements) -> Vec<Block> {
+    let l = report.language;
+    let (name, unit) = report.measurand(found.measurand);
+    let unit = difference_symbol(unit);
+    let with_unit = |x: f64| {
+        format!("{} {unit}", significant(x, TABLE_DIGITS))
+            .trim()
+            .to_owned()
+    };
+    let (now, wished) = (with_unit(found.expanded), with_unit(found.wished));
+    let mut table = Table::new([
+        (Word::Quantity.of(l), ColumnKind::Names),
+        (Word::Unit.of(l), ColumnKind::Words),
+        ("u", ColumnKind::Numbers),
+        (l.pick("needed u", "所需 u"), ColumnKind::Numbers),
+        (l.pick("alone", "单独改变时"), ColumnKind::Wrapped),
+    ]);
+    for one in &found.inputs {
+        table.push(row(report, one, &with_unit));
+    }
+    let reached = found
+        .inputs
+        .iter()
+        .any(|one| !matches!(one.needed, Needed::Floor(_)));
+    let mut blocks = vec![
+        Block::Title(l.pick(
+            format!("What U({name}) = {wished} would need"),
+            format!("U({name}) = {wished} 的条件"),
+        )),
+        Block::Paragraph(l.pick(
+            format!("By the law of propagation of uncertainty U is {now} now. Each line changes one input and keeps all others; k follows the degrees of freedom."),
+            format!("按不确定度传播律，目前 U = {now}。每行只改变一个输入量，其余不变；k 随自由度而变。"),
+        )),
+        Block::Table(table),
+    ];
+    if !reached {
+        blocks.push(Block::Closing(vec![l.pick(
+            "No input alone can do it: several have to become better together.".to_owned(),
+            "改变任何单个输入量都达不到：须同时改进多个输入量。".to_owned(),
+        )]));
+    }
+    blocks
+}
+
+fn row(report: &Report<'_>, one: &Requirement, with_unit: &dyn Fn(f64) -> String) -> Vec<Cell> {
+    let l = report.language;
+    let input = &report.budget.inputs[one.input];
+    let (needed, words) = match one.needed {
+        Needed::Below(u) => {
+            let times = significant(u / one.u, TABLE_DIGITS);
+            let words = l.pick(
+                format!("{times} times what it is"),
+                format!("为现值的 {times} 倍"),
+            );
+            (significant(u, TABLE_DIGITS), words)
+        }
+        Needed::Floor(floor) => {
+            let floor = with_unit(floor);
+            let words = match l {
+                Language::English => {
+                    format!("impossible: {floor} is left where it is known exactly")
+                }
+                Language::Chinese => format!("不可能：即使准确已知，U 仍为 {floor}"),
+            };
+            (NONE.to_owned(), words)
+        }
+        Needed::Any => {
+            let words = match l {
+                Language::English => format!("more than {MOST_MULTIPLE} times what it is would do"),
+                Language::Chinese => format!("放大到现值的 {MOST_MULTIPLE} 倍以上仍可"),
+            };
+            (NONE.to_owned(), words)
+        }
+    };
+    vec![
+        input.name.as_str().into(),
+        difference_symbol(&input.unit).into(),
+        significant(one.u, TABLE_DIGITS).into(),
+        needed.into(),
+        words.into(),
+    ]
+}

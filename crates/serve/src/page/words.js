@@ -1,0 +1,38 @@
+"use strict";
+// What the page itself says; results and faults come from the program in the reader's language.
+const WORDS = {
+  en: {
+    toText: "To the text", file: "File", new: "New…", save: "Save", drop: "Audit a sheet, add a recording…",
+    download: "Download", language: "Language", text: "Budget file", result: "Result", stop: "Stop",
+    recording: "Recording", calibrate: "Calibrate", diagnose: "Diagnose", whatIf: "What if", input: "Input",
+    value: "Estimate", factor: "u times", reset: "As in the text", require: "What would that need?", back: "Back to the result",
+    name: "Name", cancel: "Cancel", choose: "as …", none: "No budget here yet: “New…” writes one to start from.",
+    saved: "Saved.", unsaved: "Not saved yet.", computing: "Computing…", ready: ms => `${ms} ms.`,
+    faults: n => n === 1 ? "1 fault." : `${n} faults.`, line: n => `Line ${n}`,
+    lost: "The server does not answer. The text is still here; start `gumption serve` again and copy it.",
+    newName: "Write a commented budget to start from. What shall the file be called?", create: "Create",
+    replace: "Replace it with mine", theirs: "Take the file as it is now", overwrite: "Your text is not saved. Leave it?",
+    leave: "Leave (kept until the server ends)", restored: "What was typed and not saved is back.", discard: "Discard what is not saved",
+    now: "now", before: "saved", changed: "What if: this is not what the text says.", held: n => `Added for this page: ${n}.`,
+    measurand: "Measurand", wished: "Wished expanded uncertainty U",
+    lesson: "Lesson", chooseLesson: "choose …", again: "Draw again", drawn: n => `Samples no. ${n}.`,
+    trials: n => `${n} trials`, stopped: "Stopped.", nothing: "Nothing to show.", tooLarge: "That is too large.",
+  },
+  zh: {
+    toText: "转到文本", file: "文件", new: "新建…", save: "保存", drop: "审核表格、加入记录…",
+    download: "下载", language: "语言", text: "评定文件", result: "结果", stop: "停止",
+    recording: "记录", calibrate: "校准", diagnose: "诊断", whatIf: "如果……", input: "输入量",
+    value: "估计值", factor: "u 的倍数", reset: "恢复为文本所述", require: "需要什么条件？", back: "返回结果",
+    name: "名称", cancel: "取消", choose: "格式…", none: "这里还没有评定文件：“新建…”可写出一个作为起点。",
+    saved: "已保存。", unsaved: "尚未保存。", computing: "正在计算…", ready: ms => `${ms} ms。`,
+    faults: n => `${n} 处错误。`, line: n => `第 ${n} 行`,
+    lost: "服务器没有应答。文本仍在这里；请重新运行 `gumption serve` 并复制文本。",
+    newName: "写出一个带注释的评定文件作为起点。文件叫什么名字？", create: "建立",
+    replace: "用我的文本替换", theirs: "采用现有文件", overwrite: "文本尚未保存。要离开吗？",
+    leave: "离开（服务器结束前仍保留）", restored: "已恢复上次输入而未保存的文本。", discard: "放弃未保存的内容",
+    now: "现在", before: "已保存", changed: "假设情形：与文本所述不同。", held: n => `已加入本页：${n}。`,
+    measurand: "被测量", wished: "所希望的扩展不确定度 U",
+    lesson: "课程", chooseLesson: "选择…", again: "重新抽样", drawn: n => `第 ${n} 组样本。`,
+    trials: n => `${n} 次试验`, stopped: "已停止。", nothing: "没有可显示的内容。", tooLarge: "内容过大。",
+  },
+};

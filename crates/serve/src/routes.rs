@@ -1,0 +1,234 @@
+//! Which address does what.
+
+use std::io::ErrorKind;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use hyper::body::Bytes;
+use hyper::{Method, StatusCode};
+use serde::Deserialize;
+use serde_json::json;
+
+use gumption_export::{FORMATS, Page};
+use gumption_fault::language::Language;
+use gumption_fault::{Said, say};
+use gumption_gum::budget;
+
+use super::exchange::{Contents, Reply, opened};
+use super::lessons::LESSONS;
+use super::page;
+use super::pages::{Ended, Job, Pages};
+use super::shelf::{MOST_TEXT, Shelf, Unsaved};
+use super::work::{self, Found, Task, Tongue, Wish};
+
+/// Nobody waits longer for what answers while they type.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Nobody waits longer for what they have started.
+const LONGEST: Duration = Duration::from_secs(3600);
+
+/// What the server can be asked for.
+#[derive(Debug)]
+pub(crate) struct Routes {
+    shelf: Arc<Shelf>,
+    pages: Pages,
+}
+
+/// About a file, or a page.
+#[derive(Debug, Deserialize)]
+struct About {
+    #[serde(default)]
+    path: String,
+    #[serde(default)]
+    page: String,
+    language: Tongue,
+    /// Whether the file is to be new.
+    #[serde(default)]
+    new: bool,
+}
+
+impl Routes {
+    /// For the files of a folder.
+    pub fn new(root: PathBuf) -> Routes {
+        Routes {
+            shelf: Arc::new(Shelf::new(root)),
+            pages: Pages::new(),
+        }
+    }
+
+    /// Answers a request of somebody who was let in.
+    pub async fn answer(&self, method: &Method, path: &str, body: Bytes) -> Reply {
+        match (method, path.strip_prefix("api/")) {
+            (&Method::GET, None) => {
+                page::file(path).unwrap_or_else(|| Reply::status(StatusCode::NOT_FOUND))
+            }
+            (&Method::POST, Some("work")) => self.work(&body).await,
+            (&Method::POST, Some(asked)) => self.about(asked, &body),
+            (&Method::GET, Some(_)) => Reply::status(StatusCode::METHOD_NOT_ALLOWED),
+            _ => Reply::status(StatusCode::NOT_FOUND),
+        }
+    }
+
+    fn about(&self, asked: &str, body: &[u8]) -> Reply {
+        let (about, contents): (About, Contents) = match opened(body) {
+            Ok(request) => request,
+            Err(reply) => return reply,
+        };
+        match asked {
+            "files" => {
+                let mut list = self.shelf.list();
+                let formats = FORMATS.iter().map(|format| (format.name, format.ending));
+                list["formats"] = json!(formats.collect::<Vec<_>>());
+                let lessons = LESSONS
+                    .iter()
+                    .map(|lesson| (lesson.name, lesson.title, lesson.counts));
+                list["lessons"] = json!(lessons.collect::<Vec<_>>());
+                Reply::json(&list)
+            }
+            "open" => self.open(&about),
+            "template" => Reply::json(&json!({ "text": budget::template() })),
+            "save" => self.save(&about, &contents),
+            "forget" => {
+                self.shelf.forget(&about.path);
+                Reply::json(&json!({}))
+            }
+            "progress" => {
+                let job = self.pages.of(&about.page);
+                let done = job.map(
+                    |job| json!({ "share": job.share(), "trials": job.trials.trials_drawn() }),
+                );
+                Reply::json(&done.unwrap_or_default())
+            }
+            "stop" => {
+                if let Some(job) = self.pages.of(&about.page) {
+                    job.trials.stop();
+                }
+                Reply::json(&json!({}))
+            }
+            _ => Reply::status(StatusCode::NOT_FOUND),
+        }
+    }
+
+    fn open(&self, about: &About) -> Reply {
+        let language = about.language.into();
+        let path = &about.path;
+        self.shelf.open(path).map_or_else(
+            |error| {
+                let (status, why) = match error.kind() {
+                    ErrorKind::NotFound => (
+                        StatusCode::NOT_FOUND,
+                        say!("there is no file {path} in the folder"),
+                    ),
+                    ErrorKind::InvalidData => (
+                        StatusCode::UNPROCESSABLE_ENTITY,
+                        say!("{path} is no text in UTF-8"),
+                    ),
+                    ErrorKind::FileTooLarge => (
+                        StatusCode::PAYLOAD_TOO_LARGE,
+                        say!("{path} is too large to be edited here"),
+                    ),
+                    _ => (
+                        StatusCode::INTERNAL_SERVER_ERROR,
+                        say!("{path} cannot be read: {error}"),
+                    ),
+                };
+                Reply::because(status, &why, language)
+            },
+            |file| Reply::json(&file),
+        )
+    }
+
+    /// Contents are the new text and, unless the file is to be new, the one that was edited.
+    fn save(&self, about: &About, contents: &Contents) -> Reply {
+        let language: Language = about.language.into();
+        let path = &about.path;
+        let mut texts = contents.iter().map(|(_, bytes)| std::str::from_utf8(bytes));
+        let (text, base) = match (texts.next(), texts.next(), about.new) {
+            (Some(Ok(text)), None, true) => (text, None),
+            (Some(Ok(text)), Some(Ok(base)), false) => (text, Some(base)),
+            _ => return Reply::status(StatusCode::BAD_REQUEST),
+        };
+        match self.shelf.save(path, text, base) {
+            Ok(()) => Reply::json(&json!({})),
+            Err(Unsaved::Conflict(there)) => {
+                let why = match (&there, base) {
+                    (None, Some(_)) => say!("{path} has been removed since it was opened"),
+                    (_, None) => say!("there is a file {path} already"),
+                    _ => say!("{path} has been changed by somebody else since it was opened"),
+                };
+                let conflict = json!({ "message": why.in_language(language), "there": there });
+                Reply::json(&conflict).with(StatusCode::CONFLICT)
+            }
+            Err(Unsaved::Outside) => {
+                let why = say!(
+                    "{path} is no name of a file in this folder; it ends in .toml, and its folder exists"
+                );
+                Reply::because(StatusCode::FORBIDDEN, &why, language)
+            }
+            Err(Unsaved::Unwritten(unwritten)) => {
+                let why = Said::quoted(unwritten.words(language));
+                Reply::because(StatusCode::INTERNAL_SERVER_ERROR, &why, language)
+            }
+        }
+    }
+
+    async fn work(&self, body: &[u8]) -> Reply {
+        let (wish, contents): (Wish, Contents) = match opened(body) {
+            Ok(request) => request,
+            Err(reply) => return reply,
+        };
+        let Some(format) = work::format(&wish) else {
+            return Reply::status(StatusCode::BAD_REQUEST);
+        };
+        self.keep(&contents);
+        let language: Language = wish.language.into();
+        let (handed_over, page) = (wish.format.is_some(), wish.page.clone());
+        let most = match wish.task {
+            Task::See | Task::Require | Task::Lesson => PATIENCE,
+            Task::Diagnose | Task::Audit => LONGEST,
+        };
+        let shelf = Arc::clone(&self.shelf);
+        let work = move |job: &Job| {
+            let found = work::done(&wish, &contents, &shelf, job);
+            match (&found, handed_over) {
+                (Found::Document(document, _), true) => {
+                    match (format.render)(document, &Page::default()) {
+                        Ok(bytes) => Reply::content(format.media_type, bytes),
+                        Err(unfit) => {
+                            Reply::because(StatusCode::UNPROCESSABLE_ENTITY, &unfit.0, language)
+                        }
+                    }
+                }
+                (_, true) => Reply::json(&work::shown(&found, language))
+                    .with(StatusCode::UNPROCESSABLE_ENTITY),
+                (_, false) => Reply::json(&work::shown(&found, language)),
+            }
+        };
+        match self.pages.compute(page, most, work).await {
+            Ok(reply) => reply,
+            Err(Ended::Stopped) => Reply::json(&json!({ "stopped": true })),
+            Err(Ended::Late) => {
+                let seconds = most.as_secs();
+                let why = say!(
+                    "this takes longer than {seconds} s and was stopped; the command line takes its time"
+                );
+                Reply::because(StatusCode::REQUEST_TIMEOUT, &why, language)
+            }
+            Err(Ended::Crowded) => {
+                let why = say!("too many pages wait for this server");
+                Reply::because(StatusCode::SERVICE_UNAVAILABLE, &why, language)
+            }
+        }
+    }
+
+    /// Keeps the texts of files of the folder that are being edited.
+    fn keep(&self, contents: &Contents) {
+        for (path, bytes) in contents {
+            let is_text = path.ends_with(".toml") && bytes.len() as u64 <= MOST_TEXT;
+            if let (true, Ok(text)) = (is_text, std::str::from_utf8(bytes)) {
+                self.shelf.keep(path, text);
+            }
+        }
+    }
+}

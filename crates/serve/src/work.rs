@@ -1,0 +1,410 @@
+//! Evaluations, audits, calibrations, diagnoses: a document, or what is wrong.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use gumption_audit::audit;
+use gumption_audit::read::{self, Mapping};
+use gumption_audit::sheet::{self, Unreadable};
+use gumption_core::quantity::Unit;
+use gumption_export::{Format, Page};
+use gumption_fault::language::Language;
+use gumption_fault::{Fault, Rejection, Said, say};
+use gumption_format::document::Document;
+use gumption_format::files::Files;
+use gumption_gum::budget::{self, Budget, Row};
+use gumption_gum::propagate::{self, Evaluation, MonteCarloChoice, Options};
+use gumption_lab::calibrate;
+use gumption_lab::diagnose::{self, case};
+use gumption_lab::experiment::Purpose;
+use gumption_report::{self as report, Report};
+
+use super::exchange::Contents;
+use super::lessons;
+use super::pages::Job;
+use super::shelf::Shelf;
+
+/// Most trials of a budget that is evaluated while somebody waits: some seconds.
+const MOST_TRIALS: u64 = 100_000_000;
+
+/// What is to be done with a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Task {
+    /// A budget is evaluated, an experiment calibrated.
+    See,
+    /// What U would need.
+    Require,
+    /// A recording is held against its model.
+    Diagnose,
+    /// A claimed budget is recomputed.
+    Audit,
+    /// Samples are drawn for a class.
+    Lesson,
+}
+
+/// What a page asks for.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Wish {
+    pub task: Task,
+    pub page: String,
+    /// The file, from the top of the folder.
+    pub path: String,
+    pub language: Tongue,
+    /// Name of the format in which the document is handed over; the page itself shows HTML.
+    pub format: Option<String>,
+    #[serde(default)]
+    pub changes: Vec<Change>,
+    /// Measurand and U that are wished for.
+    pub target: Option<Target>,
+    /// Lesson that is drawn.
+    pub lesson: Option<Drawing>,
+}
+
+/// A language by its code.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Tongue {
+    En,
+    Zh,
+}
+
+impl From<Tongue> for Language {
+    fn from(tongue: Tongue) -> Language {
+        match tongue {
+            Tongue::En => Language::English,
+            Tongue::Zh => Language::Chinese,
+        }
+    }
+}
+
+/// What an input would be.
+#[derive(Debug, Clone, Deserialize)]
+pub(crate) struct Change {
+    input: String,
+    /// Its estimate.
+    value: Option<f64>,
+    /// What its uncertainty is multiplied by.
+    factor: Option<f64>,
+}
+
+/// A wish for U.
+#[derive(Debug, Clone, Deserialize)]
+pub(crate) struct Target {
+    measurand: String,
+    expanded: f64,
+}
+
+/// A lesson with how it is drawn.
+#[derive(Debug, Clone, Deserialize)]
+pub(crate) struct Drawing {
+    name: String,
+    /// Readings, or terms.
+    n: usize,
+    seed: u64,
+}
+
+/// What came of it.
+pub(crate) enum Found {
+    /// A document, and what the page shows beside it.
+    Document(Box<Document>, Value),
+    /// A file has faults.
+    Refused(Box<Rejection>),
+    /// There is no result, and why.
+    Nothing(String),
+}
+
+impl From<Rejection> for Found {
+    fn from(rejection: Rejection) -> Found {
+        Found::Refused(Box::new(rejection))
+    }
+}
+
+/// The format that a wish names.
+pub(crate) fn format(wish: &Wish) -> Option<&'static Format> {
+    gumption_export::named(wish.format.as_deref().unwrap_or("html"))
+}
+
+/// Does what a page asks for, with the contents that it sends in place of those on the disk.
+pub(crate) fn done(wish: &Wish, contents: &Contents, shelf: &Shelf, job: &Job) -> Found {
+    let contents = contents.iter();
+    let instead: Vec<(&str, &[u8])> = contents
+        .map(|(path, content)| (path.as_str(), content.as_slice()))
+        .collect();
+    let folder = shelf.folder(&instead);
+    let files = Files::Folder(&folder);
+    let asked = Asked {
+        wish,
+        files,
+        path: Path::new(&wish.path),
+        language: wish.language.into(),
+        job,
+    };
+    let found = match wish.task {
+        Task::Audit => asked.audit(),
+        Task::Diagnose => asked.diagnose(),
+        Task::See if asked.is_experiment() => asked.calibrate(),
+        Task::See => asked.evaluate(),
+        Task::Require => asked.require(),
+        Task::Lesson => asked.lesson(),
+    };
+    found.unwrap_or_else(|found| found)
+}
+
+/// A wish with what it takes.
+struct Asked<'a> {
+    wish: &'a Wish,
+    files: Files<'a>,
+    path: &'a Path,
+    language: Language,
+    job: &'a Job,
+}
+
+/// An evaluated row of a file.
+struct Evaluated {
+    label: Option<String>,
+    budget: Budget,
+    evaluation: Evaluation,
+}
+
+impl Asked<'_> {
+    fn nothing(&self, why: &Said) -> Found {
+        Found::Nothing(why.in_language(self.language))
+    }
+
+    /// Whether the file is an experiment: one that has no measurand, and says where readings come from.
+    fn is_experiment(&self) -> bool {
+        let bytes = self.files.read(self.path).unwrap_or_default();
+        let text = String::from_utf8_lossy(&bytes);
+        let words = ["recording", "[recording", "equations", "procedure"];
+        let says = |line: &str| words.iter().any(|word| line.starts_with(word));
+        !text.contains("[measurand") && text.lines().any(says)
+    }
+
+    fn evaluate(&self) -> Result<Found, Found> {
+        let rows = self.rows(MonteCarloChoice::AsBudget)?;
+        let reports: Vec<Report<'_>> = rows.iter().map(|row| self.report(row)).collect();
+        let first = reports.first().map_or(Value::Null, beside);
+        let document = report::evaluations(&reports, 1);
+        let document = document.ok_or_else(|| self.nothing(&say!("the file has no rows")))?;
+        Ok(Found::Document(Box::new(document), first))
+    }
+
+    fn report<'r>(&self, row: &'r Evaluated) -> Report<'r> {
+        Report {
+            budget: &row.budget,
+            evaluation: &row.evaluation,
+            label: row.label.as_deref(),
+            language: self.language,
+        }
+    }
+
+    /// The rows of the file as the changes make them, evaluated.
+    fn rows(&self, monte_carlo: MonteCarloChoice) -> Result<Vec<Evaluated>, Found> {
+        let loaded = budget::load_from(self.files, self.path, None)?;
+        let rows = loaded.rows.into_iter();
+        rows.map(|Row { label, budget }| {
+            let budget = self.changed(budget);
+            let evaluation = self.evaluated(&budget, monte_carlo.clone())?;
+            Ok(Evaluated {
+                label,
+                budget,
+                evaluation,
+            })
+        })
+        .collect()
+    }
+
+    fn changed(&self, budget: Budget) -> Budget {
+        self.wish.changes.iter().fold(budget, |budget, change| {
+            let mut inputs = budget.inputs.iter();
+            let Some(input) = inputs.position(|input| input.name == change.input) else {
+                return budget;
+            };
+            let budget = match change.value.filter(|value| value.is_finite()) {
+                Some(value) => budget.at(input, value),
+                None => budget,
+            };
+            match change
+                .factor
+                .filter(|factor| factor.is_finite() && *factor >= 0.0)
+            {
+                Some(factor) => budget.with_uncertainty(input, factor),
+                None => budget,
+            }
+        })
+    }
+
+    fn evaluated(
+        &self,
+        budget: &Budget,
+        monte_carlo: MonteCarloChoice,
+    ) -> Result<Evaluation, Found> {
+        let most = budget.monte_carlo.trials.most();
+        if monte_carlo != MonteCarloChoice::Off && most > MOST_TRIALS {
+            let why = say!(
+                "the file asks for {most} trials, and the page draws {MOST_TRIALS} at most; `gumption eval` draws them all"
+            );
+            return Err(self.nothing(&why));
+        }
+        let options = Options {
+            monte_carlo,
+            progress: self.job.trials.clone(),
+            ..Options::default()
+        };
+        propagate::evaluate(budget, &options)
+            .map_err(|error| Found::Nothing(report::failure(&error, self.language)))
+    }
+
+    fn require(&self) -> Result<Found, Found> {
+        let rows = self.rows(MonteCarloChoice::Off)?;
+        let asked = self.wish.target.as_ref().zip(rows.first());
+        let asked = asked.and_then(|(target, row)| {
+            let mut outputs = row.budget.model.outputs().iter();
+            let measurand = outputs.position(|output| output.name == target.measurand)?;
+            Some((target, row, measurand))
+        });
+        let (target, row, measurand) = asked.ok_or_else(|| self.no_target())?;
+        let found = propagate::requirements(&row.budget, measurand, target.expanded)
+            .map_err(|error| Found::Nothing(report::failure(&error, self.language)))?;
+        let found = found.ok_or_else(|| self.no_target())?;
+        let document = report::requirements(&self.report(row), &found);
+        Ok(Found::Document(Box::new(document), Value::Null))
+    }
+
+    fn no_target(&self) -> Found {
+        self.nothing(&say!("write the U that is wished for as a positive number"))
+    }
+
+    fn lesson(&self) -> Result<Found, Found> {
+        let drawing = self.wish.lesson.as_ref();
+        let document = drawing.and_then(|Drawing { name, n, seed }| {
+            lessons::lesson(name, *n, *seed, self.language, &self.job.trials)
+        });
+        let document = document
+            .ok_or_else(|| self.nothing(&Said::pair("there is no such lesson", "没有这一课")))?;
+        Ok(Found::Document(Box::new(document), Value::Null))
+    }
+
+    fn calibrate(&self) -> Result<Found, Found> {
+        let campaign = calibrate::load_from(self.files, self.path, Purpose::Calibrate)?;
+        let found = calibrate::calibrate(&campaign).map_err(|trouble| {
+            Found::Nothing(report::calibration_trouble(&trouble, self.language))
+        })?;
+        let document = report::calibration(&campaign, &found, self.language);
+        Ok(Found::Document(
+            Box::new(document),
+            json!({ "experiment": true }),
+        ))
+    }
+
+    fn diagnose(&self) -> Result<Found, Found> {
+        let case = case::Case::load_from(self.files, self.path, case::Purpose::Diagnosis)?;
+        let found = diagnose::diagnose(&case, &|share| self.job.at(share)).map_err(|failure| {
+            Found::Nothing(report::diagnosis_failure(&case, &failure, self.language))
+        })?;
+        let document = report::diagnosis(&case, &found, self.language);
+        Ok(Found::Document(
+            Box::new(document),
+            json!({ "experiment": true }),
+        ))
+    }
+
+    fn audit(&self) -> Result<Found, Found> {
+        let name = &self.wish.path;
+        let unreadable = |why: Said| self.nothing(&say!("cannot read {name}: {why}"));
+        let bytes = self.files.read(self.path);
+        let bytes = bytes.map_err(|error| unreadable(Said::quoted(error.to_string())))?;
+        let grids = sheet::grids(name, &bytes);
+        let grids = grids.map_err(|Unreadable(why)| unreadable(Said::quoted(why)))?;
+        let claims = read::budgets(&grids, &Mapping::default());
+        let audits: Vec<_> = claims.iter().map(audit).collect();
+        if audits.is_empty() {
+            return Err(self.nothing(&say!(
+                "{name} holds no table that could be understood as an uncertainty budget"
+            )));
+        }
+        let document = report::audit(name, &audits, self.language);
+        Ok(Found::Document(Box::new(document), Value::Null))
+    }
+}
+
+/// What the page shows beside the document of an evaluation: inputs that can be moved, results to compare.
+fn beside(report: &Report<'_>) -> Value {
+    let (budget, evaluation) = (report.budget, report.evaluation);
+    let first = evaluation.results.first();
+    let inputs = budget.inputs.iter().enumerate().map(|(at, input)| {
+        let line = first.and_then(|result| result.gum.inputs.get(at));
+        json!({
+            "name": input.name, "unit": symbol(&input.unit), "value": input.estimate,
+            "u": line.map(|line| line.u), "share": line.map(|line| line.share),
+        })
+    });
+    let outputs = budget.model.outputs().iter();
+    let results = outputs.zip(&evaluation.results).map(|(output, result)| {
+        let gum = &result.gum;
+        json!({
+            "name": output.name, "unit": symbol(&output.unit.difference()),
+            "y": gum.estimate, "U": gum.coverage.expanded,
+        })
+    });
+    json!({
+        "inputs": inputs.collect::<Vec<_>>(),
+        "results": results.collect::<Vec<_>>(),
+        "statement": report::statement(report),
+    })
+}
+
+/// The unit as printed after a number; nothing for the unit one.
+fn symbol(unit: &Unit) -> String {
+    match unit.is_one() {
+        true => String::new(),
+        false => unit.typeset(),
+    }
+}
+
+/// What came of a wish, for the page.
+pub(crate) fn shown(found: &Found, language: Language) -> Value {
+    match found {
+        Found::Document(document, beside) => {
+            let html = gumption_export::named("html");
+            let html = html.map(|html| (html.render)(document, &Page::default()));
+            match html {
+                Some(Ok(page)) => {
+                    json!({ "html": String::from_utf8_lossy(&page), "beside": beside })
+                }
+                Some(Err(unfit)) => json!({ "message": unfit.0.in_language(language) }),
+                None => Value::Null,
+            }
+        }
+        Found::Refused(rejection) => {
+            let faults = rejection.faults.iter();
+            let faults: Vec<Value> = faults
+                .map(|fault| placed(fault, &rejection.text, language))
+                .collect();
+            let others = rejection.others.iter();
+            let others: Vec<String> = others
+                .map(|other| other.render_in(language, false))
+                .collect();
+            json!({ "faults": faults, "others": others.join("\n") })
+        }
+        Found::Nothing(why) => json!({ "message": why }),
+    }
+}
+
+/// A fault with its place as an editor of the browser counts: in units of UTF-16, lines from 1.
+fn placed(fault: &Fault, text: &str, language: Language) -> Value {
+    let until = |byte: usize| &text[..text.floor_char_boundary(byte.min(text.len()))];
+    let units = |byte: usize| until(byte).encode_utf16().count();
+    json!({
+        "code": fault.code.id,
+        "message": fault.message.in_language(language),
+        "label": fault.label.in_language(language),
+        "help": fault.help.as_ref().map(|help| help.in_language(language)),
+        "line": until(fault.span.start).matches('\n').count() + 1,
+        "from": units(fault.span.start),
+        "to": units(fault.span.end),
+    })
+}

@@ -2,6 +2,7 @@
 
 mod allan;
 mod audit;
+mod batch;
 mod calibrate;
 mod challenge;
 mod concepts;
@@ -61,6 +62,8 @@ struct Cli {
 enum Command {
     /// Evaluate budget files: budget table, GUM and Monte Carlo, statement for the certificate
     Eval(eval::Args),
+    /// Evaluate one budget for every row of a table of devices
+    Batch(batch::Args),
     /// Recompute a claimed budget from its sheet, and name the slip behind its figures
     Audit(audit::Args),
     /// Confront a model with a recording: do they agree, and what was left out
@@ -94,6 +97,7 @@ pub(crate) fn run() -> ExitCode {
     interrupt::say_so();
     let outcome = match command {
         Command::Eval(args) => eval::run(&args),
+        Command::Batch(args) => batch::run(&args),
         Command::Audit(args) => audit::run(&args),
         Command::Diagnose(args) => diagnose::run(&args),
         Command::Simulate(args) => simulate::run(&args),

@@ -440,6 +440,7 @@ pub fn failure(error: &EvaluationError, language: Language) -> String {
         EvaluationError::AllTrialsFailed { measurand } => {
             format!("所有蒙特卡洛试验都没有得到 {measurand} 的有限值。请核对输入量的分布和公式。")
         }
+        EvaluationError::Stopped => "已中断".into(),
     }
 }
 

@@ -29,6 +29,8 @@ pub enum EvaluationError {
         /// Its name.
         measurand: String,
     },
+    /// Somebody asked for its end ([`super::Progress::stop`]).
+    Stopped,
 }
 
 impl fmt::Display for EvaluationError {
@@ -50,6 +52,7 @@ impl fmt::Display for EvaluationError {
                 f,
                 "Not one Monte Carlo trial gave a finite value of {measurand}. Check the distributions of the inputs and the formula."
             ),
+            EvaluationError::Stopped => f.write_str("stopped"),
         }
     }
 }

@@ -4,6 +4,7 @@ use super::error::EvaluationError;
 use super::gum::Linear;
 use super::monte_carlo::{FirstOrder, Outcome};
 use super::options::{Options, Workers};
+use super::progress::Progress;
 use super::result::{
     Clause8, Evaluation, Gum, MeasurandResult, MonteCarlo, Quasi, Run, TrialMoments,
 };
@@ -19,8 +20,12 @@ use crate::budget::{Budget, MonteCarloSettings, Points, Trials};
 /// # Errors
 /// When the model has no finite value or derivative at the estimates, so that nothing can be said.
 /// A missing derivative is no error when Monte Carlo is run: u(y) of the GUM is not finite then, and
-/// the statement uses Monte Carlo.
+/// the statement uses Monte Carlo. And when somebody has stopped it.
 pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationError> {
+    Progress::until_stopped(|| both(budget, options)).unwrap_or(Err(EvaluationError::Stopped))
+}
+
+fn both(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationError> {
     let settings = options.monte_carlo.settings(budget);
     let linear = gum::linearise(budget)?;
     let second_order = second_order::evaluate(budget, &linear);
@@ -112,14 +117,16 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
 
 /// Values of the measurands in trials of the Monte Carlo method, each in its unit: one list for each measurand, and the
 /// n-th values of the lists are of one trial. They are the trials of a run with the seed of the budget or of the
-/// options, on whatever number of threads; a trial in which the model has no value is NaN.
+/// options, on whatever number of threads; a trial in which the model has no value is NaN. No lists where somebody has
+/// stopped it.
 pub fn samples(budget: &Budget, trials: u64, options: &Options) -> Vec<Vec<f64>> {
     let settings = options.monte_carlo.settings(budget);
     let seed = settings.unwrap_or(&budget.monte_carlo).seed;
     let linear = gum::linearise(budget).ok();
     let on_the_turn = linear.and_then(|linear| on_the_turn(budget, &linear));
     let drawn = on_the_turn.as_ref().unwrap_or(budget);
-    monte_carlo::draws(drawn, (seed, trials), options.workers())
+    Progress::until_stopped(|| monte_carlo::draws(drawn, (seed, trials), options.workers()))
+        .unwrap_or_default()
 }
 
 /// The budget as it is drawn where phases reach their jump: each on the turn around its estimate.

@@ -50,6 +50,7 @@ impl<'b> Source for BudgetSource<'b> {
     }
 
     fn start(&self, worker: &mut Worker<'b>, chunk: u64) {
+        self.progress.heed();
         self.draw.start(&mut worker.scratch, chunk);
     }
 

@@ -143,6 +143,7 @@
 //! | [`model`] | the model language: text → checked program → values, derivatives, blocks |
 //! | [`equations`] | measurement equations over rows of data |
 //! | [`mod@budget`] | the file format and the checked budget |
+//! | [`batch`] | one budget for every row of a table |
 //! | [`propagate`] | GUM and Monte Carlo evaluation of a budget; verdicts; comparison with claims |
 //! | [`csv`] | the one reader of tables |
 //! | [`recording`] | recordings of instruments: columns, dwells, averages, Allan deviation |
@@ -167,7 +168,7 @@ pub use gumption_export as render;
 pub use gumption_fault as fault;
 pub use gumption_fault::language;
 pub use gumption_format::{csv, document, files, machine};
-pub use gumption_gum::{budget, propagate};
+pub use gumption_gum::{batch, budget, propagate};
 pub use gumption_lab::{calibrate, diagnose, experiment, recording};
 pub use gumption_report as report;
 pub use gumption_verify as verify;

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::output::Complaint;
 use clap::{Args as _, FromArgMatches};
 use gumption::Files;
-use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Points, Profile, Trials};
+use gumption::budget::{self, Budget, Points, Profile, Trials, Wanted};
 use gumption::document::Document;
 use gumption::fault::say;
 use gumption::propagate::{self, Evaluation, MonteCarloChoice, Options};
@@ -139,7 +139,12 @@ pub(super) fn options(
     let monte_carlo = if args.no_mc {
         MonteCarloChoice::Off
     } else {
-        MonteCarloChoice::With(settings(args, &budget.monte_carlo))
+        MonteCarloChoice::With(budget.monte_carlo.with(&Wanted {
+            seed: args.seed,
+            trials: args.trials.clone(),
+            points: args.points,
+            indices: args.indices,
+        }))
     };
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     Options {
@@ -149,35 +154,12 @@ pub(super) fn options(
     }
 }
 
-/// The budget's settings with what the arguments change.
-fn settings(args: &Settings, of: &MonteCarloSettings) -> MonteCarloSettings {
-    let trials = match (&args.trials, args.points, &of.trials) {
-        (Some(trials), _, _) => trials.clone(),
-        // Such points are run until the results are stable, if the file does not say how many.
-        (None, Some(Points::QuasiRandom), Trials::Decisive { .. }) => ADAPTIVE,
-        (None, _, trials) => trials.clone(),
-    };
-    MonteCarloSettings {
-        seed: args.seed.unwrap_or(of.seed),
-        trials,
-        points: args.points.unwrap_or(of.points),
-        indices: args.indices || of.indices,
-    }
-}
-
-/// Until two digits are stable.
-const ADAPTIVE: Trials = Trials::Adaptive {
-    procedure: Adaptive::Stein,
-    digits: 2,
-    max: 100_000_000,
-};
-
 /// `1000000`, `1_000_000`, `1e6`, `adaptive`.
-fn parse_trials(text: &str) -> Result<Trials, Complaint> {
+pub(super) fn parse_trials(text: &str) -> Result<Trials, Complaint> {
     /// Fewer say nothing about an interval; more would run for days.
     const RANGE: std::ops::RangeInclusive<f64> = 1e3..=1e12;
     if text == "adaptive" {
-        return Ok(ADAPTIVE);
+        return Ok(Trials::ADAPTIVE);
     }
     let number: f64 = text
         .replace('_', "")
@@ -189,7 +171,7 @@ fn parse_trials(text: &str) -> Result<Trials, Complaint> {
     Ok(Trials::Fixed(number as u64))
 }
 
-fn parse_points(text: &str) -> Result<Points, Complaint> {
+pub(super) fn parse_points(text: &str) -> Result<Points, Complaint> {
     match text {
         "random" => Ok(Points::Random),
         "quasi-random" => Ok(Points::QuasiRandom),
@@ -197,7 +179,7 @@ fn parse_points(text: &str) -> Result<Points, Complaint> {
     }
 }
 
-fn parse_profile(text: &str) -> Result<&'static Profile, Complaint> {
+pub(super) fn parse_profile(text: &str) -> Result<&'static Profile, Complaint> {
     budget::profile_named(text).ok_or_else(|| {
         let names: Vec<&str> = budget::PROFILES.iter().map(|p| p.name).collect();
         say!("the profiles are {}", names.join(", ")).into()

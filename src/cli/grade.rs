@@ -43,13 +43,17 @@ pub(super) fn run(args: &Args) -> Outcome {
 fn diagnosis(args: &Args, path: &Path) -> Result<Document, Refused> {
     let truth = grade::sealed_truth(&args.folder)?;
     let graded = grade::grade(&truth, &grade::read_answer(&read(path)?)?);
-    Ok(args.form.compose(|language| grade::document(&graded, language)))
+    Ok(args
+        .form
+        .compose(|language| grade::document(&graded, language)))
 }
 
 fn sheets(args: &Args, path: &Path) -> Result<Document, Refused> {
     let truth = budget::sealed_sheets_truth(&args.folder)?;
     let graded = budget::grade_sheets(&truth, &budget::read_sheet_answers(&read(path)?)?);
-    Ok(args.form.compose(|language| budget::sheet_grades_document(&graded, language)))
+    Ok(args
+        .form
+        .compose(|language| budget::sheet_grades_document(&graded, language)))
 }
 
 fn read(path: &Path) -> Result<String, Refused> {

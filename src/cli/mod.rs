@@ -3,6 +3,7 @@
 mod allan;
 mod archive;
 mod audit;
+mod batch;
 mod calibrate;
 mod challenge;
 mod concepts;
@@ -65,6 +66,8 @@ struct Cli {
 enum Command {
     /// Evaluate budget files: budget table, GUM and Monte Carlo, statement for the certificate
     Eval(eval::Args),
+    /// Evaluate one budget for every row of a table of devices
+    Batch(batch::Args),
     /// Recompute a claimed budget from its sheet, and name the slip behind its figures
     Audit(audit::Args),
     /// Write a budget file from a laboratory's spreadsheet
@@ -102,6 +105,7 @@ pub(crate) fn run() -> ExitCode {
     interrupt::say_so();
     let outcome = match command {
         Command::Eval(args) => eval::run(&args),
+        Command::Batch(args) => batch::run(&args),
         Command::Audit(args) => audit::run(&args),
         Command::Import(args) => import::run(&args),
         Command::Diagnose(args) => diagnose::run(&args),

@@ -83,7 +83,8 @@ impl Target {
         printed.max(written(&beside, self.replacing(), language))
     }
 
-    fn replacing(&self) -> Replacing {
+    /// What may be replaced.
+    pub fn replacing(&self) -> Replacing {
         match self.force {
             true => Replacing::Anything,
             false => Replacing::Own,

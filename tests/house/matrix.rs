@@ -24,6 +24,7 @@ pub const CRATES: [&str; 14] = [
     "report",
     "challenge",
     "serve",
+    "python",
     "gumption",
 ];
 
@@ -90,6 +91,26 @@ fn every_crate_stands_above_those_that_it_uses() {
             "{name:?} is not in the list of crates"
         );
     }
+}
+
+/// The package for Python is not among them: nothing here needs Python.
+#[test]
+fn cargo_test_tests_every_other_crate() {
+    let manifest = std::fs::read_to_string(root().join("Cargo.toml")).expect("a manifest");
+    let manifest: toml::Table = manifest.parse().expect("TOML");
+    let tested = manifest["workspace"]["default-members"].as_array();
+    let tested: BTreeSet<&str> = tested
+        .into_iter()
+        .flatten()
+        .filter_map(|one| one.as_str())
+        .collect();
+    let folder = |krate: &str| match krate {
+        "gumption" => ".".to_owned(),
+        member => format!("crates/{member}"),
+    };
+    let others = CRATES.iter().filter(|krate| **krate != "python");
+    let expected: Vec<String> = others.map(|krate| folder(krate)).collect();
+    assert_eq!(tested, expected.iter().map(String::as_str).collect());
 }
 
 /// Command line and terminal belong to the program, seals to the challenge and to the program's archives.

@@ -3,5 +3,6 @@
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+pub mod batch;
 pub mod budget;
 pub mod propagate;

@@ -9,6 +9,7 @@
 mod allan;
 mod analyses;
 mod audit;
+pub mod batch;
 mod budget_table;
 mod calibration;
 mod certificate;

@@ -22,7 +22,7 @@ pub fn rows(rows: &[Report<'_>]) -> Result<Vec<u8>, csv::Error> {
         .map_err(|error| error.into_error().into())
 }
 
-fn heads(report: &Report<'_>) -> Vec<String> {
+pub(super) fn heads(report: &Report<'_>) -> Vec<String> {
     let in_unit = |head: String, unit: &Unit| match unit.is_one() {
         true => head,
         false => format!("{head} [{}]", unit.symbol),
@@ -46,8 +46,7 @@ fn heads(report: &Report<'_>) -> Vec<String> {
     heads
 }
 
-fn cells(report: &Report<'_>) -> Vec<String> {
-    let number = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:?}"));
+pub(super) fn cells(report: &Report<'_>) -> Vec<String> {
     let mut cells = vec![report.label.unwrap_or_default().to_string()];
     for result in &report.evaluation.results {
         let found = result.reported(&report.budget.conventions);
@@ -74,4 +73,9 @@ fn cells(report: &Report<'_>) -> Vec<String> {
         ));
     }
     cells
+}
+
+/// Exact; nothing for what there is not.
+pub(super) fn number(x: Option<f64>) -> String {
+    x.map_or_else(String::new, |x| format!("{x:?}"))
 }

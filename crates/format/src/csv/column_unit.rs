@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::faults::{NO_UNIT, UNIT, UNIT_CLASH};
 use super::heading::Heading;
 use super::request::Request;
-use gumption_core::quantity::{Unit, hint_for_clash};
+use gumption_core::quantity::{Unit, UnitError, hint_for_clash};
 use gumption_fault::{Fault, Said, say};
 
 /// The unit of a column of numbers, of which the header and the asker must not say different things.
@@ -37,13 +37,7 @@ pub(super) fn unit_of(
             ));
         }
         (Err(_), Some(stated)) => Some(stated.clone()),
-        (Err(error), None) => {
-            let at = span.start + error.span.start..span.start + error.span.end;
-            let mut fault = Fault::new(UNIT, at, say!("column \"{text}\": {}", error.message))
-                .label(say!("no unit"));
-            fault.help = error.help.clone().map(|help| *help);
-            return Err(Box::new(fault));
-        }
+        (Err(error), None) => return Err(Box::new(heading.unknown_unit(error, span))),
     };
     if let Some(into) = &request.into {
         return match &unit {
@@ -71,6 +65,17 @@ pub(super) fn unit_of(
         }
         Some(found) if found.dimension == like.dimension => Ok(unit),
         Some(found) => Err(Box::new(clash(heading, request, found, like, span))),
+    }
+}
+
+impl Heading {
+    /// The fault of a header, which stands here, whose unit is not known.
+    pub fn unknown_unit(&self, error: &UnitError, span: &Range<usize>) -> Fault {
+        let at = span.start + error.span.start..span.start + error.span.end;
+        let message = say!("column \"{}\": {}", self.text, error.message);
+        let mut fault = Fault::new(UNIT, at, message).label(say!("no unit"));
+        fault.help = error.help.clone().map(|help| *help);
+        fault
     }
 }
 

@@ -13,6 +13,12 @@ pub enum Encoding {
     Gbk,
 }
 
+/// Whole lines in the code of Chinese systems; nothing if they are not.
+pub(super) fn gbk(bytes: &[u8]) -> Option<String> {
+    let text = GBK.decode_without_bom_handling_and_without_replacement(bytes)?;
+    Some(text.into_owned())
+}
+
 /// A table as text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]

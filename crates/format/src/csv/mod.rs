@@ -34,13 +34,15 @@ mod encoding;
 pub mod faults;
 mod field;
 mod heading;
+mod pieces;
 mod reader;
 mod request;
 mod sheet;
 
 pub use encoding::{Decoded, Encoding, Undecodable, decode};
 pub use heading::Heading;
-pub use reader::{headings, text_of};
+pub use pieces::{Piece, Pieces};
+pub use reader::{headings, open, text_of};
 pub use request::{Content, Request};
 pub use sheet::{Row, Sheet};
 

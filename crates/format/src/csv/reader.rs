@@ -1,7 +1,7 @@
 //! From a CSV file to the columns that a procedure asks for.
 
 use std::collections::HashMap;
-use std::io::ErrorKind;
+use std::io::{Error, ErrorKind, Read};
 use std::ops::Range;
 use std::path::Path;
 
@@ -162,17 +162,11 @@ pub fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejectio
         Rejection::new(name, "", vec![Fault::new(code, 0..0, message).help(help)])
     };
     let bytes = files.read(path).map_err(|error| {
-        let message = match error.kind() {
-            _ if files.is_folder(path) => say!("{name} is a folder, not a file"),
-            ErrorKind::NotFound => say!("there is no file {name}"),
-            ErrorKind::PermissionDenied => say!("{name} may not be read"),
-            _ => say!("{name} cannot be read: {error}"),
-        };
-        refuse(
-            UNREADABLE,
-            message,
-            say!("the path starts from the folder of the file that names it"),
-        )
+        let mut fault = unreadable(files, path, name, &error);
+        fault = fault.help(say!(
+            "the path starts from the folder of the file that names it"
+        ));
+        Rejection::new(name, "", vec![fault])
     })?;
     let decoded = decode(&bytes).map_err(|error| {
         let Undecodable { byte, line } = error;
@@ -192,6 +186,32 @@ pub fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejectio
             say!("name a CSV file with the names of columns in its first line"),
         )),
     }
+}
+
+/// A table that is read piece by piece.
+///
+/// # Errors
+/// It is not there, or may not be read.
+pub fn open<'f>(
+    files: Files<'f>,
+    path: &Path,
+    name: &str,
+) -> Result<Box<dyn Read + 'f>, Rejection> {
+    let opened = match files.is_folder(path) {
+        true => Err(ErrorKind::IsADirectory.into()),
+        false => files.open(path),
+    };
+    opened.map_err(|error| Rejection::new(name, "", vec![unreadable(files, path, name, &error)]))
+}
+
+fn unreadable(files: Files<'_>, path: &Path, name: &str, error: &Error) -> Fault {
+    let message = match error.kind() {
+        _ if files.is_folder(path) => say!("{name} is a folder, not a file"),
+        ErrorKind::NotFound => say!("there is no file {name}"),
+        ErrorKind::PermissionDenied => say!("{name} may not be read"),
+        _ => say!("{name} cannot be read: {error}"),
+    };
+    Fault::new(UNREADABLE, 0..0, message)
 }
 
 /// Whether a text may be a table of values; nothing is quoted of one that cannot be, as it may be anything.

@@ -15,6 +15,9 @@ use gumption_fault::{Fault, Said, say};
 #[derive(Debug, Clone)]
 pub struct Sheet<'a> {
     text: &'a str,
+    /// Where the text begins in the table: its line, and the rows in it that are no data.
+    line: usize,
+    skipped: usize,
     separator: u8,
     header: Row,
 }
@@ -50,7 +53,7 @@ impl<'a> Sheet<'a> {
                     )),
             )
         };
-        let header = Rows::new(text, separator)
+        let header = Rows::new(text, separator, 1)
             .next()
             .ok_or_else(|| missing(say!("the table is empty"), say!("no names of columns")))?
             .map_err(|message| missing(message.into(), say!("cannot be read")))?;
@@ -63,9 +66,27 @@ impl<'a> Sheet<'a> {
         }
         Ok(Sheet {
             text,
+            line: 1,
+            skipped: 1,
             separator,
             header,
         })
+    }
+
+    /// Further rows of the same table, from this line on.
+    pub fn below<'b>(&self, text: &'b str, line: usize) -> Sheet<'b> {
+        Sheet {
+            text,
+            line,
+            skipped: 0,
+            separator: self.separator,
+            header: self.header.clone(),
+        }
+    }
+
+    /// The text.
+    pub fn text(&self) -> &'a str {
+        self.text
     }
 
     /// The first line.
@@ -115,22 +136,17 @@ impl<'a> Sheet<'a> {
     pub fn visit(&self, mut visitor: impl FnMut(&Row)) -> Result<usize, Vec<Fault>> {
         let mut faults = Vec::new();
         let (mut good, mut bad) = (0, 0);
-        for row in Rows::new(self.text, self.separator).skip(1) {
+        for row in self.rows() {
             match row {
-                Ok(row) if row.len() == self.header.len() => {
+                Ok(row) => {
                     good += 1;
                     visitor(&row);
                 }
-                Ok(row) => {
+                Err(fault) => {
                     bad += 1;
                     if faults.len() < SHOWN {
-                        faults.push(self.wrong_length(&row));
+                        faults.push(fault);
                     }
-                }
-                Err(message) => {
-                    let end = self.text.len();
-                    faults.push(Fault::new(ROW_LENGTH, end..end, message));
-                    break;
                 }
             }
         }
@@ -149,6 +165,22 @@ impl<'a> Sheet<'a> {
         } else {
             Err(faults)
         }
+    }
+
+    /// The rows below the first line; a fault in place of one that has another length than the first line.
+    pub fn rows(&self) -> impl Iterator<Item = Result<Row, Fault>> + '_ {
+        let mut broken = false;
+        let rows = Rows::new(self.text, self.separator, self.line).skip(self.skipped);
+        rows.map_while(move |row| match row {
+            _ if broken => None,
+            Ok(row) if row.len() == self.header.len() => Some(Ok(row)),
+            Ok(row) => Some(Err(self.wrong_length(&row))),
+            Err(message) => {
+                broken = true;
+                let end = self.text.len();
+                Some(Err(Fault::new(ROW_LENGTH, end..end, message)))
+            }
+        })
     }
 
     fn wrong_length(&self, row: &Row) -> Fault {
@@ -202,7 +234,7 @@ struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    fn new(text: &'a str, separator: u8) -> Rows<'a> {
+    fn new(text: &'a str, separator: u8, line: usize) -> Rows<'a> {
         let offset = start_of_record(text, 0);
         Rows {
             text,
@@ -214,7 +246,7 @@ impl<'a> Rows<'a> {
                 .trim(Trim::All)
                 .from_reader(&text.as_bytes()[offset..]),
             offset,
-            counted: (0, 1),
+            counted: (0, line),
         }
     }
 }
@@ -239,6 +271,16 @@ impl Iterator for Rows<'_> {
             Err(error) => Some(Err(error.to_string())),
         }
     }
+}
+
+/// The separator of the columns of a text.
+pub(super) fn separator_of(text: &str) -> u8 {
+    let first = start_of_record(text, 0);
+    separator(
+        text,
+        first,
+        text[first..].lines().next().unwrap_or_default(),
+    )
 }
 
 /// The separator of a text whose line of names begins at `first`.

@@ -9,8 +9,8 @@ use std::fs::File;
 use std::path::Path;
 
 /// Notes on an open file that this is its content. What cannot be noted makes the file somebody's work.
-pub(super) fn set(file: &File, content: &[u8]) {
-    system::set(file, &digest(content));
+pub(super) fn set(file: &File, digest: &Digest) {
+    system::set(file, &digest.noted());
 }
 
 /// Notes on an open file that its content is somebody's.
@@ -26,16 +26,45 @@ pub(super) fn is_ours(path: &Path) -> bool {
     let Some(noted) = system::get(&file) else {
         return false;
     };
-    super::content_of(path).is_ok_and(|content| digest(&content) == noted)
+    super::content_of(path).is_ok_and(|content| Digest::of(&content).noted() == noted)
 }
 
 /// Length and the sum of Fowler, Noll and Vo (FNV-1a, 64 bits): against accident, not against intent.
-fn digest(content: &[u8]) -> Vec<u8> {
-    const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
-    const PRIME: u64 = 0x0100_0000_01b3;
-    let mix = |sum: u64, byte: &u8| (sum ^ u64::from(*byte)).wrapping_mul(PRIME);
-    let sum = content.iter().fold(BASIS, mix);
-    format!("{}:{sum:016x}", content.len()).into_bytes()
+pub(super) struct Digest {
+    length: u64,
+    sum: u64,
+}
+
+impl Default for Digest {
+    /// Of nothing.
+    fn default() -> Self {
+        const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+        Digest {
+            length: 0,
+            sum: BASIS,
+        }
+    }
+}
+
+impl Digest {
+    /// Of a content that is at hand.
+    pub(super) fn of(content: &[u8]) -> Digest {
+        let mut digest = Digest::default();
+        digest.add(content);
+        digest
+    }
+
+    /// Of what was there, and this behind it.
+    pub(super) fn add(&mut self, content: &[u8]) {
+        const PRIME: u64 = 0x0100_0000_01b3;
+        let mix = |sum: u64, byte: &u8| (sum ^ u64::from(*byte)).wrapping_mul(PRIME);
+        self.sum = content.iter().fold(self.sum, mix);
+        self.length += content.len() as u64;
+    }
+
+    fn noted(&self) -> Vec<u8> {
+        format!("{}:{:016x}", self.length, self.sum).into_bytes()
+    }
 }
 
 #[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]

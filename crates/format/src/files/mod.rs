@@ -3,12 +3,14 @@
 //!
 //! | chapter | holds |
 //! |---|---|
+//! | `growing` | a file that is written piece by piece |
 //! | `identity` | what makes a file the same under every name |
 //! | `ledger` | the files that a command has read, which it does not write |
 //! | `mark` | how a file is known to be as this program wrote it |
 //! | `steps` | the operations of the file system that writing takes, each of which may fail |
 //! | [`mod@write`] | files replaced as a whole, all of them or none |
 
+mod growing;
 mod identity;
 mod ledger;
 mod mark;
@@ -17,6 +19,7 @@ pub mod write;
 #[cfg(test)]
 mod written;
 
+pub use growing::Growing;
 pub use identity::FileId;
 pub use ledger::{reads, remember_reads, was_read_as};
 
@@ -70,7 +73,7 @@ fn held<'a>(contents: &[(&str, &'a [u8])], path: &Path) -> Option<&'a [u8]> {
     found.map(|(_, content)| *content)
 }
 
-impl Files<'_> {
+impl<'a> Files<'a> {
     /// The content of a file.
     ///
     /// # Errors
@@ -89,6 +92,35 @@ impl Files<'_> {
                 Some(content) => Ok(content.to_vec()),
                 None => content_of(&folder.place(path)?),
             },
+        }
+    }
+
+    /// The content of a file, to be read piece by piece: of any length.
+    ///
+    /// # Errors
+    /// As [`Files::read`].
+    pub fn open(self, path: &Path) -> Result<Box<dyn Read + 'a>> {
+        match self {
+            Files::Disk => {
+                ledger::note(path);
+                let (file, _) = opened(path)?;
+                Ok(Box::new(file))
+            }
+            Files::Library(files) => {
+                let wanted = plain(path);
+                let mut files = files.iter();
+                let found = files.find(|(name, _)| Path::new(name) == wanted);
+                let (_, content) = found.ok_or_else(|| Error::from(ErrorKind::NotFound))?;
+                Ok(Box::new(*content))
+            }
+        }
+    }
+
+    /// How many bytes a file has, as far as is known.
+    pub fn length(&self, path: &Path) -> Option<u64> {
+        match self {
+            Files::Disk => std::fs::metadata(path).ok().map(|there| there.len()),
+            Files::Library(_) => self.read(path).ok().map(|content| content.len() as u64),
         }
     }
 
@@ -121,16 +153,24 @@ impl Files<'_> {
     }
 }
 
-/// The content of a file of the disk. Whatever else has a path (a pipe, a device, a socket) may block, never end or do
-/// something when it is read, and two readings of it differ.
-fn content_of(path: &Path) -> Result<Vec<u8>> {
-    let refused = |why: String| Err(Error::new(ErrorKind::InvalidInput, why));
+fn refused<T>(why: String) -> Result<T> {
+    Err(Error::new(ErrorKind::InvalidInput, why))
+}
+
+/// A file of the disk. Whatever else has a path (a pipe, a device, a socket) may block, never end or do something when
+/// it is read, and two readings of it differ.
+fn opened(path: &Path) -> Result<(std::fs::File, std::fs::Metadata)> {
     // Asked before it is opened: a pipe without a writer would wait for one.
     let there = std::fs::metadata(path)?;
     if !there.is_file() && !there.is_dir() {
         return refused("it is a pipe or a device; only files are read".into());
     }
-    let mut file = std::fs::File::open(path)?;
+    Ok((std::fs::File::open(path)?, there))
+}
+
+/// The whole content of a file of the disk.
+fn content_of(path: &Path) -> Result<Vec<u8>> {
+    let (mut file, there) = opened(path)?;
     let mut content = Vec::new();
     // Some files of the system say that they are empty and are not.
     let mut bounded = (&mut file).take(MOST_BYTES + 1);

@@ -45,7 +45,7 @@ pub(super) const DISK: Disk<'static> = Disk {
 /// A file that is written beside the one whose place it is to take, and is locked as long as somebody writes it.
 pub(super) struct Draft {
     pub path: PathBuf,
-    file: File,
+    pub file: File,
 }
 
 /// How the names of drafts begin and end.
@@ -99,7 +99,7 @@ impl Disk<'_> {
         file.write_all(second)?;
         file.set_len(content.len() as u64)?;
         match self.author {
-            Author::Ours => mark::set(file, content),
+            Author::Ours => mark::set(file, &mark::Digest::of(content)),
             Author::Somebody => mark::clear(file),
         }
         (self.before)(Step::Sync)?;

@@ -75,7 +75,7 @@ pub enum Why {
 }
 
 /// Number of files written, and the right to write them.
-static WRITTEN: Mutex<usize> = Mutex::new(0);
+pub(super) static WRITTEN: Mutex<usize> = Mutex::new(0);
 
 /// Writes files, all of them or none; then to what is no file and cannot be replaced (a terminal, a pipe, `/dev/null`).
 ///
@@ -182,16 +182,16 @@ pub(super) fn write_by(
 }
 
 /// Where an output goes, and how.
-struct Planned {
-    asked: PathBuf,
+pub(super) struct Planned {
+    pub asked: PathBuf,
     place: PathBuf,
-    way: Way,
+    pub way: Way,
     /// What is there.
-    there: Option<Metadata>,
+    pub there: Option<Metadata>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Way {
+pub(super) enum Way {
     /// There is none yet.
     New,
     /// The name goes from one file to another.
@@ -203,7 +203,7 @@ enum Way {
 }
 
 impl Planned {
-    fn folder(&self) -> &Path {
+    pub fn folder(&self) -> &Path {
         here(self.place.parent().unwrap_or_else(|| Path::new("")))
     }
 
@@ -214,7 +214,7 @@ impl Planned {
     }
 }
 
-fn plan(path: &Path, replacing: Replacing) -> Result<Planned, Unwritten> {
+pub(super) fn plan(path: &Path, replacing: Replacing) -> Result<Planned, Unwritten> {
     let refused = |why| Unwritten {
         path: path.to_path_buf(),
         why,
@@ -336,7 +336,12 @@ fn placed(
     result
 }
 
-fn place(disk: &Disk<'_>, planned: &Planned, output: &Output, draft: &Draft) -> io::Result<()> {
+pub(super) fn place(
+    disk: &Disk<'_>,
+    planned: &Planned,
+    output: &Output,
+    draft: &Draft,
+) -> io::Result<()> {
     match planned.way {
         Way::New => disk.place_new(draft, &planned.place),
         Way::Replaced => disk.rename(&draft.path, &planned.place),
@@ -376,7 +381,7 @@ fn undo(planned: &Planned, old: Option<&[u8]>) {
     drop(restored);
 }
 
-fn discard(drafts: &[Draft]) {
+pub(super) fn discard(drafts: &[Draft]) {
     for draft in drafts {
         let _ = std::fs::remove_file(&draft.path);
     }
@@ -415,7 +420,7 @@ fn here(folder: &Path) -> &Path {
     }
 }
 
-fn unwritten(path: &Path, error: io::Error) -> Unwritten {
+pub(super) fn unwritten(path: &Path, error: io::Error) -> Unwritten {
     let why = match error.kind() {
         ErrorKind::AlreadyExists => Why::Exists,
         _ => Why::System(error),

@@ -5,6 +5,7 @@ use std::io::{Error, ErrorKind};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
+use super::Growing;
 use super::mark;
 use super::steps::{Author, DISK, Disk};
 use super::write::{Output, Replacing, Unwritten, Why, write, write_by};
@@ -332,4 +333,38 @@ fn a_restored_file_is_somebodys() {
     let mut draft = disk.create(&folder.0, None).expect("a draft");
     disk.fill(&mut draft, OLD.as_bytes()).expect("filled");
     assert!(!mark::is_ours(&draft.path));
+}
+
+#[test]
+fn a_file_that_grows_takes_its_place_when_it_is_whole() {
+    let folder = Folder::new("growing");
+    let path = folder.0.join("results.csv");
+    let whole = b"a,b\n1,2\n";
+    let mut growing = Growing::begin(&path, Replacing::Own).expect("it may be written");
+    growing.add(b"a,b\n").expect("it is written");
+    assert!(!path.exists());
+    growing.add(b"1,2\n").expect("it is written");
+    growing.finish().expect("it has its place");
+    assert_eq!(std::fs::read(&path).expect("it is there"), whole);
+    // It is this program's own, and stays as it is where the next one is not finished.
+    let mut unfinished = Growing::begin(&path, Replacing::Own).expect("it may be replaced");
+    unfinished.add(b"c\n").expect("it is written");
+    drop(unfinished);
+    assert_eq!(std::fs::read(&path).expect("it is there"), whole);
+    let files = std::fs::read_dir(&folder.0).expect("a folder");
+    assert_eq!(files.count(), 1);
+    std::fs::write(&path, "mine").expect("it is written");
+    assert!(Growing::begin(&path, Replacing::Own).is_err());
+}
+
+#[test]
+fn a_file_that_grows_keeps_its_other_names() {
+    let folder = Folder::new("growing-names");
+    let [path, other] = ["results.csv", "other.csv"].map(|name| folder.0.join(name));
+    std::fs::write(&path, "old").expect("it is written");
+    std::fs::hard_link(&path, &other).expect("another name");
+    let mut growing = Growing::begin(&path, Replacing::Anything).expect("it may be written");
+    growing.add(b"new").expect("it is written");
+    growing.finish().expect("it has its place");
+    assert_eq!(std::fs::read(&other).expect("it is there"), b"new");
 }

@@ -94,6 +94,37 @@ pub struct MonteCarloSettings {
     pub indices: bool,
 }
 
+/// What a caller wants instead of the settings of a file.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Wanted {
+    /// Seed of the random numbers.
+    pub seed: Option<u64>,
+    /// How many trials.
+    pub trials: Option<Trials>,
+    /// What trials are made of.
+    pub points: Option<Points>,
+    /// Whether Sobol' sensitivity indices are wanted where the file does not ask for them.
+    pub indices: bool,
+}
+
+impl MonteCarloSettings {
+    /// The settings with what a caller wants instead.
+    pub fn with(&self, wanted: &Wanted) -> MonteCarloSettings {
+        let trials = match (&wanted.trials, wanted.points, &self.trials) {
+            (Some(trials), _, _) => trials.clone(),
+            // Such points are run until the results are stable, if the file does not say how many.
+            (None, Some(Points::QuasiRandom), Trials::Decisive { .. }) => Trials::ADAPTIVE,
+            (None, _, trials) => trials.clone(),
+        };
+        MonteCarloSettings {
+            seed: wanted.seed.unwrap_or(self.seed),
+            trials,
+            points: wanted.points.unwrap_or(self.points),
+            indices: wanted.indices || self.indices,
+        }
+    }
+}
+
 /// How many trials.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Trials {
@@ -120,6 +151,13 @@ pub enum Trials {
 }
 
 impl Trials {
+    /// Until two digits are stable.
+    pub const ADAPTIVE: Trials = Trials::Adaptive {
+        procedure: Adaptive::Stein,
+        digits: 2,
+        max: 100_000_000,
+    };
+
     /// As many as may be drawn.
     pub fn most(&self) -> u64 {
         match *self {

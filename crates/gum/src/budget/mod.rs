@@ -9,6 +9,7 @@
 //! with E zero-mean deviations. A shared source is simply a component that occurs in several inputs.
 
 mod analysis;
+mod batch;
 mod cell;
 pub mod chain;
 mod check;
@@ -35,12 +36,13 @@ pub mod variants;
 pub mod writing;
 
 pub use analysis::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
+pub use batch::{Batch, BatchFile, RowReader};
 pub use checked::{Budget, Constant, Heading, Loaded, Measurand, Row};
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
 pub use components::{Certificate, Component, Evaluation, Group, Input, Law, Owner, Term};
 pub use conventions::{
     Adaptive, Confirmation, Conventions, CoverageRule, DofRule, MonteCarloSettings, OutputShape,
-    Points, StatementForm, TScale, Trials,
+    Points, StatementForm, TScale, Trials, Wanted,
 };
 pub use decision::{
     Conformity, DecisionRule, Detection, Following, Follows, GlobalRisks, Guard,

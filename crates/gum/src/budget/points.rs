@@ -1,4 +1,4 @@
-//! The rows of a series in a CSV file.
+//! The rows of a series in a CSV file, and of any table that replaces values of a budget.
 
 use std::ops::Range;
 
@@ -10,14 +10,22 @@ use super::check::Origin;
 use super::faults::CSV;
 use gumption_core::quantity::UnitTable;
 use gumption_fault::{Fault, Rejection, say};
-use gumption_format::csv::{Heading, Sheet, text_of};
+use gumption_format::csv::{Heading, Row, Sheet, text_of};
 use gumption_format::toml::{Raw, Stated};
 
-/// Names of columns, and fields as a budget writes them.
+/// The columns of a table whose rows replace values of a budget.
+#[derive(Debug)]
+pub(super) struct Columns {
+    /// Their names without their units.
+    pub names: Vec<Stated<String>>,
+    units: Vec<Option<String>>,
+}
+
+/// A table: names of columns, and fields as a budget writes them.
 #[derive(Debug)]
 pub(super) struct Points {
-    /// The names without their units.
-    pub columns: Vec<Stated<String>>,
+    /// The columns.
+    pub columns: Columns,
     rows: Vec<Vec<Written>>,
     /// Where the budget names the file.
     place: Range<usize>,
@@ -25,11 +33,58 @@ pub(super) struct Points {
 
 /// A field.
 #[derive(Debug)]
-enum Written {
+pub(super) enum Written {
     /// A number or a list as TOML writes it.
     Value(String),
     /// A text, or a number with its unit.
     Text(String),
+}
+
+impl Columns {
+    /// Those of a table; `place` says where each is named.
+    ///
+    /// # Errors
+    /// Units in the headers that are not known, in places of the table.
+    pub fn of(
+        sheet: &Sheet<'_>,
+        place: impl Fn(usize) -> Range<usize>,
+    ) -> Result<Columns, Vec<Fault>> {
+        let known = UnitTable::default();
+        let mut columns = Columns {
+            names: Vec::new(),
+            units: Vec::new(),
+        };
+        let mut faults = Vec::new();
+        for (at, field) in sheet.header().fields().enumerate() {
+            let heading = Heading::read(field, &known);
+            match &heading.unit {
+                Ok(unit) => columns
+                    .units
+                    .push(unit.as_ref().map(|unit| unit.symbol.clone())),
+                Err(error) => {
+                    let here = sheet.place(sheet.header(), at);
+                    faults.push(heading.unknown_unit(error, &here));
+                }
+            }
+            columns.names.push(Stated {
+                value: heading.name,
+                span: place(at),
+                key: place(at),
+            });
+        }
+        match faults.is_empty() {
+            true => Ok(columns),
+            false => Err(faults),
+        }
+    }
+
+    /// The fields of a row.
+    pub fn written(&self, row: &Row, sheet: &Sheet<'_>) -> Vec<Written> {
+        let fields = self.units.iter().zip(row.fields());
+        fields
+            .map(|(unit, field)| written(field, unit.as_deref(), sheet))
+            .collect()
+    }
 }
 
 impl Points {
@@ -60,30 +115,11 @@ impl Points {
 
     fn of(text: &str, named: &Stated<String>) -> Result<Points, Vec<Fault>> {
         let sheet = Sheet::new(text).map_err(|fault| vec![*fault])?;
-        let units = UnitTable::default();
-        let headings = sheet
-            .header()
-            .fields()
-            .map(|field| Heading::read(field, &units));
-        let headings: Vec<Heading> = headings.collect();
-        let unit = |heading: &Heading| match &heading.unit {
-            Ok(Some(unit)) => Some(unit.symbol.clone()),
-            _ => None,
-        };
-        let columns = headings
-            .iter()
-            .map(|heading| named.map(|_| heading.name.clone()));
+        let columns = Columns::of(&sheet, |_| named.span.clone())?;
         let mut rows = Vec::new();
-        sheet.visit(|row| {
-            let fields = headings.iter().zip(row.fields());
-            rows.push(
-                fields
-                    .map(|(heading, field)| written(field, unit(heading), &sheet))
-                    .collect(),
-            );
-        })?;
+        sheet.visit(|row| rows.push(columns.written(row, &sheet)))?;
         Ok(Points {
-            columns: columns.collect(),
+            columns,
             rows,
             place: named.span.clone(),
         })
@@ -91,34 +127,58 @@ impl Points {
 
     /// The cells of each row.
     pub fn rows(&self) -> impl Iterator<Item = Vec<(Stated<Entry>, Raw<'_>)>> {
-        self.rows
-            .iter()
-            .map(|row| row.iter().map(|field| self.cell(field)).collect())
-    }
-
-    fn cell<'p>(&'p self, field: &'p Written) -> (Stated<Entry>, Raw<'p>) {
-        let text = |text: &'p str| (Entry::Text(text.into()), DeValue::String(text.into()));
-        let (cell, raw) = match field {
-            Written::Text(field) => text(field),
-            Written::Value(field) => match DeValue::parse(field).map(Spanned::into_inner) {
-                Ok(value @ DeValue::Array(_)) => (Entry::List, value),
-                Ok(value @ (DeValue::Integer(_) | DeValue::Float(_))) => {
-                    (Entry::Number(field.parse().unwrap_or(f64::NAN)), value)
-                }
-                _ => text(field),
-            },
-        };
-        let stated = Stated {
-            value: cell,
-            span: self.place.clone(),
-            key: self.place.clone(),
-        };
-        (stated, Spanned::new(self.place.clone(), raw))
+        self.rows.iter().map(|row| {
+            let here = |_| self.place.clone();
+            row.iter().map(|field| field.cell(&here)).collect()
+        })
     }
 }
 
+impl Written {
+    /// The text, as it stands in a budget.
+    pub fn text(&self) -> &str {
+        match self {
+            Written::Value(text) | Written::Text(text) => text,
+        }
+    }
+
+    /// The cell; `place` says where a part of the text stands.
+    pub fn cell(&self, place: &impl Fn(Range<usize>) -> Range<usize>) -> (Stated<Entry>, Raw<'_>) {
+        let text = self.text();
+        let (cell, raw) = match self {
+            Written::Text(_) => (Entry::Text(text.into()), DeValue::String(text.into())),
+            Written::Value(_) => match DeValue::parse(text).map(Spanned::into_inner) {
+                Ok(value @ DeValue::Array(_)) => (Entry::List, value),
+                Ok(value @ (DeValue::Integer(_) | DeValue::Float(_))) => {
+                    (Entry::Number(text.parse().unwrap_or(f64::NAN)), value)
+                }
+                _ => (Entry::Text(text.into()), DeValue::String(text.into())),
+            },
+        };
+        let whole = place(0..text.len());
+        let stated = Stated {
+            value: cell,
+            span: whole.clone(),
+            key: whole.clone(),
+        };
+        (stated, Spanned::new(whole, moved(raw, place)))
+    }
+}
+
+/// A value of which every part stands somewhere else.
+fn moved<'p>(value: DeValue<'p>, place: &impl Fn(Range<usize>) -> Range<usize>) -> DeValue<'p> {
+    let DeValue::Array(list) = value else {
+        return value;
+    };
+    let items = list.into_iter().map(|item| {
+        let there = place(item.span());
+        Spanned::new(there, moved(item.into_inner(), place))
+    });
+    DeValue::Array(items.collect())
+}
+
 /// A field as a budget writes it: a number with the unit of its column, where that states one.
-fn written(field: &str, unit: Option<String>, sheet: &Sheet) -> Written {
+fn written(field: &str, unit: Option<&str>, sheet: &Sheet) -> Written {
     let comma = sheet.has_decimal_commas() && field.matches(',').count() == 1;
     let plain = match comma {
         true => field.replace(',', "."),

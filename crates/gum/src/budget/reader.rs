@@ -151,11 +151,21 @@ fn read_under(
     // Editors on Windows put a byte order mark in front; places are counted behind it.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (table, errors) = DeTable::parse_recoverable(text);
-    let mut syntax = syntax_faults(&errors, text);
+    let syntax = syntax_faults(&errors, text);
     if !errors.iter().all(leaves_the_rest) {
         return Err(Rejection::new(name, text, syntax));
     }
-    let (variants, mut faults) = variants(table.get_ref(), text, origin, profile);
+    let (variants, faults) = variants(table.get_ref(), text, origin, profile);
+    checked(variants, [syntax, faults], (name, text), origin)
+}
+
+/// Checks variants of a file, in which these faults of syntax and others were found.
+pub(super) fn checked(
+    variants: Vec<Variant>,
+    [mut syntax, mut faults]: [Vec<Fault>; 2],
+    (name, text): (&str, &str),
+    origin: Origin<'_>,
+) -> Result<Loaded, Rejection> {
     let checked = origin
         .files
         .within(origin.file, || check::rows(variants, text, origin));
@@ -217,7 +227,11 @@ fn variants(
 }
 
 /// Reads the tables of a file.
-fn tables(table: &DeTable<'_>, profile: Option<&Profile>, reader: &mut Reader<'_>) -> FileTable {
+pub(super) fn tables(
+    table: &DeTable<'_>,
+    profile: Option<&Profile>,
+    reader: &mut Reader<'_>,
+) -> FileTable {
     let mut file = read_table::<FileTable>(table, "a budget", reader);
     if let Some(profile) = profile {
         file.profile = Some(Stated {

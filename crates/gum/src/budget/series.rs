@@ -24,7 +24,8 @@ pub(super) struct Variant<'t> {
 }
 
 /// What a column sets.
-enum Column {
+#[derive(Debug)]
+pub(super) enum Column {
     Label,
     /// The keys that lead to a value.
     Path(Vec<String>),
@@ -44,10 +45,9 @@ pub(super) fn variants<'t>(
     let table = &stated.value;
     let (columns, rows) = match (points, &table.columns, &table.rows) {
         (Some(points), None, None) => {
-            let rows = points
-                .rows()
-                .map(|cells| (points.columns[0].span.clone(), cells));
-            (points.columns.as_slice(), rows.collect())
+            let names = points.columns.names.as_slice();
+            let rows = points.rows().map(|cells| (names[0].span.clone(), cells));
+            (names, rows.collect())
         }
         (None, Some(columns), Some(rows)) => {
             (columns.value.as_slice(), rows_of_file(file, &rows.value))
@@ -74,10 +74,7 @@ pub(super) fn variants<'t>(
         }
     };
     let rows: Vec<WrittenRow<'t>> = rows;
-    let kinds: Vec<Option<Column>> = columns
-        .iter()
-        .map(|name| column(file, name, faults))
-        .collect();
+    let kinds = targets(file, columns, faults);
     if rows.is_empty() {
         faults.push(
             Fault::new(SERIES, stated.span.clone(), say!("the series has no rows"))
@@ -100,27 +97,48 @@ pub(super) fn variants<'t>(
             });
             continue;
         }
-        let mut variant = Variant {
-            label: None,
-            table: file.clone(),
-        };
-        variant.table.remove("series");
-        for ((kind, name), (cell, raw)) in kinds.iter().zip(columns).zip(&cells) {
-            match kind {
-                Some(Column::Label) => variant.label = Some(label(&cell.value)),
-                Some(Column::Path(path)) if is_left_out(&cell.value, path) => {
-                    leave_out(&mut variant.table, path);
-                }
-                Some(Column::Path(path)) => set(&mut variant.table, path, name, cell, raw, faults),
-                None => {}
-            }
-        }
-        variants.push(variant);
+        variants.push(variant(file, columns, &kinds, &cells, faults));
     }
     if faults.len() > before {
         variants.clear();
     }
     variants
+}
+
+/// What columns of these names set.
+pub(super) fn targets(
+    file: &DeTable<'_>,
+    names: &[Stated<String>],
+    faults: &mut Vec<Fault>,
+) -> Vec<Option<Column>> {
+    let names = names.iter();
+    names.map(|name| column(file, name, faults)).collect()
+}
+
+/// The file with the cells of a row in the places that its columns set.
+pub(super) fn variant<'t>(
+    file: &DeTable<'t>,
+    names: &[Stated<String>],
+    targets: &[Option<Column>],
+    cells: &[(Stated<Entry>, Raw<'t>)],
+    faults: &mut Vec<Fault>,
+) -> Variant<'t> {
+    let mut variant = Variant {
+        label: None,
+        table: file.clone(),
+    };
+    variant.table.remove("series");
+    for ((target, name), (cell, raw)) in targets.iter().zip(names).zip(cells) {
+        match target {
+            Some(Column::Label) => variant.label = Some(label(&cell.value)),
+            Some(Column::Path(path)) if is_left_out(&cell.value, path) => {
+                leave_out(&mut variant.table, path);
+            }
+            Some(Column::Path(path)) => set(&mut variant.table, path, name, cell, raw, faults),
+            None => {}
+        }
+    }
+    variant
 }
 
 /// Whether a cell leaves out what its column names: an empty one, and an uncertainty of zero.
@@ -236,6 +254,9 @@ fn column(file: &DeTable<'_>, name: &Stated<String>, faults: &mut Vec<Fault>) ->
     if wanted == "label" {
         return Some(Column::Label);
     }
+    if let Some(pair) = correlated(wanted) {
+        return correlation(file, pair, name, faults).map(Column::Path);
+    }
     let mut path = segments(wanted);
     for owner in OWNERS {
         let Some(entry) = entry(file, owner, &path[0]) else {
@@ -264,6 +285,53 @@ fn column(file: &DeTable<'_>, name: &Stated<String>, faults: &mut Vec<Fault>) ->
         return Some(Column::Path(path));
     }
     faults.push(unknown_column(file, name, &path));
+    None
+}
+
+/// The two names of `r(X, Y)`.
+fn correlated(column: &str) -> Option<[&str; 2]> {
+    let inside = column.strip_prefix("r(")?.strip_suffix(')')?;
+    let (one, other) = inside.split_once(',')?;
+    Some([one.trim(), other.trim()])
+}
+
+/// The place of a stated correlation coefficient.
+fn correlation(
+    file: &DeTable<'_>,
+    pair: [&str; 2],
+    name: &Stated<String>,
+    faults: &mut Vec<Fault>,
+) -> Option<Vec<String>> {
+    let is_between = |entry: &Raw<'_>| {
+        let DeValue::Table(table) = entry.get_ref() else {
+            return false;
+        };
+        let Some(DeValue::Array(between)) = table.get("between").map(Spanned::get_ref) else {
+            return false;
+        };
+        let stated = |wanted: &str| {
+            let mut names = between.iter().map(Spanned::get_ref);
+            names.any(|name| matches!(name, DeValue::String(name) if name == wanted))
+        };
+        between.len() == 2 && pair.into_iter().all(stated)
+    };
+    let path = |parts: &[&str]| Some(parts.iter().map(|part| (*part).to_owned()).collect());
+    match file.get("correlation").map(Spanned::get_ref) {
+        Some(DeValue::Array(list)) if let Some(at) = list.iter().position(is_between) => {
+            return path(&["correlation", &(at + 1).to_string(), "r"]);
+        }
+        Some(DeValue::Table(_)) if file.get("correlation").is_some_and(is_between) => {
+            return path(&["correlation", "r"]);
+        }
+        _ => {}
+    }
+    let [one, other] = pair;
+    let message = say!("the file states no correlation between {one} and {other}");
+    faults.push(
+        Fault::new(UNKNOWN_NAME, name.span.clone(), message)
+            .label(say!("unknown column"))
+            .help(say!("state one, which the column replaces:\n[[correlation]]\nbetween = [\"{one}\", \"{other}\"]\nr = 0")),
+    );
     None
 }
 

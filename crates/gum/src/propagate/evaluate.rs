@@ -124,14 +124,19 @@ fn both(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationErro
 
 /// Values of the measurands in trials of the Monte Carlo method, each in its unit: one list for each measurand, and the
 /// n-th values of the lists are of one trial. They are the trials of a run with the seed of the budget or of the
-/// options, on whatever number of threads; a trial in which the model has no value is NaN.
+/// options, on whatever number of threads; a trial in which the model has no value is NaN. No lists where somebody has
+/// stopped it.
 pub fn samples(budget: &Budget, trials: u64, options: &Options) -> Vec<Vec<f64>> {
     let settings = options.monte_carlo.settings(budget);
     let seed = settings.unwrap_or(&budget.monte_carlo).seed;
     let linear = gum::linearise(budget).ok();
     let on_the_turn = linear.and_then(|linear| on_the_turn(budget, &linear));
     let drawn = on_the_turn.as_ref().unwrap_or(budget);
-    monte_carlo::draws(drawn, (seed, trials), options.workers())
+    let found = monte_carlo::draws(drawn, (seed, trials), options.workers());
+    match options.progress.is_stopped() {
+        true => Vec::new(),
+        false => found,
+    }
 }
 
 /// The budget as it is drawn where phases reach their jump: each on the turn around its estimate.

@@ -34,6 +34,7 @@ pub use claims::{Comparison, Method, compare_claims};
 pub use error::EvaluationError;
 pub use evaluate::{evaluate, samples};
 pub use findings::is_residue;
+pub(crate) use monte_carlo::parallel_map;
 pub use options::{MonteCarloChoice, Options};
 pub use progress::Progress;
 pub use reported::{IntervalKind, Reason, Reported, ReportedUncertainty, StatedProbability};

@@ -2,7 +2,7 @@
 
 use super::draft::Draft;
 use super::*;
-use crate::budget::{Budget, CoverageRule};
+use crate::budget::{Budget, CoverageRule, MonteCarloSettings, Trials};
 use gumption_core::distribution::{Arcsine, Distribution};
 
 const INF: f64 = f64::INFINITY;
@@ -482,4 +482,31 @@ fn three_readings_beside_a_product_of_zeros_do_not_keep_the_first_order() {
     assert_eq!(result.monte_carlo.as_ref().unwrap().u, None);
     assert_eq!(reported.reason, Reason::Validated);
     assert_eq!(linear.conformity[0].expanded, result.gum.coverage.expanded);
+}
+
+#[test]
+fn an_evaluation_can_be_stopped() {
+    const MANY: u64 = 1 << 30;
+    let budget = Draft::new()
+        .normal("x", 1.0, 1.0, INF)
+        .budget(0.95, &[("y", "x^2")]);
+    let options = Options {
+        monte_carlo: MonteCarloChoice::With(MonteCarloSettings {
+            trials: Trials::Fixed(MANY),
+            ..budget.monte_carlo.clone()
+        }),
+        threads: 2,
+        ..Options::default()
+    };
+    let stop = options.progress.clone();
+    let waiting = std::thread::spawn(move || {
+        while stop.trials_drawn() == 0 {
+            std::thread::yield_now();
+        }
+        stop.stop();
+    });
+    let found = evaluate(&budget, &options);
+    assert_eq!(found.err(), Some(EvaluationError::Stopped));
+    assert!(samples(&budget, 1000, &options).is_empty());
+    waiting.join().expect("it stops");
 }

@@ -70,6 +70,7 @@ use moments::{Moments, Pivot};
 pub(super) use outcome::{FirstOrder, Outcome};
 use resolve::{Redraw, Resolved};
 use thread_pool::ThreadPool;
+pub(crate) use thread_pool::parallel_map;
 
 /// Runs the Monte Carlo method; the result does not depend on the number of threads.
 ///

@@ -165,7 +165,7 @@ impl<D, T, R> Started<'_, D, T, R> {
 
 /// `task` of every item on several threads, each with a scratch space; results in the order of the
 /// items, and what `finish` makes of the scratch spaces in no order.
-pub(super) fn parallel_map<I: Send, W, T: Send, R: Send>(
+pub(crate) fn parallel_map<I: Send, W, T: Send, R: Send>(
     items: Vec<I>,
     threads: usize,
     scratch: impl Fn() -> W + Send + Sync,

@@ -1,0 +1,214 @@
+//! One budget for many devices: every row of a table gives it values, and gets a result of its own.
+//!
+//! A row is evaluated as the budget would be with the row written into it by hand. Rows share nothing but the work of
+//! reading: not their faults, not the random numbers, and no result depends on how the table is cut, on other rows or on the
+//! number of threads.
+
+use std::io::Read;
+use std::ops::ControlFlow;
+
+use crate::budget::{Batch, BatchFile, Budget, MonteCarloSettings, RowReader, Wanted};
+use crate::propagate::{
+    self, Evaluation, EvaluationError, MonteCarloChoice, Options, Progress, parallel_map,
+};
+use gumption_fault::say;
+use gumption_fault::{Fault, Rejection};
+use gumption_format::csv::faults::NO_HEADER;
+use gumption_format::csv::{self, Pieces, Sheet};
+
+/// Rows that a thread takes at a time.
+const BLOCK: usize = 64;
+
+/// How the rows of a table are evaluated.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// Monte Carlo with these settings in place of the budget's; nothing leaves it out.
+    pub monte_carlo: Option<Wanted>,
+    /// Threads that share the rows.
+    pub threads: usize,
+    /// Ends the work where it is stopped; counts trials.
+    pub progress: Progress,
+}
+
+/// A row of the table, evaluated.
+#[derive(Debug)]
+pub struct Evaluated {
+    /// Its number, the first being 1.
+    pub number: u64,
+    /// Its line in the table.
+    pub line: usize,
+    /// Its label, where the table has such a column.
+    pub label: Option<String>,
+    /// Its budget and what was found; or why nothing was.
+    pub found: Result<(Budget, Evaluation), Failed>,
+}
+
+/// Why a row has no result.
+#[derive(Debug)]
+pub enum Failed {
+    /// The row itself is faulty.
+    Row(Box<Fault>),
+    /// The budget with the row in place has faults.
+    Refused(Box<Rejection>),
+    /// It has no value.
+    NoResult(EvaluationError),
+}
+
+/// Evaluates the rows of a table, piece by piece. `block` makes of some evaluated rows what is wanted of them, on any thread;
+/// `take` gets it in the order of the rows, with the number of bytes that were read, and may end the work.
+///
+/// # Errors
+/// The table cannot be read, one of its columns is no place of the budget, or the budget has faults of its own that no row
+/// mends. Rows have been taken before, where the table cannot be read further.
+pub fn run<T: Send>(
+    file: &BatchFile<'_>,
+    (source, table): (impl Read, &str),
+    plan: &Plan,
+    block: impl Fn(Vec<Evaluated>) -> T + Sync,
+    mut take: impl FnMut(T, u64) -> ControlFlow<()>,
+) -> Result<(), Rejection> {
+    let refused = |fault: Box<Fault>| Rejection::new(table, "", vec![*fault]);
+    let mut pieces = Pieces::new(source);
+    let none = || {
+        Err(Box::new(Fault::new(
+            NO_HEADER,
+            0..0,
+            say!("the table is empty"),
+        )))
+    };
+    let first = pieces.next().unwrap_or_else(none).map_err(refused)?;
+    let head = Sheet::new(&first.text)
+        .map_err(|fault| Rejection::new(table, &first.text, vec![*fault]))?;
+    let batch = file.batch(&head, table)?;
+    let mut number = 0;
+    let mut work = |sheet: &Sheet<'_>, read: u64| {
+        let rows: Vec<Result<csv::Row, Fault>> = sheet.rows().collect();
+        if number == 0 {
+            hopeless(&batch, sheet, &rows)?;
+        }
+        let mut rest = rows.into_iter().peekable();
+        let mut blocks = Vec::new();
+        while rest.peek().is_some() {
+            let rows: Vec<_> = rest.by_ref().take(BLOCK).collect();
+            let begin = number;
+            number += rows.len() as u64;
+            blocks.push((begin, rows));
+        }
+        let evaluate = |reader: &mut RowReader<'_>, (begin, rows): (u64, Vec<_>)| {
+            let rows = rows.into_iter().zip(begin + 1..);
+            let evaluated = rows.map(|(row, number)| evaluated(reader, sheet, row, number, plan));
+            block(evaluated.collect())
+        };
+        let (done, _) = parallel_map(blocks, plan.threads, || batch.reader(), evaluate, drop);
+        let mut done = done.into_iter().map(|block| take(block, read));
+        let ended = plan.progress.is_stopped() || done.any(|flow| flow.is_break());
+        Ok::<bool, Rejection>(!ended)
+    };
+    let mut more = work(&head, pieces.bytes_read())?;
+    while more {
+        let Some(piece) = pieces.next() else { break };
+        let piece = piece.map_err(refused)?;
+        let read = pieces.bytes_read();
+        more = work(&head.below(&piece.text, piece.line), read)?;
+    }
+    Ok(())
+}
+
+/// Whether the budget has faults that are there without any row and with each of the first.
+fn hopeless(
+    batch: &Batch<'_>,
+    sheet: &Sheet<'_>,
+    rows: &[Result<csv::Row, Fault>],
+) -> Result<(), Rejection> {
+    /// Rows that are tried.
+    const FEW: usize = 16;
+    let reader = batch.reader();
+    let Err(mut own) = reader.alone() else {
+        return Ok(());
+    };
+    let mut tried = 0;
+    for row in rows.iter().flatten().take(FEW) {
+        match reader.row(row, sheet) {
+            Ok(_) => return Ok(()),
+            Err(with_row) => own.faults.retain(|fault| with_row.faults.contains(fault)),
+        }
+        tried += 1;
+    }
+    match tried == 0 || own.faults.is_empty() {
+        true => Ok(()),
+        false => Err(own),
+    }
+}
+
+fn evaluated(
+    reader: &RowReader<'_>,
+    sheet: &Sheet<'_>,
+    row: Result<csv::Row, Fault>,
+    number: u64,
+    plan: &Plan,
+) -> Evaluated {
+    let line = row.as_ref().map_or(0, |row| row.line);
+    let read = row
+        .map_err(|fault| Failed::Row(Box::new(fault)))
+        .and_then(|row| {
+            let read = reader.row(&row, sheet);
+            read.map_err(|rejection| Failed::Refused(Box::new(rejection)))
+        });
+    let (label, found) = match read {
+        Ok(row) => {
+            let found = propagate::evaluate(&row.budget, &plan.options(&row.budget));
+            let found = found.map_err(Failed::NoResult);
+            (row.label, found.map(|evaluation| (row.budget, evaluation)))
+        }
+        Err(failed) => (None, Err(failed)),
+    };
+    Evaluated {
+        number,
+        line,
+        label,
+        found,
+    }
+}
+
+impl Plan {
+    /// A row is the work of one thread.
+    fn options(&self, budget: &Budget) -> Options {
+        let monte_carlo = match &self.monte_carlo {
+            None => MonteCarloChoice::Off,
+            Some(wanted) => {
+                let settings = budget.monte_carlo.with(wanted);
+                MonteCarloChoice::With(MonteCarloSettings {
+                    seed: seed_of(budget, settings.seed),
+                    ..settings
+                })
+            }
+        };
+        Options {
+            monte_carlo,
+            threads: 1,
+            progress: self.progress.clone(),
+        }
+    }
+}
+
+/// The seed of a row: from the seed that was asked for and from the numbers of the row's budget, so that rows are independent
+/// of one another, and each has the same wherever it stands. At most 2^53, which every spreadsheet keeps.
+fn seed_of(budget: &Budget, seed: u64) -> u64 {
+    let inputs = budget.inputs.iter().map(|input| input.estimate);
+    let components = budget.components.iter().flat_map(|one| [one.u, one.dof]);
+    let constants = budget
+        .constants
+        .iter()
+        .flat_map(|one| one.values.iter().copied());
+    let numbers = inputs.chain(components).chain(constants);
+    let mixed = numbers.fold(mixed(seed), |sum, number| mixed(sum ^ number.to_bits()));
+    mixed >> 11
+}
+
+/// The finalizer of SplitMix64 (Steele, Lea and Flood 2014): every bit of the result depends on all of them.
+fn mixed(sum: u64) -> u64 {
+    let sum = sum.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let sum = (sum ^ (sum >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let sum = (sum ^ (sum >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    sum ^ (sum >> 31)
+}

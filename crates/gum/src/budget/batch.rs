@@ -1,0 +1,187 @@
+//! A budget for every row of a table beside it: what a series says within the budget. Rows are read one by one, so that a
+//! faulty one is its own affair and the length of the table does not matter.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use toml::de::DeTable;
+
+use super::check::{Origin, Variant};
+use super::faults::SERIES;
+use super::open_files::OpenFiles;
+use super::points::Columns;
+use super::reader::{checked, open_files, tables, text_of};
+use super::series::{self, Column};
+use super::{Files, Profile, Row, hints::HINTS};
+use gumption_fault::{Fault, Rejection, say};
+use gumption_format::csv::{self, Sheet};
+use gumption_format::toml::{Reader, leaves_the_rest, syntax_faults};
+
+/// The text of a budget, whose values a table is to replace.
+#[derive(Debug)]
+pub struct BatchFile<'f> {
+    files: Files<'f>,
+    path: PathBuf,
+    text: String,
+    profile: Option<&'static Profile>,
+}
+
+impl<'f> BatchFile<'f> {
+    /// Reads it; checked it is with the rows of a table in place.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub fn open(
+        files: Files<'f>,
+        path: &Path,
+        profile: Option<&'static Profile>,
+    ) -> Result<BatchFile<'f>, Rejection> {
+        let text = text_of(files, path)?;
+        let text = text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned();
+        Ok(BatchFile {
+            files,
+            path: path.to_path_buf(),
+            text,
+            profile,
+        })
+    }
+
+    fn name(&self) -> String {
+        self.path.display().to_string()
+    }
+
+    /// The places that the columns of a table set; `table` is its name, for messages.
+    ///
+    /// # Errors
+    /// The budget is no TOML, or has a series of its own; a column is none of its places.
+    pub fn batch(&self, sheet: &Sheet<'_>, table: &str) -> Result<Batch<'_>, Rejection> {
+        let (file, errors) = DeTable::parse_recoverable(&self.text);
+        let refused = |faults| Err(Rejection::new(&self.name(), &self.text, faults));
+        let syntax = syntax_faults(&errors, &self.text);
+        if !errors.iter().all(leaves_the_rest) || !syntax.is_empty() {
+            return refused(syntax);
+        }
+        let file = file.into_inner();
+        if let Some((series, _)) = file.get_key_value("series") {
+            let fault = Fault::new(
+                SERIES,
+                series.span(),
+                say!("the budget has a series of its own"),
+            );
+            return refused(vec![
+                fault
+                    .label(say!("the table takes its place"))
+                    .help(say!("delete it, or evaluate the budget without a table")),
+            ]);
+        }
+        let in_table = |faults| Rejection::new(table, sheet.text(), faults);
+        let place = |at| sheet.place(sheet.header(), at);
+        let columns = Columns::of(sheet, place).map_err(in_table)?;
+        let mut faults = Vec::new();
+        let targets = series::targets(&file, &columns.names, &mut faults);
+        // Their other places are in the budget.
+        faults.iter_mut().for_each(|fault| fault.related.clear());
+        if !faults.is_empty() {
+            return Err(in_table(faults));
+        }
+        Ok(Batch {
+            of: self,
+            identity: self.files.identity(&self.path),
+            name: self.name(),
+            file,
+            columns,
+            targets,
+        })
+    }
+}
+
+/// A budget and the columns that replace its values.
+#[derive(Debug)]
+pub struct Batch<'a> {
+    of: &'a BatchFile<'a>,
+    identity: PathBuf,
+    name: String,
+    file: DeTable<'a>,
+    columns: Columns,
+    targets: Vec<Option<Column>>,
+}
+
+/// Makes budgets of rows; each thread has its own, which keeps what the rows have in common.
+#[derive(Debug)]
+pub struct RowReader<'a> {
+    batch: &'a Batch<'a>,
+    open: OpenFiles<'a>,
+}
+
+impl Batch<'_> {
+    /// Nothing is read yet.
+    pub fn reader(&self) -> RowReader<'_> {
+        RowReader {
+            batch: self,
+            open: open_files(self.of.files),
+        }
+    }
+}
+
+impl RowReader<'_> {
+    /// The budget with the values of a row.
+    ///
+    /// # Errors
+    /// All faults; those of the row have no place in the budget.
+    pub fn row(&self, row: &csv::Row, sheet: &Sheet<'_>) -> Result<Row, Rejection> {
+        let Batch {
+            file,
+            columns,
+            targets,
+            ..
+        } = self.batch;
+        let written = columns.written(row, sheet);
+        // The cells stand behind the budget, where all of their decimals are found.
+        let mut text = self.batch.of.text.clone();
+        let mut cells = Vec::with_capacity(written.len());
+        for field in &written {
+            text.push('\n');
+            let start = text.len();
+            text.push_str(field.text());
+            cells.push(field.cell(&|part: Range<usize>| start + part.start..start + part.end));
+        }
+        let mut faults = Vec::new();
+        let names = &columns.names;
+        let variant = series::variant(file, names, targets, &cells, &mut faults);
+        self.read(&variant.table, &text, variant.label, faults)
+    }
+
+    /// The budget as it stands, without a row.
+    ///
+    /// # Errors
+    /// All its faults.
+    pub fn alone(&self) -> Result<Row, Rejection> {
+        self.read(&self.batch.file, &self.batch.of.text, None, Vec::new())
+    }
+
+    fn read(
+        &self,
+        table: &DeTable<'_>,
+        text: &str,
+        label: Option<String>,
+        mut faults: Vec<Fault>,
+    ) -> Result<Row, Rejection> {
+        let BatchFile { path, profile, .. } = self.batch.of;
+        let mut reader = Reader::new(text, &HINTS);
+        let file = tables(table, *profile, &mut reader);
+        faults.append(&mut reader.faults);
+        let variant = Variant {
+            label,
+            repetitions: false,
+            file,
+        };
+        let origin = Origin {
+            files: &self.open,
+            directory: path.parent().unwrap_or_else(|| Path::new("")),
+            file: &self.batch.identity,
+        };
+        let place = (self.batch.name.as_str(), text);
+        let mut loaded = checked(vec![variant], [Vec::new(), faults], place, origin)?;
+        Ok(loaded.rows.swap_remove(0))
+    }
+}

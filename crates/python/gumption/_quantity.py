@@ -1,0 +1,321 @@
+"""Uncertain numbers: written as arithmetic, evaluated by the engine as a budget."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import numbers
+import re
+from collections.abc import Callable, Iterable, Sequence
+from functools import cached_property
+from typing import Any, Union
+
+import numpy as np
+
+from . import _units as units
+from ._commands import evaluate
+from ._result import Measurand, Result
+from ._units import Units
+
+Operand = Union["Quantity", numbers.Real]
+
+_count = itertools.count(1)
+
+_OURS = re.compile(r"[qy]\d*")
+"""Names that are given here: of quantities without one, and of results."""
+
+
+class Quantity:
+    """A quantity: one of which something is known, or a formula of others.
+
+    Arithmetic keeps what quantities have in common: ``x - x`` is 0 exactly. Nothing is computed until a figure is
+    asked for; then the formula and what it rests on are a budget, and ``result`` is what ``evaluate`` makes of it, with
+    ν_eff, k, U, Monte Carlo and everything found. Units are those of the budget file; a bare number has none.
+    """
+
+    def __init__(
+        self,
+        formula: str = "",
+        parts: tuple[Quantity, ...] = (),
+        known: dict[str, Any] | None = None,
+        unit: Units | None = None,
+        name: str | None = None,
+    ):
+        self._name = name or f"q{next(_count)}"
+        self._formula = formula
+        self._parts = parts
+        self._known = known
+        self._units = unit or {}
+        self._joint: Joint | None = None
+
+    @cached_property
+    def result(self) -> Result:
+        """The evaluated budget."""
+        return evaluate(_budget([self]))
+
+    @property
+    def _found(self) -> Measurand:
+        return self.result["y"]
+
+    @property
+    def y(self) -> float:
+        """The estimate."""
+        return self._found.y
+
+    @property
+    def unit(self) -> str:
+        """Its unit."""
+        return self._found.unit
+
+    @property
+    def u(self) -> float | None:
+        """The standard uncertainty."""
+        return self._found.u
+
+    @property
+    def nu(self) -> float:
+        """The effective degrees of freedom (Welch and Satterthwaite)."""
+        return self._found.gum.effective_degrees_of_freedom
+
+    @property
+    def k(self) -> float | None:
+        """The coverage factor."""
+        return self._found.k
+
+    @property
+    def U(self) -> float | None:  # noqa: N802 - the symbol of the standard
+        """The expanded uncertainty."""
+        return self._found.U
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """The coverage interval."""
+        return self._found.interval
+
+    def to(self, unit: str) -> Quantity:
+        """The same quantity, in another unit."""
+        return Quantity(self._name, (self,), unit=units.of(unit))
+
+    def budget(self) -> dict[str, Any]:
+        """The budget that is evaluated."""
+        return _budget([self])
+
+    def sensitivities(self) -> dict[Quantity, float]:
+        """Derivatives to the quantities on which it rests, those with an uncertainty."""
+        resting = {one._name: one for one in _order([self]) if one._known is not None}
+        names = [one.name for one in self.result.inputs]
+        return {resting[name]: one.sensitivity for name, one in zip(names, self._found.gum.inputs)}
+
+    def to_uncertainties(self) -> Any:
+        """A number of the package ``uncertainties``, correlated with all others that were made so."""
+        from ._interchange import to_uncertainties
+
+        return to_uncertainties(self)
+
+    def __add__(self, other: Operand) -> Quantity:
+        return _formed("add", self, other)
+
+    def __radd__(self, other: Operand) -> Quantity:
+        return _formed("add", other, self)
+
+    def __sub__(self, other: Operand) -> Quantity:
+        return _formed("subtract", self, other)
+
+    def __rsub__(self, other: Operand) -> Quantity:
+        return _formed("subtract", other, self)
+
+    def __mul__(self, other: Operand) -> Quantity:
+        return _formed("multiply", self, other)
+
+    def __rmul__(self, other: Operand) -> Quantity:
+        return _formed("multiply", other, self)
+
+    def __truediv__(self, other: Operand) -> Quantity:
+        return _formed("divide", self, other)
+
+    def __rtruediv__(self, other: Operand) -> Quantity:
+        return _formed("divide", other, self)
+
+    def __pow__(self, other: Operand) -> Quantity:
+        return _formed("power", self, other)
+
+    def __rpow__(self, other: Operand) -> Quantity:
+        return _formed("power", other, self)
+
+    def __neg__(self) -> Quantity:
+        return _formed("negative", self)
+
+    def __pos__(self) -> Quantity:
+        return self
+
+    def __abs__(self) -> Quantity:
+        return _formed("absolute", self)
+
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *given: Any, **settings: Any) -> Any:
+        """NumPy's functions are those of the model language: ``np.sin(x)``, ``np.sqrt(x)``."""
+        if method != "__call__" or settings or ufunc.__name__ not in _OPERATIONS:
+            return NotImplemented
+        if any(isinstance(one, np.ndarray) and one.ndim for one in given):
+            arrays = np.broadcast_arrays(*(np.asarray(one, dtype=object) for one in given))
+            flat = [_formed(ufunc.__name__, *ones) for ones in zip(*(array.flat for array in arrays))]
+            return np.array(flat, dtype=object).reshape(arrays[0].shape)
+        return _formed(ufunc.__name__, *given)
+
+    def __repr__(self) -> str:
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        return f"<{self.y:.10g}{unit}>" if self.u is None else f"<{self.y:.10g}{unit}, u = {self.u:.3g}>"
+
+
+class Joint:
+    """Quantities of which correlation coefficients are stated."""
+
+    def __init__(self, members: list[Quantity], correlation: np.ndarray):
+        self.members = members
+        self.correlation = correlation
+        for one in members:
+            one._joint = self
+
+    def table(self, names: set[str]) -> dict[str, Any] | None:
+        """The table of a budget for those of these names; nothing for one alone."""
+        at = [place for place, one in enumerate(self.members) if one._name in names]
+        if len(at) < 2:
+            return None
+        return {"inputs": [self.members[i]._name for i in at], "correlation": self.correlation[np.ix_(at, at)].tolist()}
+
+
+_OPERATIONS: dict[str, tuple[str, Callable[..., Units]]] = {
+    "absolute": ("abs({})", units.alike),
+    "add": ("{} + {}", units.alike),
+    "arctan2": ("atan2({}, {})", units.none),
+    "cbrt": ("cbrt({})", units.power_of(1 / 3)),
+    "ceil": ("ceil({})", units.alike),
+    "divide": ("{} / {}", units.quotient),
+    "floor": ("floor({})", units.alike),
+    "hypot": ("hypot({}, {})", units.alike),
+    "log": ("ln({})", units.none),
+    "multiply": ("{} * {}", units.product),
+    "negative": ("-{}", units.alike),
+    "power": ("{} ^ {}", units.power),
+    "sqrt": ("sqrt({})", units.power_of(1 / 2)),
+    "square": ("{} ^ 2", units.power_of(2)),
+    "subtract": ("{} - {}", units.alike),
+    **{name: (f"{name}({{}})", units.none) for name in "exp log10 log2 sin cos tan sinh cosh tanh sign".split()},
+    **{f"arc{name}": (f"a{name}({{}})", units.none) for name in "sin cos tan sinh cosh tanh".split()},
+}
+"""By the names of NumPy: how the model language writes it, and the unit of what comes out."""
+
+
+def _method(name: str) -> Callable[[Quantity], Any]:
+    return lambda one: _formed(name, one)
+
+
+# NumPy calls them for the elements of an array.
+for _name, (_written, _) in _OPERATIONS.items():
+    if _written.count("{}") == 1:
+        setattr(Quantity, _name, _method(_name))
+
+
+def quantity(
+    value: Any, u: float | str | None = None, unit: str | None = None, *, name: str | None = None, **known: Any
+) -> Quantity:
+    """A quantity of which something is known.
+
+    ``u`` is its standard uncertainty; anything else is said as in an input of a budget file: ``half_width=0.1``,
+    ``dof=9``, ``readings=[…]`` (with ``value`` None), ``distribution="triangular"``, ``certificate={"U": 0.2, "k": 2}``.
+    A number of the package ``uncertainties`` stays correlated with all others that are taken so. ``name`` is what
+    reports call it.
+    """
+    if hasattr(value, "nominal_value"):
+        from ._interchange import from_uncertainties
+
+        return from_uncertainties(value)
+    if name is not None and (not name.isidentifier() or _OURS.fullmatch(name)):
+        raise ValueError(f"{name!r} cannot be the name of a quantity")
+    stated = {"value": value, "u": None if u == 0 else u, "unit": "1" if unit is None else unit}
+    stated = {key: one for key, one in stated.items() if one is not None}
+    return Quantity(known={**stated, **known}, unit=units.of(unit), name=name)
+
+
+def correlated(
+    values: Sequence[float],
+    u: Sequence[float],
+    correlation: Any,
+    unit: Sequence[str] | str | None = None,
+    names: Sequence[str] | None = None,
+) -> list[Quantity]:
+    """Quantities with standard uncertainties and a matrix of correlation coefficients."""
+    matrix = np.asarray(correlation, dtype=float)
+    if matrix.shape != (len(values), len(values)) or len(u) != len(values):
+        raise ValueError(f"{len(values)} values take as many u and a matrix of as many rows and columns")
+    of_each = [unit] * len(values) if unit is None or isinstance(unit, str) else unit
+    each = zip(values, u, of_each, names or [None] * len(values))
+    return Joint([quantity(y, s, one, name=name) for y, s, one, name in each], matrix).members
+
+
+def covariance(quantities: Iterable[Quantity]) -> np.ndarray:
+    """Covariance matrix of quantities, from their sensitivity coefficients (JCGM 102, 6.2)."""
+    quantities = list(quantities)
+    result = evaluate(_budget(quantities), monte_carlo=False)
+    if len(quantities) == 1:
+        return np.array([[result["y"].gum.standard_uncertainty ** 2]])
+    return np.array(result.joint.covariance, dtype=float)
+
+
+def _formed(operation: str, *given: Any) -> Any:
+    if not all(isinstance(one, (Quantity, numbers.Real)) for one in given):
+        return NotImplemented
+    written = [one._name if isinstance(one, Quantity) else _number(float(one)) for one in given]
+    formula, unit = _OPERATIONS[operation]
+    operands = [one._units if isinstance(one, Quantity) else one for one in given]
+    parts = tuple(one for one in given if isinstance(one, Quantity))
+    return Quantity(formula.format(*written), parts, unit=unit(*operands))
+
+
+def _number(value: float) -> str:
+    if not math.isfinite(value):
+        raise ValueError(f"{value} cannot stand in a formula")
+    return f"({value!r})"
+
+
+def _order(quantities: list[Quantity]) -> list[Quantity]:
+    """They and what they rest on, each after its parts."""
+    order: dict[str, Quantity] = {}
+    waiting = [(one, False) for one in reversed(quantities)]
+    while waiting:
+        one, ready = waiting.pop()
+        known = order.get(one._name)
+        if known is not None and known is not one:
+            raise ValueError(f"two quantities are called {one._name}")
+        if known is not None:
+            continue
+        if ready:
+            order[one._name] = one
+        else:
+            waiting.append((one, True))
+            waiting.extend((part, False) for part in reversed(one._parts))
+    return list(order.values())
+
+
+def _budget(quantities: list[Quantity]) -> dict[str, Any]:
+    """What is known as inputs, formulas as statements of one model, each after those that it uses."""
+    order = _order(quantities)
+    known = {one._name: one for one in order if one._known is not None}
+    # Of what has neither uncertainty nor readings nothing is in doubt.
+    exact = {name for name, one in known.items() if set(one._known) <= {"value", "unit"}}
+    inputs = {name: one._known for name, one in known.items() if name not in exact}
+    names = ["y"] if len(quantities) == 1 else [f"y{at}" for at in range(1, len(quantities) + 1)]
+    measurands = {
+        name: {"model": one._name, "unit": units.written(one._units)}
+        for name, one in zip(names, quantities)
+    }
+    groups = {id(one._joint): one._joint for one in known.values() if one._joint is not None}
+    tables = [group.table(set(inputs)) for group in groups.values()]
+    parts = {
+        "title": "Quantities",
+        "model": "\n".join(f"{one._name} = {one._formula}" for one in order if one._known is None),
+        "measurand": measurands,
+        "constant": {name: known[name]._known for name in known if name in exact},
+        "input": inputs,
+        "joint": [table for table in tables if table is not None],
+    }
+    return {key: part for key, part in parts.items() if part}

@@ -1,0 +1,235 @@
+"""What a command found: its figures as attributes, its document in every format."""
+
+from __future__ import annotations
+
+import html
+import json
+import math
+import os
+from collections.abc import Iterator
+from functools import cached_property
+from typing import Any, Literal
+
+import numpy as np
+
+from ._engine import Made
+
+Language = Literal["en", "zh"]
+
+
+class Record:
+    """A structure of the machine form (``docs/*.schema.json``): its fields are attributes, its lists of numbers arrays.
+
+    Infinity is ``inf``; ``None`` means that there is no such figure.
+    """
+
+    __slots__ = ("_fields",)
+
+    def __init__(self, fields: dict[str, Any]):
+        self._fields = fields
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return _wrapped(self._fields[name])
+        except KeyError:
+            raise AttributeError(f"there is no {name}; there are {', '.join(self._fields)}") from None
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._fields]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields as they stand in the JSON."""
+        return self._fields
+
+    def __repr__(self) -> str:
+        def short(value: Any) -> str:
+            return f"<{len(value)} entries>" if isinstance(value, (list, dict)) else repr(value)
+
+        fields = ", ".join(f"{name}={short(value)}" for name, value in self._fields.items())
+        return f"{type(self).__name__}({fields})"
+
+
+class Measurand(Record):
+    """A measurand of an evaluated budget: the figures that are reported, by their symbols; all others by their names."""
+
+    __slots__ = ()
+
+    @property
+    def y(self) -> float:
+        """The estimate."""
+        return self.reported.estimate
+
+    @property
+    def u(self) -> float | None:
+        """The standard uncertainty; ``None`` where the distribution has none."""
+        return self.reported.standard_uncertainty
+
+    @property
+    def nu(self) -> float | None:
+        """The degrees of freedom that give k; ``None`` for a k that is fixed."""
+        return self.reported.degrees_of_freedom
+
+    @property
+    def k(self) -> float | None:
+        """The coverage factor."""
+        return self.reported.coverage_factor
+
+    @property
+    def U(self) -> float | None:  # noqa: N802 - the symbol of the standard
+        """The expanded uncertainty; ``None`` where an interval is reported instead."""
+        return self.reported.expanded_uncertainty
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """The coverage interval: y ± U, or that of the Monte Carlo method where it is reported."""
+        stated = self.reported.interval
+        if stated is not None:
+            return (float(stated[0]), float(stated[1]))
+        return None if self.U is None else (self.y - self.U, self.y + self.U)
+
+    @property
+    def p(self) -> float | None:
+        """The coverage probability, where one is claimed."""
+        return self.reported.coverage_probability
+
+
+class Row(Record):
+    """What was found of one row of a series, or of a file without one."""
+
+    __slots__ = ()
+
+    def __getitem__(self, name: str) -> Any:
+        """A measurand of a budget, or a coefficient of a calibration, by its name."""
+        named = [*(self._fields.get("measurands") or []), *(self._fields.get("coefficients") or [])]
+        for one in named:
+            if one["name"] == name:
+                return _wrapped(one)
+        raise KeyError(f"there is no {name}; there are {', '.join(one['name'] for one in named)}")
+
+
+class Result:
+    """What a command found.
+
+    The fields of its machine form are attributes; ``text``, ``to_html`` and the others are its report. Of a budget
+    with a series, ``rows`` has the results of all rows.
+    """
+
+    def __init__(self, made: Made, language: Language):
+        self._made = made
+        self._language = language
+
+    @cached_property
+    def rows(self) -> list[Row]:
+        """The machine form of each row of a series; one of anything else."""
+        value = json.loads(self._made.json())
+        return [Row(one) for one in (value if isinstance(value, list) else [value])]
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self._only, name)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self.rows[0].to_dict()]
+
+    def __getitem__(self, name: str) -> Any:
+        """A measurand of a budget, or a coefficient of a calibration, by its name."""
+        return self._only[name]
+
+    @property
+    def _only(self) -> Row:
+        if len(self.rows) > 1:
+            raise LookupError(f"there are {len(self.rows)} rows: take one of `rows`")
+        return self.rows[0]
+
+    @property
+    def statement(self) -> str:
+        """The sentences for the certificate."""
+        return "\n".join(self._only.to_dict()["statement"][self._language])
+
+    def samples(self, trials: int = 1_000_000, row: int = 0) -> dict[str, np.ndarray]:
+        """Values of every measurand in trials of the Monte Carlo method; the n-th of all are of one trial."""
+        names = [one.name for one in self.rows[row].measurands]
+        return dict(zip(names, self._made.samples(row, trials)))
+
+    def table(self) -> dict[str, list[Any]]:
+        """What is reported of every measurand and row, by columns."""
+        columns = ("label", "measurand", "unit", "y", "u", "nu", "k", "U", "lower", "upper")
+        lines = [
+            (row.label, one.name, one.unit, one.y, one.u, one.nu, one.k, one.U, *(one.interval or (None, None)))
+            for row in self.rows
+            for one in row.measurands
+        ]
+        return {column: [line[at] for line in lines] for at, column in enumerate(columns)}
+
+    def to_pandas(self) -> Any:
+        """``table`` as a frame of pandas."""
+        import pandas
+
+        return pandas.DataFrame(self.table())
+
+    def to_polars(self) -> Any:
+        """``table`` as a frame of polars."""
+        import polars
+
+        return polars.DataFrame(self.table())
+
+    def files(self, language: Language | None = None) -> dict[str, str]:
+        """Files that go with the result, by name: a budget of the coefficients, the improved experiment."""
+        return dict(self._made.files(language or self._language))
+
+    def render(self, format: str, language: Language | None = None, width: int = 100) -> bytes:
+        """The report in a format of the program: ``text``, ``markdown``, ``html``, ``json`` and whatever else it has."""
+        return self._made.render(format, language or self._language, width)
+
+    def save(self, path: str | os.PathLike[str], language: Language | None = None, replace: bool = False) -> None:
+        """Writes the report in the format of the ending: ``.html``, ``.xlsx``, ``.md``, ``.json`` …
+
+        A file that is there is replaced if gumption wrote it and nobody changed it since, or with ``replace``; otherwise
+        ``FileExistsError``.
+        """
+        self._made.save(path, language or self._language, replace)
+
+    def text(self, language: Language | None = None, width: int = 100) -> str:
+        """The report as text."""
+        return self.render("text", language, width).decode()
+
+    def to_html(self, language: Language | None = None) -> str:
+        """The report as a page that stands alone."""
+        return self.render("html", language).decode()
+
+    def to_xlsx(self, language: Language | None = None) -> bytes:
+        """The report as a workbook that calculates."""
+        return self.render("xlsx", language)
+
+    def _repr_html_(self) -> str:
+        page = html.escape(self.to_html(), quote=True)
+        return f'<iframe srcdoc="{page}" style="width:100%;height:32em;border:0" sandbox></iframe>'
+
+    def __iter__(self) -> Iterator[Row]:
+        return iter(self.rows)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def __repr__(self) -> str:
+        return f"<gumption {self.rows[0].format}, rows: {len(self.rows)}>"
+
+
+def _wrapped(value: Any) -> Any:
+    if value == "inf":
+        return math.inf
+    if value == "-inf":
+        return -math.inf
+    if isinstance(value, dict):
+        return Measurand(value) if "reported" in value and "gum" in value else Record(value)
+    if isinstance(value, list):
+        if value and all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in value):
+            return np.array(value, dtype=float)
+        return [_wrapped(one) for one in value]
+    return value

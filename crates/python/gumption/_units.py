@@ -1,0 +1,69 @@
+"""The unit in which a formula of quantities is reported, as long as nobody asks for another."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Union
+
+Units = dict[str, float]
+"""Exponents of units, each as somebody wrote it. The engine checks what comes of it, and tells what it should be."""
+
+Operand = Union[Units, float]
+"""A quantity's units, or a bare number."""
+
+
+def of(written: str | None) -> Units:
+    """Those of a quantity that states its unit."""
+    return {} if written in (None, "1") else {written: 1.0}
+
+
+def written(units: Units) -> str:
+    """As a budget file has it."""
+    factors = [_factor(unit, exponent) for unit, exponent in units.items() if exponent != 0]
+    return "·".join(factors) or "1"
+
+
+def _factor(unit: str, exponent: float) -> str:
+    if exponent == 1:
+        return unit
+    compound = any(sign in unit for sign in "/*·^²³√ ")
+    return f"({unit})^{exponent:g}" if compound else f"{unit}^{exponent:g}"
+
+
+def alike(*operands: Operand) -> Units:
+    """What is added has one unit; that of the first that has any."""
+    return next((one for one in operands if isinstance(one, dict) and one), {})
+
+
+def none(*_: Operand) -> Units:
+    """A number."""
+    return {}
+
+
+def product(a: Operand, b: Operand) -> Units:
+    """Exponents add."""
+    return _combined(a, b, 1)
+
+
+def quotient(a: Operand, b: Operand) -> Units:
+    """Exponents are subtracted."""
+    return _combined(a, b, -1)
+
+
+def power(a: Operand, exponent: Operand) -> Units:
+    """By a number; where the exponent is a quantity, both are numbers."""
+    return {} if isinstance(exponent, dict) else power_of(float(exponent))(a)
+
+
+def power_of(exponent: float) -> Callable[[Operand], Units]:
+    """By a fixed number."""
+    return lambda a: {unit: one * exponent for unit, one in _units(a).items()}
+
+
+def _combined(a: Operand, b: Operand, sign: int) -> Units:
+    all_units = {**_units(a), **_units(b)}
+    return {unit: _units(a).get(unit, 0.0) + sign * _units(b).get(unit, 0.0) for unit in all_units}
+
+
+def _units(one: Operand) -> Units:
+    return one if isinstance(one, dict) else {}

@@ -1,0 +1,293 @@
+//! One function for each command.
+
+use gumption_audit::read::{Mapping, budgets};
+use gumption_audit::sheet;
+use gumption_fault::language::Language;
+use gumption_format::files::Files;
+use gumption_gum::budget::{self, Budget, PROFILES, Points, Profile, Trials, Wanted};
+use gumption_gum::propagate::{self, MonteCarloChoice, Options, Progress};
+use gumption_lab::calibrate::{self as calibrations, Campaign, Trouble};
+use gumption_lab::diagnose::case::{self, Case};
+use gumption_lab::diagnose::{self as diagnoses, Failure};
+use gumption_lab::experiment::{Kind, Purpose, kind_of};
+use gumption_report as report;
+use gumption_verify::{Environment, Example, LIBRARY, Verification};
+use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::made::{Made, Row, What, spoken};
+use crate::refusal::Unmade;
+use crate::source::Source;
+use crate::watch::{Share, watched};
+
+/// What the caller of `evaluate` wants instead of what the file says.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Settings {
+    profile: Option<String>,
+    monte_carlo: bool,
+    /// `None` as the file says; 0 until the results are stable.
+    trials: Option<u64>,
+    seed: Option<u64>,
+    quasi_random: bool,
+    indices: bool,
+    threads: Option<usize>,
+}
+
+impl Settings {
+    /// Whether trials are wanted at all.
+    pub fn monte_carlo(&self) -> bool {
+        self.monte_carlo
+    }
+
+    /// As many as are wanted, or as the machine offers.
+    pub fn threads(&self) -> usize {
+        self.threads.unwrap_or(Options::default().threads)
+    }
+
+    /// The profile in place of the file's.
+    pub fn profile(&self) -> PyResult<Option<&'static Profile>> {
+        let Some(name) = &self.profile else {
+            return Ok(None);
+        };
+        budget::profile_named(name).map(Some).ok_or_else(|| {
+            let names: Vec<&str> = PROFILES.iter().map(|profile| profile.name).collect();
+            PyValueError::new_err(format!("the profiles are {}", names.join(", ")))
+        })
+    }
+
+    /// What is wanted of Monte Carlo.
+    pub fn wanted(&self) -> Wanted {
+        Wanted {
+            seed: self.seed,
+            trials: self.trials.map(|trials| match trials {
+                0 => Trials::ADAPTIVE,
+                exactly => Trials::Fixed(exactly),
+            }),
+            points: self.quasi_random.then_some(Points::QuasiRandom),
+            indices: self.indices,
+        }
+    }
+
+    fn options(&self, budget: &Budget, progress: &Progress) -> Options {
+        Options {
+            monte_carlo: match self.monte_carlo {
+                false => MonteCarloChoice::Off,
+                true => MonteCarloChoice::With(budget.monte_carlo.with(&self.wanted())),
+            },
+            threads: self.threads(),
+            progress: progress.clone(),
+        }
+    }
+}
+
+/// Evaluates the rows of a budget file.
+#[pyfunction]
+pub(crate) fn evaluate(
+    py: Python<'_>,
+    source: Source,
+    settings: Settings,
+    progress: Option<Py<PyAny>>,
+    language: &str,
+) -> PyResult<Made> {
+    let language = spoken(language)?;
+    let profile = settings.profile()?;
+    let trials = Progress::default();
+    let rows = watched(py, progress.as_ref(), &trials, || {
+        let loaded = source.with(|files, path| budget::load_from(files, path, profile))?;
+        let rows = loaded
+            .rows
+            .into_iter()
+            .map(|budget::Row { label, budget }| {
+                let options = settings.options(&budget, &trials);
+                match propagate::evaluate(&budget, &options) {
+                    Ok(evaluation) => Ok(Row {
+                        label,
+                        budget,
+                        evaluation,
+                    }),
+                    Err(error) => {
+                        let row = label.map(|label| format!("{label}: ")).unwrap_or_default();
+                        let why = format!("{row}{}", report::failure(&error, language));
+                        Err(Unmade::NoResult(why, None))
+                    }
+                }
+            });
+        rows.collect::<Result<Vec<Row>, Unmade>>()
+    })?;
+    made(py, language, rows.map(What::Evaluation))
+}
+
+/// Finds the coefficients of an experiment.
+#[pyfunction]
+pub(crate) fn calibrate(py: Python<'_>, source: Source, language: &str) -> PyResult<Made> {
+    let language = spoken(language)?;
+    let found = watched(py, None, &Share::default(), || {
+        let campaign = campaign(&source, Purpose::Calibrate)?;
+        let found = calibrations::calibrate(&campaign).map_err(|why| troubled(&why, language))?;
+        Ok(What::Calibration(Box::new(campaign), Box::new(found)))
+    })?;
+    made(py, language, found)
+}
+
+/// What a calibration or an experiment would tell, from its design.
+#[pyfunction]
+pub(crate) fn plan(
+    py: Python<'_>,
+    source: Source,
+    progress: Option<Py<PyAny>>,
+    language: &str,
+) -> PyResult<Made> {
+    let language = spoken(language)?;
+    let share = Share::default();
+    let text = read(py, &source)?;
+    let is_schedule = kind_of(&String::from_utf8_lossy(&text)) == Kind::Schedule;
+    let found = watched(py, progress.as_ref(), &share, || {
+        if is_schedule {
+            let campaign = campaign(&source, Purpose::Plan)?;
+            let plan = calibrations::plan(&campaign).map_err(|why| troubled(&why, language))?;
+            return Ok(What::CalibrationPlan(Box::new(campaign), Box::new(plan)));
+        }
+        let case = case(&source, case::Purpose::Plan)?;
+        let outlook = diagnoses::plan(&case, &|done| share.at(done))
+            .map_err(|why| failed(&case, &why, language))?;
+        Ok(What::Outlook(Box::new(case), Box::new(outlook)))
+    })?;
+    made(py, language, found)
+}
+
+/// Holds a recording against its model.
+#[pyfunction]
+pub(crate) fn diagnose(
+    py: Python<'_>,
+    source: Source,
+    seed: Option<u64>,
+    progress: Option<Py<PyAny>>,
+    language: &str,
+) -> PyResult<Made> {
+    let language = spoken(language)?;
+    let share = Share::default();
+    let found = watched(py, progress.as_ref(), &share, || {
+        let mut case = case(&source, case::Purpose::Diagnosis)?;
+        if let Some(seed) = seed {
+            case.settings.seed = seed;
+        }
+        let found = diagnoses::diagnose(&case, &|done| share.at(done))
+            .map_err(|why| failed(&case, &why, language))?;
+        Ok(What::Diagnosis(Box::new(case), Box::new(found)))
+    })?;
+    made(py, language, found)
+}
+
+/// The recording that an experiment predicts, as CSV.
+#[pyfunction]
+pub(crate) fn simulate(
+    py: Python<'_>,
+    source: Source,
+    seed: u64,
+    language: &str,
+) -> PyResult<String> {
+    let language = spoken(language)?;
+    let simulated = watched(py, None, &Share::default(), || {
+        let case = case(&source, case::Purpose::Plan)?;
+        match diagnoses::simulate(&case, seed) {
+            Ok(simulation) => Ok(simulation.sheet.csv()),
+            Err(why) => Err(failed(&case, &Failure::Fit(why), language)),
+        }
+    })?;
+    simulated.map_err(|why: Unmade| why.raised(py, language))
+}
+
+/// Holds files with claims against them; without any, the published examples inside the program.
+#[pyfunction]
+pub(crate) fn verify(
+    py: Python<'_>,
+    sources: Vec<Source>,
+    date: String,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Made> {
+    let trials = Progress::default();
+    let options = Options {
+        progress: trials.clone(),
+        ..Options::default()
+    };
+    let verification = watched(py, progress.as_ref(), &trials, || {
+        let published = LIBRARY
+            .iter()
+            .filter(|(name, _)| sources.is_empty() && name.ends_with(".toml"));
+        let published = published.map(|(name, _)| {
+            let library = Files::Library(LIBRARY);
+            let example = Example::evaluate(library, name.as_ref(), name, &options);
+            (name.to_string(), example)
+        });
+        let given = sources.iter().map(|source| {
+            let name = source.path().display().to_string();
+            let example =
+                source.with(|files, path| Example::evaluate(files, path, &name, &options));
+            (name, example)
+        });
+        let mut examples = Vec::new();
+        let mut without_claims = Vec::new();
+        for (name, example) in published.chain(given) {
+            match example {
+                Some(example) => examples.push(example),
+                None => without_claims.push(name),
+            }
+        }
+        Verification {
+            environment: Environment::here(date),
+            examples,
+            without_claims,
+        }
+    })?;
+    Ok(Made::new(What::Verification(Box::new(verification))))
+}
+
+/// Recomputes the claimed budgets of a sheet.
+#[pyfunction]
+pub(crate) fn audit(py: Python<'_>, source: Source, language: &str) -> PyResult<Made> {
+    let language = spoken(language)?;
+    let name = source.path().display().to_string();
+    let bytes = read(py, &source)?;
+    let none = |why| Err(Unmade::NoResult(why, None));
+    let found = py.detach(|| match sheet::grids(&name, &bytes) {
+        Err(sheet::Unreadable(why)) => none(format!("cannot read {name}: {why}")),
+        Ok(grids) => match budgets(&grids, &Mapping::default()) {
+            claims if claims.is_empty() => none(format!(
+                "{name} holds no table that could be understood as an uncertainty budget"
+            )),
+            claims => Ok(What::Audit(name, claims)),
+        },
+    });
+    made(py, language, found)
+}
+
+fn made(py: Python<'_>, language: Language, found: Result<What, Unmade>) -> PyResult<Made> {
+    found.map(Made::new).map_err(|why| why.raised(py, language))
+}
+
+fn read(py: Python<'_>, source: &Source) -> PyResult<Vec<u8>> {
+    py.detach(|| source.with(|files, path| files.read(path)))
+        .map_err(|error| {
+            let path = source.path().display();
+            PyOSError::new_err(format!("{path} cannot be read: {error}"))
+        })
+}
+
+fn campaign(source: &Source, purpose: Purpose) -> Result<Campaign, Unmade> {
+    Ok(source.with(|files, path| calibrations::load_from(files, path, purpose))?)
+}
+
+fn case(source: &Source, purpose: case::Purpose) -> Result<Case, Unmade> {
+    Ok(source.with(|files, path| Case::load_from(files, path, purpose))?)
+}
+
+fn troubled(trouble: &Trouble, language: Language) -> Unmade {
+    let why = report::calibration_trouble(trouble, language);
+    Unmade::NoResult(why, trouble.code())
+}
+
+fn failed(case: &Case, failure: &Failure, language: Language) -> Unmade {
+    let why = report::diagnosis_failure(case, failure, language);
+    Unmade::NoResult(why, failure.code())
+}

@@ -1,0 +1,334 @@
+"""The package says what the command line says, to the last bit."""
+
+import json
+import math
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import gumption
+import numpy as np
+import pytest
+
+TOP = Path(__file__).parents[3]
+BUDGETS = sorted((TOP / "budgets").rglob("*.toml"))
+
+RESISTOR = """
+title = "Current through a resistor"
+[measurand.I]
+model = "V / R"
+unit = "mA"
+[input]
+V = { value = 1.0001, unit = "V", u = 0.0003 }
+R = { value = 100.02, unit = "ohm", half_width = 0.01 }
+"""
+
+
+@pytest.fixture(scope="session")
+def program():
+    """The command, as `cargo build` leaves it."""
+    path = TOP / "target" / "debug" / "gumption"
+    assert path.exists(), "cargo build"
+    return path
+
+
+@pytest.mark.parametrize("path", BUDGETS, ids=lambda path: path.stem)
+def test_same_bits_as_the_command(program, path):
+    command = [program, "eval", path, "--json", "--full", "--trials", "20000"]
+    run = subprocess.run(command, capture_output=True, text=True, cwd=TOP)
+    expected = json.loads(run.stdout)
+    result = gumption.evaluate(path, trials=20_000)
+    expected = expected if isinstance(expected, list) else [expected]
+    # Floats read back what was printed, and both print the shortest decimal that does: equal lists are equal bits.
+    assert [row.to_dict() for row in result] == expected
+
+
+def test_figures_by_their_symbols():
+    current = gumption.evaluate(RESISTOR)["I"]
+    assert current.unit == "mA"
+    assert math.isclose(current.y, 1.0001 / 100.02 * 1e3, rel_tol=1e-15)
+    # Closed form: relative uncertainties of a quotient in quadrature, the half-width divided by the root of 3.
+    u = current.y * math.hypot(0.0003 / 1.0001, 0.01 / math.sqrt(3) / 100.02)
+    assert math.isclose(current.u, u, rel_tol=1e-12)
+    assert math.isclose(current.U, current.k * current.u, rel_tol=1e-15)
+    assert current.interval == (current.y - current.U, current.y + current.U)
+    assert current.gum.effective_degrees_of_freedom == math.inf
+
+
+def test_a_dict_is_a_budget():
+    budget = {
+        "title": "Current",
+        "measurand": {"I": {"model": "V / R", "unit": "mA"}},
+        "input": {
+            "V": {"value": np.float64(1.0001), "unit": "V", "u": 0.0003, "dof": math.inf},
+            "R": {"value": 100.02, "unit": "ohm", "half_width": np.array(0.01), "u": None},
+        },
+    }
+    from_dict, from_text = gumption.evaluate(budget), gumption.evaluate(RESISTOR)
+    assert from_dict["I"].to_dict() == from_text["I"].to_dict()
+    # Components are drawn in their order, so that the order of a dict is that of the file.
+    assert [one.name for one in from_dict.inputs] == ["V", "R"]
+    readings = {"measurand": {"y": {"model": "x"}}, "input": {"x": {"readings": np.array([1.0, 2.0, 4.0])}}}
+    assert math.isclose(gumption.evaluate(readings)["y"].y, 7 / 3)
+    with pytest.raises(ValueError, match="cannot stand in a file"):
+        gumption.evaluate({"title": object()})
+
+
+def test_a_path_with_files_in_memory(tmp_path):
+    (tmp_path / "mean.toml").write_text(
+        '[measurand]\nU.model = "V"\nU.unit = "V"\n[input]\n'
+        'V = { unit = "V", readings = { file = "readings.csv", column = "U" } }\n'
+    )
+    result = gumption.evaluate(tmp_path / "mean.toml", files={"readings.csv": b"U\n1\n2\n3\n"})
+    assert result["U"].y == 2
+
+
+def test_files_in_memory():
+    text = """
+    title = "Mean"
+    [measurand.U]
+    model = "V"
+    unit = "V"
+    [input.V]
+    unit = "V"
+    readings = { file = "readings.csv", column = "U" }
+    """
+    result = gumption.evaluate(text, files={"readings.csv": "U\n1.0001\n1.0003\n1.0000\n1.0002\n"})
+    assert math.isclose(result["U"].y, 1.00015)
+
+
+def test_samples_are_arrays_of_one_distribution():
+    result = gumption.evaluate(RESISTOR, trials=2000)
+    samples = result.samples(100_000)["I"]
+    assert isinstance(samples, np.ndarray) and samples.shape == (100_000,)
+    # Standard error of a mean and, for a nearly normal output, of a standard deviation: five of them.
+    u = result["I"].u
+    assert abs(samples.mean() - result["I"].y) < 5 * u / math.sqrt(len(samples))
+    assert abs(samples.std(ddof=1) - u) < 5 * u / math.sqrt(2 * len(samples))
+
+
+def test_samples_are_those_of_the_run():
+    result = gumption.evaluate(RESISTOR, trials=2000, seed=5)
+    mean = result.samples(2000)["I"].mean()
+    assert math.isclose(mean, result["I"].monte_carlo.estimate, rel_tol=1e-14)
+
+
+def test_samples_are_not_copied():
+    (samples,) = gumption.evaluate(RESISTOR, trials=2000).samples(4000).values()
+    # The array looks at the memory of the engine, which lives as long as it does.
+    assert not samples.flags.owndata and type(samples.base).__name__ == "PySliceContainer"
+    assert samples.flags.writeable and samples.flags.c_contiguous
+
+
+def test_faults_are_typed():
+    with pytest.raises(gumption.Refused) as refused:
+        gumption.evaluate(RESISTOR.replace("half_width", "half_widht"))
+    fault = next(fault for fault in refused.value.faults if "half_widht" in fault.message)
+    assert (fault.line, fault.column) == (8, RESISTOR.splitlines()[7].index("half_width") + 1)
+    assert "half_width" in fault.mend and fault.code in str(refused.value)
+
+
+def test_faults_are_said_in_the_language():
+    with pytest.raises(gumption.Refused, match="错误"):
+        gumption.evaluate(RESISTOR.replace("half_width", "half_widht"), language="zh")
+    with pytest.raises(ValueError, match="language"):
+        gumption.evaluate(RESISTOR, language="fr")
+
+
+def test_a_budget_without_a_derivative_says_why():
+    with pytest.raises(gumption.NoResult, match="no finite derivative"):
+        root = '[measurand]\ny.model = "sqrt(x)"\n[input]\nx = { value = 0, u = 0.1 }\n'
+        gumption.evaluate(root, monte_carlo=False)
+
+
+def test_settings_are_checked():
+    for wrong in ({"trials": 10}, {"profile": "nobody"}):
+        with pytest.raises(ValueError):
+            gumption.evaluate(RESISTOR, **wrong)
+
+
+def test_a_missing_file_is_refused():
+    with pytest.raises(gumption.Refused):
+        gumption.evaluate("no-such-budget.toml")
+
+
+def test_reports_in_both_languages():
+    result = gumption.evaluate(RESISTOR)
+    assert "Uncertainty budget" in result.text() and "不确定度" in result.text("zh")
+    assert result._repr_html_().startswith("<iframe") and "&lt;svg" in result._repr_html_()
+    assert "U = " in result.statement
+    assert result.to_xlsx().startswith(b"PK")
+
+
+def test_reports_are_written_as_a_whole(tmp_path):
+    result, page = gumption.evaluate(RESISTOR), tmp_path / "current.html"
+    result.save(page)
+    result.save(page)
+    assert page.read_text(encoding="utf-8") == result.to_html()
+    page.write_text("mine")
+    with pytest.raises(FileExistsError):
+        result.save(page)
+    assert page.read_text() == "mine"
+    result.save(page, replace=True)
+    with pytest.raises(ValueError, match="endings"):
+        result.save(tmp_path / "current.doc")
+
+
+def test_frames():
+    series = RESISTOR + '[series]\ncolumns = ["label", "V"]\nrows = [["a", 1.0], ["b", 2.0]]\n'
+    result = gumption.evaluate(series, trials=2000)
+    assert len(result) == 2
+    expected = [row["I"].U for row in result]
+    for frame in ("pandas", "polars"):
+        pytest.importorskip(frame)
+        table = getattr(result, f"to_{frame}")()
+        assert list(table["U"]) == expected and list(table["label"]) == ["a", "b"]
+    with pytest.raises(LookupError, match="2 rows"):
+        result["I"]
+
+
+def test_an_interrupt_ends_an_evaluation():
+    script = f"""
+import gumption, _thread, threading
+threading.Timer(1.0, _thread.interrupt_main).start()
+try:
+    gumption.evaluate({RESISTOR!r}, trials=10**11)
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    assert run.stdout == "interrupted\n", run.stderr
+
+
+def test_other_threads_run_during_an_evaluation():
+    began, counted, over = threading.Event(), [], threading.Event()
+
+    def count():
+        began.wait()
+        while not over.is_set():
+            counted.append(None)
+
+    def told(trials):
+        began.set()
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    gumption.evaluate(RESISTOR, trials=20_000_000, progress=told)
+    during = len(counted)
+    began.set()
+    over.set()
+    counter.join()
+    assert during > 0
+
+
+def test_progress_tells_the_trials_and_may_end_them():
+    told = []
+    gumption.evaluate(RESISTOR, trials=50_000, progress=told.append)
+    assert told == sorted(told) and told[-1] >= 50_000
+
+    def stop(_):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        gumption.evaluate(RESISTOR, trials=10**11, progress=stop)
+
+
+def test_a_calibration_becomes_a_budget():
+    recording = "omega [deg/s],U [V]\n-20,-0.1999\n-10,-0.0999\n0,0.0002\n10,0.1001\n20,0.2003\n"
+    experiment = """
+    recording = { file = "run.csv", average = "none" }
+    equations = "U = K*omega + b"
+    """
+    found = gumption.calibrate(experiment, files={"run.csv": recording})
+    x, y = np.array([-20, -10, 0, 10, 20]), np.array([-0.1999, -0.0999, 0.0002, 0.1001, 0.2003])
+    slope = np.polyfit(x, y, 1)[0]
+    assert math.isclose(found["K"].value, slope, rel_tol=1e-9)
+    again = gumption.evaluate(found.files()["budget.toml"])
+    assert math.isclose(again["K"].gum.estimate, slope, rel_tol=1e-9)
+
+
+def test_a_diagnosis_finds_the_square_and_tells_its_progress():
+    lines = []
+    for k in range(40):
+        x = (k % 20) / 10 - 1
+        lines.append(f"{x},{1 + 2 * x + 0.02 * x * x + 1e-3 * ((7 * k) % 11 - 5) / 3}")
+    experiment = """
+    recording = "recording.csv"
+    equations = "y = a + b*x"
+    [columns]
+    x = "stimulus"
+    y = "output"
+    [noise]
+    u = "1 mV"
+    """
+    files = {"recording.csv": "x,y [V]\n" + "\n".join(lines) + "\n"}
+    shares = []
+    found = gumption.diagnose(experiment, files=files, progress=shares.append)
+    assert found.verdict == "partly" and found.effects
+    assert set(found.files()) >= {"budget.toml", "case.toml", "recording.csv"}
+    assert shares and all(0 <= share <= 1 for share in shares)
+
+    class Enough(Exception):
+        pass
+
+    def stop(_):
+        raise Enough
+
+    with pytest.raises(Enough):
+        gumption.diagnose(experiment, files=files, progress=stop)
+
+
+def test_a_calibration_without_a_result_says_why():
+    experiment = 'recording = { file = "run.csv", average = "none" }\nequations = "U = K*omega + b"\n'
+    with pytest.raises((gumption.NoResult, gumption.Refused)) as why:
+        gumption.calibrate(experiment, files={"run.csv": "omega [deg/s],U [V]\n10,0.1\n10,0.1\n10,0.1\n"})
+    assert str(why.value)
+
+
+@pytest.mark.parametrize(
+    ("command", "path"),
+    [("plan", "experiments/tumble-plan.toml"), ("audit", "docs/examples/claimed-budget.csv")],
+)
+def test_other_commands_say_the_same(program, command, path):
+    run = subprocess.run([program, command, path, "--json"], capture_output=True, text=True, cwd=TOP)
+    found = getattr(gumption, command)(TOP / path)
+    expected = json.loads(run.stdout)
+    assert found.rows[0].to_dict().keys() == expected.keys()
+    assert _without_paths(found.rows[0].to_dict()) == _without_paths(expected)
+
+
+def _without_paths(value):
+    """The same without the names of files, which are those that were given."""
+    return json.loads(json.dumps(value).replace(str(TOP) + "/", ""))
+
+
+def test_a_simulation_is_the_recording_of_its_experiment(program):
+    experiment = """
+    recording = "recording.csv"
+    equations = "y = a + b*x"
+    [columns]
+    x = "stimulus"
+    y = "output"
+    [noise]
+    u = "1 mV"
+    """
+    recorded = "x,y [V]\n" + "".join(f"{x},{1 + 2 * x}\n" for x in range(12))
+    simulated = gumption.simulate(experiment, files={"recording.csv": recorded}, seed=3)
+    again = gumption.simulate(experiment, files={"recording.csv": recorded}, seed=3)
+    other = gumption.simulate(experiment, files={"recording.csv": recorded}, seed=4)
+    assert simulated == again != other
+    assert gumption.diagnose(experiment, files={"recording.csv": simulated}).rows[0].to_dict()
+
+
+def test_an_audit_of_a_sheet():
+    claimed = TOP / "docs/examples/claimed-budget.csv"
+    found, again = gumption.audit(claimed), gumption.audit(claimed.read_bytes(), name=str(claimed))
+    assert found.rows[0].to_dict() == again.rows[0].to_dict()
+    with pytest.raises(gumption.NoResult, match="no table"):
+        gumption.audit("a,b\n1,2\n")
+
+
+def test_published_examples_hold():
+    found = gumption.verify(TOP / "budgets/inertial/mimu-gyro-scale-factor.toml")
+    assert found.rows[0].to_dict()["examples"]

@@ -1,0 +1,115 @@
+"""Uncertain numbers against closed forms and the package ``uncertainties``."""
+
+import math
+
+import gumption
+import numpy as np
+import pytest
+from gumption import correlated, quantity
+
+
+def test_what_is_common_cancels():
+    x = quantity(2.0, 0.1)
+    assert (x - x).u == 0 and (x / x).y == 1
+
+
+def test_a_long_chain_is_no_tree():
+    x = quantity(1.0, 1e-3)
+    y = x
+    for _ in range(60):
+        y = (y + y) / 2
+    assert math.isclose(y.u, 1e-3, rel_tol=1e-12)
+
+
+def test_sum_of_ten_readings():
+    readings = [9.99, 10.02, 10.00, 9.98, 10.03]
+    mean = quantity(None, readings=readings)
+    assert math.isclose(mean.u, np.std(readings, ddof=1) / math.sqrt(5), rel_tol=1e-12)
+    assert mean.nu == 4
+    # k for 95.45 % of Student's t with 4 degrees of freedom (JCGM 100, table G.2: 2.87), or for 95 % (2.78).
+    assert 2.77 < mean.k < 2.88 and math.isclose(mean.U, mean.k * mean.u)
+
+
+def test_units():
+    voltage, resistance = quantity(1.0, 0.001, "V"), quantity(100.0, 0.1, "ohm")
+    current = (voltage / resistance).to("mA")
+    assert math.isclose(current.y, 10) and math.isclose(current.u, 10 * math.hypot(1e-3, 1e-3))
+    assert (voltage / resistance).unit == "V·ohm^-1" and (voltage + voltage).unit == "V"
+    assert (np.sqrt(voltage * voltage) / voltage).unit == "1"
+    assert math.isclose((voltage**2 / resistance).to("mW").y, 10)
+    with pytest.raises(gumption.Refused):
+        (voltage + resistance).u  # noqa: B018
+
+
+@pytest.mark.parametrize("name", ["sqrt", "exp", "log", "sin", "arctan", "tanh", "log10"])
+def test_functions_of_numpy(name):
+    uncertainties = pytest.importorskip("uncertainties")
+    umath = pytest.importorskip("uncertainties.unumpy")
+    ours = getattr(np, name)(quantity(0.7, 1e-3))
+    theirs = getattr(umath, name)(np.array([uncertainties.ufloat(0.7, 1e-3)]))[0]
+    assert math.isclose(ours.y, theirs.nominal_value, rel_tol=1e-12)
+    assert math.isclose(ours.u, theirs.std_dev, rel_tol=1e-9)
+
+
+def test_covariance():
+    a, b = quantity(3.0, 0.1), quantity(4.0, 0.2)
+    found = gumption.covariance([a + b, a - b])
+    assert np.allclose(found, [[0.05, -0.03], [-0.03, 0.05]])
+
+
+def test_what_is_no_number_is_refused():
+    with pytest.raises(TypeError):
+        quantity(1.0, 0.1) + "2"
+    with pytest.raises(ValueError):
+        quantity(1.0, 0.1) * math.nan
+
+
+def test_stated_correlation():
+    # JCGM 100, 5.2.2, example: resistors in series of one reference are fully correlated.
+    resistors = correlated([1000.0] * 10, [0.1] * 10, np.ones((10, 10)), "ohm")
+    total = sum(resistors[1:], resistors[0])
+    assert math.isclose(total.u, 1.0, rel_tol=1e-9) and total.unit == "ohm"
+    a, b = correlated([1.0, 2.0], [0.1, 0.2], [[1, -0.5], [-0.5, 1]])
+    assert math.isclose((a + b).u, math.sqrt(0.01 + 0.04 - 0.02))
+    assert math.isclose((a * 2).u, 0.2)
+    with pytest.raises(ValueError, match="matrix"):
+        correlated([1.0, 2.0], [0.1, 0.2], [[1]])
+
+
+def test_the_budget_is_one():
+    V, R = quantity(1.0, 0.001, "V", name="V"), quantity(100.0, 0.1, "ohm", name="R")
+    budget = (V / R).to("mA").budget()
+    assert list(budget["input"]) == ["V", "R"]
+    assert gumption.evaluate(budget)["y"].u == (V / R).to("mA").u
+    with pytest.raises(ValueError, match="two quantities"):
+        (V + quantity(1.0, 0.1, "V", name="V")).u  # noqa: B018
+    with pytest.raises(ValueError, match="name"):
+        quantity(1.0, 0.1, name="y1")
+
+
+def test_numbers_of_uncertainties_stay_correlated():
+    uncertainties = pytest.importorskip("uncertainties")
+    a, b = uncertainties.ufloat(2.0, 0.1), uncertainties.ufloat(3.0, 0.2)
+    theirs = a * b
+    x, xy = quantity(a), quantity(theirs)
+    assert math.isclose(xy.u, theirs.std_dev) and math.isclose(xy.y, 6.0)
+    # Taken one by one, and still of one cause.
+    assert math.isclose((xy - 3 * x).u, (theirs - 3 * a).std_dev)
+    back = (xy - 3 * x).to_uncertainties()
+    assert math.isclose((back - 2 * b).std_dev, 0, abs_tol=1e-12)
+    assert (quantity(1.0) * x).u == x.u
+
+
+def test_quantities_become_numbers_of_uncertainties():
+    uncertainties = pytest.importorskip("uncertainties")
+    x, y = correlated([1.0, 2.0], [0.1, 0.2], [[1, 0.8], [0.8, 1]])
+    z = quantity(5.0, 0.3)
+    ours = [x * z, y - x, np.sin(z)]
+    theirs = uncertainties.covariance_matrix([one.to_uncertainties() for one in ours])
+    assert np.allclose(theirs, gumption.covariance(ours), rtol=1e-9, atol=1e-15)
+
+
+def test_arrays_of_quantities():
+    x = np.array([quantity(float(at), 1e-6) for at in range(1, 4)])
+    assert [one.y for one in np.sqrt(x * 4)] == pytest.approx([2, math.sqrt(8), math.sqrt(12)])
+    assert math.isclose(x.sum().u, 1e-6 * math.sqrt(3))

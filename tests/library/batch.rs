@@ -1,0 +1,308 @@
+//! A batch gives every row what the budget gives with the row written into it by hand.
+
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use gumption::Files;
+use gumption::batch::{self, Plan};
+use gumption::budget::{BatchFile, Budget, Trials, Wanted};
+use gumption::csv::Sheet;
+use gumption::fault::Rejection;
+use gumption::propagate::{self, MonteCarloChoice, Options, Progress};
+use gumption::report::batch::{Columns, Count, Table};
+use gumption::report::{self, Language, Report};
+
+/// A budget with what a row replaces in place.
+fn written([readings, big_u, resistance, u, r, upper]: [&str; 6]) -> String {
+    format!(
+        r#"
+title = "Current through a shunt"
+
+[measurand.I]
+model = "V / R * (1 + drift)"
+unit = "mA"
+
+[input.V]
+unit = "V"
+components = [
+  {{ name = "repeatability", readings = {readings} }},
+  {{ name = "calibration", certificate = {{ U = {big_u}, k = 2 }} }},
+]
+
+[input.R]
+value = {resistance}
+unit = "ohm"
+u = {u}
+
+[input.drift]
+value = 0
+u = 0.001
+
+[[correlation]]
+between = ["R", "drift"]
+r = {r}
+
+[conformity]
+measurand = "I"
+rule = "simple"
+upper = {upper}
+"#
+    )
+}
+
+const ANY: [&str; 6] = ["[1, 1.1, 1.2]", "0.1", "1", "0.1", "0", "100"];
+
+/// As a table has them, and as a file has them.
+const ROWS: [([&str; 7], [&str; 6]); 3] = [
+    (
+        [
+            "a",
+            "[1.0001, 1.0003, 1.0000, 1.0002]",
+            "40",
+            "0.10002",
+            "0.004",
+            "0.5",
+            "10.2",
+        ],
+        [
+            "[1.0001, 1.0003, 1.0000, 1.0002]",
+            "\"40 µV\"",
+            "\"0.10002 kohm\"",
+            "0.004",
+            "0.5",
+            "10.2",
+        ],
+    ),
+    (
+        [
+            "b",
+            "[2.01, 2.03, 1.99]",
+            "55.5",
+            "0.2",
+            "1e-2",
+            "-0.25",
+            "10",
+        ],
+        [
+            "[2.01, 2.03, 1.99]",
+            "\"55.5 µV\"",
+            "\"0.2 kohm\"",
+            "1e-2",
+            "-0.25",
+            "10",
+        ],
+    ),
+    (
+        ["c", "[1.5, 1.6]", "1", "0.1", ".5", "0", "16.5"],
+        ["[1.5, 1.6]", "\"1 µV\"", "\"0.1 kohm\"", "0.5", "0", "16.5"],
+    ),
+];
+
+const HEADER: &str = "label;V.repeatability.readings;V.calibration.certificate.U [µV];R [kohm];R.u;r(R, drift);conformity.upper";
+
+fn plan(monte_carlo: Option<Wanted>, threads: usize) -> Plan {
+    Plan {
+        monte_carlo,
+        threads,
+        progress: Progress::default(),
+    }
+}
+
+fn few_trials() -> Option<Wanted> {
+    Some(Wanted {
+        trials: Some(Trials::Fixed(2000)),
+        ..Wanted::default()
+    })
+}
+
+/// The table of results.
+fn run(budget: &str, table: &str, plan: &Plan) -> Result<(String, Count), Rejection> {
+    let files = [("budget.toml", budget.as_bytes())];
+    let file = BatchFile::open(Files::Library(&files), Path::new("budget.toml"), None)?;
+    let columns = Columns {
+        shares: true,
+        language: Language::English,
+    };
+    let mut results = Table::default();
+    let mut out = Vec::new();
+    let block = |rows: Vec<batch::Evaluated>| columns.lines(&rows);
+    batch::run(
+        &file,
+        (table.as_bytes(), "table.csv"),
+        plan,
+        block,
+        |lines, _| {
+            out.extend(results.add(lines).expect("lines"));
+            ControlFlow::Continue(())
+        },
+    )?;
+    let (left, count) = results.end().expect("a table");
+    out.extend(left);
+    Ok((String::from_utf8(out).expect("text"), count))
+}
+
+/// The names of the columns, and each row.
+fn cells(table: &str) -> (Vec<String>, Vec<Vec<String>>) {
+    let sheet = Sheet::new(table).expect("a table");
+    let owned = |row: &gumption::csv::Row| row.fields().map(str::to_owned).collect();
+    let rows = sheet.rows().map(|row| owned(&row.expect("a row")));
+    (owned(sheet.header()), rows.collect())
+}
+
+fn cell<'r>(
+    (heads, _): &(Vec<String>, Vec<Vec<String>>),
+    row: &'r [String],
+    head: &str,
+) -> &'r str {
+    let at = heads.iter().position(|one| one == head);
+    &row[at.unwrap_or_else(|| panic!("no {head} in {heads:?}"))]
+}
+
+#[test]
+fn a_row_is_the_budget_with_the_row_written_into_it() {
+    let rows: Vec<String> = ROWS.iter().map(|(row, _)| row.join(";")).collect();
+    let table = format!("{HEADER}\n{}\n", rows.join("\n"));
+    for monte_carlo in [None, few_trials()] {
+        let plan = plan(monte_carlo.clone(), 2);
+        let (found, count) = run(&written(ANY), &table, &plan).expect("a batch");
+        assert_eq!((count.rows, count.failed), (3, 0), "{found}");
+        let found = cells(&found);
+        for (row, (given, by_hand)) in found.1.iter().zip(&ROWS) {
+            let budget: Budget = gumption::budget(&written(*by_hand)).expect("a budget");
+            let choice = match &monte_carlo {
+                None => MonteCarloChoice::Off,
+                Some(wanted) => MonteCarloChoice::With(budget.monte_carlo.with(&Wanted {
+                    seed: Some(cell(&found, row, "seed").parse().expect("a seed")),
+                    ..wanted.clone()
+                })),
+            };
+            let options = Options {
+                monte_carlo: choice,
+                ..Options::default()
+            };
+            let evaluation = propagate::evaluate(&budget, &options).expect("a value");
+            let report = Report {
+                budget: &budget,
+                evaluation: &evaluation,
+                label: Some(given[0]),
+                language: Language::English,
+            };
+            let expected = report::rows(&[report]).expect("a table");
+            let expected = cells(std::str::from_utf8(&expected).expect("text"));
+            let width = expected.0.len();
+            assert_eq!(
+                (&found.0[..width], &row[..width]),
+                (&expected.0[..], &expected.1[0][..])
+            );
+            let shares: f64 = ["V", "R", "drift"]
+                .map(|input| {
+                    cell(&found, row, &format!("share(I, {input})"))
+                        .parse::<f64>()
+                        .expect("a share")
+                })
+                .iter()
+                .sum();
+            assert!(shares.is_finite() && cell(&found, row, "error").is_empty());
+        }
+    }
+}
+
+#[test]
+fn rows_have_seeds_of_their_own_wherever_they_stand() {
+    let rows: Vec<String> = ROWS.iter().map(|(row, _)| row.join(";")).collect();
+    let seeds = |rows: &[&String], seed: Option<u64>| {
+        let lines: Vec<&str> = rows.iter().map(|row| row.as_str()).collect();
+        let table = format!("{HEADER}\n{}\n", lines.join("\n"));
+        let wanted = few_trials().map(|wanted| Wanted { seed, ..wanted });
+        let (found, _) = run(&written(ANY), &table, &plan(wanted, 1)).expect("a batch");
+        let found = cells(&found);
+        found
+            .1
+            .iter()
+            .map(|row| cell(&found, row, "seed").to_owned())
+            .collect::<Vec<_>>()
+    };
+    let all = seeds(&[&rows[0], &rows[1], &rows[2]], None);
+    assert!(all[0] != all[1] && all[1] != all[2] && all[0] != all[2]);
+    assert_eq!(
+        seeds(&[&rows[2], &rows[0]], None),
+        [all[2].clone(), all[0].clone()]
+    );
+    assert!(!all.contains(&seeds(&[&rows[0]], Some(2))[0]));
+}
+
+#[test]
+fn a_faulty_row_stops_nothing() {
+    let budget = "[measurand.y]\nmodel = \"x\"\n[input.x]\nvalue = 1\nu = 0.1\n";
+    let table = "x,x.u\n1,0.1\n2,-0.1\n3\nfour,0.1\n5,0.5\n";
+    let (found, count) = run(budget, table, &plan(None, 2)).expect("a batch");
+    assert_eq!((count.rows, count.failed), (5, 3));
+    let found = cells(&found);
+    let values: Vec<&str> = found.1.iter().map(|row| cell(&found, row, "y")).collect();
+    assert_eq!(values, ["1.0", "", "", "", "5.0"]);
+    let errors: Vec<&str> = found
+        .1
+        .iter()
+        .map(|row| cell(&found, row, "error"))
+        .collect();
+    assert!(errors[0].is_empty() && errors[4].is_empty());
+    assert!(
+        errors[1].contains("negative") || errors[1].contains('-'),
+        "{errors:?}"
+    );
+    assert!(
+        errors[2].starts_with("R0107: line 4 has 1 field"),
+        "{errors:?}"
+    );
+    assert!(
+        errors[3].contains("where a number is expected"),
+        "{errors:?}"
+    );
+    // Rows without a result at the beginning wait until one tells what the columns are.
+    let (late, _) = run(budget, "x,x.u\nfour,0.1\n5,0.5\n", &plan(None, 1)).expect("a batch");
+    assert_eq!(cells(&late).0, found.0);
+    let (none, count) = run(budget, "x,x.u\nfour,0.1\n", &plan(None, 1)).expect("a batch");
+    assert_eq!(
+        (cells(&none).0, count.failed),
+        (vec!["label".into(), "error".into()], 1)
+    );
+}
+
+#[test]
+fn a_long_table_is_the_same_on_any_number_of_threads() {
+    let budget = "[measurand.y]\nmodel = \"x^2\"\n[input.x]\nvalue = 1\nu = 0.1\n";
+    // More than one piece, and rows of many lengths.
+    let rows = 3000;
+    let pad = "0".repeat(100);
+    let table: String = (0..rows).map(|x| format!("{x}.{pad},0.1\n")).collect();
+    let table = format!("x,x.u\n{table}");
+    let (one, count) = run(budget, &table, &plan(None, 1)).expect("a batch");
+    let (three, _) = run(budget, &table, &plan(None, 3)).expect("a batch");
+    assert_eq!(count.rows, rows);
+    assert!(one == three, "the threads change the table");
+    let found = cells(&one);
+    for (x, row) in found.1.iter().enumerate() {
+        assert_eq!(row[0], (x + 1).to_string());
+        assert_eq!(cell(&found, row, "y"), format!("{:?}", (x * x) as f64));
+    }
+}
+
+#[test]
+fn what_no_row_can_mend_is_refused() {
+    let budget = "[measurand.y]\nmodel = \"x\"\n[input.x]\nvalue = 1\nu = 0.1\n";
+    let refused = |budget: &str, table: &str| {
+        let rejection = run(budget, table, &plan(None, 1)).expect_err("refused");
+        rejection.render(false)
+    };
+    assert!(refused(budget, "z\n1\n").contains("no input or constant is called z"));
+    assert!(refused(budget, "\"r(x, z)\"\n1\n").contains("no correlation between x and z"));
+    assert!(refused(budget, "x [mV/]\n1\n").contains("table.csv:1"));
+    assert!(refused(budget, "").contains("empty"));
+    assert!(refused(&budget.replace("0.1", "0.1\nhalf = 1"), "x\n1\n").contains("half"));
+    let series = format!("{budget}[series]\ncolumns = [\"x\"]\nrows = [[1]]\n");
+    assert!(refused(&series, "x\n1\n").contains("a series of its own"));
+    // A value that only the table has is no fault.
+    let open = budget.replace("value = 1\n", "");
+    let (found, count) = run(&open, "x\n1\n\n\"\"\n", &plan(None, 1)).expect("a batch");
+    assert_eq!((count.rows, count.failed), (2, 1), "{found}");
+}

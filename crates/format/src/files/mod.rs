@@ -106,13 +106,14 @@ impl<'a> Files<'a> {
                 let (file, _) = opened(path)?;
                 Ok(Box::new(file))
             }
-            Files::Library(files) => {
-                let wanted = plain(path);
-                let mut files = files.iter();
-                let found = files.find(|(name, _)| Path::new(name) == wanted);
-                let (_, content) = found.ok_or_else(|| Error::from(ErrorKind::NotFound))?;
-                Ok(Box::new(*content))
-            }
+            Files::Library(files) => match held(files, path) {
+                Some(content) => Ok(Box::new(content)),
+                None => Err(Error::from(ErrorKind::NotFound)),
+            },
+            Files::Folder(folder) => match held(folder.instead, path) {
+                Some(content) => Ok(Box::new(content)),
+                None => Ok(Box::new(opened(&folder.place(path)?)?.0)),
+            },
         }
     }
 
@@ -120,7 +121,11 @@ impl<'a> Files<'a> {
     pub fn length(&self, path: &Path) -> Option<u64> {
         match self {
             Files::Disk => std::fs::metadata(path).ok().map(|there| there.len()),
-            Files::Library(_) => self.read(path).ok().map(|content| content.len() as u64),
+            Files::Library(files) => held(files, path).map(|content| content.len() as u64),
+            Files::Folder(folder) => match held(folder.instead, path) {
+                Some(content) => Some(content.len() as u64),
+                None => Files::Disk.length(&folder.place(path).ok()?),
+            },
         }
     }
 

@@ -72,7 +72,8 @@ impl Heading {
     /// The fault of a header, which stands here, whose unit is not known.
     pub fn unknown_unit(&self, error: &UnitError, span: &Range<usize>) -> Fault {
         let at = span.start + error.span.start..span.start + error.span.end;
-        let message = say!("column \"{}\": {}", self.text, error.message);
+        let text = &self.text;
+        let message = say!("column \"{text}\": {}", error.message);
         let mut fault = Fault::new(UNIT, at, message).label(say!("no unit"));
         fault.help = error.help.clone().map(|help| *help);
         fault

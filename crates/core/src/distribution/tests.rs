@@ -722,7 +722,9 @@ fn a_distribution_is_named_in_its_own_file_only() {
     for entry in REGISTRY.iter().filter(|entry| entry.kind.key.len() > 7) {
         let quoted = format!("\"{}\"", entry.kind.key);
         for (path, text) in &sources {
-            let own = path.contains("core/src/distribution/");
+            // The sheets of others, which the challenge makes, have words of their own.
+            let own = ["core/src/distribution/", "challenge/src/budget/"];
+            let own = own.iter().any(|folder| path.contains(folder));
             assert!(own || !text.contains(&quoted), "{path} names {quoted}");
         }
     }

@@ -58,6 +58,9 @@ fn both(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationErro
     let monte_carlo = settings
         .map(|settings| draw(drawn, settings, &gums, options.workers()))
         .transpose()?;
+    if options.progress.is_stopped() {
+        return Err(EvaluationError::Stopped);
+    }
     let indices = settings
         .filter(|settings| settings.indices)
         .map(|settings| {

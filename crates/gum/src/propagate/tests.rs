@@ -484,29 +484,38 @@ fn three_readings_beside_a_product_of_zeros_do_not_keep_the_first_order() {
     assert_eq!(linear.conformity[0].expanded, result.gum.coverage.expanded);
 }
 
+/// Whenever it is stopped: at once, among the first draws, among those that find the order statistics, or too late.
 #[test]
 fn an_evaluation_can_be_stopped() {
-    const MANY: u64 = 1 << 30;
+    const TRIALS: u64 = 1 << 22;
     let budget = Draft::new()
         .normal("x", 1.0, 1.0, INF)
         .budget(0.95, &[("y", "x^2")]);
-    let options = Options {
-        monte_carlo: MonteCarloChoice::With(MonteCarloSettings {
-            trials: Trials::Fixed(MANY),
-            ..budget.monte_carlo.clone()
-        }),
-        threads: 2,
-        ..Options::default()
-    };
-    let stop = options.progress.clone();
-    let waiting = std::thread::spawn(move || {
-        while stop.trials_drawn() == 0 {
-            std::thread::yield_now();
+    for after in [0, 1, TRIALS / 3, TRIALS - 1, TRIALS + 1, 3 * TRIALS / 2] {
+        let options = Options {
+            monte_carlo: MonteCarloChoice::With(MonteCarloSettings {
+                trials: Trials::Fixed(TRIALS),
+                ..budget.monte_carlo.clone()
+            }),
+            threads: 2,
+            ..Options::default()
+        };
+        let ended = std::sync::atomic::AtomicBool::new(false);
+        let found = std::thread::scope(|scope| {
+            scope.spawn(|| {
+                let over = || ended.load(std::sync::atomic::Ordering::Relaxed);
+                while options.progress.trials_drawn() < after && !over() {
+                    std::thread::yield_now();
+                }
+                options.progress.stop();
+            });
+            let found = evaluate(&budget, &options);
+            ended.store(true, std::sync::atomic::Ordering::Relaxed);
+            found
+        });
+        if after < TRIALS {
+            assert_eq!(found.err(), Some(EvaluationError::Stopped), "{after}");
         }
-        stop.stop();
-    });
-    let found = evaluate(&budget, &options);
-    assert_eq!(found.err(), Some(EvaluationError::Stopped));
-    assert!(samples(&budget, 1000, &options).is_empty());
-    waiting.join().expect("it stops");
+        assert!(samples(&budget, 1000, &options).is_empty());
+    }
 }

@@ -1,5 +1,7 @@
 //! Trials of a budget's model.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use gumption_lanes::{Block, LANES};
 
 use super::engine::Source;
@@ -13,6 +15,8 @@ pub(super) struct BudgetSource<'b> {
     model: &'b Model,
     draw: JointDraw<'b>,
     progress: &'b Progress,
+    /// All trials have been drawn once.
+    settled: AtomicBool,
 }
 
 impl<'b> BudgetSource<'b> {
@@ -23,6 +27,7 @@ impl<'b> BudgetSource<'b> {
             model: &budget.model,
             draw,
             progress,
+            settled: AtomicBool::new(false),
         }
     }
 }
@@ -55,7 +60,7 @@ impl<'b> Source for BudgetSource<'b> {
 
     /// Of a run that was stopped no trial has a value: nothing is drawn, and whoever takes trials in comes to its end.
     fn next(&self, worker: &mut Worker<'b>, outputs: &mut [Block]) {
-        if self.progress.is_stopped() {
+        if self.progress.is_stopped() && !self.settled.load(Ordering::Relaxed) {
             outputs.fill(Block([f64::NAN; LANES]));
             return;
         }
@@ -65,5 +70,10 @@ impl<'b> Source for BudgetSource<'b> {
 
     fn drawn(&self, trials: u64) {
         self.progress.count(trials);
+    }
+
+    fn settle(&self) -> bool {
+        self.settled.store(true, Ordering::Relaxed);
+        self.progress.is_stopped()
     }
 }

@@ -34,6 +34,12 @@ pub(super) trait Source: Sync {
 
     /// Hears how many trials a thread has drawn.
     fn drawn(&self, _trials: u64) {}
+
+    /// Hears that all trials have been drawn once: from here on each has the values that it had. Whether somebody has
+    /// stopped the run before, so that some have none.
+    fn settle(&self) -> bool {
+        false
+    }
 }
 
 /// Takes trials in; every thread has one of its own.

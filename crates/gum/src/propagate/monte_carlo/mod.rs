@@ -118,7 +118,8 @@ struct Question<'a> {
 }
 
 impl Question<'_> {
-    /// Draws the trials and summarises them; the error is the output that has no values.
+    /// Draws the trials and summarises them; the error is the output that has no values, the first of a run that was
+    /// stopped.
     fn ask<S: Source>(&self, source: &S) -> Result<Outcome, usize> {
         let layout = self.layout();
         let batches = match self.settings.trials {
@@ -145,6 +146,9 @@ impl Question<'_> {
             ask: &ask,
         });
         let adaptive = self.draw(layout, &mut collector);
+        if source.settle() {
+            return Err(0);
+        }
         let run = Run {
             trials: collector.trials(),
             seed: self.settings.seed,

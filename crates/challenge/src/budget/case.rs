@@ -185,7 +185,7 @@ fn paper(random: &mut Random, mut manner: Manner, ids: &[&str]) -> Option<(Paper
         .any(|id| matches!(*id, "c-one" | "c-wrong" | "degrees"));
     let checked = !slope || manner.form.has_estimates() && manner.variant % 3 != 2;
     let turned = manner.form == Form::Turned && matches!(paper, Paper::Markdown);
-    let possible = (!hard || manner.formulas && manner.variant % 3 != 0)
+    let possible = (!hard || manner.formulas && !manner.variant.is_multiple_of(3))
         && (!missing || stated_elsewhere)
         && !turned
         && checked;

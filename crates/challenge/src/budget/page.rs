@@ -490,7 +490,7 @@ impl Writer<'_> {
         let zh = self.manner.chinese;
         let unit = self.budget.field.unit;
         let one = |en: &[&str], cn: &[&str]| self.either(if zh { cn } else { en }).to_string();
-        let with_unit = self.manner.variant % 2 == 0 && self.manner.form != Form::TwoHeads;
+        let with_unit = self.manner.variant.is_multiple_of(2) && self.manner.form != Form::TwoHeads;
         let unit_of = |name: String| {
             if with_unit {
                 self.either(&["{} / {u}", "{} ({u})", "{} [{u}]"])
@@ -643,7 +643,7 @@ impl Writer<'_> {
             Used => Cell::Figure(significant(line.step.used), line.step.used, None),
             Distribution => text(item.known.distribution().of(zh)),
             Divisor => match line.step.divisor {
-                Divisor::Root(n) if n == 1.0 => exact(1.0),
+                Divisor::Root(1.0) => exact(1.0),
                 Divisor::Root(n) if !self.manner.formulas => text(format!("√{n}")),
                 Divisor::Root(n) => Cell::Figure(
                     plain(libm::sqrt(n), 4),
@@ -668,7 +668,7 @@ impl Writer<'_> {
             Contribution if !counted => text(self.either(&["-", "—", "(not counted)"])),
             Contribution => {
                 let x = self.figures.contributions[i];
-                let x = if self.manner.variant % 3 == 0 {
+                let x = if self.manner.variant.is_multiple_of(3) {
                     x
                 } else {
                     x.abs()
@@ -678,7 +678,8 @@ impl Writer<'_> {
                     .map(|(a, b)| format!("ABS({a}{row}*{b}{row})"));
                 with_formula(
                     x,
-                    formula.filter(|_| line.stale.is_none() && self.manner.variant % 3 != 0),
+                    formula
+                        .filter(|_| line.stale.is_none() && !self.manner.variant.is_multiple_of(3)),
                 )
             }
             Square => figure(

@@ -24,7 +24,7 @@ pub(super) fn plain(x: f64, digits: usize) -> String {
     };
     let ten: i32 = ten.parse().unwrap_or(0);
     let places = digits as i32 - 1 - ten;
-    if ten < -6 || ten > 7 {
+    if !(-6..=7).contains(&ten) {
         return format!("{mantissa}E{ten:+03}");
     }
     if places >= 0 {

@@ -413,14 +413,7 @@ pub fn absent(text: &str, at: Place, claimed: &Claimed) -> Option<Row> {
         && claimed.rows.iter().all(|other| other.symbol != row.symbol);
     let evidence = Evidence {
         words: &row.words,
-        columns: "",
-        used: None,
-        used_head: "",
-        u: None,
-        divisor: None,
-        readings: None,
-        full: false,
-        mean_of: None,
+        ..Evidence::default()
     };
     let (stated, relative) = kind::stated(&evidence);
     let certificate = matches!(stated, Stated::Certificate { .. });

@@ -60,14 +60,7 @@ pub fn row(text: &str, at: Place) -> Option<Row> {
     };
     let (stated, _) = kind::stated(&Evidence {
         words: &words,
-        columns: "",
-        used: None,
-        used_head: "",
-        u: None,
-        divisor: None,
-        readings: None,
-        full: false,
-        mean_of: None,
+        ..Evidence::default()
     });
     let known = !matches!(stated, Stated::Nothing);
     known.then(|| Row {

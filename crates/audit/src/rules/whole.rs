@@ -141,18 +141,15 @@ pub(super) fn freedom_of_correlated(seen: &Seen<'_>) -> Vec<Hit> {
         .map_or_else(Vec::new, |nu| one(format!("ν_eff = {}", nu.text)))
 }
 
-/// The share of the variance that one rectangle has, from which on k = 2 covers more than 95.45 % by so much that 1.65 is nearer.
-const RECTANGLE: f64 = 0.9;
-
 pub(super) fn rectangle(seen: &Seen<'_>) -> Vec<Hit> {
     let right = &seen.case.right;
     let u_c = right.figures(&[], None).u_c;
     let two = seen.laboratory.factor == Factor::Fixed(2.0);
     let rows = seen.claimed.rows.iter().zip(&right.lines).enumerate();
     let dominant = rows.filter(|(_, (row, line))| {
-        let part = line.contribution() / u_c;
         let shape = crate::calculate::shape_of(&row.stated);
-        line.counted && part * part > RECTANGLE && shape == Some(crate::claim::Shape::Rectangular)
+        let dominates = crate::calculate::dominates(line.contribution().abs(), u_c);
+        line.counted && dominates && shape == Some(crate::claim::Shape::Rectangular)
     });
     let hits = dominant.map(|(i, (_, line))| {
         let part = line.contribution() / u_c;

@@ -3,7 +3,7 @@
 use crate::printed::Printed;
 
 /// Everything that a row says of what is known.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Evidence<'a> {
     /// Name, remarks and notes: true.
     pub words: &'a str,

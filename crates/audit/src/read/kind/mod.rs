@@ -295,14 +295,9 @@ mod tests {
         let used = used.map(|x| Printed::parse(&x.to_string()).unwrap());
         let e = Evidence {
             words,
-            columns: "",
             used: used.as_ref(),
-            used_head: "",
-            u: None,
-            divisor: None,
-            readings: None,
             full,
-            mean_of: None,
+            ..Evidence::default()
         };
         stated(&e).0
     }

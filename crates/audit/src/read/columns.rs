@@ -142,8 +142,13 @@ const WORDS: &[(Role, How, &[&str])] = &[
 /// What a head says of its column, and the unit in it.
 pub fn role(head: &str) -> Option<(Role, String)> {
     let (name, unit) = apart(head);
-    let named = of(&name).or_else(|| of(head));
-    named.map(|role| (role, unit))
+    if let Some(role) = of(&name).or_else(|| of(head)) {
+        return Some((role, unit));
+    }
+    // `u_i(R_X) mΩ`: a unit without a mark, where the words alone are known.
+    let (name, unit) = head.trim().rsplit_once(' ')?;
+    let role = of(name).filter(|role| role.is_figure() && is_unit(unit))?;
+    Some((role, unit.into()))
 }
 
 fn of(head: &str) -> Option<Role> {
@@ -154,6 +159,12 @@ fn of(head: &str) -> Option<Role> {
         "Xi" | "X" | "量Xi" | "量X" | "输入量Xi" => return Some(Role::Symbol),
         "U" => return Some(Role::Used),
         _ => {}
+    }
+    // `u_i(R_X)` is a contribution to u of R_X; `u(x_i)`, `u_i(x)` are the inputs' own.
+    if let Some(argument) = text.strip_prefix("ui(").or(text.strip_prefix("|ui("))
+        && !argument.starts_with('x')
+    {
+        return Some(Role::Contribution);
     }
     let fits = |how: How, word: &str| match how {
         How::Has => text.contains(word),
@@ -186,6 +197,13 @@ pub fn apart(head: &str) -> (String, String) {
                 return (name.into(), unit.into());
             }
         }
+    }
+    // `u(x_i) mm`: behind a symbol a unit needs no mark.
+    if let Some((name, unit)) = head.rsplit_once(' ')
+        && name.ends_with(')')
+        && is_unit(unit)
+    {
+        return (name.into(), unit.into());
     }
     for mark in [" / ", "/", ", ", " in "] {
         if let Some((name, unit)) = head.split_once(mark)

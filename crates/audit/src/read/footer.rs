@@ -45,15 +45,26 @@ const WORDS: &[(Whole, &[&str])] = &[
 
 /// Symbols that stand alone in a cell.
 fn symbol(text: &str) -> Option<Whole> {
-    let name = text
+    // `U(k = 2)`
+    let condition = text
+        .split_once('(')
+        .filter(|(_, inner)| inner.contains('='));
+    let name = condition.map_or(text, |(name, _)| name);
+    let name = name
         .split(['=', ':', '/', '['])
         .next()
         .unwrap_or_default()
         .trim();
     let name = name.split_once(" (").map_or(name, |(name, _)| name);
+    // `u_c(E)`, `U(E)`: of whatever the result is called.
+    let of_result = name.split_once('(').filter(|(_, rest)| rest.ends_with(')'));
+    let name = match of_result {
+        Some((lead @ ("U" | "uc" | "u_c"), _)) => lead,
+        _ => name,
+    };
     if matches!(
         name,
-        "U" | "U(y)" | "U95" | "U_95" | "U(k=2)" | "Uexp" | "U_exp" | "U (k=2)" | "U(95)"
+        "U" | "U(y)" | "U95" | "U_95" | "Uexp" | "U_exp" | "U(95)"
     ) {
         return Some(Whole::Expanded);
     }
@@ -68,6 +79,13 @@ fn symbol(text: &str) -> Option<Whole> {
     }
 }
 
+/// `combined relative standard uncertainty` is called by the words for the absolute one.
+fn absolute(text: &str) -> String {
+    ["relative ", "Relative ", "rel. ", "相对"]
+        .iter()
+        .fold(text.to_string(), |text, word| text.replace(word, ""))
+}
+
 /// What a cell labels, if it labels a figure of the whole.
 pub fn label(text: &str, measurand: &str) -> Option<Whole> {
     if let Some(whole) = symbol(text) {
@@ -76,7 +94,7 @@ pub fn label(text: &str, measurand: &str) -> Option<Whole> {
     if !measurand.is_empty() && text.trim() == measurand {
         return Some(Whole::Y);
     }
-    let lower = text.to_lowercase();
+    let lower = absolute(&text.to_lowercase());
     let at = |keys: &[&str]| keys.iter().filter_map(|key| find(&lower, key, 0)).min();
     let found = WORDS
         .iter()
@@ -159,6 +177,7 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
             );
         }
     }
+    let text = &absolute(text);
     let lower = text.to_lowercase();
     for (whole, keys) in WORDS.iter().filter(|(whole, _)| *whole != Whole::Y) {
         let figure = super::words::figure_after(text, keys);
@@ -240,13 +259,25 @@ fn assigned(text: &str, name: &str) -> Option<Printed> {
                     ..figure
                 });
             }
-            let Some(next) = right
-                .find(['=', '≈'])
-                .filter(|next| is_formula(&right[..*next]))
+            let Some(next) = outside_brackets(right).filter(|next| is_formula(&right[..*next]))
             else {
                 break;
             };
             rest = &right[next..];
+        }
+    }
+    None
+}
+
+/// Where the next equals sign stands that is in no bracket: `k·u_c (k = 2)` has none.
+fn outside_brackets(text: &str) -> Option<usize> {
+    let mut depth = 0_i32;
+    for (at, c) in text.char_indices() {
+        match c {
+            '(' => depth += 1,
+            ')' => depth -= 1,
+            '=' | '≈' if depth == 0 => return Some(at),
+            _ => {}
         }
     }
     None

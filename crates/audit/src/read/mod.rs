@@ -398,13 +398,13 @@ fn symbols_of_model(raw: &mut [table::Raw], claimed: &mut Claimed) {
             row.name
                 .rsplit_once('(')
                 .and_then(|(_, tail)| tail.strip_suffix(')'))
-                .filter(|s| s.chars().count() <= 12 && !s.contains([' ', '=']))
+                .filter(|s| s.chars().count() <= 12 && words::may_be_symbol(s))
         };
         let first = || {
             row.name
                 .split_once([':', ','])
                 .map(|(first, _)| first.trim())
-                .filter(|s| s.chars().count() <= 8 && !s.contains(' '))
+                .filter(|s| s.chars().count() <= 8 && words::may_be_symbol(s))
         };
         let symbol = in_model
             .or_else(bracketed)
@@ -435,7 +435,11 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
             text: line.text.clone(),
             role,
         });
-        let statement = footer::states_figures(&lower);
+        let labelled = matches!(
+            footer::label(&line.text, ""),
+            Some(footer::Whole::Expanded | footer::Whole::Combined)
+        );
+        let statement = labelled || footer::states_figures(&lower);
         if role == "correlation" || role == "CMC" || role == "rule for k" && !statement {
             return;
         }

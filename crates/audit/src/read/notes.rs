@@ -386,11 +386,11 @@ pub fn model(text: &str, claimed: &Claimed) -> Option<(String, String)> {
         .count();
     let enough = named >= 2 || named == 1 && claimed.rows.len() <= 2;
     let identifier = !left.is_empty() && left.chars().count() <= 24 && !left.contains([',', '|']);
-    // `u_c = sqrt(u1^2 + …)`, `U = k·u_c` are no models.
-    let about_u = left.starts_with("u_")
+    // `u_c = sqrt(u1^2 + …)`, `U = k·u_c`, `k = 2` are no models.
+    let of_claim = footer::label(left, "").is_some_and(|whole| whole != footer::Whole::Y);
+    let about_u = of_claim
+        || left.starts_with("u_")
         || left.starts_with("u(")
-        || left.starts_with("uc")
-        || left == "U"
         || left.starts_with("r(")
         || left.starts_with("c_")
         || left.starts_with('∂')

@@ -1,7 +1,7 @@
 //! Budgets without a table: one line for each quantity, `m_S = 100 g: certificate, U = 0.05 g, k = 2`.
 
 use crate::claim::{Row, Stated};
-use crate::printed::{Place, leading};
+use crate::printed::{Place, Printed, leading};
 
 use super::footer;
 use super::kind::{self, Evidence};
@@ -53,6 +53,8 @@ pub fn row(text: &str, at: Place) -> Option<Row> {
     }
     let is_symbol = !head.contains(' ') && head.chars().count() <= 12;
     let (symbol, name) = if is_symbol { (head, "") } else { ("", head) };
+    let (rest, u) = result_of(rest);
+    let u = u.map(|u| u.at(at));
     let words = if is_symbol {
         rest.to_string()
     } else {
@@ -68,9 +70,20 @@ pub fn row(text: &str, at: Place) -> Option<Row> {
         name: name.into(),
         at,
         value,
+        u,
         words,
         ..Row::default()
     })
+}
+
+/// What leads to a standard uncertainty, and the uncertainty: `step 0.01 bar -> 0.0029 bar`.
+fn result_of(text: &str) -> (&str, Option<Printed>) {
+    const ARROWS: [&str; 5] = ["->", "=>", "→", "⇒", "➔"];
+    let arrow = ARROWS
+        .iter()
+        .find_map(|arrow| text.rsplit_once(*arrow))
+        .and_then(|(front, behind)| Some((front, Printed::parse(behind.trim())?)));
+    arrow.map_or((text, None), |(front, u)| (front, Some(u)))
 }
 
 /// A line without the mark or the number of a list.

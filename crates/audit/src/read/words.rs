@@ -1,5 +1,7 @@
 //! Words and figures inside texts.
 
+use std::ops::Range;
+
 use crate::printed::{Printed, leading};
 
 /// A text in small letters without blanks, underscores and signs of multiplication, so that `u_i (y)` is `ui(y)`.
@@ -120,7 +122,7 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
         "不",
         "±(",
     ];
-    let mut rest = rest.trim_start();
+    let mut rest = behind_condition(rest.trim_start());
     for _ in 0..8 {
         if let Some((figure, behind)) = leading(rest).filter(|_| !rest.starts_with("inf")) {
             let text = behind.trim_start();
@@ -139,6 +141,9 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
             }
             let mut unit = unit_in(text, whole);
             if crate::units::parse(&unit).is_none() {
+                if figure.half == 0.5 && starts_plural(text) {
+                    return None;
+                }
                 unit.clear();
             }
             return Some(Printed { unit, ..figure });
@@ -156,13 +161,32 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
     None
 }
 
+/// Whether a text begins with several of something, which a number in front of it counts: `5 connections`.
+fn starts_plural(text: &str) -> bool {
+    let letters = text.bytes().take_while(u8::is_ascii_alphabetic).count();
+    letters >= 5 && text[..letters].ends_with('s')
+}
+
+/// What stands behind a bracket that says under which condition a figure holds: `expanded (k = 2): 0.014 bar`.
+fn behind_condition(rest: &str) -> &str {
+    let Some((inner, behind)) = rest.strip_prefix('(').and_then(|rest| rest.split_once(')')) else {
+        return rest;
+    };
+    let factor = inner.trim_start().starts_with(['k', 'p']) && inner.contains('=');
+    if factor || inner.contains("95") {
+        behind.trim_start()
+    } else {
+        rest
+    }
+}
+
 /// The figure in front of one of the keys, with its unit: `0.38 K peak to peak`.
 pub fn figure_before(text: &str, keys: &[&str]) -> Option<Printed> {
     let lower = text.to_lowercase();
     let ends = keys.iter().filter_map(|key| find(&lower, key, 0));
     ends.filter_map(|end| {
         let clause = lower[..end].rfind([';', ',']).map_or(0, |at| at + 1);
-        let front = text.get(clause..end)?;
+        let front = text.get(clause..end)?.trim_end_matches(['(', ' ']);
         let figure = sole_figure(front)?;
         let unit = front.trim_end().ends_with(figure.unit.as_str());
         unit.then_some(figure)
@@ -170,17 +194,67 @@ pub fn figure_before(text: &str, keys: &[&str]) -> Option<Printed> {
     .next()
 }
 
-/// A figure of the words; its half unit counts as that of a printed figure.
-pub fn in_text(text: &str, keys: &[&str]) -> Option<Printed> {
+/// The figure that the words give to one of the keys, behind it or in front.
+pub fn named_figure(text: &str, keys: &[&str]) -> Option<Printed> {
+    figure_after(text, keys).or_else(|| figure_before(text, keys))
+}
+
+/// The figure that may be meant where the words give none to the keys: the only one, or that of the clause.
+pub fn only_figure(text: &str, keys: &[&str]) -> Option<Printed> {
     let of_clause = || {
         let clauses = text.split(';').rev();
         let said = clauses.filter(|clause| has(&clause.to_lowercase(), keys));
         said.filter_map(sole_figure).next()
     };
-    figure_after(text, keys)
-        .or_else(|| figure_before(text, keys))
-        .or_else(|| sole_figure(text))
-        .or_else(of_clause)
+    sole_figure(text).or_else(of_clause)
+}
+
+/// A text without the figures that cannot be of a quantity in this unit: the designation of an instrument (`5720A`), and
+/// what is in the unit of something else, where the text has a figure that can.
+pub fn of_unit(text: &str, unit: &str) -> String {
+    let figures = figures(text);
+    let fits = |figure: &Printed| {
+        crate::units::factor(&figure.unit, unit).is_some()
+            || crate::units::fraction(&figure.unit).is_some()
+    };
+    let possible = figures.iter().any(|(_, figure)| fits(figure));
+    let designation = |range: &Range<usize>, figure: &Printed| {
+        let attached = text[range.clone()].ends_with(|c: char| c.is_ascii_digit())
+            && text[range.end..].starts_with(|c: char| c.is_ascii_uppercase());
+        attached && range.len() >= 3 && !figure.text.contains('.')
+    };
+    let mut out = text.to_string();
+    for (range, figure) in figures {
+        if !fits(&figure) && (possible || designation(&range, &figure)) {
+            out.replace_range(range.clone(), &"#".repeat(range.len()));
+        }
+    }
+    out
+}
+
+/// The figures of a text that stand before a known unit, each with where its digits are.
+fn figures(text: &str) -> Vec<(Range<usize>, Printed)> {
+    let mut found = Vec::new();
+    let mut at = 0;
+    while let Some(start) = text
+        .get(at..)
+        .and_then(|rest| rest.find(|c: char| c.is_ascii_digit()))
+        .map(|i| at + i)
+    {
+        let Some((figure, behind)) = leading(&text[start..]) else {
+            break;
+        };
+        let end = (text.len() - behind.len()).max(start + 1);
+        at = end;
+        let joined = text[..start].ends_with(|c: char| is_letter(c) || "-/.".contains(c));
+        let unit = unit_in(behind.trim_start(), text);
+        if !joined && crate::units::parse(&unit).is_some() {
+            let digits = text[start..end].trim_end().len();
+            let figure = Printed { unit, ..figure };
+            found.push((start..start + digits, figure));
+        }
+    }
+    found
 }
 
 /// The only figure with a unit in a text, where there is one and no more.
@@ -261,7 +335,8 @@ pub fn signed_pair(text: &str) -> Option<(Printed, Printed)> {
 
 /// Whether what follows a number says that it counts readings.
 fn starts_counted(text: &str) -> bool {
-    const COUNTED: [&str; 22] = [
+    const COUNTED: [&str; 23] = [
+        "bit",
         "reading",
         "measurement",
         "observation",
@@ -377,6 +452,16 @@ pub fn count_after(lower: &str, keys: &[&str]) -> Option<f64> {
         }
     }
     None
+}
+
+/// Whether a text may be the symbol of a quantity: no sign, no unit, and no word.
+pub fn may_be_symbol(text: &str) -> bool {
+    let letters = text.chars().count() >= 4 && text.chars().all(|c| c.is_ascii_alphabetic());
+    let word = letters && text.chars().skip(1).all(|c| c.is_ascii_lowercase());
+    text.starts_with(char::is_alphabetic)
+        && !text.contains([' ', '=', '/'])
+        && !word
+        && crate::units::parse(text).is_none_or(|_| text.chars().count() == 1)
 }
 
 /// Whether a symbol stands in a text as a word of its own, in its own case.

@@ -92,7 +92,13 @@ pub fn options(case: &Case<'_>, i: usize, acts: &[Act]) -> Options {
             // The column of coefficients says what they are, not that they were used.
             || broken.is_none() && row.contribution.is_none() && act.group() == Group::C
     });
-    let contribution = row.contribution.as_ref().map(|c| c.value.abs());
+    // Where the sheet has no coefficients, and the model none but 1, u is what was summed.
+    let summed = || {
+        let plain = row.c.is_none() && (right.c * right.to_y).abs() == 1.0;
+        row.u.as_ref().filter(|_| plain)
+    };
+    let contribution = row.contribution.as_ref().or_else(summed);
+    let contribution = contribution.map(|c| c.value.abs());
     let explained = sets.first().is_some_and(|set| !set.is_empty());
     let accident = if explained {
         accident(row, right, &own)

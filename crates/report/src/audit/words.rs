@@ -42,11 +42,12 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
         }
     };
     let right_u = with_unit(found.right.expanded, 2);
-    let claimed_u = claimed
-        .footer
-        .expanded
-        .as_ref()
-        .map_or("—".to_string(), |u| u.text.clone());
+    let claimed_u = match (&claimed.footer.expanded, language) {
+        (Some(u), Language::English) => format!(" where {} is claimed", u.text),
+        (Some(u), Language::Chinese) => format!("，声称值为 {}", u.text),
+        (None, Language::English) => "; none is claimed".to_string(),
+        (None, Language::Chinese) => "；表中没有声称值".to_string(),
+    };
     let count = found.explanations.first().map_or(0, |e| e.acts.len());
     let slips = || -> String {
         let best = found.explanations.first();
@@ -98,8 +99,8 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
         Verdict::WithEffect => vec![
             named(),
             match language {
-                Language::English => format!("Corrected, U is {right_u} where {claimed_u} is claimed."),
-                Language::Chinese => format!("改正后 U = {right_u}，声称值为 {claimed_u}。"),
+                Language::English => format!("Corrected, U is {right_u}{claimed_u}."),
+                Language::Chinese => format!("改正后 U = {right_u}{claimed_u}。"),
             },
             chance(),
         ],
@@ -113,12 +114,17 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
         ],
         Verdict::Unexplained => {
             let mut sentences = vec![match language {
-                Language::English => format!("Unexplained: the claimed figures do not follow from what is stated, and no slip that is known gives them. Recomputed, U is {right_u} where {claimed_u} is claimed."),
-                Language::Chinese => format!("无法解释：声称值不能由所述信息得出，已知的差错也都不能给出这些数值。重新计算 U = {right_u}，声称值为 {claimed_u}。"),
+                Language::English => format!("Unexplained: the claimed figures do not follow from what is stated, and no slip that is known gives them. Recomputed, U is {right_u}{claimed_u}."),
+                Language::Chinese => format!("无法解释：声称值不能由所述信息得出，已知的差错也都不能给出这些数值。重新计算 U = {right_u}{claimed_u}。"),
             }];
-            if found.withheld > 0 {
+            let accidental = found.withheld > 0 && found.gaps.iter().all(|gap| !matches!(gap, Gap::Row(..)));
+            if accidental {
+                let matches = match found.withheld {
+                    1 => "1 combination of slips matches".to_string(),
+                    n => format!("{n} combinations of slips match"),
+                };
                 sentences.push(match language {
-                    Language::English => format!("{} combinations of slips match, but figures as coarse as these would be matched by accident with a probability of {} %: none is named.", found.withheld, significant(100.0 * found.accident, 2)),
+                    Language::English => format!("{matches}, but figures as coarse as these would be matched by accident with a probability of {} %: none is named.", significant(100.0 * found.accident, 2)),
                     Language::Chinese => format!("有 {} 种差错组合相符，但位数如此之少的数值偶然相符的概率为 {} %，故不作判定。", found.withheld, significant(100.0 * found.accident, 2)),
                 });
             }

@@ -1,6 +1,7 @@
 //! What a row says of what is known.
 
 use crate::printed::Printed;
+use crate::read::words::{named_figure, only_figure};
 
 /// Everything that a row says of what is known.
 #[derive(Debug, Clone, Copy, Default)]
@@ -23,4 +24,43 @@ pub struct Evidence<'a> {
     pub full: bool,
     /// Readings behind the reported value, where a note says it for all rows.
     pub mean_of: Option<f64>,
+}
+
+impl Evidence<'_> {
+    /// The figure of the words for one of these keys. Beside a ± column, a figure that the words give to no key counts
+    /// only where it looks like the one that was used.
+    pub(super) fn figure(&self, keys: &[&str]) -> Option<Printed> {
+        let meant = |figure: &Printed| {
+            let used = self.used.filter(|_| self.full);
+            used.is_none_or(|used| resemble(figure.value, used.value))
+        };
+        named_figure(self.words, keys).or_else(|| only_figure(self.words, keys).filter(meant))
+    }
+
+    /// The same, or else what was used.
+    pub(super) fn figure_or_used(&self, keys: &[&str]) -> Option<Printed> {
+        self.figure(keys).or_else(|| self.used.cloned())
+    }
+
+    /// Whether the standard uncertainty is the figure that was used, undivided.
+    pub(super) fn u_is_used(&self) -> bool {
+        let same = |(u, used): (&Printed, &Printed)| u.unit == used.unit && u.value == used.value;
+        self.u.zip(self.used).is_some_and(same)
+    }
+}
+
+/// Whether two figures may be one that was copied: the same digits but for their order, a power of ten, or a factor of two.
+fn resemble(a: f64, b: f64) -> bool {
+    let digits = |x: f64| {
+        let mut digits: Vec<u8> = format!("{:.5e}", x.abs())
+            .bytes()
+            .take_while(|c| *c != b'e')
+            .collect();
+        digits.retain(|c| c.is_ascii_digit() && *c != b'0');
+        digits.sort_unstable();
+        digits
+    };
+    [1.0, 2.0, 0.5]
+        .iter()
+        .any(|factor| digits(factor * a) == digits(b))
 }

@@ -1,7 +1,7 @@
 //! What is known as limits, steps and certificates.
 
 use crate::claim::{Shape, Stated};
-use crate::read::words::{figure_after, has, in_text, signed_pair};
+use crate::read::words::{figure_after, has, signed_pair};
 
 use super::evidence::Evidence;
 use super::family::*;
@@ -32,7 +32,7 @@ pub(super) fn limits(e: &Evidence<'_>, text: &str, shape: Option<Shape>) -> Opti
         "范围",
         "误差",
     ];
-    let half_width = in_text(e.words, KEYS).or_else(|| e.used.cloned())?;
+    let half_width = e.figure_or_used(KEYS)?;
     let level = has(
         text,
         &[
@@ -93,7 +93,7 @@ pub(super) fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         "lsb",
         "digit",
     ];
-    if let Some(step) = in_text(e.words, KEYS) {
+    if let Some(step) = e.figure(KEYS) {
         // `resolution ± 0.005` is half of it.
         let half = step.text.trim_start().starts_with('±')
             || text.contains(&format!("± {}", step.text))
@@ -135,7 +135,7 @@ pub(super) fn certificate(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         "uncertainty",
         "不确定度",
     ];
-    let expanded = in_text(e.words, KEYS).or_else(|| e.used.cloned())?;
+    let expanded = e.figure_or_used(KEYS)?;
     let stated = figure_after(text, &["k =", "k=", "k", "coverage factor", "包含因子"])
         .map(|k| k.value)
         .filter(|k| (1.0..5.0).contains(k));

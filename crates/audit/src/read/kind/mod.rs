@@ -17,7 +17,7 @@ use crate::printed::Printed;
 use crate::units;
 
 use super::converter;
-use super::words::{count_before, figure_after, find, has, in_text};
+use super::words::{count_before, figure_after, find, has, trailing_count};
 
 pub use evidence::Evidence;
 use family::*;
@@ -56,8 +56,7 @@ fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
         && (has(text, &["极差"]) || count(text, e).is_some())
         && !has(text, &["full range", "measuring range"])
     {
-        let range = in_text(e.words, &["range method", "range r", "range", "极差"])
-            .or_else(|| e.used.cloned())?;
+        let range = e.figure_or_used(&["range method", "range r", "range", "极差"])?;
         return Some(Stated::Range {
             range,
             n: count(text, e)?,
@@ -65,27 +64,24 @@ fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
         });
     }
     if has(text, FULL_WIDTH) {
-        let width = in_text(
-            e.words,
-            &[
-                "full width",
-                "total width",
-                "whole width",
-                "overall width",
-                "interval of width",
-                "full interval",
-                "width",
-                "peak-to-peak",
-                "peak to peak",
-                "全宽",
-                "总宽",
-                "宽度",
-                "峰峰值",
-                "峰-峰值",
-                "total span",
-                "span",
-            ],
-        );
+        let width = e.figure(&[
+            "full width",
+            "total width",
+            "whole width",
+            "overall width",
+            "interval of width",
+            "full interval",
+            "width",
+            "peak-to-peak",
+            "peak to peak",
+            "全宽",
+            "总宽",
+            "宽度",
+            "峰峰值",
+            "峰-峰值",
+            "total span",
+            "span",
+        ]);
         let used = || {
             e.used.map(|used| {
                 if e.full {
@@ -109,7 +105,9 @@ fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
             pooled: None,
         });
     }
-    let reading = has(text, DEVIATION) || count_before(text, &["reading", "observation"]).is_some();
+    let reading = has(text, DEVIATION)
+        || has(text, POOLED)
+        || count_before(text, &["reading", "observation"]).is_some();
     let certified = has(text, CERTIFICATE) && !has(text, &["specification", "允许误差", "limit"]);
     // `resolution contained in the repeatability` is about a resolution: what comes first is the subject.
     let first = |keys: &[&str]| keys.iter().filter_map(|key| find(text, key, 0)).min();
@@ -141,20 +139,21 @@ fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
     if reading && !(has(text, LIMITS) && first(LIMITS) < first(DEVIATION)) {
         return deviation(e, text, columns);
     }
-    if has(text, CYCLING) {
-        let half_width = in_text(
-            e.words,
-            &[
-                "amplitude",
-                "±",
-                "幅值",
-                "振幅",
-                "cycling",
-                "within",
-                "limits",
-            ],
-        )
-        .or_else(|| e.used.cloned())?;
+    // `3 cycles` are repetitions.
+    let cycles = text.match_indices("cycle").map(|(at, _)| at);
+    let repeated = cycles
+        .chain(text.find("次循环"))
+        .any(|at| trailing_count(&text[..at]).is_some());
+    if has(text, CYCLING) && !repeated {
+        let half_width = e.figure_or_used(&[
+            "amplitude",
+            "±",
+            "幅值",
+            "振幅",
+            "cycling",
+            "within",
+            "limits",
+        ])?;
         return Some(Stated::Limits {
             half_width,
             shape: Shape::Arcsine,
@@ -165,9 +164,7 @@ fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
         return limits(e, text, shape);
     }
     if has(text, STANDARD) {
-        let u = in_text(e.words, STANDARD)
-            .or_else(|| e.used.cloned())
-            .or_else(|| e.u.cloned())?;
+        let u = e.figure_or_used(STANDARD).or_else(|| e.u.cloned())?;
         return Some(Stated::Standard { u, dof: None });
     }
     None

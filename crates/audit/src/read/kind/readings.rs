@@ -2,9 +2,7 @@
 
 use crate::claim::Stated;
 use crate::printed::Printed;
-use crate::read::words::{
-    count_after, count_before, figure_after, find, has, in_text, trailing_count,
-};
+use crate::read::words::{count_after, count_before, figure_after, find, has, trailing_count};
 
 use super::evidence::Evidence;
 use super::family::*;
@@ -13,12 +11,50 @@ use super::family::*;
 const OF_THE_MEAN: &[&str] = &[
     "deviation of the mean",
     "deviation of mean",
+    "dev. of the mean",
+    "dev. of mean",
+    "dev of the mean",
+    "dev of mean",
+    "error of the mean",
+    "standard error",
+    "std of mean",
+    "std of the mean",
+    "std. of mean",
+    "std. of the mean",
+    "sd of mean",
+    "sd of the mean",
+    "sdom",
+    "sdm",
     "s of mean",
     "s of the mean",
     "esdm",
     "平均值的标准",
     "平均值的实验标准",
     "均值的标准",
+];
+
+/// What says that a figure is that of single readings.
+const OF_SINGLE: &[&str] = &[
+    "s =",
+    "s=",
+    "s of",
+    "s from",
+    "s(",
+    "s)",
+    ", s",
+    "s_p",
+    "pooled",
+    "std",
+    "sd",
+    "deviation",
+    "scatter of",
+    "experimental",
+    "bessel",
+    "标准偏差",
+    "标准差",
+    "贝塞尔",
+    "合并",
+    "单次",
 ];
 
 pub(super) fn deviation(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
@@ -28,6 +64,8 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str, columns: &str) -> Option<S
         "s_p",
         "sp =",
         "s(x)",
+        "s pooled",
+        "pooled s",
         "s =",
         "s=",
         "s",
@@ -36,30 +74,37 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str, columns: &str) -> Option<S
         "重复性",
         "repeatability",
     ];
-    let s = in_text(e.words, KEYS).or_else(|| e.used.cloned());
+    let s = e.figure_or_used(KEYS);
     let s = s.or_else(|| {
         has(text, &["equal", "all alike", "相同", "一致"]).then(|| Printed::exact(0.0, "0"))
     })?;
     let n = count(text, e);
     let pooled = has(text, POOLED).then(|| pooled_freedom(text, n)).flatten();
+    // `repeatability, mean of 5`, with u as it stands: it is not said that the figure is that of single readings.
     let mut m = mean(text, e);
+    let unsaid = !has(text, OF_SINGLE) && m.is_none_or(|m| n == Some(m));
+    let of_mean = has(text, OF_THE_MEAN) || unsaid && e.u_is_used();
     if m.is_none()
         && has(text, &["mean", "average", "平均", "均值"])
         && !has(text, &["single", "单次"])
     {
         m = n;
     }
+    let by_u = || e.u.map(|u| s.value / u.value).filter(|d| d.is_finite());
     let squared = e
         .divisor
+        .or_else(by_u)
         .map(|d| d * d)
         .filter(|m| *m > 1.2 && (m - libm::round(*m)).abs() < 0.03 * m);
-    // Nothing is stated of how many readings are behind the value: the laboratory's own divisor is all there is.
-    let unsaid = n.is_none() && !has(text, &["single", "单次"]);
-    let m = has(text, OF_THE_MEAN)
+    // Nothing is stated of how many readings are behind the value: the laboratory's own divisor is all there is, where it
+    // is the root of a number of readings that there were.
+    let unsaid = !has(text, &["single", "单次"]);
+    let possible = |m: &f64| n.is_none_or(|n| n == *m);
+    let m = of_mean
         .then_some(1.0)
         .or(m)
         .or(e.mean_of)
-        .or_else(|| squared.filter(|_| unsaid).map(libm::round))
+        .or_else(|| squared.filter(|_| unsaid).map(libm::round).filter(possible))
         .unwrap_or(1.0);
     let _ = columns;
     Some(Stated::Deviation { s, n, m, pooled })

@@ -6,6 +6,7 @@ use crate::claim::{Claimed, Understood};
 use crate::printed::{Place, Printed};
 use crate::read::columns::{self, Role};
 use crate::read::footer::{self, Whole};
+use crate::read::words::has;
 use crate::sheet::Grid;
 use crate::units;
 
@@ -59,6 +60,10 @@ fn footer_row(
         .iter()
         .filter(|(_, text)| footer::label(text, &measurand).is_some())
         .count();
+    let figures = cells
+        .iter()
+        .filter(|(_, text)| Printed::parse(text).is_some())
+        .count();
     for (position, (column, text)) in cells.iter().enumerate() {
         let place = Place {
             sheet,
@@ -101,7 +106,12 @@ fn footer_row(
             (Some(Whole::Combined), Some(Role::Dof)) => Some(Whole::Freedom),
             (Some(Whole::Expanded), Some(Role::Dof)) => Some(Whole::Freedom),
             (Some(Whole::Expanded), Some(Role::Divisor)) => Some(Whole::Factor),
-            (Some(Whole::Combined | Whole::Expanded), Some(Role::Derived | Role::Number)) => None,
+            // Beside a sum of squares stands u_c; a figure alone in its row is what the label says.
+            (Some(Whole::Combined | Whole::Expanded), Some(Role::Derived | Role::Number))
+                if figures > 1 || is_sum(&cells) =>
+            {
+                None
+            }
             (Some(Whole::Combined), Some(Role::Value))
                 if contribution.is_some_and(|c| {
                     cells
@@ -145,6 +155,12 @@ fn footer_row(
         }
     }
     found || across(grid, sheet, row, &cells, claimed)
+}
+
+/// Whether a row is the sum of a column.
+fn is_sum(cells: &[(usize, String)]) -> bool {
+    let mut texts = cells.iter().map(|(_, text)| text.to_lowercase());
+    texts.any(|text| has(&text, &["sum", "total", "σ", "合计", "总和", "求和"]))
 }
 
 /// Whether an equation in a label only says how it is computed: `U = k·u_c`.

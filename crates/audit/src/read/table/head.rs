@@ -1,5 +1,7 @@
 //! The head of a table: one line, or two.
 
+use std::collections::BTreeMap;
+
 use crate::printed::Printed;
 use crate::read::columns::{self, Role};
 use crate::read::mapping::Mapping;
@@ -7,8 +9,21 @@ use crate::sheet::Grid;
 
 use super::located::{Column, Located};
 
+/// Columns whose cells decide what they are, whatever their head says.
+pub(super) type ByContent = BTreeMap<usize, Role>;
+
 /// The columns of a row that is a head.
 pub(super) fn head(grid: &Grid, row: usize, mapping: &Mapping) -> Option<Vec<Column>> {
+    head_with(grid, row, mapping, &ByContent::new())
+}
+
+/// The same, where the cells of some columns have been seen.
+pub(super) fn head_with(
+    grid: &Grid,
+    row: usize,
+    mapping: &Mapping,
+    seen: &ByContent,
+) -> Option<Vec<Column>> {
     let mut filled: Vec<(usize, &str)> = grid
         .filled(row)
         .map(|(i, cell)| (i, cell.text.as_str()))
@@ -27,7 +42,7 @@ pub(super) fn head(grid: &Grid, row: usize, mapping: &Mapping) -> Option<Vec<Col
     if filled.len() < 3 || figures * 3 > filled.len() || longest > 90 {
         return None;
     }
-    let columns = roles(&filled, mapping);
+    let columns = roles(&filled, mapping, seen);
     let has = |roles: &[Role]| columns.iter().any(|c| roles.contains(&c.role));
     let identity = has(&[Role::Symbol, Role::Name]);
     let figure = has(&[Role::Used, Role::U, Role::Contribution])
@@ -36,15 +51,18 @@ pub(super) fn head(grid: &Grid, row: usize, mapping: &Mapping) -> Option<Vec<Col
     (identity && figure && enough).then_some(columns)
 }
 
-fn roles(filled: &[(usize, &str)], mapping: &Mapping) -> Vec<Column> {
+fn roles(filled: &[(usize, &str)], mapping: &Mapping, seen: &ByContent) -> Vec<Column> {
     let mut columns: Vec<Column> = Vec::new();
-    let contributions = filled
-        .iter()
-        .any(|(_, text)| columns::role(text).is_some_and(|(role, _)| role == Role::Contribution));
+    let contributions = filled.iter().any(|(index, text)| {
+        !seen.contains_key(index)
+            && columns::role(text).is_some_and(|(role, _)| role == Role::Contribution)
+    });
     for (index, text) in filled {
+        let of_cells = seen.get(index).map(|role| (*role, String::new()));
         let named = mapping
             .role(text)
             .map(|role| (role, columns::apart(text).1))
+            .or(of_cells)
             .or_else(|| columns::role(text));
         let Some((role, unit)) = named else {
             continue;
@@ -88,6 +106,45 @@ fn roles(filled: &[(usize, &str)], mapping: &Mapping) -> Vec<Column> {
     columns
 }
 
+/// A line above the head whose words name what the head leaves open: `|c_i|u(x_i)` above `/kPa`.
+pub(super) fn line_above(grid: &Grid, located: &mut Located) {
+    let Some(row) = located.head.checked_sub(1) else {
+        return;
+    };
+    let filled = grid.filled(row).count();
+    let figures = |text: &str| Printed::parse(text).is_some();
+    if filled < 3 || grid.filled(row).any(|(_, cell)| figures(&cell.text)) {
+        return;
+    }
+    let mut named = false;
+    for (index, cell) in grid.filled(row) {
+        let own = grid.cell(located.head, index).text.as_str();
+        let unit = own.trim_matches(['(', ')', '[', ']', '/', ' ']);
+        let open = own.is_empty() || columns::is_unit(unit);
+        let known = located.columns.iter().any(|c| c.index == index);
+        let said = columns::role(&cell.text).filter(|_| open && !known);
+        let free = |role: Role| located.columns.iter().all(|c| c.role != role);
+        if let Some((role, of_words)) = said.filter(|(role, _)| free(*role)) {
+            let unit = if columns::is_unit(unit) {
+                unit
+            } else {
+                &of_words
+            };
+            let column = Column {
+                index,
+                role,
+                head: format!("{} {own}", cell.text).trim_end().into(),
+                unit: unit.into(),
+            };
+            located.columns.push(column);
+            named = true;
+        }
+    }
+    if named {
+        located.used.insert(row);
+    }
+}
+
 /// A second line of the head: symbols below words, or units.
 pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping) {
     let row = located.head + 1;
@@ -106,7 +163,8 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
         .iter()
         .filter(|(_, text)| columns::is_unit(&bare(text)) || matches!(*text, "-" | "1" | "/"))
         .count();
-    let named = roles(&filled, mapping).len();
+    let none = ByContent::new();
+    let named = roles(&filled, mapping, &none).len();
     let figures = filled
         .iter()
         .filter(|(_, text)| Printed::parse(text).is_some() && *text != "1")
@@ -123,7 +181,7 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
         .filter(|(_, text)| !text.is_empty())
         .collect();
     let joined: Vec<(usize, &str)> = joined.iter().map(|(i, text)| (*i, text.as_str())).collect();
-    let together = roles(&joined, mapping);
+    let together = roles(&joined, mapping, &none);
     let evaluated = |columns: &[Column]| {
         let of = |role: Role| columns.iter().any(|c| c.role == role);
         [Role::U, Role::Contribution, Role::Dof]
@@ -147,7 +205,7 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
             }
         }
     } else if named * 2 > filled.len() && named >= 3 {
-        for column in roles(&filled, mapping) {
+        for column in roles(&filled, mapping, &none) {
             let free = !located
                 .columns
                 .iter()

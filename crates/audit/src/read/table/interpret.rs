@@ -3,7 +3,7 @@
 use crate::claim::{Claimed, Relative, Row, Stated};
 use crate::printed::Printed;
 use crate::read::kind::{self, Evidence};
-use crate::read::words::has;
+use crate::read::words::{self, has};
 use crate::units;
 
 use super::rows::Raw;
@@ -13,8 +13,12 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
     let mean_of = claimed.reported_mean_of;
     let y_unit = claimed.unit.clone();
     for (raw, row) in raw.iter().zip(&mut claimed.rows) {
+        let figures = [&row.used, &row.u, &row.value];
+        let units = figures.into_iter().flatten().map(|figure| &figure.unit);
+        let own = units.chain([&row.unit]).find(|unit| !unit.is_empty());
+        let words = own.map_or(row.words.clone(), |unit| words::of_unit(&row.words, unit));
         let evidence = Evidence {
-            words: &row.words,
+            words: &words,
             columns: &raw.columns_text,
             used: row.used.as_ref(),
             used_head: &raw.used_head,

@@ -106,7 +106,8 @@ const WORDS: &[(Role, How, &[&str])] = &[
     (Role::Derived, How::Has, &["贡献率", "百分比", "占比", "权重", "比例", "%contribution", "contribution%", "contribution(%)", "contribution/%", "percentcontribution", "share", "significance", "相对贡献", "贡献/%", "贡献(%)", "index"]),
     (Role::Derived, How::Is, &["share", "%", "percent", "weight", "h", "比重"]),
     (Role::Derived, How::Has, &["ui^2", "u^2", "(y)^2", "^2", "平方", "squared", "variance", "方差"]),
-    (Role::Contribution, How::Has, &["ui(y)", "uy(", "u(y)", "|ci|u", "|c|u", "ciu(", "|ci|·u", "cu(", "|ci|×u", "contributiontou", "uncertaintycontribution", "contribution", "贡献", "|u(y", "uncertaintyiny"]),
+    (Role::Name, How::Has, &["分量名称", "来源名称", "名称及来源"]),
+    (Role::Contribution, How::Has, &["ciui", "|ci|ui", "|c|ui", "|ciui|", "ui(y)", "uy(", "u(y)", "|ci|u", "|c|u", "ciu(", "|ci|·u", "cu(", "|ci|×u", "contributiontou", "uncertaintycontribution", "contribution", "贡献", "|u(y", "uncertaintyiny"]),
     (Role::Name, How::Has, &["来源", "source", "influence", "因素", "影响量", "description", "contributor", "origin", "cause"]),
     (Role::Contribution, How::Has, &["不确定度分量", "分量值", "componentofu", "uncertaintycomponentu"]),
     (Role::Contribution, How::Is, &["分量", "cu", "uc", "u.c", "c.u", "ci.u", "ciu", "c·u", "ui(y)", "|c|u", "component/y"]),
@@ -118,7 +119,7 @@ const WORDS: &[(Role, How, &[&str])] = &[
     (Role::Distribution, How::Has, &["distribution", "分布类型", "概率分布", "pdf", "shape"]),
     (Role::Distribution, How::Is, &["distr", "distr.", "dist", "dist.", "分布", "prob.", "probability"]),
     (Role::Divisor, How::Has, &["divisor", "divideby", "dividedby", "除数", "分布因子", "置信因子", "包含因子", "coveragefactor", "kfactor"]),
-    (Role::Divisor, How::Is, &["k", "ki", "div", "div.", "因子", "b", "factor"]),
+    (Role::Divisor, How::Is, &["k", "ki", "k值", "ki值", "div", "div.", "因子", "b", "factor"]),
     (Role::U, How::Has, &["standarduncertainty", "标准不确定度", "stdunc", "std.unc", "stduncertainty", "u(x", "u(", "standardunc", "std.uncertainty", "标准不确定"]),
     (Role::U, How::Is, &["u", "ui", "ux", "stdu", "u_i", "u(xi)"]),
     (Role::Readings, How::Has, &["numberofreadings", "测量次数", "readings(n)"]),
@@ -127,7 +128,7 @@ const WORDS: &[(Role, How, &[&str])] = &[
     (Role::Type, How::Is, &["type", "类型", "评定", "method", "eval.", "a,b"]),
     (Role::Remark, How::Has, &["remark", "note", "comment", "备注", "说明", "information", "依据", "howknown", "basis", "evidence", "whatisknown", "已知", "信息", "statement", "注", "details", "data", "justification", "reference"]),
     (Role::Used, How::Has, &["±", "half-width", "halfwidth", "半宽", "limit", "误差限", "expanded", "扩展不确定度", "a(half", "tolerance", "允差", "interval", "区间", "uncertaintyvalue", "不确定度值", "valueofuncertainty", "spread", "stated", "极限", "given", "最大允许", "+/-"]),
-    (Role::Used, How::Is, &["uncertainty", "a", "ai", "不确定度", "unc.", "unc", "accuracy", "error", "δ", "figure", "known", "数值", "magnitude", "a/u/s", "a,u,s", "size", "amount"]),
+    (Role::Used, How::Is, &["uncertainty", "a", "ai", "不确定度", "unc.", "unc", "accuracy", "error", "δ", "figure", "known", "数值", "magnitude", "a/u/s", "a,u,s", "size", "amount", "a或u", "u或a", "a/u", "u/a", "a,u", "半宽a或u", "aoru", "uora", "limit/u", "极限值/u"]),
     (Role::Unit, How::Is, &["unit", "units", "单位", "[unit]", "unitofx", "unitofxi", "计量单位"]),
     (Role::Symbol, How::Has, &["symbol", "符号", "variable", "代号"]),
     (Role::Value, How::Has, &["estimate", "估计值", "nominal", "标称", "measuredvalue", "量值", "bestvalue", "最佳", "meanvalue", "输入量的值", "输入量值", "inputvalue", "测得值", "取值"]),
@@ -192,7 +193,9 @@ pub fn apart(head: &str) -> (String, String) {
                 && inner[..at]
                     .split(' ')
                     .next_back()
-                    .is_some_and(|w| w.len() <= 3);
+                    .is_some_and(|w| w.len() <= 3)
+                // `u(mV)`: more than a letter that is a unit is no argument.
+                && (unit.chars().count() < 2 || !is_unit(unit));
             if !symbol && !name.is_empty() && is_unit(unit) {
                 return (name.into(), unit.into());
             }

@@ -243,6 +243,13 @@ fn assigned(text: &str, name: &str) -> Option<Printed> {
             if let Some((figure, behind)) = leading(right)
                 && !behind.trim_start().starts_with(['*', '·', '×'])
             {
+                // `U = 11.6 µm ≈ 12 µm`: what it is rounded to.
+                if let Some((between, _)) = behind.split_once('≈')
+                    && (between.trim().is_empty() || super::columns::is_unit(between.trim()))
+                {
+                    rest = &behind[between.len()..];
+                    continue;
+                }
                 let unit = behind
                     .trim_start()
                     .split(|c: char| c.is_whitespace() || ",;()。、".contains(c))

@@ -126,8 +126,8 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
     for _ in 0..8 {
         if let Some((figure, behind)) = leading(rest).filter(|_| !rest.starts_with("inf")) {
             let text = behind.trim_start();
-            // `U = 2 × 17.4 kPa = 35 kPa`: what the product comes to.
-            if text.starts_with(['×', '*', '·'])
+            // `U = 2 × 17.4 kPa = 35 kPa`, `U = 0.5 + 5 L µm = 1.0 µm`: what it comes to.
+            if text.starts_with(['×', '*', '·', '+'])
                 && let Some((_, result)) = text.split_once('=')
             {
                 rest = result.trim_start();

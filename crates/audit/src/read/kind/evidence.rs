@@ -2,6 +2,7 @@
 
 use crate::printed::Printed;
 use crate::read::words::{named_figure, only_figure};
+use crate::units;
 
 /// Everything that a row says of what is known.
 #[derive(Debug, Clone, Copy, Default)]
@@ -30,11 +31,19 @@ impl Evidence<'_> {
     /// The figure of the words for one of these keys. Beside a ± column, a figure that the words give to no key counts
     /// only where it looks like the one that was used.
     pub(super) fn figure(&self, keys: &[&str]) -> Option<Printed> {
-        let meant = |figure: &Printed| {
-            let used = self.used.filter(|_| self.full);
-            used.is_none_or(|used| resemble(figure.value, used.value))
+        let used = self.used.filter(|_| self.full);
+        let meant = |figure: &Printed| used.is_none_or(|used| resemble(figure.value, used.value));
+        // `temperature ±0.5 °C` beside 0.6 µm is what the ± column was computed from.
+        let fits = |figure: &Printed| {
+            let open = figure.unit.is_empty() || units::fraction(&figure.unit).is_some();
+            let of = |used: &Printed| {
+                used.unit.is_empty() || units::factor(&figure.unit, &used.unit).is_some()
+            };
+            open || used.is_none_or(of)
         };
-        named_figure(self.words, keys).or_else(|| only_figure(self.words, keys).filter(meant))
+        named_figure(self.words, keys)
+            .filter(fits)
+            .or_else(|| only_figure(self.words, keys).filter(meant))
     }
 
     /// The same, or else what was used.

@@ -4,7 +4,6 @@ use crate::printed::Printed;
 use crate::read::columns::{self, Role};
 use crate::sheet::Grid;
 
-use super::head::ByContent;
 use super::located::{Column, Located};
 
 /// What stands in a column decides where its head is doubtful: figures below a name are what was put in, running numbers
@@ -66,27 +65,6 @@ pub(super) fn by_content(grid: &Grid, located: &mut Located) {
     }
     value_is_used(grid, located);
     nameless_words(grid, located);
-}
-
-/// Columns whose heads promise figures, and which hold none: `标准不确定度分量` above `u(m_1)` names the rows.
-pub(super) fn no_figures(grid: &Grid, located: &Located) -> ByContent {
-    let computed = |role: Role| matches!(role, Role::U | Role::C | Role::Contribution);
-    let columns = located.columns.iter().filter(|c| computed(c.role));
-    columns
-        .filter_map(|column| {
-            let cells = Cells {
-                grid,
-                rows: &located.rows,
-                index: column.index,
-            };
-            let filled: Vec<&str> = cells.texts().filter(|text| !text.is_empty()).collect();
-            let words =
-                2 * filled.len() > located.rows.len() && filled.iter().all(|text| !is_figure(text));
-            let short = filled.iter().all(|text| text.chars().count() <= 12);
-            let role = if short { Role::Symbol } else { Role::Name };
-            words.then_some((column.index, role))
-        })
-        .collect()
 }
 
 /// The cells of a column in the rows of a table.

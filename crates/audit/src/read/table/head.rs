@@ -1,7 +1,5 @@
 //! The head of a table: one line, or two.
 
-use std::collections::BTreeMap;
-
 use crate::printed::Printed;
 use crate::read::columns::{self, Role};
 use crate::read::mapping::Mapping;
@@ -9,21 +7,8 @@ use crate::sheet::Grid;
 
 use super::located::{Column, Located};
 
-/// Columns whose cells decide what they are, whatever their head says.
-pub(super) type ByContent = BTreeMap<usize, Role>;
-
 /// The columns of a row that is a head.
 pub(super) fn head(grid: &Grid, row: usize, mapping: &Mapping) -> Option<Vec<Column>> {
-    head_with(grid, row, mapping, &ByContent::new())
-}
-
-/// The same, where the cells of some columns have been seen.
-pub(super) fn head_with(
-    grid: &Grid,
-    row: usize,
-    mapping: &Mapping,
-    seen: &ByContent,
-) -> Option<Vec<Column>> {
     let mut filled: Vec<(usize, &str)> = grid
         .filled(row)
         .map(|(i, cell)| (i, cell.text.as_str()))
@@ -42,7 +27,8 @@ pub(super) fn head_with(
     if filled.len() < 3 || figures * 3 > filled.len() || longest > 90 {
         return None;
     }
-    let columns = roles(&filled, mapping, seen);
+    let names = |index: usize| names_below(grid, row, index);
+    let columns = roles(&filled, mapping, &names);
     let has = |roles: &[Role]| columns.iter().any(|c| roles.contains(&c.role));
     let identity = has(&[Role::Symbol, Role::Name]);
     let figure = has(&[Role::Used, Role::U, Role::Contribution])
@@ -51,19 +37,41 @@ pub(super) fn head_with(
     (identity && figure && enough).then_some(columns)
 }
 
-fn roles(filled: &[(usize, &str)], mapping: &Mapping, seen: &ByContent) -> Vec<Column> {
+/// What a column is whose head promises figures and which holds none below it: `标准不确定度分量` above `u(m_1)` names
+/// the rows.
+fn names_below(grid: &Grid, head: usize, index: usize) -> Option<Role> {
+    /// Rows below the head that are looked at: units or symbols may stand in the first.
+    const BELOW: usize = 6;
+    let rows = head + 1..grid.rows.len().min(head + 1 + BELOW);
+    let cells: Vec<&str> = rows
+        .map(|row| grid.cell(row, index).text.as_str())
+        .filter(|text| !text.is_empty())
+        .collect();
+    let words = cells.len() >= 2 && cells.iter().all(|text| Printed::parse(text).is_none());
+    let short = cells.iter().all(|text| text.chars().count() <= 12);
+    words.then_some(if short { Role::Symbol } else { Role::Name })
+}
+
+fn roles(
+    filled: &[(usize, &str)],
+    mapping: &Mapping,
+    names: &dyn Fn(usize) -> Option<Role>,
+) -> Vec<Column> {
     let mut columns: Vec<Column> = Vec::new();
+    let said = |index: usize, text: &str| {
+        let (role, unit) = columns::role(text)?;
+        let computed = matches!(role, Role::U | Role::C | Role::Contribution);
+        let of_cells = names(index).filter(|_| computed);
+        Some(of_cells.map_or((role, unit), |role| (role, String::new())))
+    };
     let contributions = filled.iter().any(|(index, text)| {
-        !seen.contains_key(index)
-            && columns::role(text).is_some_and(|(role, _)| role == Role::Contribution)
+        said(*index, text).is_some_and(|(role, _)| role == Role::Contribution)
     });
     for (index, text) in filled {
-        let of_cells = seen.get(index).map(|role| (*role, String::new()));
         let named = mapping
             .role(text)
             .map(|role| (role, columns::apart(text).1))
-            .or(of_cells)
-            .or_else(|| columns::role(text));
+            .or_else(|| said(*index, text));
         let Some((role, unit)) = named else {
             continue;
         };
@@ -163,8 +171,7 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
         .iter()
         .filter(|(_, text)| columns::is_unit(&bare(text)) || matches!(*text, "-" | "1" | "/"))
         .count();
-    let none = ByContent::new();
-    let named = roles(&filled, mapping, &none).len();
+    let named = roles(&filled, mapping, &|_| None).len();
     let figures = filled
         .iter()
         .filter(|(_, text)| Printed::parse(text).is_some() && *text != "1")
@@ -181,7 +188,7 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
         .filter(|(_, text)| !text.is_empty())
         .collect();
     let joined: Vec<(usize, &str)> = joined.iter().map(|(i, text)| (*i, text.as_str())).collect();
-    let together = roles(&joined, mapping, &none);
+    let together = roles(&joined, mapping, &|index| names_below(grid, row, index));
     let evaluated = |columns: &[Column]| {
         let of = |role: Role| columns.iter().any(|c| c.role == role);
         [Role::U, Role::Contribution, Role::Dof]
@@ -205,7 +212,7 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
             }
         }
     } else if named * 2 > filled.len() && named >= 3 {
-        for column in roles(&filled, mapping, &none) {
+        for column in roles(&filled, mapping, &|index| names_below(grid, row, index)) {
             let free = !located
                 .columns
                 .iter()

@@ -9,9 +9,9 @@ use crate::read::mapping::Mapping;
 use crate::read::words::has;
 use crate::sheet::Grid;
 
-use super::content::{by_content, nameless_figures, no_figures};
+use super::content::{by_content, nameless_figures};
 use super::footers::labels_across;
-use super::head::{head, head_with, line_above, second_line};
+use super::head::{head, line_above, second_line};
 use super::located::Located;
 
 /// Every table of a sheet that is a budget.
@@ -32,18 +32,6 @@ pub fn locate(grid: &Grid, mapping: &Mapping) -> Vec<Located> {
                 line_above(grid, &mut located);
                 second_line(grid, &mut located, mapping);
                 body(grid, &mut located, mapping);
-                let seen = no_figures(grid, &located);
-                if let Some(columns) =
-                    head_with(grid, row, mapping, &seen).filter(|_| !seen.is_empty())
-                {
-                    located.columns = columns;
-                    located.rows.clear();
-                    located.used = BTreeSet::from([row]);
-                    located.end = row + 1;
-                    line_above(grid, &mut located);
-                    second_line(grid, &mut located, mapping);
-                    body(grid, &mut located, mapping);
-                }
                 row = located.end.max(row + 1);
                 by_content(grid, &mut located);
                 nameless_figures(grid, &mut located);

@@ -24,7 +24,7 @@ pub struct Raw {
 /// The rows of a table with their figures.
 pub fn rows(grid: &Grid, sheet: usize, located: &Located) -> Vec<Raw> {
     let mut above = String::new();
-    located
+    let mut rows: Vec<Raw> = located
         .rows
         .iter()
         .map(|&row| {
@@ -34,7 +34,32 @@ pub fn rows(grid: &Grid, sheet: usize, located: &Located) -> Vec<Raw> {
             }
             raw
         })
-        .collect()
+        .collect();
+    let columns: [fn(&mut Row) -> &mut Option<Printed>; 3] = [
+        |row| &mut row.used,
+        |row| &mut row.u,
+        |row| &mut row.contribution,
+    ];
+    for column in columns {
+        zeros_are_digits(
+            rows.iter_mut()
+                .filter_map(|raw| column(&mut raw.row).as_mut())
+                .collect(),
+        );
+    }
+    rows
+}
+
+/// The zeros of `100` are digits as far as the other figures of its column show some.
+fn zeros_are_digits(column: Vec<&mut Printed>) {
+    let most = column.iter().map(|figure| figure.digits).max().unwrap_or(0);
+    for figure in column
+        .into_iter()
+        .filter(|figure| figure.half == 0.5 && figure.digits > 0)
+    {
+        let places = libm::floor(libm::log10(figure.value.abs())) as usize + 1;
+        figure.digits = figure.digits.max(most.min(places));
+    }
 }
 
 fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) -> Raw {

@@ -1,5 +1,7 @@
 //! Sheets from text to verdict.
 
+mod hands;
+
 use crate::read::Mapping;
 use crate::{Verdict, audit, read, sheet};
 

@@ -1,0 +1,135 @@
+//! Sheets as laboratories write them: heads, words and closing lines of many hands, in English and Chinese.
+
+use super::{answer, first};
+use crate::Verdict;
+
+fn is_sound(name: &str, sheet: &str) {
+    assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
+}
+
+/// `5720A` is an instrument and no current, and the standard deviation of the mean is divided no more.
+#[test]
+fn designations_are_no_figures() {
+    let sheet = "UNCERTAINTY WORKSHEET,,,,,,,,,\n\
+        Uncertainty Contributor,Magnitude,Units,Type,Distribution,Divisor,Std. Unc. (µV),Sens. Coeff.,Unc. Contribution (µV),DOF\n\
+        \"Fluke 5720A output, cal report 1143 (k=2)\",44,µV,B,Normal,1,44,1,44,∞\n\
+        \"5720A drift, 90 day spec (limits)\",28,µV,B,Rectangular,1.732,16.166,1,16.166,∞\n\
+        \"UUT resolution, 10 µV digit\",10,µV,B,Rectangular,3.464,2.887,1,2.887,∞\n\
+        \"Repeatability, std. dev. of the mean of 10\",12.6,µV,A,Normal,1,12.6,1,12.6,9\n\
+        ,,,,,,Combined Std. Uncertainty,,48.63,µV\n\
+        ,,,,,,Coverage Factor,,2,\n\
+        ,,,,,,Expanded Uncertainty,,97,µV\n";
+    let slip = first("sheet.csv", sheet);
+    assert!(slip.starts_with("cert-undivided@Fluke"), "{slip}");
+}
+
+/// `不确定度分量` names the rows where no figures stand below it.
+#[test]
+fn a_column_of_names_is_one_whatever_its_head() {
+    let balance = "测量不确定度评定报告\n\
+        序号,标准不确定度分量,不确定度来源,类别,标准不确定度值 u(xi),ci,|ci|·u(xi) (mg)\n\
+        1,u(m1),测量重复性（n=10，s=0.12 mg，单次测量）,A,0.12 mg,1,0.12\n\
+        2,u(m2),天平分度值 d=0.1 mg，均匀分布,B,0.029 mg,1,0.029\n\
+        3,u(m3),偏载误差 0.3 mg（半宽），均匀分布,B,0.17 mg,1,0.17\n\
+        4,u(ms),砝码允差 MPE ±0.5 mg，均匀分布,B,0.50 mg,-1,0.50\n\
+        uc(E) = 0.54 mg\n\
+        取包含因子 k=2，则 U = k·uc = 1.1 mg\n";
+    assert_eq!(first("sheet.csv", balance), "root3-missing@u(ms)");
+    let thermocouple = "热电偶校准不确定度评定（1000℃）\n\
+        不确定度分量,来源,区间半宽/扩展不确定度,分布,包含因子k,标准不确定度/℃,灵敏系数,分量/℃\n\
+        u1,标准热电偶证书(U=0.6℃ k=2),0.6,正态,2,0.30,1,0.30\n\
+        u2,标准热电偶年稳定性,0.5,均匀,√3,0.29,1,0.29\n\
+        u3,炉温不均匀,0.25,均匀,√3,0.14,1,0.14\n\
+        u5,测量重复性(6次平均) s=0.25℃,0.25,正态,1,0.25,1,0.25\n\
+        合成标准不确定度,,,,,,,0.51\n\
+        扩展不确定度(k=2),,,,,,,1.0\n";
+    let (verdict, slips) = answer("sheet.csv", thermocouple);
+    assert_eq!(
+        (verdict, slips[0].as_str()),
+        (Verdict::WithEffect, "s-not-mean@u5")
+    );
+}
+
+/// A head of two lines, of which the upper one alone says what the last column is.
+#[test]
+fn words_stand_above_units() {
+    is_sound(
+        "sheet.csv",
+        "数字压力计测量结果不确定度评定（0.6 MPa点）\n\
+         不确定度分量,,误差限或U,,包含因子,标准不确定度,灵敏系数,|ci|u(xi)\n\
+         符号,来源,数值,单位,k,u(xi)/kPa,ci,/kPa\n\
+         u1,标准器：0.05级活塞压力计（证书U，k=2）,0.30,kPa,2,0.15,-1,0.15\n\
+         u2,被检表分辨力 0.1 kPa,0.05,kPa,√3,0.029,1,0.029\n\
+         u3,重复性：s=0.08 kPa（10次），取2次平均,0.08,kPa,√2,0.057,1,0.057\n\
+         u4,温度影响 ±0.2 kPa,0.20,kPa,√3,0.115,1,0.115\n\
+         合成标准不确定度,,,,,,,0.20\n\
+         扩展不确定度 U（k=2）,,,,,,,0.40\n",
+    );
+}
+
+/// Lines that lead to a standard uncertainty, and labels that hold the condition of their figure.
+#[test]
+fn arrows_lead_to_standard_uncertainties() {
+    let sheet = "Pressure gauge, budget for 6 bar\n\n\
+        u1: reference gauge certificate U = 0.006 bar (k=2)   -> 0.003 bar\n\
+        u2: resolution of UUT 0.01 bar (digital step)         -> 0.0029 bar\n\
+        u3: repeatability s = 0.004 bar, 3 readings, mean reported -> 0.004 bar\n\
+        u4: hysteresis, full width 0.012 bar, rectangular     -> 0.0035 bar\n\n\
+        combined: 0.0068 bar\n\
+        expanded (k=2): 0.014 bar\n";
+    assert_eq!(first("sheet.txt", sheet), "s-not-mean@u3");
+}
+
+/// A figure in words that is of something else (a temperature beside a length) is not what was used.
+#[test]
+fn figures_of_other_quantities_are_left_where_they_are() {
+    let micrometer = "Micrometer calibration budget (25 mm)\n\
+        Source,Value,Unit,Type,Dist,Divisor,u (µm)\n\
+        Gauge block certificate (k=2),0.20,µm,B,normal,2,0.100\n\
+        Temperature difference ±0.5 °C (11.5 µm/m/K over 25 mm),0.144,µm,B,rect,1.732,0.083\n\
+        Resolution 1 µm (half),0.50,µm,B,rect,1.732,0.289\n\
+        Repeatability (n=5) std of mean,0.24,µm,A,normal,1,0.240\n\
+        Flatness of faces ±0.3,0.30,µm,B,rect,1.732,0.173\n\
+        Combined uncertainty,,,,,,0.885\n\
+        Expanded uncertainty k=2,,,,,,1.8\n";
+    assert_eq!(first("sheet.csv", micrometer), "linear-sum");
+    is_sound(
+        "sheet.csv",
+        "Scope amplitude 5 Vpp\n\
+         Uncertainty source,Symbol,Uncertainty,Distribution,Factor,u\n\
+         Calibrator 9500B spec 1yr 99% (mV),U_cal,12.5,Normal 99%,2.58,4.84\n\
+         \"Scope resolution 8 bit, 1 LSB = 40 mV (±)\",δ_res,20,Rectangular,1.73,11.56\n\
+         Repeatability,s,3.0,Normal,1,3.0\n\
+         Combined,,,,,12.9\n\
+         k,,,,,2\n\
+         U (mV),,,,,26\n",
+    );
+}
+
+/// Relative figures, and the closing lines that name them.
+#[test]
+fn relative_figures_close_a_budget() {
+    let pump = "## Infusion pump, flow 5 mL/h\n\n\
+        | Source | Evaluation | Stated | Distribution | Divisor | Relative standard uncertainty / % |\n\
+        |---|---|---|---|---|---|\n\
+        | Repeatability of flow (n = 6, mean reported), s | A | 0.90 % | normal | 1 | 0.90 |\n\
+        | Balance, U = 0.20 %, k = 2 | B | 0.20 % | normal | 2 | 0.10 |\n\
+        | Density of water, limits | B | 0.10 % | rectangular | 1.73 | 0.058 |\n\
+        | Evaporation, limits | B | 0.60 % | rectangular | 1.73 | 0.35 |\n\n\
+        Combined relative standard uncertainty: 0.97 %\n\
+        Expanded relative uncertainty (k = 2): 1.9 %\n";
+    let slip = first("sheet.md", pump);
+    assert!(slip.starts_with("s-not-mean@Repeatability"), "{slip}");
+}
+
+/// Names of budgets told line by line, in Chinese.
+#[test]
+fn lines_in_chinese_are_rows() {
+    let sheet = "直流电阻器校准不确定度评定\n\
+        测量模型：R_x = R_s + ΔR\n\
+        R_s：标准电阻证书给出 U = 0.8 mΩ，k = 2\n\
+        ΔR：10次测量的标准偏差 s = 0.6 mΩ，取平均值\n\
+        合成标准不确定度 u_c = 0.82 mΩ\n\
+        扩展不确定度 U = 1.6 mΩ（k = 2）\n";
+    assert_eq!(first("sheet.txt", sheet), "cert-undivided@R_s");
+}

@@ -78,7 +78,9 @@ impl Check<'_> {
             );
         }
         let before: BTreeSet<String> = self.l.scope.keys().cloned().collect();
+        self.l.defining = Some(measurand.name.to_string());
         let own = self.text(text, place, true);
+        self.l.defining = None;
         let outcome = own
             .last()
             .copied()

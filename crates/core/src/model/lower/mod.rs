@@ -79,6 +79,8 @@ pub struct Lowering<'r> {
     pub call: Option<(Place, Span, String)>,
     /// Names that later statements of the text define.
     pub later: Vec<String>,
+    /// The measurand whose own formula this is.
+    pub defining: Option<String>,
     /// What becomes of an expression; it stands above what lowers its parts.
     expression: Expression,
     depth: usize,
@@ -106,6 +108,7 @@ impl<'r> Lowering<'r> {
             faults: Vec::new(),
             call: None,
             later: Vec::new(),
+            defining: None,
             expression,
             depth: 0,
             work: 0,

@@ -124,6 +124,9 @@ impl Lowering<'_> {
         );
         known.sort_unstable();
         let help = match nearest(name, known) {
+            _ if self.defining.as_deref() == Some(name) => say!(
+                "`{name}` is what this formula gives; an equation with `{name}` on both sides is written `solve({name} == …, {name}, start)`"
+            ),
             Some(near) => say!("did you mean `{near}`?"),
             None if name == "e" => say!("write `exp(1)` for the base of natural logarithms"),
             None => say!(

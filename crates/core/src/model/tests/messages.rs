@@ -93,6 +93,7 @@ const CASES: &[(&str, &str, &str, &str, &str)] = &[
     ("solve(a == b, d, 1)", "", "M0502", "a == b", "contains `d`"),
     ("solve(a == b, a, 1)", "", "M0502", "a", "new name"),
     ("solve(d == b, 2, 1)", "", "M0502", "2", "new name"),
+    ("a / (1 + b * Y)", "", "M0201", "Y", "`solve(Y == …, Y, start)`"),
 ];
 
 #[test]

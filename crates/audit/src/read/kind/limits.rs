@@ -6,7 +6,7 @@ use crate::read::words::{figure_after, has, signed_pair};
 use super::evidence::Evidence;
 use super::family::*;
 
-pub(super) fn limits(e: &Evidence<'_>, text: &str, shape: Option<Shape>) -> Option<Stated> {
+pub(super) fn limits(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     const KEYS: &[&str] = &[
         "±",
         "+/-",
@@ -53,7 +53,7 @@ pub(super) fn limits(e: &Evidence<'_>, text: &str, shape: Option<Shape>) -> Opti
             "无置信",
         ],
     );
-    let shape = shape.or_else(|| level.then(|| Shape::Normal(normal_factor(e, text))));
+    let shape = shape(text).or_else(|| level.then(|| Shape::Normal(normal_factor(e, text))));
     Some(Stated::Limits {
         half_width,
         shape: shape.unwrap_or(Shape::Rectangular),
@@ -150,6 +150,50 @@ pub(super) fn certificate(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         expanded,
         k,
         k_stated: stated.or(head).is_some(),
+    })
+}
+
+pub(super) fn full_width(e: &Evidence<'_>, text: &str) -> Option<Stated> {
+    const KEYS: &[&str] = &[
+        "full width",
+        "total width",
+        "whole width",
+        "overall width",
+        "interval of width",
+        "full interval",
+        "width",
+        "peak-to-peak",
+        "peak to peak",
+        "全宽",
+        "总宽",
+        "宽度",
+        "峰峰值",
+        "峰-峰值",
+        "total span",
+        "span",
+    ];
+    // The ± column of a full table holds the half that was used.
+    let widths = if e.full { 2.0 } else { 1.0 };
+    let used = || e.used.map(|used| used.clone().scaled(widths));
+    let width = e.figure(KEYS).or_else(used)?;
+    let shape = shape(text).unwrap_or(Shape::Rectangular);
+    Some(Stated::FullWidth { width, shape })
+}
+
+pub(super) fn cycling(e: &Evidence<'_>) -> Option<Stated> {
+    const KEYS: &[&str] = &[
+        "amplitude",
+        "±",
+        "幅值",
+        "振幅",
+        "cycling",
+        "within",
+        "limits",
+    ];
+    Some(Stated::Limits {
+        half_width: e.figure_or_used(KEYS)?,
+        shape: Shape::Arcsine,
+        shape_stated: true,
     })
 }
 

@@ -3,6 +3,7 @@
 //! | chapter | holds |
 //! |---|---|
 //! | `evidence` | what a row says |
+//! | `subject` | what its words are about |
 //! | `family` | families of words |
 //! | `readings` | what is known from readings |
 //! | `limits` | limits, steps and certificates |
@@ -11,24 +12,26 @@ mod evidence;
 mod family;
 mod limits;
 mod readings;
+mod subject;
 
 use crate::claim::{Relative, Shape, Stated};
 use crate::printed::Printed;
 use crate::units;
 
 use super::converter;
-use super::words::{count_before, figure_after, find, has, trailing_count};
+use super::words::{figure_after, has};
 
 pub use evidence::Evidence;
 use family::*;
-use limits::{certificate, limits, shape, step, unequal};
-use readings::{count, deviation, mean};
+use limits::{certificate, cycling, full_width, limits, shape, step, unequal};
+use readings::{alike, deviation, range};
+use subject::{Subject, subject};
 
 /// What is stated, and whether it is relative.
 pub fn stated(e: &Evidence<'_>) -> (Stated, Relative) {
     let text = e.words.to_lowercase();
     let columns = e.columns.to_lowercase();
-    let stated = by_words(e, &text, &columns).or_else(|| by_columns(e, &columns));
+    let stated = by_words(e, &text).or_else(|| by_columns(e, &columns));
     let stated = stated.unwrap_or_else(|| match e.u {
         Some(u) => Stated::Standard {
             u: u.clone(),
@@ -39,135 +42,30 @@ pub fn stated(e: &Evidence<'_>) -> (Stated, Relative) {
             dof: None,
         }),
     });
-    let relative = relative(&stated, &text, e);
+    let relative = relative(&stated, &text);
     (stated, relative)
 }
 
-fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
-    // What the heads and the laboratory's columns call a distribution is its own; words decide.
-    if let Some(unequal) = unequal(e.words) {
-        return Some(unequal);
-    }
-    if let Some(step) = converter::step(e.words) {
-        return Some(Stated::Step { step });
-    }
-    let shape = shape(text);
-    if has(text, RANGE)
-        && (has(text, &["极差"]) || count(text, e).is_some())
-        && !has(text, &["full range", "measuring range"])
-    {
-        let range = e.figure_or_used(&["range method", "range r", "range", "极差"])?;
-        return Some(Stated::Range {
-            range,
-            n: count(text, e)?,
-            m: mean(text, e).unwrap_or(1.0),
-        });
-    }
-    if has(text, FULL_WIDTH) {
-        let width = e.figure(&[
-            "full width",
-            "total width",
-            "whole width",
-            "overall width",
-            "interval of width",
-            "full interval",
-            "width",
-            "peak-to-peak",
-            "peak to peak",
-            "全宽",
-            "总宽",
-            "宽度",
-            "峰峰值",
-            "峰-峰值",
-            "total span",
-            "span",
-        ]);
-        let used = || {
-            e.used.map(|used| {
-                if e.full {
-                    used.clone().scaled(2.0)
-                } else {
-                    used.clone()
-                }
-            })
-        };
-        let shape = shape.unwrap_or(Shape::Rectangular);
-        return width
-            .or_else(used)
-            .map(|width| Stated::FullWidth { width, shape });
-    }
-    if has(text, ALIKE) {
-        // No scatter: what is left is the step of the indication, which the words have.
-        return Some(Stated::Deviation {
-            s: Printed::exact(0.0, "0"),
-            n: None,
-            m: 1.0,
-            pooled: None,
-        });
-    }
-    let reading = has(text, DEVIATION)
-        || has(text, POOLED)
-        || count_before(text, &["reading", "observation"]).is_some();
-    let certified = has(text, CERTIFICATE) && !has(text, &["specification", "允许误差", "limit"]);
-    // `resolution contained in the repeatability` is about a resolution: what comes first is the subject.
-    let first = |keys: &[&str]| keys.iter().filter_map(|key| find(text, key, 0)).min();
-    let step_first = first(STEP).is_some_and(|step| {
-        first(DEVIATION).is_none_or(|s| step < s) && first(CERTIFICATE).is_none_or(|c| step < c)
-    });
-    let about_step = first(STEP)
-        .map(|at| text[at..].split([';', '(', ',']).next().unwrap_or_default())
-        .unwrap_or_default();
-    if step_first
-        && !has(
-            about_step,
-            &[
-                "half the",
-                "half of",
-                "half a step =",
-                "half step",
-                "1/2",
-                "半宽",
-                "半个",
-            ],
-        )
-    {
-        return step(e, text);
-    }
-    if certified && (!reading || first(CERTIFICATE) < first(DEVIATION)) {
-        return certificate(e, text);
-    }
-    if reading && !(has(text, LIMITS) && first(LIMITS) < first(DEVIATION)) {
-        return deviation(e, text, columns);
-    }
-    // `3 cycles` are repetitions.
-    let cycles = text.match_indices("cycle").map(|(at, _)| at);
-    let repeated = cycles
-        .chain(text.find("次循环"))
-        .any(|at| trailing_count(&text[..at]).is_some());
-    if has(text, CYCLING) && !repeated {
-        let half_width = e.figure_or_used(&[
-            "amplitude",
-            "±",
-            "幅值",
-            "振幅",
-            "cycling",
-            "within",
-            "limits",
-        ])?;
-        return Some(Stated::Limits {
-            half_width,
-            shape: Shape::Arcsine,
-            shape_stated: true,
-        });
-    }
-    if has(text, LIMITS) || shape.is_some() {
-        return limits(e, text, shape);
-    }
-    if has(text, STANDARD) {
-        let u = e.figure_or_used(STANDARD).or_else(|| e.u.cloned())?;
-        return Some(Stated::Standard { u, dof: None });
-    }
-    None
+/// What the words state. What the heads and the laboratory's columns call a distribution is its own; words decide.
+fn by_words(e: &Evidence<'_>, text: &str) -> Option<Stated> {
+    let stepped = || converter::step(e.words).map(|step| Stated::Step { step });
+    let of_subject = || match subject(e, text)? {
+        Subject::Range => range(e, text),
+        Subject::FullWidth => full_width(e, text),
+        Subject::Alike => Some(alike()),
+        Subject::Step => step(e, text),
+        Subject::Certificate => certificate(e, text),
+        Subject::Readings => deviation(e, text),
+        Subject::Cycling => cycling(e),
+        Subject::Limits => limits(e, text),
+        Subject::Standard => standard(e),
+    };
+    unequal(e.words).or_else(stepped).or_else(of_subject)
+}
+
+fn standard(e: &Evidence<'_>) -> Option<Stated> {
+    let u = e.figure_or_used(STANDARD).or_else(|| e.u.cloned())?;
+    Some(Stated::Standard { u, dof: None })
 }
 
 /// Where words say nothing, the laboratory's own columns are what there is.
@@ -184,7 +82,7 @@ fn by_columns(e: &Evidence<'_>, columns: &str) -> Option<Stated> {
         .split(|c: char| !c.is_alphanumeric())
         .any(|word| word == "a" || word == "a类" || word == "t");
     if type_a {
-        return deviation(e, "", columns);
+        return deviation(e, "");
     }
     if has(columns, NORMAL) {
         let k = figure_after(columns, &["k"]).map(|k| k.value);
@@ -223,7 +121,7 @@ fn by_columns(e: &Evidence<'_>, columns: &str) -> Option<Stated> {
     }
 }
 
-fn relative(stated: &Stated, text: &str, e: &Evidence<'_>) -> Relative {
+fn relative(stated: &Stated, text: &str) -> Relative {
     let unit = stated.figure().map_or("", |figure| figure.unit.as_str());
     let Some(fraction) = units::fraction(unit) else {
         return Relative::No;
@@ -256,7 +154,6 @@ fn relative(stated: &Stated, text: &str, e: &Evidence<'_>) -> Relative {
             "of the range",
         ],
     );
-    let _ = e;
     match full_scale {
         Some(scale) if of_full_scale => Relative::OfFullScale(fraction, scale.value),
         _ => Relative::OfValue(fraction),

@@ -57,7 +57,7 @@ const OF_SINGLE: &[&str] = &[
     "单次",
 ];
 
-pub(super) fn deviation(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
+pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     const KEYS: &[&str] = &[
         "standard deviation",
         "s_p =",
@@ -106,8 +106,25 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str, columns: &str) -> Option<S
         .or(e.mean_of)
         .or_else(|| squared.filter(|_| unsaid).map(libm::round).filter(possible))
         .unwrap_or(1.0);
-    let _ = columns;
     Some(Stated::Deviation { s, n, m, pooled })
+}
+
+pub(super) fn range(e: &Evidence<'_>, text: &str) -> Option<Stated> {
+    Some(Stated::Range {
+        range: e.figure_or_used(&["range method", "range r", "range", "极差"])?,
+        n: count(text, e)?,
+        m: mean(text, e).unwrap_or(1.0),
+    })
+}
+
+/// No scatter: what is left is the step of the indication, which the words have.
+pub(super) fn alike() -> Stated {
+    Stated::Deviation {
+        s: Printed::exact(0.0, "0"),
+        n: None,
+        m: 1.0,
+        pooled: None,
+    }
 }
 
 /// Degrees of freedom of a pooled standard deviation: as stated, or series × (readings − 1).
@@ -166,7 +183,7 @@ fn after_mean(text: &str, mean: Option<usize>) -> Option<f64> {
 }
 
 /// Readings behind the reported value.
-pub(super) fn mean(text: &str, e: &Evidence<'_>) -> Option<f64> {
+fn mean(text: &str, e: &Evidence<'_>) -> Option<f64> {
     // `取 3 次测量的平均值`: a count with 平均 behind it in the same clause.
     let chinese = || {
         let counts = text.match_indices('次').filter(|(at, _)| {

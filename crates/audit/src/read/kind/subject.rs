@@ -1,0 +1,93 @@
+//! What the words of a row are about: which kind of knowledge they state.
+
+use crate::read::words::{count_before, find, has, trailing_count};
+
+use super::evidence::Evidence;
+use super::family::*;
+use super::limits::shape;
+use super::readings::count;
+
+/// What the words of a row are about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Subject {
+    /// The range of readings.
+    Range,
+    /// A full width.
+    FullWidth,
+    /// Readings without scatter.
+    Alike,
+    /// The step of an indication.
+    Step,
+    /// A certificate.
+    Certificate,
+    /// Readings, by their standard deviation.
+    Readings,
+    /// An influence that cycles.
+    Cycling,
+    /// Limits.
+    Limits,
+    /// A standard uncertainty.
+    Standard,
+}
+
+/// What the words are about, in small letters. Of several subjects the first in the words counts: `resolution contained
+/// in the repeatability` is about a resolution.
+pub(super) fn subject(e: &Evidence<'_>, text: &str) -> Option<Subject> {
+    let first = |keys: &[&str]| keys.iter().filter_map(|key| find(text, key, 0)).min();
+    let reading = has(text, DEVIATION)
+        || has(text, POOLED)
+        || count_before(text, &["reading", "observation"]).is_some();
+    let certified = has(text, CERTIFICATE) && !has(text, &["specification", "允许误差", "limit"]);
+    if is_range(e, text) {
+        Some(Subject::Range)
+    } else if has(text, FULL_WIDTH) {
+        Some(Subject::FullWidth)
+    } else if has(text, ALIKE) {
+        Some(Subject::Alike)
+    } else if is_step(text, &first) {
+        Some(Subject::Step)
+    } else if certified && (!reading || first(CERTIFICATE) < first(DEVIATION)) {
+        Some(Subject::Certificate)
+    } else if reading && !(has(text, LIMITS) && first(LIMITS) < first(DEVIATION)) {
+        Some(Subject::Readings)
+    } else if has(text, CYCLING) && !counts_cycles(text) {
+        Some(Subject::Cycling)
+    } else if has(text, LIMITS) || shape(text).is_some() {
+        Some(Subject::Limits)
+    } else {
+        has(text, STANDARD).then_some(Subject::Standard)
+    }
+}
+
+fn is_range(e: &Evidence<'_>, text: &str) -> bool {
+    has(text, RANGE)
+        && (has(text, &["极差"]) || count(text, e).is_some())
+        && !has(text, &["full range", "measuring range"])
+}
+
+/// A step that comes before readings and certificates, and of which not the half is stated.
+fn is_step(text: &str, first: &dyn Fn(&[&str]) -> Option<usize>) -> bool {
+    const HALF: &[&str] = &[
+        "half the",
+        "half of",
+        "half a step =",
+        "half step",
+        "1/2",
+        "半宽",
+        "半个",
+    ];
+    first(STEP).is_some_and(|at| {
+        let clause = text[at..].split([';', '(', ',']).next().unwrap_or_default();
+        first(DEVIATION).is_none_or(|s| at < s)
+            && first(CERTIFICATE).is_none_or(|c| at < c)
+            && !has(clause, HALF)
+    })
+}
+
+/// `3 cycles` are repetitions.
+fn counts_cycles(text: &str) -> bool {
+    let cycles = text.match_indices("cycle").map(|(at, _)| at);
+    cycles
+        .chain(text.find("次循环"))
+        .any(|at| trailing_count(&text[..at]).is_some())
+}

@@ -13,7 +13,35 @@ pub(crate) fn parse(text: &str) -> Option<Unit> {
         return None;
     }
     let written = text.replace("Ω", "ohm").replace('⋅', "·");
-    TABLE.parse(&written).or_else(|_| TABLE.parse(text)).ok()
+    TABLE
+        .parse(&written)
+        .or_else(|_| TABLE.parse(text))
+        .or_else(|_| TABLE.parse(&with_powers(&written)))
+        .ok()
+}
+
+/// `kg/m3` as sheets write it: a digit behind a letter is a power.
+fn with_powers(text: &str) -> String {
+    let mut out = String::with_capacity(text.len() + 2);
+    for c in text.chars() {
+        if c.is_ascii_digit() && out.ends_with(char::is_alphabetic) {
+            out.push('^');
+        }
+        out.push(c);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_need_no_sign() {
+        assert_eq!(factor("kg/m3", "g/cm^3"), Some(1e-3));
+        assert_eq!(factor("mm2", "mm²"), Some(1.0));
+        assert!(parse("m_3").is_none() && parse("x1").is_none());
+    }
 }
 
 /// What a number in `from` is multiplied by to be one in `to`, as a difference; `None` where they do not agree.

@@ -185,8 +185,8 @@ impl<'s> Bench<'s> {
     /// Logarithms of the probability of this course without an effect and with the best one, for each recording of a
     /// chunk.
     fn simulated(&self, chunk: usize) -> Vec<[f64; 2]> {
-        let recordings = self.simulated.chunk(chunk);
-        let gains = self.panel.simulated(recordings, None);
+        let recordings = self.simulated.drawn(chunk);
+        let gains = self.panel.simulated(&recordings, None);
         let sums = recordings.chi_squared().iter();
         let both = sums.zip(gains).map(|(sum, [gain, _])| {
             let alone = self.course.log_prior + self.course.baseline.log_likelihood_of(*sum);

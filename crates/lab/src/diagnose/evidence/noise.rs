@@ -318,10 +318,28 @@ mod tests {
         assert!((&lower * lower.transpose() - matrix).norm() < 1e-12);
     }
 
+    /// Scaled factors of the correlation are the factors of the matrix.
     #[test]
-    fn rows_that_are_all_independent_are_groups_of_one() {
+    fn correlated_rows_may_scatter_unevenly() {
+        let matrix = DMatrix::from_fn(4, 4, |i, j| libm::pow(0.7, (i as f64 - j as f64).abs()));
+        let u = DVector::from_vec(vec![1.0, 3.0, 0.5, 2.0]);
+        let covariance = Covariance::Correlated {
+            u,
+            correlation: Arc::new(Correlation::new(matrix)),
+        };
+        let dense = Covariance::Dense(covariance.to_dense());
+        let identity = DMatrix::identity(4, 4);
+        for factor in [Factor::of, Factor::whitening] {
+            let of = |covariance: &Covariance| factor(covariance).unwrap().times(&identity);
+            assert!((of(&covariance) - of(&dense)).norm() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn rows_that_are_all_independent_have_no_groups() {
         let matrix = DMatrix::from_diagonal_element(3, 3, 4.0);
         let factor = Factor::of(&Covariance::Dense(matrix)).unwrap();
+        assert!(matches!(factor, Factor::Diagonal(_)));
         let column = DMatrix::from_element(3, 1, 2.0);
         let white = factor.inverse().unwrap().times(&column);
         assert_eq!(white, DMatrix::from_element(3, 1, 1.0));

@@ -85,19 +85,25 @@ fn main() -> Result<(), String> {
     if !options.tables {
         Study::new(&options).run()?;
     }
-    save_tables(&options.out)
+    save_tables(&options)
 }
 
-fn save_tables(out: &Path) -> Result<(), String> {
+fn save_tables(options: &Options) -> Result<(), String> {
+    let out = &options.out;
+    let sample = match options.cases {
+        CASES => String::new(),
+        some => format!("--cases {some} "),
+    };
     // From the file, so that the tables hold what anyone can read there.
     let lines = std::fs::read_to_string(out.join("diagnosis.jsonl")).map_err(|e| e.to_string())?;
     let made = format!(
-        "Made by gumption {} with `cargo run --release --example diagnosis -- --out reports` from sealed cases of `gumption \
+        "Made by gumption {} with `cargo run --release --example diagnosis -- {sample}--out reports` from sealed cases of `gumption \
          challenge` (docs/challenge.md), on rigs and instruments in turn. λ is the visible strength of an effect in standard \
          deviations of the true noise, κ what its nearest rival leaves of it: both from twin runs of the simulator, with and \
          without the effect. Rivals are every other effect of the simulator, in all its forms, and every wrong candidate of the \
          catalogue that has at most one coefficient more than the right one. Every case is a line of diagnosis.jsonl. \
-         Earlier tables: diagnosis-1.md (four rigs, the catalogue scored by slopes).",
+         Earlier tables: diagnosis-1.md (four rigs, the catalogue scored by slopes), diagnosis-2.md (noise judged before \
+         the explanation).",
         env!("CARGO_PKG_VERSION")
     );
     std::fs::write(out.join("diagnosis.md"), report(&read(&lines), &made))

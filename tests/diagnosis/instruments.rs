@@ -52,6 +52,51 @@ fn a_detector_lies_behind_its_window() {
     );
 }
 
+/// The magnitude is recorded, and one of three readings drifts.
+#[test]
+fn one_reading_of_a_triad_drifts() {
+    let mut noise = Noise(57);
+    let mut rows = "B [uT],mx [mV],my [mV],mz [mV],t [h]\n".to_owned();
+    for row in 0..60 {
+        let axis = [noise.normal(), noise.normal(), noise.normal()];
+        let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let field = 30.0 + 30.0 * noise.uniform();
+        let t = 0.02 * f64::from(row);
+        let mut reads = |at: usize, offset: f64, scale: f64| {
+            offset + scale * field * axis[at] / length + 0.2 * noise.normal()
+        };
+        let (x, y, z) = (
+            reads(0, 3.0, 20.0),
+            reads(1, -5.0, 20.6),
+            reads(2, 2.0, 19.5),
+        );
+        let y = y + 3.0 * t;
+        let _ = writeln!(rows, "{field:.4},{x:.3},{y:.3},{z:.3},{t:.2}");
+    }
+    let case = r#"
+equations = "B = sqrt(((mx - bx)/sx)^2 + ((my - by)/sy)^2 + ((mz - bz)/sz)^2)"
+[columns]
+B = "output"
+mx = "stimulus"
+my = "stimulus"
+mz = "stimulus"
+t = "time"
+[parameter]
+bx = { start = "0 mV" }
+by = { start = "0 mV" }
+bz = { start = "0 mV" }
+sx = { start = "20 mV/uT" }
+sy = { start = "20 mV/uT" }
+sz = { start = "20 mV/uT" }
+"#;
+    let found = diagnosed("magnetometer", &rows, case);
+    assert_eq!(first_names(&found), ["drift"], "{found}");
+    assert!(variant(&found, 0).starts_with("my"), "{found}");
+    // What has to be added to the reading takes the drift away.
+    let (estimate, u) = size(&found);
+    assert!((estimate + 3.0).abs() < 4.0 * u, "{estimate} ± {u}");
+}
+
 #[test]
 fn a_stopwatch_starts_late() {
     let mut noise = Noise(32);

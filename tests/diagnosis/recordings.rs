@@ -195,14 +195,34 @@ fn names(effect: &Value, key: &str) -> Vec<String> {
             one["u"][0].as_f64(),
             list(&one["size"]).len(),
         ) {
-            (Some(size), Some(u), 1) => format!(
-                "{name} ({size:.4} ± {u:.2} of {})",
-                one["terms"][0]["unit"].as_str().unwrap_or("1")
-            ),
+            (Some(size), Some(u), 1) => {
+                let unit = one["terms"][0]["unit"].as_str().unwrap_or("1");
+                let unit = if unit == "1" { "" } else { unit };
+                format!("{name} ({})", with_unit(size, u, unit))
+            }
             _ => name.to_owned(),
         }
     };
     list(&effect[key]).iter().map(name).collect()
+}
+
+/// A size with two digits of its uncertainty.
+fn with_unit(size: f64, u: f64, unit: &str) -> String {
+    /// More zeros behind the point are a power of ten.
+    const MOST: f64 = 6.0;
+    let place = |x: f64| x.abs().log10().floor();
+    let power = match place(u) < 2.0 - MOST {
+        true => place(size.abs().max(u)),
+        false => 0.0,
+    };
+    let factor = 10_f64.powf(power);
+    let decimals = (1.0 - place(u / factor)).clamp(0.0, MOST) as usize;
+    let (size, u) = (size / factor, u / factor);
+    let text = match power == 0.0 {
+        true => format!("{size:.decimals$} ± {u:.decimals$} {unit}"),
+        false => format!("({size:.decimals$} ± {u:.decimals$})·10^{power} {unit}"),
+    };
+    text.trim_end().to_owned()
 }
 
 /// What is beyond doubt.
@@ -235,6 +255,13 @@ fn untold(said: &Value) -> Vec<String> {
                 "whether it is {} or something unlisted of similar shape",
                 either()
             )),
+            "unexplained" if list(&effect["unnamed"]).is_empty() => {
+                let name = either();
+                lines.push(match name.is_empty() {
+                    true => "what remains besides".into(),
+                    false => format!("whether it is {name}"),
+                });
+            }
             "unexplained" => lines.push(format!(
                 "what it is: {}",
                 names(effect, "unnamed").join(", ")

@@ -123,20 +123,21 @@ impl<'f> Candidates<'f> {
         Ok((contest.p, claimed))
     }
 
-    /// What is found when noise and effects are estimated in turn, from this noise on, with the noise in the end.
+    /// What is found when noise and effects are estimated in turn, from this noise on and what is found with it, and the noise
+    /// in the end.
     ///
     /// # Errors
     /// When the work was stopped.
     pub(super) fn in_turn(
         &mut self,
         mut claimed: Claimed,
+        (mut baseline, mut examination): (Baseline, Examination),
         settings: &evidence::Settings,
         courses: Option<&Courses>,
         progress: &dyn Fn(f64) -> ControlFlow<()>,
     ) -> Result<(Baseline, Examination, Claimed), Failure> {
         /// So often.
         const ROUNDS: u8 = 3;
-        let (mut baseline, mut examination) = self.ask(&claimed, settings, progress)?;
         for _ in 0..ROUNDS {
             let atoms = |of: &Examination| of.fitted.as_ref().map(|fitted| fitted.atoms.clone());
             let before = atoms(&examination);

@@ -1,11 +1,13 @@
 //! What is claimed about the noise, for every observation.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::at_rest;
 use super::case::{Case, NoiseClaim, NoiseOrigin, RestReadings, Role, hours};
 use super::design::Design;
-use super::evidence::{self, Covariance, Noise};
+use super::evidence::{self, Correlation, Covariance, Noise};
 use super::fit::{self, Fit, NoFit};
 use super::noise_correlation::{Correlated, Courses, Memory};
 use super::noise_growth::{self, Growth, Spread};
@@ -75,18 +77,18 @@ impl Claimed {
                 ..Noise::with_scale_dof(diagonal(&self.u), self.dof)
             };
         };
-        let scaled = |matrix: &DMatrix<f64>, u: &DVector<f64>| {
-            let of = |i: usize, j: usize| u[i] * u[j] * matrix[(i, j)];
-            Covariance::Dense(DMatrix::from_fn(matrix.nrows(), matrix.ncols(), of))
+        let scaled = |correlation: &Arc<Correlation>, u: &DVector<f64>| Covariance::Correlated {
+            u: u.clone(),
+            correlation: Arc::clone(correlation),
         };
-        let draw = |(at, matrix): (usize, &DMatrix<f64>)| {
+        let draw = |(at, draw): (usize, &Arc<Correlation>)| {
             // The two are open independently of each other: a step that meets every pair.
             let u = self.draws.get((7 * at) % self.draws.len().max(1));
-            scaled(matrix, u.unwrap_or(&self.u))
+            scaled(draw, u.unwrap_or(&self.u))
         };
         Noise {
             draws: correlated.draws.iter().enumerate().map(draw).collect(),
-            ..Noise::with_scale_dof(scaled(&correlated.matrix, &self.u), self.dof)
+            ..Noise::with_scale_dof(scaled(&correlated.correlation, &self.u), self.dof)
         }
     }
 
@@ -112,6 +114,21 @@ impl Claimed {
             correlated: None,
             ..self.clone()
         }
+    }
+
+    /// Whether a recording seen with either says the same: where the size of the noise is not claimed, only the ratios of
+    /// its standard uncertainties matter.
+    pub fn weighs_alike(&self, other: &Claimed) -> bool {
+        /// What rounding makes of equal ratios.
+        const ROUNDING: f64 = 1e-9;
+        if !self.is_estimated() || !other.is_estimated() {
+            return self == other;
+        }
+        let ratio = self.u[0] / other.u[0];
+        let mut pairs = self.u.iter().zip(&other.u);
+        let is_scaled = |(own, other): (&f64, &f64)| (own / other / ratio - 1.0).abs() < ROUNDING;
+        let is_steady = self.draws.is_empty() && other.draws.is_empty();
+        is_steady && self.correlated == other.correlated && pairs.all(is_scaled)
     }
 
     /// Whether the size of the noise follows from the residuals alone.
@@ -381,8 +398,8 @@ fn in_time(
     let draws = (0..REST_DRAWS).map(|draw| over_u(assembled(&|noise| &noise.draws[draw])));
     Some(Claimed {
         correlated: Some(Correlated {
-            draws: draws.collect(),
-            matrix: over_u(mean),
+            draws: draws.map(|draw| Arc::new(Correlation::new(draw))).collect(),
+            correlation: Arc::new(Correlation::new(over_u(mean))),
             memory: Memory::Claimed,
             unit: String::new(),
             log_prior: 0.0,
@@ -418,7 +435,7 @@ fn walking(design: &Design<'_>, walk: &[f64], claimed: &Claimed) -> Option<Claim
     let matrix = DMatrix::from_fn(count, count, |a, b| covariance(a, b) / (u[a] * u[b]));
     Some(Claimed {
         correlated: Some(Correlated {
-            matrix,
+            correlation: Arc::new(Correlation::new(matrix)),
             draws: Vec::new(),
             memory: Memory::Claimed,
             unit: String::new(),

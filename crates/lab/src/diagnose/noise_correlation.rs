@@ -6,12 +6,14 @@
 //! have the same standard deviation in every row, so that a stated one stays true. Beforehand white noise is as likely as
 //! all others together.
 
+use std::sync::Arc;
+
 use nalgebra::DMatrix;
 
 use super::catalogue::FittedModel;
 use super::chance::in_proportion;
 use super::design::Design;
-use super::evidence::{self, Noise, Refusal};
+use super::evidence::{self, Correlation, Noise, Refusal};
 use super::fit::Fit;
 use super::reduced::reduced;
 
@@ -33,9 +35,9 @@ const RATIO: f64 = 3.0;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correlated {
     /// Correlation matrix of the observations.
-    pub matrix: DMatrix<f64>,
+    pub correlation: Arc<Correlation>,
     /// Other matrices that the recording allows, as likely as they occur.
-    pub draws: Vec<DMatrix<f64>>,
+    pub draws: Vec<Arc<Correlation>>,
     /// Its law, where it was found in the recording.
     pub memory: Memory,
     /// The unit of its times.
@@ -67,11 +69,10 @@ pub enum Memory {
 
 /// What the noise of a recording may be.
 pub(super) struct Courses {
-    responses: usize,
     /// The unit of their times.
     unit: String,
     /// The first is white.
-    all: Vec<(Memory, DMatrix<f64>)>,
+    all: Vec<(Memory, Arc<Correlation>)>,
 }
 
 impl Courses {
@@ -103,10 +104,11 @@ impl Courses {
                 true => 1.0,
                 false => of((times[i] - times[j]).abs()),
             };
-            (law, DMatrix::from_fn(size, size, rows))
+            let own = DMatrix::from_fn(size, size, rows);
+            let whole = of_all(&own, design.case.responses.len());
+            (law, Arc::new(Correlation::new(whole)))
         };
         (interval > 0.0).then(|| Courses {
-            responses: design.case.responses.len(),
             unit: fitted.time_unit(),
             all: laws.map(matrix).collect(),
         })
@@ -122,7 +124,7 @@ impl Courses {
         fit: &Fit,
         noise_with: &dyn Fn(Option<Correlated>) -> Noise,
     ) -> Result<Vec<evidence::Course>, Refusal> {
-        let course = |(at, (law, _)): (usize, &(Memory, DMatrix<f64>))| {
+        let course = |(at, (law, _)): (usize, &(Memory, Arc<Correlation>))| {
             let correlated = (*law != Memory::White).then(|| self.correlated(at, Vec::new()));
             let noise = noise_with(correlated);
             let baseline = reduced(design, fit, &noise)?;
@@ -148,13 +150,14 @@ impl Courses {
             true => 0,
             false => weights.iter().position(|weight| *weight >= 1.0)?,
         };
-        let draws = drawn.into_iter().map(|at| self.whole(*at)).collect();
+        let whole = |at: &usize| Arc::clone(&self.all[*at].1);
+        let draws = drawn.into_iter().map(whole).collect();
         Some(self.correlated(best, draws))
     }
 
-    fn correlated(&self, at: usize, draws: Vec<DMatrix<f64>>) -> Correlated {
+    fn correlated(&self, at: usize, draws: Vec<Arc<Correlation>>) -> Correlated {
         Correlated {
-            matrix: self.whole(at),
+            correlation: Arc::clone(&self.all[at].1),
             draws,
             memory: self.all[at].0,
             unit: self.unit.clone(),
@@ -169,18 +172,17 @@ impl Courses {
             _ => -libm::log((self.all.len() - 1).max(1) as f64),
         }
     }
+}
 
-    /// The matrix of all observations; responses are independent of each other.
-    fn whole(&self, at: usize) -> DMatrix<f64> {
-        let own = &self.all[at].1;
-        let size = own.nrows();
-        let mut whole = DMatrix::zeros(size * self.responses, size * self.responses);
-        for response in 0..self.responses {
-            let first = response * size;
-            whole.view_mut((first, first), (size, size)).copy_from(own);
-        }
-        whole
+/// The matrix of all observations; responses are independent of each other.
+fn of_all(own: &DMatrix<f64>, responses: usize) -> DMatrix<f64> {
+    let size = own.nrows();
+    let mut whole = DMatrix::zeros(size * responses, size * responses);
+    for response in 0..responses {
+        let first = response * size;
+        whole.view_mut((first, first), (size, size)).copy_from(own);
     }
+    whole
 }
 
 impl Memory {

@@ -153,7 +153,7 @@ fn drawn(claimed: &Claimed, case: &Case, seed: u64) -> DVector<f64> {
         streams.flat_map(|response| chance::numbers(seed, response, case.rows, normals));
     let independent = DVector::from_vec(independent.collect());
     let factor = claimed.correlated.as_ref();
-    let factor = factor.and_then(|correlated| correlated.matrix.clone().cholesky());
+    let factor = factor.and_then(|correlated| correlated.correlation.matrix().clone().cholesky());
     let errors = match factor {
         Some(factor) => factor.l() * independent,
         None => independent,

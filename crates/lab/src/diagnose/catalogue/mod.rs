@@ -42,6 +42,7 @@ mod inputs;
 mod levels;
 mod limits;
 pub(super) mod modifiers;
+mod norm;
 mod parameters;
 mod powers;
 mod readout;
@@ -342,6 +343,9 @@ pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     cells.extend(stem::cells(fitted));
     cells.extend(heating::cells(fitted));
     cells.extend(user::cells(fitted));
+    if let Some(norm) = norm::Norm::of(fitted) {
+        norm.spread(fitted, &mut cells);
+    }
     let settings = &fitted.design.case.settings;
     let wanted = |cell: &Cell| {
         let effect = cell.effect;

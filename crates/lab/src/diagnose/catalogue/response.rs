@@ -6,6 +6,7 @@ use super::fitted::{FittedModel, Node};
 use super::modifiers::{
     creeps, delayed, figure, five_digits, grid, late, levels_of, map, map2, mean, range, rate,
 };
+use super::norm::Norm;
 use super::powers::Power;
 use super::sharp::{best_pair, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
@@ -20,7 +21,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         .filter(|c| fitted.in_model(*c))
         .collect();
     let implicit = (0..fitted.case().responses.len()).all(|r| fitted.is_implicit(r));
-    if implicit {
+    if implicit || Norm::of(fitted).is_some() {
         return super::implicit::cells(fitted, &used);
     }
     // A factor of a product is not what an axis takes in; it may act on the offset all the same.

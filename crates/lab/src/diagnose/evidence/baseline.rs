@@ -1,5 +1,7 @@
 //! Whitening, projection, and what the data say of the declared parameters.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::noise::{Covariance, Factor, Noise};
@@ -23,7 +25,7 @@ pub struct Baseline {
     /// W = L⁻¹.
     whitener: Factor,
     /// Factors of the draws of the covariance matrix.
-    draws: Vec<Factor>,
+    draws: Vec<Arc<Factor>>,
     scale_dof: f64,
     /// Q of WJ, (n + k) × p.
     absorbed: DMatrix<f64>,
@@ -66,12 +68,8 @@ impl Baseline {
         let (rows, parameters) = jacobian.shape();
         check_sizes(jacobian, residuals, noise, prior)?;
         check_finite(jacobian, residuals, prior)?;
-        let whitener = Factor::of(&noise.covariance)?.inverse()?;
-        let draws = noise
-            .draws
-            .iter()
-            .map(Factor::of)
-            .collect::<Result<Vec<Factor>, Refusal>>()?;
+        let whitener = Factor::whitening(&noise.covariance)?;
+        let draws = factors(&noise.draws)?;
         let total = rows + prior.residuals.len();
         if total <= parameters {
             return Err(Refusal::NoFreedom {
@@ -212,7 +210,7 @@ impl Baseline {
     }
 
     /// With other draws of the covariance matrix, as L with Σ = LLᵀ.
-    pub(super) fn with_draws(self, draws: Vec<Factor>) -> Baseline {
+    pub(super) fn with_draws(self, draws: Vec<Arc<Factor>>) -> Baseline {
         Baseline { draws, ..self }
     }
 
@@ -238,6 +236,20 @@ impl Baseline {
     }
 }
 
+/// Factors of covariance matrices; those that follow their like share its factor.
+fn factors(draws: &[Covariance]) -> Result<Vec<Arc<Factor>>, Refusal> {
+    let mut found: Vec<Arc<Factor>> = Vec::new();
+    for (at, draw) in draws.iter().enumerate() {
+        let like = found.last().filter(|_| draws[at - 1] == *draw);
+        let factor = match like {
+            Some(factor) => Arc::clone(factor),
+            None => Arc::new(Factor::of(draw)?),
+        };
+        found.push(factor);
+    }
+    Ok(found)
+}
+
 fn check_sizes(
     jacobian: &DMatrix<f64>,
     residuals: &DVector<f64>,
@@ -246,13 +258,7 @@ fn check_sizes(
 ) -> Result<(), Refusal> {
     let (rows, parameters) = jacobian.shape();
     let sizes = |what| Err(Refusal::Sizes { what });
-    let fits = |covariance: &Covariance| {
-        covariance.rows() == rows
-            && match covariance {
-                Covariance::Diagonal(_) => true,
-                Covariance::Dense(matrix) => matrix.is_square(),
-            }
-    };
+    let fits = |covariance: &Covariance| covariance.rows() == rows && covariance.is_square();
     if residuals.len() != rows {
         return sizes("residuals");
     }

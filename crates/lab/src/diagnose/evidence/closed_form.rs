@@ -107,6 +107,12 @@ impl Ladder {
         self.eigenvalues.iter().map(|e| e.sqrt()).collect()
     }
 
+    /// What [`Ladder::log_bayes_factor`] is at most, whatever the sizes of the single components.
+    pub(super) fn at_most(&self, sum_of_squares: f64, rss: f64, scale: Scale) -> f64 {
+        let least = self.steps.first().map_or(0.0, |step| step.half_log_det);
+        shrunk(sum_of_squares, least, rss, scale)
+    }
+
     /// Logarithm of the Bayes factor against none, given the squared components of the residuals along
     /// the directions and the sum of squares `rss`.
     pub(super) fn log_bayes_factor(

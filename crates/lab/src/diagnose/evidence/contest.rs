@@ -4,6 +4,10 @@
 //! an effect and with the best one. The gain by the best effect, both maximised over the courses, is compared with what
 //! recordings have that nothing but noise of the likely courses made: with the same choice of course and effect in each.
 
+use std::sync::Arc;
+
+use gumption_lanes::LANES;
+
 use super::baseline::Baseline;
 use super::closed_form::Scale;
 use super::detection::Panel;
@@ -11,7 +15,8 @@ use super::noise::{Covariance, Factor};
 use super::null::{Simulated, side_by_side};
 use super::question::{Atom, Candidate, Question, Settings};
 use super::refusal::Refusal;
-use super::space::Space;
+use super::sequential::{is_settled, look};
+use super::space::{Frame, Space};
 use crate::diagnose::chance::in_proportion;
 
 /// Simulated recordings behind the probability, at most: at 1 % its standard error is 0.3 %.
@@ -27,7 +32,7 @@ pub struct Course {
     /// The residuals, whitened.
     pub baseline: Baseline,
     /// The covariance matrix as L with Σ = LLᵀ.
-    lower: Factor,
+    lower: Arc<Factor>,
     /// Logarithm of its probability beforehand.
     pub log_prior: f64,
 }
@@ -53,7 +58,7 @@ impl Course {
         covariance: &Covariance,
         log_prior: f64,
     ) -> Result<Course, Refusal> {
-        let lower = Factor::of(covariance)?;
+        let lower = Arc::new(Factor::of(covariance)?);
         Ok(Course {
             baseline,
             lower,
@@ -71,6 +76,8 @@ impl Course {
 struct Seen<'c> {
     course: &'c Course,
     space: Space,
+    /// No effect.
+    frame: Frame,
     question: Question<'c>,
     alone: f64,
     with: f64,
@@ -89,14 +96,14 @@ pub fn contest(
     let alone: Vec<f64> = courses.iter().map(Course::log_posterior).collect();
     let top = maximum(&alone);
     let weights: Vec<f64> = alone.iter().map(|l| libm::exp(l - top)).collect();
-    let null: Vec<Factor> = in_proportion(courses, &weights, COURSES)
+    let null: Vec<Arc<Factor>> = in_proportion(courses, &weights, COURSES)
         .into_iter()
-        .map(|course| course.lower.clone())
+        .map(|course| Arc::clone(&course.lower))
         .collect();
     let simulated: Vec<Baseline> = (courses.iter())
         .map(|course| course.baseline.clone().with_draws(null.clone()))
         .collect();
-    let look = |at: usize| -> Result<Seen<'_>, Refusal> {
+    let see = |at: usize| -> Result<Seen<'_>, Refusal> {
         let question = Question {
             baseline: &simulated[at],
             candidates,
@@ -111,10 +118,11 @@ pub fn contest(
             alone: alone[at],
             with: alone[at] + gain.max(0.0),
             space,
+            frame,
             question,
         })
     };
-    let seen: Vec<Seen<'_>> = side_by_side(courses.len(), look)
+    let seen: Vec<Seen<'_>> = side_by_side(courses.len(), see)
         .into_iter()
         .collect::<Result<_, _>>()?;
     let with: Vec<f64> = seen.iter().map(|one| one.with).collect();
@@ -122,44 +130,69 @@ pub fn contest(
     let likely =
         |one: &&Seen<'_>| one.alone > top - HOPELESS || one.with > maximum(&with) - HOPELESS;
     let likely: Vec<&Seen<'_>> = seen.iter().filter(likely).collect();
-    let each = side_by_side(likely.len(), |at| likely[at].simulated());
-    let draws = each.first().map_or(0, Vec::len);
-    let gain = |draw: usize| {
-        let best = |of: fn(&[f64; 2]) -> f64| {
-            each.iter()
-                .map(|own| of(&own[draw]))
-                .fold(f64::NEG_INFINITY, f64::max)
-        };
-        best(|[_, with]| *with) - best(|[alone, _]| *alone)
-    };
-    let as_much = (0..draws).filter(|draw| gain(*draw) >= observed).count();
-    Ok(Contest {
-        p: (as_much + 1) as f64 / (draws + 1) as f64,
-        alone,
-        with,
-    })
+    let benches: Vec<Bench<'_>> = likely.iter().map(|one| Bench::new(one)).collect();
+    let p = probability(&benches, observed, settings);
+    Ok(Contest { p, alone, with })
 }
 
-impl Seen<'_> {
-    /// Logarithms of the probability of this course without an effect and with the best one, for each simulated
-    /// recording.
-    fn simulated(&self) -> Vec<[f64; 2]> {
-        let settings = &self.question.settings;
+/// Probability that the best effect gains as much in recordings with nothing but noise, the course chosen anew in each.
+fn probability(benches: &[Bench<'_>], observed: f64, settings: &Settings) -> f64 {
+    let look = look(settings.alpha);
+    let chunks = settings.draws.min(DRAWS).div_ceil(LANES).max(1);
+    let (mut as_much, mut draws) = (0, 0);
+    for start in (0..chunks).step_by(look) {
+        let count = look.min(chunks - start);
+        // All courses of one chunk, then those of the next.
+        let each = side_by_side(count * benches.len(), |at| {
+            benches[at % benches.len()].simulated(start + at / benches.len())
+        });
+        for chunk in each.chunks(benches.len()) {
+            let gain = |draw: usize| {
+                let best = |which: usize| {
+                    let own = chunk.iter().map(|own| own[draw][which]);
+                    own.fold(f64::NEG_INFINITY, f64::max)
+                };
+                best(1) - best(0)
+            };
+            as_much += (0..LANES).filter(|draw| gain(*draw) >= observed).count();
+            draws += LANES;
+        }
+        if is_settled(as_much, draws, settings.alpha) {
+            break;
+        }
+    }
+    (as_much + 1) as f64 / (draws + 1) as f64
+}
+
+/// A course with recordings to try it on.
+struct Bench<'s> {
+    course: &'s Course,
+    simulated: Simulated<'s>,
+    panel: Panel<'s>,
+}
+
+impl<'s> Bench<'s> {
+    fn new(seen: &'s Seen<'_>) -> Bench<'s> {
+        let settings = &seen.question.settings;
         let draws = settings.draws.min(DRAWS);
-        let simulated = Simulated::new(self.question.baseline, &self.space, settings.seed, draws);
-        let frame = self.space.empty();
-        let panel = Panel::new(&self.space, &self.question, &frame);
-        let chunk = |index: usize| {
-            let recordings = simulated.chunk(index);
-            let gains = panel.simulated(recordings, None);
-            let sums = recordings.chi_squared().iter();
-            let both = sums.zip(gains).map(|(sum, [gain, _])| {
-                let alone = self.course.log_prior + self.course.baseline.log_likelihood_of(*sum);
-                [alone, alone + gain.max(0.0)]
-            });
-            both.collect::<Vec<_>>()
-        };
-        (0..simulated.chunks()).flat_map(chunk).collect()
+        Bench {
+            course: seen.course,
+            simulated: Simulated::new(seen.question.baseline, &seen.space, settings.seed, draws),
+            panel: Panel::new(&seen.space, &seen.question, &seen.frame),
+        }
+    }
+
+    /// Logarithms of the probability of this course without an effect and with the best one, for each recording of a
+    /// chunk.
+    fn simulated(&self, chunk: usize) -> Vec<[f64; 2]> {
+        let recordings = self.simulated.drawn(chunk);
+        let gains = self.panel.simulated(&recordings, None);
+        let sums = recordings.chi_squared().iter();
+        let both = sums.zip(gains).map(|(sum, [gain, _])| {
+            let alone = self.course.log_prior + self.course.baseline.log_likelihood_of(*sum);
+            [alone, alone + gain.max(0.0)]
+        });
+        both.collect()
     }
 }
 

@@ -6,20 +6,13 @@
 
 use std::collections::BTreeMap;
 
-use gumption_lanes::LANES;
-
+use super::departure;
 use super::null::{Recordings, Simulated, side_by_side};
 use super::pairs::Pairs;
 use super::question::{Kind, Question};
 use super::remainders::Remainders;
+use super::sequential::{is_settled, look};
 use super::space::{Frame, Space};
-
-/// Draws after which a p-value far above the limit is good enough.
-const FIRST_LOOK: usize = 512;
-/// "Far above": this many times α.
-const HOPELESS: f64 = 10.0;
-/// A statistic that exceeds all of the first draws by this logarithm of odds will exceed the others.
-const OUTSTANDING: f64 = 10.0;
 
 /// What the test says.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,11 +24,13 @@ pub(super) struct Outcome {
     pub(super) draws: usize,
 }
 
-/// Tests for a further effect beside a set; with `pairs`, also for two effects that mask each other.
+/// Tests for a further effect beside a set; with `pairs`, also for two effects that mask each other. The effects of the set
+/// may depart from their forms by a share of themselves: what that gives to the statistic is taken from it.
 pub(super) fn test(
     space: &Space,
     question: &Question,
     frame: &Frame,
+    share: f64,
     pairs: Option<&Pairs>,
     simulated: &Simulated,
 ) -> Outcome {
@@ -51,24 +46,21 @@ pub(super) fn test(
     };
     let alpha = question.settings.alpha;
     let observed = [
-        statistic,
+        statistic - departure::left(share, space.strength(frame)),
         pairs.map_or(f64::NEG_INFINITY, |pairs| pairs.observed(space)),
     ];
-    let chunks = simulated.chunks();
+    let (chunks, look) = (simulated.chunks(), look(alpha));
     let mut draws: Vec<[f64; 2]> = Vec::new();
-    let first = chunks.min(FIRST_LOOK / LANES);
     let mut p = 1.0;
-    for range in [0..first, first..chunks] {
-        let start = range.start;
-        draws.extend(
-            side_by_side(range.len(), |i| {
-                panel.simulated(simulated.chunk(start + i), pairs)
-            })
-            .into_iter()
-            .flatten(),
-        );
-        p = combined(observed, &draws);
-        if p > HOPELESS * alpha || (p <= alpha && outstanding(observed, &draws)) {
+    for start in (0..chunks).step_by(look) {
+        let count = look.min(chunks - start);
+        let found = side_by_side(count, |i| {
+            panel.simulated(simulated.chunk(start + i), pairs)
+        });
+        draws.extend(found.into_iter().flatten());
+        let as_well = as_well_placed(observed, &draws);
+        p = as_well as f64 / (draws.len() + 1) as f64;
+        if is_settled(as_well - 1, draws.len(), alpha) {
             break;
         }
     }
@@ -80,18 +72,14 @@ pub(super) fn test(
     }
 }
 
-/// Whether one of the statistics exceeds all draws by far.
-fn outstanding(observed: [f64; 2], draws: &[[f64; 2]]) -> bool {
-    (0..2).any(|which| {
-        let most = draws.iter().map(|draw| draw[which]);
-        let most = most.fold(f64::NEG_INFINITY, f64::max);
-        most.is_finite() && observed[which] > most + OUTSTANDING
-    })
-}
-
 /// Probability that the better placed of the two statistics is placed as well, by ranks among the
 /// draws and the observation: exact, however the two depend on each other.
 pub(super) fn combined(observed: [f64; 2], draws: &[[f64; 2]]) -> f64 {
+    as_well_placed(observed, draws) as f64 / (draws.len() + 1) as f64
+}
+
+/// The draws in which the better placed of the two is placed as well, with the observation itself.
+fn as_well_placed(observed: [f64; 2], draws: &[[f64; 2]]) -> usize {
     let pool = || std::iter::once(&observed).chain(draws);
     let ranks: Vec<Vec<usize>> = (0..2)
         .map(|which| {
@@ -104,8 +92,7 @@ pub(super) fn combined(observed: [f64; 2], draws: &[[f64; 2]]) -> f64 {
         .collect();
     let better = |i: usize| ranks[0][i].min(ranks[1][i]);
     let own = better(0);
-    let total = draws.len() + 1;
-    (0..total).filter(|i| better(*i) <= own).count() as f64 / total as f64
+    (0..=draws.len()).filter(|i| better(*i) <= own).count()
 }
 
 /// All blocks that may be left beside a set, side by side.
@@ -198,6 +185,10 @@ impl<'a> Panel<'a> {
             let odds = self.beside.log_odds(rest);
             for (lane, place) in out.iter_mut().enumerate() {
                 let squares = (0..turned.ncols()).map(|k| turned[(lane, k)] * turned[(lane, k)]);
+                // What cannot be the most need not be known.
+                if rest.at_most(squares.clone().sum(), &residuals[lane]) + odds <= place[0] {
+                    continue;
+                }
                 let value = rest.evidence(squares, &residuals[lane]) + odds;
                 place[0] = place[0].max(value);
             }

@@ -121,7 +121,7 @@ pub fn examine(
     if matches!(
         verdict,
         Verdict::Partly | Verdict::Contested | Verdict::Unexplained
-    ) && let Some((core, found)) = alike(&space, question, &search, &named, &again)
+    ) && let Some((core, found)) = alike(&space, question, &search, &named, &again, &simulated)
     {
         (named, slots) = (core, found);
         verdict = self::verdict(&slots, 1.0);
@@ -158,6 +158,13 @@ pub fn examine(
 }
 
 impl Examination {
+    /// Something else gives as much with this probability: no smaller one is told.
+    pub fn doubted(&mut self, p: f64) {
+        if let Some(first) = self.levels.first_mut() {
+            first.p = first.p.max(p);
+        }
+    }
+
     /// Takes all names away: the model with them predicts worse than without.
     pub fn refute(&mut self) {
         for slot in &mut self.slots {

@@ -1,18 +1,16 @@
 //! How much a name says: that it is this effect, or that it acts like it.
 
-use nalgebra::DMatrix;
-
+use super::departure::LIKENESS;
+use super::detection;
 use super::findings::{Slot, State};
+use super::null::Simulated;
 use super::question::Question;
-use super::remainders::{Remainder, Remainders};
 use super::search::Search;
 use super::slots::{Explanation, slots};
 use super::space::Space;
 use super::unlisted::Restated;
 
-/// An effect whose form departs from that of the catalogue by this share is still that effect …
-const DEPARTURE: f64 = 0.3;
-/// … and the departure is seen from so many standard deviations on.
+/// A departure that makes an effect another is seen from so many standard deviations on.
 const SEEN: f64 = 4.0;
 
 /// The explanation by one or two effects, named or tentative, whose form is off by less than makes it another: beside them
@@ -23,16 +21,19 @@ pub(super) fn alike(
     search: &Search,
     named: &[usize],
     again: &Restated,
+    simulated: &Simulated,
 ) -> Option<(Vec<usize>, Vec<Slot>)> {
     let strength = |block: &usize| {
         let places = space.places(*block);
         space.components.rows(places.start, places.len()).norm()
     };
-    let strongest = (named.iter().copied()).max_by(|a, b| strength(a).total_cmp(&strength(b)));
-    let sets = [named.to_vec(), strongest.into_iter().collect()];
-    let is_whole =
-        |set: &Vec<usize>| (1..=2).contains(&set.len()) && departs_little(space, question, set);
-    let core = sets.into_iter().find(is_whole)?;
+    let mut strongest_first = named.to_vec();
+    strongest_first.sort_by(|a, b| strength(b).total_cmp(&strength(a)));
+    let sets = [2, 1].into_iter().filter(|count| *count <= named.len());
+    let mut sets = sets.map(|count| &strongest_first[..count]);
+    let core = sets.find(|set| departs_little(space, question, set, simulated))?;
+    let mut core = core.to_vec();
+    core.sort_unstable();
     let explanation = Explanation {
         named: core.clone(),
         generic: None,
@@ -50,22 +51,17 @@ pub(super) fn alike(
     (slots.iter().any(|slot| !slot.named.is_empty())).then_some((core, slots))
 }
 
-/// Whether what anything finds beside a set is no more than a departure of its effects from their form leaves: twice the
-/// logarithm of its Bayes factor against the reduction of χ² by the set.
-fn departs_little(space: &Space, question: &Question, set: &[usize]) -> bool {
-    let Some(frame) = space.frame(set) else {
-        return false;
-    };
-    let beside = Remainders::new(space, question, &frame);
-    let observed = beside.observed();
-    let found = |rest: &Remainder| {
-        let own = beside.components(rest, &observed);
-        rest.evidence(own.iter().map(|c| c * c), &beside.residual)
-    };
-    let most = beside.rests.iter().map(found).fold(0.0, f64::max);
-    let empty = DMatrix::zeros(space.z.len(), 0);
-    let sigma = space.sigma(frame.basis.ncols(), &frame.basis, &empty);
-    2.0 * most <= DEPARTURE * DEPARTURE * frame.fit / (sigma * sigma)
+/// Whether anything stands out beside a set by more than a departure of its effects from their forms leaves.
+fn departs_little(
+    space: &Space,
+    question: &Question,
+    set: &[usize],
+    simulated: &Simulated,
+) -> bool {
+    space.frame(set).is_some_and(|frame| {
+        let beside = detection::test(space, question, &frame, LIKENESS, None, simulated);
+        beside.p > question.settings.alpha
+    })
 }
 
 /// A name is more than a likeness where a departure from its shape would have been seen, and where it is not the like of what
@@ -74,8 +70,7 @@ pub(super) fn graded(slots: &mut [Slot]) {
     let strength = |slot: &Slot| slot.named.first().map_or(0.0, |first| first.lambda);
     let strongest = slots.iter().map(strength).fold(0.0, f64::max);
     for slot in slots {
-        let is_severe =
-            strength(slot) * DEPARTURE >= SEEN && strength(slot) >= DEPARTURE * strongest;
+        let is_severe = strength(slot) * LIKENESS >= SEEN && strength(slot) >= LIKENESS * strongest;
         if slot.state == State::Identified && !is_severe {
             slot.state = State::Like;
         }

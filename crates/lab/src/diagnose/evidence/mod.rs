@@ -35,6 +35,7 @@
 //! | `space` | atoms as directions in the space of z, and sets of them |
 //! | `remainders` | all directions beside a set |
 //! | `null` | simulated recordings that the model alone explains |
+//! | `departure` | how far the form of an effect may depart from that of the catalogue |
 //! | `detection` | the test whether an effect is left |
 //! | `contest` | correlated noise as the rival of every effect |
 //! | `pairs` | two effects that mask each other |
@@ -42,6 +43,7 @@
 //! | `slots` | which candidates could stand for each effect |
 //! | `grades` | whether a name is more than a likeness |
 //! | `choice` | what sizes owe to the choice between explanations of the others |
+//! | `sequential` | simulated tests that end when they are settled |
 //! | `selection` | what sizes owe to having been found |
 //! | `fit` | estimates, strength, distance to rivals |
 //! | `look_alikes` | effects that are the shape of another, aliases, mixtures |
@@ -62,6 +64,7 @@ mod choice;
 mod closed_form;
 mod confusion;
 mod contest;
+mod departure;
 mod detection;
 mod directions;
 mod examine;
@@ -81,6 +84,7 @@ mod remainders;
 mod search;
 mod selection;
 mod separate;
+mod sequential;
 mod slots;
 mod space;
 mod unlisted;
@@ -94,7 +98,7 @@ pub use findings::{
     Verdict,
 };
 pub use locate::{Cell, Located, locate};
-pub use noise::{Covariance, Noise};
+pub use noise::{Correlation, Covariance, Noise};
 pub use omitted::omitted;
 pub use plan::{Pair, Plan, Seen, visibility};
 pub use question::{Atom, Candidate, Kind, Place, Question, Settings, Shape};

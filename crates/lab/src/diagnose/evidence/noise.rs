@@ -1,5 +1,7 @@
 //! Covariance matrices of the rows and how well they are known.
 
+use std::sync::{Arc, OnceLock};
+
 use nalgebra::{DMatrix, DVector};
 
 use super::refusal::Refusal;
@@ -11,6 +13,52 @@ pub enum Covariance {
     Diagonal(DVector<f64>),
     /// Correlated rows: the n × n matrix.
     Dense(DMatrix<f64>),
+    /// Correlated rows: their standard deviations and their correlation.
+    Correlated {
+        /// Standard deviations.
+        u: DVector<f64>,
+        /// Shared by all noise that is correlated in this way.
+        correlation: Arc<Correlation>,
+    },
+}
+
+/// A correlation matrix, factored once whatever the rows scatter.
+#[derive(Debug)]
+pub struct Correlation {
+    matrix: DMatrix<f64>,
+    /// L and L⁻¹, where it is a correlation matrix.
+    factors: OnceLock<Option<[Factor; 2]>>,
+}
+
+impl Correlation {
+    /// With this matrix.
+    pub fn new(matrix: DMatrix<f64>) -> Correlation {
+        Correlation {
+            matrix,
+            factors: OnceLock::new(),
+        }
+    }
+
+    /// The matrix.
+    pub fn matrix(&self) -> &DMatrix<f64> {
+        &self.matrix
+    }
+
+    fn factors(&self) -> Result<&[Factor; 2], Refusal> {
+        let factored = || {
+            let lower = Factor::dense(&self.matrix).ok()?;
+            let inverse = lower.inverse().ok()?;
+            Some([lower, inverse])
+        };
+        let factors = self.factors.get_or_init(factored);
+        factors.as_ref().ok_or(Refusal::NotPositive)
+    }
+}
+
+impl PartialEq for Correlation {
+    fn eq(&self, other: &Correlation) -> bool {
+        self.matrix == other.matrix
+    }
 }
 
 /// What is known of the errors of the rows.
@@ -48,6 +96,7 @@ impl Covariance {
         match self {
             Covariance::Diagonal(variances) => variances.len(),
             Covariance::Dense(matrix) => matrix.nrows(),
+            Covariance::Correlated { u, .. } => u.len(),
         }
     }
 
@@ -56,6 +105,21 @@ impl Covariance {
         match self {
             Covariance::Diagonal(variances) => DMatrix::from_diagonal(variances),
             Covariance::Dense(matrix) => matrix.clone(),
+            Covariance::Correlated { u, correlation } => {
+                let of = |i: usize, j: usize| u[i] * u[j] * correlation.matrix[(i, j)];
+                DMatrix::from_fn(u.len(), u.len(), of)
+            }
+        }
+    }
+
+    /// Whether its numbers are as many as its rows.
+    pub(super) fn is_square(&self) -> bool {
+        match self {
+            Covariance::Diagonal(_) => true,
+            Covariance::Dense(matrix) => matrix.is_square(),
+            Covariance::Correlated { u, correlation } => {
+                correlation.matrix.shape() == (u.len(), u.len())
+            }
         }
     }
 }
@@ -82,29 +146,67 @@ impl Factor {
     pub(super) fn of(covariance: &Covariance) -> Result<Factor, Refusal> {
         match covariance {
             Covariance::Diagonal(variances) => {
-                if let Some(row) = variances.iter().position(|v| !(*v > 0.0 && v.is_finite())) {
-                    return Err(Refusal::Variance { row });
-                }
+                is_positive(variances)?;
                 Ok(Factor::Diagonal(variances.map(f64::sqrt)))
             }
-            Covariance::Dense(matrix) => {
-                let diagonal = matrix.diagonal();
-                if let Some(row) = diagonal.iter().position(|v| !(*v > 0.0 && v.is_finite())) {
-                    return Err(Refusal::Variance { row });
-                }
-                let starts = groups(matrix);
-                let ends = starts.iter().skip(1).copied();
-                let ends = ends.chain(std::iter::once(matrix.nrows()));
-                let group = |(&start, end): (&usize, usize)| {
-                    let size = end - start;
-                    let own = matrix.view((start, start), (size, size)).into_owned();
-                    Some(Group {
+            Covariance::Dense(matrix) => Factor::dense(matrix),
+            Covariance::Correlated { u, correlation } => {
+                is_positive(u)?;
+                Ok(correlation.factors()?[0].scaled(|row, _| u[row]))
+            }
+        }
+    }
+
+    /// L⁻¹ of a covariance matrix.
+    pub(super) fn whitening(covariance: &Covariance) -> Result<Factor, Refusal> {
+        match covariance {
+            Covariance::Diagonal(_) | Covariance::Dense(_) => Factor::of(covariance)?.inverse(),
+            Covariance::Correlated { u, correlation } => {
+                is_positive(u)?;
+                Ok(correlation.factors()?[1].scaled(|_, column| 1.0 / u[column]))
+            }
+        }
+    }
+
+    fn dense(matrix: &DMatrix<f64>) -> Result<Factor, Refusal> {
+        is_positive(&matrix.diagonal())?;
+        let starts = groups(matrix);
+        if starts.len() == matrix.nrows() {
+            return Ok(Factor::Diagonal(matrix.diagonal().map(f64::sqrt)));
+        }
+        let ends = starts.iter().skip(1).copied();
+        let ends = ends.chain(std::iter::once(matrix.nrows()));
+        let group = |(&start, end): (&usize, usize)| {
+            let size = end - start;
+            let own = matrix.view((start, start), (size, size)).into_owned();
+            Some(Group {
+                start,
+                matrix: own.cholesky()?.unpack(),
+            })
+        };
+        let groups: Option<Vec<Group>> = starts.iter().zip(ends).map(group).collect();
+        Ok(Factor::Groups(groups.ok_or(Refusal::NotPositive)?))
+    }
+
+    /// With every element multiplied by what belongs to its row and column.
+    fn scaled(&self, by: impl Fn(usize, usize) -> f64) -> Factor {
+        match self {
+            Factor::Diagonal(own) => {
+                Factor::Diagonal(DVector::from_fn(own.len(), |at, _| own[at] * by(at, at)))
+            }
+            Factor::Groups(groups) => {
+                let group = |group: &Group| {
+                    let (start, size) = (group.start, group.matrix.nrows());
+                    let of = |i: usize, j: usize| match i < j {
+                        true => 0.0,
+                        false => group.matrix[(i, j)] * by(start + i, start + j),
+                    };
+                    Group {
                         start,
-                        matrix: own.cholesky()?.unpack(),
-                    })
+                        matrix: DMatrix::from_fn(size, size, of),
+                    }
                 };
-                let groups: Option<Vec<Group>> = starts.iter().zip(ends).map(group).collect();
-                Ok(Factor::Groups(groups.ok_or(Refusal::NotPositive)?))
+                Factor::Groups(groups.iter().map(group).collect())
             }
         }
     }
@@ -170,6 +272,11 @@ impl Factor {
     }
 }
 
+fn is_positive(variances: &DVector<f64>) -> Result<(), Refusal> {
+    let wrong = |v: &f64| !(*v > 0.0 && v.is_finite());
+    (variances.iter().position(wrong)).map_or(Ok(()), |row| Err(Refusal::Variance { row }))
+}
+
 /// First rows of the groups between which nothing is correlated.
 fn groups(matrix: &DMatrix<f64>) -> Vec<usize> {
     // The last row that the rows so far are correlated with.
@@ -211,10 +318,28 @@ mod tests {
         assert!((&lower * lower.transpose() - matrix).norm() < 1e-12);
     }
 
+    /// Scaled factors of the correlation are the factors of the matrix.
     #[test]
-    fn rows_that_are_all_independent_are_groups_of_one() {
+    fn correlated_rows_may_scatter_unevenly() {
+        let matrix = DMatrix::from_fn(4, 4, |i, j| libm::pow(0.7, (i as f64 - j as f64).abs()));
+        let u = DVector::from_vec(vec![1.0, 3.0, 0.5, 2.0]);
+        let covariance = Covariance::Correlated {
+            u,
+            correlation: Arc::new(Correlation::new(matrix)),
+        };
+        let dense = Covariance::Dense(covariance.to_dense());
+        let identity = DMatrix::identity(4, 4);
+        for factor in [Factor::of, Factor::whitening] {
+            let of = |covariance: &Covariance| factor(covariance).unwrap().times(&identity);
+            assert!((of(&covariance) - of(&dense)).norm() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn rows_that_are_all_independent_have_no_groups() {
         let matrix = DMatrix::from_diagonal_element(3, 3, 4.0);
         let factor = Factor::of(&Covariance::Dense(matrix)).unwrap();
+        assert!(matches!(factor, Factor::Diagonal(_)));
         let column = DMatrix::from_element(3, 1, 2.0);
         let white = factor.inverse().unwrap().times(&column);
         assert_eq!(white, DMatrix::from_element(3, 1, 1.0));

@@ -114,20 +114,23 @@ impl<'a> Simulated<'a> {
     }
 
     pub(super) fn chunk(&self, index: usize) -> &Recordings {
-        self.chunks[index].get_or_init(|| {
-            let chunk = self.null.chunk(index);
-            let mut chi_squared = squares(&chunk.errors);
-            let absorbed = squares(&(&chunk.errors * self.baseline.absorbed()));
-            for (whole, part) in chi_squared.iter_mut().zip(absorbed) {
-                *whole = (*whole - part).max(0.0);
-            }
-            Recordings {
-                components: &chunk.errors * &self.space.directions,
-                errors: chunk.errors,
-                chi_squared,
-                offsets: chunk.offsets,
-            }
-        })
+        self.chunks[index].get_or_init(|| self.drawn(index))
+    }
+
+    /// A chunk that is needed once, and not kept.
+    pub(super) fn drawn(&self, index: usize) -> Recordings {
+        let chunk = self.null.chunk(index);
+        let mut chi_squared = squares(&chunk.errors);
+        let absorbed = squares(&(&chunk.errors * self.baseline.absorbed()));
+        for (whole, part) in chi_squared.iter_mut().zip(absorbed) {
+            *whole = (*whole - part).max(0.0);
+        }
+        Recordings {
+            components: &chunk.errors * &self.space.directions,
+            errors: chunk.errors,
+            chi_squared,
+            offsets: chunk.offsets,
+        }
     }
 }
 

@@ -157,6 +157,20 @@ impl Question<'_> {
 }
 
 impl Shape {
+    /// What it does to the rows, column by column; nothing for scatter.
+    pub(super) fn columns(&self) -> Option<&DMatrix<f64>> {
+        match self {
+            Shape::Columns(columns) => Some(columns),
+            Shape::Smooth { features, .. } => Some(features),
+            Shape::Scatter => None,
+        }
+    }
+
+    /// Number of its columns.
+    pub(super) fn width(&self) -> usize {
+        self.columns().map_or(0, DMatrix::ncols)
+    }
+
     /// Named or generic.
     pub fn kind(&self) -> Kind {
         match self {

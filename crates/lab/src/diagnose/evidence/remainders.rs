@@ -228,6 +228,11 @@ impl Remainder {
     ) -> f64 {
         self.form.evidence(self.directions(), squares, residual)
     }
+
+    /// What [`Remainder::evidence`] is at most for components with this sum of squares.
+    pub(super) fn at_most(&self, sum_of_squares: f64, residual: &Residual) -> f64 {
+        self.form.at_most(sum_of_squares, residual)
+    }
 }
 
 /// A smooth discrepancy of which only this is left of the matrix of products of its directions.

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 use super::closed_form::log_sum;
+use super::departure::FORM;
 use super::detection;
 use super::findings::Level;
 use super::null::Simulated;
@@ -67,6 +68,7 @@ pub(super) fn search(
             space,
             question,
             &best,
+            FORM,
             (level == 0).then_some(&pairs),
             simulated,
         );

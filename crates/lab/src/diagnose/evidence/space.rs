@@ -44,6 +44,14 @@ impl Form {
             ),
         }
     }
+
+    /// What the evidence of so large components is at most, without the sizes of the single ones.
+    pub(super) fn at_most(&self, sum_of_squares: f64, residual: &Residual) -> f64 {
+        match self {
+            Form::Smooth(ladder) => ladder.at_most(sum_of_squares, residual.rss, residual.scale),
+            Form::Named | Form::Scatter => f64::INFINITY,
+        }
+    }
 }
 
 /// An atom in the space of z, possibly beside a set of others.
@@ -114,7 +122,15 @@ impl Space {
         };
         for (index, atom) in question.atoms.iter().enumerate() {
             check(baseline, index, atom)?;
-            match block(baseline, index, atom, odds.of(atom)) {
+        }
+        // All columns at once: products with few columns spend their time on reading the whitener.
+        let (seen, lengths) = visible(baseline, &all_columns(baseline.rows(), question.atoms));
+        let mut start = 0;
+        for (index, atom) in question.atoms.iter().enumerate() {
+            let own = start..start + atom.shape.width();
+            start = own.end;
+            let columns = seen.columns_range(own.clone()).into_owned();
+            match block(index, atom, odds.of(atom), columns, &lengths[own]) {
                 Some(block) => space.blocks.push(block),
                 None => space.invisible.push(index),
             }
@@ -196,6 +212,12 @@ impl Space {
         }
         let prior: f64 = frame.blocks.iter().map(|b| self.blocks[*b].log_odds).sum();
         named(frame.basis.ncols(), frame.fit, self.rss(), self.scale) + prior
+    }
+
+    /// λ of all that a set explains.
+    pub(super) fn strength(&self, frame: &Frame) -> f64 {
+        let nothing = DMatrix::zeros(self.z.len(), 0);
+        frame.fit.sqrt() / self.sigma(frame.basis.ncols(), &frame.basis, &nothing)
     }
 
     /// Standard deviation of the noise in whitened units when d directions are fitted that reduce χ² by
@@ -326,8 +348,26 @@ fn check(baseline: &Baseline, index: usize, atom: &Atom) -> Result<(), Refusal> 
     }
 }
 
-fn block(baseline: &Baseline, index: usize, atom: &Atom, log_odds: f64) -> Option<Block> {
-    let rows = baseline.residuals().len();
+/// The columns of all atoms side by side.
+fn all_columns(rows: usize, atoms: &[Atom]) -> DMatrix<f64> {
+    let mut all = DMatrix::zeros(rows, atoms.iter().map(|atom| atom.shape.width()).sum());
+    let mut start = 0;
+    for columns in atoms.iter().filter_map(|atom| atom.shape.columns()) {
+        all.columns_mut(start, columns.ncols()).copy_from(columns);
+        start += columns.ncols();
+    }
+    all
+}
+
+/// An atom with its columns as they are seen, and the lengths that these had with what the parameters absorb.
+fn block(
+    index: usize,
+    atom: &Atom,
+    log_odds: f64,
+    mut columns: DMatrix<f64>,
+    lengths: &[f64],
+) -> Option<Block> {
+    let rows = columns.nrows();
     let (form, basis, columns, kept) = match &atom.shape {
         Shape::Scatter => (
             Form::Scatter,
@@ -335,16 +375,14 @@ fn block(baseline: &Baseline, index: usize, atom: &Atom, log_odds: f64) -> Optio
             DMatrix::zeros(rows, 0),
             Vec::new(),
         ),
-        Shape::Columns(h) => {
-            let (columns, lengths) = visible(baseline, h);
-            let (basis, kept) = own(columns.clone(), lengths);
+        Shape::Columns(_) => {
+            let (basis, kept) = own(columns.clone(), lengths.to_vec());
             if kept.is_empty() {
                 return None;
             }
             (Form::Named, basis, columns, kept)
         }
-        Shape::Smooth { features, spectrum } => {
-            let (mut columns, lengths) = visible(baseline, features);
+        Shape::Smooth { spectrum, .. } => {
             let whole: f64 = lengths.iter().zip(spectrum).map(|(l, e)| l * l * e).sum();
             for (mut column, e) in columns.column_iter_mut().zip(spectrum) {
                 column *= e.sqrt();

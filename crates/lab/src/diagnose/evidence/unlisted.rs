@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use nalgebra::{DMatrix, DVector};
 
 use super::closed_form::Scale;
+use super::departure::{self, FORM};
 use super::detection::combined;
 use super::directions::{joined, without};
 use super::fit::estimate;
@@ -162,9 +163,15 @@ pub(super) fn leftover(
     };
     let residual = space.residual(&frame);
     let components = block.basis.tr_mul(&space.z);
+    let in_form = Residual {
+        chi_squared: residual.chi_squared - FORM * FORM * frame.fit,
+        rss: residual.rss - FORM * FORM * frame.fit,
+        ..residual
+    };
     let observed = [
-        block.evidence(components.iter().copied(), &residual),
-        excess(&residual),
+        block.evidence(components.iter().copied(), &residual)
+            - departure::left(FORM, space.strength(&frame)),
+        excess(&in_form),
     ];
     let chunks = simulated.chunks().clamp(1, DRAWS / gumption_lanes::LANES);
     let draws: Vec<[f64; 2]> = side_by_side(chunks, |index| {
@@ -188,14 +195,15 @@ pub(super) fn leftover(
 }
 
 /// Generics that only say again what named effects say: a curve over the supply contains the straight
-/// line, and where the line fits, the line is meant.
+/// line, and where the line fits, the line is meant. What they gain where the form of an effect is not quite that of the
+/// catalogue is no reason for them either.
 ///
-/// For each of them, how many effects of the set it says again.
+/// For each of them, what is taken from the logarithm of its odds.
 #[derive(Debug, Default)]
-pub(super) struct Restated(BTreeMap<usize, usize>);
+pub(super) struct Restated(BTreeMap<usize, f64>);
 
 impl Restated {
-    /// Those that hold an effect of a set nearly whole and explain nothing beside the set.
+    /// Beside a set that explains the recording.
     pub(super) fn of(space: &Space, question: &Question, named: &[usize]) -> Restated {
         let Some(frame) = space.frame(named) else {
             return Restated::default();
@@ -218,23 +226,29 @@ impl Restated {
                 rest.evidence(squares, &beside.residual) > MORE
             })
         };
-        let generics = (space.blocks.iter().enumerate())
-            .filter(|(_, block)| matches!(block.form, Form::Smooth(_)));
+        let generics =
+            (space.blocks.iter().enumerate()).filter(|(_, block)| block.kind() == Kind::Generic);
+        let of_form = departure::left(FORM, space.strength(&frame));
         let again = generics.map(|(index, block)| {
             let holds = |effect: &&DVector<f64>| {
                 let held = block.basis.tr_mul(*effect).norm_squared();
                 held > HELD * effect.norm_squared()
             };
-            (index, effects.iter().filter(holds).count())
+            let held = effects.iter().filter(holds).count();
+            let only_again = held > 0 && !says_more(index);
+            let of_effects = if only_again {
+                DISCOUNT * held as f64
+            } else {
+                0.0
+            };
+            (index, of_form + of_effects)
         });
-        let again = again.filter(|(generic, held)| *held > 0 && !says_more(*generic));
         Restated(again.collect())
     }
 
     /// What is taken from the logarithm of the odds of a block.
     pub(super) fn discount(&self, block: usize) -> f64 {
-        let effects = self.0.get(&block).copied().unwrap_or(0);
-        DISCOUNT * effects as f64
+        self.0.get(&block).copied().unwrap_or(0.0)
     }
 }
 

@@ -130,6 +130,42 @@ fn a_certificate_comes_in_as_it_went_out() {
     assert!((u / (number(&expanded) / number(&k)) - 1.0).abs() < 1e-12);
 }
 
+/// `pydcc`, a reader of others, finds what the statement says.
+#[test]
+fn another_reader_finds_the_figures_of_the_statement() {
+    let folder = folder("reader");
+    let file = certificate("mass/weight-10kg-ea402-s2", &folder, "xml");
+    let run = Command::new("python3")
+        .arg(root().join("tests/library/read.py"))
+        .arg(&file)
+        .output();
+    let Some(run) = run.ok().filter(|run| run.status.code() != Some(77)) else {
+        eprintln!("skipped: needs Python with the package pydcc");
+        return;
+    };
+    let errors = String::from_utf8_lossy(&run.stderr);
+    assert!(run.status.success(), "{errors}");
+    let found: serde_json::Value = serde_json::from_slice(&run.stdout).expect("JSON");
+    assert_eq!(found["number"], "2026-0001");
+    assert_eq!(found["date"], "2026-01-15");
+    let real = &found["results"][0][1]["real"];
+    let stated = &real["measurementUncertaintyUnivariate"]["expandedMU"];
+    let [value, expanded, k] = [
+        &real["value"],
+        &stated["valueExpandedMU"],
+        &stated["coverageFactor"],
+    ]
+    .map(|number| number.as_str().expect("a number"));
+    let text = std::fs::read_to_string(certificate("mass/weight-10kg-ea402-s2", &folder, "md"));
+    let text = text.expect("a document");
+    for words in [
+        format!("({value} ± {expanded}) g"),
+        format!("coverage factor k = {k}"),
+    ] {
+        assert!(text.contains(&words), "{words} is not in\n{text}");
+    }
+}
+
 #[test]
 fn a_document_of_both_languages_has_each_figure_once() {
     let folder = folder("both");

@@ -1,4 +1,4 @@
-//! A picture as an enhanced metafile ([MS-EMF]): lines and words rather than pixels, which every word processor has read for
+//! A picture as an enhanced metafile (MS-EMF): lines and words rather than pixels, which every word processor has read for
 //! decades, prints sharply, and lets users edit; a picture of pixels would need a rasteriser and the fonts of this machine.
 
 use gumption_format::render::drawing::{

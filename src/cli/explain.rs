@@ -13,7 +13,7 @@ use gumption::fault::catalogue::told;
 use gumption::fault::{Code, Said, nearest, say};
 use gumption::language::Language;
 use gumption::{
-    audit, budget, csv, diagnose, distribution, equations, experiment, model, quantity,
+    audit, budget, csv, diagnose, distribution, equations, experiment, model, quantity, report,
 };
 
 #[derive(Debug, clap::Args)]
@@ -49,11 +49,12 @@ enum Section {
     Slips,
     Rules,
     Keys,
+    CertificateKeys,
     Errors,
 }
 
 impl Section {
-    const ALL: [Section; 8] = [
+    const ALL: [Section; 9] = [
         Section::Concepts,
         Section::Distributions,
         Section::Functions,
@@ -61,6 +62,7 @@ impl Section {
         Section::Slips,
         Section::Rules,
         Section::Keys,
+        Section::CertificateKeys,
         Section::Errors,
     ];
 
@@ -74,6 +76,7 @@ impl Section {
             Section::Slips => "slips",
             Section::Rules => "rules",
             Section::Keys => "keys",
+            Section::CertificateKeys => "certificate-keys",
             Section::Errors => "errors",
         }
     }
@@ -87,6 +90,7 @@ impl Section {
             Section::Slips => say!("Slips that an audit can name"),
             Section::Rules => say!("Rules that an audit checks"),
             Section::Keys => say!("Keys of a budget file"),
+            Section::CertificateKeys => say!("Keys of the data of a certificate"),
             Section::Errors => say!("Error codes"),
         }
     }
@@ -95,7 +99,11 @@ impl Section {
     fn is_long(self) -> bool {
         matches!(
             self,
-            Section::Slips | Section::Rules | Section::Keys | Section::Errors
+            Section::Slips
+                | Section::Rules
+                | Section::Keys
+                | Section::CertificateKeys
+                | Section::Errors
         )
     }
 }
@@ -350,7 +358,12 @@ fn topics(lang: Language) -> Vec<Topic> {
         title: lang.pick(rule.en, rule.zh).to_string(),
         text: rule_text(rule, lang),
     }));
-    topics.extend(keys::topics(lang));
+    topics.extend(keys::topics(Section::Keys, budget::keys(), lang));
+    topics.extend(keys::topics(
+        Section::CertificateKeys,
+        report::certificate_keys(),
+        lang,
+    ));
     topics.extend(codes().map(|code| Topic {
         section: Section::Errors,
         name: code.id.to_string(),

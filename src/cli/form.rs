@@ -133,6 +133,7 @@ impl Form {
             let endings = endings.join(", ");
             let what = match ending.as_str() {
                 "" => say!("the name of the output has no ending"),
+                "pdf" => say!("this program was built without pages, which `cargo install --path . --features pdf` adds"),
                 other => say!("there is no format with the ending .{other}"),
             };
             say!("{what}; the endings are {endings}, and --{} or another flag says the format of any other name", FORMATS[0].name).into()

@@ -15,6 +15,8 @@ pub(super) struct Args {
 enum Which {
     /// Budget files
     Budget,
+    /// The data of a certificate: the files of `gumption eval --certificate`
+    Certificate,
     /// The output of `gumption eval --json`
     Evaluation,
     /// What `gumption eval --save` writes
@@ -44,6 +46,7 @@ enum Which {
 pub(super) fn run(args: &Args) -> Outcome {
     let schema = match args.which {
         Which::Budget => budget::schema(),
+        Which::Certificate => report::certificate_schema(),
         Which::Evaluation => report::evaluation_schema(),
         Which::Result => budget::result_schema(),
         Which::Experiment => experiment::schema(),

@@ -37,10 +37,11 @@ pub fn relative(path: &Path) -> String {
         .join("/")
 }
 
-/// Compares a generated text with the committed one; with `GUMPTION_UPDATE=1` writes it instead.
+/// Compares a generated file with the committed one; with `GUMPTION_UPDATE=1` writes it instead.
 /// Returns what is stale, for one message about all files.
-pub fn stale(path: &Path, generated: &str) -> Option<String> {
-    if std::fs::read_to_string(path).is_ok_and(|committed| committed == generated) {
+pub fn stale(path: &Path, generated: impl AsRef<[u8]>) -> Option<String> {
+    let generated = generated.as_ref();
+    if std::fs::read(path).is_ok_and(|committed| committed == generated) {
         return None;
     }
     if std::env::var_os("GUMPTION_UPDATE").is_some() {

@@ -117,30 +117,14 @@ fn word_processors_read_the_figures_of_the_statement() {
     }
 }
 
-#[test]
-fn what_users_write_stays_text() {
-    let folder = folder("hostile");
-    let budget = folder.join("hostile.toml");
-    std::fs::write(&budget, HOSTILE).expect("a budget");
-    let document = written(&budget, &folder.join("report.docx"), "en");
-    assert!(words(&document).contains("</w:t></w:p><script>&amp; ]]>"));
-    let certificate = written(&budget, &folder.join("report.xml"), "en");
-    let certificate = String::from_utf8(certificate).expect("UTF-8");
-    assert!(!certificate.contains("<evil") && !certificate.contains("<script"));
-    let members = archive::unpacked(&document).expect("a package").into_iter();
-    let parts = members.filter(|(name, _)| name.ends_with(".xml") || name.ends_with(".rels"));
-    let mut files = vec![folder.join("report.xml")];
-    for (name, content) in parts {
-        let file = folder.join(name.replace(['/', '[', ']'], "_"));
-        std::fs::write(&file, content).expect("a part");
-        files.push(file);
-    }
+/// Whether other programs read these files as XML.
+fn are_well_formed(files: &[PathBuf]) {
     let parsed = Command::new("python3")
         .args([
             "-c",
             "import sys, xml.dom.minidom as m; [m.parse(f) for f in sys.argv[1:]]",
         ])
-        .args(&files)
+        .args(files)
         .output();
     match parsed {
         Ok(parsed) => assert!(
@@ -149,6 +133,79 @@ fn what_users_write_stays_text() {
             String::from_utf8_lossy(&parsed.stderr)
         ),
         Err(_) => eprintln!("skipped: needs Python"),
+    }
+}
+
+/// The parts of a package, as files.
+fn parts(document: &[u8], folder: &Path) -> Vec<PathBuf> {
+    let members = archive::unpacked(document).expect("a package").into_iter();
+    let parts = members.filter(|(name, _)| name.ends_with(".xml") || name.ends_with(".rels"));
+    let files = parts.map(|(name, content)| {
+        let file = folder.join(name.replace(['/', '[', ']'], "_"));
+        std::fs::write(&file, content).expect("a part");
+        file
+    });
+    files.collect()
+}
+
+#[test]
+fn what_users_write_stays_text() {
+    let folder = folder("hostile");
+    let budget = folder.join("hostile.toml");
+    std::fs::write(&budget, HOSTILE).expect("a budget");
+    let made = |ending: &str| written(&budget, &folder.join(format!("report.{ending}")), "both");
+    let text = |ending: &str| String::from_utf8(made(ending)).expect("UTF-8");
+
+    let document = made("docx");
+    assert!(words(&document).contains("</w:t></w:p><script>&amp; ]]>"));
+    let mut files = parts(&document, &folder);
+    let certificate = text("xml");
+    assert!(!certificate.contains("<evil") && !certificate.contains("<script"));
+    files.push(folder.join("report.xml"));
+    let workbook = made("xlsx");
+    files.extend(parts(&workbook, &folder));
+    are_well_formed(&files);
+    for (name, part) in archive::unpacked(&workbook).expect("a package") {
+        let part = String::from_utf8_lossy(&part).into_owned();
+        assert!(
+            !part.contains("<script") && !part.contains("<evil"),
+            "{name}"
+        );
+    }
+
+    let page = text("html");
+    assert!(!page.contains("<script") && !page.contains("<evil"));
+    assert!(page.contains("&lt;script&gt;"));
+    // Markdown lets HTML through where nothing stands before it.
+    let page = text("md");
+    for (at, _) in page
+        .match_indices("<script")
+        .chain(page.match_indices("<evil"))
+    {
+        assert!(page[..at].ends_with('\\'), "{page}");
+    }
+    for ending in ["txt", "md", "html", "json"] {
+        assert!(!text(ending).contains('\u{1b}'), "{ending}");
+    }
+}
+
+/// What begins as a formula does is a text in a workbook.
+#[test]
+fn words_are_no_formulas() {
+    let folder = folder("formulas");
+    let budget = folder.join("formulas.toml");
+    let text = HOSTILE
+        .replace("<dcc:content>", "=HYPERLINK(1)")
+        .replace("a & b < c", "@SUM(1)");
+    std::fs::write(&budget, text).expect("a budget");
+    let workbook = written(&budget, &folder.join("report.xlsx"), "en");
+    for (name, part) in archive::unpacked(&workbook).expect("a package") {
+        let part = String::from_utf8_lossy(&part).into_owned();
+        let mut formulas = part.split("<f>").skip(1);
+        assert!(
+            !formulas.any(|formula| formula.starts_with("HYPERLINK") || formula.starts_with('@')),
+            "{name}"
+        );
     }
 }
 

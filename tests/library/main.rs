@@ -16,6 +16,7 @@ mod budgets;
 mod certificates;
 mod chains;
 mod decimals;
+mod every_format;
 mod formats;
 mod fuzzed;
 mod independent;

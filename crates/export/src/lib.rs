@@ -5,6 +5,7 @@
 
 pub mod archive;
 
+mod columns;
 mod dcc;
 mod docx;
 #[cfg(feature = "pdf")]

@@ -30,19 +30,27 @@ pub(crate) fn element(name: &'static str) -> Element {
 
 /// An element with text.
 pub(crate) fn text(name: &'static str, text: impl Into<String>) -> Element {
-    // Of control characters XML 1.0 knows three.
-    let text: String = text.into();
-    let known = |c: char| !c.is_control() || matches!(c, '\t' | '\n' | '\r');
-    let text = text.chars().map(|c| if known(c) { c } else { '\u{fffd}' });
     let mut made = element(name);
-    made.content.push(Content::Text(text.collect()));
+    made.content.push(Content::Text(known(&text.into())));
     made
+}
+
+/// Of control characters XML 1.0 knows three, and not these two.
+fn known(text: &str) -> String {
+    let known = |c: char| match c {
+        '\t' | '\n' | '\r' => true,
+        '\u{fffe}' | '\u{ffff}' => false,
+        other => !other.is_control(),
+    };
+    let text = text.chars();
+    text.map(|c| if known(c) { c } else { '\u{fffd}' })
+        .collect()
 }
 
 impl Element {
     /// With an attribute.
     pub fn attribute(mut self, name: &'static str, value: impl Into<String>) -> Self {
-        self.attributes.push((name, value.into()));
+        self.attributes.push((name, known(&value.into())));
         self
     }
 

@@ -208,6 +208,7 @@ fn plot(report: &AllanReport<'_>) -> Plot {
         Marks::Band(intervals.collect()),
     )];
     if let Some(noises) = report.noises {
+        layers.extend(slopes(report, noises).map(|(name, line)| layer(name, Tone::Quiet, line)));
         let curve = points.iter().map(|p| [p.tau, noises.deviation(p.tau)]);
         let name = l.pick("the noises together", "各噪声之和");
         layers.push(layer(name, Tone::Contrast, Marks::Line(curve.collect())));
@@ -225,6 +226,32 @@ fn plot(report: &AllanReport<'_>) -> Plot {
             layers,
         }],
     }
+}
+
+/// The noises one by one, as far down as there are deviations.
+fn slopes<'n>(
+    report: &AllanReport<'n>,
+    noises: &'n Noises,
+) -> impl Iterator<Item = (&'static str, Marks)> {
+    let l = report.language;
+    let points = &report.allan.points;
+    let lowest = points.iter().map(|p| p.interval[0]);
+    let lowest = lowest.fold(f64::INFINITY, f64::min);
+    let all = [
+        (noises.white, l.pick("N, slope −½", "N，斜率 −½")),
+        (noises.bias_instability, l.pick("B, slope 0", "B，斜率 0")),
+        (noises.rate_random_walk, l.pick("K, slope +½", "K，斜率 +½")),
+    ];
+    let named = all.into_iter().zip(PowerLaw::ALL);
+    named.filter_map(move |((found, name), law)| {
+        let value = found.value()?;
+        let line = points.iter().map(|p| {
+            let deviation = value * libm::sqrt(law.allan_variance(p.tau));
+            [p.tau, deviation]
+        });
+        let seen: Vec<[f64; 2]> = line.filter(|[_, y]| *y >= lowest).collect();
+        (seen.len() > 1).then_some((name, Marks::Line(seen)))
+    })
 }
 
 fn data(report: &AllanReport<'_>) -> String {

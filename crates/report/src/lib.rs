@@ -46,7 +46,9 @@ mod tests;
 pub use allan::{AllanReport, allan, allan_schema};
 pub use audit::{audit, audit_schema};
 pub use calibration::{calibration, calibration_schema, calibration_trouble, plan, plan_schema};
-pub use certificate::{administration, certificate_template, certified};
+pub use certificate::{
+    administration, certificate_keys, certificate_schema, certificate_template, certified,
+};
 pub use diagnosis::{
     assumed_noise, diagnosis, diagnosis_schema, failure as diagnosis_failure, outlook,
     outlook_schema,

@@ -1,6 +1,6 @@
-//! The keys of a budget file, table by table.
+//! The keys of the files that users write, table by table.
 
-use gumption::budget::{self, KeyRow};
+use gumption::budget::KeyRow;
 use gumption::fault::catalogue::told;
 use gumption::fault::{Between, Said, say};
 use gumption::language::Language;
@@ -8,7 +8,7 @@ use gumption::language::Language;
 use super::{Section, Topic};
 
 /// Tables in the order in which a reader meets them, by the first part of their path.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 17] = [
     "",
     "measurand",
     "input",
@@ -21,6 +21,11 @@ const ORDER: [&str; 12] = [
     "claim",
     "conventions",
     "monte_carlo",
+    "laboratory",
+    "customer",
+    "item[]",
+    "person[]",
+    "condition[]",
 ];
 
 /// A table of the file, or several that take the same keys.
@@ -60,6 +65,9 @@ fn in_words(path: &str) -> Said {
         ("", _) => say!("the top of the file"),
         ("component", _) => say!("a component"),
         ("correlation" | "joint", _) => say!("`[[{path}]]`"),
+        (list, ("", _)) if list.ends_with("[]") => {
+            say!("`[[{path}]]`", path = list.trim_end_matches("[]"))
+        }
         (_, ("", _)) => say!("`[{path}]`"),
         (_, (parent, inner)) => say!("{inner} of {}", in_words(parent), inner = quoted(inner)),
     }
@@ -78,10 +86,9 @@ fn split(path: &str) -> (&str, &str) {
     }
 }
 
-/// Every table of the file once. Components are described once, although their keys stand in
+/// Every table of a file once. Components are described once, although their keys stand in
 /// inputs and sources as well.
-pub(super) fn tables() -> Vec<KeyTable> {
-    let rows = budget::keys();
+pub(super) fn tables(rows: Vec<KeyRow>) -> Vec<KeyTable> {
     let component: Vec<&str> = rows
         .iter()
         .filter(|row| row.table == "input.NAME.components[]")
@@ -146,10 +153,11 @@ pub(super) fn meaning(doc: &str, lang: Language) -> &str {
         .unwrap_or(doc)
 }
 
-/// One topic for each key, with all tables in which it may stand.
-pub(super) fn topics(lang: Language) -> Vec<Topic> {
+/// One topic for each key of a file, with all tables in which it may stand.
+pub(super) fn topics(section: Section, rows: Vec<KeyRow>, lang: Language) -> Vec<Topic> {
     let mut topics: Vec<Topic> = Vec::new();
-    for table in tables().iter().filter(|t| !t.names_distributions()) {
+    let tables = tables(rows);
+    for table in tables.iter().filter(|t| !t.names_distributions()) {
         let place = table.place();
         for row in &table.rows {
             let way = if row.doc.starts_with("Way") {
@@ -159,9 +167,15 @@ pub(super) fn topics(lang: Language) -> Vec<Topic> {
             } else {
                 Said::default()
             };
-            let at = match table.paths[..] == [""] {
-                true => say!("At {place}"),
-                false => say!("In {place}"),
+            let at = match (section, table.paths[..] == [""]) {
+                (Section::CertificateKeys, true) => {
+                    say!("At {place} with the data of a certificate")
+                }
+                (Section::CertificateKeys, false) => {
+                    say!("In {place} of the data of a certificate")
+                }
+                (_, true) => say!("At {place}"),
+                (_, false) => say!("In {place}"),
             };
             let text = say!(
                 "{at}: {} It is set to {}.{way}",
@@ -172,7 +186,7 @@ pub(super) fn topics(lang: Language) -> Vec<Topic> {
             match topics.iter_mut().find(|topic| topic.name == row.key) {
                 Some(topic) => topic.text = format!("{}\n\n{text}", topic.text),
                 None => topics.push(Topic {
-                    section: Section::Keys,
+                    section,
                     name: row.key.to_string(),
                     aliases: Vec::new(),
                     title: meaning(&row.doc, lang)
@@ -189,10 +203,16 @@ pub(super) fn topics(lang: Language) -> Vec<Topic> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use gumption::{budget, report};
 
     #[test]
     fn places_are_told_in_words() {
-        let places: Vec<String> = tables().iter().map(|t| t.place().to_string()).collect();
+        let tables = [budget::keys(), report::certificate_keys()].map(tables);
+        let places: Vec<String> = tables
+            .iter()
+            .flatten()
+            .map(|t| t.place().to_string())
+            .collect();
         for place in [
             "the top of the file",
             "`[input.NAME]`",
@@ -200,6 +220,7 @@ mod tests {
             "`certificate` of a component",
             "`readings`, `sample` of a component",
             "`[[joint]]`",
+            "`[[condition]]`",
             "`inputs.NAME` of `[claim]`",
             "`beta` of `distribution` of a component",
         ] {
@@ -209,12 +230,14 @@ mod tests {
 
     #[test]
     fn no_key_is_lost() {
-        let tables = tables();
-        for row in budget::keys() {
-            let known = tables
-                .iter()
-                .any(|t| t.rows.iter().any(|r| r.key == row.key && r.doc == row.doc));
-            assert!(known, "{} of {}", row.key, row.table);
+        for keys in [budget::keys, report::certificate_keys] {
+            let tables = tables(keys());
+            for row in keys() {
+                let known = tables
+                    .iter()
+                    .any(|t| t.rows.iter().any(|r| r.key == row.key && r.doc == row.doc));
+                assert!(known, "{} of {}", row.key, row.table);
+            }
         }
     }
 }

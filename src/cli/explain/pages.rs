@@ -2,19 +2,18 @@
 
 use super::keys::{KeyTable, tables};
 use super::{Section, Topic};
+use gumption::budget::KeyRow;
 use gumption::fault::catalogue::told;
 use gumption::fault::{Said, say};
 use gumption::language::Language;
-use gumption::model;
+use gumption::{budget, model, report};
 
 /// A section as a page.
 pub(super) fn page(section: Section, topics: &[Topic], lang: Language) -> String {
     let body = match section {
         Section::Functions => functions(lang),
-        Section::Keys => tables()
-            .iter()
-            .map(|table| key_table(table, lang))
-            .collect(),
+        Section::Keys => key_tables(budget::keys(), lang),
+        Section::CertificateKeys => key_tables(report::certificate_keys(), lang),
         _ => topics
             .iter()
             .filter(|topic| topic.section == section)
@@ -61,6 +60,12 @@ fn introduction(section: Section) -> Said {
             )
         }
         Section::Keys => say!("[The budget file](../budget-file.md) shows every key by example."),
+        Section::CertificateKeys => {
+            say!(
+                "They stand in the file that `--certificate` names, which `gumption new --certificate` begins. \
+                 [Documents](../documents.md#certificates) shows what becomes of them."
+            )
+        }
         Section::Errors => {
             say!(
                 "Every message begins with its code. B: the budget file, M: the model, U: units. Codes are stable. \
@@ -107,6 +112,11 @@ fn functions(lang: Language) -> String {
         ));
     }
     page
+}
+
+fn key_tables(rows: Vec<KeyRow>, lang: Language) -> String {
+    let tables = tables(rows);
+    tables.iter().map(|table| key_table(table, lang)).collect()
 }
 
 fn key_table(table: &KeyTable, lang: Language) -> String {

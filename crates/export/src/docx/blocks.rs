@@ -1,16 +1,35 @@
 //! The text: one paragraph or table for each block, in the order in which a report is read.
 
 use gumption_fault::language::Language;
-use gumption_format::document::{Block, Cell, ColumnKind, Document, Math, Row, Severity, Table};
-use gumption_format::render::inline::{Run, runs};
+use gumption_format::document::{Block, Document, Math, Severity};
 
-use super::parts::{root, value};
+use super::parts::root;
+use super::pictures::Pictures;
+use super::tables;
+use super::words::{of_style, run, runs_of};
 use crate::xml::{Element, element, text};
 
-/// The main part.
-pub(super) fn document(document: &Document) -> Element {
-    let blocks = document.blocks.iter();
-    let blocks = blocks.flat_map(|block| of_block(block, document.language));
+/// The main part, and the pictures in it.
+pub(super) fn document(document: &Document) -> (Element, Pictures) {
+    let mut pictures = Pictures::default();
+    let (language, blocks) = (document.language, &document.blocks);
+    // Small print stays at the end, behind the plots.
+    let is_text = |block: &Block| !matches!(block, Block::Footer(_));
+    let end = blocks.iter().rposition(is_text).map_or(0, |last| last + 1);
+    let (text, small) = blocks.split_at(end);
+    let mut blocks: Vec<Element> = Vec::new();
+    for block in text {
+        blocks.extend(of_block(block, language, &mut pictures));
+    }
+    if !document.beside.is_empty() {
+        blocks.push(paragraph("Heading1", &document.words("Plots", "图")));
+    }
+    for plot in &document.beside {
+        blocks.extend(pictures.of(plot));
+    }
+    for block in small {
+        blocks.extend(of_block(block, language, &mut pictures));
+    }
     let footer = element("w:footerReference")
         .attribute("w:type", "default")
         .attribute("r:id", "rId2");
@@ -24,10 +43,11 @@ pub(super) fn document(document: &Document) -> Element {
         margins = margins.attribute(side, if side.ends_with("er") { "600" } else { "1134" });
     }
     let section = element("w:sectPr").with(footer).with(size).with(margins);
-    root("w:document").with(element("w:body").with_all(blocks).with(section))
+    let body = element("w:body").with_all(blocks).with(section);
+    (root("w:document").with(body), pictures)
 }
 
-fn of_block(block: &Block, language: Language) -> Vec<Element> {
+fn of_block(block: &Block, language: Language, pictures: &mut Pictures) -> Vec<Element> {
     match block {
         Block::Title(words) => vec![paragraph("Title", words)],
         Block::Section(words) => vec![paragraph("Heading1", words)],
@@ -35,19 +55,18 @@ fn of_block(block: &Block, language: Language) -> Vec<Element> {
             let pairs = fields
                 .iter()
                 .map(|(name, words)| [name.clone(), words.clone()]);
-            vec![pairs_of(pairs), empty()]
+            vec![tables::of_pairs(pairs), empty()]
         }
         Block::Figures(figures) => {
             let pairs = figures
                 .iter()
                 .map(|figure| [figure.name.clone(), figure.text()]);
-            vec![pairs_of(pairs), empty()]
+            vec![tables::of_pairs(pairs), empty()]
         }
         Block::Paragraph(words) => vec![paragraph("Normal", words)],
         Block::Formula(lines) => lines.iter().map(|line| formula(line)).collect(),
-        Block::Table(table) => vec![of_table(table), empty()],
-        // Pictures are in the formats that draw.
-        Block::Plot(_) => Vec::new(),
+        Block::Table(table) => vec![tables::of_table(table), empty()],
+        Block::Plot(plot) => pictures.of(plot),
         Block::List(items) => items.iter().map(|item| bullet("", item)).collect(),
         Block::Findings(findings) => findings
             .iter()
@@ -73,10 +92,6 @@ fn of_block(block: &Block, language: Language) -> Vec<Element> {
             .map(|words| paragraph("Small", words))
             .collect(),
     }
-}
-
-fn of_style(style: &str) -> Element {
-    element("w:pPr").with(value("w:pStyle", style))
 }
 
 fn paragraph(style: &str, words: &str) -> Element {
@@ -152,150 +167,4 @@ fn omml(math: &Math) -> Vec<Element> {
             vec![root.with(one("m:e", inside))]
         }
     }
-}
-
-/// A text between backquotes of equal widths, powers of ten raised.
-fn runs_of(words: &str, bold: bool) -> Vec<Element> {
-    let runs = runs(words).into_iter().map(|one| match one {
-        Run::Plain(words) => run(words, bold.then(|| element("w:b"))),
-        Run::Code(words) => {
-            let fonts = element("w:rFonts")
-                .attribute("w:ascii", "Courier New")
-                .attribute("w:hAnsi", "Courier New");
-            run(words, Some(fonts))
-        }
-        Run::Raised(words) => {
-            let words = words.replace('-', "−");
-            run(&words, Some(value("w:vertAlign", "superscript")))
-        }
-    });
-    runs.collect()
-}
-
-fn run(words: &str, looks: Option<Element>) -> Element {
-    // Word processors part words where they like.
-    let words = words.replace(['\u{ad}', '\u{200b}', '\u{2060}'], "");
-    element("w:r")
-        .with_all(looks.map(|looks| element("w:rPr").with(looks)))
-        .with(text("w:t", words).attribute("xml:space", "preserve"))
-}
-
-/// Names and texts in two columns without lines.
-fn pairs_of(pairs: impl Iterator<Item = [String; 2]>) -> Element {
-    let rows = pairs.map(|[name, words]| {
-        element("w:tr")
-            .with(cell(&name, "left", "2400"))
-            .with(cell(&words, "left", "7200"))
-    });
-    element("w:tbl")
-        .with(properties(false))
-        .with(grid(2))
-        .with_all(rows)
-}
-
-fn grid(columns: usize) -> Element {
-    element("w:tblGrid").with_all((0..columns).map(|_| element("w:gridCol")))
-}
-
-/// As wide as the text; the lines of a table of three lines.
-fn properties(ruled: bool) -> Element {
-    let line = |name: &'static str| {
-        element(name)
-            .attribute("w:val", "single")
-            .attribute("w:sz", "8")
-            .attribute("w:space", "0")
-            .attribute("w:color", "000000")
-    };
-    let borders = ruled.then(|| {
-        element("w:tblBorders")
-            .with(line("w:top"))
-            .with(line("w:bottom"))
-    });
-    element("w:tblPr")
-        .with(
-            element("w:tblW")
-                .attribute("w:w", "5000")
-                .attribute("w:type", "pct"),
-        )
-        .with_all(borders)
-        .with(element("w:tblLayout").attribute("w:type", "autofit"))
-}
-
-fn of_table(table: &Table) -> Element {
-    let shown: Vec<usize> = (0..table.columns.len())
-        .filter(|at| table.columns[*at].kind != ColumnKind::Bar)
-        .collect();
-    let side = |at: usize| match table.columns[at].kind {
-        ColumnKind::Numbers => "right",
-        _ => "left",
-    };
-    let head = shown.iter().map(|at| {
-        let words = &table.columns[*at].head;
-        headed(words, side(*at))
-    });
-    let head = element("w:tr")
-        .with(
-            element("w:trPr")
-                .with(element("w:cantSplit"))
-                .with(element("w:tblHeader")),
-        )
-        .with_all(head);
-    let mut rows = vec![head];
-    for row in &table.rows {
-        let made = element("w:tr").with(element("w:trPr").with(element("w:cantSplit")));
-        match row {
-            // The rows below it stand out by their words.
-            Row::Rule => continue,
-            Row::Across(words) => {
-                let span = element("w:tcPr").with(value("w:gridSpan", shown.len().to_string()));
-                let inside = element("w:p")
-                    .with(of_style("Cell"))
-                    .with_all(runs_of(words, true));
-                rows.push(made.with(element("w:tc").with(span).with(inside)));
-            }
-            Row::Cells(cells) => {
-                let cells = shown.iter().map(|at| {
-                    let words = match cells.get(*at) {
-                        Some(Cell::Text(words)) => words.clone(),
-                        Some(Cell::Part(words)) => format!("\u{2003}{words}"),
-                        _ => String::new(),
-                    };
-                    cell(&words, side(*at), "")
-                });
-                rows.push(made.with_all(cells));
-            }
-        }
-    }
-    element("w:tbl")
-        .with(properties(true))
-        .with(grid(shown.len()))
-        .with_all(rows)
-}
-
-/// A head, with the line below it.
-fn headed(words: &str, side: &str) -> Element {
-    let line = element("w:bottom")
-        .attribute("w:val", "single")
-        .attribute("w:sz", "4")
-        .attribute("w:space", "0")
-        .attribute("w:color", "000000");
-    let properties = element("w:tcPr")
-        .with(element("w:tcBorders").with(line))
-        .with(value("w:vAlign", "bottom"));
-    let looks = of_style("Cell").with(value("w:jc", side));
-    let inside = element("w:p").with(looks).with_all(runs_of(words, true));
-    element("w:tc").with(properties).with(inside)
-}
-
-fn cell(words: &str, side: &str, width: &str) -> Element {
-    let width = (!width.is_empty()).then(|| {
-        element("w:tcPr").with(
-            element("w:tcW")
-                .attribute("w:w", width)
-                .attribute("w:type", "dxa"),
-        )
-    });
-    let looks = of_style("Cell").with(value("w:jc", side));
-    let inside = element("w:p").with(looks).with_all(runs_of(words, false));
-    element("w:tc").with_all(width).with(inside)
 }

@@ -3,7 +3,11 @@
 //! gives the same bytes.
 
 mod blocks;
+mod emf;
 mod parts;
+mod pictures;
+mod tables;
+mod words;
 
 use gumption_fault::say;
 use gumption_format::document::{Block, Document};
@@ -14,7 +18,7 @@ use crate::archive;
 /// The format.
 pub const FORMAT: Format = Format {
     name: "docx",
-    about: "Write a document for word processors, with tables, formulas and the statement",
+    about: "Write a document for word processors, with tables, formulas, pictures and the statement",
     ending: "docx",
     media_type: "application/vnd.openxmlformats-officedocument.wordprocessingml.document",
     render,
@@ -26,6 +30,7 @@ fn render(document: &Document, _: &Page) -> Result<Vec<u8>, Unfit> {
         Block::Title(title) => Some(title.as_str()),
         _ => None,
     });
+    let (text, pictures) = blocks::document(document);
     let parts = [
         ("[Content_Types].xml", parts::content_types()),
         ("_rels/.rels", parts::relations()),
@@ -35,9 +40,9 @@ fn render(document: &Document, _: &Page) -> Result<Vec<u8>, Unfit> {
         ),
         (
             "word/_rels/document.xml.rels",
-            parts::relations_of_document(),
+            parts::relations_of_document(pictures.relations()),
         ),
-        ("word/document.xml", blocks::document(document)),
+        ("word/document.xml", text),
         ("word/footer1.xml", parts::footer()),
         ("word/styles.xml", parts::styles()),
     ];
@@ -46,5 +51,6 @@ fn render(document: &Document, _: &Page) -> Result<Vec<u8>, Unfit> {
         let content = root.document().map_err(|error| unfit(error.to_string()))?;
         members.push((name.to_owned(), content));
     }
+    members.extend(pictures.members());
     archive::packed(&members).map_err(unfit)
 }

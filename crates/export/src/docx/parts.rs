@@ -8,6 +8,8 @@ const MAIN: &str = "http://schemas.openxmlformats.org/wordprocessingml/2006/main
 const RELATIONS: &str = "http://schemas.openxmlformats.org/package/2006/relationships";
 const OFFICE: &str = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
 const MATHEMATICS: &str = "http://schemas.openxmlformats.org/officeDocument/2006/math";
+/// Width of the text in twentieths of a point: a page of A4 less its margins.
+pub(super) const WIDTH: f32 = 9638.0;
 const TYPES: &str = "application/vnd.openxmlformats-officedocument.wordprocessingml";
 
 /// A root of the main part or a part like it.
@@ -39,6 +41,7 @@ pub(super) fn content_types() -> Element {
             "application/vnd.openxmlformats-package.relationships+xml",
         ))
         .with(default("xml", "application/xml"))
+        .with(default("emf", "image/x-emf"))
         .with(part(
             "/word/document.xml",
             format!("{TYPES}.document.main+xml"),
@@ -71,11 +74,15 @@ pub(super) fn relations() -> Element {
         .with(relation("rId2", properties, "docProps/core.xml"))
 }
 
-pub(super) fn relations_of_document() -> Element {
+/// What the text names: styles, footer, and these pictures.
+pub(super) fn relations_of_document(pictures: impl Iterator<Item = [String; 2]>) -> Element {
+    let image = format!("{OFFICE}/image");
+    let images = pictures.map(|[name, file]| relation(&name, &image, &file));
     element("Relationships")
         .attribute("xmlns", RELATIONS)
         .with(relation("rId1", &format!("{OFFICE}/styles"), "styles.xml"))
         .with(relation("rId2", &format!("{OFFICE}/footer"), "footer1.xml"))
+        .with_all(images)
 }
 
 pub(super) fn properties(title: &str, language: Language) -> Element {

@@ -3,7 +3,6 @@
 use gumption_fault::language::Language;
 use gumption_format::document::{Block, Document, Severity};
 use gumption_format::render::parts::{Part, parts};
-use gumption_format::render::svg;
 
 use super::flow::{BLACK, BLUE, Flow, GREY, PALE, WIDTH};
 use super::fonts::Style;
@@ -22,9 +21,9 @@ pub(super) fn lay(flow: &mut Flow<'_>, document: &Document) {
         lay_part(flow, part, document.language);
     }
     if !document.beside.is_empty() {
-        heading(flow, document.language.pick("Plots", "图"));
+        heading(flow, &document.words("Plots", "图"));
         for plot in &document.beside {
-            picture::draw(flow, &svg(plot));
+            picture::draw(flow, plot);
         }
     }
 }
@@ -81,7 +80,7 @@ fn lay_block(flow: &mut Flow<'_>, block: &Block, language: Language) {
             flow.y += 5.0;
         }
         Block::Table(one) => table::draw(flow, one),
-        Block::Plot(plot) => picture::draw(flow, &svg(plot)),
+        Block::Plot(plot) => picture::draw(flow, plot),
         Block::List(items) => items.iter().for_each(|item| item_of(flow, item, "")),
         Block::Findings(findings) => {
             for finding in findings {

@@ -5,6 +5,7 @@ use gumption_format::document::{Cell, ColumnKind, Row, Table};
 use super::flow::{BLACK, BLUE, Flow, Op, PALE, WIDTH};
 use super::fonts::Style;
 use super::text::{self, Letter};
+use crate::columns::widths;
 
 /// Sizes that are tried, the most legible first.
 const SIZES: [f32; 5] = [8.5, 8.0, 7.5, 7.0, 6.3];
@@ -123,23 +124,6 @@ fn lay(flow: &mut Flow<'_>, table: &Table, size: f32) -> (Laid, bool) {
         rows,
     };
     (laid, fits)
-}
-
-/// Widths between the least and the most that columns need; whether no word is broken.
-fn widths(least: &[f32], most: &[f32], room: f32) -> (Vec<f32>, bool) {
-    let (low, high): (f32, f32) = (least.iter().sum(), most.iter().sum());
-    if high <= room {
-        return (most.to_vec(), true);
-    }
-    if low <= room {
-        let share = (room - low) / (high - low);
-        let widths = least.iter().zip(most);
-        return (widths.map(|(a, b)| a + share * (b - a)).collect(), true);
-    }
-    (
-        least.iter().map(|width| width * room / low).collect(),
-        false,
-    )
 }
 
 fn lay_row(flow: &mut Flow<'_>, row: &Row, size: f32) -> LaidRow {

@@ -1,8 +1,8 @@
 //! The plots: their data in columns, and a chart of the spreadsheet's own for each panel.
 
 use rust_xlsxwriter::{
-    Chart, ChartFormat, ChartLine, ChartLineDashType, ChartMarker, ChartMarkerType, ChartType,
-    Workbook, Worksheet, XlsxError,
+    Chart, ChartFont, ChartFormat, ChartLine, ChartLineDashType, ChartMarker, ChartMarkerType,
+    ChartType, Workbook, Worksheet, XlsxError,
 };
 
 use super::looks::Looks;
@@ -46,7 +46,13 @@ fn columns(layer: &Layer, panel: &Panel) -> Vec<(String, Vec<Option<f64>>)> {
             Scale::Logarithmic => libm::exp10(place),
         })
     };
-    let (ends, heights) = (values(across, &panel.x), values(up, &panel.y));
+    // Without the margin, which would stretch the axes of the spreadsheet.
+    let tight = |[low, high]: [f64; 2]| {
+        let margin = 0.05 / 1.1 * (high - low);
+        [low + margin, high - margin]
+    };
+    let ends = values(tight(across), &panel.x);
+    let heights = values(tight(up), &panel.y);
     let x = panel.x.label();
     let some = |numbers: Vec<f64>| -> Vec<Option<f64>> {
         numbers
@@ -104,6 +110,7 @@ fn chart(
         true => Chart::new(ChartType::BarStacked),
         false => Chart::new(ChartType::Scatter),
     };
+    let (mut series_count, mut unnamed) = (0, Vec::new());
     for layer in &panel.layers {
         if let Marks::Bars(bars) = &layer.marks {
             self::bars(&mut chart, layer, bars, name, sheet, looks, column)?;
@@ -126,6 +133,11 @@ fn chart(
             continue;
         }
         for y in first + 1..*column {
+            // Help for the eye has no name, and what has two edges is named once.
+            if layer.name.is_empty() || y > first + 1 {
+                unnamed.push(series_count);
+            }
+            series_count += 1;
             let series = chart.add_series();
             series
                 .set_categories((name, 1, first, rows, first))
@@ -134,10 +146,16 @@ fn chart(
             draw(series, layer);
         }
     }
-    chart.title().set_name(said(&panel.title).as_str());
+    let mut font = ChartFont::new();
+    font.set_size(11);
+    chart
+        .title()
+        .set_name(said(&panel.title).as_str())
+        .set_font(&font);
     if panel.layers.iter().any(is_bars) {
         // The first bar on top.
         chart.y_axis().set_reverse();
+        axis(chart.x_axis(), &panel.x);
     } else {
         axis(chart.x_axis(), &panel.x);
         axis(chart.y_axis(), &panel.y);
@@ -147,7 +165,8 @@ fn chart(
     } else {
         chart
             .legend()
-            .set_position(rust_xlsxwriter::ChartLegendPosition::Bottom);
+            .set_position(rust_xlsxwriter::ChartLegendPosition::Bottom)
+            .delete_entries(&unnamed);
     }
     chart.set_width(720).set_height(20 * HEIGHT - 10);
     Ok(chart)

@@ -9,6 +9,7 @@ impl Document {
     /// this one tells them.
     #[must_use]
     pub fn beside_the_words_of(mut self, other: Document) -> Document {
+        self.other = Some(other.language);
         self.blocks = side_by_side(self.blocks, other.blocks);
         self.beside = pairwise(self.beside, other.beside, Plot::texts_of, Plot::texts);
         self.sheets = pairwise(self.sheets, other.sheets, Sheet::texts_of, Sheet::texts);

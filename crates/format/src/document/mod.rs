@@ -34,6 +34,8 @@ pub struct Document {
     pub version: u32,
     /// Language of the blocks.
     pub language: Language,
+    /// The language whose words stand beside it, where there are two.
+    pub other: Option<Language>,
     /// What a person reads.
     pub blocks: Vec<Block>,
     /// What a machine reads; exact numbers.
@@ -58,6 +60,7 @@ impl Document {
             kind: M::KIND,
             version: M::VERSION,
             language,
+            other: None,
             blocks,
             machine: machine::value(machine),
             beside: Vec::new(),
@@ -103,6 +106,15 @@ impl Document {
             _ => Value::Array(values),
         };
         Some(whole)
+    }
+
+    /// Words that a format adds, in the languages of the blocks.
+    pub fn words(&self, english: &str, chinese: &str) -> String {
+        let own = self.language.pick(english, chinese);
+        match self.other.map(|other| other.pick(english, chinese)) {
+            Some(other) => format!("{own} / {other}"),
+            None => own.to_owned(),
+        }
     }
 
     /// The plots, first those of the blocks, then those beside them.

@@ -32,11 +32,15 @@ fn html(document: &Document) -> String {
         html: String::new(),
         sections: 0,
     };
-    page.contents(&parts, !document.beside.is_empty());
+    let plots = document.words("Plots", "图");
+    let plots = (!document.beside.is_empty()).then_some(plots.as_str());
+    page.contents(&parts, plots);
     for part in &parts {
         page.part(part);
     }
-    page.plots_beside(&document.beside);
+    if let Some(heading) = plots {
+        page.plots_beside(heading, &document.beside);
+    }
     let language = match document.language {
         Language::English => "en",
         Language::Chinese => "zh-Hans",
@@ -68,7 +72,7 @@ impl Page {
     }
 
     /// Links to the headings, where there are enough to need them.
-    fn contents(&mut self, parts: &[Part<'_>], plots: bool) {
+    fn contents(&mut self, parts: &[Part<'_>], plots: Option<&str>) {
         /// A reader sees as many headings at once.
         const AT_A_GLANCE: usize = 3;
         let mut headings: Vec<&str> = parts
@@ -76,9 +80,7 @@ impl Page {
             .flat_map(|part| &part.sections)
             .map(|section| section.heading)
             .collect();
-        if plots {
-            headings.push(self.word("Plots", "图"));
-        }
+        headings.extend(plots);
         if headings.len() <= AT_A_GLANCE {
             return;
         }
@@ -121,11 +123,8 @@ impl Page {
         self.line(format_args!("<section id=\"s{at}\">\n<h2>{heading}</h2>"));
     }
 
-    fn plots_beside(&mut self, plots: &[Plot]) {
-        if plots.is_empty() {
-            return;
-        }
-        self.heading(self.word("Plots", "图"));
+    fn plots_beside(&mut self, heading: &str, plots: &[Plot]) {
+        self.heading(heading);
         plots.iter().for_each(|plot| self.plot(plot));
         self.line(format_args!("</section>"));
     }

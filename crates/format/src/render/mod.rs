@@ -1,6 +1,7 @@
 //! The formats of text in which a document is written, and what all formats have in common. The list of all of them is in
 //! the crate `export`, with those that rest on large libraries.
 
+pub mod drawing;
 mod format;
 pub mod html;
 pub mod inline;

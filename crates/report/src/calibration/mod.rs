@@ -4,6 +4,7 @@ mod causes;
 mod form;
 mod hidden;
 mod misfit;
+mod plots;
 mod sections;
 mod trouble;
 
@@ -30,6 +31,8 @@ pub fn calibration(campaign: &Campaign, found: &Calibration, language: Language)
     ]
     .concat();
     Document::new(&form::CalibrationForm::of(campaign, found, l), l, blocks)
+        .with_plots(plots::residuals(campaign, found, l))
+        .with_plots(plots::contributions(&found.figures, l))
 }
 
 /// The document of a plan.
@@ -54,7 +57,11 @@ pub fn plan(campaign: &Campaign, plan: &Plan, language: Language) -> Document {
         misfit::remarks(campaign, None, &plan.assumed, l),
     ]
     .concat();
-    Document::new(&form::PlanForm::of(campaign, plan, l), l, blocks)
+    let document = Document::new(&form::PlanForm::of(campaign, plan, l), l, blocks);
+    match figures {
+        Some(figures) => document.with_plots(plots::contributions(figures, l)),
+        None => document,
+    }
 }
 
 /// Why there are no coefficients, in sentences.

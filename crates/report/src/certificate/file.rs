@@ -9,8 +9,10 @@ use gumption_fault::{Fault, Rejection, say};
 use gumption_format::document::{Administration, Condition, Contact, Item, Person, Told};
 use gumption_format::files::Files;
 use gumption_format::toml::faults::{UNKNOWN_WORD, UNREADABLE_FILE};
-use gumption_format::toml::{Amount, Date, Stated, decoded, tables_of};
+use gumption_format::toml::{Amount, Date, FromToml, KeyRow, Stated, Table, decoded, tables_of};
 use gumption_gum::budget::faults::{MISSING_KEY, NOT_POSITIVE, PROBABILITY, UNIT, UNUSED};
+
+use serde_json::{Value, json};
 
 use super::number::Notation;
 use super::tables::{
@@ -51,6 +53,24 @@ pub fn administration(files: Files<'_>, path: &Path) -> Result<Administration, R
         true => Ok(administration),
         false => Err(refused(check.faults)),
     }
+}
+
+/// JSON Schema of the data of a certificate, for editors.
+pub fn certificate_schema() -> Value {
+    let mut schema = CertificateFile::schema();
+    if let Value::Object(entries) = &mut schema {
+        let draft = "http://json-schema.org/draft-07/schema#";
+        entries.insert("$schema".into(), json!(draft));
+        entries.insert("title".into(), json!("gumption data of a certificate"));
+    }
+    schema
+}
+
+/// Every key of the data of a certificate, with its table.
+pub fn certificate_keys() -> Vec<KeyRow> {
+    let mut rows = Vec::new();
+    CertificateFile::rows("", &mut rows);
+    rows
 }
 
 /// The data of a certificate to fill in.

@@ -5,7 +5,7 @@ mod head;
 mod number;
 mod tables;
 
-pub use file::{administration, certificate_template};
+pub use file::{administration, certificate_keys, certificate_schema, certificate_template};
 pub use head::certified;
 
 use gumption_core::quantity::{Decimal, Unit};

@@ -6,7 +6,7 @@ use crate::language::Language;
 use crate::symbol;
 use gumption_format::document::{Axis, Layer, Marks, Panel, Plot, Tone};
 use gumption_lab::diagnose::Diagnosis;
-use gumption_lab::diagnose::case::{Case, Role};
+use gumption_lab::diagnose::case::{Case, Response, Role};
 
 /// One plot for each column that the residuals may follow.
 pub(super) fn plots(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Plot> {
@@ -39,38 +39,35 @@ pub(super) fn plots(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Plot
     plots
 }
 
-/// The panels of one plot, one below the other: responses, each before and after.
+/// A panel for each response: what is left before and after, on one scale.
 fn panels(case: &Case, diagnosis: &Diagnosis, x: &Axis, at: &[f64], l: Language) -> Vec<Panel> {
-    let before = l.pick("residuals of the declared model", "声明的模型的残差");
-    let after = l.pick(
-        "residuals with the physics in the model",
-        "加入遗漏效应后的残差",
-    );
     let adopted = diagnosis.adopted.as_ref();
-    let mut panels = Vec::new();
-    for (response, declared) in case.responses.iter().enumerate() {
-        let mut panel = |title: &str, tone: Tone, residuals: &DVector<f64>| {
+    let panel = |(response, declared): (usize, &Response)| {
+        let layer = |name: &str, tone, marks| Layer {
+            name: name.to_owned(),
+            tone,
+            marks,
+        };
+        let points = |residuals: &DVector<f64>| {
             let own = residuals.rows(response * at.len(), at.len());
             let points = at.iter().zip(own.iter()).map(|(x, y)| [*x, *y]);
-            let layer = |name: &str, tone, marks| Layer {
-                name: name.to_owned(),
-                tone,
-                marks,
-            };
-            panels.push(Panel {
-                title: title.to_owned(),
-                x: x.clone(),
-                y: Axis::linear(declared.name.as_str(), symbol(&declared.unit)),
-                layers: vec![
-                    layer(l.pick("zero", "零"), Tone::Quiet, Marks::Level(0.0)),
-                    layer(title, tone, Marks::Points(points.collect())),
-                ],
-            });
+            Marks::Points(points.collect())
         };
-        panel(before, Tone::Contrast, &diagnosis.residuals);
-        if let Some(adopted) = adopted {
-            panel(after, Tone::Main, &adopted.residuals);
+        let before = l.pick("with the declared model", "声明的模型");
+        let after = l.pick("with the physics that was left out", "加入遗漏效应后");
+        let mut layers = vec![layer("", Tone::Quiet, Marks::Level(0.0))];
+        layers.push(layer(before, Tone::Contrast, points(&diagnosis.residuals)));
+        layers.extend(adopted.map(|one| layer(after, Tone::Main, points(&one.residuals))));
+        Panel {
+            title: match adopted {
+                Some(_) => l.pick("Residuals before and after", "加入效应前后的残差"),
+                None => l.pick("Residuals of the declared model", "声明的模型的残差"),
+            }
+            .to_owned(),
+            x: x.clone(),
+            y: Axis::linear(declared.name.as_str(), symbol(&declared.unit)),
+            layers,
         }
-    }
-    panels
+    };
+    case.responses.iter().enumerate().map(panel).collect()
 }

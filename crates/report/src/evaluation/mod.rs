@@ -10,6 +10,7 @@ mod fits;
 mod joint;
 mod matrix;
 mod plots;
+mod regions;
 mod result;
 mod series;
 mod understood;
@@ -55,7 +56,8 @@ fn of(report: &Report<'_>, in_full: bool) -> Document {
     match in_full {
         true => document
             .with_sheets(worksheet::sheets(report))
-            .with_plots(plots::plots(report)),
+            .with_plots(plots::plots(report))
+            .with_plots(regions::plots(report)),
         false => document,
     }
 }

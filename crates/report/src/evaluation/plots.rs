@@ -55,7 +55,7 @@ pub(super) fn plots(report: &Report<'_>) -> Vec<Plot> {
     plots
 }
 
-fn layer(name: impl Into<String>, tone: Tone, marks: Marks) -> Layer {
+pub(super) fn layer(name: impl Into<String>, tone: Tone, marks: Marks) -> Layer {
     Layer {
         name: name.into(),
         tone,
@@ -196,7 +196,11 @@ fn distribution(report: &Report<'_>, m: usize, found: &MonteCarlo) -> Panel {
         // A limit far away would leave nothing to be seen of the distribution.
         let near = (left - 2.0 * (right - left)..=right + 2.0 * (right - left)).contains(&limit);
         if near {
-            layers.push(layer("", Tone::Quiet, Marks::Upright(limit)));
+            // One of them is named for all.
+            let words = l.pick("limits of tolerance", "容许限");
+            let first = layers.iter().all(|one| one.name != words);
+            let name = if first { words } else { "" };
+            layers.push(layer(name, Tone::Quiet, Marks::Upright(limit)));
         }
     }
     let per = match symbol(unit) {

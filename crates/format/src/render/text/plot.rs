@@ -97,7 +97,7 @@ fn drawn(panel: &Panel, page: usize) -> Vec<String> {
         " ".repeat((space - space / 2).max(1)),
     );
     lines.push(format!("{blank} {left}{before}{name}{after}{right}"));
-    for layer in &panel.layers {
+    for layer in panel.layers.iter().filter(|layer| !layer.name.is_empty()) {
         lines.push(format!("{blank} {} {}", sign(layer), layer.name));
     }
     lines

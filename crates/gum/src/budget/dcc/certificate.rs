@@ -4,6 +4,7 @@ use gumption_fault::{Fault, say};
 use roxmltree::{Document, Node};
 
 use super::quantity::{Value, values};
+use super::validity::{Validity, validity};
 use super::xml::{Faults, at, child, children, fault, numbers, text};
 use crate::budget::faults::DIGITAL_CERTIFICATE;
 
@@ -18,6 +19,8 @@ pub(super) struct DigitalCertificate {
     pub date: Option<String>,
     /// The number of the certificate that it replaces.
     pub replaces: Option<String>,
+    /// Until when it is to be used.
+    pub validity: Validity,
     /// Its quantities, in the order of the file.
     pub quantities: Vec<Quantity>,
 }
@@ -110,11 +113,15 @@ pub(super) fn read(content: &str) -> Result<DigitalCertificate, Faults> {
         "contact",
         "name",
     ];
+    let date = of_core(&["endPerformanceDate"]).or_else(|| of_core(&["issueDate"]));
+    let administration = child(root, "administrativeData");
+    let validity = administration.map(|all| validity(all, date.as_deref()));
     Ok(DigitalCertificate {
         number: of_core(&["uniqueIdentifier"]),
         laboratory: at(root, &laboratory)
             .and_then(|name| Some(text(child(name, "content")?).to_owned())),
-        date: of_core(&["endPerformanceDate"]).or_else(|| of_core(&["issueDate"])),
+        date,
+        validity: validity.unwrap_or_default(),
         replaces: of_core(&["reportAmendedSubstituted", "replacedUniqueIdentifier"]),
         quantities,
     })

@@ -95,7 +95,7 @@ impl Filling<'_> {
         }
     }
 
-    /// Fills in U, k, p, ν, number, laboratory and date.
+    /// Fills in U, k, p, ν, number, laboratory, date and the end of its use.
     fn component(
         &mut self,
         owner: &str,
@@ -148,7 +148,7 @@ impl Filling<'_> {
         Some((file, chosen))
     }
 
-    /// Number, laboratory and date; what the budget states otherwise is remarked on, as the file may have been exchanged.
+    /// Number, laboratory, date and end of use; what the budget states otherwise is remarked on, as the file may have been exchanged.
     fn identity(
         &mut self,
         owner: &str,
@@ -188,6 +188,18 @@ impl Filling<'_> {
             }
             (None, Some(found)) => table.date = Some(file.map(|_| Date(found.clone()))),
             _ => {}
+        }
+        // Whether that day is past is looked at where the other certificates are.
+        if let (None, Some(until)) = (&table.due, &certificate.validity.until) {
+            table.due = Some(file.map(|_| Date(until.clone())));
+        }
+        if certificate.validity.refused {
+            self.found.remarks.push(Remark {
+                en: format!(
+                    "The certificate of {owner} in {name} says of itself that it is not valid."
+                ),
+                zh: format!("{owner} 的证书文件 {name} 声明自身无效。"),
+            });
         }
         if let (Some(measured), Some(certified)) = (&self.date, &certificate.date)
             && measured.get(..10) < certified.get(..10)

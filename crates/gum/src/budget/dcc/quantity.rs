@@ -129,6 +129,58 @@ const FORMS: &[Form] = &[
 
 /// The values of a quantity, one for each point; nothing of a quantity that has none.
 pub(super) fn values(quantity: Node<'_, '_>, faults: &mut Faults) -> Vec<Value> {
+    let mut values = absolute(quantity, faults);
+    if let Some(node) = child(quantity, "relativeUncertainty") {
+        let sizes = relative(node, values.len(), faults);
+        for (value, size) in values.iter_mut().zip(sizes) {
+            // Of nothing no part says how uncertain it is.
+            let expanded = size.map(|size| size * value.value.abs());
+            let stated = expanded.filter(|u| *u > 0.0).map(|expanded| Uncertainty {
+                expanded,
+                k: None,
+                p: None,
+            });
+            value.uncertainty = value.uncertainty.or(stated);
+        }
+    }
+    values
+}
+
+/// Uncertainties as parts of their values (DCC 3.2 and later); k stands where they are stated in the unit, too, or nowhere.
+fn relative(node: Node<'_, '_>, points: usize, faults: &mut Faults) -> Vec<Option<f64>> {
+    let forms = [
+        ("relativeUncertaintySingle", "value", "unit"),
+        ("relativeUncertaintyXmlList", "valueXMLList", "unitXMLList"),
+    ];
+    let mut found = forms.into_iter().filter_map(|(outer, value, unit)| {
+        let outer = child(node, outer)?;
+        child(outer, value).zip(child(outer, unit))
+    });
+    let Some((value, unit_node)) = found.next() else {
+        return vec![None; points];
+    };
+    let factors = text(unit_node).split_whitespace().map(|word| {
+        let unit = unit(word, unit_node, faults)?;
+        let one = unit.conversion_to(&Unit::one());
+        if one.is_none() {
+            let message = say!("a relative uncertainty in `{word}`");
+            faults.push(fault(unit_node, message));
+        }
+        Some(one?.factor)
+    });
+    let factors = factors.collect();
+    let factors = spread(factors, points, unit_node, faults);
+    let sizes = numbers(value, faults);
+    for size in sizes.iter().flatten().filter(|size| **size < 0.0) {
+        faults.push(fault(value, no_uncertainty(*size)));
+    }
+    let sizes = spread(sizes, points, value, faults)
+        .into_iter()
+        .zip(factors);
+    sizes.map(|(size, factor)| Some(size? * factor?)).collect()
+}
+
+fn absolute(quantity: Node<'_, '_>, faults: &mut Faults) -> Vec<Value> {
     if let Some(real) = child(quantity, "real") {
         return single(real, None, None, faults).into_iter().collect();
     }
@@ -140,7 +192,7 @@ pub(super) fn values(quantity: Node<'_, '_>, faults: &mut Faults) -> Vec<Value> 
         });
         return match known.next() {
             Some(real) => single(real, None, None, faults).into_iter().collect(),
-            None => values(hybrid, faults),
+            None => absolute(hybrid, faults),
         };
     }
     if let Some(list) = child(quantity, "realListXMLList") {

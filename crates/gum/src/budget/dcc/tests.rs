@@ -150,6 +150,57 @@ fn what_the_schema_does_not_check_is_refused_at_its_place() {
 }
 
 #[test]
+fn relative_uncertainties_are_parts_of_the_values() {
+    let relative = |unit: &str, size: &str| {
+        format!(
+            "<dcc:quantity><si:real><si:value>-20</si:value><si:unit>\\volt</si:unit></si:real><dcc:relativeUncertainty><dcc:relativeUncertaintySingle><si:value>{size}</si:value><si:unit>{unit}</si:unit></dcc:relativeUncertaintySingle></dcc:relativeUncertainty></dcc:quantity>"
+        )
+    };
+    let found = |unit: &str, size: &str| numbers(&good("3.2.1", &relative(unit, size)));
+    assert_eq!(found("\\one", "0.0005"), [(-20.0, 0.01, None, None)]);
+    let [(_, percent, ..)] = found("\\percent", "0.05")[..] else {
+        panic!("one point");
+    };
+    assert!((percent - 0.01).abs() < 1e-15);
+    let list = "<dcc:quantity><si:realListXMLList><si:valueXMLList>10 20</si:valueXMLList><si:unitXMLList>\\volt</si:unitXMLList></si:realListXMLList><dcc:relativeUncertainty><dcc:relativeUncertaintyXmlList><si:valueXMLList>0.5 0.25</si:valueXMLList><si:unitXMLList>\\one</si:unitXMLList></dcc:relativeUncertaintyXmlList></dcc:relativeUncertainty></dcc:quantity>";
+    let all = numbers(&good("3.3.0", list));
+    assert_eq!(all, [(10.0, 5.0, None, None), (20.0, 5.0, None, None)]);
+    assert!(bad(&relative("\\volt", "0.1"))[0].contains("a relative uncertainty in"));
+    assert!(bad(&relative("\\one", "-0.1"))[0].contains("is no uncertainty"));
+}
+
+#[test]
+fn statements_say_until_when_a_certificate_is_used() {
+    let data = "<dcc:quantity><si:real><si:value>1</si:value><si:unit>\\volt</si:unit></si:real></dcc:quantity>";
+    let validity = |statement: &str| {
+        let statements = format!(
+            "<dcc:statements><dcc:statement {statement}</dcc:statement></dcc:statements></dcc:administrativeData>"
+        );
+        let content = certificate("3.3.0", data).replace("</dcc:administrativeData>", &statements);
+        read(&content).expect("a certificate").validity
+    };
+    let until = |statement: &str| validity(statement).until;
+    for (statement, day) in [
+        (
+            "refType=\"basic_recalibrationDate\"><dcc:date>2026-05-01</dcc:date>",
+            Some("2026-05-01"),
+        ),
+        (
+            "><dcc:valid>true</dcc:valid><dcc:period>P1Y</dcc:period>",
+            Some("2026-03-02"),
+        ),
+        (
+            "><dcc:valid>true</dcc:valid><dcc:date>2025-03-10</dcc:date><dcc:period>P6M</dcc:period>",
+            Some("2025-09-10"),
+        ),
+        ("><dcc:date>2026-05-01</dcc:date>", None),
+    ] {
+        assert_eq!(until(statement).as_deref(), day, "{statement}");
+    }
+    assert!(validity("><dcc:valid>false</dcc:valid>").refused);
+}
+
+#[test]
 fn other_files_are_refused() {
     for (content, words) in [
         ("<a><b></a>", "not well-formed"),

@@ -1,0 +1,271 @@
+//! Every format of what every command composes: each is written, and holds the figures of the others and no more.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use gumption::budget::{self, Trials};
+use gumption::document::Document;
+use gumption::propagate::{self, Options};
+use gumption::render::{FORMATS, Page, archive};
+use gumption::report::{self, Language, Report};
+use gumption::{Files, render};
+
+use super::common::{self, cases, program, root};
+
+/// Enough for pictures and for either verdict; the figures need not be good ones.
+const TRIALS: u64 = 2000;
+
+type Figures = BTreeSet<String>;
+
+/// The numbers of a text, sign and exponent apart.
+fn figures(text: &str) -> Figures {
+    let digits = |c: char| c.is_ascii_digit() || c == '.';
+    let words = text
+        .split(|c| !digits(c))
+        .map(|word| word.trim_matches('.'));
+    let numbers = words.filter(|word| word.bytes().any(|b| b.is_ascii_digit()));
+    numbers.map(str::to_owned).collect()
+}
+
+/// Without what stands between two marks.
+fn without(text: &str, open: &str, close: &str) -> String {
+    let mut pieces = text.split(open);
+    let mut kept = pieces.next().unwrap_or_default().to_owned();
+    for piece in pieces {
+        kept += " ";
+        kept += piece.split_once(close).map_or("", |(_, rest)| rest);
+    }
+    kept
+}
+
+/// Words of a part of a package: each element of this name.
+fn words_of(xml: &str, element: &str) -> String {
+    let open = format!("<{element}");
+    let parts = xml.split(&open).skip(1);
+    let words = parts.filter_map(|part| {
+        let (head, rest) = part.split_once('>')?;
+        // Another element, or one without content.
+        let own = head.is_empty() || head.starts_with(' ');
+        (own && !head.ends_with('/')).then(|| rest.split('<').next().unwrap_or_default())
+    });
+    words.collect::<Vec<_>>().join(" ")
+}
+
+fn part(package: &[u8], name: &str) -> String {
+    let members = archive::unpacked(package).expect("a package");
+    let member = members.into_iter().find(|(own, _)| own == name);
+    String::from_utf8(member.expect(name).1).expect("UTF-8")
+}
+
+/// The figures that a reader of a format sees in its words, without pictures and numbers of pages.
+fn seen(format: &str, bytes: &[u8]) -> Figures {
+    let text = || String::from_utf8(bytes.to_vec()).expect("UTF-8");
+    match format {
+        "text" => figures(&text()),
+        "markdown" => figures(&text().replace('\\', "")),
+        "html" => {
+            let mut text = text();
+            for (open, close) in [("<style", "</style>"), ("<svg", "</svg>"), ("<", ">")] {
+                text = without(&text, open, close);
+            }
+            figures(&text)
+        }
+        "docx" => {
+            let main = part(bytes, "word/document.xml");
+            // A number may change its looks where it is raised, and nowhere else.
+            figures(&format!(
+                "{} {}",
+                words_of(&main, "w:t"),
+                words_of(&main, "m:t")
+            ))
+        }
+        "xlsx" => figures(&words_of(&part(bytes, "xl/sharedStrings.xml"), "t")),
+        other => panic!("{other} has no words"),
+    }
+}
+
+fn written(document: &Document, name: &str) -> Vec<u8> {
+    let format = render::named(name).expect(name);
+    (format.render)(document, &Page::default()).unwrap_or_else(|unfit| panic!("{name}: {unfit:?}"))
+}
+
+#[track_caller]
+fn within(part: &Figures, whole: &Figures, what: &str) {
+    let more: Vec<&String> = part.difference(whole).collect();
+    assert!(more.is_empty(), "{what}: {more:?}");
+}
+
+fn folder(name: &str) -> PathBuf {
+    cases::folder(&format!("every-format-{name}"))
+}
+
+/// The evaluation of a file as the document of a certificate in both languages.
+fn certificate(path: &Path, laboratory: &gumption::document::Administration) -> Document {
+    let loaded =
+        budget::load(path).unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
+    let rows = loaded.rows.into_iter().map(|mut row| {
+        row.budget.monte_carlo.trials = Trials::Fixed(TRIALS);
+        let found = propagate::evaluate(&row.budget, &Options::default());
+        (row, found.expect("a value"))
+    });
+    let rows: Vec<_> = rows.collect();
+    let composed = |language: Language| {
+        let reports = rows.iter().map(|(row, evaluation)| Report {
+            budget: &row.budget,
+            evaluation,
+            label: row.label.as_deref(),
+            language,
+        });
+        let reports: Vec<_> = reports.collect();
+        report::evaluations(&reports, 2).expect("a row")
+    };
+    let both = composed(Language::English).beside_the_words_of(composed(Language::Chinese));
+    report::certified(both, laboratory, Vec::new())
+}
+
+#[test]
+fn no_figure_of_the_library_differs_between_formats() {
+    let folder = folder("library");
+    let data = folder.join("laboratory.toml");
+    std::fs::write(&data, report::certificate_template()).expect("written");
+    let laboratory = report::administration(Files::Disk, &data).expect("the template is good");
+    let (mut count, mut certified) = (0, 0);
+    for path in common::files("budgets", "toml") {
+        let document = certificate(&path, &laboratory);
+        let what = |format: &str| format!("{}, {format}", common::relative(&path));
+        let html = seen("html", &written(&document, "html"));
+        assert!(html.len() > 5, "{html:?}");
+        let docx = seen("docx", &written(&document, "docx"));
+        within(&html, &docx, &what("HTML, not in Word"));
+        within(&docx, &html, &what("Word, not in HTML"));
+        let markdown = seen("markdown", &written(&document, "markdown"));
+        within(&html, &markdown, &what("HTML, not in Markdown"));
+        within(&markdown, &html, &what("Markdown, not in HTML"));
+        within(
+            &seen("text", &written(&document, "text")),
+            &html,
+            &what("text, not in HTML"),
+        );
+        let workbook = written(&document, "xlsx");
+        let stated = statement(&document);
+        within(
+            &stated,
+            &seen("xlsx", &workbook),
+            &what("statement, not in Excel"),
+        );
+        within(&stated, &html, &what("statement, not in HTML"));
+        let json: serde_json::Value =
+            serde_json::from_slice(&written(&document, "json")).expect("JSON");
+        assert!(json.is_object() || json.is_array());
+        // A digital certificate is refused with a reason where it cannot say what is stated.
+        let dcc = render::with_ending("xml").expect("the format");
+        match (dcc.render)(&document, &Page::default()) {
+            Ok(bytes) => {
+                let xml = String::from_utf8(bytes).expect("UTF-8");
+                within(
+                    &stated,
+                    &figures(&without(&xml, "<", ">")),
+                    &what("statement, not in the digital certificate"),
+                );
+                certified += 1;
+            }
+            Err(unfit) => assert!(!unfit.0.to_string().is_empty()),
+        }
+        count += 1;
+    }
+    assert!(
+        count > 100 && certified * 4 > count * 3,
+        "{certified} of {count}"
+    );
+}
+
+/// The figures of the sentences of a certificate.
+fn statement(document: &Document) -> Figures {
+    use gumption::document::Block;
+    let sentences = document.blocks.iter().filter_map(|block| match block {
+        Block::Statement(sentences) => Some(sentences.join(" ")),
+        _ => None,
+    });
+    figures(&sentences.take(1).collect::<String>())
+}
+
+/// A line with a bend, of which a fit, a diagnosis, a plan and an Allan deviation can be made.
+fn recorded(folder: &Path) {
+    let mut noise = common::Noise(7);
+    let mut recording = String::from("t [s],x,y [V]\n");
+    for k in 0..64 {
+        let x = f64::from(k % 16) / 8.0 - 1.0;
+        let y = 1.0 + 2.0 * x + 0.02 * x * x + 1e-3 * noise.normal();
+        recording += &format!("{k},{x},{y}\n");
+    }
+    let case = "recording = \"recording.csv\"\nequations = \"y = a + b*x\"\n[columns]\nx = \"stimulus\"\ny = \"output\"\n[noise]\nu = \"1 mV\"\n";
+    std::fs::write(folder.join("recording.csv"), recording).expect("written");
+    std::fs::write(folder.join("case.toml"), case).expect("written");
+}
+
+#[test]
+fn every_command_writes_every_format() {
+    let folder = folder("commands");
+    recorded(&folder);
+    let here = |path: &str| root().join(path).display().to_string();
+    let commands: [(&str, Vec<String>); 8] = [
+        ("diagnose", vec!["case.toml".into()]),
+        ("plan", vec!["case.toml".into()]),
+        (
+            "calibrate",
+            vec![here("experiments/gyro-scale-factor.toml")],
+        ),
+        ("plan", vec![here("experiments/tumble-plan.toml")]),
+        (
+            "allan",
+            ["recording.csv", "--column", "y", "--time", "t"]
+                .map(String::from)
+                .to_vec(),
+        ),
+        ("audit", vec![here("docs/examples/claimed-budget.csv")]),
+        (
+            "verify",
+            vec![here("budgets/electrical/resistor-10k-ea402-s3.toml")],
+        ),
+        ("eval", vec![here("docs/examples/voltage-and-current.toml")]),
+    ];
+    for (command, arguments) in commands {
+        let mut all = Vec::new();
+        for format in FORMATS {
+            let file = folder.join(format!("{command}.{}", format.ending));
+            let run = program()
+                .current_dir(&folder)
+                .args([command, "--lang", "both", "--force", "-o"])
+                .arg(&file)
+                .args(&arguments)
+                .output()
+                .expect("the program runs");
+            let said = String::from_utf8_lossy(&run.stderr);
+            if format.ending == "xml" {
+                // Only an evaluation is certified, and only with the data of a certificate.
+                assert_eq!(run.status.code(), Some(2), "{command}: {said}");
+                assert!(
+                    said.contains("certificate") || said.contains("证书"),
+                    "{said}"
+                );
+                continue;
+            }
+            assert_ne!(
+                run.status.code(),
+                Some(2),
+                "{command} {}: {said}",
+                format.name
+            );
+            all.push((format.name, std::fs::read(&file).expect("written")));
+        }
+        let of = |name: &str| {
+            let (_, bytes) = all.iter().find(|(own, _)| *own == name).expect(name);
+            seen(name, bytes)
+        };
+        let html = of("html");
+        let what = |format: &str| format!("{command} {arguments:?}, {format}");
+        within(&html, &of("docx"), &what("HTML, not in Word"));
+        within(&of("docx"), &html, &what("Word, not in HTML"));
+        within(&html, &of("markdown"), &what("HTML, not in Markdown"));
+    }
+}

@@ -79,9 +79,10 @@ pub(super) fn run(args: &Args) -> Outcome {
     };
     let columns = Columns {
         shares: args.shares,
+        seeds: args.monte_carlo,
         language: args.lang,
     };
-    let mut table = Table::default();
+    let mut table = Table::of(columns, &file);
     let mut trouble = None;
     let length = Files::Disk.length(&args.table).unwrap_or(0).max(1);
     let steps = Steps::shown(say!("batch"));

@@ -121,9 +121,10 @@ fn run(budget: &str, table: &str, plan: &Plan) -> Result<(String, Count), Reject
     let file = BatchFile::open(Files::Library(&files), Path::new("budget.toml"), None)?;
     let columns = Columns {
         shares: true,
+        seeds: plan.monte_carlo.is_some(),
         language: Language::English,
     };
-    let mut results = Table::default();
+    let mut results = Table::of(columns, &file);
     let mut out = Vec::new();
     let block = |rows: Vec<batch::Evaluated>| columns.lines(&rows);
     batch::run(
@@ -258,10 +259,19 @@ fn a_faulty_row_stops_nothing() {
         errors[3].contains("where a number is expected"),
         "{errors:?}"
     );
+    // A faulty row keeps its name; one that cannot be read has its number.
+    let named = "label,x,x.u\nfirst,1,0.1\nsecond,2,-0.1\nthird,3\n007,four,0.1\n";
+    let (named, _) = run(budget, named, &plan(None, 1)).expect("a batch");
+    let labels: Vec<String> = cells(&named).1.iter().map(|row| row[0].clone()).collect();
+    assert_eq!(labels, ["first", "second", "3", "007"]);
     // Rows without a result at the beginning wait until one tells what the columns are.
     let (late, _) = run(budget, "x,x.u\nfour,0.1\n5,0.5\n", &plan(None, 1)).expect("a batch");
     assert_eq!(cells(&late).0, found.0);
     let (none, count) = run(budget, "x,x.u\nfour,0.1\n", &plan(None, 1)).expect("a batch");
+    assert_eq!((cells(&none).0, count.failed), (found.0, 1));
+    // Nothing tells the columns where the budget is not whole and no row has a result.
+    let open = budget.replace("value = 1\n", "");
+    let (none, count) = run(&open, "x,x.u\n4,-0.1\n", &plan(None, 1)).expect("a batch");
     assert_eq!(
         (cells(&none).0, count.failed),
         (vec!["label".into(), "error".into()], 1)

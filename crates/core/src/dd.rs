@@ -10,6 +10,7 @@
 use std::cmp::Ordering;
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::sync::LazyLock;
 
 /// A number of about 32 decimal digits.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -69,10 +70,16 @@ impl Dd {
     /// The number that x was read from: the shortest decimal that is read as x. Data are written in
     /// decimals, and 0.1 means one tenth.
     pub fn from_decimal(x: f64) -> Dd {
+        Dd::nearest(x, &format!("{x:e}"))
+    }
+
+    /// The same with the shortest decimal of x at hand.
+    pub(crate) fn nearest(x: f64, shortest: &str) -> Dd {
         if !x.is_finite() || x.fract() == 0.0 {
             return x.into();
         }
-        Dd::parse(&format!("{x:e}")).unwrap_or(x.into())
+        let low = decimal(shortest).map_or(0.0, |exact| (exact - x.into()).high);
+        Dd { high: x, low }
     }
 
     /// The nearest f64.
@@ -116,14 +123,7 @@ fn decimal(text: &str) -> Option<Dd> {
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let digits: i128 = format!("{whole}{fraction}").parse().ok()?;
     let exponent = exponent.checked_sub(i32::try_from(fraction.len()).ok()?)?;
-    // Beyond, powers of ten are no longer good to the last digit, or overflow.
-    if !(-60..=60).contains(&exponent) {
-        return None;
-    }
-    let mut power = Dd::ONE;
-    for _ in 0..exponent.unsigned_abs() {
-        power = power * Dd::from(10.0);
-    }
+    let power = *POWERS_OF_TEN.get(exponent.unsigned_abs() as usize)?;
     let digits = whole_number(digits);
     Some(if exponent < 0 {
         digits / power
@@ -131,6 +131,12 @@ fn decimal(text: &str) -> Option<Dd> {
         digits * power
     })
 }
+
+/// Beyond these they are no longer good to the last digit, or overflow.
+static POWERS_OF_TEN: LazyLock<Vec<Dd>> = LazyLock::new(|| {
+    let powers = std::iter::successors(Some(Dd::ONE), |power| Some(*power * Dd::from(10.0)));
+    powers.take(61).collect()
+});
 
 /// A whole number, exact up to 106 bits.
 fn whole_number(x: i128) -> Dd {

@@ -148,19 +148,16 @@ fn evaluated(
     plan: &Plan,
 ) -> Evaluated {
     let line = row.as_ref().map_or(0, |row| row.line);
-    let read = row
-        .map_err(|fault| Failed::Row(Box::new(fault)))
-        .and_then(|row| {
-            let read = reader.row(&row, sheet);
-            read.map_err(|rejection| Failed::Refused(Box::new(rejection)))
-        });
-    let (label, found) = match read {
+    let (label, found) = match row {
+        Err(fault) => (None, Err(Failed::Row(Box::new(fault)))),
         Ok(row) => {
-            let found = propagate::evaluate(&row.budget, &plan.options(&row.budget));
-            let found = found.map_err(Failed::NoResult);
-            (row.label, found.map(|evaluation| (row.budget, evaluation)))
+            let read = reader.row(&row, sheet);
+            let found = read.map_err(|rejection| Failed::Refused(Box::new(rejection)));
+            (
+                reader.label(&row),
+                found.and_then(|row| result(row.budget, plan)),
+            )
         }
-        Err(failed) => (None, Err(failed)),
     };
     Evaluated {
         number,
@@ -168,6 +165,12 @@ fn evaluated(
         label,
         found,
     }
+}
+
+fn result(budget: Budget, plan: &Plan) -> Result<(Budget, Evaluation), Failed> {
+    let found = propagate::evaluate(&budget, &plan.options(&budget));
+    let found = found.map_err(Failed::NoResult);
+    found.map(|evaluation| (budget, evaluation))
 }
 
 impl Plan {

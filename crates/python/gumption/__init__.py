@@ -18,6 +18,7 @@ command ``gumption``, to the last bit.
 9.9990 mA
 """
 
+from ._arrow import RecordBatch, arrow_batch
 from ._batch import batch
 from ._commands import audit, calibrate, diagnose, evaluate, plan, simulate, verify
 from ._engine import version as __version__
@@ -31,10 +32,12 @@ __all__ = [
     "NoResult",
     "Quantity",
     "Record",
+    "RecordBatch",
     "Refused",
     "Result",
     "Row",
     "__version__",
+    "arrow_batch",
     "audit",
     "batch",
     "calibrate",

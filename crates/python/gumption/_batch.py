@@ -97,10 +97,11 @@ def _columns(text: str) -> dict[str, Any]:
     """The columns of results: numbers as arrays, NaN where there is none."""
     names, *rows = csv.reader(io.StringIO(text))
     columns = {name: [row[at] for row in rows] for at, name in enumerate(names)}
-    return {name: column if _is_text(name) else _numbers(column) for name, column in columns.items()}
+    return {name: column if is_text(name) else _numbers(column) for name, column in columns.items()}
 
 
-def _is_text(name: str) -> bool:
+def is_text(name: str) -> bool:
+    """Whether a column of results is no number."""
     return name in ("label", "findings", "error") or name.startswith("verdict(")
 
 

@@ -94,6 +94,12 @@ class Measurand(Record):
         """The coverage probability, where one is claimed."""
         return self.reported.coverage_probability
 
+    def __repr__(self) -> str:
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        figures = {"u": self.u, "k": self.k, "U": self.U}
+        shown = [f", {symbol} = {figure:.5g}" for symbol, figure in figures.items() if figure is not None]
+        return f"<{self.name} = {self.y:.10g}{unit}{''.join(shown)}>"
+
 
 class Row(Record):
     """What was found of one row of a series, or of a file without one."""

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use gumption_fault::Rejection;
 use gumption_fault::language::Language;
 use gumption_format::csv;
 use gumption_format::files::write::Replacing;
@@ -94,12 +95,16 @@ pub(crate) fn batch_of(
             Sink::File(Box::new(begun.map_err(|why| unwritten(why, language))?))
         }
     };
-    let mut results = Table::default();
     let mut trouble = None;
-    let columns = Columns { shares, language };
+    let columns = Columns {
+        shares,
+        seeds: plan.monte_carlo.is_some(),
+        language,
+    };
     let ended = watched(py, progress.as_ref(), &reading, || {
         source.with(|files, path| {
             let file = BatchFile::open(files, path, profile)?;
+            let mut results = Table::of(columns, &file);
             table.with(|tables: Files<'_>, path| {
                 let open = csv::open(tables, path, &name)?;
                 batch::run(
@@ -119,10 +124,12 @@ pub(crate) fn batch_of(
                         }
                     },
                 )
-            })
+            })?;
+            Ok(results)
         })
     })?;
-    ended.map_err(|rejection| Unmade::from(rejection).raised(py, language))?;
+    let results =
+        ended.map_err(|rejection: Rejection| Unmade::from(rejection).raised(py, language))?;
     if let Some(why) = trouble {
         return Err(PyOSError::new_err(why));
     }

@@ -1,9 +1,11 @@
 //! The results of a batch as lines of a table, row by row.
 
 use super::{Report, failure, remarks, rows};
+use gumption_core::model::Output;
 use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection};
 use gumption_gum::batch::{Evaluated, Failed};
+use gumption_gum::budget::{BatchFile, Budget};
 use gumption_gum::propagate::Verdict;
 
 /// What the lines hold beside what is reported.
@@ -11,6 +13,8 @@ use gumption_gum::propagate::Verdict;
 pub struct Columns {
     /// The share of each input in u²(y).
     pub shares: bool,
+    /// The seeds of the trials.
+    pub seeds: bool,
     /// The language in which errors are told.
     pub language: Language,
 }
@@ -18,6 +22,7 @@ pub struct Columns {
 /// Lines of some rows, made by whoever evaluated them.
 #[derive(Debug)]
 pub struct Lines {
+    /// The names of the columns, where a row has told them.
     heads: Option<Vec<String>>,
     lines: Vec<Line>,
 }
@@ -46,7 +51,7 @@ impl Columns {
                         label: None,
                         language: self.language,
                     };
-                    heads.get_or_insert_with(|| self.heads(&report));
+                    heads.get_or_insert_with(|| self.heads(budget));
                     let verdicts = evaluation.conformity.iter().map(|found| found.verdict);
                     rejected = verdicts
                         .into_iter()
@@ -65,14 +70,18 @@ impl Columns {
         Lines { heads, lines }
     }
 
-    fn heads(self, report: &Report<'_>) -> Vec<String> {
-        let mut heads = rows::heads(report);
+    /// The names of the columns that rows of this budget have.
+    fn heads(self, budget: &Budget) -> Vec<String> {
+        let mut heads = rows::heads(budget);
         if self.shares {
-            heads.extend(
-                each_share(report).map(|(name, input, _)| format!("share({name}, {input})")),
-            );
+            let share = |output: &Output| {
+                let name = output.name.clone();
+                let inputs = budget.inputs.iter();
+                inputs.map(move |input| format!("share({name}, {})", input.name))
+            };
+            heads.extend(budget.model.outputs().iter().flat_map(share));
         }
-        heads.extend(report.evaluation.run.as_ref().map(|_| "seed".into()));
+        heads.extend(self.seeds.then(|| "seed".into()));
         heads.extend(["findings".into(), "error".into()]);
         heads
     }
@@ -80,28 +89,17 @@ impl Columns {
     fn cells(self, report: &Report<'_>) -> Vec<String> {
         let mut cells = rows::cells(report);
         if self.shares {
-            cells.extend(each_share(report).map(|(_, _, share)| rows::number(Some(share))));
+            let lines = report.evaluation.results.iter();
+            let lines = lines.flat_map(|result| &result.gum.inputs);
+            cells.extend(lines.map(|line| rows::number(Some(line.share))));
         }
-        cells.extend(
-            report
-                .evaluation
-                .run
-                .as_ref()
-                .map(|run| run.seed.to_string()),
-        );
+        if self.seeds {
+            let run = report.evaluation.run.as_ref();
+            cells.push(run.map_or_else(String::new, |run| run.seed.to_string()));
+        }
         cells.extend([findings(report), String::new()]);
         cells
     }
-}
-
-/// The share of each input in u²(y) of each measurand.
-fn each_share<'r>(report: &'r Report<'_>) -> impl Iterator<Item = (&'r str, &'r str, f64)> {
-    let measurands = report.evaluation.results.iter().enumerate();
-    measurands.flat_map(|(measurand, result)| {
-        let (name, _) = report.measurand(measurand);
-        let inputs = report.budget.inputs.iter().zip(&result.gum.inputs);
-        inputs.map(move |(input, line)| (name, input.name.as_str(), line.share))
-    })
 }
 
 /// The codes of the findings; behind each the measurand that it is about, where there are several.
@@ -144,6 +142,8 @@ fn described(fault: &Fault, language: Language) -> String {
 #[derive(Debug, Default)]
 pub struct Table {
     heads: Option<Vec<String>>,
+    /// Whether they are written.
+    headed: bool,
     /// Rows without a result, as long as no row has told what the columns are.
     waiting: Vec<Line>,
     count: Count,
@@ -161,20 +161,30 @@ pub struct Count {
 }
 
 impl Table {
+    /// Nothing is in it yet. Its columns are those of the budget where that is whole without a row, else those of the first row
+    /// that has a result.
+    pub fn of(columns: Columns, file: &BatchFile<'_>) -> Table {
+        Table {
+            heads: file.alone().map(|budget| columns.heads(&budget)),
+            ..Table::default()
+        }
+    }
+
     /// The bytes that these lines add, as comma-separated values.
     ///
     /// # Errors
     /// Only where the text cannot be put together, which memory alone could prevent.
     pub fn add(&mut self, lines: Lines) -> Result<Vec<u8>, csv::Error> {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        if let (None, Some(heads)) = (&self.heads, lines.heads) {
-            writer.write_record(&heads)?;
-            self.heads = Some(heads);
-        }
+        self.heads = self.heads.take().or(lines.heads);
         let Some(heads) = &self.heads else {
             self.waiting.extend(lines.lines);
             return Ok(Vec::new());
         };
+        if !self.headed {
+            writer.write_record(heads)?;
+            self.headed = true;
+        }
         for line in std::mem::take(&mut self.waiting)
             .into_iter()
             .chain(lines.lines)
@@ -216,13 +226,13 @@ impl Table {
     /// # Errors
     /// As of [`Table::add`].
     pub fn end(mut self) -> Result<(Vec<u8>, Count), csv::Error> {
-        let left = match self.heads {
-            Some(_) => Vec::new(),
-            None => self.add(Lines {
-                heads: Some(vec!["label".into(), "error".into()]),
-                lines: Vec::new(),
-            })?,
+        if self.headed {
+            return Ok((Vec::new(), self.count));
+        }
+        let nothing = Lines {
+            heads: Some(vec!["label".into(), "error".into()]),
+            lines: Vec::new(),
         };
-        Ok((left, self.count))
+        Ok((self.add(nothing)?, self.count))
     }
 }

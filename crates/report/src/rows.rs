@@ -1,7 +1,9 @@
 //! Results as rows of numbers, for spreadsheets and scripts.
 
 use super::{Report, decisions};
+use gumption_core::model::Output;
 use gumption_core::quantity::Unit;
+use gumption_gum::budget::Budget;
 use gumption_gum::propagate::ReportedUncertainty;
 
 /// One line for every row, exact, as comma-separated values: label, and for every measurand what is reported of it, with its
@@ -12,7 +14,7 @@ use gumption_gum::propagate::ReportedUncertainty;
 pub fn rows(rows: &[Report<'_>]) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     if let Some(first) = rows.first() {
-        writer.write_record(heads(first))?;
+        writer.write_record(heads(first.budget))?;
     }
     for row in rows {
         writer.write_record(cells(row))?;
@@ -22,16 +24,15 @@ pub fn rows(rows: &[Report<'_>]) -> Result<Vec<u8>, csv::Error> {
         .map_err(|error| error.into_error().into())
 }
 
-pub(super) fn heads(report: &Report<'_>) -> Vec<String> {
+pub(super) fn heads(budget: &Budget) -> Vec<String> {
     let in_unit = |head: String, unit: &Unit| match unit.is_one() {
         true => head,
         false => format!("{head} [{}]", unit.symbol),
     };
     let mut heads = vec!["label".to_string()];
-    for measurand in 0..report.evaluation.results.len() {
-        let (name, unit) = report.measurand(measurand);
+    for Output { name, unit, .. } in budget.model.outputs() {
         let deviation = unit.difference();
-        heads.push(in_unit(name.to_string(), unit));
+        heads.push(in_unit(name.clone(), unit));
         heads.push(in_unit(format!("u({name})"), &deviation));
         heads.push(format!("nu({name})"));
         heads.push(format!("k({name})"));
@@ -39,7 +40,7 @@ pub(super) fn heads(report: &Report<'_>) -> Vec<String> {
         heads.push(in_unit(format!("lower({name})"), unit));
         heads.push(in_unit(format!("upper({name})"), unit));
     }
-    for assessment in &report.budget.conformity {
+    for assessment in &budget.conformity {
         heads.push(format!("verdict({})", assessment.name));
         heads.push(format!("p_c({})", assessment.name));
     }

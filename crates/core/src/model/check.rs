@@ -420,9 +420,9 @@ impl<'r> Check<'r> {
             .collect();
         Ok(Model {
             inputs,
-            outputs,
-            graph,
-            program,
+            outputs: outputs.into(),
+            graph: graph.into(),
+            program: program.into(),
             unused,
         })
     }

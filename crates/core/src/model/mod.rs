@@ -9,6 +9,7 @@
 mod block;
 mod catalogue;
 mod check;
+mod compiler;
 mod complex;
 mod curves;
 mod cut;
@@ -52,6 +53,7 @@ use nalgebra::DMatrix;
 pub use block::BlockRunner;
 pub use catalogue::{FunctionInfo, functions};
 pub use check::compile;
+pub use compiler::Compiler;
 pub use cut::Cut;
 pub use interaction::Neighbours;
 pub use notice::{Notice, Office};
@@ -173,14 +175,14 @@ pub struct Along {
     pub third: Vec<f64>,
 }
 
-/// A compiled model.
+/// A compiled model; what copies of it have in common is there once.
 #[derive(Debug, Clone)]
 pub struct Model {
     inputs: usize,
-    outputs: Vec<Output>,
-    graph: graph::Graph,
-    program: block::Program,
-    unused: Vec<usize>,
+    outputs: Arc<[Output]>,
+    graph: Arc<graph::Graph>,
+    program: Arc<block::Program>,
+    unused: Arc<[usize]>,
 }
 
 impl Model {
@@ -293,7 +295,7 @@ impl Model {
 
     /// Which of the request's symbols no measurand depends on.
     pub fn unused_symbols(&self) -> Vec<usize> {
-        self.unused.clone()
+        self.unused.to_vec()
     }
 
     /// Whether no operation has a corner, a step or a branch anywhere.
@@ -328,8 +330,8 @@ impl Model {
         }
         let graph = self.graph.unrolled(&centres)?;
         Some(Model {
-            program: block::Program::new(&graph, self.inputs),
-            graph,
+            program: block::Program::new(&graph, self.inputs).into(),
+            graph: graph.into(),
             ..self.clone()
         })
     }

@@ -43,17 +43,24 @@ impl Known {
     /// The decimal that a double was read from. Up to 15 digits it is the only one; of a longer one the double
     /// may have dropped half a unit in its last place.
     fn decimal(x: f64) -> Known {
+        let half = ROUNDING * x.abs();
+        if x.fract() == 0.0 && x.abs() < 1.0 / f64::EPSILON {
+            return Known {
+                value: x.into(),
+                error: 0.0,
+                doubles: 0.0,
+            };
+        }
+        let text = format!("{x:e}");
         let value = if x == std::f64::consts::PI {
             // π and the double next to it.
             Dd::from(x) + Dd::from(1.224_646_799_147_353_2e-16)
         } else {
-            Dd::from_decimal(x)
+            Dd::nearest(x, &text)
         };
-        let half = ROUNDING * x.abs();
-        let whole = x.fract() == 0.0 && x.abs() < 1.0 / f64::EPSILON;
         Known {
             value,
-            error: if whole || is_short(x) { 0.0 } else { half },
+            error: if is_short(&text) { 0.0 } else { half },
             doubles: if x.fract() == 0.0 { 0.0 } else { half },
         }
     }
@@ -84,9 +91,9 @@ impl Known {
     }
 }
 
-/// Whether the shortest decimal of a double has at most 15 digits, or 16 that stand farther apart than doubles do.
-fn is_short(x: f64) -> bool {
-    let text = format!("{x:e}");
+/// Whether the shortest decimal of a double, as `{:e}` writes it, has at most 15 digits, or 16 that stand farther apart
+/// than doubles do.
+fn is_short(text: &str) -> bool {
     let digits = text
         .bytes()
         .take_while(|byte| *byte != b'e')

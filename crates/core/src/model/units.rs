@@ -26,6 +26,9 @@ pub struct Joined {
 impl Lowering<'_> {
     /// The same quantity, its numbers in another unit of its dimension.
     pub fn converted(&mut self, value: &Value, unit: &Unit) -> Option<Value> {
+        if value.unit()? == unit {
+            return Some(value.clone());
+        }
         let conversion = value.unit()?.conversion_to(unit)?;
         let mut out = value.clone();
         for id in &mut out.elements {

@@ -15,7 +15,7 @@ use super::token::{Kind, tokens, unified};
 use super::unit::Unit;
 
 /// The units known to a file: the built-in ones and those of its `[unit]` table.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct UnitTable {
     own: HashMap<String, Scale>,
 }
@@ -112,6 +112,11 @@ impl UnitTable {
             origin: scale.origin,
             symbol: text.trim().to_owned(),
         })
+    }
+
+    /// Whether it has no units but the built-in ones.
+    pub fn is_builtin(&self) -> bool {
+        self.own.is_empty()
     }
 
     /// Adds a unit of the file's own, defined by other units with a number if need be: `"1"`,

@@ -2,6 +2,8 @@
 //!
 //! With t = √ν·sinh s its density becomes K·cosh(s)^−ν, which is log-concave for every ν.
 
+use std::cell::RefCell;
+
 use super::gamma::stirling_error;
 use super::log_concave::{LogConcave, Side, solve, tail};
 use super::normal::{
@@ -90,11 +92,32 @@ pub fn student_t_two_sided_quantile(p: f64, dof: f64) -> f64 {
     }
     if dof.is_infinite() {
         normal_two_sided_quantile(p)
-    } else if p < 0.1 {
-        from_centre(p, dof)
     } else {
-        from_tail(0.5 * (1.0 - p), dof)
+        known(p, dof, || match p < 0.1 {
+            true => from_centre(p, dof),
+            false => from_tail(0.5 * (1.0 - p), dof),
+        })
     }
+}
+
+/// The quantile of this p and ν, computed where it is not among the last. ν is a whole number mostly, and tables of
+/// results ask for the same few again and again.
+fn known(p: f64, dof: f64, compute: impl FnOnce() -> f64) -> f64 {
+    const PLACES: usize = 64;
+    thread_local! {
+        static LAST: RefCell<[(f64, f64, f64); PLACES]> = const { RefCell::new([(0.0, 0.0, 0.0); PLACES]) };
+    }
+    // Whole numbers below 64 have places of their own; ν = 0 is none, so that an empty place is nobody's.
+    let place = dof as usize % PLACES;
+    LAST.with_borrow_mut(|last| {
+        let (known_p, known_dof, quantile) = last[place];
+        if known_p == p && known_dof == dof {
+            return quantile;
+        }
+        let quantile = compute();
+        last[place] = (p, dof, quantile);
+        quantile
+    })
 }
 
 fn in_domain(dof: f64) -> bool {

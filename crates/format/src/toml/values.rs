@@ -485,7 +485,8 @@ impl<T: FromToml> FromToml for Named<T> {
             return reader.wrong_type(WRONG_TYPE, value, Self::expected());
         };
         let mut named = Named {
-            entries: Vec::new(),
+            // Tables are large, and would be moved again and again as the list grows.
+            entries: Vec::with_capacity(table.len()),
             refused: false,
         };
         for (key, item) in in_order(table) {

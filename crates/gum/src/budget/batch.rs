@@ -10,9 +10,9 @@ use super::check::{Origin, Variant};
 use super::faults::SERIES;
 use super::open_files::OpenFiles;
 use super::points::Columns;
-use super::reader::{checked, open_files, tables, text_of};
+use super::reader::{checked, open_files, read_under, tables, text_of};
 use super::series::{self, Column};
-use super::{Files, Profile, Row, hints::HINTS};
+use super::{Budget, Files, Profile, Row, hints::HINTS};
 use gumption_fault::{Fault, Rejection, say};
 use gumption_format::csv::{self, Sheet};
 use gumption_format::toml::{Reader, leaves_the_rest, syntax_faults};
@@ -48,6 +48,22 @@ impl<'f> BatchFile<'f> {
 
     fn name(&self) -> String {
         self.path.display().to_string()
+    }
+
+    /// The budget as it stands, where it needs no table to be whole.
+    pub fn alone(&self) -> Option<Budget> {
+        let open = open_files(self.files);
+        let origin = Origin {
+            files: &open,
+            directory: self.directory(),
+            file: &self.files.identity(&self.path),
+        };
+        let mut loaded = read_under(&self.text, &self.name(), origin, self.profile).ok()?;
+        (loaded.rows.len() == 1).then(|| loaded.rows.swap_remove(0).budget)
+    }
+
+    fn directory(&self) -> &Path {
+        self.path.parent().unwrap_or_else(|| Path::new(""))
     }
 
     /// The places that the columns of a table set; `table` is its name, for messages.
@@ -151,6 +167,14 @@ impl RowReader<'_> {
         self.read(&variant.table, &text, variant.label, faults)
     }
 
+    /// The label of a row as the table writes it, where it has such a column: 007 is no number.
+    pub fn label(&self, row: &csv::Row) -> Option<String> {
+        let is_label = |target: &Option<Column>| matches!(target, Some(Column::Label));
+        let at = self.batch.targets.iter().position(is_label)?;
+        let field = row.fields().nth(at).filter(|field| !field.is_empty())?;
+        Some(field.to_owned())
+    }
+
     /// The budget as it stands, without a row.
     ///
     /// # Errors
@@ -166,7 +190,7 @@ impl RowReader<'_> {
         label: Option<String>,
         mut faults: Vec<Fault>,
     ) -> Result<Row, Rejection> {
-        let BatchFile { path, profile, .. } = self.batch.of;
+        let BatchFile { profile, .. } = self.batch.of;
         let mut reader = Reader::new(text, &HINTS);
         let file = tables(table, *profile, &mut reader);
         faults.append(&mut reader.faults);
@@ -177,7 +201,7 @@ impl RowReader<'_> {
         };
         let origin = Origin {
             files: &self.open,
-            directory: path.parent().unwrap_or_else(|| Path::new("")),
+            directory: self.batch.of.directory(),
             file: &self.batch.identity,
         };
         let place = (self.batch.name.as_str(), text);

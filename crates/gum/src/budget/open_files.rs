@@ -9,6 +9,8 @@ use std::rc::Rc;
 
 use super::checked::Loaded;
 use super::saved::SavedResults;
+use gumption_core::model::{Compiler, Model, ModelFault, Request};
+use gumption_core::quantity::{Unit, UnitError, UnitTable};
 use gumption_fault::{Fault, Rejection, say};
 use gumption_format::files::Files;
 use gumption_format::toml::faults::UNREADABLE_FILE;
@@ -47,6 +49,9 @@ pub(super) struct OpenFiles<'a> {
     open: RefCell<Vec<PathBuf>>,
     /// Why other budgets were refused, each before those that it uses itself.
     rejections: RefCell<Vec<Rejection>>,
+    compiler: RefCell<Compiler>,
+    /// Built-in units by their texts, of which a file has few.
+    units: RefCell<HashMap<String, Unit>>,
 }
 
 /// Why another file cannot be used.
@@ -76,7 +81,28 @@ impl<'a> OpenFiles<'a> {
             saved: RefCell::default(),
             open: RefCell::default(),
             rejections: RefCell::default(),
+            compiler: RefCell::default(),
+            units: RefCell::default(),
         }
+    }
+
+    /// The model of a file; rows of a table, which differ in numbers, have one.
+    pub fn compiled(&self, request: &Request<'_>) -> Result<Model, Vec<ModelFault>> {
+        self.compiler.borrow_mut().compile(request)
+    }
+
+    /// The unit of a text by this table, read once where it is built in.
+    pub fn unit(&self, table: &UnitTable, text: &str) -> Result<Unit, UnitError> {
+        if !table.is_builtin() {
+            return table.parse(text);
+        }
+        if let Some(known) = self.units.borrow().get(text) {
+            return Ok(known.clone());
+        }
+        let unit = table.parse(text)?;
+        let known = (text.to_owned(), unit.clone());
+        self.units.borrow_mut().extend([known]);
+        Ok(unit)
     }
 
     /// Another budget.

@@ -191,11 +191,30 @@ fn written(field: &str, unit: Option<&str>, sheet: &Sheet) -> Written {
     match (number, unit) {
         (Some(_), Some(unit)) => Written::Text(format!("{plain} {unit}")),
         // TOML has no +1, .5 and 5.: the shortest form of the number then.
-        (Some(number), None) if DeValue::parse(&plain).is_err() => {
+        (Some(number), None) if !is_toml_number(&plain) && DeValue::parse(&plain).is_err() => {
             Written::Value(format!("{number:?}"))
         }
         (Some(_), None) => Written::Value(plain),
         (None, _) if field.starts_with('[') => Written::Value(field.to_owned()),
         (None, _) => Written::Text(field.to_owned()),
     }
+}
+
+/// Whether TOML is sure to read a text as the decimal number that it is: digits, then perhaps a fraction and an exponent.
+fn is_toml_number(text: &str) -> bool {
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let unsigned = text.strip_prefix('-').unwrap_or(text);
+    let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, Some(exponent)),
+        None => (unsigned, None),
+    };
+    let (whole, fraction) = match mantissa.split_once('.') {
+        Some((whole, fraction)) => (whole, Some(fraction)),
+        None => (mantissa, None),
+    };
+    digits(whole)
+        && (whole == "0" || !whole.starts_with('0'))
+        && fraction.is_none_or(digits)
+        && exponent
+            .is_none_or(|exponent| digits(exponent.strip_prefix(['-', '+']).unwrap_or(exponent)))
 }

@@ -142,7 +142,8 @@ pub fn read(text: &str, name: &str, directory: &Path) -> Result<Loaded, Rejectio
     read_under(text, name, origin, None)
 }
 
-fn read_under(
+/// Checks the text of a budget under another profile than its own, if one is given.
+pub(super) fn read_under(
     text: &str,
     name: &str,
     origin: Origin<'_>,

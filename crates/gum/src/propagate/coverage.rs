@@ -47,12 +47,16 @@ pub(super) fn evaluate(situation: &Situation<'_>) -> Coverage {
     let p = conventions.coverage_probability;
     let rule = conventions.coverage_factor;
     let output = situation.output(rule);
-    let half_width = output.shape.half_width(p) * of.u;
+    let for_p = output.shape.half_width(p);
+    let half_width = for_p * of.u;
     let stated = match output.basis {
         CoverageBasis::Output { .. } => conventions.output_probability,
         _ => p,
     };
-    let k = output.shape.half_width(stated);
+    let k = match stated == p {
+        true => for_p,
+        false => output.shape.half_width(stated),
+    };
     if let CoverageRule::Fixed(k) = rule {
         return Coverage {
             k,

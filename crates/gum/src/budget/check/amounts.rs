@@ -41,7 +41,8 @@ impl Checker<'_> {
         let Some(stated) = stated else {
             return Some(Unit::one());
         };
-        match self.names.units.parse(&stated.value) {
+        let files = self.source.origin.files;
+        match files.unit(&self.names.units, &stated.value) {
             Ok(unit) => Some(unit),
             Err(error) => {
                 let fault = units::placed(Fault::from(error), stated, self.source.text);

@@ -11,7 +11,7 @@ use crate::budget::tables::{FileTable, MeasurandTable};
 use crate::budget::{Constant, Measurand};
 use gumption_core::model::faults::{NO_MODEL, UNKNOWN_FUNCTION, UNKNOWN_NAME};
 use gumption_core::model::{
-    MeasurandSource, Model, ModelFault, Output, Place, Request, Role, Symbol, compile,
+    MeasurandSource, Model, ModelFault, Output, Place, Request, Role, Symbol,
 };
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
@@ -103,7 +103,7 @@ impl Checker<'_> {
             measurands: &measurands,
             units: &units,
         };
-        match compile(&request) {
+        match self.source.origin.files.compiled(&request) {
             Ok(model) => {
                 if !self.names.hidden {
                     self.unused(file, &model, constants.len(), register);

@@ -58,9 +58,13 @@ impl<'b> Source for BudgetSource<'b> {
         self.draw.start(&mut worker.scratch, chunk);
     }
 
+    fn is_over(&self) -> bool {
+        self.progress.is_stopped() && !self.settled.load(Ordering::Relaxed)
+    }
+
     /// Of a run that was stopped no trial has a value: nothing is drawn, and whoever takes trials in comes to its end.
     fn next(&self, worker: &mut Worker<'b>, outputs: &mut [Block]) {
-        if self.progress.is_stopped() && !self.settled.load(Ordering::Relaxed) {
+        if self.is_over() {
             outputs.fill(Block([f64::NAN; LANES]));
             return;
         }

@@ -32,6 +32,11 @@ pub(super) trait Source: Sync {
     /// The next trials of the chunk, one block per output.
     fn next(&self, worker: &mut Self::Worker, outputs: &mut [Block]);
 
+    /// Whether nobody waits for further trials: of a chunk that has not begun, one block without values is enough then.
+    fn is_over(&self) -> bool {
+        false
+    }
+
     /// Hears how many trials a thread has drawn.
     fn drawn(&self, _trials: u64) {}
 
@@ -129,7 +134,10 @@ pub(super) fn start<'env, S: Source, K: Sink + 'env>(
         },
         move |(worker, outputs, sink), chunk| {
             source.start(worker, chunk);
-            let trials = layout.trials_in(chunk);
+            let trials = match source.is_over() {
+                true => LANES.min(layout.trials_in(chunk)),
+                false => layout.trials_in(chunk),
+            };
             for start in (0..trials).step_by(LANES) {
                 source.next(worker, outputs);
                 sink.take(outputs, LANES.min(trials - start));

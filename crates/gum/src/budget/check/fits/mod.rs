@@ -15,6 +15,7 @@ mod solution;
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -291,15 +292,14 @@ impl Checker<'_> {
     }
 
     /// The file with the parameters of its fits as measurands where it states none.
-    pub(super) fn reporting_fits(&self, file: &FileTable) -> FileTable {
-        let mut file = file.clone();
+    pub(super) fn reporting_fits<'f>(&self, file: &'f FileTable) -> Cow<'f, FileTable> {
         let none = entries(&file.measurand).is_empty()
             && !file.present.iter().any(|(key, _)| *key == "measurand");
         if !none || self.names.parameters.is_empty() {
-            return file;
+            return Cow::Borrowed(file);
         }
         let Some(first) = entries(&file.fit).first().map(|(_, stated)| stated.clone()) else {
-            return file;
+            return Cow::Borrowed(file);
         };
         let at = |value| Stated {
             value,
@@ -319,6 +319,7 @@ impl Checker<'_> {
             };
             (name.clone(), at(table))
         });
+        let mut file = file.clone();
         file.measurand = Some(Stated {
             value: Named {
                 entries: measurands.collect(),
@@ -327,7 +328,7 @@ impl Checker<'_> {
             span: first.span.clone(),
             key: first.key.clone(),
         });
-        file
+        Cow::Owned(file)
     }
 
     /// The unit of a measurand: as stated, or that of the parameter which it reports.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::form::Form;
 use super::output::{Beside, Complaint};
+use super::progress::Progress;
 use super::{Outcome, output};
 use gumption::calibrate::{self, Calibration, Campaign, Trouble};
 use gumption::experiment::Purpose;
@@ -39,7 +40,12 @@ pub(super) fn run(args: &Args) -> Outcome {
         Ok(campaign) => campaign,
         Err(outcome) => return outcome,
     };
-    let found = match calibrate::calibrate(&campaign) {
+    let found = {
+        let _progress = Progress::of(say!("calibration"));
+        tell_size(&campaign, args.form.language());
+        calibrate::calibrate(&campaign)
+    };
+    let found = match found {
         Ok(found) => found,
         Err(trouble) => return failed(&args.file, &trouble, args.form.language()),
     };
@@ -59,11 +65,28 @@ pub(super) fn plan(file: &std::path::Path, form: &Form) -> Outcome {
         Err(outcome) => return outcome,
     };
     let lang = form.language();
-    let plan = match calibrate::plan(&campaign) {
+    let plan = {
+        let _progress = Progress::of(say!("plan"));
+        tell_size(&campaign, lang);
+        calibrate::plan(&campaign)
+    };
+    let plan = match plan {
         Ok(plan) => plan,
         Err(trouble) => return failed(file, &trouble, lang),
     };
     form.write(&form.compose(|language| report::plan(&campaign, &plan, language)))
+}
+
+/// What a large calibration will take, before it does.
+fn tell_size(campaign: &Campaign, lang: Language) {
+    /// As much as nobody notices.
+    const LITTLE: u64 = 1 << 30;
+    let (readings, bytes) = (campaign.readings(), campaign.bytes());
+    if bytes > LITTLE {
+        let size = bytes as f64 / LITTLE as f64;
+        let told = say!("{readings} readings take about {size:.1} GiB of memory");
+        output::warn(&format!("{}\n", told.in_language(lang)));
+    }
 }
 
 fn failed(file: &std::path::Path, trouble: &Trouble, lang: Language) -> Outcome {
@@ -73,7 +96,11 @@ fn failed(file: &std::path::Path, trouble: &Trouble, lang: Language) -> Outcome 
 }
 
 fn read(file: &std::path::Path, purpose: Purpose, lang: Language) -> Result<Campaign, Outcome> {
-    calibrate::load(file, purpose).map_err(|rejection| output::refused(&rejection, lang))
+    let read = {
+        let _progress = Progress::of(say!("reading"));
+        calibrate::load(file, purpose)
+    };
+    read.map_err(|rejection| output::refused(&rejection, lang))
 }
 
 /// The coefficient and the file of `COEFFICIENT=FILE|FILE`.

@@ -164,9 +164,9 @@ pub(super) fn parse_trials(text: &str) -> Result<Trials, Complaint> {
     let number: f64 = text
         .replace('_', "")
         .parse()
-        .map_err(|_| "write a number such as 1_000_000 or 1e6, or `adaptive`")?;
+        .map_err(|_| say!("write a number such as 1_000_000 or 1e6, or `adaptive`"))?;
     if !RANGE.contains(&number) || number.fract() != 0.0 {
-        return Err("write a whole number of trials from 1000 to 1e12, or `adaptive`".into());
+        return Err(say!("write a whole number of trials from 1000 to 1e12, or `adaptive`").into());
     }
     Ok(Trials::Fixed(number as u64))
 }
@@ -175,7 +175,7 @@ pub(super) fn parse_points(text: &str) -> Result<Points, Complaint> {
     match text {
         "random" => Ok(Points::Random),
         "quasi-random" => Ok(Points::QuasiRandom),
-        _ => Err("write `random` or `quasi-random`".into()),
+        _ => Err(say!("write `random` or `quasi-random`").into()),
     }
 }
 

@@ -153,12 +153,12 @@ impl Form {
     }
 }
 
-fn parse_width(text: &str) -> Result<usize, &'static str> {
+fn parse_width(text: &str) -> Result<usize, Complaint> {
     /// Longer lines are hard to read.
     const WIDEST: usize = 200;
     const NARROWEST: usize = output::NARROWEST;
     let width: usize = text
         .parse()
-        .map_err(|_| "write a number of columns, such as 100")?;
+        .map_err(|_| say!("write a number of columns, such as 100"))?;
     Ok(width.clamp(NARROWEST, WIDEST))
 }

@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use gumption::fault::say;
 use gumption::language::Language;
 
 /// The languages of a document.
@@ -20,9 +21,10 @@ impl std::str::FromStr for Languages {
         match (text, text.parse()) {
             ("both", _) => Ok(Languages::Both),
             (_, Ok(language)) => Ok(Languages::One(language)),
-            (other, Err(_)) => Err(format!(
+            (other, Err(_)) => Err(say!(
                 "`{other}` is not a language of the report: write `en`, `zh` or `both`"
-            )),
+            )
+            .in_language(spoken())),
         }
     }
 }

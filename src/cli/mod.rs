@@ -2,6 +2,7 @@
 
 mod allan;
 mod archive;
+mod arguments;
 mod audit;
 mod batch;
 mod calibrate;
@@ -100,7 +101,7 @@ enum Command {
 
 /// Runs the program.
 pub(crate) fn run() -> ExitCode {
-    let command = Cli::parse().command;
+    let command = arguments::parse::<Cli>().command;
     files::remember_reads();
     interrupt::say_so();
     let outcome = match command {
@@ -129,6 +130,30 @@ mod tests {
     use clap::CommandFactory;
 
     use super::*;
+
+    /// What Chinese users read of these arguments.
+    fn in_chinese(arguments: &[&str]) -> String {
+        let arguments = ["gumption"].iter().chain(arguments);
+        let error = Cli::try_parse_from(arguments).expect_err("a fault");
+        arguments::in_chinese(&error).unwrap_or_default()
+    }
+
+    #[test]
+    fn faults_of_arguments_are_chinese() {
+        for (arguments, expected) in [
+            (&["evl"][..], "没有子命令 `evl`\n  是否为："),
+            (&["eval"], "缺少必需的参数：<FILE>..."),
+            (&["eval", "--foo", "x"], "没有参数 `--foo`"),
+            (&["eval", "x", "--threads", "0"], "：0 不在 1..=1024 之内"),
+            (&["eval", "x", "--threads", "a"], "：应为整数"),
+            (&["eval", "-o"], "`--output <FILE>` 缺少值"),
+        ] {
+            let text = in_chinese(arguments);
+            assert!(text.contains(expected), "{text}");
+            assert!(!text.contains("error"), "{text}");
+        }
+        assert_eq!(in_chinese(&["--help"]), "");
+    }
 
     #[test]
     fn the_arguments_are_consistent() {

@@ -1,4 +1,4 @@
-//! A line on standard error while Monte Carlo or a diagnosis takes long.
+//! A line on standard error while something takes long.
 
 use std::cell::Cell;
 use std::io::{IsTerminal, Write, stderr};
@@ -26,6 +26,19 @@ pub(super) struct Progress {
 impl Progress {
     /// Begins to watch these trials, if standard error is a terminal.
     pub(super) fn shown(trials: &propagate::Progress) -> Progress {
+        let trials = trials.clone();
+        Progress::watching(move |elapsed| match trials.trials_drawn() {
+            0 => None,
+            drawn => Some(line(drawn, elapsed)),
+        })
+    }
+
+    /// Says how long some work takes so far, if standard error is a terminal.
+    pub(super) fn of(what: Said) -> Progress {
+        Progress::watching(move |elapsed| Some(elapsed_line(&what, elapsed)))
+    }
+
+    fn watching(line: impl Fn(Duration) -> Option<String> + Send + 'static) -> Progress {
         if !stderr().is_terminal() {
             return Progress {
                 done: None,
@@ -33,17 +46,14 @@ impl Progress {
             };
         }
         let (done, finished) = channel();
-        let trials = trials.clone();
         let watcher = std::thread::spawn(move || {
             let start = Instant::now();
             let mut wait = PATIENCE;
             let mut shown = false;
             while finished.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
                 wait = BETWEEN;
-                let drawn = trials.trials_drawn();
-                if drawn > 0 {
+                if let Some(line) = line(start.elapsed()) {
                     shown = true;
-                    let line = line(drawn, start.elapsed());
                     let _ = write!(stderr(), "\r\x1b[K{line}");
                     let _ = stderr().flush();
                 }
@@ -114,6 +124,12 @@ fn share_line(what: &Said, share: f64) -> String {
     say!("{what}: {percent:.0} % (Ctrl-C ends it; nothing is written then)").in_language(spoken())
 }
 
+fn elapsed_line(what: &Said, elapsed: Duration) -> String {
+    let seconds = elapsed.as_secs();
+    say!("{what}: {seconds} s so far (Ctrl-C ends it; nothing is written then)")
+        .in_language(spoken())
+}
+
 fn line(drawn: u64, elapsed: Duration) -> String {
     let millions = drawn as f64 / 1e6;
     let rate = millions / elapsed.as_secs_f64();
@@ -131,6 +147,12 @@ mod tests {
     fn the_line_tells_number_and_rate() {
         let line = line(300_000_000, Duration::from_secs(2));
         assert!(line.contains("300 million trials, 150 million a second"));
+    }
+
+    #[test]
+    fn the_time_is_told_where_no_share_is_known() {
+        let line = elapsed_line(&say!("calibration"), Duration::from_secs(12));
+        assert!(line.starts_with("calibration: 12 s so far"), "{line}");
     }
 
     #[test]

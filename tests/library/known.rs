@@ -87,3 +87,24 @@ fn statements_are_within_the_resolution() {
         assert!(!told || exponent > 7, "{text}");
     }
 }
+
+/// One-sided limits by trials: of the square of a standard normal variable, which is a χ² with one degree of freedom.
+#[test]
+fn one_sided_limits_of_trials_are_quantiles() {
+    let text = "[measurand.Y]\nmodel = \"x^2\"\n[input.x]\nvalue = 0\nu = 1\n\
+        [claim]\nmethod = \"Monte Carlo\"\nat_most = 3.8415\nat_least = 0.003932\n\
+        tolerance = { one_sided = 0.03 }\n";
+    let budget = &budget::read(text, "chi.toml", "".as_ref())
+        .unwrap_or_else(|r| panic!("{}", r.render(false)))
+        .rows[0]
+        .budget;
+    let evaluation = evaluate(budget, &Options::default()).expect("a value");
+    let compared = compare_claims(budget, &evaluation);
+    assert_eq!(compared.len(), 2);
+    for one in compared {
+        let obtained = one.obtained.expect("a limit");
+        // The 0.05-quantile is 0.06271² and known to much better than the common tolerance.
+        assert!(one.agrees(), "{:?} {obtained}", one.claimed.what);
+        assert!(one.claimed.value > 1.0 || (obtained / 0.003932 - 1.0).abs() < 0.05);
+    }
+}

@@ -12,6 +12,7 @@ extern crate self as gumption_fault;
 
 pub mod catalogue;
 pub mod language;
+pub mod libraries;
 pub mod said;
 
 mod harmless;

@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use calamine::{Data, Reader, SheetVisible, open_workbook_auto_from_rs};
+use calamine::{Data, Reader, SheetVisible, Sheets, open_workbook_auto_from_rs};
 use gumption_core::quantity::{Decimal, Grouping, PowerStyle, Style};
 
 use super::{Cell, Grid, Unreadable};
@@ -16,6 +16,7 @@ pub(super) fn grids(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
     let mut hidden = super::hidden::hidden(bytes);
     let mut grids = Vec::new();
     for sheet in sheets {
+        is_of_a_size(&mut book, &sheet.name)?;
         let Ok(values) = book.worksheet_range(&sheet.name) else {
             continue;
         };
@@ -40,6 +41,46 @@ pub(super) fn grids(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
         grids.push(grid);
     }
     Ok(grids)
+}
+
+/// A sheet spans no more cells than this: a budget has some hundred, and a sheet is kept as a rectangle, so that two cells
+/// at its far corners would take hundreds of gigabytes.
+const MOST_CELLS: u64 = 1 << 20;
+
+/// Looks at the places of the cells of a sheet before they are kept. The older forms cannot span more by themselves.
+fn is_of_a_size(book: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<(), Unreadable> {
+    match book {
+        Sheets::Xlsx(book) => match book.worksheet_cells_reader(sheet) {
+            Ok(mut cells) => spans_few(
+                || Some(cells.next_cell().ok().flatten()?.get_position()),
+                sheet,
+            ),
+            Err(_) => Ok(()),
+        },
+        Sheets::Xlsb(book) => match book.worksheet_cells_reader(sheet) {
+            Ok(mut cells) => spans_few(
+                || Some(cells.next_cell().ok().flatten()?.get_position()),
+                sheet,
+            ),
+            Err(_) => Ok(()),
+        },
+        Sheets::Xls(_) | Sheets::Ods(_) => Ok(()),
+    }
+}
+
+fn spans_few(mut next: impl FnMut() -> Option<(u32, u32)>, sheet: &str) -> Result<(), Unreadable> {
+    let (mut first, mut last) = ((u32::MAX, u32::MAX), (0, 0));
+    while let Some((row, column)) = next() {
+        first = (first.0.min(row), first.1.min(column));
+        last = (last.0.max(row), last.1.max(column));
+        let side = |from: u32, to: u32| u64::from(to - from) + 1;
+        if side(first.0, last.0) * side(first.1, last.1) > MOST_CELLS {
+            return Err(Unreadable(format!(
+                "the sheet \"{sheet}\" spans more than {MOST_CELLS} cells; delete what stands far from the budget"
+            )));
+        }
+    }
+    Ok(())
 }
 
 fn cell(grid: &mut Grid, row: usize, column: usize) -> &mut Cell {

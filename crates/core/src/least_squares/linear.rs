@@ -161,7 +161,16 @@ impl<'a, T: Scalar> Fit<'a, T> {
         let mut multipliers = self.whitened.clone();
         self.whitener.whiten_transposed(&mut multipliers);
         let normal = self.qr.inverse_normal();
-        let mut derivatives = vec![DMatrix::zeros(p, n); m];
+        let asked: Vec<usize> = (0..m)
+            .filter(|k| problem.response.is_asked_for(*k))
+            .collect();
+        let mut derivatives = vec![DMatrix::zeros(p, 0); m];
+        for k in &asked {
+            derivatives[*k] = DMatrix::zeros(p, n);
+        }
+        if asked.is_empty() {
+            return derivatives;
+        }
         let mut ignored = vec![0.0; p];
         let (mut slope, mut offset) = (vec![0.0; m], vec![0.0; m]);
         let mut mixed = DMatrix::zeros(p, m);
@@ -182,7 +191,7 @@ impl<'a, T: Scalar> Fit<'a, T> {
                 .response
                 .at(&x, parameters, &mut ignored, &mut slope);
             let bent = &normal * &mixed * multipliers[point].value();
-            for k in 0..m {
+            for k in asked.iter().copied() {
                 for j in 0..p {
                     derivatives[k][(j, point)] = bent[(j, k)] - by_y[(j, point)] * slope[k];
                 }

@@ -38,6 +38,12 @@ pub trait Response {
         by_predictor: &mut [f64],
     ) -> f64;
 
+    /// Whether anybody asks how the parameters follow a predictor: linear fits of many points then save
+    /// what [`Solution::by_x`](super::Solution::by_x) would hold of the others.
+    fn is_asked_for(&self, _predictor: usize) -> bool {
+        true
+    }
+
     /// For linear responses: writes ∂f/∂parameter, and returns the part of f that no parameter
     /// multiplies.
     fn design(&self, predictors: &[f64], row: &mut [Dd]) -> Dd {

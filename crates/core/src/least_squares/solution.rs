@@ -32,7 +32,8 @@ pub struct Solution {
     /// ∂parameter/∂y_i, one row for each parameter.
     pub by_y: DMatrix<f64>,
     /// ∂parameter/∂x_i for each predictor, one row for each parameter. Predictors without
-    /// uncertainty have them too: a cause may act on all points in common.
+    /// uncertainty have them too: a cause may act on all points in common. Without columns for a predictor of a
+    /// linear response that nobody [asks for](super::Response::is_asked_for).
     pub by_x: Vec<DMatrix<f64>>,
     /// Condition number of the Jacobian, its rows weighted and its columns scaled to length one.
     pub condition: f64,

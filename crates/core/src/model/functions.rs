@@ -68,7 +68,9 @@ pub fn unknown_function(l: &mut Lowering<'_>, name: &Name) {
         )
     } else {
         let help = match (text.as_str(), nearest(text, known)) {
-            ("log", _) => say!("write `ln` for the natural logarithm, `log10` for base 10"),
+            ("log" | "lg", _) => {
+                say!("write `ln` for the natural logarithm, `log10` for base 10")
+            }
             ("arcsin" | "arccos" | "arctan", _) => say!("did you mean `a{}`?", &text[3..]),
             ("avg" | "average", _) => say!("did you mean `mean`?"),
             ("gamma" | "tgamma", _) => say!("write `gamma_function`"),

@@ -14,7 +14,7 @@ pub use table::{
     FromToml, Hints, Key, KeyRow, Raw, Reader, Stated, Table, described, doc_text, in_order, inner,
     read_table, table, unknown_word, words,
 };
-pub use values::{Amount, Cell, Date, Dof, Named, OneOrMany, amount_parts};
+pub use values::{Amount, Cell, Date, Dof, Named, OneOrMany, amount_parts, as_a_list};
 
 // What the macros name.
 #[doc(hidden)]

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use gumption_fault::libraries::of_toml;
 use gumption_fault::{Code, Fault, Said, say};
 
 use super::faults::TOML_SYNTAX;
@@ -11,6 +12,9 @@ const MAX_SYNTAX_FAULTS: usize = 8;
 
 /// Syntax errors, the first of each line: what follows on the same line mostly follows from it.
 pub fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
+    if !errors.is_empty() && text.trim_start().starts_with('{') {
+        return vec![json(text)];
+    }
     let mut faults: Vec<Fault> = Vec::new();
     let mut seen = Vec::new();
     for error in errors {
@@ -30,6 +34,20 @@ pub fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
         }
     }
     faults
+}
+
+/// A file that is written in another language.
+fn json(text: &str) -> Fault {
+    let at = text.len() - text.trim_start().len();
+    Fault::new(
+        TOML_SYNTAX,
+        at..at + 1,
+        say!("the file is JSON, and TOML is read"),
+    )
+    .label(say!("no line of TOML begins like this"))
+    .help(say!(
+        "write title = \"…\", then a header for each table, [measurand.Y], and its keys below it: model = \"…\""
+    ))
 }
 
 /// Whether a key is repeated only because the header above it is.
@@ -100,6 +118,14 @@ fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
             .help(say!(
                 "write a number, or a text in quotes; remove the line if there is nothing to say"
             ))
+    } else if says("string values must be quoted") && is_calculation(marked) {
+        let help = match quotient(marked) {
+            Some(result) => say!("write {result}; formulas stand in a `model`"),
+            None => say!("write the number that it gives; formulas stand in a `model`"),
+        };
+        fault(say!("`{marked}` is a calculation, and a value is a number"))
+            .label(say!("expected a number"))
+            .help(help)
     } else if says("string values must be quoted")
         && let Some((number, unit)) = amount(marked)
     {
@@ -107,6 +133,9 @@ fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
             .label(say!("an amount with a unit is a text"))
             .help(say!("write \"{number} {unit}\""))
     } else if says("invalid unquoted key") && !marked.is_empty() {
+        let span = word_at(&span, text);
+        let marked = text.get(span.clone()).unwrap_or_default();
+        let fault = |message: Said| Fault::new(TOML_SYNTAX, span.clone(), message);
         fault(say!("`{marked}` needs quotes where it is a key"))
             .label(say!("only A-Z a-z 0-9 _ - may stand without quotes here"))
             .help(say!(
@@ -125,9 +154,21 @@ fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
         fault(say!("the list is not closed by `{bracket}`"))
             .label(say!("expected `,` or `{bracket}`"))
     } else if says("key with no value") {
-        fault(say!("`{marked}` has no `=` and no value"))
+        let line = line_of(span.start, text);
+        let written = text[line.clone()].trim();
+        let (key, help) = match written.split_once(':') {
+            Some((key, value)) if !key.contains(['"', '\'', '=', '#']) => {
+                let (key, value) = (key.trim(), value.trim());
+                (key, say!("write an equals sign: {key} = {value}"))
+            }
+            _ => (
+                written,
+                say!("write `key = value`; a remark stands behind `#`"),
+            ),
+        };
+        fault(say!("`{key}` has no `=` and no value"))
             .label(say!("expected `=`"))
-            .help(say!("write `key = value`; a remark stands behind `#`"))
+            .help(help)
     } else if says("invalid mantissa") || says("expected digits") {
         fault(say!(
             "a number needs digits before and behind its decimal point"
@@ -135,8 +176,34 @@ fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
         .label(say!("a digit is missing"))
         .help(say!("write for example 0.5 or 5.0"))
     } else {
+        let message = of_toml(message);
         fault(say!("not well-formed TOML: {message}")).label(say!("not understood here"))
     }
+}
+
+/// Whether a value without quotes is numbers with operators between them.
+fn is_calculation(text: &str) -> bool {
+    let text = text.trim();
+    let sign = |c: char| c.is_ascii_digit() || "+-*/^(). eE".contains(c);
+    let operator = text
+        .trim_start_matches(['+', '-'])
+        .contains(['*', '/', '^', '+', '-', '(']);
+    text.chars().all(sign) && operator && text.ends_with(|c: char| c.is_ascii_digit() || c == ')')
+}
+
+/// What a quotient of two numbers is.
+fn quotient(text: &str) -> Option<f64> {
+    let (dividend, divisor) = text.split_once('/')?;
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    Some(number(dividend)? / number(divisor)?).filter(|result| result.is_finite())
+}
+
+/// The whole word of which the parser marks a letter.
+fn word_at(span: &Range<usize>, text: &str) -> Range<usize> {
+    let of_word = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
+    let before = text[..span.start].trim_end_matches(of_word).len();
+    let behind = text[span.end..].trim_start_matches(of_word).len();
+    before..text.len() - behind
 }
 
 /// The line around a place.

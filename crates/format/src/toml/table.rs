@@ -11,7 +11,7 @@ use serde_json::{Map, Value};
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use super::faults::{UNKNOWN_KEY, UNKNOWN_WORD};
+use super::faults::{UNKNOWN_KEY, UNKNOWN_WORD, WRONG_TYPE};
 
 /// A value of the file as the parser gives it.
 pub type Raw<'t> = Spanned<DeValue<'t>>;
@@ -46,10 +46,14 @@ pub type Key<'t> = Spanned<DeString<'t>>;
 pub struct Hints {
     /// Words that people try, and the key that they mean.
     pub synonyms: &'static [(&'static str, &'static str)],
+    /// What such a file is, with the article.
+    pub whole: Said,
     /// The keys at the top of the file.
     pub top: fn() -> Vec<&'static str>,
     /// What to say of a key of a table that is not among the known ones, before anything else is tried.
     pub unknown_key: fn(key: &str, table: &str, known: &[&'static str]) -> Option<Said>,
+    /// What to write in place of a value that stands where a table of this title is expected.
+    pub no_table: fn(title: &str, found: &DeValue<'_>) -> Option<Said>,
     /// What to say of a list where an amount stands.
     pub list_of_amounts: Said,
 }
@@ -85,6 +89,27 @@ impl<'f> Reader<'f> {
     pub fn unknown_key(&mut self, key: &Key<'_>, table: &'static str, known: &[&'static str]) {
         let fault = unknown_key(key, table, known, self.hints);
         self.faults.push(fault);
+    }
+
+    /// Reports that the value is of the wrong type, with what to write in its place.
+    pub fn wrong_type_with<T>(
+        &mut self,
+        value: &Raw<'_>,
+        expected: Said,
+        help: Option<Said>,
+    ) -> Option<T> {
+        let before = self.faults.len();
+        let refused = self.wrong_type(WRONG_TYPE, value, expected);
+        if let Some(fault) = self.faults.get_mut(before) {
+            fault.help = help;
+        }
+        refused
+    }
+
+    /// Reports a value that stands in the place of a table of this title.
+    pub fn no_table<T>(&mut self, value: &Raw<'_>, title: &str) -> Option<T> {
+        let help = (self.hints.no_table)(title, value.get_ref());
+        self.wrong_type_with(value, say!("a table"), help)
     }
 
     /// Reports that the value is of the wrong type.
@@ -204,7 +229,11 @@ pub fn in_order<'a, 't>(table: &'a DeTable<'t>) -> Vec<(&'a Key<'t>, &'a Raw<'t>
 }
 
 fn unknown_key(key: &Key<'_>, table: &'static str, known: &[&'static str], hints: &Hints) -> Fault {
-    let (name, title) = (key.get_ref(), Said::plain(table));
+    let name = key.get_ref();
+    let title = match known == (hints.top)() {
+        true => hints.whole.clone(),
+        false => Said::plain(table),
+    };
     let fault = Fault::new(UNKNOWN_KEY, key.span(), say!("{title} has no key `{name}`"))
         .label(say!("unknown key"));
     if let Some(help) = (hints.unknown_key)(name, table, known) {
@@ -348,7 +377,7 @@ macro_rules! table {
                 match value.get_ref() {
                     $crate::toml::DeValue::Table(table) =>
                         Some($crate::toml::read_table::<Self>(table, $title, reader)),
-                    _ => reader.wrong_type($crate::toml::faults::WRONG_TYPE, value, $crate::toml::say!("a table")),
+                    _ => reader.no_table(value, $title),
                 }
             }
 

@@ -47,7 +47,11 @@ fn quoted_percent(value: &Raw<'_>, text: &str) -> Option<Fault> {
 
 fn quoted_number(value: &Raw<'_>, text: &str) -> Option<Fault> {
     let number = text.trim();
-    number.parse::<f64>().ok()?;
+    // TOML has one word for it.
+    let number = match number.parse::<f64>().ok()? {
+        f64::INFINITY => "inf",
+        _ => number,
+    };
     let fault = Fault::new(
         QUOTED_NUMBER,
         value.span(),
@@ -87,6 +91,12 @@ impl FromToml for f64 {
             (None, DeValue::String(text)) if quoted_percent(value, text).is_some() => {
                 reader.faults.extend(quoted_percent(value, text));
                 None
+            }
+            (None, DeValue::String(text)) if split_amount(text).is_some() => {
+                let help = split_amount(text).map(|(number, unit)| {
+                    say!("write {number} alone: a number stands here, and its unit `{}` has a key of its own", &text[unit])
+                });
+                reader.wrong_type_with(value, say!("a number"), help)
             }
             _ => reader.wrong_type(WRONG_TYPE, value, say!("a number")),
         }
@@ -299,19 +309,24 @@ fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
         .find_map(|end| body[..end].parse::<f64>().ok().map(|number| (end, number)))?;
     let gap = body[end..].len() - body[end..].trim_start().len();
     let unit = lead + end + gap..lead + body.len();
-    // Of `0,1 °C` the number is not 0.
-    let goes_on = body[end..].starts_with([',', '，']);
+    // Of `0,1 °C` the number is not 0, and neither `10 ± 1 V` nor `1/3` is a number with a unit.
+    let rest = body[end..].trim_start();
+    let divided = rest.strip_prefix('/').map(str::trim_start);
+    let goes_on = rest.starts_with([',', '，', '±', '('])
+        || divided.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
     (number.is_finite() && !unit.is_empty() && !goes_on).then_some((number, unit))
 }
 
 /// A value that is neither a number nor a text.
 fn refuse_amount(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Amount> {
-    let before = reader.faults.len();
-    let refused = reader.wrong_type(WRONG_TYPE, value, Amount::expected());
-    if let (DeValue::Array(_), Some(fault)) = (value.get_ref(), reader.faults.get_mut(before)) {
-        fault.help = Some(reader.hints.list_of_amounts.clone());
-    }
-    refused
+    let help = match value.get_ref() {
+        DeValue::Array(_) => Some(reader.hints.list_of_amounts.clone()),
+        DeValue::Datetime(_) => Some(say!(
+            "a date is counted from a day that you choose: write the days between them, \"31 d\""
+        )),
+        _ => None,
+    };
+    reader.wrong_type_with(value, Amount::expected(), help)
 }
 
 fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
@@ -324,6 +339,19 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
     let bare = text.replace(',', "");
     if text.contains(',') && split_amount(&bare).is_some() {
         fault.help(without_comma(text.trim(), "\""))
+    } else if let Some((number, rest)) = text
+        .split_once(['±', '('])
+        .filter(|(n, _)| !n.trim().is_empty())
+    {
+        let (number, rest) = (number.trim(), rest.trim());
+        fault.help(match text.contains('±') {
+            true => say!("the value and its uncertainty have keys of their own: value = \"{number} …\", and u, half_width or certificate = {{ U = \"{rest}\", k = 2 }}, whichever it is"),
+            false => say!("the value and its uncertainty have keys of their own: value = \"{number} …\" and u = …; the digits in brackets are in units of the last digit"),
+        })
+    } else if text.contains(['/', '*', '^']) && text.starts_with(|c: char| c.is_ascii_digit()) {
+        fault.help(say!(
+            "write the number that it gives; formulas stand in a `model`"
+        ))
     } else if text.trim_start().starts_with('±') {
         fault.help(say!(
             "leave out the ±; the key says that it is an uncertainty"
@@ -349,7 +377,7 @@ impl<T: FromToml> FromToml for Vec<Stated<T>> {
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         let DeValue::Array(list) = value.get_ref() else {
-            return reader.wrong_type(WRONG_TYPE, value, Self::expected());
+            return reader.wrong_type_with(value, Self::expected(), as_a_list(value, reader.file));
         };
         if let Some(fault) = decimal_commas(value, list, reader.file) {
             return reader.refuse(fault);
@@ -365,6 +393,24 @@ impl<T: FromToml> FromToml for Vec<Stated<T>> {
 
     fn tables(path: &str, rows: &mut Vec<KeyRow>) {
         T::tables(&format!("{path}[]"), rows);
+    }
+}
+
+/// What stands where a list is expected, written as a list.
+pub fn as_a_list(value: &Raw<'_>, file: &str) -> Option<Said> {
+    match value.get_ref() {
+        DeValue::Table(_) => Some(say!(
+            "one is a list as well: [{{ … }}], or the header in double brackets"
+        )),
+        DeValue::String(text) => {
+            let separated = text.split([',', ';', '，', '、', ' ']);
+            let members: Vec<&str> = separated.map(str::trim).filter(|m| !m.is_empty()).collect();
+            let numbers = members.len() > 1 && members.iter().all(|m| m.parse::<f64>().is_ok());
+            numbers.then(|| say!("write [{}]", excerpt(&members)))
+        }
+        _ => file
+            .get(value.span())
+            .map(|one| say!("one is a list as well: [{one}]")),
     }
 }
 
@@ -482,7 +528,10 @@ impl<T: FromToml> FromToml for Named<T> {
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         let DeValue::Table(table) = value.get_ref() else {
-            return reader.wrong_type(WRONG_TYPE, value, Self::expected());
+            let help = say!(
+                "each entry has a name: [….NAME] as its header, with its keys below, or NAME = {{ … }}"
+            );
+            return reader.wrong_type_with(value, Self::expected(), Some(help));
         };
         let mut named = Named {
             // Tables are large, and would be moved again and again as the list grows.

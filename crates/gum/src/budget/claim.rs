@@ -89,6 +89,10 @@ pub enum Figure {
     ShortestLower,
     /// Upper limit of it.
     ShortestUpper,
+    /// The limit that the quantity is not below with the coverage probability: that of a one-sided interval.
+    AtLeast,
+    /// The limit that it is not above with that probability.
+    AtMost,
     /// Second-order shift of the estimate.
     Shift,
     /// Correlation coefficient with another measurand (index).

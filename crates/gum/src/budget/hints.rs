@@ -1,22 +1,24 @@
 //! What writers of budgets mistake, beyond misspelt words.
 
 use gumption_fault::{Said, say};
-use gumption_format::toml::{Hints, Table};
+use gumption_format::toml::{DeValue, Hints, Table};
 
 use super::tables::FileTable;
 
 /// The mistakes of writers of budgets.
 pub static HINTS: Hints = Hints {
+    whole: say!("a budget"),
     synonyms: &SYNONYMS,
     top: FileTable::keys,
     unknown_key,
+    no_table,
     list_of_amounts: say!(
         "readings of one quantity are `readings = […]`, the elements of a vector `values = […]`"
     ),
 };
 
 /// Words that people try for the keys of an uncertainty, and those keys.
-pub const SYNONYMS: [(&str, &str); 22] = [
+pub const SYNONYMS: [(&str, &str); 34] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),
@@ -39,6 +41,18 @@ pub const SYNONYMS: [(&str, &str); 22] = [
     ("estimate", "value"),
     ("mean", "value"),
     ("formula", "model"),
+    ("equation", "model"),
+    ("标题", "title"),
+    ("被测量", "measurand"),
+    ("输入", "input"),
+    ("输入量", "input"),
+    ("模型", "model"),
+    ("数学模型", "model"),
+    ("测量模型", "model"),
+    ("值", "value"),
+    ("单位", "unit"),
+    ("标准不确定度", "u"),
+    ("读数", "readings"),
 ];
 
 /// Keys of an uncertainty that stand in the wrong place.
@@ -49,7 +63,66 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
             "an expanded uncertainty stands with its k: certificate = {{ U = …, k = 2 }}"
         ));
     }
+    let has = |wanted: &str| known.contains(&wanted);
+    let elsewhere = match (table, key.to_lowercase().as_str()) {
+        ("[input]", "accuracy" | "mpe" | "spec" | "tolerance") if has("specification") => {
+            Some(say!(
+                "limits ±a are half_width = …; those of an instrument that depend on its reading specification = {{ reading = \"0.05 %\", counts = 2, step = … }}"
+            ))
+        }
+        ("[conformity]", "tolerance" | "limits" | "limit") => Some(say!(
+            "a tolerance is lower = … and upper = …, or mpe = … about a nominal = …"
+        )),
+        ("[[correlation]]", key) if key.contains(',') => {
+            let (one, other) = key.split_once(',').unwrap_or((key, ""));
+            let (one, other) = (one.trim(), other.trim());
+            Some(say!(
+                "write [[correlation]], between = [\"{one}\", \"{other}\"] and r = …"
+            ))
+        }
+        ("[series]", _) => Some(say!(
+            "the columns of a series are named once, its rows follow: columns = [\"{key}\"], rows = [[…], […]]"
+        )),
+        ("[fit]", _) if key.len() == 1 => Some(say!(
+            "columns of data stand below `data`: [fit.NAME.data], {key} = {{ values = […] }}"
+        )),
+        (
+            _,
+            "coverage_probability"
+            | "p"
+            | "confidence"
+            | "confidence_level"
+            | "k"
+            | "coverage_factor",
+        ) if has("conventions") => Some(say!(
+            "what holds for all results stands below [conventions]: coverage_probability = 0.95, or coverage_factor = 2"
+        )),
+        _ => None,
+    };
+    if elsewhere.is_some() {
+        return elsewhere;
+    }
     let beside = ["specification", "certificate"].contains(&table)
         && ["p", "k", "dof", "distribution", "name"].contains(&key);
     beside.then(|| say!("`{key}` stands beside `{table}`, not in it"))
+}
+
+/// What to write in place of a value that stands where a table is expected.
+fn no_table(title: &str, found: &DeValue<'_>) -> Option<Said> {
+    match (title, found) {
+        ("[fit.NAME.data]", DeValue::Array(_)) => Some(say!(
+            "a column of data is a table, as it may have a unit and an uncertainty: {{ values = […] }}"
+        )),
+        ("[input]", DeValue::Array(_)) => Some(say!("readings are {{ readings = […] }}")),
+        ("[input]", DeValue::String(_) | DeValue::Integer(_) | DeValue::Float(_)) => Some(say!(
+            "an input has a value and a reason for doubt: {{ value = …, u = … }}; what is exactly known stands below [constant]"
+        )),
+        ("[measurand]", DeValue::String(_)) => {
+            Some(say!("the formula is its model: {{ model = \"…\" }}"))
+        }
+        ("certificate", DeValue::String(_)) => {
+            Some(say!("a certificate is {{ U = …, k = 2, number = \"…\" }}"))
+        }
+        _ => None,
+    }
 }

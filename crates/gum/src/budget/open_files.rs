@@ -11,7 +11,7 @@ use super::checked::Loaded;
 use super::saved::SavedResults;
 use gumption_core::model::{Compiler, Model, ModelFault, Request};
 use gumption_core::quantity::{Unit, UnitError, UnitTable};
-use gumption_fault::{Fault, Rejection, say};
+use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::files::Files;
 use gumption_format::toml::faults::UNREADABLE_FILE;
 
@@ -66,7 +66,7 @@ pub(super) enum Missing {
     /// It is being read at this moment; all files of the circle.
     Circle(Vec<PathBuf>),
     /// It is not what it should be, in words.
-    Unfit(String),
+    Unfit(Said),
     /// Too many budgets use one another, down to this one.
     Deep,
 }

@@ -7,7 +7,7 @@ use toml::de::DeValue;
 use super::tables::{ColumnTable, GroupColumnTable};
 use gumption_format::toml::Amount;
 use gumption_format::toml::faults::WRONG_TYPE;
-use gumption_format::toml::{FromToml, KeyRow, Raw, Reader, Stated, unknown_word};
+use gumption_format::toml::{FromToml, KeyRow, Raw, Reader, Stated, as_a_list, unknown_word};
 
 /// A row of a series, by its label or its number.
 #[derive(Debug, Clone)]
@@ -108,7 +108,10 @@ impl FromToml for Numbers {
             DeValue::Table(_) => {
                 ColumnTable::read(value, reader).map(|table| Numbers::Column(Box::new(table)))
             }
-            _ => reader.wrong_type(WRONG_TYPE, value, Self::expected()),
+            _ => {
+                let help = as_a_list(value, reader.file);
+                reader.wrong_type_with(value, Self::expected(), help)
+            }
         }
     }
 

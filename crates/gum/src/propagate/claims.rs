@@ -2,6 +2,7 @@
 
 use crate::budget::{Budget, Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, Part};
 
+use super::one_sided;
 use super::reported::Reported;
 use super::result::{Basis, Clause8, Evaluation, MeasurandResult};
 use gumption_core::quantity::Rounding;
@@ -199,12 +200,33 @@ fn obtained(
     method: Method,
 ) -> Option<f64> {
     let result = evaluation.results.get(claim.measurand)?;
+    if matches!(what, Figure::AtLeast | Figure::AtMost) {
+        return one_sided_limit(budget, evaluation, claim, what, method);
+    }
     match method {
         Method::Gum => by_gum(budget, evaluation, result, claim, what),
         Method::SecondOrder => by_second_order(result, claim, what),
         Method::MonteCarlo => by_monte_carlo(evaluation, result, claim, what),
         Method::Analysis => named(evaluation, what),
     }
+}
+
+/// A limit of a one-sided interval, which the evaluation lists by its name.
+fn one_sided_limit(
+    budget: &Budget,
+    evaluation: &Evaluation,
+    claim: &Claim,
+    what: &Figure,
+    method: Method,
+) -> Option<f64> {
+    let by_trials = match method {
+        Method::Gum => false,
+        Method::MonteCarlo => true,
+        Method::SecondOrder | Method::Analysis => return None,
+    };
+    let output = budget.model.outputs().get(claim.measurand)?;
+    let name = one_sided::name(&output.name, what, by_trials)?;
+    named(evaluation, &Figure::Named(name))
 }
 
 fn by_gum(
@@ -242,7 +264,11 @@ fn by_gum(
         Figure::CoverageProbability => Some(gum.coverage.probability),
         Figure::Lower => Some(gum.estimate - gum.coverage.half_width_for_p),
         Figure::Upper => Some(gum.estimate + gum.coverage.half_width_for_p),
-        Figure::ShortestLower | Figure::ShortestUpper | Figure::Shift => None,
+        Figure::ShortestLower
+        | Figure::ShortestUpper
+        | Figure::Shift
+        | Figure::AtLeast
+        | Figure::AtMost => None,
         Figure::Correlation(with) => evaluation
             .joint
             .as_ref()

@@ -9,8 +9,8 @@ use super::result::{
 };
 use super::second_order::{SecondOrderOutcome, Terms};
 use super::{
-    coverage, decide, few_readings, findings, freedom, gum, joint, monte_carlo, resolution,
-    second_order, tolerance, validation,
+    coverage, decide, few_readings, findings, freedom, gum, joint, monte_carlo, one_sided,
+    resolution, second_order, tolerance, validation,
 };
 use crate::budget::{Budget, MonteCarloSettings, Points, Trials};
 
@@ -113,6 +113,8 @@ fn both(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationErro
     let mut figures = budget.figures.clone();
     figures.extend(decisions.figures(budget));
     figures.extend(tolerance::figures(budget, &results, run.as_ref()));
+    let workers = options.workers();
+    figures.extend(one_sided::figures(drawn, &linear, run.as_ref(), workers)?);
     Ok(Evaluation {
         results,
         joint,

@@ -17,6 +17,7 @@ mod freedom;
 mod gum;
 mod joint;
 mod monte_carlo;
+mod one_sided;
 mod options;
 mod progress;
 mod reported;

@@ -1,5 +1,6 @@
 //! Points that stand apart from all others.
 
+use super::points::PointNames;
 use super::residual::Residual;
 use super::scatter::ResponseScatter;
 use crate::experiment::Words;
@@ -29,11 +30,15 @@ const LEAST_DOF: f64 = 3.0;
 const ROUNDING: f64 = 1e-10;
 
 /// For each response the largest residual, by the t test of deleted residuals for the largest of n (Bonferroni).
-pub(super) fn apart(residuals: &[Residual], responses: &[ResponseScatter]) -> Vec<Apart> {
-    let of_response = |scatter: &ResponseScatter| {
+pub(super) fn apart(
+    residuals: &[Residual],
+    responses: &[ResponseScatter],
+    names: &PointNames,
+) -> Vec<Apart> {
+    let of_response = |(response, scatter): (usize, &ResponseScatter)| {
         let own = residuals
             .iter()
-            .filter(|one| one.response == scatter.response && !one.standardised.is_nan());
+            .filter(|one| one.response == response && !one.standardised.is_nan());
         let count = own.clone().count() as f64;
         let largest = own.max_by(|a, b| a.standardised.abs().total_cmp(&b.standardised.abs()))?;
         let (dof, square) = (scatter.dof, largest.standardised.powi(2));
@@ -46,10 +51,14 @@ pub(super) fn apart(residuals: &[Residual], responses: &[ResponseScatter]) -> Ve
         let p_value = (2.0 * count * student_t_sf(t, dof - 1.0)).min(1.0);
         (p_value < RARE).then(|| Apart {
             response: scatter.response.clone(),
-            point: largest.point.clone(),
+            point: names.of(largest.point),
             t,
             p_value,
         })
     };
-    responses.iter().filter_map(of_response).collect()
+    responses
+        .iter()
+        .enumerate()
+        .filter_map(of_response)
+        .collect()
 }

@@ -98,14 +98,15 @@ impl Figures {
 }
 
 impl Calibration {
-    /// The residuals, the most conspicuous first.
-    pub fn largest_residuals(&self) -> Vec<&Residual> {
+    /// So many of the residuals, the most conspicuous first.
+    pub fn largest_residuals(&self, most: usize) -> Vec<&Residual> {
         let size = |one: &Residual| match one.standardised.is_nan() {
             true => (one.observed - one.fitted).abs(),
             false => one.standardised.abs(),
         };
         let mut all: Vec<&Residual> = self.residuals.iter().collect();
         all.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        all.truncate(most);
         all
     }
 
@@ -152,6 +153,7 @@ impl PartScatter {
 /// # Errors
 /// As [`calibrate`].
 pub fn estimates(campaign: &Campaign) -> Result<Vec<f64>, Trouble> {
+    campaign.fits_into_memory()?;
     let stack = Stack::new(campaign, Readings::Taken);
     let (solution, ..) = solved(&stack)?;
     Ok(values(campaign, &solution.parameters))
@@ -195,6 +197,7 @@ pub fn calibrate(campaign: &Campaign) -> Result<Calibration, Trouble> {
 }
 
 fn whole(campaign: &Campaign) -> Result<Calibration, Trouble> {
+    campaign.fits_into_memory()?;
     let stack = Stack::new(campaign, Readings::Taken);
     let count = campaign.experiment.parameters.len();
     if stack.rows.len() < count || stack.readings() == 0 {
@@ -214,7 +217,7 @@ fn whole(campaign: &Campaign) -> Result<Calibration, Trouble> {
     let explained = !swapped.is_empty() || !limits.is_empty();
     let apart = match explained {
         true => Vec::new(),
-        false => apart(&residuals, &scatters.responses),
+        false => apart(&residuals, &scatters.responses, &campaign.points.names),
     };
     Ok(Calibration {
         swapped,
@@ -362,10 +365,8 @@ fn residuals(
         let s = scatters.responses[*response].s * u[index] * free.sqrt();
         let residual = solution.residuals[index];
         residuals.push(Residual {
-            point: campaign.points.names[*point].clone(),
-            response: campaign.experiment.equations.responses()[*response]
-                .name
-                .clone(),
+            point: *point,
+            response: *response,
             observed: stack.observed[index],
             fitted: stack.observed[index] - residual,
             standardised: if free > 1e-9 && s > 0.0 {
@@ -381,6 +382,9 @@ fn residuals(
 /// What each omitted effect would shift, by the linearised estimator.
 pub(super) fn aliases(stack: &Stack<'_>, parameters: &[f64], u: &[f64]) -> Vec<Alias> {
     let campaign = stack.campaign;
+    if campaign.omitted.is_empty() {
+        return Vec::new();
+    }
     let Some(gain) = Gain::linear(stack, parameters, u) else {
         return Vec::new();
     };

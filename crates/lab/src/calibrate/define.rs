@@ -119,7 +119,7 @@ impl Checker<'_> {
             return Ok(None);
         };
         let labels = |column: &str| points.labels(column).cloned();
-        let row = |place: usize| points.names[place].en.clone();
+        let row = |place: usize| points.names.of(place).en;
         let Some(given) = positions::given(self, labels, row) else {
             return Ok(None);
         };

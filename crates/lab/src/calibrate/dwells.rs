@@ -1,6 +1,6 @@
 //! From the samples of a recording to the averages of its dwells.
 
-use super::points::{PointColumn, Points};
+use super::points::{PointColumn, PointNames, Points};
 use crate::experiment::Words;
 use crate::recording::{
     Average, Column, Cut, Data, Dwell, Finding, Labels, Problem, Recording, Settling, Steps,
@@ -104,11 +104,12 @@ impl Points {
             .and_then(|role| recording.numbers(role));
         let cut = Cut::new(&dwells, time, &dwelling.settling);
         let mut points = Points {
-            names: cut
-                .kept
-                .iter()
-                .map(|dwell| name_of(recording, dwell))
-                .collect(),
+            names: PointNames::Words(
+                cut.kept
+                    .iter()
+                    .map(|dwell| name_of(recording, dwell))
+                    .collect(),
+            ),
             ..Points::default()
         };
         for column in &recording.columns {

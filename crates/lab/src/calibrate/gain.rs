@@ -12,10 +12,8 @@ use gumption_core::least_squares::Solution;
 pub(super) struct Gain {
     /// ∂coefficient/∂observed value.
     pub by_observed: DMatrix<f64>,
-    /// ∂coefficient/∂column, for every column.
-    pub by_column: Vec<DMatrix<f64>>,
-    /// ∂coefficient/∂input in that row alone, for every input.
-    pub by_input: Vec<DMatrix<f64>>,
+    /// ∂coefficient/∂symbol in that row alone, for every [doubted](Stack::doubted) column and input.
+    pub by_doubted: Vec<DMatrix<f64>>,
     /// ∂result/∂input in the formula of the result itself: coefficients × inputs.
     pub direct: DMatrix<f64>,
 }
@@ -23,11 +21,9 @@ pub(super) struct Gain {
 impl Gain {
     /// The derivatives of the estimator, as the solver found them.
     pub fn of_solution(stack: &Stack<'_>, solution: &Solution) -> Gain {
-        let columns = stack.campaign.experiment.columns.len();
         let parts = Gain {
             by_observed: solution.by_y.clone(),
-            by_column: solution.by_x[1..=columns].to_vec(),
-            by_input: solution.by_x[1 + columns..].to_vec(),
+            by_doubted: solution.by_x[1..].to_vec(),
             direct: DMatrix::zeros(0, 0),
         };
         parts.with_results(stack.campaign, &solution.parameters)
@@ -43,7 +39,7 @@ impl Gain {
             column /= *u;
         }
         let count = campaign.experiment.symbols();
-        let mut by_symbol = vec![by_observed.clone(); count];
+        let mut by_doubted = vec![by_observed.clone(); stack.doubted().len()];
         let mut slopes = vec![0.0; count];
         for (index, row) in stack.rows.iter().enumerate() {
             match row {
@@ -56,15 +52,14 @@ impl Gain {
                 }
                 Row::Prior { .. } => slopes.fill(0.0),
             }
-            for (gain, slope) in by_symbol.iter_mut().zip(&slopes) {
-                let mut column = gain.column_mut(index);
-                column *= if *slope == 0.0 { 0.0 } else { -slope };
+            for (gain, place) in by_doubted.iter_mut().zip(stack.doubted()) {
+                let (mut column, slope) = (gain.column_mut(index), slopes[*place]);
+                column *= if slope == 0.0 { 0.0 } else { -slope };
             }
         }
         let parts = Gain {
             by_observed,
-            by_column: by_symbol[..campaign.experiment.columns.len()].to_vec(),
-            by_input: by_symbol[campaign.experiment.input_places()].to_vec(),
+            by_doubted,
             direct: DMatrix::zeros(0, 0),
         };
         Some(parts.with_results(campaign, parameters))
@@ -93,11 +88,13 @@ impl Gain {
                 }
             }
         }
+        if campaign.results.is_empty() {
+            return Gain { direct, ..self };
+        }
         let mapped = |matrices: Vec<DMatrix<f64>>| matrices.iter().map(|m| &map * m).collect();
         Gain {
             by_observed: &map * &self.by_observed,
-            by_column: mapped(self.by_column),
-            by_input: mapped(self.by_input),
+            by_doubted: mapped(self.by_doubted),
             direct,
         }
     }
@@ -125,14 +122,14 @@ impl Gain {
                 column += self.by_observed.column(index);
             }
         }
-        match target {
-            Target::Input(place) => gain += &self.by_input[*place],
-            Target::Reading(name) => {
-                let columns = &stack.campaign.experiment.columns;
-                if let Some(place) = columns.iter().position(|column| column.name == *name) {
-                    gain += &self.by_column[place];
-                }
-            }
+        let experiment = &stack.campaign.experiment;
+        let symbol = match target {
+            Target::Input(place) => Some(experiment.input_places().start + place),
+            Target::Reading(name) => experiment.columns.iter().position(|c| c.name == *name),
+        };
+        let doubted = symbol.and_then(|symbol| stack.doubted().iter().position(|d| *d == symbol));
+        if let Some(by_symbol) = doubted.and_then(|place| self.by_doubted.get(place)) {
+            gain += by_symbol;
         }
         gain
     }

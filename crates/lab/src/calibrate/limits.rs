@@ -58,7 +58,7 @@ impl Stack<'_> {
     /// The point of a row.
     fn name(&self, row: usize) -> Words {
         match self.rows[row] {
-            Row::Reading { point, .. } => self.campaign.points.names[point].clone(),
+            Row::Reading { point, .. } => self.campaign.points.names.of(point),
             Row::Prior { parameter } => {
                 Words::plain(&self.campaign.experiment.parameters[parameter].name)
             }

@@ -19,6 +19,7 @@
 //! | `scatter`, `cause`, `causes` | what makes the coefficients uncertain |
 //! | `identify` | rank, condition, aliases |
 //! | `swaps`, `signs`, `apart`, `limits` | readings that look exchanged, that stand apart, or look saturated |
+//! | `size` | how much memory that takes |
 //! | `coefficient`, `residual`, `calibration`, `plan` | the results, after and before measuring |
 //! | `budget` | coefficients as measurands of a budget file |
 //!
@@ -52,6 +53,7 @@ mod residual;
 mod scatter;
 mod schedule;
 mod signs;
+mod size;
 mod stack;
 mod swaps;
 #[cfg(test)]
@@ -70,7 +72,7 @@ pub use dwells::{Dwelling, DwellsBy};
 pub use identify::{Alias, Combination, Identifiability, NearAlias, Shift, Shifts};
 pub use limits::Limit;
 pub use plan::{Plan, plan};
-pub use points::{PointColumn, Points};
+pub use points::{PointColumn, PointNames, Points};
 pub use residual::Residual;
 pub use scatter::{Misfit, ResponseScatter, ScatterTest};
 pub use trouble::Trouble;

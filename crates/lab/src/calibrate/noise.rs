@@ -1,5 +1,7 @@
 //! The noise that `[noise]` states: an error of each reading.
 
+use std::collections::BTreeMap;
+
 use super::points::Points;
 use crate::experiment::at_rest::Headed;
 use crate::experiment::checker::Checker;
@@ -113,7 +115,7 @@ fn replicates(
 ) -> Option<Vec<Scatter>> {
     let mut keys: Vec<Vec<String>> = vec![Vec::new(); points.len()];
     for column in columns {
-        let number = |row: usize| Some(points.column(&column.value)?.values[row].to_string());
+        let number = |row: usize| Some(points.column(&column.value)?.values.get(row)?.to_string());
         let label = |row: usize| Some(points.labels(&column.value)?.text(row).to_owned());
         for (row, key) in keys.iter_mut().enumerate() {
             let Some(own) = label(row).or_else(|| number(row)) else {
@@ -124,19 +126,16 @@ fn replicates(
             key.push(own);
         }
     }
-    let mut distinct = keys.clone();
-    distinct.sort();
-    distinct.dedup();
+    let mut rows: BTreeMap<&[String], Vec<usize>> = BTreeMap::new();
+    for (row, key) in keys.iter().enumerate() {
+        rows.entry(key).or_default().push(row);
+    }
     let scatter = |(name, _): &(String, Unit)| {
         let values = &points.column(name)?.values;
-        let groups: Vec<Vec<f64>> = distinct
-            .iter()
-            .map(|key| {
-                let own = keys.iter().zip(values).filter(|(other, _)| *other == key);
-                own.map(|(_, value)| *value)
-                    .filter(|value| value.is_finite())
-                    .collect()
-            })
+        let finite = |row: &usize| values.get(*row).copied().filter(|value| value.is_finite());
+        let groups: Vec<Vec<f64>> = rows
+            .values()
+            .map(|rows| rows.iter().filter_map(finite).collect())
             .filter(|group: &Vec<f64>| group.len() > 1)
             .collect();
         let (u, dof) = pooled(groups.iter().map(Vec::as_slice));

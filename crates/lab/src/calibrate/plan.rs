@@ -30,6 +30,7 @@ pub struct Plan {
 /// # Errors
 /// Parameters of equations that are not linear in them have no start value.
 pub fn plan(campaign: &Campaign) -> Result<Plan, Trouble> {
+    campaign.fits_into_memory()?;
     let stack = Stack::new(campaign, Readings::Planned);
     let open: Vec<String> = campaign
         .experiment

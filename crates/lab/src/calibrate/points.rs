@@ -7,14 +7,62 @@ use gumption_core::quantity::Unit;
 /// The points of an experiment, column by column.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Points {
-    /// What each point is called in reports: the line of its row, or the label of its dwell.
-    pub names: Vec<Words>,
+    /// What each point is called in reports.
+    pub names: PointNames,
     /// Columns of numbers.
     pub columns: Vec<PointColumn>,
     /// Columns of labels, by name.
     pub labels: Vec<(String, Labels)>,
     /// What is doubtful in the recording.
     pub findings: Vec<Finding>,
+}
+
+/// What points are called in reports.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PointNames {
+    /// By the line of the row of each: of a long recording nobody wants the words for all of them.
+    Lines(Vec<usize>),
+    /// By words, such as the label of a dwell.
+    Words(Vec<Words>),
+}
+
+impl Default for PointNames {
+    fn default() -> PointNames {
+        PointNames::Words(Vec::new())
+    }
+}
+
+impl PointNames {
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        match self {
+            PointNames::Lines(lines) => lines.len(),
+            PointNames::Words(words) => words.len(),
+        }
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The name of a point; no words for one that does not exist.
+    pub fn of(&self, point: usize) -> Words {
+        let found = match self {
+            PointNames::Lines(lines) => lines
+                .get(point)
+                .map(|line| Words::new(format!("line {line}"), format!("第 {line} 行"))),
+            PointNames::Words(words) => words.get(point).cloned(),
+        };
+        found.unwrap_or_default()
+    }
+
+    fn select(&self, points: &[usize]) -> PointNames {
+        match self {
+            PointNames::Lines(lines) => PointNames::Lines(picked(lines, points)),
+            PointNames::Words(words) => PointNames::Words(picked(words, points)),
+        }
+    }
 }
 
 /// A column of numbers.
@@ -35,12 +83,11 @@ impl Points {
     /// Each row of a recording as a point.
     pub fn of_rows(recording: &Recording) -> Points {
         let mut points = Points {
-            names: (0..recording.rows())
-                .map(|row| {
-                    let line = recording.line(row);
-                    Words::new(format!("line {line}"), format!("第 {line} 行"))
-                })
-                .collect(),
+            names: PointNames::Lines(
+                (0..recording.rows())
+                    .map(|row| recording.line(row))
+                    .collect(),
+            ),
             ..Points::default()
         };
         for column in &recording.columns {
@@ -85,7 +132,7 @@ impl Points {
             (name.clone(), labels)
         };
         Points {
-            names: picked(&self.names, &rows),
+            names: self.names.select(&rows),
             columns: self.columns.iter().map(column).collect(),
             labels: self.labels.iter().map(labels).collect(),
             findings: self.findings.clone(),

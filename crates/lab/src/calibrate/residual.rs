@@ -1,15 +1,13 @@
 //! What is left of a reading.
 
-use crate::experiment::Words;
-
 /// What is left of a reading.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Residual {
-    /// The point.
-    pub point: Words,
-    /// The response.
-    pub response: String,
+    /// The place of its point among the points.
+    pub point: usize,
+    /// The place of its response among the responses.
+    pub response: usize,
     /// What was read.
     pub observed: f64,
     /// What the equation gives.

@@ -1,6 +1,6 @@
 //! The scatter of the readings: from residuals, from samples, or stated.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::campaign::{Campaign, Scatter, Weights};
 use super::cause::{Cause, Origin};
@@ -284,14 +284,11 @@ impl Scatters {
     fn of_residuals(&self, stack: &Stack<'_>, gain: &Gain, u: &[f64]) -> Vec<Cause> {
         let cause = |(response, scatter): (usize, &ResponseScatter)| {
             let own = |row: &usize| matches!(stack.rows[*row], Row::Reading { response: own, .. } if own == response);
-            let columns: Vec<_> = (0..stack.rows.len())
-                .filter(own)
-                .map(|row| gain.by_observed.column(row) * (scatter.own * u[row]))
-                .collect();
-            let effects = match columns.as_slice() {
-                [] => DMatrix::zeros(gain.coefficients(), 0),
-                columns => DMatrix::from_columns(columns),
-            };
+            let rows: Vec<usize> = (0..stack.rows.len()).filter(own).collect();
+            let mut effects = gain.by_observed.select_columns(&rows);
+            for (mut effect, row) in effects.column_iter_mut().zip(&rows) {
+                effect *= scatter.own * u[*row];
+            }
             Cause {
                 origin: Origin::Residuals {
                     response: scatter.response.clone(),
@@ -327,24 +324,24 @@ fn explained(
                 *misfit += act.coefficient * by;
             }
         }
+        // Of each error: the shift of the parameters.
         let levels = levels(stack, &doubt.scope);
         let count = levels.iter().max().map_or(0, |last| last + 1);
-        let mut of_level = vec![Vec::new(); count];
+        let mut shifts = DMatrix::zeros(parameters, count);
         for (row, level) in levels.iter().enumerate() {
-            of_level[*level].push(row);
+            let gain = gain.by_observed.column(row);
+            let mut shift = shifts.column_mut(*level);
+            shift.axpy(misfits[row], &gain.rows(0, parameters), 1.0);
         }
-        for rows in of_level {
-            let mut shift = DVector::zeros(parameters);
-            for row in &rows {
-                shift += gain.by_observed.column(*row).rows(0, parameters) * misfits[*row];
-            }
-            let mut left = -(jacobian * shift);
-            for row in rows {
-                left[row] += misfits[row];
-            }
-            for (explained, left) in explained.iter_mut().zip(left.iter()) {
-                *explained += (doubt.u * left).powi(2);
-            }
+        // Σ (J·s)² over all errors, of which the row's own acts on its misfit as well.
+        let squares = &shifts * shifts.transpose();
+        let u2 = doubt.u * doubt.u;
+        for (row, explained) in explained.iter_mut().enumerate() {
+            let slopes = jacobian.row(row);
+            let by_all = (slopes * &squares).dot(&slopes);
+            let by_own = slopes.transpose().dot(&shifts.column(levels[row]));
+            let left = misfits[row] - by_own;
+            *explained += u2 * ((by_all - by_own * by_own).max(0.0) + left * left);
         }
     }
     explained

@@ -1,6 +1,6 @@
 //! The points of an experiment that is planned.
 
-use super::points::{PointColumn, Points};
+use super::points::{PointColumn, PointNames, Points};
 use crate::experiment::Words;
 use crate::experiment::checker::Checker;
 use crate::experiment::faults::SCHEDULE;
@@ -69,9 +69,8 @@ pub(super) fn scheduled(checker: &mut Checker<'_>, names: &Names) -> Option<Poin
         }
     }
     let count = length.map_or(0, |(count, _)| count);
-    points.names = (1..=count)
-        .map(|point| Words::new(format!("point {point}"), format!("第 {point} 点")))
-        .collect();
+    let name = |point| Words::new(format!("point {point}"), format!("第 {point} 点"));
+    points.names = PointNames::Words((1..=count).map(name).collect());
     for (role, place) in &names.columns {
         if points.column(role).is_none() {
             checker.faults.push(

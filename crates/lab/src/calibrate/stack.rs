@@ -29,13 +29,77 @@ pub(super) struct Stack<'e> {
     /// Readings that were left out, because a value is missing.
     pub left_out: usize,
     linear: bool,
+    /// The values of the columns of the equations; `None` where the points lack one.
+    columns: Vec<Option<&'e [f64]>>,
+    /// Where each response was observed.
+    sources: Vec<Source<'e>>,
+    /// The symbols that a stated error or a scatter of samples acts on.
+    doubted: Vec<usize>,
+}
+
+/// The columns and inputs of the equations that a stated error or a scatter of samples acts on, as symbols.
+pub(super) fn doubted(campaign: &Campaign) -> Vec<usize> {
+    let experiment = &campaign.experiment;
+    let doubts = experiment.doubts.iter().flat_map(|doubt| &doubt.acts);
+    let stated: Vec<&Target> = doubts.map(|act| &act.on).collect();
+    let is_sampled = |name: &str| {
+        let column = campaign.points.column(name);
+        column.is_some_and(|column| !column.averages.is_empty())
+    };
+    let is_doubted = |target: &Target| match target {
+        Target::Reading(name) => stated.contains(&target) || is_sampled(name),
+        Target::Input(_) => stated.contains(&target),
+    };
+    let columns = experiment.columns.iter().enumerate();
+    let columns = columns.map(|(place, column)| (place, Target::Reading(column.name.clone())));
+    let inputs = experiment.input_places().zip(0..experiment.inputs.len());
+    let inputs = inputs.map(|(place, input)| (place, Target::Input(input)));
+    columns
+        .chain(inputs)
+        .filter(|(_, target)| is_doubted(target))
+        .map(|(place, _)| place)
+        .collect()
+}
+
+/// Where a response was observed.
+enum Source<'e> {
+    Column(Option<&'e [f64]>),
+    Value(f64),
+}
+
+impl Source<'_> {
+    fn at(&self, point: usize) -> f64 {
+        match self {
+            Source::Column(values) => value_in(*values, point),
+            Source::Value(value) => *value,
+        }
+    }
+}
+
+fn value_in(column: Option<&[f64]>, point: usize) -> f64 {
+    let value = column.and_then(|values| values.get(point));
+    value.copied().unwrap_or(f64::NAN)
 }
 
 impl<'e> Stack<'e> {
     /// The readings; without `readings`, those that the schedule will give.
     pub fn new(campaign: &'e Campaign, readings: Readings) -> Stack<'e> {
+        let of_column = |name: &str| {
+            let column = campaign.points.column(name);
+            column.map(|column| column.values.as_slice())
+        };
+        let experiment = &campaign.experiment;
+        let source = |observed: &Observed| match observed {
+            Observed::Column(name) => Source::Column(of_column(name)),
+            Observed::Constant(value) => Source::Value(*value),
+            Observed::Input(place) => Source::Value(experiment.inputs[*place].value),
+        };
+        let columns = experiment.columns.iter();
         let mut stack = Stack {
             campaign,
+            columns: columns.map(|column| of_column(&column.name)).collect(),
+            sources: experiment.observed.iter().map(source).collect(),
+            doubted: doubted(campaign),
             rows: Vec::new(),
             observed: Vec::new(),
             left_out: 0,
@@ -51,10 +115,10 @@ impl<'e> Stack<'e> {
                     .equations
                     .uses(response)
                     .iter()
-                    .filter_map(|place| campaign.experiment.columns.get(*place))
-                    .all(|column| stack.column(&column.name, point).is_finite());
+                    .filter_map(|place| stack.columns.get(*place))
+                    .all(|column| value_in(*column, point).is_finite());
                 let observed = match readings {
-                    Readings::Taken => stack.observed(point, response),
+                    Readings::Taken => stack.sources[response].at(point),
                     Readings::Planned => 0.0,
                 };
                 if complete && observed.is_finite() {
@@ -74,25 +138,15 @@ impl<'e> Stack<'e> {
         stack
     }
 
-    fn column(&self, name: &str, point: usize) -> f64 {
-        let column = self.campaign.points.column(name);
-        column
-            .and_then(|column| column.values.get(point).copied())
-            .unwrap_or(f64::NAN)
-    }
-
-    fn observed(&self, point: usize, response: usize) -> f64 {
-        match &self.campaign.experiment.observed[response] {
-            Observed::Column(name) => self.column(name, point),
-            Observed::Constant(value) => *value,
-            Observed::Input(place) => self.campaign.experiment.inputs[*place].value,
-        }
-    }
-
     /// Number of rows that are readings; those of partly known parameters follow them.
     pub fn readings(&self) -> usize {
         let reading = |row: &&Row| matches!(row, Row::Reading { .. });
         self.rows.iter().filter(reading).count()
+    }
+
+    /// The symbols that an error acts on.
+    pub fn doubted(&self) -> &[usize] {
+        &self.doubted
     }
 
     /// Whether the equations are linear in the parameters.
@@ -106,12 +160,7 @@ impl<'e> Stack<'e> {
             Row::Reading { point, .. } => point,
             Row::Prior { .. } => 0,
         };
-        let columns = self
-            .campaign
-            .experiment
-            .columns
-            .iter()
-            .map(|column| self.column(&column.name, point));
+        let columns = self.columns.iter().map(|values| value_in(*values, point));
         let inputs = self
             .campaign
             .experiment
@@ -184,22 +233,15 @@ impl<'e> Stack<'e> {
     /// # Errors
     /// Too few rows, parameters that the rows do not tell apart, no minimum.
     pub fn solve(&self, u: &[f64], start: Option<Vec<f64>>) -> Result<Solution, Trouble> {
-        let (columns, inputs) = (
-            self.campaign.experiment.columns.len(),
-            self.campaign.experiment.inputs.len(),
-        );
-        let mut x = DMatrix::zeros(self.rows.len(), 1 + columns + inputs);
+        let mut x = DMatrix::zeros(self.rows.len(), 1 + self.doubted.len());
         let zeros = vec![0.0; self.campaign.experiment.parameters.len()];
         for index in 0..self.rows.len() {
             x[(index, 0)] = index as f64;
             let symbols = self.symbols(index, &zeros);
-            for place in 0..columns {
+            for (predictor, place) in self.doubted.iter().enumerate() {
                 // Equations of other responses need not have all columns.
-                let value = symbols[place];
-                x[(index, 1 + place)] = if value.is_finite() { value } else { 0.0 };
-            }
-            for place in 0..inputs {
-                x[(index, 1 + columns + place)] = self.campaign.experiment.inputs[place].value;
+                let value = symbols[*place];
+                x[(index, 1 + predictor)] = if value.is_finite() { value } else { 0.0 };
             }
         }
         let problem = Problem {
@@ -237,7 +279,7 @@ impl<'e> Stack<'e> {
             Failure::Undefined { point } | Failure::NotFinite { point, .. } => {
                 let (point, response) = match self.rows.get(point) {
                     Some(Row::Reading { point, response }) => (
-                        self.campaign.points.names[*point].clone(),
+                        self.campaign.points.names.of(*point),
                         self.campaign.experiment.equations.responses()[*response]
                             .name
                             .clone(),
@@ -359,8 +401,8 @@ pub(super) enum Readings {
     Planned,
 }
 
-/// The predictors of a row are its index, its columns and the inputs, so that the solver gives the
-/// derivatives of the parameters by each of them.
+/// The predictors of a row are its index and the doubted symbols, so that the solver gives the derivatives of the
+/// parameters by each of them.
 impl Response for Stack<'_> {
     fn parameters(&self) -> usize {
         self.campaign.experiment.parameters.len()
@@ -368,6 +410,10 @@ impl Response for Stack<'_> {
 
     fn is_linear(&self) -> bool {
         self.linear
+    }
+
+    fn is_asked_for(&self, predictor: usize) -> bool {
+        predictor > 0
     }
 
     fn at(
@@ -379,25 +425,27 @@ impl Response for Stack<'_> {
     ) -> f64 {
         by_parameter.fill(0.0);
         by_predictor.fill(0.0);
-        let (columns, count) = (self.campaign.experiment.columns.len(), parameters.len());
-        match self.rows.get(predictors[0] as usize) {
+        let index = predictors[0] as usize;
+        match self.rows.get(index) {
             Some(Row::Prior { parameter }) => {
                 by_parameter[*parameter] = 1.0;
                 parameters[*parameter]
             }
             Some(Row::Reading { response, .. }) => {
-                let mut symbols = predictors[1..=columns].to_vec();
-                symbols.extend_from_slice(parameters);
-                symbols.extend_from_slice(&predictors[1 + columns..]);
+                let mut symbols = self.symbols(index, parameters);
+                for (place, value) in self.doubted.iter().zip(&predictors[1..]) {
+                    symbols[*place] = *value;
+                }
                 let mut slopes = vec![0.0; symbols.len()];
                 let value = self
                     .campaign
                     .experiment
                     .equations
                     .at(*response, &symbols, &mut slopes);
-                by_parameter.copy_from_slice(&slopes[columns..columns + count]);
-                by_predictor[1..=columns].copy_from_slice(&slopes[..columns]);
-                by_predictor[1 + columns..].copy_from_slice(&slopes[columns + count..]);
+                by_parameter.copy_from_slice(&slopes[self.campaign.experiment.parameter_places()]);
+                for (slope, place) in by_predictor[1..].iter_mut().zip(&self.doubted) {
+                    *slope = slopes[*place];
+                }
                 value
             }
             None => f64::NAN,

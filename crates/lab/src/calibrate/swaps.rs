@@ -105,7 +105,7 @@ fn exchanges(campaign: &Campaign) -> Vec<Exchange> {
     let mut all: Vec<Exchange> = (0..points)
         .flat_map(|first| (first + 1..points).map(move |second| [first, second]))
         .map(|pair| Exchange {
-            names: pair.map(|point| names[point].clone()),
+            names: pair.map(|point| names.of(point)),
             pairs: vec![pair],
         })
         .collect();

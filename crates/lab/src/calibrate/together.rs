@@ -1,6 +1,8 @@
 //! Points that a procedure averages: readings of the same position, half a turn apart.
 
-use super::points::{PointColumn, Points};
+use std::collections::HashMap;
+
+use super::points::{PointColumn, PointNames, Points};
 use crate::experiment::Words;
 use crate::recording::{Average, Finding, Labels, Problem};
 
@@ -20,22 +22,25 @@ impl Points {
             return self.clone();
         }
         let mut groups: Vec<(Vec<&str>, Vec<usize>)> = Vec::new();
+        let mut places: HashMap<Vec<&str>, usize> = HashMap::new();
         for row in 0..self.len() {
             let own: Vec<&str> = labels.iter().map(|labels| labels.text(row)).collect();
-            match groups.iter_mut().find(|(other, _)| *other == own) {
-                Some((_, rows)) => rows.push(row),
-                None => groups.push((own, vec![row])),
-            }
+            let place = *places.entry(own).or_insert_with_key(|own| {
+                groups.push((own.clone(), Vec::new()));
+                groups.len() - 1
+            });
+            groups[place].1.push(row);
         }
         let first: Vec<usize> = groups.iter().map(|(_, rows)| rows[0]).collect();
         let mut points = self.select(&first);
-        points.names = groups
+        let names = groups
             .iter()
             .map(|(labels, rows)| match rows.as_slice() {
-                [row] => self.names[*row].clone(),
+                [row] => self.names.of(*row),
                 rows => Words::plain(&format!("{} ({} ×)", labels.join(", "), rows.len())),
             })
             .collect();
+        points.names = PointNames::Words(names);
         for (column, own) in points.columns.iter_mut().zip(&self.columns) {
             let rows = groups.iter().map(|(_, rows)| rows);
             *column = own.averaged(rows);

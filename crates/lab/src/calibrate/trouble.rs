@@ -2,7 +2,7 @@
 
 use super::identify::Combination;
 use crate::experiment::Words;
-use crate::experiment::faults::{SCATTER, START, TOO_FEW};
+use crate::experiment::faults::{SCATTER, START, TOO_FEW, TOO_LARGE};
 use gumption_fault::Code;
 
 /// Why an experiment gives no coefficients.
@@ -53,6 +53,15 @@ pub enum Trouble {
         /// Steps made.
         iterations: usize,
     },
+    /// More memory than a calibration may take.
+    TooLarge {
+        /// Readings.
+        readings: u64,
+        /// What it would take.
+        bytes: u64,
+        /// What it may take.
+        most: u64,
+    },
     /// Anything else that least squares refuses.
     Unsolvable,
     /// The points of a label cannot be evaluated.
@@ -71,6 +80,7 @@ impl Trouble {
             Trouble::TooFew { .. } => Some(TOO_FEW),
             Trouble::NoScatter { .. } => Some(SCATTER),
             Trouble::NoStart { .. } => Some(START),
+            Trouble::TooLarge { .. } => Some(TOO_LARGE),
             Trouble::InPart { trouble, .. } => trouble.code(),
             Trouble::NoSamples
             | Trouble::NoWeights { .. }

@@ -41,6 +41,8 @@ codes! {
         "The term is what the effect would add to the equation of its response; its coefficient is the name of the entry.\n\n    [omitted.k2]\n    term = \"k2*omega^2\"";
     LABELS = "C0120", "numbers are taken for labels", "把数值当作标签使用",
         "Columns of labels say which dwell, run or position a row belongs to. A column whose numbers the equations use is no such column.\n\n    recording = { file = \"run.csv\", steps = \"omega\" }";
+    TOO_LARGE = "C0122", "a calibration takes too much memory", "校准所需内存过大",
+        "Every reading of a calibration is kept with all that follows from an error of it. Samples of one state are averaged first: name the columns that tell them apart, the column whose steps do, or how long a state at rest lasts.\n\n    recording = { file = \"run.csv\", steps = \"omega\" }";
     NOISE = "C0121", "the claim about the noise is not clear", "噪声的声明不明确",
         "One of: u (with dof), a column with the role \"u\", replicates, at_rest, budget, from. Without any of them the noise is estimated from what the equations leave.";
 }

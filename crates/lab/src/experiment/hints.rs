@@ -8,9 +8,11 @@ use gumption_gum::budget::hints as budget;
 
 /// The mistakes of writers of experiments.
 pub static HINTS: Hints = Hints {
+    whole: say!("an experiment"),
     synonyms: &budget::SYNONYMS,
     top: ExperimentTable::keys,
     unknown_key,
+    no_table: |_, _| -> Option<Said> { None },
     list_of_amounts: say!("quantities that differ from row to row are columns of the recording"),
 };
 

@@ -15,6 +15,7 @@ use gumption_lab::experiment::{Scope, Words};
 use gumption_lab::recording::Finding;
 
 use super::causes::cause_name;
+use super::misfit;
 use super::sections::said;
 use super::trouble::in_words;
 
@@ -53,8 +54,11 @@ form! {
             let pairs = found.responses.iter().zip(campaign.experiment.equations.responses());
             pairs.map(|(one, quantity)| ResponseForm::of(one, &quantity.unit)).collect()
         },
-        /// What is left of each reading.
-        residuals: Vec<ResidualForm<'a>> = all(&found.residuals, |one| ResidualForm::of(one, l)),
+        /// What is left of each reading; of more than 100 000 readings the most conspicuous.
+        residuals: Vec<ResidualForm<'a>> = {
+            let listed = misfit::listed(found).into_iter();
+            listed.map(|one| ResidualForm::of(campaign, one, l)).collect()
+        },
         /// Coefficients of parts of the recording, where the file wants them one by one.
         parts: Vec<PartForm<'a>> = all(&found.parts, |(label, part)| PartForm::of(label, &part.figures, l)),
         /// What is doubtful in the recording.
@@ -323,11 +327,11 @@ form! {
     }
 
     /// What is left of a reading.
-    ResidualForm<'a> of (one: &'a Residual, l: Language) {
+    ResidualForm<'a> of (campaign: &'a Campaign, one: &Residual, l: Language) {
         /// The point.
-        point: &'a str = said(&one.point, l),
+        point: String = said(&campaign.points.names.of(one.point), l).to_owned(),
         /// The response.
-        response: &'a str = &one.response,
+        response: &'a str = campaign.experiment.equations.responses().get(one.response).map_or("", |r| &r.name),
         /// What was read.
         observed: Number = Number(one.observed),
         /// What the equation gives.

@@ -10,7 +10,7 @@ use gumption_format::document::{
     Table,
 };
 use gumption_lab::calibrate::{
-    Apart, Calibration, Campaign, Limit, Misfit, ResponseScatter, Scatter, ScatterTest,
+    Apart, Calibration, Campaign, Limit, Misfit, Residual, ResponseScatter, Scatter, ScatterTest,
 };
 use gumption_lab::experiment::Words;
 
@@ -19,6 +19,19 @@ use super::trouble::counted;
 
 /// More residuals than these are not listed.
 const RESIDUALS: usize = 12;
+
+/// More residuals than these are not in the JSON either.
+const LISTED: usize = 100_000;
+
+/// The residuals of the JSON in the order of the readings.
+pub(super) fn listed(found: &Calibration) -> Vec<&Residual> {
+    if found.residuals.len() <= LISTED {
+        return found.residuals.iter().collect();
+    }
+    let mut largest = found.largest_residuals(LISTED);
+    largest.sort_by_key(|one| (one.point, one.response));
+    largest
+}
 
 pub(super) fn residuals(campaign: &Campaign, found: &Calibration, l: Language) -> Vec<Block> {
     let way = match found.scatter {
@@ -44,9 +57,16 @@ pub(super) fn residuals(campaign: &Campaign, found: &Calibration, l: Language) -
         // What is left is rounding.
         return blocks;
     }
-    blocks.push(Block::Table(largest(found, l)));
+    blocks.push(Block::Table(largest(campaign, found, l)));
     let count = found.residuals.len();
-    if count > RESIDUALS {
+    if count > LISTED {
+        blocks.push(Block::Paragraph(l.pick(
+            format!("The {RESIDUALS} largest of {count}; --json has the {LISTED} largest."),
+            format!(
+                "共 {count} 个残差，列出最大的 {RESIDUALS} 个；--json 列出最大的 {LISTED} 个。"
+            ),
+        )));
+    } else if count > RESIDUALS {
         blocks.push(Block::Paragraph(l.pick(
             format!("The {RESIDUALS} largest of {count}; --json has all."),
             format!("共 {count} 个残差，列出最大的 {RESIDUALS} 个；全部见 --json。"),
@@ -94,7 +114,7 @@ fn scatter(campaign: &Campaign, found: &Calibration, l: Language) -> Table {
     table.without_empty_columns()
 }
 
-fn largest(found: &Calibration, l: Language) -> Table {
+fn largest(campaign: &Campaign, found: &Calibration, l: Language) -> Table {
     let mut table = table(
         l,
         [
@@ -106,16 +126,16 @@ fn largest(found: &Calibration, l: Language) -> Table {
             ("residual/s", "标准化残差", Numbers),
         ],
     );
-    for one in found.largest_residuals().into_iter().take(RESIDUALS) {
-        let own = found.responses.iter().find(|r| r.response == one.response);
+    for one in found.largest_residuals(RESIDUALS) {
+        let own = found.responses.get(one.response);
         let s = own.map_or(f64::NAN, |r| r.rms);
         let standardised = match one.standardised.is_nan() {
             true => NONE.to_owned(),
             false => significant(one.standardised, 3),
         };
         table.push(vec![
-            said(&one.point, l).into(),
-            one.response.as_str().into(),
+            said(&campaign.points.names.of(one.point), l).into(),
+            own.map_or("", |r| r.response.as_str()).into(),
             aligned(one.observed, s, DIGITS).into(),
             aligned(one.fitted, s, DIGITS).into(),
             significant(one.observed - one.fitted, DIGITS).into(),

@@ -51,6 +51,14 @@ pub(super) fn sentences(trouble: &Trouble, l: Language) -> String {
             format!("The search found no minimum in {iterations} steps: begin nearer to the solution, or check that each parameter matters."),
             format!("经 {iterations} 步搜索未找到最小值：请给出更接近解的初值，或检查每个参数是否都有影响。"),
         ),
+        Trouble::TooLarge { readings, bytes, most } => {
+            let gib = |bytes: u64| bytes.div_ceil(1 << 30);
+            let (needed, most) = (gib(*bytes), gib(*most));
+            l.pick(
+                format!("A calibration of {readings} readings takes about {needed} GiB of memory, and at most {most} GiB are taken. Average the samples of each state first: [recording] dwells = [\"position\"], steps = \"omega\" or still = 50; or take every tenth row of the recording."),
+                format!("对 {readings} 个读数进行校准约需 {needed} GiB 内存，最多使用 {most} GiB。请先对同一状态的采样取平均：[recording] 中写 dwells = [\"position\"]、steps = \"omega\" 或 still = 50；或只取记录的十分之一行。"),
+            )
+        }
         Trouble::Unsolvable => l.pick(
             "The least-squares problem cannot be solved as it is stated.".into(),
             "该最小二乘问题无法求解。".into(),

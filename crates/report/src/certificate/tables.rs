@@ -132,6 +132,7 @@ table! {
 
 /// What is known of mistakes.
 pub(super) static HINTS: Hints = Hints {
+    whole: say!("the data of a certificate"),
     synonyms: &[
         ("nr", "number"),
         ("no", "number"),
@@ -147,6 +148,7 @@ pub(super) static HINTS: Hints = Hints {
     ],
     top: CertificateFile::keys,
     unknown_key: |_, _, _| -> Option<Said> { None },
+    no_table: |_, _| -> Option<Said> { None },
     list_of_amounts: say!("one number with its unit stands here"),
 };
 

@@ -216,7 +216,9 @@ pub(super) fn unit(report: &Report<'_>, comparison: &Comparison) -> String {
         | Figure::Lower
         | Figure::Upper
         | Figure::ShortestLower
-        | Figure::ShortestUpper => symbol(&output.unit),
+        | Figure::ShortestUpper
+        | Figure::AtLeast
+        | Figure::AtMost => symbol(&output.unit),
         Figure::StandardUncertainty | Figure::ExpandedUncertainty | Figure::Shift => {
             difference_symbol(&output.unit)
         }

@@ -13,7 +13,7 @@ use gumption_format::toml::Amount;
 use gumption_format::toml::{OneOrMany, Stated};
 
 /// The keys of a claim that state a figure.
-const FIGURES: [&str; 16] = [
+const FIGURES: [&str; 18] = [
     "value",
     "u",
     "U",
@@ -24,6 +24,8 @@ const FIGURES: [&str; 16] = [
     "p",
     "interval",
     "shortest",
+    "at_least",
+    "at_most",
     "shift",
     "correlation",
     "region",
@@ -154,6 +156,7 @@ impl Checker<'_> {
         self.claimed_amounts(&mut reading);
         self.claimed_numbers(&mut reading);
         self.claimed_limits(&mut reading);
+        self.claimed_ends(&mut reading);
         self.correlations_claimed(&mut reading);
         self.verdict(&mut reading);
         self.input_figures(&mut reading, register);
@@ -292,6 +295,23 @@ impl Checker<'_> {
         ] {
             if let Some(number) = number {
                 reading.push(what, number.value, self.half_digit(number), stated);
+            }
+        }
+    }
+
+    /// Limits of one-sided intervals.
+    fn claimed_ends(&mut self, reading: &mut Reading<'_>) {
+        let table = reading.table;
+        let ends = [
+            (&table.at_least, Figure::AtLeast),
+            (&table.at_most, Figure::AtMost),
+        ];
+        for (stated, what) in ends {
+            let Some(limit) = stated else { continue };
+            if let Some(value) = self.quantity(limit, reading.unit, reading.name) {
+                let half = self.half_digit_of(limit, reading.unit, reading.name);
+                let tolerance = reading.tolerance(|t| &t.one_sided);
+                reading.push(what, value, half, tolerance);
             }
         }
     }

@@ -59,7 +59,14 @@ fn unknown_profile(stated: &Stated<String>) -> Fault {
         say!("there is no profile \"{}\"", stated.value),
     )
     .label(say!("expected one of {}", names.join(", ")));
-    match nearest(&stated.value, names.iter().copied()) {
+    let begins = names.iter().copied().rev();
+    let begins = begins.filter(|name| {
+        stated
+            .value
+            .to_uppercase()
+            .starts_with(&name.to_uppercase())
+    });
+    match nearest(&stated.value, names.iter().copied()).or_else(|| begins.last()) {
         Some(near) => fault.help(say!("did you mean \"{near}\"?")),
         None => fault,
     }

@@ -91,6 +91,11 @@ impl Checker<'_> {
                     .label(say!("expected one amount"))
                     .help(say!("a column states the uncertainties of the data of a fit, or of the elements of a vector")),
             ),
+            Amounts::Each(list) if key == "half_width" && list.len() == 2 => self.refuse(
+                Fault::new(VECTOR, stated.span.clone(), say!("`{key}` of {} is a list, but {} is a single quantity", context.owner, context.owner))
+                    .label(say!("expected one amount"))
+                    .help(say!("limits that differ on both sides are minus = … and plus = …, or limits = [lower, upper]")),
+            ),
             Amounts::Each(_) => self.refuse(
                 Fault::new(VECTOR, stated.span.clone(), say!("`{key}` of {} is a list, but {} is a single quantity", context.owner, context.owner))
                     .label(say!("expected one amount"))

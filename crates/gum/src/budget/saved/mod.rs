@@ -18,6 +18,8 @@ use crate::budget::chain::{Ensemble, Identity, Member, Part};
 use crate::budget::{Certificate, Component, Evaluation, Law, Owner, Remark};
 use gumption_core::distribution::Distribution;
 use gumption_core::quantity::{Unit, UnitTable};
+use gumption_fault::libraries::of_json;
+use gumption_fault::{Said, say};
 
 pub use schema::result_schema;
 
@@ -220,37 +222,45 @@ impl SavedResults {
     ///
     /// # Errors
     /// What is wrong with the file, in words.
-    pub fn read(bytes: &[u8], place: &dyn Fn(&str) -> PathBuf) -> Result<Self, String> {
-        let value: Value = serde_json::from_slice(bytes)
-            .map_err(|error| format!("it is not well-formed JSON: {error}"))?;
+    pub fn read(bytes: &[u8], place: &dyn Fn(&str) -> PathBuf) -> Result<Self, Said> {
+        let value: Value = serde_json::from_slice(bytes).map_err(|error| {
+            say!(
+                "it is not well-formed JSON: {}",
+                of_json(&error.to_string())
+            )
+        })?;
         let format = value.get("format").and_then(Value::as_str);
         match format {
             Some(RESULT_FORMAT) => {}
             Some(other) => {
-                return Err(format!("it is of the format {other}, not {RESULT_FORMAT}"));
+                return Err(say!("it is of the format {other}, not {RESULT_FORMAT}"));
             }
-            None => return Err(format!("it does not say that it is {RESULT_FORMAT}")),
+            None => return Err(say!("it does not say that it is {RESULT_FORMAT}")),
         }
         let document: Document =
-            serde_json::from_value(value).map_err(|error| error.to_string())?;
+            serde_json::from_value(value).map_err(|error| of_json(&error.to_string()))?;
         document.resolved(place)
     }
 }
 
 impl Document {
-    fn resolved(self, place: &dyn Fn(&str) -> PathBuf) -> Result<SavedResults, String> {
+    fn resolved(self, place: &dyn Fn(&str) -> PathBuf) -> Result<SavedResults, Said> {
         let mut files = Vec::new();
         for entry in &self.files {
             let mut units = UnitTable::default();
             let pairs = entry.units.iter().map(|[a, b]| (a.as_str(), b.as_str()));
             if let Some((index, _)) = units.define_all(pairs).first() {
-                return Err(format!("the unit {} is not usable", entry.units[*index][0]));
+                return Err(say!("the unit {} is not usable", entry.units[*index][0]));
             }
             let path: Arc<Path> = place(&entry.path).into();
             files.push((path, units));
         }
-        let file = |index: usize| files.get(index).ok_or("an index of a file is too large");
-        let part = |index: usize, row: &Option<String>| -> Result<Part, String> {
+        let file = |index: usize| {
+            files
+                .get(index)
+                .ok_or_else(|| say!("an index of a file is too large"))
+        };
+        let part = |index: usize, row: &Option<String>| -> Result<Part, Said> {
             Ok(Part {
                 file: Arc::clone(&file(index)?.0),
                 row: row.as_deref().map(Into::into),
@@ -258,7 +268,7 @@ impl Document {
         };
         let unit = |index: usize, text: &str| {
             let units = &file(index)?.1;
-            let fault = |_| format!("the unit {text} is not known");
+            let fault = |_| say!("the unit {text} is not known");
             units.parse(text).map_err(fault)
         };
         let mut members = Vec::new();
@@ -305,17 +315,17 @@ impl Document {
 }
 
 impl ComponentEntry {
-    fn component(&self, unit: Unit) -> Result<Component, String> {
+    fn component(&self, unit: Unit) -> Result<Component, Said> {
         let name = &self.name;
         let possible = self.standard_uncertainty > 0.0
             && self.standard_uncertainty.is_finite()
             && self.degrees_of_freedom > 0.0;
         if !possible {
-            return Err(format!("the standard uncertainty of {name} is not usable"));
+            return Err(say!("the standard uncertainty of {name} is not usable"));
         }
         self.distribution
             .validate()
-            .map_err(|fault| format!("the distribution of {name} is not usable: {fault}"))?;
+            .map_err(|fault| say!("the distribution of {name} is not usable: {fault}"))?;
         Ok(Component {
             name: name.clone(),
             label: self.label.clone(),
@@ -337,14 +347,14 @@ impl ComponentEntry {
 }
 
 impl ResultEntry {
-    fn result(&self, unit: Unit, components: usize) -> Result<SavedResult, String> {
+    fn result(&self, unit: Unit, components: usize) -> Result<SavedResult, Said> {
         let name = &self.measurand;
         if !self.estimate.is_finite() {
-            return Err(format!("the estimate of {name} is not finite"));
+            return Err(say!("the estimate of {name} is not finite"));
         }
         let usable = |term: &TermEntry| term.component < components && term.sensitivity.is_finite();
         if !self.terms.iter().all(usable) {
-            return Err(format!("the terms of {name} are not usable"));
+            return Err(say!("the terms of {name} are not usable"));
         }
         Ok(SavedResult {
             measurand: name.clone(),
@@ -363,15 +373,15 @@ impl ResultEntry {
 }
 
 impl GroupEntry {
-    fn ensemble(&self, members: &[Member]) -> Result<Ensemble, String> {
+    fn ensemble(&self, members: &[Member]) -> Result<Ensemble, Said> {
         let size = self.members.len();
-        let unfit = || "a group of correlated components is not usable".to_string();
+        let unfit = || say!("a group of correlated components is not usable");
         let found: Option<Vec<Member>> = self
             .members
             .iter()
             .map(|index| members.get(*index).cloned())
             .collect();
-        let matrix = |rows: &[Vec<f64>]| -> Result<DMatrix<f64>, String> {
+        let matrix = |rows: &[Vec<f64>]| -> Result<DMatrix<f64>, Said> {
             let square = rows.len() == size && rows.iter().all(|row| row.len() == size);
             let possible = square
                 && (0..size).all(|i| (0..i).all(|j| rows[i][j] == rows[j][i]))

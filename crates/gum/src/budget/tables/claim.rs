@@ -30,6 +30,10 @@ table! {
         interval: List<Amount>,
         /// Stated shortest coverage interval: lower and upper limit.
         shortest: List<Amount>,
+        /// Stated limit that the quantity is not below with the coverage probability of the budget: a one-sided interval.
+        at_least: Amount,
+        /// Stated limit that it is not above with that probability.
+        at_most: Amount,
         /// Stated second-order shift of the estimate.
         shift: Amount,
         /// Stated correlation coefficients with other measurands, by name.
@@ -130,6 +134,8 @@ table! {
         variance: f64,
         /// Of covariances.
         covariance: f64,
+        /// Of the limits of one-sided intervals.
+        one_sided: f64,
         /// Of the shift.
         shift: f64,
         /// Of correlation coefficients.

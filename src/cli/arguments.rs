@@ -1,0 +1,101 @@
+//! The arguments of the command line, and what is said where they are not understood: by clap in English, and from the
+//! same findings in Chinese.
+
+use clap::Parser;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+
+use super::language::spoken;
+use super::output;
+use gumption::language::Language;
+
+/// The arguments; ends the program where there is nothing else to do.
+pub(super) fn parse<T: Parser>() -> T {
+    T::try_parse().unwrap_or_else(|error| refuse(&error))
+}
+
+fn refuse(error: &clap::Error) -> ! {
+    match (spoken(), in_chinese(error)) {
+        (Language::Chinese, Some(text)) => {
+            output::warn(&text);
+            std::process::exit(error.exit_code())
+        }
+        _ => error.exit(),
+    }
+}
+
+/// What is wrong, in Chinese; nothing where help or the version was asked for.
+pub(super) fn in_chinese(error: &clap::Error) -> Option<String> {
+    let text = |kind: ContextKind| match error.get(kind)? {
+        ContextValue::String(one) => Some(one.clone()),
+        ContextValue::Strings(several) => Some(several.join("、")),
+        ContextValue::StyledStr(styled) => Some(styled.to_string()),
+        ContextValue::StyledStrs(several) => {
+            let several: Vec<String> = several.iter().map(ToString::to_string).collect();
+            Some(several.join("、"))
+        }
+        ContextValue::Number(number) => Some(number.to_string()),
+        _ => None,
+    };
+    let named = |kind: ContextKind| text(kind).unwrap_or_default();
+    let (argument, value) = (
+        named(ContextKind::InvalidArg),
+        named(ContextKind::InvalidValue),
+    );
+    let what = match error.kind() {
+        ErrorKind::DisplayHelp
+        | ErrorKind::DisplayVersion
+        | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => return None,
+        ErrorKind::InvalidSubcommand => {
+            format!("没有子命令 `{}`", named(ContextKind::InvalidSubcommand))
+        }
+        ErrorKind::MissingSubcommand => "缺少子命令".to_owned(),
+        ErrorKind::UnknownArgument => format!("没有参数 `{argument}`"),
+        ErrorKind::MissingRequiredArgument => format!("缺少必需的参数：{argument}"),
+        ErrorKind::ArgumentConflict => {
+            let other = named(ContextKind::PriorArg);
+            format!("`{argument}` 不能与 `{other}` 同时使用")
+        }
+        ErrorKind::InvalidValue if value.is_empty() => format!("`{argument}` 缺少值"),
+        ErrorKind::InvalidValue | ErrorKind::ValueValidation => {
+            let why = std::error::Error::source(error).map(|why| of_value(&why.to_string()));
+            let why = why.map_or(String::new(), |why| format!("：{why}"));
+            format!("`{argument}` 的值 `{value}` 有误{why}")
+        }
+        ErrorKind::TooManyValues => format!("`{argument}` 的值 `{value}` 多余"),
+        ErrorKind::TooFewValues | ErrorKind::WrongNumberOfValues => {
+            format!("`{argument}` 的值的个数有误")
+        }
+        ErrorKind::NoEquals => format!("`{argument}` 与其值之间须写 `=`"),
+        ErrorKind::InvalidUtf8 => "参数不是 UTF-8 文本".to_owned(),
+        _ => return None,
+    };
+    let mut lines = vec![format!("错误: {what}")];
+    let near = [
+        ContextKind::SuggestedSubcommand,
+        ContextKind::SuggestedArg,
+        ContextKind::SuggestedValue,
+    ];
+    lines.extend(
+        near.into_iter()
+            .filter_map(text)
+            .map(|near| format!("  是否为：{near}")),
+    );
+    lines.extend(text(ContextKind::ValidValue).map(|all| format!("  可用的值：{all}")));
+    lines.extend(text(ContextKind::Usage).map(|usage| usage.replace("Usage:", "用法:")));
+    lines.push("更多信息见 `--help`。\n".to_owned());
+    Some(lines.join("\n"))
+}
+
+/// Why a number is refused, as clap and the standard library say it; the program's own reasons are Chinese already.
+fn of_value(why: &str) -> String {
+    if let Some((value, range)) = why.split_once(" is not in ") {
+        return format!("{value} 不在 {range} 之内");
+    }
+    match why {
+        "invalid digit found in string" => "应为整数".to_owned(),
+        "cannot parse integer from empty string" => "应为整数，而此处为空".to_owned(),
+        "number too large to fit in target type" => "数过大".to_owned(),
+        "number too small to fit in target type" => "数过小".to_owned(),
+        own => own.to_owned(),
+    }
+}

@@ -28,12 +28,12 @@ fn id(kind: &str, name: &str) -> String {
 /// The residuals of each response in the order of its readings, with their standard deviation.
 pub(super) fn residuals(campaign: &Campaign, found: &Calibration, l: Language) -> Vec<Plot> {
     let declared = campaign.experiment.equations.responses();
-    let responses = found.responses.iter().zip(declared);
+    let responses = found.responses.iter().zip(declared).enumerate();
     // Where nothing is left over, what is left is rounding.
-    let seen = responses.filter(|(one, _)| one.dof > 0.0);
-    let plots = seen.map(|(one, quantity)| {
+    let seen = responses.filter(|(_, (one, _))| one.dof > 0.0);
+    let plots = seen.map(|(index, (one, quantity))| {
         let own = found.residuals.iter();
-        let own = own.filter(|residual| residual.response == one.response);
+        let own = own.filter(|residual| residual.response == index);
         let points = own
             .zip(1u32..)
             .map(|(residual, number)| [f64::from(number), residual.observed - residual.fitted]);

@@ -112,7 +112,8 @@ pub fn contest(
         };
         let space = Space::new(&question)?;
         let frame = space.empty();
-        let gain = Panel::new(&space, &question, &frame).observed(&space).1;
+        let strongest = Panel::new(&space, &question, &frame).observed(&space, 0.0);
+        let gain = strongest.map_or(0.0, |one| one.statistic);
         Ok(Seen {
             course: &courses[at],
             alone: alone[at],

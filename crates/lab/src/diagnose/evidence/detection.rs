@@ -24,6 +24,13 @@ pub(super) struct Outcome {
     pub(super) draws: usize,
 }
 
+/// The block with most evidence, with and without what departures of the set are allowed.
+pub(super) struct Strongest {
+    block: usize,
+    pub(super) statistic: f64,
+    allowed: f64,
+}
+
 /// Tests for a further effect beside a set; with `pairs`, also for two effects that mask each other. The effects of the set
 /// may depart from their forms by a share of themselves: what that gives to the statistic is taken from it.
 pub(super) fn test(
@@ -35,8 +42,8 @@ pub(super) fn test(
     simulated: &Simulated,
 ) -> Outcome {
     let panel = Panel::new(space, question, frame);
-    let (strongest, statistic) = panel.observed(space);
-    let Some(strongest) = strongest else {
+    let allowance = departure::left(share, space.strength(frame));
+    let Some(strongest) = panel.observed(space, allowance) else {
         return Outcome {
             strongest: None,
             statistic: 0.0,
@@ -46,7 +53,7 @@ pub(super) fn test(
     };
     let alpha = question.settings.alpha;
     let observed = [
-        statistic - departure::left(share, space.strength(frame)),
+        strongest.allowed,
         pairs.map_or(f64::NEG_INFINITY, |pairs| pairs.observed(space)),
     ];
     let (chunks, look) = (simulated.chunks(), look(alpha));
@@ -65,8 +72,8 @@ pub(super) fn test(
         }
     }
     Outcome {
-        strongest: Some(strongest),
-        statistic,
+        strongest: Some(strongest.block),
+        statistic: strongest.statistic,
         p,
         draws: draws.len(),
     }
@@ -127,19 +134,21 @@ impl<'a> Panel<'a> {
         }
     }
 
-    pub(super) fn observed(&self, space: &Space) -> (Option<usize>, f64) {
+    /// The strongest block, where this much is allowed to what resembles the set altogether.
+    pub(super) fn observed(&self, space: &Space, allowance: f64) -> Option<Strongest> {
         let components = self.beside.observed();
-        let mut best = (None, f64::NEG_INFINITY);
-        for rest in &self.beside.rests {
+        let each = self.beside.rests.iter().map(|rest| {
             let own = self.beside.components(rest, &components);
             let squares = own.iter().map(|c| c * c);
             let evidence = rest.evidence(squares, &self.beside.residual);
-            let value = evidence + space.blocks[rest.block].log_odds;
-            if value > best.1 {
-                best = (Some(rest.block), value);
+            let statistic = evidence + space.blocks[rest.block].log_odds;
+            Strongest {
+                block: rest.block,
+                statistic,
+                allowed: statistic - allowance * rest.resemblance,
             }
-        }
-        best
+        });
+        each.max_by(|a, b| a.allowed.total_cmp(&b.allowed))
     }
 
     pub(super) fn simulated(

@@ -28,6 +28,8 @@ pub(super) struct Remainder {
     /// Index of the block in the space.
     pub(super) block: usize,
     pub(super) kind: Kind,
+    /// The share of it that lies along the set: 1 where it is, or holds, what the set is.
+    pub(super) resemblance: f64,
     form: Form,
     /// T.
     turn: DMatrix<f64>,
@@ -55,9 +57,15 @@ impl<'s> Remainders<'s> {
                 }
             };
             let idle = turn.nrows() == 0 && !matches!(form, Form::Scatter);
+            // Scatter has no shape that could be another one.
+            let resemblance = match form {
+                Form::Scatter => 1.0,
+                _ => a.norm_squared().min(1.0),
+            };
             (!idle).then_some(Remainder {
                 block: index,
                 kind: block.kind(),
+                resemblance,
                 form,
                 turn,
             })

@@ -211,7 +211,7 @@ fn what_others_have_changed_is_not_overwritten() {
 /// Twenty pages that ask at once, of which each is answered; and a long run that a newer wish of its page ends.
 #[test]
 fn the_newest_wish_of_a_page_wins() {
-    let long = format!("{BUDGET}[monte_carlo]\ntrials = 100_000_000\n");
+    let long = format!("{BUDGET}[monte_carlo]\ntrials = 4_000_000_000\n");
     let served = Served::new("serve-many", &[("a.toml", BUDGET), ("long.toml", &long)]);
     std::thread::scope(|scope| {
         let first =

@@ -60,7 +60,7 @@ fn reference() -> String {
 #[test]
 fn the_reference_of_keys_is_fresh() {
     let path = common::root().join("docs/reference/experiment-keys.md");
-    let stale: Vec<String> = common::stale(&path, &reference()).into_iter().collect();
+    let stale: Vec<String> = common::stale(&path, reference()).into_iter().collect();
     common::assert_fresh(&stale);
 }
 

@@ -119,7 +119,7 @@ fn generated_pages_are_fresh() {
     let mut stale = Vec::from_iter(common::stale(&docs.join("budget.schema.json"), &schema));
     stale.extend(common::stale(
         &docs.join("reference/cli.md"),
-        &command_line(),
+        command_line(),
     ));
     for section in [
         "certificate-keys",

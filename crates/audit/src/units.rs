@@ -32,18 +32,6 @@ fn with_powers(text: &str) -> String {
     out
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn powers_need_no_sign() {
-        assert_eq!(factor("kg/m3", "g/cm^3"), Some(1e-3));
-        assert_eq!(factor("mm2", "mm²"), Some(1.0));
-        assert!(parse("m_3").is_none() && parse("x1").is_none());
-    }
-}
-
 /// What a number in `from` is multiplied by to be one in `to`, as a difference; `None` where they do not agree.
 pub(crate) fn factor(from: &str, to: &str) -> Option<f64> {
     if from.trim() == to.trim() {
@@ -62,5 +50,17 @@ pub(crate) fn fraction(unit: &str) -> Option<f64> {
         "ppm" | "µV/V" | "µm/m" | "mg/kg" | "µA/A" | "µΩ/Ω" => Some(1e-6),
         "ppb" => Some(1e-9),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_need_no_sign() {
+        assert_eq!(factor("kg/m3", "g/cm^3"), Some(1e-3));
+        assert_eq!(factor("mm2", "mm²"), Some(1.0));
+        assert!(parse("m_3").is_none() && parse("x1").is_none());
     }
 }

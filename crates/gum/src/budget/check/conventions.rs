@@ -59,14 +59,12 @@ fn unknown_profile(stated: &Stated<String>) -> Fault {
         say!("there is no profile \"{}\"", stated.value),
     )
     .label(say!("expected one of {}", names.join(", ")));
-    let begins = names.iter().copied().rev();
-    let begins = begins.filter(|name| {
-        stated
-            .value
-            .to_uppercase()
-            .starts_with(&name.to_uppercase())
-    });
-    match nearest(&stated.value, names.iter().copied()).or_else(|| begins.last()) {
+    let written = stated.value.to_uppercase();
+    let begins = || {
+        let mut names = names.iter().copied();
+        names.find(|name| written.starts_with(&name.to_uppercase()))
+    };
+    match nearest(&stated.value, names.iter().copied()).or_else(begins) {
         Some(near) => fault.help(say!("did you mean \"{near}\"?")),
         None => fault,
     }

@@ -36,7 +36,7 @@ fn reports_are_fresh() {
         );
         stale.extend(common::stale(
             &report.with_extension("md"),
-            &gumption(&["eval", "--markdown"], &path),
+            gumption(&["eval", "--markdown"], &path),
         ));
         if path.components().any(|part| part.as_os_str() == "inertial") {
             let chinese = gumption(&["eval", "--markdown", "--lang", "zh"], &path);

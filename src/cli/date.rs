@@ -4,6 +4,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::output::Complaint;
 use gumption::fault::say;
+use gumption_core::calendar::days_of;
 
 const SECONDS_OF_A_DAY: u64 = 86_400;
 
@@ -37,16 +38,6 @@ fn day(since_1970: u64) -> String {
         month += 1;
     }
     format!("{year:04}-{month:02}-{:02}", left + 1)
-}
-
-fn days_of(year: u64, month: u64) -> u64 {
-    let leap = year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
-    match month {
-        2 if leap => 29,
-        2 => 28,
-        4 | 6 | 9 | 11 => 30,
-        _ => 31,
-    }
 }
 
 /// Accepts a day that exists, written as `2026-01-31`.

@@ -6,6 +6,7 @@ pub mod cases;
 pub mod evaluation;
 mod files;
 
+use std::path::Path;
 use std::process::Command;
 
 pub use files::{assert_fresh, calibrations, files, relative, root, stale};
@@ -35,4 +36,19 @@ impl Noise {
     pub fn normal(&mut self) -> f64 {
         (0..12).map(|_| self.uniform()).sum::<f64>() - 6.0
     }
+}
+
+/// A line with a bend, of which a fit, a diagnosis, a plan and an Allan deviation can be made: `case.toml` and its
+/// `recording.csv`.
+pub fn bent_line(folder: &Path) {
+    let mut noise = Noise(7);
+    let mut recording = String::from("t [s],x,y [V]\n");
+    for k in 0..64 {
+        let x = f64::from(k % 16) / 8.0 - 1.0;
+        let y = 1.0 + 2.0 * x + 0.02 * x * x + 1e-3 * noise.normal();
+        recording += &format!("{k},{x},{y}\n");
+    }
+    let case = "recording = \"recording.csv\"\nequations = \"y = a + b*x\"\n[columns]\nx = \"stimulus\"\ny = \"output\"\n[noise]\nu = \"1 mV\"\n";
+    std::fs::write(folder.join("recording.csv"), recording).expect("written");
+    std::fs::write(folder.join("case.toml"), case).expect("written");
 }

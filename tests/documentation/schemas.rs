@@ -265,24 +265,10 @@ fn calibrations_and_plans() {
     );
 }
 
-/// A line with a bend: an experiment for `diagnose` and `plan`, and a recording at rest for `allan`.
-fn bent(folder: &Path) {
-    let mut noise = common::Noise(7);
-    let mut recording = String::from("t [s],x,y [V]\n");
-    for k in 0..64 {
-        let x = f64::from(k % 16) / 8.0 - 1.0;
-        let y = 1.0 + 2.0 * x + 0.02 * x * x + 1e-3 * noise.normal();
-        recording += &format!("{k},{x},{y}\n");
-    }
-    let case = "recording = \"recording.csv\"\nequations = \"y = a + b*x\"\n[columns]\nx = \"stimulus\"\ny = \"output\"\n[noise]\nu = \"1 mV\"\n";
-    std::fs::write(folder.join("recording.csv"), recording).expect("written");
-    std::fs::write(folder.join("case.toml"), case).expect("written");
-}
-
 #[test]
 fn diagnoses_outlooks_and_grades() {
     let folder = cases::folder("schemas-diagnosis");
-    bent(&folder);
+    common::bent_line(&folder);
     let diagnosis = cases::json(&folder, &["diagnose", "case.toml", "--json"]);
     Schema::of("diagnosis").holds(&diagnosis, "a diagnosis");
     let outlook = cases::json(&folder, &["plan", "case.toml", "--json"]);

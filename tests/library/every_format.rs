@@ -189,24 +189,10 @@ fn statement(document: &Document) -> Figures {
     figures(&sentences.take(1).collect::<String>())
 }
 
-/// A line with a bend, of which a fit, a diagnosis, a plan and an Allan deviation can be made.
-fn recorded(folder: &Path) {
-    let mut noise = common::Noise(7);
-    let mut recording = String::from("t [s],x,y [V]\n");
-    for k in 0..64 {
-        let x = f64::from(k % 16) / 8.0 - 1.0;
-        let y = 1.0 + 2.0 * x + 0.02 * x * x + 1e-3 * noise.normal();
-        recording += &format!("{k},{x},{y}\n");
-    }
-    let case = "recording = \"recording.csv\"\nequations = \"y = a + b*x\"\n[columns]\nx = \"stimulus\"\ny = \"output\"\n[noise]\nu = \"1 mV\"\n";
-    std::fs::write(folder.join("recording.csv"), recording).expect("written");
-    std::fs::write(folder.join("case.toml"), case).expect("written");
-}
-
 #[test]
 fn every_command_writes_every_format() {
     let folder = folder("commands");
-    recorded(&folder);
+    common::bent_line(&folder);
     let here = |path: &str| root().join(path).display().to_string();
     let commands: [(&str, Vec<String>); 8] = [
         ("diagnose", vec!["case.toml".into()]),

@@ -2,6 +2,7 @@
 //!
 //! | module | holds | uses |
 //! |---|---|---|
+//! | [`calendar`] | the days of months | |
 //! | [`dd`] | numbers of twice the precision of a double, for sums and designs that lose all their digits otherwise | |
 //! | [`quantity`] | units and dimensions at run time, decimal rounding and printing | |
 //! | [`special`] | quantiles of normal, t, χ² and F, gamma and beta functions, over their whole range | |
@@ -31,6 +32,7 @@
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+pub mod calendar;
 pub mod dd;
 pub mod distribution;
 pub mod equations;

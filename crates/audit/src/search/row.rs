@@ -115,7 +115,7 @@ pub fn options(case: &Case<'_>, i: usize, acts: &[Act]) -> Options {
 }
 
 /// The probability that the first figure of a row that departs would be explained if it had nothing to do with slips.
-/// Where the ± and the divisor of the laboratory give the same figure, it has.
+/// Where the ± and the divisor of the laboratory give the same figure, or where it is the ± itself, it has.
 fn accident(row: &Row, right: Line, own: &[Act]) -> f64 {
     let worked = row.used.as_ref().zip(row.divisor.as_ref());
     let worked = worked.map(|(used, divisor)| used.value / divisor.value);
@@ -126,7 +126,9 @@ fn accident(row: &Row, right: Line, own: &[Act]) -> f64 {
     let slack = |figure: &Printed| figure.half_of_digits() + 0.01 * figure.value;
     match (mismatch(row, &right), &row.u, &row.contribution) {
         (Some(Broken::U), Some(u), _) => {
-            if worked.is_some_and(|x| u.is_met_within(x, slack(u))) {
+            let copied = |used: &Printed| used.value == u.value && used.unit == u.unit;
+            let is_worked = worked.is_some_and(|x| u.is_met_within(x, slack(u)));
+            if is_worked || row.used.as_ref().is_some_and(copied) {
                 return 0.0;
             }
             chance::of_row(u, lines(Group::U).map(|line| line.u))

@@ -1,5 +1,6 @@
 //! Until when a certificate is to be used, where one of its statements says so.
 
+use gumption_core::calendar::days_of;
 use roxmltree::Node;
 
 use super::xml::{child, children, text};
@@ -49,7 +50,7 @@ pub(super) fn validity(administration: Node<'_, '_>, issued: Option<&str>) -> Va
 
 /// The day that is a duration of XML Schema (`P1Y6M`) after another; hours are less than a day.
 fn after(begin: &str, period: &str) -> Option<String> {
-    let number = |part: Option<&str>| part?.parse::<u32>().ok();
+    let number = |part: Option<&str>| part?.parse::<u64>().ok();
     let (mut year, mut month, mut day) = (
         number(begin.get(..4))?,
         number(begin.get(5..7))?,
@@ -58,7 +59,7 @@ fn after(begin: &str, period: &str) -> Option<String> {
     let lengths = period.strip_prefix('P')?;
     let lengths = lengths.split('T').next().unwrap_or_default();
     let mut digits = String::new();
-    let [mut years, mut months, mut days] = [0u32; 3];
+    let [mut years, mut months, mut days] = [0u64; 3];
     for c in lengths.chars() {
         match c {
             '0'..='9' => digits.push(c),
@@ -69,7 +70,7 @@ fn after(begin: &str, period: &str) -> Option<String> {
         }
     }
     /// Nothing is calibrated for longer; what is asked for should not take long either.
-    const MOST: u32 = 100;
+    const MOST: u64 = 100;
     if years > MOST || months > 12 * MOST || days > 366 * MOST || !(1..=12).contains(&month) {
         return None;
     }
@@ -86,16 +87,6 @@ fn after(begin: &str, period: &str) -> Option<String> {
         };
     }
     Some(format!("{year:04}-{month:02}-{day:02}"))
-}
-
-fn days_of(year: u32, month: u32) -> u32 {
-    let leap = year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
-    match month {
-        2 if leap => 29,
-        2 => 28,
-        4 | 6 | 9 | 11 => 30,
-        _ => 31,
-    }
 }
 
 #[cfg(test)]

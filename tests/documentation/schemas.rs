@@ -1,7 +1,7 @@
 //! What the program writes for machines is what its published schemas say, for every command and the whole library.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::Value;
 

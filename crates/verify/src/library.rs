@@ -157,6 +157,7 @@ pub const LIBRARY: &[(&str, &[u8])] = library![
     "statistics/t-quantiles-gum-table-g2.toml",
     "statistics/two-outputs-gum-s2-9-2.toml",
     "statistics/type-b-conversions-gum-4-3.toml",
+    "temperature/block-calibrator-ea402-s11.toml",
     "temperature/furnace-ea402-s5.toml",
     "temperature/radiation-constant.toml",
     "temperature/surface-temperature-tn1900-e2.toml",

@@ -96,14 +96,14 @@ pub const PROFILES: &[Profile] = &[
         name: "EA",
         coverage_probability: 0.9545,
         confirmation: Confirmation::Moments,
-        // S9 and S10: k = 1.65 and 1.83 for 95 %.
+        // S9, S10 and S11: k from a rectangle and from trapezoids for 95 %.
         output_shape: OutputShape::DominantAlone,
         up_if_lowered_by_5_percent: true,
         en: "Coverage probability 95.45 %, so k = 2 for a normal output; k from t at few effective degrees of freedom, \
-             from the output distribution for 95 % when a rectangle dominates; two digits, the rounded-up value when rounding would lower U by more than 5 %. k·u_c \
+             from the output distribution for 95 % when one or two rectangles dominate; two digits, the rounded-up value when rounding would lower U by more than 5 %. k·u_c \
              stands as soon as Monte Carlo confirms y and u, with u = s/√n for few readings.",
-        zh: "包含概率 95.45 %，正态分布时 k = 2；有效自由度小时按 t 分布取 k，矩形分布占优时由输出量分布取 k（包含概率 95 %）；不确定度取两位有效数字，修约使 U 减小超过 5 % 时进位。只要蒙特卡洛法证实 y 和 u（少量重复测量取 u = s/√n），即采用 k·u_c。",
-        source: "EA-4/02 M:2022, 6.3, appendix E, S9 and S10",
+        zh: "包含概率 95.45 %，正态分布时 k = 2；有效自由度小时按 t 分布取 k，一个或两个矩形分布占优时由输出量分布取 k（包含概率 95 %）；不确定度取两位有效数字，修约使 U 减小超过 5 % 时进位。只要蒙特卡洛法证实 y 和 u（少量重复测量取 u = s/√n），即采用 k·u_c。",
+        source: "EA-4/02 M:2022, 6.3, appendix E, S9 to S11",
         certified_en: "The standard uncertainty was evaluated in accordance with EA-4/02 M:2022.",
         certified_zh: "标准不确定度按 EA-4/02 M:2022 评定。",
         ..GUM

@@ -3,8 +3,9 @@
 //! # Which distribution
 //!
 //! By clause G.4.1 k is t_p(ν_eff). That presumes an output that is close to normal; EA-4/02 (S9,
-//! S10) takes k from the output's own distribution where one or two contributions are so large that
-//! all others together do not exceed 0.3 times them. [`CoverageRule::Output`] follows, with the
+//! S10, S11) takes k from the output's own distribution where one or two contributions are so large that
+//! all others together do not exceed 0.3 times them, or each of two outweighs them.
+//! [`CoverageRule::Output`] follows, with the
 //! convolution of the dominant contributions and a normal remainder ([`OutputShape::Convolution`]),
 //! or with the dominant contributions alone, as the published figures of EA-4/02 have it
 //! ([`OutputShape::DominantAlone`]). Degrees of freedom must not matter then (at least 50).
@@ -122,14 +123,8 @@ impl<'b> Situation<'b> {
         let &[_, second] = parts.as_slice() else {
             return None;
         };
-        let together = libm::hypot(size, second.weight);
-        let rectangles = self.half_width(first).zip(self.half_width(second));
-        match rectangles {
-            Some(widths) if rest(together) <= REMAINDER * together => {
-                Some(self.two([first, second], widths, rule))
-            }
-            _ => None,
-        }
+        let widths = self.half_width(first).zip(self.half_width(second))?;
+        pair_dominates(first, second).then(|| self.two([first, second], widths, rule))
     }
 
     /// The two largest contributions that are not correlated with others, as parts of u(y).
@@ -228,6 +223,15 @@ fn student_t<'b>(dof: f64) -> Output<'b> {
         shape: Shape::StudentT { scale: 1.0, dof },
         basis,
     }
+}
+
+/// Whether two contributions dominate: together as one does, or because each by itself outweighs all others
+/// together. By the second, S11 has its trapezoid at a remainder of 0.34 of the pair, and the furnace of S5,
+/// whose second largest is smaller than the rest, k = 2 at 0.36.
+fn pair_dominates(first: Part, second: Part) -> bool {
+    let together = libm::hypot(first.weight, second.weight);
+    let rest = rest(together);
+    rest <= REMAINDER * together || rest <= second.weight.abs()
 }
 
 /// Standard uncertainty of all others, for contributions that make up `part` of u(y).
@@ -385,6 +389,47 @@ mod tests {
                 }
             );
         }
+    }
+
+    #[test]
+    fn ea_4_02_s11() {
+        // Block calibrator: axial and radial differences of temperature, each more than all others together.
+        let budget = [
+            normal("t_S", 15.0, INF),
+            normal("dt_S", 10.0, INF),
+            rectangle("dt_D", 40.0),
+            rectangle("dt_iX", 50.0),
+            rectangle("dt_R", 100.0),
+            rectangle("dt_A", 250.0),
+            rectangle("dt_H", 50.0),
+            rectangle("dt_V", 30.0),
+        ];
+        let rule = Conventions {
+            output_shape: OutputShape::DominantAlone,
+            ..conventions(0.95, CoverageRule::Output)
+        };
+        let found = of_sum(&budget, &rule, 1.0);
+        // A trapezoid of edge parameter β = 15/35: k = (1 − √(0.05 (1 − β²)))/√((1 + β²)/6).
+        let beta: f64 = 15.0 / 35.0;
+        let k = (1.0 - (0.05 * (1.0 - beta * beta)).sqrt()) / ((1.0 + beta * beta) / 6.0).sqrt();
+        close(found.k, k, 1e-6);
+        let dominant = vec!["dt_A".to_string(), "dt_R".to_string()];
+        assert!(matches!(found.basis, CoverageBasis::Output { dominant: named, .. } if named == dominant));
+    }
+
+    #[test]
+    fn a_pair_whose_second_is_smaller_than_the_rest_does_not_dominate() {
+        // The furnace of EA-4/02 S5 in contributions to t_X, mK.
+        let budget = [
+            normal("t_S", 100.0, INF),
+            normal("dV_1", 77.0, INF),
+            rectangle("dV_R", 154.0),
+            normal("dt_S", 150.0, INF),
+            rectangle("dt_D", 300.0),
+            rectangle("dt_F", 1000.0),
+        ];
+        let found = of_sum(&budget, &conventions(0.9545, CoverageRule::Output), 1.0);
+        assert_eq!(found.basis, CoverageBasis::Normal);
     }
 
     #[test]

@@ -21,7 +21,7 @@ pub fn tables_of<T: Table>(
     unused: Code,
 ) -> Result<(T, Vec<Fault>), Vec<Fault>> {
     let (table, errors) = DeTable::parse_recoverable(text);
-    let mut faults = syntax_faults(&errors, text);
+    let mut faults = syntax_faults(&errors, text, hints.synonyms);
     if !errors.iter().all(leaves_the_rest) {
         return Err(faults);
     }

@@ -10,8 +10,11 @@ use super::faults::TOML_SYNTAX;
 /// After so many syntax errors the rest of the file is hardly what was meant.
 const MAX_SYNTAX_FAULTS: usize = 8;
 
+/// Words that people try, and the key that they mean.
+pub type Synonyms = [(&'static str, &'static str)];
+
 /// Syntax errors, the first of each line: what follows on the same line mostly follows from it.
-pub fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
+pub fn syntax_faults(errors: &[toml::de::Error], text: &str, synonyms: &Synonyms) -> Vec<Fault> {
     if !errors.is_empty() && text.trim_start().starts_with('{') {
         return vec![json(text)];
     }
@@ -21,7 +24,7 @@ pub fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
         if in_repeated_table(error, errors, text) {
             continue;
         }
-        let fault = syntax_fault(error, text);
+        let fault = syntax_fault(error, text, synonyms);
         let line = text[..text.floor_char_boundary(fault.span.start)]
             .matches('\n')
             .count();
@@ -96,7 +99,28 @@ pub fn elsewhere(faults: Vec<Fault>, syntax: &[Fault], text: &str, unused: Code)
         .collect()
 }
 
-fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
+/// A key with other letters than TOML takes without quotes: a name, or a key of the program in other words.
+fn unquoted_key(span: Range<usize>, marked: &str, text: &str, synonyms: &Synonyms) -> Fault {
+    let in_header = text[line_of(span.start, text)]
+        .trim_start()
+        .starts_with('[');
+    let meant = synonyms.iter().find(|(word, _)| *word == marked);
+    let help = match meant {
+        Some((_, key)) if !in_header => say!("the key is `{key}`"),
+        _ => say!(
+            "write \"{marked}\", also behind a dot: [input.\"{marked}\"]; formulas use the name without quotes"
+        ),
+    };
+    Fault::new(
+        TOML_SYNTAX,
+        span,
+        say!("`{marked}` needs quotes where it is a key"),
+    )
+    .label(say!("only A-Z a-z 0-9 _ - may stand without quotes here"))
+    .help(help)
+}
+
+fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fault {
     let end = text.len();
     let span = error.span().unwrap_or(end..end);
     if let Some(fault) = foreign_sign(&span, text).or_else(|| decimal_comma(&span, text)) {
@@ -135,12 +159,7 @@ fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
     } else if says("invalid unquoted key") && !marked.is_empty() {
         let span = word_at(&span, text);
         let marked = text.get(span.clone()).unwrap_or_default();
-        let fault = |message: Said| Fault::new(TOML_SYNTAX, span.clone(), message);
-        fault(say!("`{marked}` needs quotes where it is a key"))
-            .label(say!("only A-Z a-z 0-9 _ - may stand without quotes here"))
-            .help(say!(
-                "write \"{marked}\", also behind a dot: [input.\"{marked}\"]; formulas use the name without quotes"
-            ))
+        unquoted_key(span, marked, text, synonyms)
     } else if says("string values must be quoted") {
         fault(say!("`{marked}` is no number, and a text needs quotes"))
             .label(say!("expected a number or a text in quotes"))
@@ -346,7 +365,10 @@ mod tests {
     /// Marked text and help of the first fault.
     fn first(text: &str) -> (String, String) {
         let (_, errors) = DeTable::parse_recoverable(text);
-        let fault = syntax_faults(&errors, text).into_iter().next().expect(text);
+        let fault = syntax_faults(&errors, text, &[])
+            .into_iter()
+            .next()
+            .expect(text);
         let marked = text[fault.span.clone()].to_owned();
         (marked, fault.help.unwrap_or_default().to_string())
     }
@@ -387,7 +409,7 @@ mod tests {
         let text =
             "[input.R]\nvalue = 1\nu = 2\n[input.S]\nvalue = 1\n[input.R]\nvalue = 1\nu = 3\n";
         let (_, errors) = DeTable::parse_recoverable(text);
-        let faults = syntax_faults(&errors, text);
+        let faults = syntax_faults(&errors, text, &[]);
         assert_eq!(faults.len(), 1, "{faults:?}");
         assert!(faults[0].message.to_string().contains("`R`"));
     }

@@ -12,6 +12,7 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 use super::faults::{UNKNOWN_KEY, UNKNOWN_WORD, WRONG_TYPE};
+use super::syntax::Synonyms;
 
 /// A value of the file as the parser gives it.
 pub type Raw<'t> = Spanned<DeValue<'t>>;
@@ -45,7 +46,7 @@ pub type Key<'t> = Spanned<DeString<'t>>;
 #[derive(Debug, Clone)]
 pub struct Hints {
     /// Words that people try, and the key that they mean.
-    pub synonyms: &'static [(&'static str, &'static str)],
+    pub synonyms: &'static Synonyms,
     /// What such a file is, with the article.
     pub whole: Said,
     /// The keys at the top of the file.

@@ -73,7 +73,7 @@ impl<'f> BatchFile<'f> {
     pub fn batch(&self, sheet: &Sheet<'_>, table: &str) -> Result<Batch<'_>, Rejection> {
         let (file, errors) = DeTable::parse_recoverable(&self.text);
         let refused = |faults| Err(Rejection::new(&self.name(), &self.text, faults));
-        let syntax = syntax_faults(&errors, &self.text);
+        let syntax = syntax_faults(&errors, &self.text, HINTS.synonyms);
         if !errors.iter().all(leaves_the_rest) || !syntax.is_empty() {
             return refused(syntax);
         }

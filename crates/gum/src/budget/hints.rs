@@ -18,7 +18,7 @@ pub static HINTS: Hints = Hints {
 };
 
 /// Words that people try for the keys of an uncertainty, and those keys.
-pub const SYNONYMS: [(&str, &str); 34] = [
+pub const SYNONYMS: [(&str, &str); 46] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),
@@ -53,6 +53,18 @@ pub const SYNONYMS: [(&str, &str); 34] = [
     ("单位", "unit"),
     ("标准不确定度", "u"),
     ("读数", "readings"),
+    ("测量值", "readings"),
+    ("半宽", "half_width"),
+    ("区间半宽", "half_width"),
+    ("分辨力", "step"),
+    ("分辨率", "step"),
+    ("证书", "certificate"),
+    ("校准证书", "certificate"),
+    ("分布", "distribution"),
+    ("自由度", "dof"),
+    ("常数", "constant"),
+    ("说明", "description"),
+    ("分量", "components"),
 ];
 
 /// Keys of an uncertainty that stand in the wrong place.

@@ -152,7 +152,7 @@ pub(super) fn read_under(
     // Editors on Windows put a byte order mark in front; places are counted behind it.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (table, errors) = DeTable::parse_recoverable(text);
-    let syntax = syntax_faults(&errors, text);
+    let syntax = syntax_faults(&errors, text, HINTS.synonyms);
     if !errors.iter().all(leaves_the_rest) {
         return Err(Rejection::new(name, text, syntax));
     }

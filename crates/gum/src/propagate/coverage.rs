@@ -414,7 +414,9 @@ mod tests {
         let k = (1.0 - (0.05 * (1.0 - beta * beta)).sqrt()) / ((1.0 + beta * beta) / 6.0).sqrt();
         close(found.k, k, 1e-6);
         let dominant = vec!["dt_A".to_string(), "dt_R".to_string()];
-        assert!(matches!(found.basis, CoverageBasis::Output { dominant: named, .. } if named == dominant));
+        assert!(
+            matches!(found.basis, CoverageBasis::Output { dominant: named, .. } if named == dominant)
+        );
     }
 
     #[test]

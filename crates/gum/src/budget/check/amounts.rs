@@ -18,6 +18,28 @@ pub(super) fn is_ratio(symbol: &str) -> bool {
     matches!(symbol, "%" | "‰" | "ppm" | "ppb" | "ppt" | "1") || symbol.contains('/')
 }
 
+/// The mend of "0.25 % FS" and "0.1 % of 10 V": shares of a range or of a reading are parts of a specification.
+fn share_of(unit: &str) -> Option<Said> {
+    let (share, of) = ["%", "‰", "ppm"]
+        .into_iter()
+        .find_map(|share| Some((share, unit.strip_prefix(share)?)))?;
+    let of = of.to_lowercase().replace('.', "");
+    Some(match of.split_whitespace().next()? {
+        "fs" | "fso" | "span" | "range" | "满量程" => {
+            say!("a share of a range is specification = {{ range = \"… {share}\", span = … }}")
+        }
+        "rdg" | "reading" | "rd" | "读数" => {
+            say!(
+                "a share of the value is the plain \"… {share}\", beside others specification = {{ reading = \"… {share}\", … }}"
+            )
+        }
+        "of" => say!(
+            "a share of a range is specification = {{ range = \"… {share}\", span = … }}, a share of the value the plain \"… {share}\""
+        ),
+        _ => return None,
+    })
+}
+
 /// Whether a quantity in this unit is itself such a ratio, so that `2 %` of it has two meanings.
 pub(super) fn is_in_ratios(unit: &Unit) -> bool {
     unit.dimension.is_none() && (is_ratio(&unit.symbol) || unit.symbol.starts_with('%'))
@@ -46,7 +68,10 @@ impl Checker<'_> {
             Ok(unit) => Some(unit),
             Err(error) => {
                 let fault = units::placed(Fault::from(error), stated, self.source.text);
-                self.refuse(fault)
+                self.refuse(match share_of(&stated.value) {
+                    Some(mend) => fault.help(mend),
+                    None => fault,
+                })
             }
         }
     }
@@ -63,6 +88,20 @@ impl Checker<'_> {
                 };
                 self.unit(&Some(stated)).map(Some)
             }
+        }
+    }
+
+    /// The unit that a table states, or else that of its value: `value = "20.5 °C"` says both.
+    pub(super) fn unit_or_of_value(
+        &mut self,
+        unit: &Option<Stated<String>>,
+        value: &Option<Stated<Amount>>,
+    ) -> Option<Unit> {
+        match (unit, value) {
+            (None, Some(amount)) => self
+                .amount_unit(&amount.value)
+                .map(|own| own.unwrap_or_else(Unit::one)),
+            _ => self.unit(unit),
         }
     }
 

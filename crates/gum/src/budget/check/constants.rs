@@ -17,7 +17,7 @@ impl Checker<'_> {
             let hidden = table.unknown || table.present.iter().any(|(key, _)| *key == "unit");
             let unit = match &table.unit {
                 None if hidden => None,
-                stated => self.unit(stated),
+                stated => self.unit_or_of_value(stated, &table.value),
             };
             let values = match (&table.value, &table.values) {
                 (Some(value), None) => unit

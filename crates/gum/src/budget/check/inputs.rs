@@ -8,7 +8,7 @@ use super::entries::entries;
 use super::register::{InputEntry, Register, blank};
 use super::type_a::all_equal;
 use super::ways::{Way, expectation};
-use crate::budget::faults::{LIMITS, NAME_TWICE, NO_ESTIMATE, TWO_ESTIMATES, TWO_WAYS};
+use crate::budget::faults::{LIMITS, NAME_TWICE, NO_DOUBT, NO_ESTIMATE, TWO_ESTIMATES, TWO_WAYS};
 use crate::budget::tables::{ComponentTable, FileTable, InputTable, ResolutionWord};
 use crate::budget::variants::ReadingsOf;
 use crate::budget::{Follows, Owner};
@@ -51,7 +51,7 @@ impl Checker<'_> {
             let hidden = table.unknown || table.present.iter().any(|(key, _)| *key == "unit");
             let unit = match &table.unit {
                 None if hidden => None,
-                stated => self.unit(stated),
+                stated => self.unit_or_of_value(stated, &table.value),
             };
             let start = register.inputs.len();
             let values = table
@@ -106,7 +106,12 @@ impl Checker<'_> {
                 )
                 .label(say!("not inside a component"))
                 .related(list.key.clone(), say!("the components of the input"))
-                .help(say!("move `{key}` into one of the `components`")),
+                .help(match *key {
+                    "name" => {
+                        say!("{name} is named by its heading; what it is stands in `description`")
+                    }
+                    key => say!("move `{key}` into one of the `components`"),
+                }),
             );
         }
         let tables: Vec<(&ComponentTable, Range<usize>)> = match list {
@@ -166,6 +171,9 @@ impl Checker<'_> {
         // The list itself was refused; what is in it is unknown.
         if bare && table.refused && table.present.iter().any(|(key, _)| *key == "components") {
             return None;
+        }
+        if let (true, Some(values)) = (bare, &table.values) {
+            return self.refuse(values_without_doubt(name, values.key.clone()));
         }
         self.ways(
             name,
@@ -495,4 +503,13 @@ pub(super) fn single(table: &ComponentTable) -> bool {
         .of
         .as_ref()
         .is_some_and(|of| of.value != ReadingsOf::Mean)
+}
+
+/// A vector without uncertainties is mostly a list of readings.
+fn values_without_doubt(name: &str, place: Range<usize>) -> Fault {
+    Fault::new(NO_DOUBT, place, say!("{name} has no uncertainty"))
+        .label(say!("the elements of a vector"))
+        .help(say!(
+            "repeated readings of one quantity are `readings = […]`; the elements of a vector need `u`, `half_width` … beside them"
+        ))
 }

@@ -14,7 +14,7 @@ table! {
         value: Amount,
         /// Several values: a vector.
         values: List<f64>,
-        /// Its unit; dimension one when left out.
+        /// Its unit; when left out that of `value`, and dimension one where that has none either.
         unit: String,
         /// What it is.
         description: String,

@@ -16,7 +16,7 @@ table! {
         value: Amount,
         /// Estimates of a vector.
         values: List<f64>,
-        /// Its unit; dimension one when left out.
+        /// Its unit; when left out that of `value`, and dimension one where that has none either.
         unit: String,
         /// What it is.
         description: String,

@@ -49,12 +49,13 @@ enum Section {
     Slips,
     Rules,
     Keys,
+    ExperimentKeys,
     CertificateKeys,
     Errors,
 }
 
 impl Section {
-    const ALL: [Section; 9] = [
+    const ALL: [Section; 10] = [
         Section::Concepts,
         Section::Distributions,
         Section::Functions,
@@ -62,6 +63,7 @@ impl Section {
         Section::Slips,
         Section::Rules,
         Section::Keys,
+        Section::ExperimentKeys,
         Section::CertificateKeys,
         Section::Errors,
     ];
@@ -76,6 +78,7 @@ impl Section {
             Section::Slips => "slips",
             Section::Rules => "rules",
             Section::Keys => "keys",
+            Section::ExperimentKeys => "experiment-keys",
             Section::CertificateKeys => "certificate-keys",
             Section::Errors => "errors",
         }
@@ -90,6 +93,7 @@ impl Section {
             Section::Slips => say!("Slips that an audit can name"),
             Section::Rules => say!("Rules that an audit checks"),
             Section::Keys => say!("Keys of a budget file"),
+            Section::ExperimentKeys => say!("Keys of an experiment"),
             Section::CertificateKeys => say!("Keys of the data of a certificate"),
             Section::Errors => say!("Error codes"),
         }
@@ -102,6 +106,7 @@ impl Section {
             Section::Slips
                 | Section::Rules
                 | Section::Keys
+                | Section::ExperimentKeys
                 | Section::CertificateKeys
                 | Section::Errors
         )
@@ -359,6 +364,11 @@ fn topics(lang: Language) -> Vec<Topic> {
         text: rule_text(rule, lang),
     }));
     topics.extend(keys::topics(Section::Keys, budget::keys(), lang));
+    topics.extend(keys::topics(
+        Section::ExperimentKeys,
+        experiment::keys(),
+        lang,
+    ));
     topics.extend(keys::topics(
         Section::CertificateKeys,
         report::certificate_keys(),

@@ -122,6 +122,7 @@ fn generated_pages_are_fresh() {
         command_line(),
     ));
     for section in [
+        "experiment-keys",
         "certificate-keys",
         "concepts",
         "distributions",

@@ -71,7 +71,7 @@ fn known(table: &[(&'static str, &'static str)], message: &str) -> Option<Said> 
 }
 
 /// The messages of `toml_parser`, and those of `toml` about tables.
-const TOML: [(&str, &str); 58] = [
+const TOML: [(&str, &str); 68] = [
     ("`_` may only go between digits", "`_` 只能写在数字之间"),
     (
         "cannot recurse further; max recursion depth met",
@@ -181,13 +181,23 @@ const TOML: [(&str, &str); 58] = [
         "不能用带点的键扩展表",
     ),
     ("invalid string", "文本有误"),
+    ("invalid boolean", "布尔值有误"),
+    ("invalid date-time", "日期有误"),
+    ("invalid float", "数有误"),
+    ("invalid integer number", "整数有误"),
+    ("invalid hexadecimal number", "十六进制数有误"),
+    ("invalid octal number", "八进制数有误"),
+    ("invalid binary number", "二进制数有误"),
+    ("invalid mantissa", "数的尾数有误"),
+    ("invalid fraction", "数的小数部分有误"),
+    ("invalid exponent", "数的指数有误"),
     ("invalid number", "数有误"),
     ("invalid datetime", "日期有误"),
     ("number too large to fit in target type", "整数过大"),
 ];
 
 /// What the parser of TOML expects; signs stand as they are.
-const TOML_WORDS: [(&str, &str); 14] = [
+const TOML_WORDS: [(&str, &str); 15] = [
     ("basic string", "双引号文本"),
     ("characters", "字符"),
     ("digits", "数字"),
@@ -196,6 +206,7 @@ const TOML_WORDS: [(&str, &str); 14] = [
     ("literal string", "单引号文本"),
     ("multi-line basic string", "多行文本"),
     ("newline", "换行"),
+    ("nothing", "到此为止"),
     ("non-double-quote visible characters", "双引号以外的字符"),
     ("non-single-quote characters", "单引号以外的字符"),
     (
@@ -311,6 +322,13 @@ mod tests {
         for text in sources("toml_parser").iter().chain(&sources("toml")) {
             for message in literals(text, "ParseError::new(\"") {
                 assert!(known(&TOML, message).is_some(), "{message}");
+            }
+        }
+        // What is wrong with numbers is handed over as a value.
+        for text in sources("toml_parser") {
+            for rest in literals(&text, "\"invalid ") {
+                let message = format!("invalid {rest}");
+                assert!(known(&TOML, &message).is_some(), "{message}");
             }
         }
     }

@@ -8,8 +8,12 @@ use gumption::language::Language;
 use super::{Section, Topic};
 
 /// Tables in the order in which a reader meets them, by the first part of their path.
-const ORDER: [&str; 17] = [
+const ORDER: [&str; 21] = [
     "",
+    "recording",
+    "columns",
+    "positions",
+    "parameter",
     "measurand",
     "input",
     "component",
@@ -64,7 +68,7 @@ fn in_words(path: &str) -> Said {
     match (path, split(path)) {
         ("", _) => say!("the top of the file"),
         ("component", _) => say!("a component"),
-        ("correlation" | "joint", _) => say!("`[[{path}]]`"),
+        ("correlation" | "joint" | "action", _) => say!("`[[{path}]]`"),
         (list, ("", _)) if list.ends_with("[]") => {
             say!("`[[{path}]]`", path = list.trim_end_matches("[]"))
         }
@@ -174,6 +178,8 @@ pub(super) fn topics(section: Section, rows: Vec<KeyRow>, lang: Language) -> Vec
                 (Section::CertificateKeys, false) => {
                     say!("In {place} of the data of a certificate")
                 }
+                (Section::ExperimentKeys, true) => say!("At {place} of an experiment"),
+                (Section::ExperimentKeys, false) => say!("In {place} of an experiment"),
                 (_, true) => say!("At {place}"),
                 (_, false) => say!("In {place}"),
             };
@@ -203,11 +209,16 @@ pub(super) fn topics(section: Section, rows: Vec<KeyRow>, lang: Language) -> Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gumption::{budget, report};
+    use gumption::{budget, experiment, report};
 
     #[test]
     fn places_are_told_in_words() {
-        let tables = [budget::keys(), report::certificate_keys()].map(tables);
+        let keys = [
+            budget::keys(),
+            experiment::keys(),
+            report::certificate_keys(),
+        ];
+        let tables = keys.map(tables);
         let places: Vec<String> = tables
             .iter()
             .flatten()
@@ -221,6 +232,8 @@ mod tests {
             "`readings`, `sample` of a component",
             "`[[joint]]`",
             "`[[condition]]`",
+            "`[reading.NAME]`",
+            "`[[action]]`",
             "`inputs.NAME` of `[claim]`",
             "`beta` of `distribution` of a component",
         ] {
@@ -230,7 +243,7 @@ mod tests {
 
     #[test]
     fn no_key_is_lost() {
-        for keys in [budget::keys, report::certificate_keys] {
+        for keys in [budget::keys, experiment::keys, report::certificate_keys] {
             let tables = tables(keys());
             for row in keys() {
                 let known = tables

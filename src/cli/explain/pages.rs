@@ -6,13 +6,14 @@ use gumption::budget::KeyRow;
 use gumption::fault::catalogue::told;
 use gumption::fault::{Said, say};
 use gumption::language::Language;
-use gumption::{budget, model, report};
+use gumption::{budget, experiment, model, report};
 
 /// A section as a page.
 pub(super) fn page(section: Section, topics: &[Topic], lang: Language) -> String {
     let body = match section {
         Section::Functions => functions(lang),
         Section::Keys => key_tables(budget::keys(), lang),
+        Section::ExperimentKeys => key_tables(experiment::keys(), lang),
         Section::CertificateKeys => key_tables(report::certificate_keys(), lang),
         _ => topics
             .iter()
@@ -60,6 +61,13 @@ fn introduction(section: Section) -> Said {
             )
         }
         Section::Keys => say!("[The budget file](../budget-file.md) shows every key by example."),
+        Section::ExperimentKeys => say!(
+            "[Experiments](../experiment.md) shows how they are used, and which command uses which. `gumption schema \
+             experiment` prints the JSON Schema for editors.\n\n`[constant]`, `[unit]`, `[conventions]`, \
+             `[monte_carlo]` and `[[correlation]]` are written as in a [budget](keys.md); `[input.NAME]`, \
+             `[reading.NAME]` and `[source.NAME]` take, besides the keys below, those of the inputs of a budget.\n\nAn \
+             amount is a number, in the unit of its quantity, or a text with number and unit such as \"25 µV\"."
+        ),
         Section::CertificateKeys => {
             say!(
                 "They stand in the file that `--certificate` names, which `gumption new --certificate` begins. \

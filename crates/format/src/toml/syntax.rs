@@ -77,6 +77,7 @@ pub fn leaves_the_rest(error: &toml::de::Error) -> bool {
     [
         "string values must be quoted",
         "invalid unquoted key",
+        "invalid float",
         "string, expected",
         "duplicate key",
     ]
@@ -126,9 +127,15 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
     if let Some(fault) = foreign_sign(&span, text).or_else(|| decimal_comma(&span, text)) {
         return fault;
     }
-    let marked = text.get(span.clone()).unwrap_or_default();
     let message = error.message();
     let says = |words: &str| message.contains(words);
+    // Of `0.5/1.732` the parser takes the beginning for a number, and marks the rest.
+    let span = match says("invalid float") {
+        true => calculation_at(&span, text),
+        false => span,
+    };
+    let marked = text.get(span.clone()).unwrap_or_default();
+    let unquoted = says("string values must be quoted") || says("invalid float");
     let fault = |message: Said| Fault::new(TOML_SYNTAX, span.clone(), message);
     if says("duplicate key") {
         fault(say!("`{marked}` is stated a second time"))
@@ -142,7 +149,11 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
             .help(say!(
                 "write a number, or a text in quotes; remove the line if there is nothing to say"
             ))
-    } else if says("string values must be quoted") && is_calculation(marked) {
+    } else if let (true, Some(number)) = (unquoted, concise(marked)) {
+        fault(say!("`{marked}` is a value with its uncertainty"))
+            .label(say!("expected a number"))
+            .help(of_concise(number))
+    } else if unquoted && is_calculation(marked) {
         let help = match quotient(marked) {
             Some(result) => say!("write {result}; formulas stand in a `model`"),
             None => say!("write the number that it gives; formulas stand in a `model`"),
@@ -208,6 +219,28 @@ fn is_calculation(text: &str) -> bool {
         .trim_start_matches(['+', '-'])
         .contains(['*', '/', '^', '+', '-', '(']);
     text.chars().all(sign) && operator && text.ends_with(|c: char| c.is_ascii_digit() || c == ')')
+}
+
+/// The value of the concise notation 12.50(3) of a value with its standard uncertainty (GUM 7.2.2).
+fn concise(text: &str) -> Option<&str> {
+    let (number, digits) = text.trim().strip_suffix(')')?.split_once('(')?;
+    let all_digits = !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit() || c == '.');
+    (all_digits && number.parse::<f64>().is_ok()).then_some(number)
+}
+
+/// What is written in place of the concise notation.
+pub(super) fn of_concise(number: &str) -> Said {
+    say!(
+        "the value and its uncertainty have keys of their own: value = \"{number} …\" and u = …; the digits in brackets are in units of the last digit"
+    )
+}
+
+/// The whole calculation of which the parser marks a part.
+fn calculation_at(span: &Range<usize>, text: &str) -> Range<usize> {
+    let of_it = |c: char| c.is_ascii_digit() || "+-*/^().eE".contains(c);
+    let before = text[..span.start].trim_end_matches(of_it).len();
+    let behind = text[span.end..].trim_start_matches(of_it).len();
+    before..text.len() - behind
 }
 
 /// What a quotient of two numbers is.

@@ -7,7 +7,7 @@ use toml::de::{DeFloat, DeInteger, DeValue};
 
 use super::faults::{AMOUNT, NOT_FINITE, NOT_WHOLE, QUOTED_NUMBER, WRONG_TYPE};
 use super::strings::StringMap;
-use super::syntax::without_comma;
+use super::syntax::{of_concise, without_comma};
 use super::table::{FromToml, KeyRow, Raw, Reader, Stated, in_order, inner};
 use gumption_fault::{Fault, Said, say};
 
@@ -346,7 +346,7 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
         let (number, rest) = (number.trim(), rest.trim());
         fault.help(match text.contains('±') {
             true => say!("the value and its uncertainty have keys of their own: value = \"{number} …\", and u, half_width or certificate = {{ U = \"{rest}\", k = 2 }}, whichever it is"),
-            false => say!("the value and its uncertainty have keys of their own: value = \"{number} …\" and u = …; the digits in brackets are in units of the last digit"),
+            false => of_concise(number),
         })
     } else if text.contains(['/', '*', '^']) && text.starts_with(|c: char| c.is_ascii_digit()) {
         fault.help(say!(

@@ -67,11 +67,22 @@ pub fn schema() -> Value {
     schema
 }
 
-/// The reference of keys, table by table.
+/// The reference of keys, table by table, as far as an experiment does not share them with a budget.
 pub fn keys() -> Vec<KeyRow> {
     let mut rows = Vec::new();
     ExperimentTable::rows("", &mut rows);
+    rows.retain(is_own);
     rows
+}
+
+fn is_own(row: &KeyRow) -> bool {
+    const OF_BUDGETS: [&str; 4] = ["constant", "conventions", "monte_carlo", "correlation"];
+    // Inputs, readings and sources take the keys of a component besides these.
+    const OWNERS: [&str; 3] = ["input.NAME", "reading.NAME", "source.NAME"];
+    const BESIDES: [&str; 5] = ["description_zh", "like", "scope", "by", "required"];
+    let of_budgets = OF_BUDGETS.iter().any(|start| row.table.starts_with(start));
+    let owner = OWNERS.iter().find(|owner| row.table.starts_with(*owner));
+    !of_budgets && owner.is_none_or(|owner| row.table == *owner && BESIDES.contains(&row.key))
 }
 
 /// What a file of the program is, by its keys.

@@ -2,7 +2,7 @@
 
 use super::super::words::{plain, typed};
 use super::cell::{Cell, Page, claimed, text};
-use super::layout::Form;
+use super::layout::{Column, Form};
 use super::writer::Writer;
 
 impl Writer<'_> {
@@ -25,49 +25,31 @@ impl Writer<'_> {
     }
 
     /// u_c and U as rows of the table of M3003, each figure in the column of its kind.
-    pub(super) fn inside_footer(&self, page: &mut Page) {
-        const WIDTH: usize = 9;
-        const CONTRIBUTION: usize = 7;
-        const NU: usize = 8;
-        let mut row = |symbol: &str,
-                       words: &str,
-                       column: usize,
-                       cell: Cell,
-                       distribution: &str,
-                       nu_cell: Option<Cell>| {
-            let mut cells = vec![Cell::Empty; WIDTH];
-            cells[0] = text(symbol);
-            cells[1] = text(words);
-            cells[4] = text(distribution);
-            cells[column] = cell;
-            if let Some(cell) = nu_cell {
-                cells[NU] = cell;
-            }
-            page.rows.push(cells);
+    pub(super) fn inside_footer(&self, page: &mut Page, columns: &[Column]) {
+        let mut row = |cell: &dyn Fn(Column) -> Cell| {
+            page.rows
+                .push(columns.iter().map(|column| cell(*column)).collect());
         };
+        row(&|column| match column {
+            Column::Symbol => text("u_c"),
+            Column::Name => text(self.pick("Combined standard uncertainty", "合成标准不确定度")),
+            Column::Distribution => text(self.pick("normal", "正态")),
+            Column::Contribution => claimed(&self.u_c()),
+            Column::Nu if self.has_nu() => self.nu_eff(),
+            _ => Cell::Empty,
+        });
         let k = plain(self.figures.k, 3);
-        row(
-            "u_c",
-            self.pick("Combined standard uncertainty", "合成标准不确定度"),
-            CONTRIBUTION,
-            claimed(&self.u_c()),
-            self.pick("normal", "正态"),
-            self.has_nu().then(|| self.nu_eff()),
-        );
-        let unit = self.expanded_unit();
-        let u = if self.working.wrong_unit {
-            text(format!("{} {unit}", self.figures.reported))
-        } else {
-            claimed(&self.figures.reported)
-        };
-        row(
-            "U",
-            self.pick("Expanded uncertainty", "扩展不确定度"),
-            CONTRIBUTION,
-            u,
-            &format!("k = {k}"),
-            None,
-        );
+        let reported = &self.figures.reported;
+        row(&|column| match column {
+            Column::Symbol => text("U"),
+            Column::Name => text(self.pick("Expanded uncertainty", "扩展不确定度")),
+            Column::Distribution => text(format!("k = {k}")),
+            Column::Contribution if self.working.wrong_unit => {
+                text(format!("{reported} {}", self.expanded_unit()))
+            }
+            Column::Contribution => claimed(reported),
+            _ => Cell::Empty,
+        });
     }
 
     /// The claim in one of several forms.

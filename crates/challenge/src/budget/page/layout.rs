@@ -119,8 +119,8 @@ pub(super) enum Part {
     Turned(&'static [Column]),
     /// The row of the result below the table, as EA-4/02 has it.
     Result,
-    /// u_c and U as rows of the table, as M3003 has them.
-    Footer,
+    /// u_c and U as rows of the table with these columns, as M3003 has them.
+    Footer(&'static [Column]),
     /// The claim.
     Claims,
     /// A line for each row, with what is known of it.
@@ -132,6 +132,19 @@ pub(super) enum Part {
 use Column::*;
 use Part::*;
 
+/// The columns of the table of M3003.
+const M3003: &[Column] = &[
+    Symbol,
+    Name,
+    Known,
+    Used,
+    Distribution,
+    Divisor,
+    C,
+    Contribution,
+    Nu,
+];
+
 impl Form {
     /// The parts of a page; `is_sum`: of a budget whose coefficients are all 1.
     pub(super) fn parts(self, is_sum: bool) -> &'static [Part] {
@@ -142,20 +155,7 @@ impl Form {
                 Claims,
                 Notes,
             ],
-            Form::M3003 => &[
-                Table(&[
-                    Symbol,
-                    Name,
-                    Known,
-                    Used,
-                    Distribution,
-                    Divisor,
-                    C,
-                    Contribution,
-                    Nu,
-                ]),
-                Footer,
-            ],
+            Form::M3003 => &[Table(M3003), Footer(M3003)],
             Form::Jjf => &[
                 Table(&[
                     Number,

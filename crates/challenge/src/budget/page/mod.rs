@@ -47,7 +47,7 @@ pub(super) fn pages(budget: &Budget, working: &Working, manner: Manner) -> Vec<P
                 page.rows.extend(turned(&upright.rows));
             }
             Part::Result => writer.result_row(&mut page),
-            Part::Footer => writer.inside_footer(&mut page),
+            Part::Footer(columns) => writer.inside_footer(&mut page, columns),
             Part::Claims => writer.claims(&mut page),
             Part::Notes => writer.notes(&mut page),
             Part::Page => {

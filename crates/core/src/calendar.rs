@@ -11,9 +11,101 @@ pub fn days_of(year: u64, month: u64) -> u64 {
     }
 }
 
+/// A day of that calendar.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Day {
+    /// From 0 to 9999.
+    pub year: u64,
+    /// From 1 to 12.
+    pub month: u64,
+    /// From 1 on.
+    pub day: u64,
+}
+
+impl Day {
+    /// The day with which a date of ISO 8601 begins, `2027-03-01` and any time behind it; nothing where there is no
+    /// such day.
+    pub fn read(text: &str) -> Option<Day> {
+        let (date, _) = text.split_at_checked(10)?;
+        let mut parts = date.split('-');
+        let mut number = |digits: usize| {
+            let part = parts.next().filter(|part| part.len() == digits)?;
+            let plain = part.bytes().all(|byte| byte.is_ascii_digit());
+            plain.then(|| part.parse::<u64>().ok()).flatten()
+        };
+        let (year, month, day) = (number(4)?, number(2)?, number(2)?);
+        let exists = (1..=12).contains(&month) && (1..=days_of(year, month)).contains(&day);
+        exists.then_some(Day { year, month, day })
+    }
+
+    /// The day that is so many days after 1970-01-01.
+    pub fn after_1970(days: u64) -> Day {
+        // Periods of 400 years are alike; the count of years and months in the last one is short.
+        const DAYS_OF_400_YEARS: u64 = 146_097;
+        let mut year = 1970 + 400 * (days / DAYS_OF_400_YEARS);
+        let mut left = days % DAYS_OF_400_YEARS;
+        let length = |year| 337 + days_of(year, 2);
+        while left >= length(year) {
+            left -= length(year);
+            year += 1;
+        }
+        let mut month = 1;
+        while left >= days_of(year, month) {
+            left -= days_of(year, month);
+            month += 1;
+        }
+        Day {
+            year,
+            month,
+            day: left + 1,
+        }
+    }
+}
+
+impl std::fmt::Display for Day {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:04}-{:02}-{:02}", self.year, self.month, self.day)
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::days_of;
+    use super::{Day, days_of};
+
+    #[test]
+    fn only_days_of_the_calendar_are_read() {
+        for (text, day) in [
+            ("2027-03-01", Some("2027-03-01")),
+            ("2024-02-29T08:00:00Z", Some("2024-02-29")),
+            ("2025-02-29", None),
+            ("2025-13-01", None),
+            ("2025-00-10", None),
+            ("0000000000", None),
+            ("not a date", None),
+            ("2025-+1-01", None),
+            ("2025-1-1", None),
+            ("２０25-01", None),
+        ] {
+            assert_eq!(
+                Day::read(text).map(|day| day.to_string()).as_deref(),
+                day,
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn days_are_counted_from_1970() {
+        let day = |days| Day::after_1970(days).to_string();
+        assert_eq!(day(0), "1970-01-01");
+        assert_eq!(day(59), "1970-03-01");
+        // 2000 was a leap year, 2100 is none.
+        assert_eq!(day(11_016), "2000-02-29");
+        assert_eq!(day(20_454), "2026-01-01");
+        assert_eq!(day(47_540), "2100-02-28");
+        assert_eq!(day(47_541), "2100-03-01");
+        assert_eq!(day(146_097), "2370-01-01");
+    }
 
     #[test]
     fn leap_years_are_those_of_the_calendar() {

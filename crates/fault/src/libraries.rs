@@ -71,7 +71,7 @@ fn known(table: &[(&'static str, &'static str)], message: &str) -> Option<Said> 
 }
 
 /// The messages of `toml_parser`, and those of `toml` about tables.
-const TOML: [(&str, &str); 68] = [
+const TOML: [(&str, &str); 74] = [
     ("`_` may only go between digits", "`_` 只能写在数字之间"),
     (
         "cannot recurse further; max recursion depth met",
@@ -181,6 +181,12 @@ const TOML: [(&str, &str); 68] = [
         "不能用带点的键扩展表",
     ),
     ("invalid string", "文本有误"),
+    ("invalid literal string", "单引号文本有误"),
+    ("invalid basic string", "双引号文本有误"),
+    ("invalid multi-line literal string", "多行文本有误"),
+    ("invalid multi-line basic string", "多行文本有误"),
+    ("invalid key", "键有误"),
+    ("invalid table", "表头有误"),
     ("invalid boolean", "布尔值有误"),
     ("invalid date-time", "日期有误"),
     ("invalid float", "数有误"),

@@ -132,7 +132,46 @@ impl Axis {
     }
 }
 
+/// Points of data that are drawn one by one.
+const MOST_POINTS: usize = 4000;
+/// Stretches across of which the ends are drawn where there are more: a printed panel has no more places side by side.
+const STRETCHES: usize = 1000;
+
 impl Marks {
+    /// Points of data. Of very many the lowest and the highest of each stretch across stand for the others: no file
+    /// grows with the recording, and no reading that lies apart is lost.
+    pub fn data(points: Vec<[f64; 2]>) -> Self {
+        if points.len() <= MOST_POINTS {
+            return Marks::Points(points);
+        }
+        let places = points.iter().map(|[x, _]| *x).filter(|x| x.is_finite());
+        let [from, to] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[from, to], x| {
+            [from.min(x), to.max(x)]
+        });
+        let mut ends: Vec<Option<[[f64; 2]; 2]>> = vec![None; STRETCHES];
+        for point in points {
+            let share = (point[0] - from) / (to - from) * STRETCHES as f64;
+            // Without any extent all stand in the first; a point without a place has none.
+            let stretch = if to > from { share } else { 0.0 };
+            let last = STRETCHES - 1;
+            if let Some(end) = ends
+                .get_mut((stretch as usize).min(last))
+                .filter(|_| point[0].is_finite())
+            {
+                let [low, high] = end.unwrap_or([point; 2]);
+                *end = Some([
+                    if point[1] < low[1] { point } else { low },
+                    if point[1] > high[1] { point } else { high },
+                ]);
+            }
+        }
+        let drawn = ends
+            .into_iter()
+            .flatten()
+            .flat_map(|[low, high]| std::iter::once(low).chain((low != high).then_some(high)));
+        Marks::Points(drawn.collect())
+    }
+
     /// Every point x, y that must be inside the panel; x is absent or y is absent where the marks have none of their own.
     pub fn extent(&self) -> Vec<(Option<f64>, Option<f64>)> {
         match self {
@@ -182,4 +221,26 @@ fn limits(places: impl Iterator<Item = f64>) -> [f64; 2] {
         (true, false) => 0.5 * high.abs().max(1.0),
     };
     [low - margin, high + margin]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_very_many_points_none_that_lies_apart_is_lost() {
+        let mut points: Vec<[f64; 2]> = (0..100_000)
+            .map(|k| [f64::from(k), libm::sin(f64::from(k))])
+            .collect();
+        points[54_321][1] = 7.0;
+        points[99_999][1] = f64::NAN;
+        let Marks::Points(drawn) = Marks::data(points) else {
+            panic!("points");
+        };
+        assert!(drawn.len() <= 2 * STRETCHES && drawn.len() > STRETCHES);
+        assert!(drawn.contains(&[54_321.0, 7.0]));
+        assert_eq!(drawn[0][0].min(drawn[1][0]) as usize / 100, 0);
+        let few = vec![[1.0, 2.0], [f64::NAN, 0.0]];
+        assert!(matches!(Marks::data(few), Marks::Points(all) if all.len() == 2));
+    }
 }

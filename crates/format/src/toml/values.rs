@@ -9,6 +9,7 @@ use super::faults::{AMOUNT, NOT_FINITE, NOT_WHOLE, QUOTED_NUMBER, WRONG_TYPE};
 use super::strings::StringMap;
 use super::syntax::{of_concise, without_comma};
 use super::table::{FromToml, KeyRow, Raw, Reader, Stated, in_order, inner};
+use gumption_core::calendar::Day;
 use gumption_fault::{Fault, Said, say};
 
 fn integer(number: &DeInteger<'_>) -> Option<i64> {
@@ -230,15 +231,7 @@ impl FromToml for Date {
             DeValue::String(text) => text.trim().to_string(),
             _ => return reader.wrong_type(WRONG_TYPE, value, Self::expected()),
         };
-        let shape: String = text
-            .chars()
-            .take(10)
-            .map(|c| if c.is_ascii_digit() { '0' } else { c })
-            .collect();
-        let day = shape == "0000-00-00"
-            && ("01".."13").contains(&&text[5..7])
-            && ("01".."32").contains(&&text[8..10]);
-        if day {
+        if Day::read(&text).is_some() {
             Some(Date(text))
         } else {
             reader.wrong_type(WRONG_TYPE, value, Self::expected())

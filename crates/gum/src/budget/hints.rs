@@ -1,6 +1,6 @@
 //! What writers of budgets mistake, beyond misspelt words.
 
-use gumption_fault::{Said, say};
+use gumption_fault::{Said, nearest, say};
 use gumption_format::toml::{DeValue, Hints, Table};
 
 use super::tables::FileTable;
@@ -85,14 +85,14 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
         ("[conformity]", "tolerance" | "limits" | "limit") => Some(say!(
             "a tolerance is lower = … and upper = …, or mpe = … about a nominal = …"
         )),
-        ("[[correlation]]", key) if key.contains(',') => {
+        ("[[correlation]]", lower) if lower.contains(',') => {
             let (one, other) = key.split_once(',').unwrap_or((key, ""));
             let (one, other) = (one.trim(), other.trim());
             Some(say!(
                 "write [[correlation]], between = [\"{one}\", \"{other}\"] and r = …"
             ))
         }
-        ("[series]", _) => Some(say!(
+        ("[series]", _) if nearest(key, known.iter().copied()).is_none() => Some(say!(
             "the columns of a series are named once, its rows follow: columns = [\"{key}\"], rows = [[…], […]]"
         )),
         ("[fit]", _) if key.len() == 1 => Some(say!(

@@ -48,7 +48,7 @@ pub(super) fn residuals(campaign: &Campaign, found: &Calibration, l: Language) -
         }
         layers.push(layer("", Tone::Quiet, Marks::Level(0.0)));
         let name = l.pick("residuals", "残差");
-        layers.push(layer(name, Tone::Main, Marks::Points(points)));
+        layers.push(layer(name, Tone::Main, Marks::data(points)));
         Plot {
             id: id("residuals", &one.response),
             panels: vec![Panel {

@@ -51,7 +51,7 @@ fn panels(case: &Case, diagnosis: &Diagnosis, x: &Axis, at: &[f64], l: Language)
         let points = |residuals: &DVector<f64>| {
             let own = residuals.rows(response * at.len(), at.len());
             let points = at.iter().zip(own.iter()).map(|(x, y)| [*x, *y]);
-            Marks::Points(points.collect())
+            Marks::data(points.collect())
         };
         let before = l.pick("with the declared model", "声明的模型");
         let after = l.pick("with the physics that was left out", "加入遗漏效应后");

@@ -239,7 +239,7 @@ fn curve(report: &Report<'_>, fit: &Fit) -> Vec<Panel> {
     let curve = l.pick("fitted curve", "拟合曲线");
     let mut above: Vec<Layer> = whiskers(&response.values).into_iter().collect();
     above.push(layer(curve, Tone::Contrast, Marks::Line(fitted)));
-    above.push(layer(data, Tone::Main, Marks::Points(observed)));
+    above.push(layer(data, Tone::Main, Marks::data(observed)));
     let mut below = Vec::new();
     if let Some(s) = fit.residual_sd.filter(|_| !fit.weighted) {
         let ends = predictor
@@ -257,7 +257,7 @@ fn curve(report: &Report<'_>, fit: &Fit) -> Vec<Panel> {
     below.push(layer(
         l.pick("residuals", "残差"),
         Tone::Main,
-        Marks::Points(left),
+        Marks::data(left),
     ));
     vec![
         Panel {

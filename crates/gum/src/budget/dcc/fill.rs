@@ -191,14 +191,12 @@ impl Filling<'_> {
         }
         // Whether that day is past is looked at where the other certificates are.
         if let (None, Some(until)) = (&table.due, &certificate.validity.until) {
-            table.due = Some(file.map(|_| Date(until.clone())));
+            table.due = Some(file.map(|_| Date(until.to_string())));
         }
-        if certificate.validity.refused {
+        for statement in &certificate.validity.refused {
             self.found.remarks.push(Remark {
-                en: format!(
-                    "The certificate of {owner} in {name} says of itself that it is not valid."
-                ),
-                zh: format!("{owner} 的证书文件 {name} 声明自身无效。"),
+                en: format!("The certificate of {owner} in {name} marks a statement as not valid: {statement}."),
+                zh: format!("{owner} 的证书文件 {name} 中有一项声明标为无效：{statement}。"),
             });
         }
         if let (Some(measured), Some(certified)) = (&self.date, &certificate.date)

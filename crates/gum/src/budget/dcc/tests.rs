@@ -179,7 +179,7 @@ fn statements_say_until_when_a_certificate_is_used() {
         let content = certificate("3.3.0", data).replace("</dcc:administrativeData>", &statements);
         read(&content).expect("a certificate").validity
     };
-    let until = |statement: &str| validity(statement).until;
+    let until = |statement: &str| validity(statement).until.map(|day| day.to_string());
     for (statement, day) in [
         (
             "refType=\"basic_recalibrationDate\"><dcc:date>2026-05-01</dcc:date>",
@@ -197,7 +197,15 @@ fn statements_say_until_when_a_certificate_is_used() {
     ] {
         assert_eq!(until(statement).as_deref(), day, "{statement}");
     }
-    assert!(validity("><dcc:valid>false</dcc:valid>").refused);
+    assert_eq!(
+        validity("><dcc:valid>false</dcc:valid>").refused,
+        ["statement"]
+    );
+    // A statement about a standard is not one about the certificate.
+    let norm = "><dcc:norm>ISO 376 class 0.5</dcc:norm><dcc:valid>false</dcc:valid><dcc:period>P1Y</dcc:period>";
+    let found = validity(norm);
+    assert_eq!(found.refused, ["ISO 376 class 0.5"]);
+    assert_eq!(found.until, None);
 }
 
 #[test]

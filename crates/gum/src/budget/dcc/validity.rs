@@ -1,6 +1,6 @@
 //! Until when a certificate is to be used, where one of its statements says so.
 
-use gumption_core::calendar::days_of;
+use gumption_core::calendar::{Day, days_of};
 use roxmltree::Node;
 
 use super::xml::{child, children, text};
@@ -9,9 +9,9 @@ use super::xml::{child, children, text};
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Validity {
     /// The last day, or the day of the next calibration.
-    pub until: Option<String>,
-    /// Whether it says of itself that it is not valid.
-    pub refused: bool,
+    pub until: Option<Day>,
+    /// The statements that are marked as not valid, each by its standard, its kind or its identifier.
+    pub refused: Vec<String>,
 }
 
 /// Words in the kind of a statement (`refType`) that speak of the end of its use, in lower case.
@@ -30,15 +30,29 @@ pub(super) fn validity(administration: Node<'_, '_>, issued: Option<&str>) -> Va
     for statement in statements.flat_map(|all| children(all, "statement")) {
         let word = |name| child(statement, name).map(text);
         let valid = word("valid");
-        found.refused |= matches!(valid, Some("false" | "0"));
+        let norm = word("norm");
         let kind = statement.attribute("refType").unwrap_or_default();
+        if matches!(valid, Some("false" | "0")) {
+            let identifier = statement.attribute("id").unwrap_or_default();
+            let named = [norm.unwrap_or_default(), kind, identifier].into_iter();
+            found.refused.extend(
+                named
+                    .filter(|name| !name.is_empty())
+                    .map(str::to_owned)
+                    .chain(["statement".to_owned()])
+                    .take(1),
+            );
+        }
         let kind = kind.to_ascii_lowercase();
+        // A statement about a standard ends by itself, and not with it the use of the certificate.
         let of_use = KINDS.iter().any(|word| kind.contains(word));
+        let of_all = of_use || valid.is_some() && norm.is_none();
         let until = match (word("date"), word("period")) {
-            (Some(date), None) if of_use => date.get(..10).map(str::to_owned),
-            (begin, Some(period)) if of_use || valid.is_some() => {
-                begin.or(issued).and_then(|begin| after(begin, period))
-            }
+            (Some(date), None) if of_use => Day::read(date),
+            (begin, Some(period)) if of_all => begin
+                .or(issued)
+                .and_then(Day::read)
+                .and_then(|begin| after(begin, period)),
             _ => None,
         };
         // Of several ends the first one counts.
@@ -49,15 +63,9 @@ pub(super) fn validity(administration: Node<'_, '_>, issued: Option<&str>) -> Va
 }
 
 /// The day that is a duration of XML Schema (`P1Y6M`) after another; hours are less than a day.
-fn after(begin: &str, period: &str) -> Option<String> {
-    let number = |part: Option<&str>| part?.parse::<u64>().ok();
-    let (mut year, mut month, mut day) = (
-        number(begin.get(..4))?,
-        number(begin.get(5..7))?,
-        number(begin.get(8..10))?,
-    );
+fn after(begin: Day, period: &str) -> Option<Day> {
     let lengths = period.strip_prefix('P')?;
-    let lengths = lengths.split('T').next().unwrap_or_default();
+    let (lengths, hours) = lengths.split_once('T').unwrap_or((lengths, ""));
     let mut digits = String::new();
     let [mut years, mut months, mut days] = [0u64; 3];
     for c in lengths.chars() {
@@ -69,15 +77,17 @@ fn after(begin: &str, period: &str) -> Option<String> {
             _ => return None,
         }
     }
+    let says_nothing = lengths.is_empty() && hours.is_empty();
     /// Nothing is calibrated for longer; what is asked for should not take long either.
     const MOST: u64 = 100;
-    if years > MOST || months > 12 * MOST || days > 366 * MOST || !(1..=12).contains(&month) {
+    if says_nothing || !digits.is_empty() || years > MOST || months > 12 * MOST || days > 366 * MOST
+    {
         return None;
     }
-    let all = 12 * year + month - 1 + 12 * years + months;
-    (year, month) = (all / 12, all % 12 + 1);
+    let all = 12 * begin.year + begin.month - 1 + 12 * years + months;
+    let (mut year, mut month) = (all / 12, all % 12 + 1);
     // A month after the last of January is the last of February.
-    day = day.min(days_of(year, month)) + days;
+    let mut day = begin.day.min(days_of(year, month)) + days;
     while day > days_of(year, month) {
         day -= days_of(year, month);
         (year, month) = if month == 12 {
@@ -86,7 +96,7 @@ fn after(begin: &str, period: &str) -> Option<String> {
             (year, month + 1)
         };
     }
-    Some(format!("{year:04}-{month:02}-{day:02}"))
+    Some(Day { year, month, day })
 }
 
 #[cfg(test)]
@@ -103,17 +113,12 @@ mod tests {
             ("2025-01-01", "P1Y6M10DT12H", "2026-07-11"),
             ("2025-01-01", "P730D", "2027-01-01"),
         ] {
-            assert_eq!(
-                after(begin, period).as_deref(),
-                Some(end),
-                "{begin} {period}"
-            );
+            let day = Day::read(begin).and_then(|begin| after(begin, period));
+            assert_eq!(day, Day::read(end), "{begin} {period}");
         }
-        for period in ["1Y", "-P1Y", "P1W", "P9999999Y", "P", "PY"] {
-            assert!(
-                after("2025-01-01", period).is_none_or(|end| end == "2025-01-01"),
-                "{period}"
-            );
+        let begin = Day::read("2025-01-01").expect("a day");
+        for period in ["1Y", "-P1Y", "P1W", "P9999999Y", "P", "PY", "P12", "P1Y6"] {
+            assert_eq!(after(begin, period), None, "{period}");
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Why a result has no mean or no standard deviation, and what few readings do, as sentences.
 
 use gumption_core::special::student_t_two_sided_quantile;
+use gumption_core::statistics::relative_scatter_of_s;
 use gumption_gum::budget::CoverageRule;
 use gumption_gum::propagate::{
     Consequence, CoverageBasis, FewReadings, MissingMoments, Reason, Side,
@@ -186,10 +187,7 @@ fn what_follows(
     };
     let reported = result.reported(&report.budget.conventions);
     let coverage = &result.gum.coverage;
-    let of_u = significant(
-        100.0 * components.iter().map(|few| few.share).sum::<f64>(),
-        2,
-    );
+    let of_u = percent(components.iter().map(|few| few.share).sum());
     let k = exact(coverage.k);
     match (reported.reason, &coverage.basis) {
         (Reason::FewReadings | Reason::NotValidatedFewReadings | Reason::MomentsAgree, _) => l.pick(
@@ -226,10 +224,13 @@ fn what_follows(
 /// Only few effective degrees of freedom, and whether k allows for them.
 pub(super) fn few_degrees(report: &Report<'_>, measurand: Option<usize>, dof: f64) -> String {
     let l = report.language;
-    let of_u = significant(100.0 / (2.0 * dof).sqrt(), 2);
+    let of_u = percent(relative_scatter_of_s(dof));
     let nu = freedom(dof);
+    let degrees = if dof == 1.0 { "degree" } else { "degrees" };
     let first = l.pick(
-        format!("Only {nu} effective degrees of freedom: u itself is uncertain by about {of_u} %"),
+        format!(
+            "Only {nu} effective {degrees} of freedom: u itself is uncertain by about {of_u} %"
+        ),
         format!("有效自由度仅为 {nu}：标准不确定度本身的相对不确定度约为 {of_u} %"),
     );
     let Some(result) = measurand.and_then(|m| report.evaluation.results.get(m)) else {

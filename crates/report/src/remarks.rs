@@ -6,7 +6,7 @@ use gumption_gum::propagate::{EvaluationError, FindingKind, Reason, is_residue};
 
 use super::fits::{doubtful_fit, test_figures};
 use super::language::Language;
-use super::number::{aligned, freedom, grouped, probability, significant};
+use super::number::{aligned, exact, freedom, grouped, probability, significant};
 use super::{Report, moments};
 
 /// All findings and the budget's remarks, each one paragraph; what is found alike of several
@@ -162,8 +162,9 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             "The uncertainty of {input} contributes {} times as much as all others together. Check its unit, and whether a relative uncertainty is meant.",
             significant(*ratio, 2),
         ),
-        FindingKind::BelowReference { component, reference } => format!(
-            "The expanded uncertainty U is smaller than what {component} alone contributes with the k = 2 of its certificate, {}: a result is not known better than its reference. Check k and the correlations.",
+        FindingKind::BelowReference { component, k, reference } => format!(
+            "The expanded uncertainty U is smaller than what {component} alone contributes with the k = {} of its certificate, {}: a result is not known better than its reference. Check k.",
+            exact(*k),
             amount(report, measurand, significant(*reference, 2)),
         ),
         FindingKind::CoarseStep { what } => format!(
@@ -255,8 +256,9 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             "{input} 的不确定度的贡献为其余各量合计的 {} 倍。请核对其单位，以及是否应为相对不确定度。",
             significant(*ratio, 2),
         ),
-        FindingKind::BelowReference { component, reference } => format!(
-            "扩展不确定度 U 小于 {component} 单独按其证书 k = 2 的贡献 {}：结果不可能比其标准更准确。请核对 k 和相关系数。",
+        FindingKind::BelowReference { component, k, reference } => format!(
+            "扩展不确定度 U 小于 {component} 单独按其证书 k = {} 的贡献 {}：结果不可能比其标准更准确。请核对 k。",
+            exact(*k),
             amount(report, measurand, significant(*reference, 2)),
         ),
         FindingKind::CoarseStep { what } => format!(

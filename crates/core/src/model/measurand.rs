@@ -115,7 +115,7 @@ impl Check<'_> {
         Some(Outcome {
             ids,
             vector: value.vector,
-            scaled_twice: scaled_twice(&value, &expr, &unit),
+            scaled_twice: self.l.scaled_twice(&value, &expr, &unit),
             unit,
             statement,
             own,
@@ -319,25 +319,6 @@ impl Check<'_> {
             )),
         );
     }
-}
-
-/// The number by which a formula converts its value to the wanted unit, although units are converted without it: a factor
-/// of a hundred for percent, or of a thousand from mL to L.
-fn scaled_twice(value: &Value, expr: &Expr, wanted: &Unit) -> Option<f64> {
-    let factor = value.unit()?.conversion_to(wanted)?.factor;
-    if factor == 1.0 || wanted.factor.pi != 0 {
-        return None;
-    }
-    let mut open = vec![expr];
-    while let Some(e) = open.pop() {
-        match &e.node {
-            Node::Number {
-                value, unit: None, ..
-            } if *value == factor || *value == 1.0 / factor => return Some(*value),
-            _ => open.extend(e.children()),
-        }
-    }
-    None
 }
 
 /// How a quantity takes part in a product.

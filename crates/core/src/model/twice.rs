@@ -1,13 +1,75 @@
-//! Angles that are converted to radians by hand, `sin(phi*pi/180)`, although their unit says it already.
+//! Units that are converted by hand, although they are converted without it: angles to radians, `sin(phi*pi/180)`, and
+//! values to the wanted unit.
 
 use super::faults;
-use super::lower::Lowering;
+use super::lower::{Lowering, Value};
 use super::printer;
 use super::syntax::{Expr, Infix, Node};
 use crate::quantity::{Dimension, Unit};
 use gumption_fault::{Fault, say};
 
+/// Rounding of 0.01745 or 57.3 by the user.
+const NEAR: f64 = 1e-3;
+
 impl Lowering<'_> {
+    /// The number by which a formula converts its value to the wanted unit, although units are converted without it: a
+    /// factor of a hundred for percent, of a thousand from mL to L, of 180/π for degrees.
+    pub fn scaled_twice(&mut self, value: &Value, expr: &Expr, wanted: &Unit) -> Option<f64> {
+        let factor = value.unit()?.conversion_to(wanted)?.factor;
+        if factor == 1.0 {
+            return None;
+        }
+        // π is written with some digits only.
+        let near = if wanted.factor.pi == 0 { 0.0 } else { NEAR };
+        let is_it = |number: f64| {
+            [factor, 1.0 / factor]
+                .iter()
+                .any(|f| (number / f - 1.0).abs() <= near)
+        };
+        let mut open = vec![expr];
+        while let Some(e) = open.pop() {
+            let number = match &e.node {
+                Node::Number {
+                    value, unit: None, ..
+                } if near == 0.0 => Some(*value),
+                Node::Chain { first, rest } => self.number_of(first, rest),
+                _ => None,
+            };
+            if let Some(number) = number.filter(|number| is_it(*number)) {
+                return Some(number);
+            }
+            open.extend(e.children());
+        }
+        None
+    }
+
+    /// The numbers of a product taken together, if it has other factors besides.
+    fn number_of(&mut self, first: &Expr, rest: &[(Infix, Expr)]) -> Option<f64> {
+        let factors = std::iter::once((Infix::Mul, first)).chain(rest.iter().map(|(i, e)| (*i, e)));
+        let (mut number, mut others) = (1.0, false);
+        for (infix, factor) in factors {
+            let constant = self.constant(factor);
+            match (infix, constant) {
+                (Infix::Mul, Some(constant)) => number *= constant,
+                (Infix::Div, Some(constant)) => number /= constant,
+                (Infix::Mul | Infix::Div, None) => others = true,
+                _ => return None,
+            }
+        }
+        others.then_some(number)
+    }
+
+    /// The value of a number, or of a name that stands for one without unit.
+    fn constant(&mut self, factor: &Expr) -> Option<f64> {
+        if !is_simple(factor) {
+            return None;
+        }
+        let value = self.value(factor)?;
+        let is_one = value.unit()?.is_one();
+        let id = value.elements.first().filter(|_| is_one)?;
+        self.builder.constant_at(*id)
+    }
+
     /// Reports terms of the argument of `sin`, `cos` or `tan` that hold the factor of their unit once more.
     pub fn converted_once(&mut self, argument: &Expr) -> Option<()> {
         match &argument.node {
@@ -31,8 +93,6 @@ impl Lowering<'_> {
         first: &Expr,
         rest: &[(Infix, Expr)],
     ) -> Option<()> {
-        /// Rounding of 0.01745 by the user.
-        const NEAR: f64 = 1e-3;
         let (mut number, mut unit, mut quantities) = (1.0, Unit::one(), Vec::new());
         let factors = std::iter::once((Infix::Mul, first)).chain(rest.iter().map(|(i, e)| (*i, e)));
         for (infix, factor) in factors {

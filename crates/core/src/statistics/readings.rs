@@ -1,6 +1,7 @@
 //! Statistics of one series of readings (GUM 4.2), with its serial correlation.
 
 use super::Dd;
+use crate::special::ln_gamma;
 
 /// Mean and scatter of readings of one quantity.
 #[derive(Debug, Clone, PartialEq)]
@@ -117,6 +118,14 @@ pub fn pooled(series: &[Series]) -> (f64, f64) {
     ((squares / Dd::from(freedom)).sqrt().value(), freedom)
 }
 
+/// The standard deviation of an experimental standard deviation s divided by its expectation, for normal readings and ν
+/// degrees of freedom (GUM E.4.3, table E.1): √(1/c₄² − 1) with c₄ = √(2/ν) Γ((ν + 1)/2)/Γ(ν/2).
+pub fn relative_scatter_of_s(dof: f64) -> f64 {
+    let ratio = ln_gamma(0.5 * (dof + 1.0)) - ln_gamma(0.5 * dof);
+    let squared = 2.0 / dof * libm::exp(2.0 * ratio);
+    (1.0 / squared - 1.0).max(0.0).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -135,6 +144,24 @@ mod tests {
     fn digits(obtained: f64, certified: f64) -> f64 {
         let error = ((obtained - certified) / certified).abs();
         (-libm::log10(error)).min(16.0)
+    }
+
+    /// GUM table E.1, for n = ν + 1 readings.
+    #[test]
+    fn scatter_of_s_as_published() {
+        for (readings, percent) in [
+            (2, 76.0),
+            (3, 52.0),
+            (4, 42.0),
+            (5, 36.0),
+            (10, 24.0),
+            (20, 16.0),
+            (30, 13.0),
+            (50, 10.0),
+        ] {
+            let found = 100.0 * relative_scatter_of_s(f64::from(readings - 1));
+            assert!((found - percent).abs() < 0.5, "{readings}: {found}");
+        }
     }
 
     #[test]

@@ -273,7 +273,8 @@ impl FromToml for Amount {
                 let place = place.map_or(value.span(), |map| map.place(unit.clone()));
                 Some(Amount {
                     number,
-                    unit: Some((text[unit].to_string(), place)),
+                    // The sign of a Chinese keyboard.
+                    unit: Some((text[unit].replace('％', "%"), place)),
                 })
             }
             None => reader.refuse(unreadable_amount(value, text)),

@@ -81,6 +81,9 @@ pub struct Certificate {
     pub date: Option<String>,
     /// Date when the next calibration is due.
     pub due: Option<String>,
+    /// k of its U, where it states one.
+    #[serde(default)]
+    pub k: Option<f64>,
 }
 
 /// Components that are correlated with one another.

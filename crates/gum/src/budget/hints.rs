@@ -18,7 +18,7 @@ pub static HINTS: Hints = Hints {
 };
 
 /// Words that people try for the keys of an uncertainty, and those keys.
-pub const SYNONYMS: [(&str, &str); 46] = [
+pub const SYNONYMS: [(&str, &str); 47] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),
@@ -38,6 +38,7 @@ pub const SYNONYMS: [(&str, &str); 46] = [
     ("nu", "dof"),
     ("degrees_of_freedom", "dof"),
     ("degf", "dof"),
+    ("veff", "dof"),
     ("estimate", "value"),
     ("mean", "value"),
     ("formula", "model"),
@@ -82,6 +83,9 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
                 "limits ±a are half_width = …; those of an instrument that depend on its reading specification = {{ reading = \"0.05 %\", counts = 2, step = … }}"
             ))
         }
+        ("[input]" | "a component", "s" | "n") if has("pooled") => Some(say!(
+            "s of n readings that are not listed: pooled = {{ s = …, dof = n - 1 }}, of = n"
+        )),
         ("[conformity]", "tolerance" | "limits" | "limit") => Some(say!(
             "a tolerance is lower = … and upper = …, or mpe = … about a nominal = …"
         )),

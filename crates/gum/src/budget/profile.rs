@@ -129,8 +129,8 @@ pub const PROFILES: &[Profile] = &[
         en: "As JJF, but digits beyond the last kept one are always carried up.",
         zh: "同 JJF，但末位以后的数字一律进位（只进不舍）。",
         source: "JJF 1059.1-2012, 5.3.8.2; as printed in JJF 2003-2022, annex A",
-        certified_en: "The uncertainty was evaluated and is expressed in accordance with JJF 1059.1-2012, digits in excess being carried up.",
-        certified_zh: "不确定度按 JJF 1059.1-2012《测量不确定度评定与表示》评定和表示，末位以后的数字一律进位。",
+        certified_en: "The uncertainty was evaluated and is expressed in accordance with JJF 1059.1-2012, digits of the reported uncertainty in excess being carried up.",
+        certified_zh: "不确定度按 JJF 1059.1-2012《测量不确定度评定与表示》评定和表示，所报告的不确定度末位以后的数字一律进位。",
         ..GUM
     },
     Profile {

@@ -18,7 +18,6 @@
 //! [`DofRule::Real`] evaluates t at the real ν_eff, which is the interpolation done exactly.
 
 use super::covariance::Covariance;
-use super::freedom::Effective;
 use super::gum::MeasurandForm;
 use super::result::{Coverage, CoverageBasis};
 use super::shape::Shape;
@@ -37,7 +36,8 @@ pub(super) struct Situation<'b> {
     pub components: &'b [Component],
     pub covariance: &'b Covariance,
     pub of: &'b MeasurandForm,
-    pub freedom: &'b Effective,
+    /// ν_eff.
+    pub dof: f64,
 }
 
 /// k, U and the interval.
@@ -76,6 +76,13 @@ pub(super) fn evaluate(situation: &Situation<'_>) -> Coverage {
     }
 }
 
+/// The distribution of the output divided by u(y) as far as it is known: that of the components that dominate with a
+/// normal remainder, whatever the conventions take k from, or else t.
+pub(super) fn best_shape<'b>(situation: &Situation<'b>) -> Shape<'b> {
+    let dominated = situation.dominated(OutputShape::Convolution);
+    dominated.map_or(Shape::student_t(situation.dof), |output| output.shape)
+}
+
 /// The distribution of the output divided by u(y), and its name.
 struct Output<'b> {
     shape: Shape<'b>,
@@ -98,18 +105,12 @@ impl<'b> Situation<'b> {
             // A fixed k has its probability from the best description of the output.
             CoverageRule::Fixed(_) => self.dominated(OutputShape::Convolution),
         };
-        wanted.unwrap_or_else(|| {
-            student_t(
-                self.conventions
-                    .degrees_of_freedom
-                    .entered(self.freedom.dof),
-            )
-        })
+        wanted.unwrap_or_else(|| student_t(self.conventions.degrees_of_freedom.entered(self.dof)))
     }
 
     /// The output's distribution when one or two contributions dominate.
     fn dominated(&self, rule: OutputShape) -> Option<Output<'b>> {
-        if self.freedom.dof < MANY || !(self.of.u > 0.0 && self.of.u.is_finite()) {
+        if self.dof < MANY || !(self.of.u > 0.0 && self.of.u.is_finite()) {
             return None;
         }
         let parts = self.largest();
@@ -220,7 +221,7 @@ fn student_t<'b>(dof: f64) -> Output<'b> {
         CoverageBasis::StudentT { dof }
     };
     Output {
-        shape: Shape::StudentT { scale: 1.0, dof },
+        shape: Shape::student_t(dof),
         basis,
     }
 }
@@ -297,7 +298,7 @@ mod tests {
             components,
             covariance: &covariance,
             of: &of,
-            freedom: &freedom,
+            dof: freedom.dof,
         };
         evaluate(&situation)
     }

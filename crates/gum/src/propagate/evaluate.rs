@@ -80,6 +80,7 @@ fn both(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationErro
     let run = monte_carlo.as_ref().map(|outcome| outcome.run.clone());
     let detection = decide::detection(&decide::Evidence {
         budget: drawn,
+        linear: &linear,
         results: &results,
         run: run.as_ref(),
         workers: options.workers(),
@@ -102,6 +103,7 @@ fn both(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationErro
     let findings = evidence.findings();
     let evidence = decide::Evidence {
         budget: drawn,
+        linear: &linear,
         results: &results,
         run: run.as_ref(),
         workers: options.workers(),
@@ -216,7 +218,7 @@ fn first_order(budget: &Budget, linear: &Linear, measurand: usize) -> Gum {
         components: &budget.components,
         covariance: &linear.covariance,
         of,
-        freedom: &freedom,
+        dof: freedom.dof,
     });
     Gum {
         estimate: linear.values[measurand],

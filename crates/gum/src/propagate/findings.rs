@@ -4,7 +4,7 @@ use super::gum::Linear;
 use super::monte_carlo::Outcome;
 use super::resolution;
 use super::result::{
-    Basis, Clause8, Contribution, Finding, FindingKind, Freedom, MeasurandResult, MissingMoments,
+    Basis, Clause8, Finding, FindingKind, Freedom, MeasurandResult, MissingMoments,
 };
 use super::second_order::{self, SecondOrderOutcome, Terms};
 use super::{few_readings, validation};
@@ -182,22 +182,27 @@ impl Evidence<'_> {
         })
     }
 
-    /// A certificate whose expanded uncertainty, carried to the measurand, exceeds the U that is reported.
+    /// A certificate whose expanded uncertainty, carried to the measurand, exceeds the U that is reported. Of correlated
+    /// references a difference or ratio is known better than any of them.
     fn below_reference(&self, measurand: usize) -> Option<FindingKind> {
-        /// The k of a calibration certificate (ILAC-P14).
+        /// The k of a certificate that states none (ILAC-P14).
         const K: f64 = 2.0;
         let result = &self.results[measurand];
         let reported = result.reported(&self.budget.conventions);
         let expanded = reported.rounding.uncertainty(reported.expanded()?).to_f64();
         let lines = result.gum.components.iter().zip(&self.budget.components);
-        let certified = lines.filter(|(_, component)| component.certificate.is_some());
-        let of_reference = |(line, _): &(&Contribution, _)| K * line.contribution.abs();
-        let largest = certified.max_by(|a, b| of_reference(a).total_cmp(&of_reference(b)))?;
-        let reference = of_reference(&largest);
-        // Beyond the rounding of U to two digits.
-        const ROUNDED: f64 = 1e-9;
-        (expanded < reference * (1.0 - ROUNDED)).then(|| FindingKind::BelowReference {
-            component: largest.1.name.clone(),
+        let references = lines.enumerate().filter_map(|(index, (line, component))| {
+            let certificate = component.certificate.as_ref()?;
+            let k = certificate.k.unwrap_or(K);
+            let alone = self.linear.covariance.group(index).is_none();
+            alone.then_some((component, k, k * line.contribution.abs()))
+        });
+        let (component, k, reference) = references.max_by(|a, b| a.2.total_cmp(&b.2))?;
+        // U is compared as it is printed.
+        let certified = reported.rounding.uncertainty(reference).to_f64();
+        (expanded < certified).then(|| FindingKind::BelowReference {
+            component: component.name.clone(),
+            k,
             reference,
         })
     }

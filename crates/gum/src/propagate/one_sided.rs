@@ -76,7 +76,7 @@ fn of_gum(wider: &Budget, linear: &Linear) -> Vec<[f64; 2]> {
             components: &wider.components,
             covariance: &linear.covariance,
             of,
-            freedom: &freedom,
+            dof: freedom.dof,
         });
         [y - coverage.half_width_for_p, y + coverage.half_width_for_p]
     };

@@ -6,7 +6,8 @@
 
 use gumption_core::distribution::Distribution;
 use gumption_core::special::{
-    normal_cdf, normal_pdf, student_t_two_sided, student_t_two_sided_quantile,
+    normal_cdf, normal_pdf, student_t_cdf, student_t_sf, student_t_two_sided,
+    student_t_two_sided_quantile,
 };
 
 /// A zero-mean distribution.
@@ -22,31 +23,60 @@ pub(super) enum Shape<'d> {
         distribution: &'d Distribution,
         remainder: f64,
     },
+    /// The finite trials of Monte Carlo in ascending order.
+    Trials(Vec<f64>),
 }
 
 impl Shape<'_> {
-    /// Probability of a value in ±`half_width`.
-    pub(super) fn coverage(&self, half_width: f64) -> f64 {
-        match *self {
-            Shape::StudentT { scale, dof } => student_t_two_sided(half_width / scale, dof),
+    /// A t-distribution of unit scale; normal for infinite ν.
+    pub(super) const fn student_t(dof: f64) -> Self {
+        Shape::StudentT { scale: 1.0, dof }
+    }
+
+    /// Probability of a value up to `x`.
+    pub(super) fn cdf(&self, x: f64) -> f64 {
+        match self {
+            Shape::StudentT { scale, dof } => student_t_cdf(x / scale, *dof),
             Shape::Rectangles { a, b, remainder } => {
-                2.0 * rectangles_cdf(half_width, a, b, remainder) - 1.0
+                rectangles_cdf(x, *a, *b, *remainder).clamp(0.0, 1.0)
             }
             Shape::Dominant {
                 factor,
                 distribution,
                 remainder,
-            } => {
-                let cdf = |x: f64| convolved_cdf(x, factor, distribution, remainder);
-                cdf(half_width) - cdf(-half_width)
+            } => convolved_cdf(x, *factor, distribution, *remainder),
+            Shape::Trials(values) => {
+                values.partition_point(|value| *value <= x) as f64 / values.len() as f64
             }
+        }
+    }
+
+    /// Probability of a value above `x`, with its digits where it is small.
+    pub(super) fn sf(&self, x: f64) -> f64 {
+        match self {
+            Shape::StudentT { scale, dof } => student_t_sf(x / scale, *dof),
+            Shape::Rectangles { .. } => self.cdf(-x),
+            Shape::Dominant {
+                factor,
+                distribution,
+                remainder,
+            } => convolved_cdf(-x, -factor, distribution, *remainder),
+            Shape::Trials(_) => 1.0 - self.cdf(x),
+        }
+    }
+
+    /// Probability of a value in ±`half_width`.
+    pub(super) fn coverage(&self, half_width: f64) -> f64 {
+        match self {
+            Shape::StudentT { scale, dof } => student_t_two_sided(half_width / scale, *dof),
+            _ => self.cdf(half_width) - self.cdf(-half_width),
         }
     }
 
     /// The half-width of the interval about zero that has probability `p`.
     pub(super) fn half_width(&self, p: f64) -> f64 {
-        match *self {
-            Shape::StudentT { scale, dof } => scale * student_t_two_sided_quantile(p, dof),
+        match self {
+            Shape::StudentT { scale, dof } => scale * student_t_two_sided_quantile(p, *dof),
             Shape::Rectangles { a, b, remainder } => self.search(p, a + b + 4.0 * remainder),
             Shape::Dominant {
                 factor,
@@ -56,6 +86,7 @@ impl Shape<'_> {
                 let sd = distribution.standard_deviation().unwrap_or(1.0);
                 self.search(p, 3.0 * factor.abs() * sd + 4.0 * remainder)
             }
+            Shape::Trials(_) => self.search(p, 1.0),
         }
     }
 

@@ -155,6 +155,18 @@ impl Checker<'_> {
             // Certificates print k with two or three digits and p as "approximately 95 %".
             (Some(k), Some(t)) if (k / t - 1.0).abs() <= 0.03 => Some(k),
             (Some(k), Some(t)) => {
+                let p = table.p.as_ref()?.value;
+                let fitting = |dof: &u32| {
+                    (student_t_two_sided_quantile(p, f64::from(*dof)) / k - 1.0).abs() <= 0.005
+                };
+                let help = match (1..=200).find(fitting).filter(|_| dof.is_infinite()) {
+                    Some(dof) => say!(
+                        "this k is that of dof = {dof}: add it, or leave out p, since u = U/k needs k alone"
+                    ),
+                    None => say!(
+                        "leave out p: u = U/k needs k alone, whatever distribution p was meant of"
+                    ),
+                };
                 let (k_key, p_key) = (table.k.as_ref()?.key.clone(), table.p.as_ref()?.key.clone());
                 self.refuse(
                     Fault::new(
@@ -167,7 +179,7 @@ impl Checker<'_> {
                     )
                     .label(say!("k = {k}"))
                     .related(p_key, say!("k = {} follows from p", show(t)))
-                    .help(say!("leave out the one that is not on the certificate")),
+                    .help(help),
                 )
             }
             (None, None) => self.refuse(

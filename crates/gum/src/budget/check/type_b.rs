@@ -188,8 +188,15 @@ impl Checker<'_> {
                 )),
             );
         };
-        let plus = self.positive_deviation(plus, "plus", context, relative);
-        let minus = self.positive_deviation(minus, "minus", context, relative);
+        // A wear or a cosine error goes to one side only.
+        let none = |amount: &Stated<Amount>| amount.value.number == 0.0;
+        let (no_plus, no_minus) = (none(plus), none(minus));
+        let mut side = |amount, key, left_out| match left_out {
+            true => Some(0.0),
+            false => self.positive_deviation(amount, key, context, relative),
+        };
+        let plus = side(plus, "plus", no_plus && !no_minus);
+        let minus = side(minus, "minus", no_minus && !no_plus);
         let (plus, minus) = (plus?, minus?);
         let a = (plus + minus) / 2.0;
         let how = format!("limits +{}, -{}", show(plus), show(minus));

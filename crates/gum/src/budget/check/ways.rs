@@ -392,6 +392,7 @@ impl Checker<'_> {
             laboratory: text(&table.laboratory),
             date: date(&table.date),
             due: date(&table.due),
+            k: table.k.as_ref().map(|k| k.value),
         };
         if let (Some(due), Some(date)) = (&certificate.due, self.source.date.clone())
             && due[..10] < date[..10]

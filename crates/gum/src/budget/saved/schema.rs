@@ -81,6 +81,7 @@ fn component() -> Value {
                 "laboratory": optional("Laboratory."),
                 "date": optional("Date."),
                 "due": optional("Due date."),
+                "k": { "type": ["number", "null"], "description": "Coverage factor of its U." },
             }))] },
             "reference": optional("Where the number comes from."),
         }),

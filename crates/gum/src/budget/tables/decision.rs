@@ -20,6 +20,8 @@ table! {
         mpe: Amount,
         /// Nominal value between the limits; 0 when left out, for an error of indication.
         nominal: Amount,
+        /// Of an error of indication, in place of `nominal`: the value of which a relative `mpe` is a part.
+        mpe_of: Amount,
         /// Decision rule.
         rule: RuleWord,
         /// Distance of the acceptance limits from the tolerance limits; U when left out.

@@ -5,11 +5,13 @@ use super::evidence::Evidence;
 use super::kernel::Kernel;
 use super::limits::Situation;
 use super::response::Response;
-use super::risks::{knowledge, risks, split};
+use super::risks::{Known, risks, split};
 use crate::budget::{Budget, Conformity, Interval};
 use crate::propagate::monte_carlo;
-use crate::propagate::reported::Reason;
-use crate::propagate::result::{Conformance, ConformityResult, MeasurandResult, Verdict};
+use crate::propagate::reported::{Reason, Reported};
+use crate::propagate::result::{Conformance, ConformityResult, Verdict};
+use crate::propagate::shape::Shape;
+use crate::propagate::{coverage, freedom};
 
 /// All assessments of a budget, in its order.
 pub(in crate::propagate) fn assess(evidence: &Evidence<'_>) -> Vec<ConformityResult> {
@@ -34,18 +36,18 @@ pub(in crate::propagate) fn assess(evidence: &Evidence<'_>) -> Vec<ConformityRes
         } else {
             fractions.next().flatten()
         };
-        let result = &evidence.results[conformity.measurand];
-        assessment(evidence.budget, conformity, result, fraction)
+        assessment(evidence, conformity, fraction)
     });
     results.collect()
 }
 
 fn assessment(
-    budget: &Budget,
+    evidence: &Evidence<'_>,
     conformity: &Conformity,
-    result: &MeasurandResult,
     from_trials: Option<f64>,
 ) -> ConformityResult {
+    let budget = evidence.budget;
+    let result = &evidence.results[conformity.measurand];
     let reported = result.reported(&budget.conventions);
     let (estimate, expanded) = (reported.estimate, reported.half_width());
     // Where the distribution has no standard deviation, half of U stands for it: the u of the GUM may be far too small.
@@ -62,7 +64,10 @@ fn assessment(
     let situation = Situation {
         tolerance: conformity.tolerance,
         kernel: &kernel,
-        process: conformity.process.as_ref(),
+        known: match &conformity.process {
+            Some(process) => Known::Process(process),
+            None => Known::Nothing(shape(evidence, conformity, &reported, [estimate, u, dof])),
+        },
         k: expanded / u,
         expanded,
     };
@@ -76,22 +81,18 @@ fn assessment(
         rejection: limits.rejection,
         verdict: (!conformity.planning).then(|| verdict(estimate, &limits)),
         conformance: (!conformity.planning).then(|| {
-            let prior = conformity.process.as_ref();
-            // Not where the distribution of the result is the normal or t distribution that the GUM takes it for.
-            let normal_or_t = matches!(
-                reported.reason,
-                Reason::NotChecked | Reason::Validated | Reason::Undecided
-            );
-            let trials = from_trials.filter(|_| !normal_or_t);
-            let (from_measurement, _) = split(conformity.tolerance, estimate, u, dof);
-            let both = match (prior, trials) {
-                (None, Some(fraction)) => Some((fraction, 1.0 - fraction)),
-                _ => knowledge(prior, conformity.tolerance, &kernel, estimate),
+            let both = situation.known_at(estimate);
+            let from_measurement = match &situation.known {
+                Known::Nothing(_) => both.map(|(inside, _)| inside),
+                Known::Process(_) => {
+                    let shape = shape(evidence, conformity, &reported, [estimate, u, dof]);
+                    Some(split(conformity.tolerance, estimate, u, &shape).0)
+                }
             };
             Conformance {
                 probability: both.map(|(inside, _)| inside),
                 complement: both.map(|(_, outside)| outside),
-                from_measurement,
+                from_measurement: from_measurement.unwrap_or_default(),
                 from_trials,
             }
         }),
@@ -102,6 +103,43 @@ fn assessment(
             .as_ref()
             .map(|process| risks(process, conformity.tolerance, &limits, &kernel)),
     }
+}
+
+/// The distribution of the result in units of its u: where the GUM result stands that of the components that dominate, or
+/// normal or t; else that of the trials.
+fn shape<'a>(
+    evidence: &Evidence<'a>,
+    conformity: &Conformity,
+    reported: &Reported,
+    [estimate, u, dof]: [f64; 3],
+) -> Shape<'a> {
+    let (budget, linear) = (evidence.budget, evidence.linear);
+    let of_gum = matches!(
+        reported.reason,
+        Reason::NotChecked | Reason::Validated | Reason::Undecided
+    );
+    let trials = evidence.run.filter(|_| !of_gum).and_then(|run| {
+        let drawn = monte_carlo::draws(budget, (run.seed, run.trials), evidence.workers);
+        let values = drawn.into_iter().nth(conformity.measurand)?;
+        let finite = values.into_iter().filter(|value| value.is_finite());
+        let mut values: Vec<f64> = finite.map(|value| (value - estimate) / u).collect();
+        values.sort_by(f64::total_cmp);
+        (!values.is_empty()).then_some(Shape::Trials(values))
+    });
+    let linear_shape = || {
+        let of = linear.measurands.get(conformity.measurand)?;
+        let freedom = freedom::effective(&linear.covariance, &of.form);
+        Some(coverage::best_shape(&coverage::Situation {
+            conventions: &budget.conventions,
+            components: &budget.components,
+            covariance: &linear.covariance,
+            of,
+            dof: freedom.dof,
+        }))
+    };
+    let dominated =
+        || linear_shape().filter(|shape| of_gum && !matches!(shape, Shape::StudentT { .. }));
+    trials.or_else(dominated).unwrap_or(Shape::student_t(dof))
 }
 
 /// u of a measurement that finds a value: that of the result, or as it follows the carrier of the value. Where no

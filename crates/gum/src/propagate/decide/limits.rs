@@ -6,7 +6,7 @@
 
 use super::acceptance::Limits;
 use super::kernel::Kernel;
-use super::risks::{knowledge, risks};
+use super::risks::{Known, risks};
 use crate::budget::{DecisionRule, GlobalRisks, Guard, Interval};
 use gumption_core::distribution::Distribution;
 
@@ -16,7 +16,7 @@ pub(super) struct Situation<'a> {
     /// Distribution of measured values, with u at each.
     pub kernel: &'a Kernel<'a>,
     /// What is known of the items before one is measured.
-    pub process: Option<&'a Distribution>,
+    pub known: Known<'a>,
     /// k of U = k·u.
     pub k: f64,
     /// U of the result that was found.
@@ -58,6 +58,18 @@ impl Situation<'_> {
                     rejection: self.outer(guard),
                 }
             }
+        }
+    }
+
+    /// p_c and its complement of an item that is measured at this value; nothing where the process excludes the value.
+    pub(super) fn known_at(&self, value: f64) -> Option<(f64, f64)> {
+        self.known.of_measured(self.tolerance, self.kernel, value)
+    }
+
+    fn process(&self) -> Option<&Distribution> {
+        match &self.known {
+            Known::Process(process) => Some(process),
+            Known::Nothing(_) => None,
         }
     }
 
@@ -132,7 +144,7 @@ impl Situation<'_> {
             return Some(middle);
         }
         // A process beside the middle moves the most probable values to its other side.
-        let reach = self.process.map(|_| 40.0 * (self.kernel.u)(middle))?;
+        let reach = self.process().map(|_| 40.0 * (self.kernel.u)(middle))?;
         let most = highest(lower - reach, upper + reach, &|v| self.conforming(v));
         holds(most).then_some(most)
     }
@@ -140,7 +152,7 @@ impl Situation<'_> {
     /// The limits that keep the global risks (JCGM 106 9.5): a guard band inside the tolerance for R_C, outside for R_P.
     /// Where one of them keeps both risks, it decides alone; else values between the two remain undecided.
     fn permitting(&self, permitted: GlobalRisks) -> Limits {
-        let Some(process) = self.process else {
+        let Some(process) = self.process() else {
             return self.binary(Some(self.tolerance));
         };
         let found = |limits: &Limits| risks(process, self.tolerance, limits, self.kernel);
@@ -232,12 +244,12 @@ impl Situation<'_> {
 
     /// Conformance probability of an item that is measured at this value; 0 where the process excludes the value.
     fn conforming(&self, value: f64) -> f64 {
-        knowledge(self.process, self.tolerance, self.kernel, value).map_or(0.0, |p| p.0)
+        self.known_at(value).map_or(0.0, |p| p.0)
     }
 
     /// Its complement.
     fn violating(&self, value: f64) -> f64 {
-        knowledge(self.process, self.tolerance, self.kernel, value).map_or(1.0, |p| p.1)
+        self.known_at(value).map_or(1.0, |p| p.1)
     }
 
     /// The middle of a tolerance with two limits.
@@ -319,6 +331,7 @@ fn border(from: f64, to: f64, holds: &dyn Fn(f64) -> bool) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::propagate::shape::Shape;
     use gumption_core::distribution::Normal;
 
     fn normal(u: &dyn Fn(f64) -> f64) -> Kernel<'_> {
@@ -332,7 +345,7 @@ mod tests {
         Situation {
             tolerance: Interval { lower, upper },
             kernel,
-            process: None,
+            known: Known::Nothing(Shape::student_t(kernel.dof)),
             k: 2.0,
             expanded: 2.0 * (kernel.u)(0.0),
         }
@@ -424,7 +437,7 @@ mod tests {
         let u = |_: f64| 0.2;
         let u = normal(&u);
         let items = Situation {
-            process: Some(&PROCESS),
+            known: Known::Process(&PROCESS),
             ..situation(f64::NEG_INFINITY, 1.0, &u)
         };
         let weight = 0.25 / 0.29;
@@ -437,7 +450,7 @@ mod tests {
         close(rejected.rejection.upper, measured(1.0 + z * sd));
         // Both limits: p_c at both ends is what was asked for, and no value beyond is accepted.
         let both = Situation {
-            process: Some(&PROCESS),
+            known: Known::Process(&PROCESS),
             ..situation(-0.6, 0.6, &u)
         };
         let Some(interval) = both
@@ -462,7 +475,7 @@ mod tests {
         let u = normal(&u);
         let process = Distribution::Normal(Normal { mean: 3.0, sd: 1.0 });
         let items = Situation {
-            process: Some(&process),
+            known: Known::Process(&process),
             ..situation(-1.0, 1.0, &u)
         };
         let interval = items
@@ -489,7 +502,7 @@ mod tests {
             sd: 0.12,
         });
         let items = Situation {
-            process: Some(&process),
+            known: Known::Process(&process),
             ..situation(1499.8, 1500.2, &u)
         };
         let inner = items.limits(permitted(Some(0.009_878_291_521_823), None));

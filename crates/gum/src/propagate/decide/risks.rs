@@ -6,18 +6,18 @@ use super::kernel::Kernel;
 use super::mixture::{Region, expectation};
 use crate::budget::Interval;
 use crate::propagate::result::GlobalRisk;
+use crate::propagate::shape::Shape;
 use gumption_core::distribution::Distribution;
-use gumption_core::special::{student_t_cdf, student_t_sf};
 
-/// Probabilities that a quantity of known estimate and u is inside and outside the tolerance.
-pub(super) fn split(tolerance: Interval, estimate: f64, u: f64, dof: f64) -> (f64, f64) {
+/// Probabilities that a quantity of known estimate, u and distribution is inside and outside the tolerance.
+pub(super) fn split(tolerance: Interval, estimate: f64, u: f64, shape: &Shape<'_>) -> (f64, f64) {
     let low = (tolerance.lower - estimate) / u;
     let high = (tolerance.upper - estimate) / u;
-    let outside = student_t_cdf(low, dof) + student_t_sf(high, dof);
+    let outside = shape.cdf(low) + shape.sf(high);
     let inside = if low > 0.0 {
-        student_t_sf(low, dof) - student_t_sf(high, dof)
+        shape.sf(low) - shape.sf(high)
     } else {
-        student_t_cdf(high, dof) - student_t_cdf(low, dof)
+        shape.cdf(high) - shape.cdf(low)
     };
     (inside, outside)
 }
@@ -31,17 +31,27 @@ fn marks(place: f64, u: f64) -> impl Iterator<Item = f64> {
         .filter(|mark| mark.is_finite())
 }
 
-/// What is known of an item of which this value is measured: p_c and its complement, from process and measured value or
-/// from the value alone. `None` where process and value exclude one another.
-pub(super) fn knowledge(
-    process: Option<&Distribution>,
-    tolerance: Interval,
-    kernel: &Kernel<'_>,
-    measured: f64,
-) -> Option<(f64, f64)> {
-    match process {
-        Some(process) => posterior(process, tolerance, kernel, measured),
-        None => Some(split(tolerance, measured, (kernel.u)(measured), kernel.dof)),
+/// What is known of an item beforehand.
+pub(super) enum Known<'a> {
+    /// Nothing: what is known then is the result, which has this distribution in units of its u.
+    Nothing(Shape<'a>),
+    /// The process that it comes from.
+    Process(&'a Distribution),
+}
+
+impl Known<'_> {
+    /// What is known of an item of which this value is measured: p_c and its complement. `None` where process and value
+    /// exclude one another.
+    pub(super) fn of_measured(
+        &self,
+        tolerance: Interval,
+        kernel: &Kernel<'_>,
+        measured: f64,
+    ) -> Option<(f64, f64)> {
+        match self {
+            Known::Process(process) => posterior(process, tolerance, kernel, measured),
+            Known::Nothing(shape) => Some(split(tolerance, measured, (kernel.u)(measured), shape)),
+        }
     }
 }
 
@@ -256,7 +266,7 @@ mod tests {
             let weight = sd * sd / (sd * sd + u * u);
             let middle = mean + weight * (measured - mean);
             let width = sd * u / f64::hypot(sd, u);
-            let (inside, outside) = split(tolerance, middle, width, NORMAL);
+            let (inside, outside) = split(tolerance, middle, width, &Shape::student_t(NORMAL));
             let found = posterior(&process, tolerance, &kernel, measured).expect("both possible");
             close(found.0, inside, 1e-9);
             if outside > 1e-290 {
@@ -295,7 +305,7 @@ mod tests {
             u: &fixed,
             dof: NORMAL,
         };
-        let alone = split(tolerance, 0.9, 0.3, NORMAL);
+        let alone = split(tolerance, 0.9, 0.3, &Shape::student_t(NORMAL));
         let vague = Distribution::Uniform(Uniform {
             lower: -1e3,
             upper: 1e3,

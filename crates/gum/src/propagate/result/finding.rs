@@ -122,7 +122,9 @@ pub enum FindingKind {
     BelowReference {
         /// Name of the component.
         component: String,
-        /// k = 2 times its contribution.
+        /// k of its certificate; 2 where that states none.
+        k: f64,
+        /// k times its contribution.
         reference: f64,
     },
     /// The distribution of a phase reaches the jump between -π and π; trials are taken on the turn around the estimate.

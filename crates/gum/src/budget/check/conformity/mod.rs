@@ -175,14 +175,33 @@ impl Checker<'_> {
                         say!("{} is a temperature in {symbol}: from which value may it be so far?", subject.name),
                     )
                     .label(say!("`nominal` is missing"))
-                    .help(say!("add nominal = \"100 {symbol}\", or let the measurand be the error of indication, in K")),
+                    .help(say!("an error of indication is a difference, unit = \"K\", and has no nominal; of a temperature add nominal = \"100 {symbol}\"")),
                 );
             }
             None => None,
         };
+        if let (Some(of), Some(nominal)) = (&table.mpe_of, &table.nominal) {
+            return self.refuse(
+                Fault::new(
+                    TOLERANCE,
+                    of.key.clone(),
+                    say!("`mpe_of` and `nominal` exclude one another"),
+                )
+                .label(say!("of an error of indication, whose limits are ±mpe"))
+                .related(
+                    nominal.key.clone(),
+                    say!("of an indication, whose limits are nominal ± mpe"),
+                )
+                .help(say!("keep the one that {} is", subject.name)),
+            );
+        }
+        let of = match &table.mpe_of {
+            Some(of) => Some(self.quantity(of, subject.unit, subject.name)?),
+            None => nominal,
+        };
         let context = Context {
             owner: subject.name,
-            value: nominal,
+            value: of,
             unit: subject.unit,
             place: mpe.span.clone(),
         };

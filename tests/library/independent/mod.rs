@@ -6,6 +6,7 @@
 //! cube root of M only), while its length is as certain as that of the symmetric one.
 
 // Expected values may come from the platform's own library.
+mod conformance;
 mod correlation;
 mod counts_and_samples;
 mod curved;

@@ -209,8 +209,12 @@ impl Checker<'_> {
             if relative || (is_ratio(&own.symbol) && !is_in_ratios(&unit)) {
                 return self.fraction(amount, fraction, context);
             }
-            // A source has no value that its amounts could be relative to.
-            if is_ratio(&own.symbol) && context.value.is_some() {
+            // A source has no value that its amounts could be relative to, nothing is a part of zero, and of one both
+            // meanings are the same.
+            let unclear = |value: f64| {
+                unit.symbol.contains('/') || value != 0.0 && !(value == 1.0 && unit.is_one())
+            };
+            if is_ratio(&own.symbol) && context.value.is_some_and(unclear) {
                 return self.refuse(
                     Fault::new(
                         RELATIVE_UNCLEAR,

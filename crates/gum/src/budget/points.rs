@@ -200,6 +200,21 @@ fn written(field: &str, unit: Option<&str>, sheet: &Sheet) -> Written {
     }
 }
 
+/// The number that a field puts into a budget, where there is no doubt what it is: decimal digits, perhaps with a fraction
+/// and an exponent, neither minus zero nor a whole number beyond what doubles count.
+pub(super) fn plain_number(field: &str, sheet: &Sheet<'_>) -> Option<f64> {
+    /// Digits that every double and every whole number of TOML keeps.
+    const DIGITS: usize = 15;
+    let short = field.len() <= DIGITS || field.contains(['.', 'e', 'E']);
+    let comma = sheet.has_decimal_commas() && field.contains(',');
+    if comma || !short || !is_toml_number(field) {
+        return None;
+    }
+    let number: f64 = field.parse().ok()?;
+    let settled = number.is_finite() && (number != 0.0 || number.is_sign_positive());
+    settled.then_some(number)
+}
+
 /// Whether TOML is sure to read a text as the decimal number that it is: digits, then perhaps a fraction and an exponent.
 fn is_toml_number(text: &str) -> bool {
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());

@@ -10,7 +10,7 @@ use super::check::{Origin, Variant};
 use super::faults::SERIES;
 use super::open_files::OpenFiles;
 use super::pattern::Pattern;
-use super::points::Columns;
+use super::points::{Columns, plain_number};
 use super::reader::{checked, open_files, read_under, tables, text_of};
 use super::series::{self, Column};
 use super::{Budget, Files, Profile, Row, hints::HINTS};
@@ -153,6 +153,15 @@ impl Batch<'_> {
             rest: Rest::Unknown,
         }
     }
+
+    /// Whether all cells of a row but its label are numbers, and none is zero.
+    fn numbers(&self, row: &csv::Row, sheet: &Sheet<'_>) -> bool {
+        let is_number = |(target, field): (&Option<Column>, &str)| {
+            let number = || plain_number(field, sheet);
+            matches!(target, Some(Column::Label)) || number().is_some_and(|number| number != 0.0)
+        };
+        self.targets.iter().zip(row.fields()).all(is_number)
+    }
 }
 
 impl RowReader<'_> {
@@ -198,6 +207,8 @@ impl RowReader<'_> {
         let variant = series::variant(file, names, targets, &cells, &mut faults);
         let found = self.read(&variant.table, &text, variant.label, faults)?;
         self.rest = match std::mem::replace(&mut self.rest, Rest::Read) {
+            // A row with more than numbers tells nothing of the others.
+            rest @ (Rest::Unknown | Rest::Likely(_)) if !self.batch.numbers(row, sheet) => rest,
             Rest::Unknown => {
                 let tables = tables(&variant.table, None, &mut Reader::new(&text, &HINTS));
                 let pattern = Pattern::of(&found.budget, &tables, targets, (row, sheet));

@@ -187,12 +187,12 @@ impl Evidence<'_> {
         /// The k of a calibration certificate (ILAC-P14).
         const K: f64 = 2.0;
         let result = &self.results[measurand];
-        let reported = result.reported(&self.budget.conventions);
-        let expanded = reported.rounding.uncertainty(reported.expanded()?).to_f64();
         let lines = result.gum.components.iter().zip(&self.budget.components);
         let certified = lines.filter(|(_, component)| component.certificate.is_some());
         let of_reference = |(line, _): &(&Contribution, _)| K * line.contribution.abs();
         let largest = certified.max_by(|a, b| of_reference(a).total_cmp(&of_reference(b)))?;
+        let reported = result.reported(&self.budget.conventions);
+        let expanded = reported.rounding.uncertainty(reported.expanded()?).to_f64();
         let reference = of_reference(&largest);
         // Beyond the rounding of U to two digits.
         const ROUNDED: f64 = 1e-9;

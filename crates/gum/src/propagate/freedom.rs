@@ -56,8 +56,12 @@ pub(super) fn effective(covariance: &Covariance, form: &[(usize, f64)]) -> Effec
         let part = |&(component, weight): &(usize, f64)| {
             (norm(std::iter::once(weight)), covariance.dof(component))
         };
+        let dof = match form {
+            [only] if only.1 != 0.0 => welch_satterthwaite(&[part(only)]),
+            _ => welch_satterthwaite(&active.map(part).collect::<Vec<_>>()),
+        };
         return Effective {
-            dof: welch_satterthwaite(&active.map(part).collect::<Vec<_>>()),
+            dof,
             origin: Origin::Independent,
         };
     }

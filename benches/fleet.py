@@ -43,14 +43,26 @@ def table(rows: int) -> tuple[str, list[list[float]]]:
     return "\n".join(lines) + "\n", values
 
 
-def program(arguments: list[str]) -> tuple[float, int]:
-    """CPU seconds and the largest memory in kB of a program."""
+def program(arguments: list[str]) -> float:
+    """CPU seconds of a program."""
     process = subprocess.Popen(arguments, stdout=subprocess.DEVNULL)
     _, status, used = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
         raise SystemExit(f"{arguments} failed")
-    return used.ru_utime + used.ru_stime, used.ru_maxrss
+    return used.ru_utime + used.ru_stime
+
+
+def memory_of(arguments: list[str]) -> int:
+    """The largest memory of a program, in kB, from the system's own count: that of `wait4` includes this process."""
+    largest = 0
+    with subprocess.Popen(arguments, stdout=subprocess.DEVNULL) as process:
+        while process.poll() is None:
+            status = Path(f"/proc/{process.pid}/status").read_text()
+            peak = [line for line in status.splitlines() if line.startswith("VmHWM")]
+            largest = max([largest, *(int(line.split()[1]) for line in peak)])
+            time.sleep(0.01)
+    return largest
 
 
 def by_numpy(np, stats, values):
@@ -96,7 +108,7 @@ def main() -> None:
     from scipy import stats
 
     few = 2_000
-    rows, trials = 50, 10_000
+    rows, trials = 500, 10_000
     seconds: dict[str, list[float]] = {}
     memory: dict[int, int] = {}
     with tempfile.TemporaryDirectory() as folder:
@@ -115,19 +127,19 @@ def main() -> None:
         one = ["--threads", "1"]
         monte_carlo = ["--monte-carlo", "--trials", str(trials)]
         ways = {
-            "batch": lambda: program([*batch, str(files / "rows.csv"), *one])[0],
+            "batch": lambda: program([*batch, str(files / "rows.csv"), *one]),
             "numpy": lambda: cpu(lambda: by_numpy(np, stats, array)),
             "uncertainties": lambda: cpu(lambda: by_uncertainties(uncertainties.ufloat, values[:few])),
-            "trials": lambda: program([*batch, str(files / "few.csv"), *monte_carlo, *one])[0],
+            "trials": lambda: program([*batch, str(files / "few.csv"), *monte_carlo, *one]),
             "whole": lambda: program(
                 [gumption, "eval", str(files / "budget.toml"), "--trials", str(rows * trials), *one]
-            )[0],
+            ),
         }
         for _ in range(TURNS):
             for name, way in ways.items():
                 seconds.setdefault(name, []).append(way())
         for name, count in (("rows.csv", ROWS), ("many.csv", 10 * ROWS)):
-            memory[count] = program([*batch, str(files / name), *one])[1]
+            memory[count] = memory_of([*batch, str(files / name), *one])
         # The same figures, or nothing is compared.
         out = subprocess.run([*batch, str(files / "few.csv")], capture_output=True, text=True, check=True).stdout
         ours = [[float(cell) for cell in line.split(",")[1:6]] for line in out.splitlines()[1:]]

@@ -168,12 +168,11 @@ impl Pattern {
             Column::Label => return Some(Cell::Label),
             Column::Path(path) => path,
         };
-        let (owner, name, keys) = match path.as_slice() {
-            [owner, name, keys @ ..] => (owner, name, keys),
+        let (name, keys) = match path.as_slice() {
+            [owner, name, keys @ ..] if owner == "input" => (name, keys),
             _ => return None,
         };
         let (_, table) = inputs.iter().find(|(one, _)| one == name)?;
-        let table = &table.value;
         let input = self
             .budget
             .inputs
@@ -181,74 +180,112 @@ impl Pattern {
             .position(|input| input.name == *name)?;
         // What is relative to the estimate follows it; of an estimate of zero this is not seen.
         let follows = self.budget.following.iter().any(|one| one.input == input);
-        if owner != "input" || table.refused || follows || self.budget.inputs[input].estimate == 0.0
-        {
+        if table.value.refused || follows || self.budget.inputs[input].estimate == 0.0 {
             return None;
         }
-        let unit = &self.budget.inputs[input].unit;
-        let conversion = |amount: &Amount, into: &Unit| match &amount.unit {
-            None => Some(None),
-            Some(_) if own_units => None,
-            Some((own, _)) => plain_conversion(own, into).map(Some),
-        };
-        if keys == ["value"] {
-            let listed = table.components.iter().flat_map(|list| &list.value);
-            let mut stated: Vec<&ComponentTable> = listed.map(|one| &one.value).collect();
-            if table.components.is_none() {
-                stated.push(&table.component);
-            }
-            let amount = &table.value.as_ref()?.value;
-            let all = stated.into_iter().all(|one| Plain::of(one).is_some());
-            return all.then_some(Cell::Estimate(input, conversion(amount, unit)?));
+        match keys {
+            [key] if key == "value" => self.estimate(input, &table.value, own_units),
+            _ => self.statement(input, &table.value, keys, own_units),
         }
+    }
+
+    /// A column that sets the value of an input, all of whose components stay as they are.
+    fn estimate(&self, input: usize, table: &InputTable, own_units: bool) -> Option<Cell> {
+        let stays = |one: &ComponentTable| Plain::of(one).is_some();
+        let all = match &table.components {
+            None => stays(&table.component),
+            Some(list) => list.value.iter().all(|one| stays(&one.value)),
+        };
+        let amount = &table.value.as_ref().filter(|_| all)?.value;
+        let conversion = conversion(amount, &self.budget.inputs[input].unit, own_units)?;
+        Some(Cell::Estimate(input, conversion))
+    }
+
+    /// A column that sets a number of a component of an input, to which these keys lead.
+    fn statement(
+        &mut self,
+        input: usize,
+        table: &InputTable,
+        keys: &[String],
+        own_units: bool,
+    ) -> Option<Cell> {
         let (stated, label, keys) = match &table.components {
             None => (&table.component, None, keys),
             Some(list) => {
                 let (label, keys) = keys.split_first()?;
-                let is_called = |one: &&Stated<ComponentTable>| {
-                    let name = one.value.name.as_ref();
-                    name.is_some_and(|name| name.value == *label)
-                };
-                let mut called = list.value.iter().filter(is_called);
-                let (one, none) = (called.next()?, called.next());
-                // A resolution may be part of the scatter of readings beside it.
-                let one = Some(&one.value).filter(|one| none.is_none() && one.step.is_none())?;
-                (one, Some(label), keys)
+                (called(&list.value, label)?, Some(label), keys)
             }
         };
         let (plain, number) = Plain::of(stated)?;
-        let own = |component: &Component| {
-            component.owner == Owner::Input(input)
-                && label.is_none_or(|label| component.label == *label)
-        };
-        let component = self.budget.components.iter().position(own)?;
-        let mut others = self.budget.components.iter().skip(component + 1);
-        let grouped = |group: &super::Group| group.members.contains(&component);
-        if others.any(own) || self.budget.groups.iter().any(grouped) {
-            return None;
-        }
-        let conversion = conversion(&plain.amount, &unit.difference())?;
-        let amount = plain.amount.number;
-        let amount = conversion.map_or(amount, |conversion| conversion.apply(amount));
-        let known = self
-            .restated
-            .iter()
-            .position(|one| one.component == component);
-        let at = known.unwrap_or_else(|| {
-            let dof = self.budget.components[component].dof;
-            self.restated.push(Restated {
-                component,
-                plain,
-                amount,
-                dof,
-            });
-            self.restated.len() - 1
-        });
+        let component = self.component(input, label)?;
+        let unit = self.budget.inputs[input].unit.difference();
+        let conversion = conversion(&plain.amount, &unit, own_units)?;
+        let at = self.restated(component, plain, conversion);
         match keys {
             keys if keys == number => Some(Cell::Amount(at, conversion)),
             [key] if key == "dof" => Some(Cell::Freedom(at)),
             _ => None,
         }
+    }
+
+    /// The only component of an input, or the only one of this label, where it is correlated with no other.
+    fn component(&self, input: usize, label: Option<&String>) -> Option<usize> {
+        let components = self.budget.components.iter().enumerate();
+        let mut own = components.filter(|(_, component)| {
+            component.owner == Owner::Input(input)
+                && label.is_none_or(|label| component.label == *label)
+        });
+        let (only, None) = (own.next()?.0, own.next()) else {
+            return None;
+        };
+        let mut groups = self.budget.groups.iter();
+        (!groups.any(|group| group.members.contains(&only))).then_some(only)
+    }
+
+    /// The place of a component among the restated ones.
+    fn restated(
+        &mut self,
+        component: usize,
+        plain: Plain,
+        conversion: Option<Conversion>,
+    ) -> usize {
+        let known = self
+            .restated
+            .iter()
+            .position(|one| one.component == component);
+        known.unwrap_or_else(|| {
+            let number = plain.amount.number;
+            self.restated.push(Restated {
+                component,
+                plain,
+                amount: conversion.map_or(number, |conversion| conversion.apply(number)),
+                dof: self.budget.components[component].dof,
+            });
+            self.restated.len() - 1
+        })
+    }
+}
+
+/// The only component of a list that is called so; none where a resolution, as it may be part of the scatter of readings
+/// beside it.
+fn called<'f>(list: &'f [Stated<ComponentTable>], label: &str) -> Option<&'f ComponentTable> {
+    let is_called = |one: &&Stated<ComponentTable>| {
+        let name = one.value.name.as_ref();
+        name.is_some_and(|name| name.value == label)
+    };
+    let mut called = list.iter().filter(is_called);
+    let (only, None) = (called.next()?, called.next()) else {
+        return None;
+    };
+    Some(&only.value).filter(|one| one.step.is_none())
+}
+
+/// How the numbers of a column become those of a unit; nothing is to be done where they are written without one.
+fn conversion(amount: &Amount, into: &Unit, own_units: bool) -> Option<Option<Conversion>> {
+    match &amount.unit {
+        None => Some(None),
+        Some(_) if own_units => None,
+        Some((own, _)) => plain_conversion(own, into).map(Some),
     }
 }
 

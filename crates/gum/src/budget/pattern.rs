@@ -359,8 +359,8 @@ step = 0.1
     #[test]
     fn numbers_are_taken() {
         let head = "label,a [mV],a.cal.certificate.U [mV],a.drift.half_width,a.drift.dof,b,b.u,b.dof,c,c.step";
-        let rows = "A,1500,20,0.01,5,2,0.1,9,3,0.1\nB,1400,10.5,0.02,5.5,-2,1e-2,8,0,0.01\n";
-        let more = "C,1e3,3,1.5e-2,100,1,0.5,3.5,-4.25,1\nD,0.001,0.3,1,1,1,1,1,1,1\n";
+        let rows = "A,1500,20,0.01,5,2,0.1,9,3,0.1\nB,1400,10.5,0.02,5.5,-2,1e-2,8,0.5,0.01\n";
+        let more = "C,1e3,3,1.5e-2,100,1,0.5,3.5,-4.25,1\nD,0.001,0.3,1,1,1,1,1,0,1\n";
         let table = format!("{head}\n{rows}{more}");
         assert_eq!(taken(BUDGET, &table), [true, true]);
     }

@@ -90,17 +90,12 @@ pub(super) fn run(args: &Args) -> Outcome {
         &file,
         (source, &name),
         &plan(args),
-        |rows| columns.lines(&rows),
-        |lines, read| {
-            let added = table
-                .add(lines)
-                .map_err(|why| say!("no table is written: {why}"));
-            match added.and_then(|bytes| sink.add(&bytes)) {
-                Ok(()) => steps.at(read as f64 / length as f64),
-                Err(why) => {
-                    trouble = Some(why);
-                    ControlFlow::Break(())
-                }
+        |lines, row| columns.add(lines, row),
+        |lines, read| match sink.add(&table.add(lines)) {
+            Ok(()) => steps.at(read as f64 / length as f64),
+            Err(why) => {
+                trouble = Some(why);
+                ControlFlow::Break(())
             }
         },
     );
@@ -110,14 +105,10 @@ pub(super) fn run(args: &Args) -> Outcome {
     }
     let done = match trouble {
         Some(why) => Err(why),
-        None => table
-            .end()
-            .map_err(|why| say!("no table is written: {why}"))
-            .and_then(|(left, count)| {
-                sink.add(&left)?;
-                sink.finish()?;
-                Ok(count)
-            }),
+        None => {
+            let (left, count) = table.end();
+            sink.add(&left).and_then(|()| sink.finish()).map(|()| count)
+        }
     };
     match done {
         Err(why) => output::complain(why),

@@ -126,18 +126,17 @@ fn run(budget: &str, table: &str, plan: &Plan) -> Result<(String, Count), Reject
     };
     let mut results = Table::of(columns, &file);
     let mut out = Vec::new();
-    let block = |rows: Vec<batch::Evaluated>| columns.lines(&rows);
     batch::run(
         &file,
         (table.as_bytes(), "table.csv"),
         plan,
-        block,
+        |lines, row| columns.add(lines, row),
         |lines, _| {
-            out.extend(results.add(lines).expect("lines"));
+            out.extend(results.add(lines));
             ControlFlow::Continue(())
         },
     )?;
-    let (left, count) = results.end().expect("a table");
+    let (left, count) = results.end();
     out.extend(left);
     Ok((String::from_utf8(out).expect("text"), count))
 }
@@ -315,4 +314,122 @@ fn what_no_row_can_mend_is_refused() {
     let open = budget.replace("value = 1\n", "");
     let (found, count) = run(&open, "x\n1\n\n\"\"\n", &plan(None, 1)).expect("a batch");
     assert_eq!((count.rows, count.failed), (2, 1), "{found}");
+}
+
+/// The numbers of a budget that columns can replace: names of columns, and the numbers.
+fn numbers(budget: &str) -> Vec<(String, f64)> {
+    const KEYS: [&str; 5] = ["value", "u", "half_width", "step", "dof"];
+    fn of(table: &toml::Table, name: &str, found: &mut Vec<(String, f64)>) {
+        let number =
+            |value: &toml::Value| value.as_float().or(value.as_integer().map(|x| x as f64));
+        for key in KEYS {
+            let column = match key {
+                "value" => name.to_owned(),
+                _ => format!("{name}.{key}"),
+            };
+            found.extend(table.get(key).and_then(number).map(|x| (column, x)));
+        }
+        let certified = table.get("certificate").and_then(toml::Value::as_table);
+        let expanded = certified.and_then(|stated| stated.get("U").and_then(number));
+        found.extend(expanded.map(|x| (format!("{name}.certificate.U"), x)));
+        let listed = table.get("components").and_then(toml::Value::as_array);
+        for one in listed
+            .into_iter()
+            .flatten()
+            .filter_map(toml::Value::as_table)
+        {
+            if let Some(label) = one.get("name").and_then(toml::Value::as_str) {
+                of(one, &format!("{name}.{label}"), found);
+            }
+        }
+    }
+    let file: toml::Table = budget.parse().expect("TOML");
+    let inputs = file.get("input").and_then(toml::Value::as_table);
+    let mut found = Vec::new();
+    for (name, input) in inputs.into_iter().flatten() {
+        if let Some(input) = input.as_table() {
+            of(input, name, &mut found);
+        }
+    }
+    found.retain(|(name, x)| *x != 0.0 && !name.contains('"'));
+    found
+}
+
+/// A table of one row is read with the file; of a longer one, rows are written into the numbers of the first.
+#[test]
+fn rows_of_a_table_are_as_if_each_were_alone_over_the_library() {
+    let (mut tables, mut lines) = (0, 0);
+    for (path, bytes) in gumption::verify::LIBRARY {
+        let Ok(budget) = std::str::from_utf8(bytes) else {
+            continue;
+        };
+        if !path.ends_with(".toml") || budget.contains("[series]") || budget.contains("[fit.") {
+            continue;
+        }
+        let numbers = numbers(budget);
+        let files = Files::Library(gumption::verify::LIBRARY);
+        let Ok(file) = BatchFile::open(files, Path::new(path), None) else {
+            continue;
+        };
+        if numbers.is_empty() {
+            continue;
+        }
+        let heads: Vec<String> = numbers
+            .iter()
+            .map(|(name, _)| format!("\"{name}\""))
+            .collect();
+        let heads = heads.join(",");
+        let row = |k: usize| {
+            let cell = |(at, (_, x)): (usize, &(String, f64))| {
+                // Short decimals and long ones.
+                let x = x * (1.0 + 1e-3 * (k * (at % 3)) as f64);
+                match (k + at) % 4 {
+                    0 => format!("{x:?}"),
+                    _ => format!("{:e}", format!("{x:.6e}").parse::<f64>().expect("a number")),
+                }
+            };
+            numbers
+                .iter()
+                .enumerate()
+                .map(cell)
+                .collect::<Vec<_>>()
+                .join(",")
+        };
+        let columns = Columns {
+            shares: true,
+            seeds: false,
+            language: Language::English,
+        };
+        let table = |rows: &[String]| {
+            let text = format!("{heads}\n{}\n", rows.join("\n"));
+            let mut results = Table::of(columns, &file);
+            let mut out = Vec::new();
+            batch::run(
+                &file,
+                (text.as_bytes(), "table.csv"),
+                &plan(None, 1),
+                |lines, row| columns.add(lines, row),
+                |lines, _| {
+                    out.extend(results.add(lines));
+                    ControlFlow::Continue(())
+                },
+            )
+            .map(|()| String::from_utf8(out).expect("text"))
+        };
+        let rows: Vec<String> = (0..6).map(row).collect();
+        let Ok(together) = table(&rows) else {
+            continue;
+        };
+        tables += 1;
+        let body = |text: &str, at: usize| {
+            let line = text.lines().nth(at + 1).expect("a line");
+            line.split_once(',').expect("a label").1.to_owned()
+        };
+        for (at, row) in rows.iter().enumerate() {
+            let alone = table(std::slice::from_ref(row)).expect("a table");
+            assert_eq!(body(&together, at), body(&alone, 0), "{path}, {row}");
+            lines += 1;
+        }
+    }
+    assert!(tables > 50 && lines > 300, "{tables} tables, {lines} lines");
 }

@@ -70,7 +70,33 @@ impl Dd {
     /// The number that x was read from: the shortest decimal that is read as x. Data are written in
     /// decimals, and 0.1 means one tenth.
     pub fn from_decimal(x: f64) -> Dd {
-        Dd::nearest(x, &format!("{x:e}"))
+        Dd::from_short_decimal(x).unwrap_or_else(|| Dd::nearest(x, &format!("{x:e}")))
+    }
+
+    /// The same where that decimal has a fraction and at most 15 digits: then it is the only one of so many digits, and
+    /// is found without being written.
+    pub(crate) fn from_short_decimal(x: f64) -> Option<Dd> {
+        /// As many digits as every double keeps.
+        const FIFTEEN_DIGITS: f64 = 1e15;
+        if x.fract() == 0.0 {
+            return None;
+        }
+        // Up to 10²² powers of ten are doubles, so that the quotient is what the decimal is read as.
+        let scaled = TENS
+            .iter()
+            .enumerate()
+            .skip(1)
+            .map(|(decimals, ten)| (decimals, x * ten, ten));
+        let mut scaled = scaled.take_while(|(_, scaled, _)| scaled.abs() < FIFTEEN_DIGITS);
+        let (decimals, digits) = scaled.find_map(|(decimals, scaled, ten)| {
+            let digits = scaled.round();
+            (digits / ten == x).then_some((decimals, digits))
+        })?;
+        let exact = Dd::from(digits) / *POWERS_OF_TEN.get(decimals)?;
+        Some(Dd {
+            high: x,
+            low: (exact - x.into()).high,
+        })
     }
 
     /// The same with the shortest decimal of x at hand.
@@ -131,6 +157,12 @@ fn decimal(text: &str) -> Option<Dd> {
         digits * power
     })
 }
+
+/// 10⁰ to 10²², which are doubles.
+const TENS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+    1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
+];
 
 /// Beyond these they are no longer good to the last digit, or overflow.
 static POWERS_OF_TEN: LazyLock<Vec<Dd>> = LazyLock::new(|| {
@@ -261,6 +293,43 @@ mod tests {
         }
         for x in [0.3, 1.0 / 3.0, std::f64::consts::PI * 1e-30] {
             assert_eq!(Dd::from_decimal(x).value(), x);
+        }
+    }
+
+    #[test]
+    fn short_decimals_are_found_as_if_they_were_written() {
+        let mut found = 0;
+        for digits in [
+            1_u64,
+            7,
+            12,
+            345,
+            99_999,
+            1_234_567,
+            123_456_789_012,
+            999_999_999_999_999,
+        ] {
+            for exponent in -30..5 {
+                for sign in [1.0, -1.0] {
+                    let x: f64 = format!("{digits}e{exponent}").parse().expect("a number");
+                    let x = x * sign;
+                    let written = Dd::nearest(x, &format!("{x:e}"));
+                    assert_eq!(Dd::from_decimal(x), written, "{x:e}");
+                    found += usize::from(Dd::from_short_decimal(x).is_some());
+                }
+            }
+        }
+        assert!(found > 150, "{found}");
+        for x in [
+            1.0 / 3.0,
+            0.1 + 0.2,
+            2f64.sqrt(),
+            5e-324,
+            f64::NAN,
+            f64::INFINITY,
+            2.5e-30,
+        ] {
+            assert_eq!(Dd::from_short_decimal(x), None, "{x:e}");
         }
     }
 

@@ -32,15 +32,15 @@ pub struct Plan {
 
 /// A row of the table, evaluated.
 #[derive(Debug)]
-pub struct Evaluated {
+pub struct Evaluated<'a> {
     /// Its number, the first being 1.
     pub number: u64,
     /// Its line in the table.
     pub line: usize,
     /// Its label, where the table has such a column.
-    pub label: Option<String>,
-    /// Its budget and what was found; or why nothing was.
-    pub found: Result<(Budget, Evaluation), Failed>,
+    pub label: Option<&'a str>,
+    /// Its budget, of which the numbers hold and not the words, and what was found; or why nothing was.
+    pub found: Result<(&'a Budget, &'a Evaluation), &'a Failed>,
 }
 
 /// Why a row has no result.
@@ -54,17 +54,18 @@ pub enum Failed {
     NoResult(EvaluationError),
 }
 
-/// Evaluates the rows of a table, piece by piece. `block` makes of some evaluated rows what is wanted of them, on any thread;
-/// `take` gets it in the order of the rows, with the number of bytes that were read, and may end the work.
+/// Evaluates the rows of a table, piece by piece. `add` makes of each row what is wanted of it, on any thread, and adds it to
+/// that of the rows before it; `take` gets what some rows have given, in their order, with the number of bytes that were
+/// read, and may end the work.
 ///
 /// # Errors
 /// The table cannot be read, one of its columns is no place of the budget, or the budget has faults of its own that no row
 /// mends. Rows have been taken before, where the table cannot be read further.
-pub fn run<T: Send>(
+pub fn run<T: Default + Send>(
     file: &BatchFile<'_>,
     (source, table): (impl Read, &str),
     plan: &Plan,
-    block: impl Fn(Vec<Evaluated>) -> T + Sync,
+    add: impl Fn(&mut T, &Evaluated<'_>) + Sync,
     mut take: impl FnMut(T, u64) -> ControlFlow<()>,
 ) -> Result<(), Rejection> {
     let refused = |fault: Box<Fault>| Rejection::new(table, "", vec![*fault]);
@@ -94,12 +95,14 @@ pub fn run<T: Send>(
             number += rows.len() as u64;
             blocks.push((begin, rows));
         }
-        let evaluate = |reader: &mut RowReader<'_>, (begin, rows): (u64, Vec<_>)| {
-            let rows = rows.into_iter().zip(begin + 1..);
-            let evaluated = rows.map(|(row, number)| evaluated(reader, sheet, row, number, plan));
-            block(evaluated.collect())
+        let block = |reader: &mut RowReader<'_>, (begin, rows): (u64, Vec<_>)| {
+            let mut block = T::default();
+            for (row, number) in rows.into_iter().zip(begin + 1..) {
+                evaluate(reader, sheet, row, number, plan, |row| add(&mut block, row));
+            }
+            block
         };
-        let (done, _) = parallel_map(blocks, plan.threads, || batch.reader(), evaluate, drop);
+        let (done, _) = parallel_map(blocks, plan.threads, || batch.reader(), block, drop);
         let mut done = done.into_iter().map(|block| take(block, read));
         let ended = plan.progress.is_stopped() || done.any(|flow| flow.is_break());
         Ok::<bool, Rejection>(!ended)
@@ -122,7 +125,7 @@ fn hopeless(
 ) -> Result<(), Rejection> {
     /// Rows that are tried.
     const FEW: usize = 16;
-    let reader = batch.reader();
+    let mut reader = batch.reader();
     let Err(mut own) = reader.alone() else {
         return Ok(());
     };
@@ -140,37 +143,61 @@ fn hopeless(
     }
 }
 
-fn evaluated(
-    reader: &RowReader<'_>,
+/// Evaluates a row and hands it on.
+fn evaluate(
+    reader: &mut RowReader<'_>,
     sheet: &Sheet<'_>,
     row: Result<csv::Row, Fault>,
     number: u64,
     plan: &Plan,
-) -> Evaluated {
-    let line = row.as_ref().map_or(0, |row| row.line);
-    let (label, found) = match row {
-        Err(fault) => (None, Err(Failed::Row(Box::new(fault)))),
-        Ok(row) => {
-            let read = reader.row(&row, sheet);
-            let found = read.map_err(|rejection| Failed::Refused(Box::new(rejection)));
-            (
-                reader.label(&row),
-                found.and_then(|row| result(row.budget, plan)),
-            )
+    hand_on: impl FnOnce(&Evaluated<'_>),
+) {
+    let row = match row {
+        Ok(row) => row,
+        Err(fault) => {
+            return hand_on(&Evaluated {
+                number,
+                line: 0,
+                label: None,
+                found: Err(&Failed::Row(Box::new(fault))),
+            });
         }
     };
-    Evaluated {
+    let (line, label) = (row.line, reader.label(&row));
+    // Why a row has no value is told by the reader of the file.
+    let taken = reader
+        .takes(&row, sheet)
+        .then(|| reader.numbers())
+        .flatten();
+    let taken = taken.and_then(|budget| Some((budget, result(budget, plan).ok()?)));
+    if let Some((budget, evaluation)) = &taken {
+        return hand_on(&Evaluated {
+            number,
+            line,
+            label,
+            found: Ok((budget, evaluation)),
+        });
+    }
+    let read = reader.row(&row, sheet);
+    let read = read.map_err(|rejection| Failed::Refused(Box::new(rejection)));
+    let found = read.and_then(|row| {
+        let evaluation = result(&row.budget, plan).map_err(Failed::NoResult)?;
+        Ok((row.budget, evaluation))
+    });
+    let found = match &found {
+        Ok((budget, evaluation)) => Ok((budget, evaluation)),
+        Err(failed) => Err(failed),
+    };
+    hand_on(&Evaluated {
         number,
         line,
         label,
         found,
-    }
+    });
 }
 
-fn result(budget: Budget, plan: &Plan) -> Result<(Budget, Evaluation), Failed> {
-    let found = propagate::evaluate(&budget, &plan.options(&budget));
-    let found = found.map_err(Failed::NoResult);
-    found.map(|evaluation| (budget, evaluation))
+fn result(budget: &Budget, plan: &Plan) -> Result<Evaluation, EvaluationError> {
+    propagate::evaluate(budget, &plan.options(budget))
 }
 
 impl Plan {

@@ -111,11 +111,10 @@ pub(crate) fn batch_of(
                     &file,
                     (open, &name),
                     &plan,
-                    |rows| columns.lines(&rows),
+                    |lines, row| columns.add(lines, row),
                     |lines, read| {
                         bytes.store(read, Ordering::Relaxed);
-                        let added = results.add(lines).map_err(|why| why.to_string());
-                        match added.and_then(|bytes| sink.add(&bytes, language)) {
+                        match sink.add(&results.add(lines), language) {
                             Ok(()) => ControlFlow::Continue(()),
                             Err(why) => {
                                 trouble = Some(why);
@@ -134,7 +133,7 @@ pub(crate) fn batch_of(
         return Err(PyOSError::new_err(why));
     }
     let failed = |why: String| PyRuntimeError::new_err(why);
-    let (left, count) = results.end().map_err(|why| failed(why.to_string()))?;
+    let (left, count) = results.end();
     sink.add(&left, language).map_err(failed)?;
     let kept = match sink {
         Sink::Memory(kept) => Some(kept),

@@ -1,5 +1,8 @@
 //! The results of a batch as lines of a table, row by row.
 
+use std::io::Write;
+
+use super::rows::Cell;
 use super::{Report, failure, remarks, rows};
 use gumption_core::model::Output;
 use gumption_fault::language::Language;
@@ -20,54 +23,54 @@ pub struct Columns {
 }
 
 /// Lines of some rows, made by whoever evaluated them.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Lines {
     /// The names of the columns, where a row has told them.
     heads: Option<Vec<String>>,
+    /// The text of those that have results.
+    text: Vec<u8>,
     lines: Vec<Line>,
 }
 
 #[derive(Debug)]
 struct Line {
     label: String,
-    /// What follows the label; or why there is nothing.
-    cells: Result<Vec<String>, String>,
+    /// Where the text of its results ends, and how many cells they are; or why there are none.
+    cells: Result<(usize, usize), String>,
     rejected: bool,
 }
 
 impl Columns {
-    /// The lines of some rows: label or number, then as [`rows::rows`], the shares, the seed of the trials, the findings, and the
-    /// error of a row that has no result.
-    pub fn lines(self, rows: &[Evaluated]) -> Lines {
-        let mut heads = None;
-        let lines = rows.iter().map(|row| {
-            let label = row.label.clone().unwrap_or_else(|| row.number.to_string());
-            let mut rejected = false;
-            let cells = match &row.found {
-                Ok((budget, evaluation)) => {
-                    let report = Report {
-                        budget,
-                        evaluation,
-                        label: None,
-                        language: self.language,
-                    };
-                    heads.get_or_insert_with(|| self.heads(budget));
-                    let verdicts = evaluation.conformity.iter().map(|found| found.verdict);
-                    rejected = verdicts
-                        .into_iter()
-                        .any(|v| v == Some(Verdict::NotConforming));
-                    Ok(self.cells(&report))
-                }
-                Err(failed) => Err(why(failed, self.language)),
-            };
-            Line {
-                label,
-                cells,
-                rejected,
+    /// Adds the line of a row: label or number, then as [`super::rows`], the shares, the seed of the trials, the findings,
+    /// and the error of a row that has no result.
+    pub fn add(self, lines: &mut Lines, row: &Evaluated<'_>) {
+        let label = row
+            .label
+            .map_or_else(|| row.number.to_string(), str::to_owned);
+        let (cells, rejected) = match &row.found {
+            Ok((budget, evaluation)) => {
+                let report = Report {
+                    budget,
+                    evaluation,
+                    label: None,
+                    language: self.language,
+                };
+                lines.heads.get_or_insert_with(|| self.heads(budget));
+                push_field(&mut lines.text, &label);
+                let cells = self.cells(&report, &mut lines.text);
+                lines.text.push(b'\n');
+                let conformity = &evaluation.conformity;
+                let refuses = |verdict| verdict == Some(Verdict::NotConforming);
+                let rejected = conformity.iter().any(|found| refuses(found.verdict));
+                (Ok((lines.text.len(), cells)), rejected)
             }
+            Err(failed) => (Err(why(failed, self.language)), false),
+        };
+        lines.lines.push(Line {
+            label,
+            cells,
+            rejected,
         });
-        let lines = lines.collect();
-        Lines { heads, lines }
     }
 
     /// The names of the columns that rows of this budget have.
@@ -86,20 +89,51 @@ impl Columns {
         heads
     }
 
-    fn cells(self, report: &Report<'_>) -> Vec<String> {
-        let mut cells = rows::cells(report);
+    /// Writes the cells behind the label; tells how many the line has with it.
+    fn cells(self, report: &Report<'_>, text: &mut Vec<u8>) -> usize {
+        let mut count = 1;
+        let mut add = |cell: &dyn std::fmt::Display| {
+            count += 1;
+            // Writing to memory does not fail.
+            let _ = write!(text, ",{cell}");
+        };
+        rows::cells(report, |cell| add(&cell));
         if self.shares {
             let lines = report.evaluation.results.iter();
             let lines = lines.flat_map(|result| &result.gum.inputs);
-            cells.extend(lines.map(|line| rows::number(Some(line.share))));
+            lines.for_each(|line| add(&Cell::Number(Some(line.share))));
         }
         if self.seeds {
-            let run = report.evaluation.run.as_ref();
-            cells.push(run.map_or_else(String::new, |run| run.seed.to_string()));
+            match &report.evaluation.run {
+                Some(run) => add(&run.seed),
+                None => add(&""),
+            }
         }
-        cells.extend([findings(report), String::new()]);
-        cells
+        add(&findings(report));
+        add(&"");
+        count
     }
+}
+
+/// Adds a field, in quotes where it has to be.
+fn push_field(text: &mut Vec<u8>, field: &str) {
+    match field.contains([',', '"', '\n', '\r']) {
+        true => {
+            text.push(b'"');
+            text.extend(field.replace('"', "\"\"").bytes());
+            text.push(b'"');
+        }
+        false => text.extend(field.bytes()),
+    }
+}
+
+/// Adds a line of fields.
+fn push_line<'f>(text: &mut Vec<u8>, fields: impl IntoIterator<Item = &'f str>) {
+    for (at, field) in fields.into_iter().enumerate() {
+        text.extend((at > 0).then_some(b','));
+        push_field(text, field);
+    }
+    text.push(b'\n');
 }
 
 /// The codes of the findings; behind each the measurand that it is about, where there are several.
@@ -171,68 +205,52 @@ impl Table {
     }
 
     /// The bytes that these lines add, as comma-separated values.
-    ///
-    /// # Errors
-    /// Only where the text cannot be put together, which memory alone could prevent.
-    pub fn add(&mut self, lines: Lines) -> Result<Vec<u8>, csv::Error> {
-        let mut writer = csv::Writer::from_writer(Vec::new());
+    pub fn add(&mut self, lines: Lines) -> Vec<u8> {
         self.heads = self.heads.take().or(lines.heads);
         let Some(heads) = &self.heads else {
             self.waiting.extend(lines.lines);
-            return Ok(Vec::new());
+            return Vec::new();
         };
+        let mut text = Vec::with_capacity(lines.text.len());
         if !self.headed {
-            writer.write_record(heads)?;
+            push_line(&mut text, heads.iter().map(String::as_str));
             self.headed = true;
         }
-        for line in std::mem::take(&mut self.waiting)
-            .into_iter()
-            .chain(lines.lines)
-        {
+        let mut start = 0;
+        let waiting = std::mem::take(&mut self.waiting).into_iter();
+        for line in waiting.chain(lines.lines) {
             self.count.rows += 1;
             self.count.rejected += u64::from(line.rejected);
-            let cells = line
-                .cells
-                .and_then(|cells| match cells.len() == heads.len() {
-                    true => Ok(cells),
+            let why = match line.cells {
+                Ok((end, cells)) => {
+                    let found = lines.text.get(start..end).unwrap_or_default();
+                    start = end;
+                    if cells == heads.len() {
+                        text.extend(found);
+                        continue;
+                    }
                     // A vector of another length, or an assessment more.
-                    false => Err(format!(
-                        "{} figures where the first row has {}",
-                        cells.len(),
-                        heads.len()
-                    )),
-                });
-            self.count.failed += u64::from(cells.is_err());
-            let cells = cells.unwrap_or_else(|why| {
-                let mut cells = vec![String::new(); heads.len()];
-                if let Some(last) = cells.last_mut() {
-                    *last = why;
+                    format!("{cells} figures where the first row has {}", heads.len())
                 }
-                cells
-            });
-            let cells = cells.iter().enumerate().map(|(at, cell)| match at {
-                0 => &line.label,
-                _ => cell,
-            });
-            writer.write_record(cells)?;
+                Err(why) => why,
+            };
+            self.count.failed += 1;
+            let empty = std::iter::repeat_n("", heads.len().saturating_sub(2));
+            let fields = std::iter::once(line.label.as_str()).chain(empty);
+            push_line(&mut text, fields.chain([why.as_str()]));
         }
-        writer
-            .into_inner()
-            .map_err(|error| error.into_error().into())
+        text
     }
 
     /// What is left where no row has a result, and how the rows have ended.
-    ///
-    /// # Errors
-    /// As of [`Table::add`].
-    pub fn end(mut self) -> Result<(Vec<u8>, Count), csv::Error> {
+    pub fn end(mut self) -> (Vec<u8>, Count) {
         if self.headed {
-            return Ok((Vec::new(), self.count));
+            return (Vec::new(), self.count);
         }
         let nothing = Lines {
             heads: Some(vec!["label".into(), "error".into()]),
-            lines: Vec::new(),
+            ..Lines::default()
         };
-        Ok((self.add(nothing)?, self.count))
+        (self.add(nothing), self.count)
     }
 }

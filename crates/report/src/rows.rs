@@ -1,5 +1,7 @@
 //! Results as rows of numbers, for spreadsheets and scripts.
 
+use std::fmt;
+
 use super::{Report, decisions};
 use gumption_core::model::Output;
 use gumption_core::quantity::Unit;
@@ -17,7 +19,9 @@ pub fn rows(rows: &[Report<'_>]) -> Result<Vec<u8>, csv::Error> {
         writer.write_record(heads(first.budget))?;
     }
     for row in rows {
-        writer.write_record(cells(row))?;
+        let mut fields = vec![row.label.unwrap_or_default().to_string()];
+        cells(row, |cell| fields.push(cell.to_string()));
+        writer.write_record(fields)?;
     }
     writer
         .into_inner()
@@ -47,8 +51,25 @@ pub(super) fn heads(budget: &Budget) -> Vec<String> {
     heads
 }
 
-pub(super) fn cells(report: &Report<'_>) -> Vec<String> {
-    let mut cells = vec![report.label.unwrap_or_default().to_string()];
+/// What stands in a column behind the label.
+pub(super) enum Cell {
+    /// Exact; nothing for what there is not.
+    Number(Option<f64>),
+    Code(&'static str),
+}
+
+impl fmt::Display for Cell {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Cell::Number(Some(x)) => write!(f, "{x:?}"),
+            Cell::Number(None) => Ok(()),
+            Cell::Code(code) => f.write_str(code),
+        }
+    }
+}
+
+/// Gives the cells of the columns behind the label, in their order.
+pub(super) fn cells(report: &Report<'_>, mut give: impl FnMut(Cell)) {
     for result in &report.evaluation.results {
         let found = result.reported(&report.budget.conventions);
         let ends = match (found.uncertainty, found.expanded()) {
@@ -56,27 +77,22 @@ pub(super) fn cells(report: &Report<'_>) -> Vec<String> {
             (_, Some(expanded)) => Some([found.estimate - expanded, found.estimate + expanded]),
             _ => None,
         };
-        cells.extend([
-            number(Some(found.estimate)),
-            number(found.u),
-            number(found.dof),
-            number(found.coverage_factor()),
-            number(found.expanded()),
-            number(ends.map(|ends| ends[0])),
-            number(ends.map(|ends| ends[1])),
-        ]);
+        let numbers = [
+            Some(found.estimate),
+            found.u,
+            found.dof,
+            found.coverage_factor(),
+            found.expanded(),
+            ends.map(|ends| ends[0]),
+            ends.map(|ends| ends[1]),
+        ];
+        numbers.into_iter().for_each(|x| give(Cell::Number(x)));
     }
     for found in &report.evaluation.conformity {
-        let verdict = found.verdict.map_or("", decisions::verdict_code);
-        cells.push(verdict.to_string());
-        cells.push(number(
-            found.conformance.and_then(|known| known.probability),
+        give(Cell::Code(
+            found.verdict.map_or("", decisions::verdict_code),
         ));
+        let known = found.conformance.as_ref();
+        give(Cell::Number(known.and_then(|known| known.probability)));
     }
-    cells
-}
-
-/// Exact; nothing for what there is not.
-pub(super) fn number(x: Option<f64>) -> String {
-    x.map_or_else(String::new, |x| format!("{x:?}"))
 }

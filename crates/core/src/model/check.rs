@@ -424,6 +424,7 @@ impl<'r> Check<'r> {
             graph: graph.into(),
             program: program.into(),
             unused,
+            blocks: Default::default(),
         })
     }
 

@@ -28,7 +28,10 @@ fn is_rough(op: &Op) -> bool {
 /// Operations whose derivative does not exist or hides something here.
 pub fn irregularities(graph: &Graph, x: &[f64]) -> Vec<Notice> {
     let mut found = Vec::new();
-    collect_irregularities(graph, x, &mut found);
+    let solves = graph.ops.iter().any(|op| matches!(op, Op::Solve(_)));
+    if solves || !smooth(graph) || !graph.tables.is_empty() {
+        collect_irregularities(graph, x, &mut found);
+    }
     found
 }
 
@@ -342,6 +345,10 @@ fn is_same(a: &Notice, b: &Notice) -> bool {
 /// Calls of `quantize` whose step exceeds the standard uncertainty of what is rounded: there the mean
 /// slope of the staircase says nothing.
 pub fn coarse_steps(graph: &Graph, x: &[f64], u: &[f64]) -> Vec<Notice> {
+    let rounds = |op: &Op| matches!(op, Op::Binary(row, ..) if row.rule == Rule::Staircase);
+    if !graph.ops.iter().any(rounds) {
+        return Vec::new();
+    }
     let spread = Spread::new(graph, x, u);
     let active = active(graph, &spread.values);
     let mut found = Vec::new();

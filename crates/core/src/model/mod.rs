@@ -46,7 +46,7 @@ mod units;
 mod tests;
 
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::DMatrix;
 
@@ -183,6 +183,8 @@ pub struct Model {
     graph: Arc<graph::Graph>,
     program: Arc<block::Program>,
     unused: Arc<[usize]>,
+    /// What [`Model::interactions`] has found.
+    blocks: Arc<OnceLock<Vec<Option<usize>>>>,
 }
 
 impl Model {
@@ -262,7 +264,8 @@ impl Model {
     /// The block of each input: derivatives of second and higher order with respect to inputs of
     /// different blocks are zero. `None` for inputs that take part in no nonlinear operation.
     pub fn interactions(&self) -> Vec<Option<usize>> {
-        interaction::blocks(&self.graph, self.inputs)
+        let found = || interaction::blocks(&self.graph, self.inputs);
+        self.blocks.get_or_init(found).clone()
     }
 
     /// For each input those with which it may have mixed derivatives, itself included; `None` where they are
@@ -332,6 +335,7 @@ impl Model {
         Some(Model {
             program: block::Program::new(&graph, self.inputs).into(),
             graph: graph.into(),
+            blocks: Arc::default(),
             ..self.clone()
         })
     }

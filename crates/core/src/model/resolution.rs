@@ -51,6 +51,13 @@ impl Known {
                 doubles: 0.0,
             };
         }
+        if let Some(value) = Dd::from_short_decimal(x) {
+            return Known {
+                value,
+                error: 0.0,
+                doubles: half,
+            };
+        }
         let text = format!("{x:e}");
         let value = if x == std::f64::consts::PI {
             // π and the double next to it.

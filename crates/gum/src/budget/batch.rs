@@ -9,7 +9,8 @@ use toml::de::DeTable;
 use super::check::{Origin, Variant};
 use super::faults::SERIES;
 use super::open_files::OpenFiles;
-use super::points::Columns;
+use super::pattern::Pattern;
+use super::points::{Columns, plain_number};
 use super::reader::{checked, open_files, read_under, tables, text_of};
 use super::series::{self, Column};
 use super::{Budget, Files, Profile, Row, hints::HINTS};
@@ -127,6 +128,20 @@ pub struct Batch<'a> {
 pub struct RowReader<'a> {
     batch: &'a Batch<'a>,
     open: OpenFiles<'a>,
+    rest: Rest,
+}
+
+/// What is known of the rows that follow.
+#[derive(Debug)]
+enum Rest {
+    /// Nothing yet.
+    Unknown,
+    /// Whether this pattern gives the next row, too, is to be seen.
+    Likely(Box<Pattern>),
+    /// They are numbers in this pattern.
+    Numbers(Box<Pattern>),
+    /// The file has to be read with each of them.
+    Read,
 }
 
 impl Batch<'_> {
@@ -135,16 +150,42 @@ impl Batch<'_> {
         RowReader {
             batch: self,
             open: open_files(self.of.files),
+            rest: Rest::Unknown,
         }
+    }
+
+    /// Whether all cells of a row but its label are numbers, and none is zero.
+    fn numbers(&self, row: &csv::Row, sheet: &Sheet<'_>) -> bool {
+        let is_number = |(target, field): (&Option<Column>, &str)| {
+            let number = || plain_number(field, sheet);
+            matches!(target, Some(Column::Label)) || number().is_some_and(|number| number != 0.0)
+        };
+        self.targets.iter().zip(row.fields()).all(is_number)
     }
 }
 
 impl RowReader<'_> {
-    /// The budget with the values of a row.
+    /// Whether the row gives a budget without the file being read with it: [`RowReader::numbers`].
+    pub fn takes(&mut self, row: &csv::Row, sheet: &Sheet<'_>) -> bool {
+        match &mut self.rest {
+            Rest::Numbers(pattern) => pattern.take(row, sheet),
+            Rest::Unknown | Rest::Likely(_) | Rest::Read => false,
+        }
+    }
+
+    /// The budget of the row that was taken last; its words (how u was obtained, remarks) are those of another row.
+    pub fn numbers(&self) -> Option<&Budget> {
+        match &self.rest {
+            Rest::Numbers(pattern) => Some(pattern.budget()),
+            Rest::Unknown | Rest::Likely(_) | Rest::Read => None,
+        }
+    }
+
+    /// The budget with the values of a row, read from the file.
     ///
     /// # Errors
     /// All faults; those of the row have no place in the budget.
-    pub fn row(&self, row: &csv::Row, sheet: &Sheet<'_>) -> Result<Row, Rejection> {
+    pub fn row(&mut self, row: &csv::Row, sheet: &Sheet<'_>) -> Result<Row, Rejection> {
         let Batch {
             file,
             columns,
@@ -164,15 +205,29 @@ impl RowReader<'_> {
         let mut faults = Vec::new();
         let names = &columns.names;
         let variant = series::variant(file, names, targets, &cells, &mut faults);
-        self.read(&variant.table, &text, variant.label, faults)
+        let found = self.read(&variant.table, &text, variant.label, faults)?;
+        self.rest = match std::mem::replace(&mut self.rest, Rest::Read) {
+            // A row with more than numbers tells nothing of the others.
+            rest @ (Rest::Unknown | Rest::Likely(_)) if !self.batch.numbers(row, sheet) => rest,
+            Rest::Unknown => {
+                let tables = tables(&variant.table, None, &mut Reader::new(&text, &HINTS));
+                let pattern = Pattern::of(&found.budget, &tables, targets, (row, sheet));
+                pattern.map_or(Rest::Read, |pattern| Rest::Likely(Box::new(pattern)))
+            }
+            Rest::Likely(mut pattern) => match pattern.gives(&found.budget, row, sheet) {
+                true => Rest::Numbers(pattern),
+                false => Rest::Read,
+            },
+            settled => settled,
+        };
+        Ok(found)
     }
 
     /// The label of a row as the table writes it, where it has such a column: 007 is no number.
-    pub fn label(&self, row: &csv::Row) -> Option<String> {
+    pub fn label<'r>(&self, row: &'r csv::Row) -> Option<&'r str> {
         let is_label = |target: &Option<Column>| matches!(target, Some(Column::Label));
         let at = self.batch.targets.iter().position(is_label)?;
-        let field = row.fields().nth(at).filter(|field| !field.is_empty())?;
-        Some(field.to_owned())
+        row.fields().nth(at).filter(|field| !field.is_empty())
     }
 
     /// The budget as it stands, without a row.

@@ -24,6 +24,7 @@ pub mod faults;
 mod fit;
 pub mod hints;
 mod open_files;
+mod pattern;
 mod points;
 mod profile;
 pub mod quantities;

@@ -200,21 +200,43 @@ fn written(field: &str, unit: Option<&str>, sheet: &Sheet) -> Written {
     }
 }
 
+/// The number that a field puts into a budget, where there is no doubt what it is: decimal digits, perhaps with a fraction
+/// and an exponent, neither minus zero nor a whole number beyond what doubles count.
+pub(super) fn plain_number(field: &str, sheet: &Sheet<'_>) -> Option<f64> {
+    /// Digits that every double and every whole number of TOML keeps.
+    const DIGITS: usize = 15;
+    let short = field.len() <= DIGITS || field.contains(['.', 'e', 'E']);
+    let comma = sheet.has_decimal_commas() && field.contains(',');
+    if comma || !short || !is_toml_number(field) {
+        return None;
+    }
+    let number: f64 = field.parse().ok()?;
+    let settled = number.is_finite() && (number != 0.0 || number.is_sign_positive());
+    settled.then_some(number)
+}
+
 /// Whether TOML is sure to read a text as the decimal number that it is: digits, then perhaps a fraction and an exponent.
 fn is_toml_number(text: &str) -> bool {
-    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-    let unsigned = text.strip_prefix('-').unwrap_or(text);
-    let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
-        Some((mantissa, exponent)) => (mantissa, Some(exponent)),
-        None => (unsigned, None),
-    };
-    let (whole, fraction) = match mantissa.split_once('.') {
-        Some((whole, fraction)) => (whole, Some(fraction)),
-        None => (mantissa, None),
-    };
-    digits(whole)
-        && (whole == "0" || !whole.starts_with('0'))
-        && fraction.is_none_or(digits)
-        && exponent
-            .is_none_or(|exponent| digits(exponent.strip_prefix(['-', '+']).unwrap_or(exponent)))
+    /// Without leading digits, of which there must be some.
+    fn digits(text: &[u8]) -> Option<&[u8]> {
+        let count = text.iter().take_while(|byte| byte.is_ascii_digit()).count();
+        text.get(count..).filter(|_| count > 0)
+    }
+    fn rest(text: &[u8]) -> Option<&[u8]> {
+        let unsigned = text.strip_prefix(b"-").unwrap_or(text);
+        if let [b'0', b'0'..=b'9', ..] = unsigned {
+            return None;
+        }
+        let text = match digits(unsigned)? {
+            [b'.', fraction @ ..] => digits(fraction)?,
+            text => text,
+        };
+        match text {
+            [b'e' | b'E', b'-' | b'+', exponent @ ..] | [b'e' | b'E', exponent @ ..] => {
+                digits(exponent)
+            }
+            text => Some(text),
+        }
+    }
+    rest(text.as_bytes()).is_some_and(<[u8]>::is_empty)
 }

@@ -182,6 +182,9 @@ impl Covariance {
                 }
             }
         }
+        if grouped.is_empty() {
+            return alone;
+        }
         // Groups have the first coordinates.
         let of_group = |(group, sums): (usize, Vec<(f64, f64)>)| {
             let sums = sums.into_iter().map(|(sum, size)| clean(sum, size));
@@ -217,6 +220,12 @@ impl Covariance {
 
     /// Standard uncertainty of a combination.
     pub(super) fn uncertainty(&self, form: &[(usize, f64)]) -> f64 {
+        if form
+            .iter()
+            .all(|(component, _)| self.group(*component).is_none())
+        {
+            return norm(form.iter().map(|(_, weight)| *weight));
+        }
         norm(self.standard(form).into_iter().map(|(_, value)| value))
     }
 }

@@ -188,8 +188,6 @@ impl Evidence<'_> {
         /// The k of a certificate that states none (ILAC-P14).
         const K: f64 = 2.0;
         let result = &self.results[measurand];
-        let reported = result.reported(&self.budget.conventions);
-        let expanded = reported.rounding.uncertainty(reported.expanded()?).to_f64();
         let lines = result.gum.components.iter().zip(&self.budget.components);
         let references = lines.enumerate().filter_map(|(index, (line, component))| {
             let certificate = component.certificate.as_ref()?;
@@ -198,6 +196,8 @@ impl Evidence<'_> {
             alone.then_some((component, k, k * line.contribution.abs()))
         });
         let (component, k, reference) = references.max_by(|a, b| a.2.total_cmp(&b.2))?;
+        let reported = result.reported(&self.budget.conventions);
+        let expanded = reported.rounding.uncertainty(reported.expanded()?).to_f64();
         // U is compared as it is printed.
         let certified = reported.rounding.uncertainty(reference).to_f64();
         (expanded < certified).then(|| FindingKind::BelowReference {

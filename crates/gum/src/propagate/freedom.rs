@@ -47,10 +47,25 @@ impl Effective {
 
 /// ν of one combination.
 pub(super) fn effective(covariance: &Covariance, form: &[(usize, f64)]) -> Effective {
-    let active = form
-        .iter()
-        .filter(|(_, weight)| *weight != 0.0)
-        .map(|(component, _)| *component);
+    let active = form.iter().filter(|(_, weight)| *weight != 0.0);
+    if active
+        .clone()
+        .all(|(component, _)| covariance.group(*component).is_none())
+    {
+        // Each is a term by itself.
+        let part = |&(component, weight): &(usize, f64)| {
+            (norm(std::iter::once(weight)), covariance.dof(component))
+        };
+        let dof = match form {
+            [only] if only.1 != 0.0 => welch_satterthwaite(&[part(only)]),
+            _ => welch_satterthwaite(&active.map(part).collect::<Vec<_>>()),
+        };
+        return Effective {
+            dof,
+            origin: Origin::Independent,
+        };
+    }
+    let active = active.map(|(component, _)| *component);
     let terms = independent_terms(covariance, active.collect());
     let parts: Vec<(f64, f64)> = terms
         .iter()

@@ -68,10 +68,13 @@ fn evaluate_over(budget: &Budget, linear: &Linear, changing: &[bool]) -> Vec<Sec
     let blocks: Vec<Option<usize>> = blocks
         .map(|(block, changes)| block.filter(|_| *changes))
         .collect();
+    if blocks.iter().all(Option::is_none) {
+        let inputs = linear.x.len();
+        return vec![SecondOrderOutcome::linear(inputs); linear.measurands.len()];
+    }
     let intermediates = || intermediates::outcomes(budget, linear, changing);
     // The coordinates of many correlated inputs move all of them: not even the directions are cheap.
-    let bent = blocks.iter().any(Option::is_some);
-    let correlated = bent && linear.covariance.largest_group() > MOST_SWEEPS;
+    let correlated = linear.covariance.largest_group() > MOST_SWEEPS;
     if correlated && let Some(outcomes) = intermediates() {
         return outcomes;
     }

@@ -17,6 +17,10 @@ pub(crate) fn numerical_tolerance(u: f64, digits: u8) -> f64 {
     if !(u.is_finite() && u > 0.0) {
         return 0.0;
     }
+    tolerance_between_decades(u, digits).unwrap_or_else(|| tolerance_as_written(u, digits))
+}
+
+fn tolerance_as_written(u: f64, digits: u8) -> f64 {
     let decimals = usize::from(digits.max(1)) - 1;
     // The standard library rounds the exact binary value, which no logarithm does.
     let scientific = format!("{u:.decimals$e}");
@@ -27,6 +31,30 @@ pub(crate) fn numerical_tolerance(u: f64, digits: u8) -> f64 {
     format!("5e{}", exponent - digits.max(1) as i32)
         .parse()
         .unwrap_or_default()
+}
+
+/// The same where u is far from a power of ten, to which no rounding leads, and all powers are exact.
+fn tolerance_between_decades(u: f64, digits: u8) -> Option<f64> {
+    /// 10²² is the last power of ten that is a double.
+    const EXACT: i32 = 22;
+    let ten = |exponent: i32| (0..exponent).fold(1.0, |power, _| power * 10.0);
+    let exponent = libm::log10(u).floor() as i32;
+    let last = exponent - i32::from(digits.max(1));
+    if exponent.abs() > EXACT || last.abs() > EXACT {
+        return None;
+    }
+    let leading = match exponent < 0 {
+        true => u * ten(-exponent),
+        false => u / ten(exponent),
+    };
+    // One digit rounds 9.5 to 10.
+    if !(1.001..9.4).contains(&leading) {
+        return None;
+    }
+    Some(match last < 0 {
+        true => 5.0 / ten(-last),
+        false => 5.0 * ten(last),
+    })
 }
 
 /// Compares the ends of y ± U_p with the probabilistically symmetric Monte Carlo interval, for two
@@ -122,6 +150,17 @@ mod tests {
     #[test]
     fn tolerances_of_jcgm_101_7_9_2() {
         assert_eq!(numerical_tolerance(0.35, 2), 0.005);
+        for exponent in -30..30 {
+            for leading in [
+                1.0, 1.000_5, 1.5, 2.0, 7.3, 9.39, 9.45, 9.5, 9.94, 9.95, 9.96, 9.999,
+            ] {
+                let u: f64 = format!("{leading}e{exponent}").parse().expect("a number");
+                for digits in [1, 2, 3] {
+                    let written = tolerance_as_written(u, digits);
+                    assert_eq!(numerical_tolerance(u, digits), written, "{u:e}, {digits}");
+                }
+            }
+        }
         assert_eq!(numerical_tolerance(0.4, 1), 0.05);
         assert_eq!(numerical_tolerance(2.0, 1), 0.5);
         assert_eq!(numerical_tolerance(0.053_85, 1), 0.005);

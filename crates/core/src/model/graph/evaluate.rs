@@ -128,6 +128,9 @@ impl Graph {
     ) -> Vec<(usize, Jet<N>)> {
         /// A step from one operation to the next takes as long as a look at so many of them.
         const LOOKS: usize = 32;
+        if let Op::Input(place) = self.ops[of as usize] {
+            return vec![(place as usize, Jet::constant(1.0))];
+        }
         let mut gradient = Vec::new();
         // Operands stand before what is made of them: the last one is complete.
         let mut open = BTreeMap::from([(of, Jet::constant(1.0))]);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::checker::Checker;
 use crate::budget::faults::{DOF, NOT_POSITIVE};
 use crate::budget::tables::ComponentTable;
-use crate::budget::{Certificate, Evaluation, Finding, Follows, TScale};
+use crate::budget::{Certificate, Conventions, Evaluation, Finding, Follows, TScale};
 use gumption_core::distribution::{Distribution, Normal, StudentT};
 use gumption_core::quantity::Unit;
 pub(super) use gumption_core::quantity::show;
@@ -169,44 +169,58 @@ impl Checker<'_> {
         })
     }
 
-    /// The distribution of a standard uncertainty with finite degrees of freedom: a t distribution
-    /// (JCGM 101 6.4.9), whose scale the conventions choose; else normal.
+    /// The distribution of a standard uncertainty with these degrees of freedom, as [`t_or_normal`] has it.
     pub(super) fn t_or_normal(
         &mut self,
         u: f64,
         dof: f64,
         place: &Range<usize>,
     ) -> Option<Distribution> {
-        if dof.is_infinite() {
-            return Some(Distribution::Normal(Normal { mean: 0.0, sd: u }));
-        }
-        let scale = self.t_scale_of(u, dof, place)?;
-        Some(Distribution::StudentT(StudentT {
-            location: 0.0,
-            scale,
-            dof,
-        }))
+        t_or_normal(u, dof, &self.conventions).or_else(|| self.no_standard_deviation(dof, place))
     }
 
     /// Scale of the t distribution that stands for u.
     pub(super) fn t_scale_of(&mut self, u: f64, dof: f64, place: &Range<usize>) -> Option<f64> {
-        match self.t_scale() {
-            TScale::Scale => Some(u),
-            TScale::StandardDeviation if dof > 2.0 => Some(u * ((dof - 2.0) / dof).sqrt()),
-            // Nobody asked for it: three readings are evaluated as JCGM 101, 6.4.9.4 says, and the report
-            // tells that Monte Carlo has no standard deviation then.
-            TScale::StandardDeviation if !self.conventions.states("t_scale") => Some(u),
-            TScale::StandardDeviation => self.refuse(
-                Fault::new(
-                    DOF,
-                    place.clone(),
-                    say!("a t distribution with ν = {dof} has no standard deviation"),
-                )
-                .label(say!("ν = {dof}"))
-                .help(say!(
-                    "take more readings, or write `t_scale = \"scale\"` in [conventions]"
-                )),
-            ),
-        }
+        t_scale_of(u, dof, &self.conventions).or_else(|| self.no_standard_deviation(dof, place))
+    }
+
+    fn no_standard_deviation<T>(&mut self, dof: f64, place: &Range<usize>) -> Option<T> {
+        self.refuse(
+            Fault::new(
+                DOF,
+                place.clone(),
+                say!("a t distribution with ν = {dof} has no standard deviation"),
+            )
+            .label(say!("ν = {dof}"))
+            .help(say!(
+                "take more readings, or write `t_scale = \"scale\"` in [conventions]"
+            )),
+        )
+    }
+}
+
+/// The distribution of a standard uncertainty with finite degrees of freedom: a t distribution
+/// (JCGM 101 6.4.9), whose scale the conventions choose; else normal.
+pub(super) fn t_or_normal(u: f64, dof: f64, conventions: &Conventions) -> Option<Distribution> {
+    if dof.is_infinite() {
+        return Some(Distribution::Normal(Normal { mean: 0.0, sd: u }));
+    }
+    let scale = t_scale_of(u, dof, conventions)?;
+    Some(Distribution::StudentT(StudentT {
+        location: 0.0,
+        scale,
+        dof,
+    }))
+}
+
+/// Scale of the t distribution that stands for u; nothing where the conventions ask for one that does not exist.
+fn t_scale_of(u: f64, dof: f64, conventions: &Conventions) -> Option<f64> {
+    match conventions.t_scale {
+        TScale::Scale => Some(u),
+        TScale::StandardDeviation if dof > 2.0 => Some(u * ((dof - 2.0) / dof).sqrt()),
+        // Nobody asked for it: three readings are evaluated as JCGM 101, 6.4.9.4 says, and the report
+        // tells that Monte Carlo has no standard deviation then.
+        TScale::StandardDeviation if !conventions.states("t_scale") => Some(u),
+        TScale::StandardDeviation => None,
     }
 }

@@ -25,6 +25,7 @@ mod inputs;
 mod joints;
 mod names;
 mod nearest;
+mod plain;
 mod register;
 mod resolution;
 mod results;
@@ -55,6 +56,7 @@ use entries::{entries, shared};
 use gumption_core::quantity::UnitTable;
 use gumption_fault::Fault;
 use gumption_format::toml::Stated;
+pub(super) use plain::Plain;
 
 /// One evaluation: the file itself, or with the values of a row of its series in place.
 pub(super) struct Variant {

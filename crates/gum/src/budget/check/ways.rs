@@ -153,7 +153,8 @@ static MODIFIERS: [(&str, Said); 20] = [
     ),
 ];
 
-fn stated_ways(table: &ComponentTable) -> Vec<(Way, &'static str, Range<usize>)> {
+/// The ways in which a component states its uncertainty, with their keys; one, where nothing is wrong.
+pub(super) fn stated_ways(table: &ComponentTable) -> Vec<(Way, &'static str, Range<usize>)> {
     let full = matches!(
         table.distribution.as_ref().map(|d| &d.value),
         Some(DistributionEntry::Full(_))

@@ -23,6 +23,19 @@ pub(in crate::propagate) struct SecondOrderOutcome {
     pub(super) hessian: Option<Hessian>,
 }
 
+impl SecondOrderOutcome {
+    /// Of a measurand that is linear in all of so many inputs.
+    pub(super) fn linear(inputs: usize) -> Self {
+        SecondOrderOutcome {
+            terms: Terms::Linear,
+            slope_deviation: vec![0.0; inputs],
+            shift: 0.0,
+            curvature: 0.0,
+            hessian: None,
+        }
+    }
+}
+
 /// The second-order terms of one measurand.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::propagate) enum Terms {

@@ -26,7 +26,7 @@ fn heading(table: &str) -> String {
     match table {
         "" => "The top of the file".to_owned(),
         "recording" | "positions" | "held_out" | "diagnosis" | "noise" => format!("`[{table}]`"),
-        "action" => format!("`[[{table}]]`"),
+        "action" | "left_out" => format!("`[[{table}]]`"),
         "columns.NAME" => "`[columns]`, an entry that is a table".to_owned(),
         other => format!("`[{other}]`"),
     }

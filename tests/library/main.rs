@@ -29,3 +29,4 @@ mod references;
 mod serve;
 mod strd;
 mod workbooks;
+mod zz_tmp;

@@ -440,6 +440,16 @@ fn cells(grid: &Grid) -> Table {
             Some(formula) => format!("{} [={formula}]", cell.text),
             None => cell.text.clone(),
         });
+        // A heading runs over all columns.
+        if let [text] = &row
+            .iter()
+            .filter(|cell| !cell.is_empty())
+            .collect::<Vec<_>>()[..]
+        {
+            let text = format!("{}  {}", at + 1, text.text);
+            table.rows.push(Row::Across(text));
+            continue;
+        }
         let number = std::iter::once((at + 1).to_string());
         table.push(number.chain(texts).map(Into::into).collect());
     }

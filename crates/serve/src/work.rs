@@ -305,6 +305,10 @@ impl Asked<'_> {
         let after = String::from_utf8_lossy(&bytes);
         let load = |text: &str| {
             let own = self.wish.path.as_str();
+            // Nobody waits any more: no further mixture is evaluated.
+            if self.job.trials.is_stopped() {
+                return Err(Rejection::new(own, text, Vec::new()));
+            }
             let others = self.folder.instead.iter().filter(|(path, _)| *path != own);
             let instead: Vec<(&str, &[u8])> =
                 others.copied().chain([(own, text.as_bytes())]).collect();

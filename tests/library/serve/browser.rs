@@ -157,7 +157,9 @@ impl Browser {
 /// RFC 4648, section 4.
 fn from_base64(text: &str) -> Vec<u8> {
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let digits = text.bytes().filter_map(|c| DIGITS.iter().position(|d| *d == c));
+    let digits = text
+        .bytes()
+        .filter_map(|c| DIGITS.iter().position(|d| *d == c));
     let (mut bytes, mut held, mut bits) = (Vec::new(), 0_usize, 0);
     for digit in digits {
         held = held << 6 | digit;

@@ -100,8 +100,8 @@ pub(super) fn remarks(table: &ExperimentTable) -> Vec<Remark> {
         let (lines, reason) = (lines.join(", "), entry.value.reason.as_ref());
         let reason = reason.map_or("", |reason| reason.value.as_str());
         Remark {
-            en: format!("Lines {lines} of the recording are left out: {reason}"),
-            zh: format!("记录的第 {lines} 行未采用：{reason}"),
+            en: format!("Left out of the recording, by line: {lines}. Reason: {reason}"),
+            zh: format!("记录中未采用的行（行号）：{lines}。理由：{reason}"),
         }
     };
     entries(table).iter().map(remark).collect()

@@ -42,6 +42,7 @@ async function endExercise() {
 /// Forgets everything that belongs to an exercise.
 function leaveExercise() {
   $("practice").hidden = true;
+  document.body.classList.remove("sheet");
   $("exercise-kind").value = "";
   if (practice.kind === "recording" && practice.open) for (const [name] of practice.open.files) state.added.delete(name);
   if (practice.from) state.path = practice.from;
@@ -57,7 +58,8 @@ async function exerciseReceived(found) {
   $("seed").value = beside.seed;
   Object.assign($("nth"), { max: beside.most, value: beside.number });
   $("next").hidden = true;
-  $("assignment").textContent = beside.task;
+  $("assignment").textContent = practice.kind === "recording" ? beside.task : "";
+  document.body.classList.toggle("sheet", practice.kind === "budget");
   $("hand-out").replaceChildren(...beside.files.map(([name, bytes]) => handOut(name, bytes)));
   claims();
   say(word("opened", beside.seed, beside.number));
@@ -81,6 +83,7 @@ async function openCase() {
   Object.assign(state, { path: `exercise-${practice.open.seed}-${practice.open.number}.toml`, disk: null, saved: null, beside: null });
   state.changes.clear();
   put(content);
+  $("residuals").open = true;
   await run("see");
 }
 

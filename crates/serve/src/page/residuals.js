@@ -18,7 +18,7 @@ function brush(rows) {
   $("residuals").hidden = !residuals.rows.length;
   if (!residuals.rows.length) return;
   $("rows").replaceChildren(...residuals.rows.map(([line, response, size], at) => {
-    const option = new Option(`${word("line", line)}, ${response}: ${size.toFixed(1)}`, at);
+    const option = new Option(`${word("line", line)}, ${response}: ${size.toFixed(1).replace("-", "−")}`, at);
     return option;
   }));
   $("rows").size = Math.min(8, residuals.rows.length);

@@ -4,7 +4,7 @@ use gumption_format::document::{Block, Cell, ColumnKind, Document, Table};
 use gumption_format::machine::{self, Machine, Number, record};
 use serde_json::Value;
 
-use super::score::{Finding, Graded, GradedEffect};
+use super::score::{FAINT, Finding, Graded, GradedEffect};
 use crate::truth::TrueEffect;
 use gumption_core::special::normal_two_sided_quantile;
 use gumption_report::Language;
@@ -240,6 +240,10 @@ fn finding(effect: &GradedEffect, language: Language) -> String {
         Finding::Unexplained => language
             .pick("reported without a name", "报告为未解释")
             .to_owned(),
+        Finding::Missed if effect.truth.lambda_beside < FAINT => language.pick(
+            format!("not found, and too weak to be required (λ < {FAINT})"),
+            format!("未发现；强度不足，不作要求（λ < {FAINT}）"),
+        ),
         Finding::Missed => language.pick("not found", "未发现").to_owned(),
     };
     if !effect.overclaimed {

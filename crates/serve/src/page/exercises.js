@@ -32,9 +32,12 @@ async function exercise() {
   await run("exercise");
 }
 
+/// Whether the text is the case of an exercise.
+const isCaseOpen = () => practice.kind === "recording" && practice.open !== null;
+
 /// Ends an exercise, and shows the text that was there before.
 async function endExercise() {
-  const wasCase = practice.from !== null;
+  const wasCase = isCaseOpen();
   leaveExercise();
   if (wasCase || state.path === null) await reopened(); else await run("see");
 }
@@ -44,8 +47,10 @@ function leaveExercise() {
   $("practice").hidden = true;
   document.body.classList.remove("sheet");
   $("exercise-kind").value = "";
-  if (practice.kind === "recording" && practice.open) for (const [name] of practice.open.files) state.added.delete(name);
-  if (practice.from) state.path = practice.from;
+  if (isCaseOpen()) {
+    for (const [name] of practice.open.files) state.added.delete(name);
+    state.path = practice.from;
+  }
   Object.assign(practice, { kind: null, open: null, from: null, wanted: "task" });
 }
 
@@ -78,7 +83,7 @@ function handOut(name, bytes) {
 async function openCase() {
   const files = practice.open.files.map(([name, bytes]) => [name, new Uint8Array(bytes)]);
   for (const [name, bytes] of files) state.added.set(name, bytes);
-  practice.from = practice.from || state.path;
+  if (!/^exercise-\d+-\d+\.toml$/.test(state.path || "")) practice.from = state.path;
   const content = new TextDecoder().decode(files[0][1]);
   Object.assign(state, { path: `exercise-${practice.open.seed}-${practice.open.number}.toml`, disk: null, saved: null, beside: null });
   state.changes.clear();

@@ -149,7 +149,9 @@ function show(html) {
   const frame = $("document"), inside = frame.contentDocument;
   const fresh = new DOMParser().parseFromString(html, "text/html");
   const old = inside && inside.querySelector("main"), now = fresh.querySelector("main");
-  if (old && now) {
+  // What the page itself notes has no style, which a document after it needs.
+  const styled = inside && (inside.querySelector("style") || !fresh.querySelector("style"));
+  if (old && now && styled) {
     inside.documentElement.lang = fresh.documentElement.lang;
     inside.title = fresh.title;
     old.replaceWith(inside.adoptNode(now));
@@ -218,7 +220,13 @@ function wish(task) {
 const APART = ["audit", "lesson", "exercise"];
 
 async function run(task) {
-  if (!APART.includes(task) && state.path === null) return;
+  if (!APART.includes(task) && state.path === null) {
+    // There is no text to go back to.
+    $("class").hidden = $("elsewhere").hidden = true;
+    $("lesson").value = "";
+    note(word("none"));
+    return;
+  }
   if (flight) flight.abort();
   const own = flight = new AbortController();
   const start = performance.now();
@@ -376,6 +384,7 @@ function fillLessons(chosen) {
 
 /// Draws the samples of a lesson; of none, what was there before.
 function teach() {
+  if (practice.kind === "budget") leaveExercise();
   const chosen = state.lessons.find(([name]) => name === $("lesson").value);
   $("size").hidden = !(chosen && chosen[2]);
   $("n-shown").textContent = $("n").value;

@@ -29,4 +29,3 @@ mod references;
 mod serve;
 mod strd;
 mod workbooks;
-mod zz_tmp;

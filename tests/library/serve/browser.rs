@@ -465,7 +465,7 @@ fn the_page_is_accessible() {
     if axe.is_none() {
         eprintln!("skipped: GUMPTION_AXE names no axe.min.js");
     }
-    let mut check = |browser: &mut Browser, what: &str| {
+    let check = |browser: &mut Browser, what: &str| {
         for colours in ["light", "dark"] {
             let media =
                 json!({ "features": [{ "name": "prefers-color-scheme", "value": colours }] });

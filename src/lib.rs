@@ -168,7 +168,7 @@ pub use gumption_export as render;
 pub use gumption_fault as fault;
 pub use gumption_fault::language;
 pub use gumption_format::{csv, document, files, machine};
-pub use gumption_gum::{batch, budget, propagate};
+pub use gumption_gum::{batch, budget, propagate, versions};
 pub use gumption_lab::{calibrate, diagnose, experiment, recording};
 pub use gumption_report as report;
 pub use gumption_verify as verify;

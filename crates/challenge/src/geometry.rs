@@ -34,6 +34,21 @@ impl Geometry {
         let white = &self.whitener * series;
         left(&white, &self.absorbed)
     }
+
+    /// What a series leaves in the residuals of the declared model, as it is.
+    pub(super) fn residuals(&self, series: &DVector<f64>) -> DVector<f64> {
+        let visible = self.visible(series);
+        let plain = self.whitener.solve_lower_triangular(&visible);
+        plain.unwrap_or(visible)
+    }
+}
+
+/// Largest minus smallest.
+pub(super) fn height(series: &DVector<f64>) -> f64 {
+    match series.is_empty() {
+        true => 0.0,
+        false => series.max() - series.min(),
+    }
 }
 
 /// What is left of a trace outside a span.

@@ -10,7 +10,7 @@
 use nalgebra::DVector;
 
 use super::effect::{Concealed, Member, Physics, Shape};
-use super::geometry::{Geometry, left, span};
+use super::geometry::{Geometry, height, left, span};
 use super::schedule::Campaign;
 use super::simulate::{Readings, Setup, simulate};
 use super::world::Row;
@@ -70,6 +70,17 @@ impl<'a> Visible<'a> {
         let mut all = others.to_vec();
         all.push(*effect);
         self.raw(&all, others)
+    }
+
+    /// Largest minus smallest of what an effect leaves in the residuals when the others are there already, on the axis
+    /// where that is most.
+    pub(super) fn height(&self, effect: &Concealed, others: &[Concealed]) -> f64 {
+        let (added, rows) = (self.added(effect, others), self.without.len());
+        let axes = (0..self.setup.rig.axes()).map(|axis| {
+            let own = added.rows(axis * rows, rows).clone_owned();
+            height(&self.geometry.residuals(&own))
+        });
+        axes.fold(0.0, f64::max)
     }
 
     fn differences(&self, with: &[Concealed], without: &[Concealed]) -> DVector<f64> {

@@ -56,6 +56,10 @@ pub struct TrueEffect {
     pub look: String,
     /// Its size: a fraction of full scale per unit of what it follows, or radians.
     pub size: f64,
+    /// Largest minus smallest of what it leaves in the residuals of the declared model, in the unit of the output on which
+    /// it shows most.
+    #[serde(default)]
+    pub in_residuals: f64,
     /// Whether a diagnosis can be expected to name it.
     pub nameable: bool,
     /// Names that are right.
@@ -180,6 +184,7 @@ fn true_effect(
         physics: effect.physics.name(),
         look: format!("{:?}", effect.shape),
         size: effect.size,
+        in_residuals: visible.height(effect, others) * drawn.setup.rig.sensitivity(),
         nameable: effect.physics.nameable() && drawn.scenario.class != Class::Hidden,
         names: if drawn.scenario.class == Class::Hidden {
             vec![Accepted {

@@ -34,6 +34,7 @@ mod rows;
 mod save;
 mod statement;
 mod verification;
+mod versions;
 mod worksheet;
 
 #[cfg(test)]
@@ -61,6 +62,7 @@ pub use rows::rows;
 pub use save::{Unsaved, saved};
 pub use statement::statement;
 pub use verification::{Detail, dossier, verification, verification_schema};
+pub use versions::{incomparable, versions};
 
 use gumption_core::quantity::Unit;
 use gumption_gum::budget::Budget;

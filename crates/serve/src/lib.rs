@@ -13,16 +13,20 @@
 //! | `pages` | what is computed for whom: of each page the newest wish, which may be stopped |
 //! | `work` | evaluations, audits, calibrations, diagnoses: a document, or what is wrong |
 //! | `lessons` | samples that a class watches, and what they show |
+//! | `exercises` | budgets and recordings in which something is concealed, handed out and graded |
+//! | `vocabulary` | what an editor completes |
 //! | `page` | the files of the page |
 
 mod door;
 mod exchange;
+mod exercises;
 mod lessons;
 mod page;
 mod pages;
 mod routes;
 mod server;
 mod shelf;
+mod vocabulary;
 mod work;
 
 pub use server::Workbench;

@@ -3,7 +3,7 @@
 use super::exchange::Reply;
 
 /// Name, kind and content; the first is the page itself.
-const FILES: [(&str, &str, &str); 4] = [
+const FILES: [(&str, &str, &str); 8] = [
     (
         "",
         "text/html; charset=utf-8",
@@ -23,6 +23,26 @@ const FILES: [(&str, &str, &str); 4] = [
         "workbench.js",
         "text/javascript; charset=utf-8",
         include_str!("page/workbench.js"),
+    ),
+    (
+        "exercises.js",
+        "text/javascript; charset=utf-8",
+        include_str!("page/exercises.js"),
+    ),
+    (
+        "complete.js",
+        "text/javascript; charset=utf-8",
+        include_str!("page/complete.js"),
+    ),
+    (
+        "residuals.js",
+        "text/javascript; charset=utf-8",
+        include_str!("page/residuals.js"),
+    ),
+    (
+        "start.js",
+        "text/javascript; charset=utf-8",
+        include_str!("page/start.js"),
     ),
 ];
 

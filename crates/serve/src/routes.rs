@@ -16,10 +16,12 @@ use gumption_fault::{Said, say};
 use gumption_gum::budget;
 
 use super::exchange::{Contents, Reply, opened};
+use super::exercises::Shown;
 use super::lessons::LESSONS;
 use super::page;
 use super::pages::{Ended, Job, Pages};
 use super::shelf::{MOST_TEXT, Shelf, Unsaved};
+use super::vocabulary::vocabulary;
 use super::work::{self, Found, Task, Tongue, Wish};
 
 /// Nobody waits longer for what answers while they type.
@@ -32,6 +34,8 @@ const LONGEST: Duration = Duration::from_secs(3600);
 #[derive(Debug)]
 pub(crate) struct Routes {
     shelf: Arc<Shelf>,
+    /// Exercises of which the truth was shown.
+    shown: Arc<Shown>,
     pages: Pages,
 }
 
@@ -53,6 +57,7 @@ impl Routes {
     pub fn new(root: PathBuf) -> Routes {
         Routes {
             shelf: Arc::new(Shelf::new(root)),
+            shown: Arc::default(),
             pages: Pages::new(),
         }
     }
@@ -86,6 +91,7 @@ impl Routes {
                 list["lessons"] = json!(lessons.collect::<Vec<_>>());
                 Reply::json(&list)
             }
+            "vocabulary" => Reply::json(&vocabulary(about.language.into())),
             "open" => self.open(&about),
             "template" => Reply::json(&json!({ "text": budget::template() })),
             "save" => self.save(&about, &contents),
@@ -185,12 +191,12 @@ impl Routes {
         let language: Language = wish.language.into();
         let (handed_over, page) = (wish.format.is_some(), wish.page.clone());
         let most = match wish.task {
-            Task::See | Task::Require | Task::Lesson => PATIENCE,
+            Task::See | Task::Require | Task::Versions | Task::Lesson | Task::Exercise => PATIENCE,
             Task::Diagnose | Task::Audit => LONGEST,
         };
-        let shelf = Arc::clone(&self.shelf);
+        let (shelf, shown) = (Arc::clone(&self.shelf), Arc::clone(&self.shown));
         let work = move |job: &Job| {
-            let found = work::done(&wish, &contents, &shelf, job);
+            let found = work::done(&wish, &contents, (&shelf, &shown), job);
             match (&found, handed_over) {
                 (Found::Document(document, _), true) => {
                     match (format.render)(document, &Page::default()) {

@@ -13,21 +13,26 @@ use gumption_export::{Format, Page};
 use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::document::Document;
-use gumption_format::files::Files;
+use gumption_format::files::{Files, Folder};
 use gumption_gum::budget::{self, Budget, Row};
 use gumption_gum::propagate::{self, Evaluation, MonteCarloChoice, Options};
-use gumption_lab::calibrate;
+use gumption_gum::versions::versions;
+use gumption_lab::calibrate::{self, Calibration, Campaign, PointNames, Residual};
 use gumption_lab::diagnose::{self, case};
 use gumption_lab::experiment::Purpose;
 use gumption_report::{self as report, Report};
 
 use super::exchange::Contents;
+use super::exercises::{self, Practice, Shown};
 use super::lessons;
 use super::pages::Job;
 use super::shelf::Shelf;
 
 /// Most trials of a budget that is evaluated while somebody waits: some seconds.
 const MOST_TRIALS: u64 = 100_000_000;
+
+/// Residuals that the page draws; of more the largest.
+const MOST_RESIDUALS: usize = 2000;
 
 /// What is to be done with a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -37,12 +42,16 @@ pub(crate) enum Task {
     See,
     /// What U would need.
     Require,
+    /// What the edits since an earlier text have changed.
+    Versions,
     /// A recording is held against its model.
     Diagnose,
     /// A claimed budget is recomputed.
     Audit,
     /// Samples are drawn for a class.
     Lesson,
+    /// An exercise is handed out or graded.
+    Exercise,
 }
 
 /// What a page asks for.
@@ -59,8 +68,12 @@ pub(crate) struct Wish {
     pub changes: Vec<Change>,
     /// Measurand and U that are wished for.
     pub target: Option<Target>,
+    /// Earlier text of the file, against which it is compared.
+    pub before: Option<String>,
     /// Lesson that is drawn.
     pub lesson: Option<Drawing>,
+    /// Exercise that is handed out or graded.
+    pub exercise: Option<Practice>,
 }
 
 /// A language by its code.
@@ -128,7 +141,12 @@ pub(crate) fn format(wish: &Wish) -> Option<&'static Format> {
 }
 
 /// Does what a page asks for, with the contents that it sends in place of those on the disk.
-pub(crate) fn done(wish: &Wish, contents: &Contents, shelf: &Shelf, job: &Job) -> Found {
+pub(crate) fn done(
+    wish: &Wish,
+    contents: &Contents,
+    (shelf, shown): (&Shelf, &Shown),
+    job: &Job,
+) -> Found {
     let contents = contents.iter();
     let instead: Vec<(&str, &[u8])> = contents
         .map(|(path, content)| (path.as_str(), content.as_slice()))
@@ -138,9 +156,11 @@ pub(crate) fn done(wish: &Wish, contents: &Contents, shelf: &Shelf, job: &Job) -
     let asked = Asked {
         wish,
         files,
+        folder: &folder,
         path: Path::new(&wish.path),
         language: wish.language.into(),
         job,
+        shown,
     };
     let found = match wish.task {
         Task::Audit => asked.audit(),
@@ -148,7 +168,9 @@ pub(crate) fn done(wish: &Wish, contents: &Contents, shelf: &Shelf, job: &Job) -
         Task::See if asked.is_experiment() => asked.calibrate(),
         Task::See => asked.evaluate(),
         Task::Require => asked.require(),
+        Task::Versions => asked.versions(),
         Task::Lesson => asked.lesson(),
+        Task::Exercise => asked.exercise(),
     };
     found.unwrap_or_else(|found| found)
 }
@@ -157,9 +179,11 @@ pub(crate) fn done(wish: &Wish, contents: &Contents, shelf: &Shelf, job: &Job) -
 struct Asked<'a> {
     wish: &'a Wish,
     files: Files<'a>,
+    folder: &'a Folder<'a>,
     path: &'a Path,
     language: Language,
     job: &'a Job,
+    shown: &'a Shown,
 }
 
 /// An evaluated row of a file.
@@ -274,6 +298,32 @@ impl Asked<'_> {
         Ok(Found::Document(Box::new(document), Value::Null))
     }
 
+    fn versions(&self) -> Result<Found, Found> {
+        let nothing = || self.nothing(&say!("there is no earlier text to compare with"));
+        let before = self.wish.before.as_deref().ok_or_else(nothing)?;
+        let bytes = self.files.read(self.path).unwrap_or_default();
+        let after = String::from_utf8_lossy(&bytes);
+        let load = |text: &str| {
+            let own = self.wish.path.as_str();
+            // Nobody waits any more: no further mixture is evaluated.
+            if self.job.trials.is_stopped() {
+                return Err(Rejection::new(own, text, Vec::new()));
+            }
+            let others = self.folder.instead.iter().filter(|(path, _)| *path != own);
+            let instead: Vec<(&str, &[u8])> =
+                others.copied().chain([(own, text.as_bytes())]).collect();
+            let folder = Folder {
+                root: self.folder.root,
+                instead: &instead,
+            };
+            budget::load_from(Files::Folder(&folder), self.path, None)
+        };
+        let found = versions(before, &after, load)
+            .map_err(|why| Found::Nothing(report::incomparable(&why, self.language)))?;
+        let document = report::versions(&found, self.language);
+        Ok(Found::Document(Box::new(document), Value::Null))
+    }
+
     fn no_target(&self) -> Found {
         self.nothing(&say!("write the U that is wished for as a positive number"))
     }
@@ -288,6 +338,14 @@ impl Asked<'_> {
         Ok(Found::Document(Box::new(document), Value::Null))
     }
 
+    fn exercise(&self) -> Result<Found, Found> {
+        let nothing = || self.nothing(&say!("there is no such exercise"));
+        let practice = self.wish.exercise.as_ref().ok_or_else(nothing)?;
+        let found = exercises::practice(practice, self.language, self.shown);
+        let (document, beside) = found.map_err(|why| self.nothing(&why))?;
+        Ok(Found::Document(Box::new(document), beside))
+    }
+
     fn calibrate(&self) -> Result<Found, Found> {
         let campaign = calibrate::load_from(self.files, self.path, Purpose::Calibrate)?;
         let found = calibrate::calibrate(&campaign).map_err(|trouble| {
@@ -296,7 +354,7 @@ impl Asked<'_> {
         let document = report::calibration(&campaign, &found, self.language);
         Ok(Found::Document(
             Box::new(document),
-            json!({ "experiment": true }),
+            json!({ "experiment": true, "residuals": by_line(&campaign, &found) }),
         ))
     }
 
@@ -355,6 +413,32 @@ fn beside(report: &Report<'_>) -> Value {
         "results": results.collect::<Vec<_>>(),
         "statement": report::statement(report),
     })
+}
+
+/// The residuals of a calibration in which each row of the recording is a point: line, response, standardised residual.
+fn by_line(campaign: &Campaign, found: &Calibration) -> Vec<Value> {
+    let PointNames::Lines(lines) = &campaign.points.names else {
+        return Vec::new();
+    };
+    let responses = campaign.experiment.equations.responses();
+    let row = |one: &Residual| {
+        let line = lines.get(one.point)?;
+        let response = responses
+            .get(one.response)
+            .map_or("", |response| &response.name);
+        let size = one.standardised;
+        size.is_finite().then(|| json!([line, response, size]))
+    };
+    let mut rows: Vec<Value> = found.residuals.iter().filter_map(row).collect();
+    match rows.len() {
+        0..=MOST_RESIDUALS => rows,
+        _ => {
+            let size = |row: &Value| row[2].as_f64().unwrap_or(0.0).abs();
+            rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
+            rows.truncate(MOST_RESIDUALS);
+            rows
+        }
+    }
 }
 
 /// The unit as printed after a number; nothing for the unit one.

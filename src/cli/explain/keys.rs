@@ -68,7 +68,7 @@ fn in_words(path: &str) -> Said {
     match (path, split(path)) {
         ("", _) => say!("the top of the file"),
         ("component", _) => say!("a component"),
-        ("correlation" | "joint" | "action", _) => say!("`[[{path}]]`"),
+        ("correlation" | "joint" | "action" | "left_out", _) => say!("`[[{path}]]`"),
         (list, ("", _)) if list.ends_with("[]") => {
             say!("`[[{path}]]`", path = list.trim_end_matches("[]"))
         }

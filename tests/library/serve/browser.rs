@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 
 use super::{BUDGET, Served};
 use crate::common::cases::folder;
+use crate::common::root;
 
 /// A browser with one page.
 struct Browser {
@@ -119,6 +120,18 @@ impl Browser {
         }
     }
 
+    /// Keeps a picture of the page in `reports/workbench`, where `GUMPTION_PICTURES` is set: pictures are looked at, not compared.
+    fn picture(&mut self, name: &str) {
+        if std::env::var_os("GUMPTION_PICTURES").is_none() {
+            return;
+        }
+        let taken = self.call("Page.captureScreenshot", json!({ "format": "png" }));
+        let folder = root().join("reports/workbench");
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let bytes = from_base64(taken["data"].as_str().expect("a picture"));
+        std::fs::write(folder.join(format!("{name}.png")), bytes).expect("written");
+    }
+
     /// Types where the caret is.
     fn types(&mut self, text: &str) {
         self.call("Input.insertText", json!({ "text": text }));
@@ -129,12 +142,52 @@ impl Browser {
             let code = match key {
                 "s" => 83,
                 "Enter" => 13,
+                "Escape" => 27,
+                " " => 32,
+                "ArrowDown" => 40,
                 _ => 9,
             };
-            let event = json!({ "type": kind, "key": key, "modifiers": modifiers, "windowsVirtualKeyCode": code });
+            let name = if key == " " { "Space" } else { key };
+            let event = json!({ "type": kind, "key": key, "code": name, "modifiers": modifiers, "windowsVirtualKeyCode": code });
             self.call("Input.dispatchKeyEvent", event);
         }
     }
+}
+
+/// RFC 4648, section 4.
+fn from_base64(text: &str) -> Vec<u8> {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let digits = text
+        .bytes()
+        .filter_map(|c| DIGITS.iter().position(|d| *d == c));
+    let (mut bytes, mut held, mut bits) = (Vec::new(), 0_usize, 0);
+    for digit in digits {
+        held = held << 6 | digit;
+        bits += 6;
+        if bits >= 8 {
+            bits -= 8;
+            bytes.push((held >> bits) as u8);
+            held &= (1 << bits) - 1;
+        }
+    }
+    bytes
+}
+
+/// A workbench with files, and a browser that shows it; nothing where there is no browser.
+fn opened(name: &str, files: &[(&str, &str)], language: &str) -> Option<(Served, Browser)> {
+    let served = Served::new(name, files);
+    let address = format!("http://{}{}", served.host, served.base);
+    let browser = Browser::open(&format!("{name}-profile"), &address, language)?;
+    Some((served, browser))
+}
+
+/// Sets a field of the page as a hand would, so that the page hears of it.
+fn set(browser: &mut Browser, field: &str, value: &str) {
+    let (field, value) = (json!(field), json!(value));
+    let done = browser.value(&format!(
+        "(field => {{ field.value = {value}; for (const kind of ['input', 'change']) field.dispatchEvent(new Event(kind, {{ bubbles: true }})); return field.value; }})(document.querySelector({field}))"
+    ));
+    assert_eq!(done, value, "{field}");
 }
 
 impl Drop for Browser {
@@ -210,4 +263,275 @@ fn what_if_is_seen_beside_what_is() {
     browser.value("document.getElementById('wished').value = '0.3', document.getElementById('target').requestSubmit()");
     browser.until(&format!("{DOCUMENT}.includes('不可能')"));
     browser.presses("Tab", 0);
+}
+
+/// An exercise is handed out without its truth, answered in the form, graded at once; the teacher's sheet is asked for.
+#[test]
+fn a_budget_with_a_slip_is_answered() {
+    let Some((_served, mut browser)) = opened("browser-exercise", &[("a.toml", BUDGET)], "en-GB")
+    else {
+        return;
+    };
+    browser.until(&format!("{DOCUMENT}.includes('Statement')"));
+    let truth = |number| gumption::challenge::budget::sheet(7, number).truth;
+    let number = (1..=20).find(|number| {
+        let truth = truth(*number);
+        truth.slips.len() == 1 && truth.slips[0].contains('@')
+    });
+    let number = number.expect("a budget with one slip in a row");
+    let truth = truth(number);
+    set(&mut browser, "#exercise-kind", "budget");
+    browser.until("practice.open && !flight");
+    set(&mut browser, "#seed", "7");
+    set(&mut browser, "#nth", &number.to_string());
+    browser.value("document.getElementById('open-exercise').click()");
+    browser.until(&format!("{DOCUMENT}.includes('Exercise 7, no. {number}')"));
+    let (kind, row) = truth.slips[0].split_once('@').expect("a slip in a row");
+    let known = browser.value("document.documentElement.outerHTML + JSON.stringify(practice)");
+    assert!(!known.as_str().expect("a text").contains(&truth.slips[0]));
+    browser.value("document.querySelector('[value=slips]').click()");
+    set(&mut browser, "#claims .kind", kind);
+    set(&mut browser, "#claims .row", row);
+    set(&mut browser, "#U", &truth.expanded.to_string());
+    browser.picture("exercise");
+    browser.value("document.getElementById('practice').requestSubmit()");
+    browser.until(&format!("{DOCUMENT}.includes('1 of 1 named first')"));
+    browser.picture("graded");
+    browser.value("document.getElementById('answers').click()");
+    browser.until("document.getElementById('ask').open");
+    browser.value("document.getElementById('yes').click()");
+    browser.until(&format!("{DOCUMENT}.includes('For the teacher')"));
+    browser.value("document.getElementById('leave-exercise').click()");
+    browser.until(&format!("{DOCUMENT}.includes('Statement')"));
+}
+
+/// A recording stands in the editor as any experiment, and is answered in Chinese.
+#[test]
+fn a_recording_with_physics_is_answered() {
+    let Some((_served, mut browser)) = opened("browser-physics", &[("a.toml", BUDGET)], "zh-CN")
+    else {
+        return;
+    };
+    browser.until(&format!("{DOCUMENT}.includes('不确定度')"));
+    set(&mut browser, "#exercise-kind", "recording");
+    browser.until("practice.open && !flight && state.path.startsWith('exercise-')");
+    set(&mut browser, "#seed", "7");
+    browser.value("document.getElementById('open-exercise').click()");
+    browser.until("state.path === 'exercise-7-1.toml' && !flight");
+    browser.until("text.value.includes('recording.csv') && !document.querySelector('#faults li')");
+    browser.value("document.querySelector('[value=agrees]').click()");
+    browser.value("document.getElementById('practice').requestSubmit()");
+    browser.until(&format!("{DOCUMENT}.includes('得分')"));
+    browser.picture("physics-zh");
+}
+
+/// What edits have changed since the file was saved is attributed to each, with what it is told.
+#[test]
+fn edits_are_compared_with_the_saved_text() {
+    let Some((_served, mut browser)) = opened("browser-versions", &[("a.toml", BUDGET)], "en-GB")
+    else {
+        return;
+    };
+    browser.until(&format!("{DOCUMENT}.includes('Statement')"));
+    assert_eq!(
+        browser.value("document.getElementById('compare').disabled"),
+        true
+    );
+    let edited = json!(
+        BUDGET
+            .replace("u = 0.1", "u = 0.2")
+            .replace("u = 0.01", "u = 0.05")
+    );
+    browser.value(&format!(
+        "text.value = {edited}, text.dispatchEvent(new Event('input'))"
+    ));
+    browser.until("!document.getElementById('compare').disabled && !flight");
+    browser.value("document.getElementById('compare').click()");
+    browser.until(&format!("{DOCUMENT}.includes('input.a') && {DOCUMENT}.includes('input.b') && {DOCUMENT}.includes('Shapley')"));
+    browser.picture("versions");
+}
+
+const RUN: &str = "omega [deg/s],U [mV]\n0,1.1\n1,1.9\n2,3.2\n3,9\n4,4.9\n5,6.2\n";
+const RATE: &str =
+    "recording = { file = \"run.csv\", average = \"none\" }\nequations = \"U = K*omega + b\"\n";
+
+/// A row is selected, left out with a reason, and both stay in the file.
+#[test]
+fn rows_are_left_out_with_a_reason() {
+    let files = [("rate.toml", RATE), ("run.csv", RUN)];
+    let Some((served, mut browser)) = opened("browser-left-out", &files, "en-GB") else {
+        return;
+    };
+    browser.until("residuals.rows.length === 6 && !flight");
+    browser.value("document.getElementById('residuals').open = true");
+    // The largest one, by a hand over the picture.
+    let place = browser.value(
+        "(dot => { dot.scrollIntoView(); const box = dot.getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]; })(residuals.dots[3])",
+    );
+    for kind in ["mousePressed", "mouseReleased"] {
+        let event = json!({ "type": kind, "x": place[0], "y": place[1], "button": "left", "clickCount": 1 });
+        browser.call("Input.dispatchMouseEvent", event);
+    }
+    browser.until("document.getElementById('rows').selectedOptions.length === 1");
+    browser.picture("residuals");
+    set(&mut browser, "#reason", "the \"door\" was open");
+    browser.value("document.getElementById('residuals-form').requestSubmit()");
+    browser.until("residuals.rows.length === 5 && !flight");
+    browser.until(&format!("{DOCUMENT}.includes('was open')"));
+    browser.presses("s", 2);
+    browser.until("document.getElementById('status').textContent.startsWith('Saved')");
+    let saved = served.text("rate.toml");
+    assert!(
+        saved.ends_with("[[left_out]]\nlines = [5]\nreason = \"the \\\"door\\\" was open\"\n"),
+        "{saved}"
+    );
+}
+
+/// Keys, words, units, functions and names are completed at the caret, by keyboard.
+#[test]
+fn what_was_begun_is_completed() {
+    let Some((_served, mut browser)) = opened("browser-complete", &[("a.toml", BUDGET)], "en-GB")
+    else {
+        return;
+    };
+    browser.until(&format!("{DOCUMENT}.includes('Statement')"));
+    let written = |browser: &mut Browser, begun: &str, typed: &str| {
+        let begun = json!(begun);
+        browser.value(&format!(
+            "text.focus(), text.value = {begun}, text.setSelectionRange(text.value.length, text.value.length)"
+        ));
+        browser.types(typed);
+        browser.until("complete.offers.length && !document.getElementById('offers').hidden");
+        browser.presses("Tab", 0);
+        browser.until("document.getElementById('offers').hidden");
+        browser.value("text.value")
+    };
+    for (begun, typed, whole) in [
+        ("[input.x]\nhalf", "_", "[input.x]\nhalf_width = "),
+        (
+            "[input]\nx = { value = 1, distri",
+            "b",
+            "[input]\nx = { value = 1, distribution = ",
+        ),
+        (
+            "[input.x]\ndistribution = \"no",
+            "r",
+            "[input.x]\ndistribution = \"normal",
+        ),
+        (
+            "[input.mass]\nvalue = 1\n[measurand.Y]\nmodel = \"2 * ma",
+            "s",
+            "[input.mass]\nvalue = 1\n[measurand.Y]\nmodel = \"2 * mass",
+        ),
+        (
+            "[measurand.Y]\nmodel = \"sq",
+            "r",
+            "[measurand.Y]\nmodel = \"sqrt(",
+        ),
+        ("[input.x]\nunit = \"m", "i", "[input.x]\nunit = \"min"),
+        ("[mon", "t", "[monte_carlo"),
+        (
+            "[input.x]\ncomponents = [{ u = 1 }, { na",
+            "m",
+            "[input.x]\ncomponents = [{ u = 1 }, { name = ",
+        ),
+    ] {
+        let found = written(&mut browser, begun, typed);
+        assert_eq!(found, whole);
+    }
+    // Asked for where nothing was begun; closed without a trace.
+    browser.value("text.value = 'profile = ', text.setSelectionRange(10, 10)");
+    browser.presses(" ", 2);
+    browser.until("complete.offers.some(offer => offer.name === 'JJF')");
+    browser.presses("ArrowDown", 0);
+    browser.until("text.getAttribute('aria-activedescendant') === 'offer-1'");
+    browser.presses("Escape", 0);
+    browser.until("document.getElementById('offers').hidden");
+    assert_eq!(browser.value("text.value"), "profile = ");
+}
+
+/// What the page shows is accessible by axe-core: with everything open, in the light and in the dark; at 200 % nothing
+/// is cut off; the Tab key reaches every part and is caught by none.
+#[test]
+fn the_page_is_accessible() {
+    let files = [("a.toml", BUDGET), ("rate.toml", RATE), ("run.csv", RUN)];
+    let Some((_served, mut browser)) = opened("browser-access", &files, "en-GB") else {
+        return;
+    };
+    browser.until(&format!("{DOCUMENT}.includes('Statement')"));
+    browser.value("document.getElementById('what-if').open = true");
+    let axe = std::env::var("GUMPTION_AXE").ok();
+    let axe = axe.and_then(|path| std::fs::read_to_string(path).ok());
+    if axe.is_none() {
+        eprintln!("skipped: GUMPTION_AXE names no axe.min.js");
+    }
+    let check = |browser: &mut Browser, what: &str| {
+        for colours in ["light", "dark"] {
+            let media =
+                json!({ "features": [{ "name": "prefers-color-scheme", "value": colours }] });
+            browser.call("Emulation.setEmulatedMedia", media);
+            let Some(axe) = &axe else { continue };
+            browser.value(&format!("{axe}; true"));
+            // The document is checked as a page of its own.
+            let found = browser.value(
+                "axe.run({ exclude: ['#document'] }).then(found => found.violations.map(one => one.id + ': ' + one.nodes.map(node => node.html.slice(0, 160)).join(' ')))",
+            );
+            assert_eq!(found, json!([]), "{what}, {colours}");
+        }
+    };
+    check(&mut browser, "what if");
+    browser.value("text.focus(), text.setSelectionRange(0, 0)");
+    browser.presses(" ", 2);
+    browser.until("!document.getElementById('offers').hidden");
+    check(&mut browser, "completion");
+    browser.picture("completion-dark");
+    browser.presses("Escape", 0);
+    set(&mut browser, "#exercise-kind", "budget");
+    browser.until("practice.open && !flight");
+    browser.value("document.querySelector('[value=slips]').click()");
+    check(&mut browser, "exercise");
+    browser.value("document.getElementById('leave-exercise').click()");
+    browser.until("!practice.open && !flight");
+    browser.value("open('rate.toml')");
+    browser.until("residuals.rows.length && !flight");
+    browser.value("document.getElementById('residuals').open = true");
+    check(&mut browser, "residuals");
+    browser.value("document.getElementById('new').click()");
+    browser.until("document.getElementById('ask').open");
+    check(&mut browser, "dialog");
+    browser.presses("Escape", 0);
+    browser.until("!document.getElementById('ask').open");
+    // 200 % on a window of 1400 pixels.
+    let zoomed = json!({ "width": 700, "height": 450, "deviceScaleFactor": 2, "mobile": false });
+    browser.call("Emulation.setDeviceMetricsOverride", zoomed);
+    assert_eq!(
+        browser.value("document.documentElement.scrollWidth <= innerWidth"),
+        true
+    );
+    browser.value("document.activeElement.blur(), window.reached = new Set()");
+    for _ in 0..60 {
+        browser.presses("Tab", 0);
+        browser.value("window.reached.add(document.activeElement.id)");
+    }
+    for part in [
+        "file",
+        "new",
+        "save",
+        "pick",
+        "format",
+        "lesson",
+        "exercise-kind",
+        "language",
+        "text",
+        "calibrate",
+        "diagnose",
+        "reason",
+        "rows",
+    ] {
+        assert_eq!(
+            browser.value(&format!("window.reached.has('{part}')")),
+            true,
+            "{part}"
+        );
+    }
 }

@@ -310,3 +310,51 @@ fn a_wish_for_u_is_answered() {
     );
     assert_eq!(wish(-1.0).0, 422);
 }
+
+/// What is handed out says nothing of what is concealed; answers that are none, and exercises that there are not, are told.
+#[test]
+fn an_exercise_tells_nothing_before_it_is_answered() {
+    let served = Served::new("serve-exercise", &[]);
+    let asked = |exercise: Value| {
+        let head = json!({ "task": "exercise", "path": "", "exercise": exercise });
+        served.ask("work", head, &[])
+    };
+    let budget = |number: u64, wanted: Value| {
+        let (status, body) =
+            asked(json!({ "kind": "budget", "seed": 7, "number": number, "wanted": wanted }));
+        assert_eq!(status, 200);
+        String::from_utf8(body).expect("a text")
+    };
+    for number in 1..=6 {
+        let truth = gumption::challenge::budget::sheet(7, number).truth;
+        let mut task: Value = serde_json::from_str(&budget(number, json!("task"))).expect("JSON");
+        // The kinds are those of the program, all of them.
+        assert!(
+            task["beside"]["kinds"]
+                .as_array()
+                .is_some_and(|all| all.len() > 40)
+        );
+        task["beside"]["kinds"] = Value::Null;
+        for slip in &truth.slips {
+            assert!(!task.to_string().contains(slip.as_str()), "{slip}");
+        }
+        let graded = budget(
+            number,
+            json!({ "grade": { "file": "", "verdict": truth.verdict, "candidates": [truth.slips] } }),
+        );
+        assert!(graded.contains("1 of 1 named first"), "{graded}");
+    }
+    assert!(budget(1, json!({ "grade": 3 })).contains("this is no answer"));
+    assert!(budget(0, json!("task")).contains("no. 1"));
+    let far = json!({ "kind": "recording", "seed": u64::MAX, "number": 99, "wanted": "task" });
+    assert_eq!(asked(far).0, 200);
+    let drawn = json!({ "kind": "budget", "seed": null, "number": 1, "wanted": "task" });
+    assert_eq!(asked(drawn).0, 200);
+    for broken in [
+        json!({ "kind": "certificate", "seed": 1, "number": 1, "wanted": "task" }),
+        json!({ "kind": "budget", "seed": -1, "number": 1, "wanted": "task" }),
+        json!({ "kind": "budget", "seed": 1, "number": 1, "wanted": "truth" }),
+    ] {
+        assert_eq!(asked(broken.clone()).0, 400, "{broken}");
+    }
+}

@@ -21,6 +21,11 @@ pub fn slips() -> impl Iterator<Item = &'static Slip> {
     rows::SLIPS.iter().chain(whole::SLIPS)
 }
 
+/// Whether a kind of this name sits in a row, and not between the rows and the statement.
+pub fn is_of_a_row(id: &str) -> bool {
+    rows::SLIPS.iter().any(|slip| slip.id == id)
+}
+
 /// The kind of this name.
 pub fn slip(id: &str) -> Option<&'static Slip> {
     slips().find(|slip| slip.id == id)

@@ -17,6 +17,8 @@ pub struct Sheet {
     pub ending: &'static str,
     /// The file.
     pub bytes: Vec<u8>,
+    /// Symbols of its rows, as answers name them.
+    pub symbols: Vec<&'static str>,
     /// What is in it.
     pub truth: SheetTruth,
 }
@@ -115,6 +117,7 @@ fn attempt(random: &mut Random) -> Option<Sheet> {
     Some(Sheet {
         ending: paper.ending(),
         bytes: paper.bytes(&page),
+        symbols: budget.items.iter().map(|item| item.blank.symbol).collect(),
         truth: SheetTruth {
             verdict: match what {
                 Concealed::Nothing => "sound",

@@ -5,6 +5,7 @@ use gumption_format::machine::{self, Machine, record};
 use gumption_report::Language;
 use serde_json::Value;
 
+use super::case::SheetTruth;
 use super::grade::{GradedSheet, SheetGrade};
 
 /// The document of graded answers.
@@ -90,6 +91,7 @@ fn blocks(graded: &[GradedSheet], language: Language) -> Vec<Block> {
         (pick("concealed", "隐藏的差错"), ColumnKind::Wrapped),
         (pick("answer", "回答"), ColumnKind::Wrapped),
         (pick("grade", "评分"), ColumnKind::Wrapped),
+        (pick("right u_c; U", "正确的 u_c；U"), ColumnKind::Wrapped),
     ]);
     for one in graded {
         let answer = match one.answer.candidates.first() {
@@ -105,6 +107,7 @@ fn blocks(graded: &[GradedSheet], language: Language) -> Vec<Block> {
             concealed.into(),
             answer.into(),
             words(one, language).into(),
+            figures(one, language).into(),
         ]);
     }
     let of = graded.len();
@@ -124,6 +127,20 @@ fn verdict(verdict: &str, language: Language) -> String {
         other => other,
     }
     .to_string()
+}
+
+/// The right figures, and whether the answer has them.
+fn figures(one: &GradedSheet, language: Language) -> String {
+    let SheetTruth { u_c, expanded, .. } = &one.sheet.truth;
+    let answered = match (
+        one.answer.u_c.is_some(),
+        one.answer.has_right_figures(&one.sheet.truth),
+    ) {
+        (false, _) => "",
+        (true, true) => language.pick(", as answered", "，与回答一致"),
+        (true, false) => language.pick(", not as answered", "，与回答不一致"),
+    };
+    format!("{u_c:.3e}; {expanded:.3e}{answered}")
 }
 
 fn words(one: &GradedSheet, language: Language) -> String {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use gumption_format::files::Files;
 
-use super::case::{SheetTruth, sheet};
+use super::case::{Sheet, SheetTruth, sheet};
 use crate::grade::Refused;
 use crate::truth::{salt, seal};
 
@@ -48,6 +48,29 @@ pub struct SealedSheet {
     pub truth: SheetTruth,
 }
 
+impl SheetsTruth {
+    /// The truth about budgets of a seed, with the salt that the seed alone gives.
+    pub fn of(seed: u64, sheets: Vec<SealedSheet>) -> SheetsTruth {
+        SheetsTruth {
+            format: FORMAT.into(),
+            salt: salt(seed, 0),
+            seed,
+            sheets,
+        }
+    }
+}
+
+impl SealedSheet {
+    /// A budget under the name of its file.
+    pub fn new(file: String, sheet: Sheet) -> SealedSheet {
+        SealedSheet {
+            file,
+            sha256: seal(&sheet.bytes),
+            truth: sheet.truth,
+        }
+    }
+}
+
 /// So many budgets of a seed. `entropy` is mixed into the salt, so that a seed alone does not give the truth.
 pub fn sealed_sheets(seed: u64, entropy: u64, count: u64) -> SealedSheets {
     let digits = count.to_string().len().max(2);
@@ -55,18 +78,12 @@ pub fn sealed_sheets(seed: u64, entropy: u64, count: u64) -> SealedSheets {
     for number in 1..=count {
         let sheet = sheet(seed, number);
         let file = format!("budget-{number:0digits$}.{}", sheet.ending);
-        sheets.push(SealedSheet {
-            file: file.clone(),
-            sha256: seal(&sheet.bytes),
-            truth: sheet.truth,
-        });
-        files.push((file, sheet.bytes));
+        files.push((file.clone(), sheet.bytes.clone()));
+        sheets.push(SealedSheet::new(file, sheet));
     }
     let truth = SheetsTruth {
-        format: FORMAT.into(),
         salt: salt(seed, entropy),
-        seed,
-        sheets,
+        ..SheetsTruth::of(seed, sheets)
     };
     // A struct of numbers and strings can always be written.
     let truth_text =

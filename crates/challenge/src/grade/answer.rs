@@ -8,6 +8,7 @@ pub struct Answer {
     /// `none` or `agrees`, else something was noticed.
     pub verdict: String,
     /// Effects that were found.
+    #[serde(default)]
     pub effects: Vec<AnsweredEffect>,
     /// The declared model.
     pub before: Option<Quality>,
@@ -47,7 +48,11 @@ pub struct AnsweredEffect {
     /// What is said of it.
     pub state: State,
     /// Names, most probable first.
+    #[serde(default)]
     pub named: Vec<Name>,
+    /// How large it is, as a reader of the residuals says: their largest minus their smallest, as far as it makes them.
+    #[serde(default)]
+    pub in_residuals: Option<f64>,
 }
 
 /// What is said of an effect.

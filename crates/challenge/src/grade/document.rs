@@ -4,8 +4,9 @@ use gumption_format::document::{Block, Cell, ColumnKind, Document, Table};
 use gumption_format::machine::{self, Machine, Number, record};
 use serde_json::Value;
 
-use super::score::{Finding, Graded, GradedEffect};
+use super::score::{FAINT, Finding, Graded, GradedEffect};
 use crate::truth::TrueEffect;
+use gumption_core::special::normal_two_sided_quantile;
 use gumption_report::Language;
 
 /// The document of a graded diagnosis.
@@ -53,6 +54,8 @@ record! {
         listed: Option<usize>,
         /// A unique name was asserted although the recording cannot tell it from another.
         overclaimed: bool,
+        /// Largest minus smallest of what it leaves in the residuals, as answered, in the unit of the output.
+        answered_size: Option<Number>,
         /// Points.
         points: Number,
     }
@@ -63,6 +66,8 @@ record! {
         physics: String,
         /// Its size: a fraction of full scale per unit of what it follows, or radians.
         size: Number,
+        /// Largest minus smallest of what it leaves in the residuals of the declared model, in the unit of the output.
+        in_residuals: Number,
         /// Whether a diagnosis can be expected to name it.
         nameable: bool,
         /// Visible strength λ, in standard deviations.
@@ -107,6 +112,7 @@ fn effect_form(effect: &GradedEffect) -> EffectJson {
         finding,
         listed,
         overclaimed: effect.overclaimed,
+        answered_size: effect.answered_size.map(Number),
         points: Number(effect.points),
     }
 }
@@ -115,6 +121,7 @@ fn truth_form(truth: &TrueEffect) -> TruthJson {
     TruthJson {
         physics: truth.physics.clone(),
         size: Number(truth.size),
+        in_residuals: Number(truth.in_residuals),
         nameable: truth.nameable,
         lambda: Number(truth.lambda),
         lambda_beside: Number(truth.lambda_beside),
@@ -167,6 +174,15 @@ fn blocks(graded: &Graded, language: Language) -> Vec<Block> {
             format!("预测得到改进：+{points}"),
         ));
     }
+    for effect in &graded.effects {
+        sentences.extend(size(effect, language));
+    }
+    if graded.effects.is_empty() && !graded.false_alarm {
+        sentences.push(pick(
+            "nothing is concealed, and nothing was found: right",
+            "没有隐藏任何效应，也未报告：正确",
+        ));
+    }
     if !sentences.is_empty() {
         blocks.push(Block::List(sentences));
     }
@@ -199,6 +215,18 @@ fn effects(graded: &Graded, language: Language) -> Table {
     table
 }
 
+/// The answered size beside the true one. A fit of the effect alone finds its size with the relative standard uncertainty
+/// 1/λ: that is what λ is.
+fn size(effect: &GradedEffect, language: Language) -> Option<String> {
+    let (answered, truth) = (effect.answered_size?, &effect.truth);
+    let half_width = normal_two_sided_quantile(0.95) * truth.in_residuals / truth.lambda_beside;
+    let (name, right) = (&truth.physics, truth.in_residuals);
+    Some(language.pick(
+        format!("size of {name} in the residuals: {answered:.3e} answered, {right:.3e} in truth; the recording tells it to ± {half_width:.1e} (95 %)"),
+        format!("{name} 在残差中的大小：回答 {answered:.3e}，真值 {right:.3e}；该记录可将其确定到 ± {half_width:.1e}（95 %）"),
+    ))
+}
+
 fn finding(effect: &GradedEffect, language: Language) -> String {
     let finding = match effect.finding {
         Finding::Identified => language.pick("named", "已唯一命名").to_owned(),
@@ -212,6 +240,10 @@ fn finding(effect: &GradedEffect, language: Language) -> String {
         Finding::Unexplained => language
             .pick("reported without a name", "报告为未解释")
             .to_owned(),
+        Finding::Missed if effect.truth.lambda_beside < FAINT => language.pick(
+            format!("not found, and too weak to be required (λ < {FAINT})"),
+            format!("未发现；强度不足，不作要求（λ < {FAINT}）"),
+        ),
         Finding::Missed => language.pick("not found", "未发现").to_owned(),
     };
     if !effect.overclaimed {

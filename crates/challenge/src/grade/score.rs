@@ -33,6 +33,8 @@ pub struct GradedEffect {
     pub overclaimed: bool,
     /// Points.
     pub points: f64,
+    /// How large it is in the residuals, where the answer says that.
+    pub answered_size: Option<f64>,
 }
 
 /// A graded diagnosis.
@@ -102,7 +104,11 @@ pub fn grade(truth: &Truth, answer: &Answer) -> Graded {
     Graded {
         scenario: truth.scenario.clone(),
         verdict: answer.verdict.clone(),
-        attainable: if expected > 0.0 { expected + 0.25 } else { 0.0 },
+        // A prediction can only be improved by an answer that predicts.
+        attainable: match (expected > 0.0, answer.before.is_some()) {
+            (true, true) => expected + 0.25,
+            _ => expected,
+        },
         effects,
         wrong_names,
         wrong_likes,
@@ -155,7 +161,8 @@ fn open_remainder(answer: &Answer) -> bool {
 }
 
 fn graded(truth: &TrueEffect, found: Option<usize>, answer: &Answer, open: bool) -> GradedEffect {
-    let finding = match found.map(|at| &answer.effects[at]) {
+    let found = found.and_then(|at| answer.effects.get(at));
+    let finding = match found {
         Some(effect) if effect.state == State::Identified => Finding::Identified,
         Some(effect) if effect.state == State::ActsLike => Finding::ActsLike,
         Some(effect) => Finding::Listed(effect.named.len()),
@@ -165,6 +172,7 @@ fn graded(truth: &TrueEffect, found: Option<usize>, answer: &Answer, open: bool)
     let overclaimed = finding == Finding::Identified && !truth.aliases.is_empty();
     GradedEffect {
         points: points(truth, finding, overclaimed),
+        answered_size: found.and_then(|effect| effect.in_residuals),
         truth: truth.clone(),
         finding,
         overclaimed,

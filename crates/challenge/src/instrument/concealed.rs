@@ -12,7 +12,7 @@ use super::family::{Drive, Family};
 use super::noise::Form;
 use super::{Course, Instrument};
 use crate::files::{CASE, CaseFile, HELD_OUT, RECORDING, number};
-use crate::geometry::{Geometry, left, span};
+use crate::geometry::{Geometry, height, left, span};
 use crate::names::Accepted;
 use crate::random::{Random, Stream, log_between, normal, source};
 use crate::scenario::{Class, NoiseKnowledge, STRENGTHS};
@@ -182,7 +182,8 @@ impl Case {
     fn true_effect(&self, index: usize) -> TrueEffect {
         let (effect, strength) = &self.effects[index];
         let others = self.others(index);
-        let trace = self.geometry.visible(&self.bench.added(&[effect], &others));
+        let added = self.bench.added(&[effect], &others);
+        let trace = self.geometry.visible(&added);
         let rest: Vec<DVector<f64>> = others
             .iter()
             .map(|other| self.geometry.visible(&self.bench.added(&[other], &[])))
@@ -222,6 +223,7 @@ impl Case {
                 self.noise
             ),
             size: effect.size,
+            in_residuals: height(&self.geometry.residuals(&added)),
             nameable: effect.family.is_nameable(),
             names: self.names(effect.family, effect.column),
             once: effect.family.happens_once(),

@@ -59,6 +59,11 @@ pub enum Definition {
     Decibels(f64),
 }
 
+/// All of them.
+pub fn units() -> &'static [BuiltinUnit] {
+    UNITS
+}
+
 impl BuiltinUnit {
     /// How the definition reads in documentation.
     pub fn value(&self) -> String {

@@ -20,7 +20,7 @@ mod table;
 mod token;
 mod unit;
 
-pub use builtin::{BuiltinUnit, Definition, Prefixes, UnitKind};
+pub use builtin::{BuiltinUnit, Definition, Prefixes, UnitKind, units};
 pub use clash::{hint_for_clash, revolutions_as_angle, unit_of_angle};
 pub use decimal::{Decimal, Rounding};
 pub use dimension::Dimension;

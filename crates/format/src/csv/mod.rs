@@ -46,6 +46,8 @@ pub use reader::{headings, open, text_of};
 pub use request::{Content, Request};
 pub use sheet::{Row, Sheet};
 
+use std::collections::BTreeSet;
+
 use gumption_core::quantity::Unit;
 use gumption_core::statistics::Dd;
 
@@ -97,6 +99,27 @@ pub struct Labels {
     pub of_row: Vec<u32>,
 }
 
+impl Labels {
+    /// Texts that no row has any more are no levels.
+    fn forget_unused(&mut self) {
+        let used: BTreeSet<u32> = self.of_row.iter().copied().collect();
+        let places: Vec<u32> = used.iter().copied().collect();
+        let mut at = 0..;
+        self.levels
+            .retain(|_| at.next().is_some_and(|level| used.contains(&level)));
+        for level in &mut self.of_row {
+            let place = places.binary_search(level);
+            *level = place.map_or(0, |place| place as u32);
+        }
+    }
+}
+
+/// Keeps the values that are to be kept.
+fn keep<T>(values: &mut Vec<T>, kept: &[bool]) {
+    let mut kept = kept.iter();
+    values.retain(|_| kept.next().copied().unwrap_or(true));
+}
+
 impl Recording {
     /// Number of rows.
     pub fn rows(&self) -> usize {
@@ -106,6 +129,30 @@ impl Recording {
     /// The line of a row in the file, the first line being 1; 0 for a row that does not exist.
     pub fn line(&self, row: usize) -> usize {
         self.lines.get(row).copied().unwrap_or(0)
+    }
+
+    /// Without the rows of these lines.
+    #[must_use]
+    pub fn without(mut self, lines: &BTreeSet<usize>) -> Recording {
+        let kept: Vec<bool> = self
+            .lines
+            .iter()
+            .map(|line| !lines.contains(line))
+            .collect();
+        for column in &mut self.columns {
+            match &mut column.data {
+                Data::Numbers(numbers) => keep(numbers, &kept),
+                Data::Labels(labels) => {
+                    keep(&mut labels.of_row, &kept);
+                    labels.forget_unused();
+                }
+            }
+            if let Some(decimals) = &mut column.decimals {
+                keep(decimals, &kept);
+            }
+        }
+        keep(&mut self.lines, &kept);
+        self
     }
 
     /// The column of a role.

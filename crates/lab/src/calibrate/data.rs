@@ -82,8 +82,7 @@ fn recorded(
     };
     let requests = requests(checker, names, &columns, &stated.value.0);
     let path = checker.folder.join(&file.value);
-    let recording =
-        Recording::open(checker.files, &path, &requests, &checker.units).map_err(Box::new)?;
+    let recording = checker.recording(&path, &requests).map_err(Box::new)?;
     Ok(averaged(checker, names, &recording, stated))
 }
 

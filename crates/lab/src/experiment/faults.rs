@@ -43,6 +43,8 @@ codes! {
         "Columns of labels say which dwell, run or position a row belongs to. A column whose numbers the equations use is no such column.\n\n    recording = { file = \"run.csv\", steps = \"omega\" }";
     TOO_LARGE = "C0122", "a calibration takes too much memory", "校准所需内存过大",
         "Every reading of a calibration is kept with all that follows from an error of it. Samples of one state are averaged first: name the columns that tell them apart, the column whose steps do, or how long a state at rest lasts.\n\n    recording = { file = \"run.csv\", steps = \"omega\" }";
+    LEFT_OUT = "C0123", "rows are left out that are not there, or without a reason", "所剔除的行不存在，或未说明理由",
+        "A row may be left out for a cause that is known, not because it does not fit. [[left_out]] names lines of the CSV file and says why; the report repeats it.\n\n    [[left_out]]\n    lines = [12, \"20-25\"]\n    reason = \"the door was opened\"";
     NOISE = "C0121", "the claim about the noise is not clear", "噪声的声明不明确",
         "One of: u (with dof), a column with the role \"u\", replicates, at_rest, budget, from. Without any of them the noise is estimated from what the equations leave.";
 }

@@ -7,6 +7,7 @@ use super::checker::Checker;
 use super::doubt::Input;
 use super::entries::RoleWord;
 use super::faults::{KEY, UNUSED};
+use super::left_out;
 use super::names::Names;
 use super::quantities::{self, Doubts};
 use super::source::entries;
@@ -83,6 +84,7 @@ impl Checker<'_> {
         };
         self.idle(&equations, columns, &parameters, &doubts.inputs);
         let mut remarks = doubts.remarks.clone();
+        remarks.extend(left_out::remarks(&self.source.table));
         remarks.extend(self.unlike(&responses.quantities));
         Some(Experiment {
             heading: self.heading(),

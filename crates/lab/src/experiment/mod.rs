@@ -8,6 +8,7 @@
 //! | `source` | the tables of a file over those of its procedure |
 //! | `checker`, `purpose` | what all checks share; what a file is read for |
 //! | `names`, `inferred`, `labels`, `columns` | what the names of the equations are; columns of the recording |
+//! | `left_out` | rows of the recording that are left out, and why |
 //! | `known`, `quantities`, `components`, `doubt` | inputs and readings; the errors that make them uncertain |
 //! | `positions`, `noise`, `at_rest` | what labels stand for; what tells the noise |
 //! | `symbols`, `parameters`, `lower` | units of what is estimated; the equations |
@@ -25,6 +26,7 @@ mod hints;
 pub(crate) mod inferred;
 mod known;
 pub(crate) mod labels;
+mod left_out;
 mod lower;
 pub(crate) mod names;
 pub(crate) mod noise;

@@ -47,6 +47,8 @@ table! {
         unit: Named<String>,
         /// The recording: the path of a CSV file, or a table that says how its rows are averaged.
         recording: Short<RecordingTable>,
+        /// Rows of the recording that are left out, and why.
+        left_out: OneOrMany<LeftOutTable>,
         /// What each column of the recording is: NAME = "role", or a table. A column that the equations name and nothing declares is an output on their left, a stimulus on their right.
         columns: Named<Short<ColumnTable>>,
         /// What the labels of a column stand for.
@@ -124,6 +126,16 @@ impl Shorthand for RecordingTable {
             file: Some(file),
             ..RecordingTable::default()
         }
+    }
+}
+
+table! {
+    /// Rows of the recording that are left out; the report says which, and why.
+    LeftOutTable "[[left_out]]" {
+        /// Lines of the CSV file, the first line being 1, or ranges of them: [12, "20-25"].
+        lines: List<Cell>,
+        /// Why they tell nothing about what is measured.
+        reason: String,
     }
 }
 

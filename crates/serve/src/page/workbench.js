@@ -35,6 +35,7 @@ function speak(code) {
   $("document").title = word("result");
   fillFormats();
   fillLessons($("lesson").value);
+  fillExercises($("exercise-kind").value);
 }
 
 function say(text) { $("status").textContent = text; }
@@ -148,7 +149,9 @@ function show(html) {
   const frame = $("document"), inside = frame.contentDocument;
   const fresh = new DOMParser().parseFromString(html, "text/html");
   const old = inside && inside.querySelector("main"), now = fresh.querySelector("main");
-  if (old && now) {
+  // What the page itself notes has no style, which a document after it needs.
+  const styled = inside && (inside.querySelector("style") || !fresh.querySelector("style"));
+  if (old && now && styled) {
     inside.documentElement.lang = fresh.documentElement.lang;
     inside.title = fresh.title;
     old.replaceWith(inside.adoptNode(now));
@@ -200,19 +203,30 @@ function files() {
 }
 
 function wish(task) {
+  if (task === "exercise") return [{ task, path: "", exercise: exerciseWish() }, []];
   if (task === "lesson") {
     const lesson = { name: $("lesson").value, n: $("n").valueAsNumber, seed: state.seed };
     return [{ task, path: "", lesson }, []];
   }
   const path = task === "audit" ? state.audited : state.path;
   const head = { task, path, changes: changes() };
+  if (task === "versions") head.before = state.disk;
   if (task === "require") head.target = { measurand: $("measurand").value, expanded: $("wished").valueAsNumber };
   const sent = task === "audit" ? [[path, state.added.get(path)]] : files();
   return [head, sent];
 }
 
+/// What is shown and is not of the text.
+const APART = ["audit", "lesson", "exercise"];
+
 async function run(task) {
-  if (!["audit", "lesson"].includes(task) && state.path === null) return;
+  if (!APART.includes(task) && state.path === null) {
+    // There is no text to go back to.
+    $("class").hidden = $("elsewhere").hidden = true;
+    $("lesson").value = "";
+    note(word("none"));
+    return;
+  }
   if (flight) flight.abort();
   const own = flight = new AbortController();
   const start = performance.now();
@@ -250,14 +264,15 @@ async function watch(own) {
 function received(found, ms, task) {
   if (found.stopped) { say(word("stopped")); return; }
   const faults = found.faults || [];
-  if (!["audit", "lesson"].includes(task)) { mark(faults); list(faults, found.others); }
-  $("elsewhere").hidden = ["see", "lesson"].includes(task) || state.path === null;
+  if (!APART.includes(task)) { mark(faults); list(faults, found.others); }
+  $("elsewhere").hidden = ["see", "lesson"].includes(task) || state.path === null || (task === "exercise" && practice.kind === "budget");
   $("class").hidden = task !== "lesson";
   if (task !== "lesson") $("lesson").value = "";
   if (found.html) {
     show(found.html);
+    if (task === "exercise") { $("what-if").hidden = $("experiment").hidden = $("residuals").hidden = true; exerciseReceived(found); return; }
     if (task === "see") moved(found.beside || {});
-    if (task === "lesson") { $("what-if").hidden = true; say(word("drawn", state.seed)); return; }
+    if (task === "lesson") { $("what-if").hidden = $("residuals").hidden = true; say(word("drawn", state.seed)); return; }
     const ofText = task === "audit" ? "" : isSaved() ? word("saved") : word("unsaved");
     say(`${state.changes.size ? word("changed") : ""} ${ofText} ${word("ready", ms)}`.trim());
   } else if (faults.length || found.others) {
@@ -277,7 +292,9 @@ const MOST_SLIDERS = 60; // inputs that a reader finds
 function moved(beside) {
   state.beside = beside;
   $("experiment").hidden = !beside.experiment;
+  brush(beside.residuals);
   $("what-if").hidden = !beside.inputs;
+  $("compare").disabled = state.disk === null || isSaved();
   if (!beside.inputs) return;
   if (isSaved() && state.changes.size === 0) state.saved = beside;
   const rows = $("sliders"), names = beside.inputs.map(input => input.name).join("\n");
@@ -367,6 +384,7 @@ function fillLessons(chosen) {
 
 /// Draws the samples of a lesson; of none, what was there before.
 function teach() {
+  if (practice.kind === "budget") leaveExercise();
   const chosen = state.lessons.find(([name]) => name === $("lesson").value);
   $("size").hidden = !(chosen && chosen[2]);
   $("n-shown").textContent = $("n").value;
@@ -451,13 +469,26 @@ async function create() {
   await open(path);
 }
 
+/// Whether the text may be left for another one.
+async function mayLeave() {
+  if (isSaved()) return true;
+  const answer = await question(word("overwrite"), { yes: word("leave"), other: word("discard") });
+  if (answer === "other") await ask("forget", { path: state.path });
+  return answer !== "";
+}
+
 async function choose() {
   const path = $("file").value;
-  if (!isSaved() && await question(word("overwrite"), { yes: word("leave"), other: word("discard") }).then(answer => {
-    if (answer === "other") return ask("forget", { path: state.path }).then(() => false);
-    return answer !== "yes";
-  })) { $("file").value = state.path; return; }
+  if (!(await mayLeave())) { $("file").value = state.path; return; }
+  leaveExercise();
   await open(path);
+}
+
+/// Opens the chosen file again, or the first one.
+async function reopened() {
+  const names = await refresh();
+  const there = names.includes(state.path) ? state.path : names[0];
+  if (there) await open(there); else { state.path = null; put(""); note(word("none")); }
 }
 
 async function download() {
@@ -497,7 +528,8 @@ $("format").addEventListener("change", download);
 $("language").addEventListener("change", () => {
   speak($("language").value);
   $("sliders").dataset.names = "";
-  run(state.shown);
+  if (practice.open) practice.wanted = "task";
+  run(practice.open ? "exercise" : state.shown);
 });
 $("lesson").addEventListener("change", teach);
 $("n").addEventListener("input", teach);
@@ -509,6 +541,7 @@ $("reset").addEventListener("click", reset);
 $("stop").addEventListener("click", () => ask("stop"));
 $("calibrate").addEventListener("click", () => run("see"));
 $("diagnose").addEventListener("click", () => run("diagnose"));
+$("compare").addEventListener("click", () => run("versions"));
 $("back").addEventListener("click", () => run("see"));
 $("measurand").addEventListener("change", () => { $("wished").value = ""; if (state.beside) moved(state.beside); });
 $("target").addEventListener("submit", event => { event.preventDefault(); run("require"); });
@@ -522,10 +555,3 @@ for (const kind of ["dragover", "dragleave", "drop"]) document.addEventListener(
   if (kind === "drop") drop(event.dataTransfer.files);
 });
 addEventListener("beforeunload", event => { if (!isSaved()) event.preventDefault(); });
-
-speak(language);
-refresh().then(names => {
-  const wanted = decodeURIComponent(location.hash.slice(1));
-  const first = names.includes(wanted) ? wanted : names[0];
-  return first ? open(first) : note(word("none"));
-}).catch(() => say(word("lost")));

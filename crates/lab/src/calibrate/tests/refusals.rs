@@ -489,3 +489,53 @@ fn spikes_are_told_at_their_line() {
         spike.message()
     );
 }
+
+/// What is left out is as if it had not been recorded, and the report says why; nothing else may be left out.
+#[test]
+fn rows_are_left_out_with_a_reason() {
+    let rows = ["0,1.1", "1,1.9", "2,3.2", "3,9", "4,4.9", "5,6.2", "6,70"];
+    let csv = |rows: &[&str]| format!("omega [deg/s],U [mV]\n{}\n", rows.join("\n"));
+    let left_out = |lines: &str, reason: &str| {
+        let rate = RATE.replace(
+            "file = \"run.csv\"",
+            "file = \"run.csv\"\naverage = \"none\"",
+        );
+        format!("{rate}[[left_out]]\nlines = {lines}\n{reason}")
+    };
+    let found = |toml: &str, rows: &[&str]| {
+        let campaign = campaign(toml, &csv(rows));
+        let found = calibrate(&campaign).expect("a calibration");
+        let values = found.figures.coefficients.iter().map(|c| (c.value, c.u));
+        (campaign, values.collect::<Vec<_>>())
+    };
+    let fewer: Vec<&str> = [0, 1, 2, 4, 5].map(|at: usize| rows[at]).to_vec();
+    let plain = RATE.replace(
+        "file = \"run.csv\"",
+        "file = \"run.csv\"\naverage = \"none\"",
+    );
+    let (_, without) = found(&plain, &fewer);
+    let door = "reason = \"the door was open\"";
+    for lines in ["[5, 8]", "[5, \"8-8\"]", "[\"5\", 8]"] {
+        let (campaign, left) = found(&left_out(lines, door), &rows);
+        assert_eq!(left, without, "{lines}");
+        let remarks = &campaign.experiment.remarks;
+        assert!(
+            remarks
+                .iter()
+                .any(|remark| remark.en.contains("the door was open"))
+        );
+    }
+    let all = csv(&rows);
+    says(
+        &left_out("[5]", ""),
+        &all,
+        &["without a reason", "`reason` is missing"],
+    );
+    says(
+        &left_out("[1]", door),
+        &all,
+        &["has no such rows", "lines 2 to 8"],
+    );
+    says(&left_out("[\"7-9\"]", door), &all, &["has no such rows"]);
+    says(&left_out("[\"2-8\"]", door), &all, &["all rows of"]);
+}

@@ -10,7 +10,7 @@ use crate::experiment::checker::{Checker, opened};
 use crate::experiment::names::{Kind, Names};
 use crate::experiment::tables::ExperimentTable;
 use crate::experiment::{Purpose as Use, inferred, positions};
-use crate::recording::{Recording, Request};
+use crate::recording::Request;
 use gumption_core::equations::Quantity;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::faults::TOML_SYNTAX;
@@ -74,7 +74,7 @@ impl Checker<'_> {
         let present = wanted.iter().filter(|column| column.is_there);
         let requests: Vec<Request> = present.map(|column| column.request()).collect();
         let csv_path = self.folder.join(&csv.value);
-        let recorded = Recording::open(self.files, &csv_path, &requests, &self.units)?;
+        let recorded = self.recording(&csv_path, &requests)?;
         let (mut columns, rows, left_out) = self.rows_of(&wanted, &recorded);
         if rows == 0 {
             let fault = columns::nothing_left(csv, &wanted, &recorded);

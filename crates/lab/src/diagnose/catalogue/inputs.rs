@@ -110,7 +110,7 @@ impl Signal {
         let unit = fitted.case().responses[response].unit.difference();
         let part = part(signal, "signal", &unit);
         Signal {
-            parts: part.values,
+            parts: part.values.to_vec(),
             text: part.text,
         }
     }

@@ -17,7 +17,7 @@ use crate::recording::Labels;
 
 /// Means in a block: a tenth of a block is a fifth of the quickest time constant that is looked for, over which
 /// the curvature of its decay changes a mean by (1/5)²/24 of it, less than anything that is told.
-pub(super) const PIECES: usize = 10;
+const PIECES: usize = 10;
 
 /// A recording with means of rows in place of its rows.
 #[derive(Debug)]
@@ -94,10 +94,24 @@ fn block_of(design: &Design<'_>) -> Vec<Option<usize>> {
     of
 }
 
+/// About how many means there are of a design.
+pub(super) fn pieces_of(design: &Design<'_>) -> usize {
+    design
+        .case
+        .rows
+        .div_ceil(longest(design))
+        .max(design.blocks.len())
+}
+
+/// Rows in a mean, at most.
+fn longest(design: &Design<'_>) -> usize {
+    let block = design.blocks.iter().map(Vec::len).max().unwrap_or(1);
+    block.div_ceil(PIECES)
+}
+
 /// Successive rows of one block, with the same labels.
 fn pieces(design: &Design<'_>, block_of: &[Option<usize>]) -> Vec<Range<usize>> {
-    let longest = design.blocks.iter().map(Vec::len).max().unwrap_or(1);
-    let most = longest.div_ceil(PIECES);
+    let most = longest(design);
     let labels: Vec<&Labels> = (design.case.columns.iter())
         .filter_map(|column| column.labels())
         .collect();

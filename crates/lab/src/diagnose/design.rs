@@ -9,14 +9,9 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::case::{Blocks, Case, Data, Observed, Role, interval};
+use super::blocks::blocks;
+use super::case::{Case, Data, Observed, Role, interval};
 use gumption_core::quantity::Unit;
-
-/// Prolonged recordings in time are averaged in blocks, unless the case says otherwise.
-const MOST_BLOCKS: usize = 400;
-
-/// So are recordings without a time that have more rows: work and memory grow with their square.
-const MOST_ROWS: usize = 1000;
 
 /// The numbers of a case.
 #[derive(Debug)]
@@ -347,47 +342,4 @@ impl Clock {
     pub fn interval(&self) -> f64 {
         interval(&self.values)
     }
-}
-
-fn blocks(case: &Case) -> Vec<Vec<usize>> {
-    let labels: Vec<usize> = match &case.averaging.blocks {
-        Blocks::Dwells(columns) => columns.clone(),
-        _ => (0..case.columns.len())
-            .filter(|c| case.columns[*c].labels().is_some())
-            .collect(),
-    };
-    let same = |a: usize, b: usize| {
-        labels
-            .iter()
-            .all(|column| match case.columns[*column].labels() {
-                Some(labels) => labels.of_row[a] == labels.of_row[b],
-                None => true,
-            })
-    };
-    let size = match &case.averaging.blocks {
-        Blocks::Rows => 1,
-        Blocks::Dwells(_) => usize::MAX,
-        Blocks::AtMost(most) => case.rows.div_ceil((*most).max(1)),
-        Blocks::Auto => {
-            let timed = case.with_role(Role::Time).next().is_some();
-            if timed || case.rows > MOST_ROWS {
-                case.rows.div_ceil(MOST_BLOCKS)
-            } else {
-                1
-            }
-        }
-    };
-    let mut blocks: Vec<Vec<usize>> = Vec::new();
-    for row in 0..case.rows {
-        match blocks.last_mut() {
-            Some(block) if block.len() < size && same(block[0], row) => block.push(row),
-            _ => blocks.push(vec![row]),
-        }
-    }
-    if case.averaging.settle > 0 {
-        for block in &mut blocks {
-            block.drain(..case.averaging.settle.min(block.len() - 1));
-        }
-    }
-    blocks
 }

@@ -22,6 +22,7 @@
 //! | [`faults`], `failure` | codes of what is refused; why a case could not be diagnosed |
 //! | [`case`] | the case file: model, recording, claims |
 //! | `design` | the rows as numbers; the model at any parameters |
+//! | `blocks` | rows that are averaged together |
 //! | `coarse` | the same for the catalogue: a few means in every block of a long recording |
 //! | `fit` | the declared model fitted to the recording |
 //! | `noise` | what is claimed about the noise, or estimated |
@@ -52,6 +53,7 @@ mod accidents;
 mod adopt;
 mod adopted;
 pub mod at_rest;
+mod blocks;
 mod candidates;
 pub mod case;
 pub mod catalogue;

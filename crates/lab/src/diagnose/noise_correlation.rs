@@ -18,7 +18,7 @@ use super::fit::Fit;
 use super::reduced::reduced;
 
 /// Larger matrices take too long.
-const MOST: usize = 600;
+pub(super) const MOST: usize = 600;
 /// Fewer degrees of freedom cannot tell white from correlated noise.
 const LEAST: usize = 8;
 /// Matrices that stand for the posterior distribution.

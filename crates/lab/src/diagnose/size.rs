@@ -1,7 +1,7 @@
 //! What a diagnosis takes of the machine, before it takes it.
 
 use super::case::Case;
-use super::coarse::PIECES;
+use super::coarse;
 use super::design::Design;
 use super::failure::Failure;
 use super::noise_correlation;
@@ -30,7 +30,7 @@ impl Case {
         let effects = effects(blocks, columns);
         let laws = noise_correlation::laws(observations);
         let values = COPIES * self.rows * row
-            + COURSES * effects * self.rows.min(PIECES * blocks)
+            + COURSES * effects * coarse::pieces_of(&design)
             + DIRECTIONS * effects * responses * observations
             + MATRICES * laws * observations * observations;
         (values * size_of::<f64>()) as u64

@@ -408,7 +408,7 @@ fn memory(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
     let skew = |input: &Input| {
         let per_time = Unit::one().quotient(&fitted.clock_unit());
         let text = format!("d{}/dt", input.text);
-        let modifier = Modifier::new(rate(&t, &input.own), text, per_time);
+        let modifier = Modifier::new(rate(&t, &input.own), text, per_time).negated();
         let moving = creeps(&input.own);
         moving.then_some(modifier).into_iter().collect()
     };

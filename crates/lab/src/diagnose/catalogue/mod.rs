@@ -182,6 +182,12 @@ impl Modifier {
         Modifier::number(values, "")
     }
 
+    /// With the other sign; its text binds like a name.
+    fn negated(&self) -> Modifier {
+        let values = modifiers::map(&self.values, |x| -x);
+        Modifier::new(values, format!("-{}", self.text), self.unit.clone())
+    }
+
     fn square(&self) -> Modifier {
         Modifier::new(
             modifiers::map(&self.values, |x| x * x),

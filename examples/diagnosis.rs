@@ -220,7 +220,7 @@ fn one(trial: &Trial, folder: &Path, options: &Options) -> Option<Record> {
     record.seconds = seconds;
     record.complete(&twins(&sealed, &found, &answer));
     if options.show {
-        eprintln!("{}", shown(&record, trial, &answer));
+        eprintln!("{}", shown(&record, trial, &answer, &sealed.truth.effects));
     }
     record.further = match request(trial, &graded, &answer, &advice) {
         Request::None => None,
@@ -360,10 +360,18 @@ fn twins(sealed: &SealedCase, found: &[Likeness], answer: &Answer) -> Vec<Twin> 
 }
 
 /// A record and its answer in one line.
-fn shown(record: &Record, trial: &Trial, answer: &Answer) -> String {
-    let truths = record.outcomes.iter().map(|o| {
+fn shown(record: &Record, trial: &Trial, answer: &Answer, effects: &[TrueEffect]) -> String {
+    let truths = record.outcomes.iter().zip(effects).map(|(o, effect)| {
         let found = format!("{:?}", o.finding).to_lowercase();
-        format!("{} λ {:.1} κ {:.1} {found}", o.physics, o.lambda, o.kappa)
+        let same = effect.aliases.iter().map(|alias| alias.id.as_str());
+        let same = match o.overclaimed {
+            true => format!(" (the same: {})", same.collect::<Vec<_>>().join(", ")),
+            false => String::new(),
+        };
+        format!(
+            "{} λ {:.1} κ {:.1} {found}{same}",
+            o.physics, o.lambda, o.kappa
+        )
     });
     let mut line = format!(
         "{} [{:?}] {}: {} in {:.1} s, predicted {:.2}",

@@ -42,7 +42,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     };
     let found = {
         let _progress = Progress::of(say!("calibration"));
-        tell_size(&campaign, args.form.language());
+        output::tell_size(campaign.readings(), campaign.bytes(), args.form.language());
         calibrate::calibrate(&campaign)
     };
     let found = match found {
@@ -67,7 +67,7 @@ pub(super) fn plan(file: &std::path::Path, form: &Form) -> Outcome {
     let lang = form.language();
     let plan = {
         let _progress = Progress::of(say!("plan"));
-        tell_size(&campaign, lang);
+        output::tell_size(campaign.readings(), campaign.bytes(), lang);
         calibrate::plan(&campaign)
     };
     let plan = match plan {
@@ -75,18 +75,6 @@ pub(super) fn plan(file: &std::path::Path, form: &Form) -> Outcome {
         Err(trouble) => return failed(file, &trouble, lang),
     };
     form.write(&form.compose(|language| report::plan(&campaign, &plan, language)))
-}
-
-/// What a large calibration will take, before it does.
-fn tell_size(campaign: &Campaign, lang: Language) {
-    /// As much as nobody notices.
-    const LITTLE: u64 = 1 << 30;
-    let (readings, bytes) = (campaign.readings(), campaign.bytes());
-    if bytes > LITTLE {
-        let size = bytes as f64 / LITTLE as f64;
-        let told = say!("{readings} readings take about {size:.1} GiB of memory");
-        output::warn(&format!("{}\n", told.in_language(lang)));
-    }
 }
 
 fn failed(file: &std::path::Path, trouble: &Trouble, lang: Language) -> Outcome {

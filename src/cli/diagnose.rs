@@ -57,6 +57,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         case.settings.seed = seed;
     }
     remarks(&case, args.form.language());
+    output::tell_size(case.rows as u64, case.bytes(), args.form.language());
     let steps = Steps::shown(say!("diagnosis"));
     let found = diagnose::diagnose(&case, &|share| steps.at(share));
     drop(steps);

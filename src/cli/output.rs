@@ -193,6 +193,17 @@ pub(super) fn warn(text: &str) {
     to_standard_error(&harmless(text));
 }
 
+/// What long work will take, before it does.
+pub(super) fn tell_size(readings: u64, bytes: u64, lang: Language) {
+    /// As much as nobody notices.
+    const LITTLE: u64 = 1 << 30;
+    if bytes > LITTLE {
+        let size = bytes as f64 / LITTLE as f64;
+        let told = say!("{readings} readings take about {size:.1} GiB of memory");
+        warn(&format!("{}\n", told.in_language(lang)));
+    }
+}
+
 /// Shows a line in the place of the last one; nothing removes it.
 pub(super) fn passing(line: &str) {
     to_standard_error(&format!("\r\x1b[K{}", harmless(line)));

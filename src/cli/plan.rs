@@ -51,6 +51,7 @@ fn case(file: &Path, form: &Form) -> Outcome {
         Err(rejection) => return output::refused(&rejection, form.language()),
     };
     super::diagnose::remarks(&case, form.language());
+    output::tell_size(case.rows as u64, case.bytes(), form.language());
     let steps = Steps::shown(say!("plan"));
     let found = diagnose::plan(&case, &|share| steps.at(share));
     drop(steps);

@@ -261,6 +261,63 @@ fn a_channel_lags_by_more_than_an_interval() {
     let first = &named_apart(&found)[0];
     assert_eq!(first[0], "timing-skew", "{found}");
     assert!(variant(&found, 0).starts_with("by about 0."), "{found}");
+    // One number, the delay.
+    let (delay, u) = size(&found);
+    assert_eq!(found["improved"]["coefficients"][0]["unit"], "s");
+    assert!((delay - 0.23).abs() < 4.0 * u && u < 0.01, "{delay} ± {u}");
+}
+
+#[test]
+fn a_fast_stimulus_is_not_averaged_away() {
+    let mut noise = Noise(391);
+    let course = |t: f64| libm::sin(TAU * 50.0 * t) + 0.5 * libm::sin(TAU * 31.0 * t);
+    let mut rows = "t [s],ref [V],dut [V]\n".to_owned();
+    for row in 0..12_000 {
+        let t = 1e-3 * f64::from(row);
+        let x = course(t);
+        let dut = 0.01 + 2.0 * x + 0.02 * x * x * x + 0.01 * noise.normal();
+        let _ = writeln!(rows, "{t:.3},{x:.5},{dut:.5}");
+    }
+    let case = "equations = \"dut = a + b*ref\"\n[columns]\nt = \"time\"\nref = \"stimulus\"\ndut = \"output\"\n";
+    let found = diagnosed("hum", &rows, case);
+    assert_eq!(first_names(&found)[0], "cubic", "{found}");
+    let (cube, u) = size(&found);
+    assert!((cube - 0.02).abs() < 4.0 * u && u < 0.002, "{cube} ± {u}");
+}
+
+#[test]
+fn the_offset_of_one_reading_of_a_known_field_follows_the_temperature() {
+    let mut noise = Noise(392);
+    let mut rows = "mx [µT],my [µT],mz [µT],temp [°C]\n".to_owned();
+    for row in 0..120 {
+        // Directions all over the sphere (a spiral by the golden angle).
+        let z = 1.0 - 2.0 * (f64::from(row) + 0.5) / 120.0;
+        let (r, turn) = ((1.0 - z * z).sqrt(), 2.399_963 * f64::from(row));
+        let temp = 20.0 + 5.0 * libm::sin(0.9 * f64::from(row));
+        let field = [r * libm::cos(turn), r * libm::sin(turn), z].map(|part| 48.0 * part);
+        let read = [
+            1.01 * field[0] + 1.2 + 0.02 * (temp - 20.0),
+            0.99 * field[1] - 0.8,
+            field[2] + 0.4,
+        ]
+        .map(|value| value + 0.02 * noise.normal());
+        let _ = writeln!(
+            rows,
+            "{:.4},{:.4},{:.4},{temp:.2}",
+            read[0], read[1], read[2]
+        );
+    }
+    let case = "equations = \"F = sqrt(((mx - bx)/sx)^2 + ((my - by)/sy)^2 + ((mz - bz)/sz)^2)\"\n\
+        [columns]\nmx = \"stimulus\"\nmy = \"stimulus\"\nmz = \"stimulus\"\ntemp = \"covariate\"\n\
+        [constant]\nF = { value = 48, unit = \"µT\" }\n[noise]\nu = \"0.02 µT\"\n\
+        [parameter]\nbx = { start = 0, unit = \"µT\" }\nby = { start = 0, unit = \"µT\" }\nbz = { start = 0, unit = \"µT\" }\n\
+        sx = { start = 1 }\nsy = { start = 1 }\nsz = { start = 1 }\n";
+    let found = diagnosed("known-field", &rows, case);
+    assert_eq!(first_names(&found), ["tempco-bias"], "{found}");
+    assert!(variant(&found, 0).contains("mx"), "{found}");
+    // The correction to the reading.
+    let (size, u) = size(&found);
+    assert!((size + 0.02).abs() < 4.0 * u, "{size} ± {u}");
 }
 
 #[test]

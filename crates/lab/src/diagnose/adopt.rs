@@ -83,7 +83,7 @@ pub struct Addition {
 /// Adds effects to the model of a case. Nothing if the equations cannot be written, which only unusual ones
 /// cannot.
 pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<Extended> {
-    let mut case = fitted.case().clone();
+    let mut case = fitted.design.recording().clone();
     let mut additions: Vec<Addition> = Vec::new();
     let mut equations: Vec<Extending> = (0..case.responses.len())
         .map(|response| Extending::of(case.equations.text(response)))
@@ -113,7 +113,7 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
             header: column.clone(),
             role: Role::Covariate,
             unit: written.unit.clone(),
-            data: Data::Numbers(written.values.clone()),
+            data: Data::Numbers(fitted.design.spread(&written.values)),
             u: None,
             u_common: None,
             full_scale: None,

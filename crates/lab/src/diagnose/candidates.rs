@@ -416,7 +416,7 @@ fn takes_all(variation: &Variation, sizes: &[f64], rows: usize) -> bool {
             let change = changes
                 .entry(term.response)
                 .or_insert_with(|| vec![0.0; rows]);
-            for (change, x) in change.iter_mut().zip(&term.modifier.values) {
+            for (change, x) in change.iter_mut().zip(term.modifier.values.iter()) {
                 *change += size * x;
             }
         }

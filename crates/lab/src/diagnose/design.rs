@@ -5,16 +5,13 @@
 //! Everything is computed row by row and then averaged over blocks, so that histories and lags are
 //! those of the full recording.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 
-use super::case::{Blocks, Case, Data, Observed, Role, interval};
+use super::blocks::blocks;
+use super::case::{Case, Data, Observed, Role, interval};
 use gumption_core::quantity::Unit;
-
-/// Prolonged recordings in time are averaged in blocks, unless the case says otherwise.
-const MOST_BLOCKS: usize = 400;
-
-/// So are recordings without a time that have more rows: work and memory grow with their square.
-const MOST_ROWS: usize = 1000;
 
 /// The numbers of a case.
 #[derive(Debug)]
@@ -27,6 +24,17 @@ pub struct Design<'c> {
     pub unknowns: Vec<Unknown>,
     /// Place of the first unknown of each parameter.
     first: Vec<usize>,
+    /// Where rows are means of those of a recording.
+    pub whole: Option<Whole<'c>>,
+}
+
+/// The recording of which the rows of a design are means.
+#[derive(Debug, Clone)]
+pub struct Whole<'c> {
+    /// The recording.
+    pub case: &'c Case,
+    /// Its rows behind each mean; every row is in one.
+    pub rows: Vec<Range<usize>>,
 }
 
 /// Something that is fitted.
@@ -110,7 +118,35 @@ impl<'c> Design<'c> {
             blocks: blocks(case),
             unknowns,
             first,
+            whole: None,
         }
+    }
+
+    /// A design whose rows are means of those of a recording, in these blocks.
+    pub fn of_means(case: &'c Case, blocks: Vec<Vec<usize>>, whole: Whole<'c>) -> Design<'c> {
+        Design {
+            blocks,
+            whole: Some(whole),
+            ..Design::new(case)
+        }
+    }
+
+    /// The case with all rows of the recording.
+    pub fn recording(&self) -> &Case {
+        self.whole.as_ref().map_or(self.case, |whole| whole.case)
+    }
+
+    /// The rows of the recording behind a row of the design.
+    pub fn recorded(&self, row: usize) -> Range<usize> {
+        let whole = self.whole.as_ref();
+        whole.map_or(row..row + 1, |whole| whole.rows[row].clone())
+    }
+
+    /// Values of the rows of the design for all rows of the recording.
+    pub fn spread(&self, values: &[f64]) -> Vec<f64> {
+        let rows = values.iter().enumerate();
+        rows.flat_map(|(row, value)| std::iter::repeat_n(*value, self.recorded(row).len()))
+            .collect()
     }
 
     /// Number of observations.
@@ -256,6 +292,12 @@ impl<'c> Design<'c> {
         )
     }
 
+    /// The number of a row in the recording, from zero; of a mean, the mean of its rows.
+    fn middle(&self, row: usize) -> f64 {
+        let rows = self.recorded(row);
+        (rows.start + rows.end - 1) as f64 / 2.0
+    }
+
     /// The time of each row, or its number where no time was recorded; whether it is a time.
     pub fn time(&self) -> Clock {
         let of = |role: Role| {
@@ -269,7 +311,7 @@ impl<'c> Design<'c> {
         of(Role::Time)
             .or_else(|| of(Role::Order))
             .unwrap_or_else(|| Clock {
-                values: (0..self.case.rows).map(|row| row as f64).collect(),
+                values: (0..self.case.rows).map(|row| self.middle(row)).collect(),
                 column: None,
             })
     }
@@ -300,47 +342,4 @@ impl Clock {
     pub fn interval(&self) -> f64 {
         interval(&self.values)
     }
-}
-
-fn blocks(case: &Case) -> Vec<Vec<usize>> {
-    let labels: Vec<usize> = match &case.averaging.blocks {
-        Blocks::Dwells(columns) => columns.clone(),
-        _ => (0..case.columns.len())
-            .filter(|c| case.columns[*c].labels().is_some())
-            .collect(),
-    };
-    let same = |a: usize, b: usize| {
-        labels
-            .iter()
-            .all(|column| match case.columns[*column].labels() {
-                Some(labels) => labels.of_row[a] == labels.of_row[b],
-                None => true,
-            })
-    };
-    let size = match &case.averaging.blocks {
-        Blocks::Rows => 1,
-        Blocks::Dwells(_) => usize::MAX,
-        Blocks::AtMost(most) => case.rows.div_ceil((*most).max(1)),
-        Blocks::Auto => {
-            let timed = case.with_role(Role::Time).next().is_some();
-            if timed || case.rows > MOST_ROWS {
-                case.rows.div_ceil(MOST_BLOCKS)
-            } else {
-                1
-            }
-        }
-    };
-    let mut blocks: Vec<Vec<usize>> = Vec::new();
-    for row in 0..case.rows {
-        match blocks.last_mut() {
-            Some(block) if block.len() < size && same(block[0], row) => block.push(row),
-            _ => blocks.push(vec![row]),
-        }
-    }
-    if case.averaging.settle > 0 {
-        for block in &mut blocks {
-            block.drain(..case.averaging.settle.min(block.len() - 1));
-        }
-    }
-    blocks
 }

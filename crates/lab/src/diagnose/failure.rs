@@ -3,7 +3,7 @@
 use std::fmt::{self, Display};
 
 use super::evidence::Refusal;
-use super::faults::{NOT_FITTED, START, TOO_FEW};
+use super::faults::{NOT_FITTED, START, TOO_FEW, TOO_LARGE};
 use super::fit::NoFit;
 use gumption_fault::Code;
 
@@ -14,6 +14,15 @@ pub enum Failure {
     Fit(NoFit),
     /// The statistics refused.
     Refused(Refusal),
+    /// More memory than a diagnosis may take.
+    TooLarge {
+        /// Rows of the recording.
+        rows: usize,
+        /// Bytes that it would take.
+        bytes: u64,
+        /// Bytes that it may take.
+        most: u64,
+    },
 }
 
 impl Failure {
@@ -26,6 +35,7 @@ impl Failure {
             }
             Failure::Fit(NoFit::NoMinimum | NoFit::Undetermined(_))
             | Failure::Refused(Refusal::Dependent { .. }) => Some(NOT_FITTED),
+            Failure::TooLarge { .. } => Some(TOO_LARGE),
             Failure::Refused(_) => None,
         }
     }
@@ -48,6 +58,12 @@ impl Display for Failure {
         match self {
             Failure::Fit(why) => Display::fmt(why, f),
             Failure::Refused(why) => Display::fmt(why, f),
+            Failure::TooLarge { rows, bytes, most } => {
+                write!(
+                    f,
+                    "{rows} rows take {bytes} bytes, and at most {most} are taken"
+                )
+            }
         }
     }
 }

@@ -25,6 +25,8 @@ codes! {
         "alpha is a probability between 0 and 0.5; u and dof are positive.";
     ROWS = "D0113", "rows beside the recording are not clear", "记录以外的数据行说明不清",
         "A recording that is held out has the columns of the recording. A further measurement names its rows in a CSV file, as lists, or says what is changed when those of the recording are taken again:\n\n    [[action]]\n    name = \"second mounting\"\n    again = { mount = 90 }";
+    TOO_LARGE = "D0114", "a diagnosis takes too much memory", "诊断所需内存过大",
+        "Observations are compared each with each, and what thousands of effects do to a block of rows is kept. Long recordings are averaged in blocks; without, or with many labels, they take more than a computer has.\n\n    recording = { file = \"run.csv\", average = 400 }";
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use super::adopted::Adopted;
 use super::case::Data;
 use super::catalogue::{self, Cell, FittedModel, Term};
+use super::coarse::Coarse;
 use super::confirm::{self, Estimated};
 use super::design::Design;
 use super::fit::{self, Fit};
@@ -133,7 +134,9 @@ fn improved(
     let both = known.case.followed_by(&held.rows);
     let design = Design::new(&both);
     let fit = fit::at(&design, super::prolonged::unknowns(known, &design));
-    let wide = FittedModel::new(&design, &fit).refined(fitted.finer.clone());
+    let coarse = Coarse::of(&design, &fit);
+    let seen = coarse.design();
+    let wide = FittedModel::new(&seen, &coarse.fit).refined(fitted.finer.clone());
     let others = catalogue::cells(&wide);
     let mut rows = held.rows.clone();
     for (atom, free) in adopted.atoms.iter().zip(&adopted.extended.effects) {
@@ -142,7 +145,7 @@ fn improved(
         let alike = |other: &&Cell| other.effect.id == cell.effect.id && other.words == cell.words;
         let alike: Vec<&Cell> = others.iter().filter(alike).collect();
         for term in &free.variation.terms {
-            let modifier = continued(term, &alike, fitted.rows())?;
+            let modifier = continued(term, &alike, [fitted.design, &seen])?;
             rows.data.push(Data::Numbers(modifier));
         }
     }
@@ -173,22 +176,24 @@ fn improved(
     Some(model.prediction(&design, &fit, &claimed))
 }
 
-/// The course of a modifier in the rows that follow the first `rows`: of the term of the same effect that
+/// The course of a modifier in the rows that follow its own in the design of both recordings: of the term of the same effect that
 /// is, but for its origin and its unit, the same in the first rows. Origins and units (the mean of a column,
 /// the start of the recording) belong to the recording in which the effect was found.
-fn continued(term: &Term, cells: &[&Cell], rows: usize) -> Option<Vec<f64>> {
+fn continued(term: &Term, cells: &[&Cell], [own, both]: [&Design<'_>; 2]) -> Option<Vec<f64>> {
     /// What is left of the modifier by another one, as a share of its variance, at most.
     const LEFT: f64 = 0.05;
     let variants = cells.iter().flat_map(|cell| &cell.variants);
     let terms = variants.flat_map(|variation| &variation.terms);
     let like = terms.filter(|other| other.node == term.node && other.response == term.response);
+    let sought = own.spread(&term.written().values);
     let fits = like.filter_map(|other| {
-        let first = other.written().values.get(..rows)?;
-        let (factor, offset, left) = line_through(first, &term.written().values);
+        let course = both.spread(&other.written().values);
+        let (factor, offset, left) = line_through(course.get(..sought.len())?, &sought);
         Some((other, factor, offset, left))
     });
     let (other, factor, offset, left) = fits.min_by(|a, b| a.3.total_cmp(&b.3))?;
-    let rest = other.written().values.get(rows..)?;
+    let course = both.spread(&other.written().values);
+    let rest = course.get(sought.len()..)?;
     (left < LEFT).then(|| rest.iter().map(|x| factor * x + offset).collect())
 }
 

@@ -2,7 +2,7 @@
 //! need.
 
 use super::Diagnosis;
-use super::case::{Case, Column, Data, NoiseClaim, NoiseOrigin, Role};
+use super::case::{Blocks, Case, Column, Data, NoiseClaim, NoiseOrigin, Role};
 use super::simulate::{heading, recorded};
 use crate::recording::{Heading, text_of};
 use gumption_format::files::Files;
@@ -30,7 +30,7 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
     text += &format!(
         "recording = {{ file = {}, average = {} }}\n",
         quoted(RECORDING),
-        averaging(diagnosis)
+        averaging(case, diagnosis)
     );
     let models: Vec<String> = extended
         .model
@@ -111,7 +111,11 @@ fn path(case: &Case, file: &str) -> String {
     quoted(&full.display().to_string())
 }
 
-fn averaging(diagnosis: &Diagnosis) -> String {
+fn averaging(case: &Case, diagnosis: &Diagnosis) -> String {
+    // Spread blocks are chosen by the columns again.
+    if case.averaging.blocks == Blocks::Auto {
+        return "\"auto\"".to_owned();
+    }
     let rows: usize = diagnosis.blocks.iter().map(Vec::len).sum();
     if rows == diagnosis.blocks.len() {
         "\"none\"".to_owned()

@@ -22,6 +22,8 @@
 //! | [`faults`], `failure` | codes of what is refused; why a case could not be diagnosed |
 //! | [`case`] | the case file: model, recording, claims |
 //! | `design` | the rows as numbers; the model at any parameters |
+//! | `blocks` | rows that are averaged together |
+//! | `coarse` | the same for the catalogue: a few means in every block of a long recording |
 //! | `fit` | the declared model fitted to the recording |
 //! | `noise` | what is claimed about the noise, or estimated |
 //! | [`at_rest`], `replicates`, `noise_growth`, `noise_correlation` | noise from a recording at rest, from rows that agree; noise that grows with the reading, or is correlated in time |
@@ -44,16 +46,19 @@
 //! | `result`, `improved` | the parameters as the measurands of a budget; the improved case as files |
 //! | `chance` | draws in proportion to weights; random numbers |
 //! | `simulate` | the recording that a case predicts |
+//! | `size` | how much memory a diagnosis takes |
 //! | `stand_in` | what can stand in for something whose trace is known |
 
 mod accidents;
 mod adopt;
 mod adopted;
 pub mod at_rest;
+mod blocks;
 mod candidates;
 pub mod case;
 pub mod catalogue;
 mod chance;
+mod coarse;
 mod conclusion;
 mod confirm;
 mod declared_form;
@@ -81,6 +86,7 @@ mod result;
 mod run;
 mod separation;
 mod simulate;
+mod size;
 mod stand_in;
 mod typical;
 

@@ -18,7 +18,7 @@ use super::fit::Fit;
 use super::reduced::reduced;
 
 /// Larger matrices take too long.
-const MOST: usize = 600;
+pub(super) const MOST: usize = 600;
 /// Fewer degrees of freedom cannot tell white from correlated noise.
 const LEAST: usize = 8;
 /// Matrices that stand for the posterior distribution.
@@ -30,6 +30,8 @@ const DOUBT: f64 = 0.05;
 const SHARES: [f64; 3] = [0.3, 0.6, 0.95];
 /// Ratio of successive time constants: between two of them no recording tells.
 const RATIO: f64 = 3.0;
+/// Time constants at most.
+const CONSTANTS: usize = 8;
 
 /// How the observations are correlated.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,6 +77,14 @@ pub(super) struct Courses {
     all: Vec<(Memory, Arc<Correlation>)>,
 }
 
+/// Matrices that so many observations have at most: one for each law, and one where there are too many for laws.
+pub(super) fn laws(observations: usize) -> usize {
+    match observations > MOST {
+        true => 1,
+        false => 1 + SHARES.len() * (CONSTANTS + 1),
+    }
+}
+
 impl Courses {
     /// For a recording with a time or an order.
     pub(super) fn of(fitted: &FittedModel<'_>) -> Option<Courses> {
@@ -88,7 +98,7 @@ impl Courses {
         let times = design.reduced(&fitted.clock.values);
         let span = fitted.clock.span();
         let interval = span / times.len() as f64;
-        let constants = super::catalogue::modifiers::grid(interval, span / 3.0, RATIO, 8);
+        let constants = super::catalogue::modifiers::grid(interval, span / 3.0, RATIO, CONSTANTS);
         let fading = constants.iter().flat_map(|time_constant| {
             SHARES.map(|share| Memory::Fading {
                 share,

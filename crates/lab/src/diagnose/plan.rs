@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use super::candidates::{baseline, question};
 use super::case::Case;
 use super::catalogue::{self, Cell, FittedModel, Kind};
+use super::coarse::Coarse;
 use super::confirm::{Estimated, estimates};
 use super::design::Design;
 use super::evidence::{self, Atom, Refusal, Shape};
@@ -18,6 +19,7 @@ use super::fit::Fit;
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
 use super::prolonged::{Known, Recorded, examined};
+use super::size;
 use super::typical::{self, Unified};
 
 /// What an experiment can see and tell apart. Sizes of effects are the largest shifts of the output.
@@ -92,13 +94,16 @@ const VISIBLE: f64 = 0.01;
 /// # Errors
 /// When the model has no finite value or its parameters are not determined, or the work was stopped.
 pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Outlook, Failure> {
+    size::fits_into_memory(case)?;
     let design = Design::new(case);
     let (fit, claimed, assumed) = assumed(&design)?;
     let fit = Fit {
         residuals: DVector::zeros(design.observations()),
         ..fit
     };
-    let fitted = FittedModel::new(&design, &fit);
+    let coarse = Coarse::of(&design, &fit);
+    let seen = coarse.design();
+    let fitted = FittedModel::new(&seen, &coarse.fit);
     let cells = catalogue::cells(&fitted);
     let baseline = baseline(&design, &fit, &claimed)?;
     let (candidates, atoms, places) = question(&fitted, &cells, &claimed, &baseline);

@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::candidates::baseline;
 use super::case::{Case, NoiseClaim};
 use super::catalogue::{self, Cell, FittedModel};
+use super::coarse::Coarse;
 use super::design::Design;
 use super::evidence::Baseline;
 use super::extra::Extra;
@@ -51,7 +52,9 @@ pub(super) fn examined<R>(
         residuals: DVector::zeros(design.observations()),
         ..fit
     };
-    let fitted = FittedModel::new(&design, &fit).refined(recorded.fitted.finer.clone());
+    let coarse = Coarse::of(&design, &fit);
+    let seen = coarse.design();
+    let fitted = FittedModel::new(&seen, &coarse.fit).refined(recorded.fitted.finer.clone());
     let cells = catalogue::cells(&fitted);
     let noise = noise_of(known, &design, &fit, known.design.blocks.len());
     let baseline = baseline(&design, &fit, &noise).ok()?;

@@ -139,6 +139,7 @@ fn spans(fitted: &FittedModel<'_>) -> Vec<(String, String, Vec<f64>)> {
     let parts = PARTS.min(blocks.len());
     let t = &fitted.clock.values;
     let unit = fitted.time_unit();
+    let recorded = |row: usize| fitted.design.recorded(row);
     let part = |at: usize| {
         let members = &blocks[at * blocks.len() / parts..(at + 1) * blocks.len() / parts];
         let (first, last) = (
@@ -154,7 +155,7 @@ fn spans(fitted: &FittedModel<'_>) -> Vec<(String, String, Vec<f64>)> {
             ),
             None => (
                 "rows".to_owned(),
-                format!("{} to {}", first + 1, last + 1),
+                format!("{} to {}", recorded(first).start + 1, recorded(last).end),
                 inside.collect(),
             ),
         }

@@ -9,6 +9,7 @@ use super::adopted::{Adopted, adopt_named};
 use super::candidates::{Candidates, baseline, settings};
 use super::case::Case;
 use super::catalogue::{Cell, Finer, FittedModel};
+use super::coarse::Coarse;
 use super::confirm::{self, Estimated, Quality, estimates};
 use super::design::Design;
 use super::evidence::{self, Examination, Located, TRACE, Verdict};
@@ -21,6 +22,7 @@ use super::omitted::{self, Omitted};
 use super::prolonged::{Known, Recorded};
 use super::regions;
 use super::separation::{self, Separating};
+use super::size;
 
 /// Everything that a diagnosis found.
 #[derive(Debug)]
@@ -86,11 +88,14 @@ pub fn diagnose(
     case: &Case,
     progress: &dyn Fn(f64) -> ControlFlow<()>,
 ) -> Result<Diagnosis, Failure> {
+    size::fits_into_memory(case)?;
     let design = Design::new(case);
     let (fit, mut claimed) = noise::settle_spread_out(&design)?;
     let white = baseline(&design, &fit, &claimed)?;
+    let coarse = Coarse::of(&design, &fit);
+    let seen = coarse.design();
     let mut settings = settings(case);
-    let mut candidates = Candidates::new(FittedModel::new(&design, &fit), &claimed, &white);
+    let mut candidates = Candidates::new(FittedModel::new(&seen, &coarse.fit), &claimed, &white);
     let part = |from: f64, to: f64| move |share: f64| progress(from + (to - from) * share);
     let (mut baseline, mut examination) = candidates.ask(&claimed, &settings, &part(0.0, 0.4))?;
     let courses = Courses::of(&candidates.fitted).filter(|_| claimed.correlated.is_none());
@@ -145,7 +150,7 @@ pub fn diagnose(
             break;
         }
         candidates = Candidates::new(
-            FittedModel::new(&design, &fit).refined(finer.clone()),
+            FittedModel::new(&seen, &coarse.fit).refined(finer.clone()),
             &claimed,
             &white,
         );

@@ -39,11 +39,18 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Blo
 
 fn fields(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<(String, String)> {
     let rows = diagnosis.blocks.iter().map(Vec::len).sum::<usize>();
+    let taken = match case.rows {
+        all if all == rows => l.pick(format!("{rows} rows"), format!("{rows} 行")),
+        all => l.pick(
+            format!("{rows} of {all} rows"),
+            format!("{all} 行中的 {rows} 行"),
+        ),
+    };
     let recorded = match diagnosis.blocks.len() {
-        means if means == rows => l.pick(format!("{rows} rows"), format!("{rows} 行")),
+        means if means == rows => taken,
         means => l.pick(
-            format!("{rows} rows, in {means} means"),
-            format!("{rows} 行，取 {means} 个平均值"),
+            format!("{taken}, in {means} means"),
+            format!("{taken}，取 {means} 个平均值"),
         ),
     };
     let left_out = match case.left_out {

@@ -126,6 +126,14 @@ pub fn failure(case: &Case, failure: &Failure, l: Language) -> String {
             let name = case.parameters.get(*parameter).map_or("", |p| p.name.as_str());
             l.pick(format!("the recording does not determine the parameter {name}"), format!("记录不能确定参数 {name}"))
         }
+        Failure::TooLarge { rows, bytes, most } => {
+            let gib = |bytes: u64| bytes.div_ceil(1 << 30);
+            let (needed, most) = (gib(*bytes), gib(*most));
+            l.pick(
+                format!("A diagnosis of {rows} rows takes about {needed} GiB of memory as they are averaged now, and at most {most} GiB are taken. Average them in fewer blocks: [recording] average = 400 or dwells = [\"position\"]; or take a part of the recording."),
+                format!("按目前的平均方式诊断 {rows} 行约需 {needed} GiB 内存，最多使用 {most} GiB。请减少平均后的块数：[recording] 中写 average = 400 或 dwells = [\"position\"]；或只取记录的一部分。"),
+            )
+        }
         Failure::Refused(Refusal::Cancelled) => l.pick("stopped".to_owned(), "已中断".to_owned()),
         Failure::Refused(other) => other.to_string(),
     }

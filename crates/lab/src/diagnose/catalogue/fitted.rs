@@ -105,7 +105,7 @@ impl<'f> FittedModel<'f> {
             let slope = self.slope(term.node, response);
             slope
                 .iter()
-                .zip(&term.modifier.values)
+                .zip(term.modifier.values.iter())
                 .map(|(s, m)| s * m)
                 .collect()
         })

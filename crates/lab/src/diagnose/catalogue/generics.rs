@@ -97,7 +97,7 @@ fn distinct(x: &[f64]) -> Vec<f64> {
 }
 
 /// A feature: what it multiplies, and the variance of its coefficient relative to the others.
-type Feature = (Vec<f64>, f64);
+type Feature = (Modifier, f64);
 
 fn smooth(fitted: &FittedModel<'_>, node: Node, name: &str, course: &[f64]) -> Option<Cell> {
     let features = waves(course);
@@ -113,7 +113,7 @@ fn waves(course: &[f64]) -> Vec<Feature> {
         // Spectrum of a Gaussian process with a squared exponential kernel on the unit interval.
         let frequency = PI * k as f64 * LENGTH;
         let variance = libm::exp(-frequency * frequency / 2.0).max(1e-3);
-        (map(course, wave), variance)
+        (Modifier::unnamed(map(course, wave)), variance)
     };
     (1..=count).map(feature).collect()
 }
@@ -122,12 +122,18 @@ fn waves(course: &[f64]) -> Vec<Feature> {
 fn values(fitted: &FittedModel<'_>, node: Node, column: usize) -> Option<Cell> {
     let x = fitted.numbers(column);
     let values = distinct(x);
+    // Before the features: a course that never comes back would have one for each row.
+    if values.len() < 4 || values.len() * 2 > fitted.design.blocks.len() {
+        return None;
+    }
     let features: Vec<Feature> = values
         .iter()
-        .map(|value| (map(x, |x| f64::from(u8::from(x == *value))), 1.0))
+        .map(|value| {
+            let own = map(x, |x| f64::from(u8::from(x == *value)));
+            (Modifier::unnamed(own), 1.0)
+        })
         .collect();
-    let few = values.len() >= 4 && values.len() * 2 <= fitted.design.blocks.len();
-    few.then(|| at_levels(fitted, node, fitted.label(column), &features))
+    Some(at_levels(fitted, node, fitted.label(column), &features))
 }
 
 /// A value of its own at each label.
@@ -139,7 +145,7 @@ fn labels(fitted: &FittedModel<'_>, node: Node, column: usize) -> Option<Cell> {
     }
     let features: Vec<Feature> = levels
         .iter()
-        .map(|level| (indicator(labels, *level), 1.0))
+        .map(|level| (Modifier::unnamed(indicator(labels, *level)), 1.0))
         .collect();
     let name = fitted.label(column);
     Some(at_levels(fitted, node, name, &features))
@@ -185,7 +191,7 @@ pub(super) fn over_signals(
             .flat_map(|(response, waves)| waves.iter().map(move |wave| (response, wave)));
         let (terms, spectrum) = features
             .map(|(response, (wave, variance))| {
-                let term = Term::new(Node::Output, Modifier::unnamed(wave.clone()));
+                let term = Term::new(Node::Output, wave.clone());
                 (term.on(*response), *variance)
             })
             .unzip();
@@ -209,7 +215,7 @@ fn generic(
     along: &str,
     features: &[Feature],
 ) -> Cell {
-    let term = |(modifier, _): &Feature| Term::new(node, Modifier::unnamed(modifier.clone()));
+    let term = |(modifier, _): &Feature| Term::new(node, modifier.clone());
     let variances = features.iter().map(|(_, variance)| *variance);
     let on = |response: usize| features.iter().map(move |f| term(f).on(response));
     let responses = &fitted.case().responses;

@@ -94,7 +94,7 @@ fn of_column(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
 fn warmth(fitted: &FittedModel<'_>, power: Modifier, tau: f64) -> Modifier {
     let (shown, unit) = (figure(tau), fitted.time_unit());
     Modifier {
-        values: lag(&fitted.clock.values, &power.values, tau),
+        values: lag(&fitted.clock.values, &power.values, tau).into(),
         text: format!("lag({}, {shown} {unit})", power.text),
         ..power
     }

@@ -29,12 +29,17 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         .into_iter()
         .map(five_digits)
         .filter(|width| *width < 2.0 * step || step == 0.0);
-    let variants = widths.map(|width| {
+    let variants = told_apart(x, widths).into_iter().map(|width| {
         let modifier = map2(&play(x, width), x, |played, x| (played - x) / width);
         let shown = fitted.figure(column, width);
         let text = format!("(play({label}, {shown}) - {label})/({shown})");
         let term = Term::new(Node::Column(column), Modifier::number(modifier, text));
-        Variation::one(format!("gap {width} {unit}", width = figure(width)), term)
+        // A gap that no step tells from a narrower one has its size alone.
+        let label = match width > least_step(x) {
+            true => format!("gap {} {unit}", figure(width)),
+            false => String::new(),
+        };
+        Variation::one(label, term)
     });
     // A gap far below the steps is the direction alone.
     let wide: Vec<Variation> = variants
@@ -47,6 +52,26 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         cells.push(plain(fitted, EffectId::Play, label, wide));
     }
     cells
+}
+
+/// Widths of gaps without those that act like the one before: below the least step a play follows every reversal at once.
+fn told_apart(x: &[f64], widths: impl Iterator<Item = f64>) -> Vec<f64> {
+    let least = least_step(x);
+    let mut kept: Vec<f64> = Vec::new();
+    for width in widths {
+        if width > least || kept.is_empty() {
+            kept.push(width);
+        }
+    }
+    kept
+}
+
+/// The least step of a course that moves; nothing where it does not.
+fn least_step(x: &[f64]) -> f64 {
+    let steps = x.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    steps
+        .filter(|step| *step > 0.0)
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// Shapes of a loop: a constant offset between both ways, a loop that is closed at both ends of the range

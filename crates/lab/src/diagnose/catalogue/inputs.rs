@@ -110,7 +110,7 @@ impl Signal {
         let unit = fitted.case().responses[response].unit.difference();
         let part = part(signal, "signal", &unit);
         Signal {
-            parts: part.values,
+            parts: part.values.to_vec(),
             text: part.text,
         }
     }
@@ -408,7 +408,7 @@ fn memory(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
     let skew = |input: &Input| {
         let per_time = Unit::one().quotient(&fitted.clock_unit());
         let text = format!("d{}/dt", input.text);
-        let modifier = Modifier::new(rate(&t, &input.own), text, per_time);
+        let modifier = Modifier::new(rate(&t, &input.own), text, per_time).negated();
         let moving = creeps(&input.own);
         moving.then_some(modifier).into_iter().collect()
     };

@@ -56,6 +56,8 @@ mod user;
 mod waves;
 mod zero;
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 pub use effect::{Effect, EffectId, Kind, Pattern, Text, Usual, effects};
@@ -152,8 +154,8 @@ pub struct ShapeParameter {
 /// What a disturbance follows.
 #[derive(Debug, Clone)]
 pub struct Modifier {
-    /// Row by row.
-    pub values: Vec<f64>,
+    /// Row by row; what disturbs several quantities alike is kept once.
+    pub values: Arc<[f64]>,
     /// As a formula, in which columns stand for numbers in their own units.
     pub text: String,
     /// Its unit: a size has that of the node divided by this.
@@ -164,7 +166,7 @@ impl Modifier {
     /// In a unit.
     pub fn new(values: Vec<f64>, text: impl Into<String>, unit: Unit) -> Modifier {
         Modifier {
-            values,
+            values: values.into(),
             text: text.into(),
             unit,
         }
@@ -178,6 +180,12 @@ impl Modifier {
     /// For a search that shows no formula.
     pub fn unnamed(values: Vec<f64>) -> Modifier {
         Modifier::number(values, "")
+    }
+
+    /// With the other sign; its text binds like a name.
+    fn negated(&self) -> Modifier {
+        let values = modifiers::map(&self.values, |x| -x);
+        Modifier::new(values, format!("-{}", self.text), self.unit.clone())
     }
 
     fn square(&self) -> Modifier {
@@ -367,7 +375,7 @@ pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
 /// Without cells that do the same to every row as one before them: the nonlinearity "in head" and "in mount"
 /// of a model of head + mount.
 fn distinct(cells: Vec<Cell>) -> Vec<Cell> {
-    let terms = |cell: &Cell| -> Vec<(Node, Option<usize>, Vec<f64>)> {
+    let terms = |cell: &Cell| -> Vec<(Node, Option<usize>, Arc<[f64]>)> {
         let all = cell.variants.iter().flat_map(|variation| &variation.terms);
         all.map(|term| (term.node, term.response, term.modifier.values.clone()))
             .collect()

@@ -1,5 +1,5 @@
-//! Models that are the length of a vector of readings, held against a magnitude that is recorded: a triad in a field that is
-//! known. Each reading is an output of its own; what disturbs an offset or a scale disturbs that of one of them, or of all.
+//! Models that are the length of a vector of readings, held against a magnitude that is recorded or known: a triad in a
+//! field, or at rest. Each reading is an output of its own; what disturbs an offset or a scale disturbs that of one of them, or of all.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -19,7 +19,7 @@ impl Norm {
     pub(super) fn of(fitted: &FittedModel<'_>) -> Option<Norm> {
         /// What rounding leaves of the response.
         const ROUNDING: f64 = 1e-6;
-        if fitted.case().responses.len() != 1 || fitted.is_implicit(0) {
+        if fitted.case().responses.len() != 1 {
             return None;
         }
         let columns = fitted.numeric().into_iter();

@@ -4,7 +4,7 @@
 use super::building::{on_node, on_output, on_outputs, time_constants, words};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{
-    creeps, delayed, figure, five_digits, grid, late, levels_of, map, map2, mean, range, rate,
+    creeps, delayed, figure, five_digits, grid, late, levels_of, map, map2, mean, range,
 };
 use super::norm::Norm;
 use super::powers::Power;
@@ -278,15 +278,15 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         Place::new(label, "time"),
         variants.collect(),
     );
-    let instant = Variation::one("", Term::new(node, fitted.rate(column)));
-    let (id, delays) = if fitted.is_temperature(column) {
-        (EffectId::TemperatureRate, Vec::new())
+    let (id, variants) = if fitted.is_temperature(column) {
+        let rate = Variation::one("", Term::new(node, fitted.rate(column)));
+        (EffectId::TemperatureRate, vec![rate])
     } else {
         (EffectId::TimingSkew, delays(fitted, column))
     };
     let skew = Cell {
         effect: id.entry(),
-        variants: [instant].into_iter().chain(delays).collect(),
+        variants,
         ..lagged.clone()
     };
     if creeps(x) {
@@ -296,27 +296,37 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     }
 }
 
-/// Delays of more than a part of the interval, in which a course bends: the course as it was then, and its
-/// rate for what the delay differs from that.
+/// Delays: small ones by the rate of change, and those of more than an interval, in which a course bends, by the course as it
+/// was then less that of now, over the delay. The size is the delay itself.
 fn delays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     let (x, label) = (fitted.numbers(column), name(fitted, column));
     let t = &fitted.clock.values;
     let unit = fitted.time_unit();
     let longest = (20.0 * fitted.clock.interval()).min(fitted.clock.span() / 20.0);
     let sizes = grid(fitted.clock.interval(), longest, 1.6, 8);
-    let both = sizes.iter().flat_map(|size| [*size, -size]);
-    let variants = both.map(|delay| {
-        let then = delayed(t, x, delay);
-        let shown = format!("{label}(t - {} {unit})", figure(delay));
-        let moved = map2(&then, x, |then, now| then - now);
-        let (own, per_time) = (fitted.step_unit(column), fitted.rate(column).unit);
-        let moved = Modifier::new(moved, format!("({shown} - {label})"), own);
-        let rate = Modifier::new(rate(t, &then), format!("d{shown}/dt"), per_time);
-        let terms = [moved, rate].map(|m| Term::new(Node::Column(column), m));
-        let terms = terms.into();
-        Variation::of(format!("by about {} {unit}", figure(delay)), terms)
-    });
-    variants.collect()
+    let late = |by: f64| {
+        let then = delayed(t, x, by);
+        let modifier = map2(&then, x, |then, now| (then - now) / by);
+        let shown = format!("{} {unit}", figure(by.abs()));
+        let (sign, over) = match by < 0.0 {
+            true => ('+', format!("(-{shown})")),
+            false => ('-', format!("({shown})")),
+        };
+        let text = format!("({label}(t {sign} {shown}) - {label})/{over}");
+        let modifier = Modifier::new(modifier, text, fitted.rate(column).unit);
+        Term::new(Node::Column(column), modifier)
+    };
+    let instant = Term::new(Node::Column(column), fitted.rate(column).negated());
+    let mut variants = vec![Variation::one("", instant)];
+    for sign in [1.0, -1.0] {
+        let sizes = sharpened(fitted, sizes.clone(), &|size| late(sign * size));
+        variants.extend(fitted.finer.times(sizes).into_iter().map(|size| {
+            let by = sign * size;
+            let label = format!("by about {} {unit}", figure(by));
+            Variation::one(label, late(by)).shaped("δ", size, &unit)
+        }));
+    }
+    variants
 }
 
 fn interaction(fitted: &FittedModel<'_>, x: usize, z: usize) -> Cell {

@@ -27,11 +27,11 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         let terms = (0..fitted.case().responses.len()).map(|response| {
             on_output(Modifier::number(
                 only(fitted, rows, 1.0),
-                format!("[{}]", named(rows)),
+                format!("[{}]", named(fitted, rows)),
             ))
             .on(response)
         });
-        Variation::of(named(rows), terms.collect())
+        Variation::of(named(fitted, rows), terms.collect())
     });
     let mut cells = vec![plain(fitted, EffectId::Outlier, "row", outliers.collect())];
     if blocks.len() == fitted.rows() && fitted.has_signal() && blocks.len() <= MOST / 2 {
@@ -41,10 +41,11 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     cells
 }
 
-fn named(rows: &[usize]) -> String {
-    match rows {
-        [row] => format!("row {}", row + 1),
-        _ => format!("rows {} to {}", rows[0] + 1, rows[rows.len() - 1] + 1),
+fn named(fitted: &FittedModel<'_>, rows: &[usize]) -> String {
+    let first = fitted.design.recorded(rows[0]).start + 1;
+    match fitted.design.recorded(rows[rows.len() - 1]).end {
+        last if last == first => format!("row {first}"),
+        last => format!("rows {first} to {last}"),
     }
 }
 

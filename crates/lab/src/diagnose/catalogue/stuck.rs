@@ -44,7 +44,8 @@ fn of_response(fitted: &FittedModel<'_>, response: usize) -> Vec<Variation> {
                 false => 0.0,
             })
             .collect();
-        let label = format!("rows {} to {}", first + 1, last);
+        let [from, to] = [first, last - 1].map(|row| fitted.design.recorded(row));
+        let label = format!("rows {} to {}", from.start + 1, to.end);
         let term = on_output(Modifier::new(
             modifier,
             format!("(reading held in {label})"),

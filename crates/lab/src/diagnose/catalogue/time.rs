@@ -172,18 +172,19 @@ fn steps(fitted: &FittedModel<'_>, along: &str) -> Variants {
     let stride = blocks.len().div_ceil(MOST_STEPS);
     let t = &fitted.clock.values;
     let unit = fitted.time_unit();
+    let number = |row: usize| fitted.design.recorded(row).start + 1;
     let at = |block: usize| {
         let first = blocks[block][0];
         let modifier = (0..fitted.rows()).map(|row| if row >= first { 1.0 } else { 0.0 });
         let label = match fitted.clock.column {
             Some(_) => format!("at {along} = {} {unit}", figure(t[first])),
-            None => format!("at row {}", first + 1),
+            None => format!("at row {}", number(first)),
         };
         (
             label,
             vec![Modifier::number(
                 modifier.collect(),
-                format!("[row >= {}]", first + 1),
+                format!("[row >= {}]", number(first)),
             )],
         )
     };
@@ -232,16 +233,17 @@ fn between(
     if { around }.any(|row| begins(fitted, row)) {
         return None;
     }
+    let number = fitted.design.recorded(row).start + 1;
     let label = match fitted.clock.column {
         Some(_) => format!(
             "at {along} = {} {}",
             figure(fitted.clock.values[row]),
             fitted.time_unit()
         ),
-        None => format!("at row {}", row + 1),
+        None => format!("at row {number}"),
     };
     Some((
         label,
-        vec![Modifier::number(from(row), format!("[row >= {}]", row + 1))],
+        vec![Modifier::number(from(row), format!("[row >= {number}]"))],
     ))
 }

@@ -233,7 +233,9 @@ fn listed(space: &Space, question: &Question, rest: &Frame, ranked: Vec<Ranked>)
         .filter(|(place, candidate)| {
             let wanted = sum < CREDIBLE || (*place == 1 && !alone && !describes(candidate));
             sum += candidate.probability;
-            wanted || kin.contains(&candidate.candidate)
+            // An alias may be another order of its cause than the one that fits best.
+            let is_kin = |one: &usize| question.same_cause(*one, candidate.candidate);
+            wanted || kin.iter().any(is_kin)
         })
         .map(|(_, candidate)| candidate)
         .collect()

@@ -1,0 +1,228 @@
+//! A design as the catalogue sees it: a few means of rows in every block of a long recording.
+//!
+//! What effects follow is computed row by row before it is averaged over the blocks, for thousands of variants:
+//! with every row of a long recording that takes more memory and time than a computer has. Blocks are compared, so
+//! rows that lie much closer than blocks need not be told apart: a course that is straight over a piece has the
+//! lag of all its rows, a delay shorter than a piece is its rate times the delay, and the quickest time constant
+//! that is looked for is half a block. What is found is fitted to all rows again.
+
+use std::ops::Range;
+
+use nalgebra::DMatrix;
+
+use super::case::{Case, Data, Rows};
+use super::design::{Design, Linear, Whole};
+use super::fit::Fit;
+use crate::recording::Labels;
+
+/// Means in a block: a tenth of a block is a fifth of the quickest time constant that is looked for, over which
+/// the curvature of its decay changes a mean by (1/5)²/24 of it, less than anything that is told.
+const PIECES: usize = 10;
+
+/// A recording with means of rows in place of its rows.
+#[derive(Debug)]
+pub(super) struct Coarse<'c> {
+    whole: &'c Case,
+    case: Case,
+    pieces: Vec<Range<usize>>,
+    blocks: Vec<Vec<usize>>,
+    /// The fitted model there.
+    pub fit: Fit,
+}
+
+impl<'c> Coarse<'c> {
+    /// The means of a design, and the model as it is fitted to all rows.
+    pub(super) fn of(design: &Design<'c>, fit: &Fit) -> Coarse<'c> {
+        let block_of = block_of(design);
+        let pieces = pieces(design, &block_of);
+        let mut blocks = vec![Vec::new(); design.blocks.len()];
+        for (at, piece) in pieces.iter().enumerate() {
+            if let Some(block) = block_of[piece.start] {
+                blocks[block].push(at);
+            }
+        }
+        let linear = Linear {
+            values: (fit.linear.values.iter())
+                .map(|values| means(&pieces, values))
+                .collect(),
+            slopes: (fit.linear.slopes.iter())
+                .map(|slopes| means_of_columns(&pieces, slopes))
+                .collect(),
+        };
+        let data = design.case.columns.iter().map(|column| match &column.data {
+            Data::Numbers(numbers) => Data::Numbers(means(&pieces, numbers)),
+            Data::Labels(labels) => Data::Labels(Labels {
+                levels: labels.levels.clone(),
+                of_row: pieces.iter().map(|p| labels.of_row[p.start]).collect(),
+            }),
+            Data::Absent => Data::Absent,
+        });
+        let rows = Rows {
+            count: pieces.len(),
+            data: data.collect(),
+        };
+        Coarse {
+            whole: design.case,
+            case: design.case.with(&rows),
+            pieces,
+            blocks,
+            fit: Fit {
+                linear,
+                ..fit.clone()
+            },
+        }
+    }
+
+    /// The design of the means.
+    pub(super) fn design(&self) -> Design<'_> {
+        let whole = Whole {
+            case: self.whole,
+            rows: self.pieces.clone(),
+        };
+        Design::of_means(&self.case, self.blocks.clone(), whole)
+    }
+}
+
+/// The block in which each row is; those before a dwell has settled are in none.
+fn block_of(design: &Design<'_>) -> Vec<Option<usize>> {
+    let mut of = vec![None; design.case.rows];
+    for (block, rows) in design.blocks.iter().enumerate() {
+        for row in rows {
+            of[*row] = Some(block);
+        }
+    }
+    of
+}
+
+/// About how many means there are of a design.
+pub(super) fn pieces_of(design: &Design<'_>) -> usize {
+    design
+        .case
+        .rows
+        .div_ceil(longest(design))
+        .max(design.blocks.len())
+}
+
+/// Rows in a mean, at most.
+fn longest(design: &Design<'_>) -> usize {
+    let block = design.blocks.iter().map(Vec::len).max().unwrap_or(1);
+    block.div_ceil(PIECES)
+}
+
+/// Successive rows of one block, with the same labels.
+fn pieces(design: &Design<'_>, block_of: &[Option<usize>]) -> Vec<Range<usize>> {
+    let most = longest(design);
+    let labels: Vec<&Labels> = (design.case.columns.iter())
+        .filter_map(|column| column.labels())
+        .collect();
+    let alike = |a: usize, b: usize| {
+        block_of[a] == block_of[b] && labels.iter().all(|l| l.of_row[a] == l.of_row[b])
+    };
+    let mut pieces: Vec<Range<usize>> = Vec::new();
+    for row in 0..design.case.rows {
+        match pieces.last_mut() {
+            Some(piece) if piece.len() < most && alike(piece.start, row) => piece.end = row + 1,
+            _ => pieces.push(row..row + 1),
+        }
+    }
+    pieces
+}
+
+fn means(pieces: &[Range<usize>], values: &[f64]) -> Vec<f64> {
+    let mean = |piece: &Range<usize>| {
+        let own = &values[piece.clone()];
+        // A set point is itself, not even rounded.
+        match own.iter().all(|value| *value == own[0]) {
+            true => own[0],
+            false => own.iter().sum::<f64>() / own.len() as f64,
+        }
+    };
+    pieces.iter().map(mean).collect()
+}
+
+fn means_of_columns(pieces: &[Range<usize>], columns: &DMatrix<f64>) -> DMatrix<f64> {
+    let rows = columns.nrows().max(1);
+    let means = (columns.as_slice().chunks(rows)).flat_map(|column| means(pieces, column));
+    DMatrix::from_iterator(pieces.len(), columns.ncols(), means)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use gumption_gum::budget::Files;
+
+    use super::super::case::Purpose;
+    use super::super::catalogue::{FittedModel, Modifier, Node, Term, modifiers::late};
+    use super::super::noise;
+    use super::*;
+
+    const CASE: &str = "recording = 'r.csv'\nequations = 'U = U0 + s*x'\n\
+        [columns]\nU = 'output'\nx = 'stimulus'\nt = 'time'\nrun = 'run'\n[noise]\nu = 0.01\n";
+
+    /// A slow wave, and set points of one decimal digit, in two runs.
+    fn recording(rows: usize) -> String {
+        let row = |row: usize| {
+            let x = libm::sin(30.0 * row as f64 / rows as f64);
+            let run = 1 + 2 * row / rows;
+            format!("{row},{x:.6},{},{run}\n", x + 0.01 * (row % 7) as f64)
+        };
+        "t [s],x,U,run\n".to_owned() + &(0..rows).map(row).collect::<String>()
+    }
+
+    fn case(rows: usize, settings: &str) -> Case {
+        let text = recording(rows);
+        let file = format!("{CASE}{settings}");
+        let files = [("c.toml", file.as_bytes()), ("r.csv", text.as_bytes())];
+        let library = Files::Library(&files);
+        Case::load_from(library, Path::new("c.toml"), Purpose::Diagnosis).unwrap()
+    }
+
+    #[test]
+    fn a_lag_in_means_is_that_of_all_rows() {
+        const ROWS: usize = 30_000;
+        let case = case(ROWS, "");
+        let design = Design::new(&case);
+        let (fit, _) = noise::settle(&design).unwrap();
+        let coarse = Coarse::of(&design, &fit);
+        let seen = coarse.design();
+        assert!(seen.case.rows <= 2 * PIECES * design.blocks.len());
+        assert_eq!(seen.blocks.len(), design.blocks.len());
+        assert_eq!(seen.spread(&vec![1.0; seen.case.rows]).len(), ROWS);
+        // The quickest that is looked for: half a block.
+        let tau = 0.5 * design.blocks[0].len() as f64;
+        let column = |design: &Design<'_>, fit: &Fit| {
+            let fitted = FittedModel::new(design, fit);
+            let x = fitted.numbers(1);
+            let late = late(&fitted.clock.values, x, tau);
+            let lacks = late.iter().zip(x).map(|(late, x)| late - x).collect();
+            fitted.column(&Term::new(Node::Column(1), Modifier::unnamed(lacks)))
+        };
+        let (all, means) = (column(&design, &fit), column(&seen, &coarse.fit));
+        assert!((&all - &means).norm() < 0.01 * all.norm());
+    }
+
+    #[test]
+    fn a_short_recording_is_as_it_is() {
+        let case = case(500, "");
+        let design = Design::new(&case);
+        let (fit, _) = noise::settle(&design).unwrap();
+        let coarse = Coarse::of(&design, &fit);
+        let seen = coarse.design();
+        assert_eq!(seen.blocks, design.blocks);
+        assert_eq!(coarse.fit.linear.slopes, fit.linear.slopes);
+        assert_eq!(seen.recorded(7), 7..8);
+    }
+
+    #[test]
+    fn memory_is_told_from_rows_and_blocks() {
+        let gib = |case: &Case| case.bytes() as f64 / (1_u64 << 30) as f64;
+        assert!(gib(&case(20_000, "")) < 1.0);
+        let mut each = case(20_000, "");
+        each.averaging.blocks = super::super::case::Blocks::Rows;
+        assert!(gib(&each) > 8.0);
+        let refused = super::super::diagnose(&each, &|_| std::ops::ControlFlow::Continue(()));
+        let why = refused.unwrap_err();
+        assert_eq!(why.code().unwrap().id, "D0114");
+    }
+}

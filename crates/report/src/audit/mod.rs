@@ -126,7 +126,7 @@ fn with_unit(text: String, unit: &str) -> String {
 }
 
 fn shown(figure: Option<&Printed>) -> String {
-    figure.map_or(NONE.to_string(), |figure| figure.text.clone())
+    figure.map_or(NONE.to_string(), |figure| figure.as_read().to_string())
 }
 
 fn figures(audit: &Audit<'_>, language: Language) -> Vec<KeyFigure> {

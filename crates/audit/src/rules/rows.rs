@@ -87,7 +87,7 @@ fn named_divisor(distribution: &str) -> Option<f64> {
         Some(Shape::Triangular.divisor())
     } else if has(&["arcsin", "u-shape", "u shape", "反正弦"]) {
         Some(Shape::Arcsine.divisor())
-    } else if has(&["rect", "uniform", "均匀", "矩形"]) {
+    } else if has(&["rect", "rechteck", "uniform", "均匀", "矩形"]) {
         Some(Shape::Rectangular.divisor())
     } else {
         None

@@ -112,7 +112,16 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         // Where u_c is the sum of squares, ν_eff may have been found before.
         let before = (calculation.combined == Combined::Squares).then(|| rooted.figures(&[], cmc));
         let mut all = of.iter().chain(&before);
-        all.any(|f| freedom(figure, f.nu_eff, calculation, coarse))
+        // Where it was found from u_c as it is printed, that enters with its fourth power.
+        let of_printed_u = |f: &Figures| {
+            let ratio = claimed_u.as_ref().filter(|_| u_c).map(|u| u.value / f.u_c);
+            ratio.map(|ratio| f.nu_eff * libm::pow(ratio, 4.0))
+        };
+        all.any(|f| {
+            let found = [Some(f.nu_eff), of_printed_u(f)];
+            let mut found = found.into_iter().flatten();
+            found.any(|nu| freedom(figure, nu, calculation, coarse))
+        })
     });
     let mut factors: Vec<f64> = of.iter().map(|f| f.k).collect();
     let claimed_k = footer.k.as_ref();

@@ -4,15 +4,10 @@
 //! cell holds, with all its digits, and is called by what the cell shows. Zeros that a format adds are digits that were
 //! printed; a format in percent makes the figure one in percent; words in a format stand behind the figure.
 
-use gumption_core::quantity::{Decimal, Grouping, PowerStyle, Rounding, Style};
+use gumption_core::quantity::{Decimal, Rounding};
 
 use super::Cell;
-use crate::printed::{clean, leading};
-
-pub(super) const PLAIN: Style = Style {
-    grouping: Grouping::None,
-    power: PowerStyle::Caret,
-};
+use crate::printed::{PLAIN, clean, leading};
 
 /// The cell of a number, by what it shows.
 pub(super) fn cell(value: f64, shown: Option<&str>) -> Cell {

@@ -273,7 +273,7 @@ fn findings(audit: &Audit<'_>, language: Language) -> Vec<Block> {
         });
         table.push(vec![
             rule.number.to_string().into(),
-            rule.weight.said().in_language(language).into(),
+            finding.said().in_language(language).into(),
             language.pick(rule.en, rule.zh).into(),
             place.into(),
             finding.numbers.clone().into(),

@@ -12,8 +12,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use gumption::audit::read::{self, Mapping};
-use gumption::audit::{audit, sheet};
+use gumption::audit::read::Mapping;
+use gumption::audit::{audit, claims};
 use gumption::challenge::budget::{self, Sheet, SheetAnswer, SheetGrade};
 use gumption::files::write::{Output, Replacing, write};
 use gumption::report::{self, Language};
@@ -160,8 +160,7 @@ fn save(path: PathBuf, content: Vec<u8>) -> Result<(), String> {
 }
 
 fn answer(name: &str, bytes: &[u8]) -> SheetAnswer {
-    let grids = sheet::grids(name, bytes).unwrap_or_default();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let claims = claims(name, bytes, &Mapping::default()).unwrap_or_default();
     let audits: Vec<_> = claims.iter().map(audit).collect();
     let machine = report::audit(name, &audits, Language::English).machine;
     serde_json::from_value(machine).unwrap_or_default()
@@ -183,8 +182,7 @@ fn sources() -> Result<Vec<u8>, String> {
         let bytes = gumption::Files::Disk
             .read(path.as_ref())
             .map_err(|error| error.to_string())?;
-        let grids = sheet::grids(path, &bytes).map_err(|why| why.0)?;
-        let claims = read::budgets(&grids, &Mapping::default());
+        let claims = claims(path, &bytes, &Mapping::default()).map_err(|why| why.0.to_string())?;
         let audits: Vec<_> = claims.iter().map(audit).collect();
         let document = report::audit(path, &audits, Language::English);
         let rendered = (format.render)(&document, &page);

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use super::form::Form;
 use super::{Outcome, output};
-use gumption::audit::claim::Claimed;
-use gumption::audit::read::{self, Mapping};
-use gumption::audit::{Audit, Verdict, audit, sheet};
+use gumption::audit::read::Mapping;
+use gumption::audit::sheet::Unreadable;
+use gumption::audit::{Audit, Verdict, audit, claims};
 use gumption::document::Document;
 use gumption::fault::{Said, say};
 use gumption::files::Files;
@@ -15,7 +15,8 @@ use gumption::report;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Spreadsheets (.xlsx, .xls, .ods), tables (.csv, .tsv, .md, .txt)
+    /// Spreadsheets (.xlsx, .xls, .ods), tables (.csv, .tsv, .md, .txt), files of other programs (.yaml of suncal, .um, .smu,
+    /// .txp)
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     /// What the columns hold, in a small file; one that does not exist is written, to be mended
@@ -36,7 +37,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     let mut documents = Vec::new();
     for path in &args.files {
         let name = path.display().to_string();
-        let claims = match claims(path, &mapping) {
+        let claims = match found(path, &mapping, claims) {
             Ok(claims) => claims,
             Err(complaint) => {
                 outcome = outcome.max(output::complain(complaint));
@@ -95,14 +96,16 @@ impl Map {
     }
 }
 
-/// The budgets of a file.
-pub(super) fn claims(path: &Path, mapping: &Mapping) -> Result<Vec<Claimed>, Said> {
+/// What a file holds, as a function of the audit finds it.
+pub(super) fn found<T>(
+    path: &Path,
+    mapping: &Mapping,
+    find: fn(&str, &[u8], &Mapping) -> Result<T, Unreadable>,
+) -> Result<T, Said> {
     let name = path.display().to_string();
     let bytes = Files::Disk.read(path);
     let bytes = bytes.map_err(|error| say!("cannot read {name}: {error}"))?;
-    let grids = sheet::grids(&name, &bytes);
-    let grids = grids.map_err(|sheet::Unreadable(why)| say!("cannot read {name}: {why}"))?;
-    Ok(read::budgets(&grids, mapping))
+    find(&name, &bytes, mapping).map_err(|Unreadable(why)| say!("cannot read {name}: {why}"))
 }
 
 /// A sound claim is 0; one that departs, whether that changes the result or not, is 1.

@@ -1,12 +1,11 @@
-//! `gumption import`: a budget file from a spreadsheet.
+//! `gumption import`: a budget file from a spreadsheet or a file of another program.
 
 use std::path::PathBuf;
 
-use super::audit::claims;
+use super::audit::found;
 use super::output::Target;
 use super::{Outcome, output};
-use gumption::audit::calculate::Case;
-use gumption::audit::import::budget_file;
+use gumption::audit::budget_files;
 use gumption::audit::read::Mapping;
 use gumption::fault::say;
 use gumption::files::Files;
@@ -16,7 +15,8 @@ use super::language::system_language;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Spreadsheet (.xlsx, .xls, .ods) or table (.csv, .tsv, .md, .txt)
+    /// Spreadsheet (.xlsx, .xls, .ods), table (.csv, .tsv, .md, .txt), or file of another program (.yaml of suncal, .um, .smu,
+    /// .txp)
     #[arg(value_name = "SHEET")]
     sheet: PathBuf,
     /// Which budget of the sheet, from 1
@@ -47,19 +47,20 @@ pub(super) fn run(args: &Args) -> Outcome {
             }
         }
     };
-    let claims = match claims(&args.sheet, &mapping) {
-        Ok(claims) => claims,
+    let mut budgets = match found(&args.sheet, &mapping, budget_files) {
+        Ok(budgets) => budgets,
         Err(complaint) => return output::complain(complaint),
     };
     let name = args.sheet.display();
-    let Some(claimed) = claims.get(args.budget as usize - 1) else {
-        return match claims.len() {
+    let wanted = args.budget as usize - 1;
+    if wanted >= budgets.len() {
+        return match budgets.len() {
             0 => output::complain(say!(
                 "{name} holds no table that could be understood as an uncertainty budget"
             )),
             count => output::complain(say!("{name} holds {count} budgets")),
         };
-    };
-    let file = budget_file(&Case::of(claimed));
+    }
+    let file = budgets.swap_remove(wanted);
     args.target.write(file.into_bytes(), Vec::new(), args.lang)
 }

@@ -292,6 +292,24 @@ impl Row {
 }
 
 impl Claimed {
+    /// Whether nothing of what it states was computed: then there is nothing to hold a calculation against.
+    pub fn computes_nothing(&self) -> bool {
+        let Footer {
+            u_c,
+            nu_eff,
+            k,
+            expanded,
+            ..
+        } = &self.footer;
+        let whole = [u_c, nu_eff, k, expanded];
+        whole.iter().all(|figure| figure.is_none())
+            && self.is_summary()
+            && self
+                .rows
+                .iter()
+                .all(|row| row.c.is_none() && row.dof.is_none())
+    }
+
     /// Whether the sheet is a summary, which states no standard uncertainty of a row.
     pub fn is_summary(&self) -> bool {
         self.rows

@@ -138,7 +138,7 @@ fn identifier(symbol: &str, otherwise: &str) -> String {
     }
 }
 
-fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
         match c {
@@ -302,7 +302,7 @@ impl Input<'_> {
     }
 }
 
-fn comment(text: &str) -> String {
+pub(crate) fn comment(text: &str) -> String {
     let plain: String = text
         .chars()
         .map(|c| if c.is_control() { ' ' } else { c })
@@ -311,7 +311,7 @@ fn comment(text: &str) -> String {
 }
 
 /// A number as it was typed: no digits that a product of doubles adds.
-fn number(x: f64) -> String {
+pub(crate) fn number(x: f64) -> String {
     let rounded: f64 = format!("{x:.12e}").parse().unwrap_or(x);
     if rounded != 0.0 && !(1e-4..1e9).contains(&rounded.abs()) {
         format!("{rounded:e}")

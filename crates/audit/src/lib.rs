@@ -6,8 +6,10 @@
 
 pub mod calculate;
 pub mod claim;
+mod file;
 pub mod import;
 pub mod printed;
+pub mod programs;
 pub mod read;
 pub mod rules;
 pub mod search;
@@ -18,4 +20,5 @@ mod tests;
 mod units;
 mod verdict;
 
+pub use file::{budget_files, claims};
 pub use verdict::{Audit, Verdict, audit};

@@ -1,6 +1,6 @@
 //! Figures as they are printed: value and half a unit in the last place.
 
-use gumption_core::quantity::Decimal;
+use gumption_core::quantity::{Decimal, Grouping, PowerStyle, Style};
 
 /// Where a figure stands: sheet, row and column, counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, PartialOrd, Ord)]
@@ -39,6 +39,8 @@ pub struct Printed {
     pub text: String,
     /// The unit that stands behind it, as written; empty for none.
     pub unit: String,
+    /// What its cell shows, where that has fewer digits than the figure itself.
+    pub shown: Option<String>,
     /// Where it stands.
     pub at: Place,
 }
@@ -46,6 +48,12 @@ pub struct Printed {
 /// Beyond the digits that are printed, figures agree to this relative difference: sheets hold derivatives that were found
 /// as quotients of differences, and constants written with seven digits.
 const DOUBLE: f64 = 1e-6;
+
+/// Digits and a point, and nothing else.
+pub(crate) const PLAIN: Style = Style {
+    grouping: Grouping::None,
+    power: PowerStyle::Caret,
+};
 
 impl Printed {
     /// A figure that is known exactly.
@@ -57,6 +65,7 @@ impl Printed {
             digits,
             text: text.trim().into(),
             unit,
+            shown: None,
             at: Place::default(),
         }
     }
@@ -68,6 +77,33 @@ impl Printed {
         figure.unit = unit_behind(rest)?.to_string();
         figure.text = text.trim().to_string();
         Some(figure)
+    }
+
+    /// The same, of a cell that shows it with fewer digits.
+    #[must_use]
+    pub fn called(mut self, shown: &str) -> Printed {
+        self.shown = Some(shown.to_string());
+        self
+    }
+
+    /// As a person reads it.
+    pub fn as_read(&self) -> &str {
+        self.shown.as_deref().unwrap_or(&self.text)
+    }
+
+    /// The figure that a person reads, in the unit of this one: rules about digits are about those that are shown.
+    pub fn read(&self) -> Printed {
+        let read = self.shown.as_deref().and_then(Printed::parse);
+        let read = read.filter(|read| read.value != 0.0);
+        let own = Printed::parse(&self.text).map_or(0.0, |own| own.value);
+        match read {
+            Some(read) if own != 0.0 => Printed {
+                unit: self.unit.clone(),
+                at: self.at,
+                ..read.scaled(self.value / own)
+            },
+            _ => self.clone(),
+        }
     }
 
     /// The same at a place.
@@ -255,6 +291,7 @@ fn decimal(text: &str) -> Option<(Printed, &str)> {
             digits,
             text,
             unit,
+            shown: None,
             at: Place::default(),
         },
         behind,

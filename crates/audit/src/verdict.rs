@@ -33,8 +33,8 @@ pub fn audit(claimed: &Claimed) -> Audit<'_> {
     let footer = &claimed.footer;
     let nothing = claimed.rows.is_empty() || found.right.u_c <= 0.0;
     let unclaimed = footer.u_c.is_none() && footer.expanded.is_none();
-    let verdict = if nothing || unclaimed && found.gaps.is_empty() && found.explanations.is_empty()
-    {
+    let silent = found.gaps.is_empty() && found.explanations.is_empty();
+    let verdict = if nothing || unclaimed && (silent || claimed.computes_nothing()) {
         Verdict::NotRecomputed
     } else {
         match found.explanations.first() {

@@ -1,7 +1,8 @@
 //! One function for each command.
 
-use gumption_audit::read::{Mapping, budgets};
-use gumption_audit::sheet;
+use gumption_audit::claims;
+use gumption_audit::read::Mapping;
+use gumption_audit::sheet::Unreadable;
 use gumption_fault::language::Language;
 use gumption_format::files::Files;
 use gumption_gum::budget::{self, Budget, PROFILES, Points, Profile, Trials, Wanted};
@@ -250,14 +251,12 @@ pub(crate) fn audit(py: Python<'_>, source: Source, language: &str) -> PyResult<
     let name = source.path().display().to_string();
     let bytes = read(py, &source)?;
     let none = |why| Err(Unmade::NoResult(why, None));
-    let found = py.detach(|| match sheet::grids(&name, &bytes) {
-        Err(sheet::Unreadable(why)) => none(format!("cannot read {name}: {why}")),
-        Ok(grids) => match budgets(&grids, &Mapping::default()) {
-            claims if claims.is_empty() => none(format!(
-                "{name} holds no table that could be understood as an uncertainty budget"
-            )),
-            claims => Ok(What::Audit(name, claims)),
-        },
+    let found = py.detach(|| match claims(&name, &bytes, &Mapping::default()) {
+        Err(Unreadable(why)) => none(format!("cannot read {name}: {why}")),
+        Ok(claims) if claims.is_empty() => none(format!(
+            "{name} holds no table that could be understood as an uncertainty budget"
+        )),
+        Ok(claims) => Ok(What::Audit(name, claims)),
     });
     made(py, language, found)
 }

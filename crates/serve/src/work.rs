@@ -5,9 +5,9 @@ use std::path::Path;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use gumption_audit::audit;
-use gumption_audit::read::{self, Mapping};
-use gumption_audit::sheet::{self, Unreadable};
+use gumption_audit::read::Mapping;
+use gumption_audit::sheet::Unreadable;
+use gumption_audit::{audit, claims};
 use gumption_core::quantity::Unit;
 use gumption_export::{Format, Page};
 use gumption_fault::language::Language;
@@ -375,9 +375,8 @@ impl Asked<'_> {
         let unreadable = |why: Said| self.nothing(&say!("cannot read {name}: {why}"));
         let bytes = self.files.read(self.path);
         let bytes = bytes.map_err(|error| unreadable(Said::quoted(error.to_string())))?;
-        let grids = sheet::grids(name, &bytes);
-        let grids = grids.map_err(|Unreadable(why)| unreadable(Said::quoted(why)))?;
-        let claims = read::budgets(&grids, &Mapping::default());
+        let claims = claims(name, &bytes, &Mapping::default());
+        let claims = claims.map_err(|Unreadable(why)| unreadable(why))?;
         let audits: Vec<_> = claims.iter().map(audit).collect();
         if audits.is_empty() {
             return Err(self.nothing(&say!(

@@ -107,33 +107,33 @@ const WORDS: &[(Role, How, &[&str])] = &[
     (Role::Derived, How::Is, &["share", "%", "percent", "weight", "h", "比重"]),
     (Role::Derived, How::Has, &["ui^2", "u^2", "(y)^2", "^2", "平方", "squared", "variance", "方差"]),
     (Role::Name, How::Has, &["分量名称", "来源名称", "名称及来源"]),
-    (Role::Contribution, How::Has, &["ciui", "|ci|ui", "|c|ui", "|ciui|", "ui(y)", "uy(", "u(y)", "|ci|u", "|c|u", "ciu(", "|ci|·u", "cu(", "|ci|×u", "contributiontou", "uncertaintycontribution", "contribution", "贡献", "|u(y", "uncertaintyiny"]),
-    (Role::Name, How::Has, &["来源", "source", "influence", "因素", "影响量", "description", "contributor", "origin", "cause"]),
+    (Role::Contribution, How::Has, &["unsicherheitsbeitrag", "beitrag", "ciui", "|ci|ui", "|c|ui", "|ciui|", "ui(y)", "uy(", "u(y)", "|ci|u", "|c|u", "ciu(", "|ci|·u", "cu(", "|ci|×u", "contributiontou", "uncertaintycontribution", "contribution", "贡献", "|u(y", "uncertaintyiny"]),
+    (Role::Name, How::Has, &["来源", "source", "influence", "einfluss", "unsicherheitsquelle", "因素", "影响量", "description", "contributor", "origin", "cause"]),
     (Role::Contribution, How::Has, &["不确定度分量", "分量值", "componentofu", "uncertaintycomponentu"]),
     (Role::Contribution, How::Is, &["分量", "cu", "uc", "u.c", "c.u", "ci.u", "ciu", "c·u", "ui(y)", "|c|u", "component/y"]),
-    (Role::Dof, How::Has, &["degreesoffreedom", "degreeoffreedom", "dof", "d.o.f", "自由度", "freedom", "νi", "νeff", "veff", "deg.fr", "d.f."]),
+    (Role::Dof, How::Has, &["degreesoffreedom", "degreeoffreedom", "dof", "d.o.f", "自由度", "freiheitsgrad", "degrésdeliberté", "freedom", "νi", "νeff", "veff", "deg.fr", "d.f."]),
     (Role::Dof, How::Is, &["ν", "v", "vi", "df", "nu", "nui", "viorveff", "νioreff", "ν_i"]),
-    (Role::C, How::Has, &["sensitivity", "sens.", "灵敏", "敏感系数", "传播系数", "partial", "∂", "coefficient", "传递系数"]),
+    (Role::C, How::Has, &["sensitivity", "sens.", "sensitivität", "empfindlichkeit", "sensibilité", "灵敏", "敏感系数", "传播系数", "partial", "∂", "coefficient", "传递系数"]),
     (Role::C, How::Is, &["c", "ci", "|ci|", "|c|", "c_i", "sens"]),
     (Role::C, How::Begins, &["ci(", "ci/", "ci["]),
-    (Role::Distribution, How::Has, &["distribution", "分布类型", "概率分布", "pdf", "shape"]),
-    (Role::Distribution, How::Is, &["distr", "distr.", "dist", "dist.", "分布", "prob.", "probability"]),
-    (Role::Divisor, How::Has, &["divisor", "divideby", "dividedby", "除数", "分布因子", "置信因子", "包含因子", "coveragefactor", "kfactor"]),
+    (Role::Distribution, How::Has, &["distribution", "verteilung", "分布类型", "概率分布", "pdf", "shape"]),
+    (Role::Distribution, How::Is, &["distr", "distr.", "dist", "dist.", "分布", "prob.", "probability", "loi"]),
+    (Role::Divisor, How::Has, &["divisor", "teiler", "diviseur", "divideby", "dividedby", "除数", "分布因子", "置信因子", "包含因子", "coveragefactor", "kfactor"]),
     (Role::Divisor, How::Is, &["k", "ki", "k值", "ki值", "div", "div.", "因子", "b", "factor"]),
-    (Role::U, How::Has, &["standarduncertainty", "标准不确定度", "stdunc", "std.unc", "stduncertainty", "u(x", "u(", "standardunc", "std.uncertainty", "标准不确定"]),
+    (Role::U, How::Has, &["standarduncertainty", "standardunsicherheit", "standardmessunsicherheit", "incertitude-type", "incertitudetype", "标准不确定度", "stdunc", "std.unc", "stduncertainty", "u(x", "u(", "standardunc", "std.uncertainty", "标准不确定"]),
     (Role::U, How::Is, &["u", "ui", "ux", "stdu", "u_i", "u(xi)"]),
     (Role::Readings, How::Has, &["numberofreadings", "测量次数", "readings(n)"]),
     (Role::Readings, How::Is, &["n", "readings", "次数"]),
     (Role::Type, How::Has, &["评定方法", "评定类别", "evaluation", "a/b", "类别", "typea", "评定类型", "typeof", "a类/b类"]),
     (Role::Type, How::Is, &["type", "类型", "评定", "method", "eval.", "a,b"]),
-    (Role::Remark, How::Has, &["remark", "note", "comment", "备注", "说明", "information", "依据", "howknown", "basis", "evidence", "whatisknown", "已知", "信息", "statement", "注", "details", "data", "justification", "reference"]),
-    (Role::Used, How::Has, &["±", "half-width", "halfwidth", "半宽", "limit", "误差限", "expanded", "扩展不确定度", "a(half", "tolerance", "允差", "interval", "区间", "uncertaintyvalue", "不确定度值", "valueofuncertainty", "spread", "stated", "极限", "given", "最大允许", "+/-"]),
-    (Role::Used, How::Is, &["uncertainty", "a", "ai", "不确定度", "unc.", "unc", "accuracy", "error", "δ", "figure", "known", "数值", "magnitude", "a/u/s", "a,u,s", "size", "amount", "a或u", "u或a", "a/u", "u/a", "a,u", "半宽a或u", "aoru", "uora", "limit/u", "极限值/u"]),
-    (Role::Unit, How::Is, &["unit", "units", "单位", "[unit]", "unitofx", "unitofxi", "计量单位"]),
+    (Role::Remark, How::Has, &["bemerkung", "remarque", "remark", "note", "comment", "备注", "说明", "information", "依据", "howknown", "basis", "evidence", "whatisknown", "已知", "信息", "statement", "注", "details", "data", "justification", "reference"]),
+    (Role::Used, How::Has, &["±", "halbbreite", "halbweite", "demi-étendue", "demi-largeur", "demi-intervalle", "half-width", "halfwidth", "半宽", "limit", "误差限", "expanded", "扩展不确定度", "a(half", "tolerance", "允差", "interval", "区间", "uncertaintyvalue", "不确定度值", "valueofuncertainty", "spread", "stated", "极限", "given", "最大允许", "+/-"]),
+    (Role::Used, How::Is, &["uncertainty", "unsicherheit", "incertitude", "a", "ai", "不确定度", "unc.", "unc", "accuracy", "error", "δ", "figure", "known", "数值", "magnitude", "a/u/s", "a,u,s", "size", "amount", "a或u", "u或a", "a/u", "u/a", "a,u", "半宽a或u", "aoru", "uora", "limit/u", "极限值/u"]),
+    (Role::Unit, How::Is, &["unit", "units", "einheit", "unité", "单位", "[unit]", "unitofx", "unitofxi", "计量单位"]),
     (Role::Symbol, How::Has, &["symbol", "符号", "variable", "代号"]),
-    (Role::Value, How::Has, &["estimate", "估计值", "nominal", "标称", "measuredvalue", "量值", "bestvalue", "最佳", "meanvalue", "输入量的值", "输入量值", "inputvalue", "测得值", "取值"]),
-    (Role::Value, How::Is, &["value", "x", "xi", "值", "mean", "level", "reading", "平均值", "示值"]),
-    (Role::Symbol, How::Has, &["quantity", "输入量", "量的符号"]),
+    (Role::Value, How::Has, &["estimate", "schätzwert", "valeurestimée", "估计值", "nominal", "标称", "measuredvalue", "量值", "bestvalue", "最佳", "meanvalue", "输入量的值", "输入量值", "inputvalue", "测得值", "取值"]),
+    (Role::Value, How::Is, &["value", "wert", "valeur", "estimation", "x", "xi", "值", "mean", "level", "reading", "平均值", "示值"]),
+    (Role::Symbol, How::Has, &["quantity", "größe", "grandeur", "输入量", "量的符号"]),
     (Role::Symbol, How::Is, &["量", "input", "xi", "parameter"]),
     (Role::Name, How::Has, &["component", "名称", "分量", "项目", "contribut", "item", "effect", "内容"]),
     (Role::Name, How::Is, &["name", "input", "what", "uncertainty", "term", "label", "项", "parameter"]),
@@ -143,7 +143,11 @@ const WORDS: &[(Role, How, &[&str])] = &[
 /// What a head says of its column, and the unit in it.
 pub fn role(head: &str) -> Option<(Role, String)> {
     let (name, unit) = apart(head);
-    if let Some(role) = of(&name).or_else(|| of(head)) {
+    // `分量(HRC)`, `u (counts)`: what stands in a bracket behind a name of figures is its unit, also one that is not known.
+    let figure = without_bracket(&name)
+        .and_then(of)
+        .filter(|role| role.is_figure());
+    if let Some(role) = figure.or_else(|| of(&name)).or_else(|| of(head)) {
         return Some((role, unit));
     }
     // `u_i(R_X) mΩ`: a unit without a mark, where the words alone are known.
@@ -178,6 +182,14 @@ fn of(head: &str) -> Option<Role> {
     entry.map(|(role, ..)| *role)
 }
 
+/// What stands in front of a bracket with a short word in it, where a blank or a Chinese character parts the two.
+fn without_bracket(name: &str) -> Option<&str> {
+    let (front, inner) = name.strip_suffix(')')?.rsplit_once('(')?;
+    let parted = front.ends_with(|c: char| c == ' ' || ('\u{4e00}'..='\u{9fff}').contains(&c));
+    let letters = (2..=6).contains(&inner.len()) && inner.chars().all(|c| c.is_ascii_alphabetic());
+    (parted && letters).then(|| front.trim())
+}
+
 /// A head without the unit in it: `u(x_i) / mm`, `Estimate [mm]`, `contribution (mm)`.
 pub fn apart(head: &str) -> (String, String) {
     let head = head.trim();
@@ -210,7 +222,7 @@ pub fn apart(head: &str) -> (String, String) {
     }
     for mark in [" / ", "/", ", ", " in "] {
         if let Some((name, unit)) = head.split_once(mark)
-            && name.chars().count() > 1
+            && (name.chars().count() > 1 || mark == " in ")
             && is_unit(unit.trim_matches(['(', ')', ' ', '/']))
         {
             return (

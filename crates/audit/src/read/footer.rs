@@ -36,10 +36,10 @@ impl Whole {
 /// Words that stand for a figure of the whole; longer ones first where one is in another.
 #[rustfmt::skip]
 const WORDS: &[(Whole, &[&str])] = &[
-    (Whole::Freedom, &["effective degrees of freedom", "effective number of degrees", "effective dof", "有效自由度", "ν_eff", "νeff", "veff", "v_eff", "nu_eff", "ν eff", "deg. of freedom (eff", "ν_{eff}"]),
-    (Whole::Factor, &["coverage factor", "包含因子", "覆盖因子", "扩展因子", "k-factor", "k ="]),
-    (Whole::Expanded, &["expanded uncertainty", "expanded measurement uncertainty", "扩展不确定度", "reported uncertainty", "u95", "u_95", "expanded unc", "总不确定度", "expanded"]),
-    (Whole::Combined, &["combined standard uncertainty", "combined uncertainty", "合成标准不确定度", "合成不确定度", "standard uncertainty of the result", "standard uncertainty of y", "combined std", "combined standard", "root sum of squares", "rss", "combined", "total standard uncertainty"]),
+    (Whole::Freedom, &["effective degrees of freedom", "effektiver freiheitsgrad", "effektive freiheitsgrade", "degrés de liberté effectifs", "effective number of degrees", "effective dof", "有效自由度", "ν_eff", "νeff", "veff", "v_eff", "nu_eff", "ν eff", "deg. of freedom (eff", "ν_{eff}"]),
+    (Whole::Factor, &["coverage factor", "erweiterungsfaktor", "facteur d'élargissement", "包含因子", "覆盖因子", "扩展因子", "k-factor", "k ="]),
+    (Whole::Expanded, &["erweiterte messunsicherheit", "erweiterte unsicherheit", "incertitude élargie", "expanded uncertainty", "expanded measurement uncertainty", "扩展不确定度", "reported uncertainty", "u95", "u_95", "expanded unc", "总不确定度", "expanded"]),
+    (Whole::Combined, &["kombinierte standard", "kombinierte unsicherheit", "incertitude-type composée", "incertitude composée", "combined standard uncertainty", "combined uncertainty", "合成标准不确定度", "合成不确定度", "standard uncertainty of the result", "standard uncertainty of y", "combined std", "combined standard", "root sum of squares", "rss", "combined", "total standard uncertainty"]),
     (Whole::Y, &["measurement result", "测量结果", "result", "结果", "measured value", "value of the measurand", "被测量值", "reported value", "被测量"]),
 ];
 
@@ -69,9 +69,8 @@ fn symbol(text: &str) -> Option<Whole> {
         return Some(Whole::Expanded);
     }
     match compact(name).as_str() {
-        "uc" | "uc(y)" | "u(y)" | "ucombined" | "uccombined" | "uy" | "u" | "sum" | "rss" => {
-            Some(Whole::Combined)
-        }
+        "uc" | "uc(y)" | "u(y)" | "u(c)" | "ucombined" | "uccombined" | "uy" | "u" | "sum"
+        | "rss" => Some(Whole::Combined),
         "νeff" | "veff" | "nueff" | "νeff(y)" => Some(Whole::Freedom),
         "k" | "kp" | "k95" | "k(95%)" | "k(95.45%)" | "k(p)" => Some(Whole::Factor),
         "y" => Some(Whole::Y),
@@ -95,6 +94,13 @@ pub fn label(text: &str, measurand: &str) -> Option<Whole> {
         return Some(Whole::Y);
     }
     let lower = absolute(&text.to_lowercase());
+    // `Sum u(m_X)`, `Total u`.
+    let total = ["sum ", "total ", "合计 "]
+        .iter()
+        .find_map(|word| lower.strip_prefix(word));
+    if total.is_some_and(|rest| rest == "u" || rest.starts_with("u(") || rest.starts_with("u_")) {
+        return Some(Whole::Combined);
+    }
     let at = |keys: &[&str]| keys.iter().filter_map(|key| find(&lower, key, 0)).min();
     let found = WORDS
         .iter()

@@ -2,6 +2,7 @@
 //!
 //! | chapter | holds |
 //! |---|---|
+//! | `beside` | tables side by side |
 //! | `columns` | what a column is, by its head |
 //! | `table` | where a table stands, and its rows |
 //! | `kind` | what is known of a quantity, by the words for it |
@@ -13,6 +14,7 @@
 //! | `turned` | tables whose rows and columns are exchanged |
 //! | `words` | words and figures in texts |
 
+mod beside;
 mod columns;
 mod converter;
 mod footer;
@@ -46,7 +48,8 @@ struct Line {
 
 /// Every budget of a file.
 pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
-    let grids: Vec<Grid> = grids.iter().map(turned::upright).collect();
+    let parts = grids.iter().flat_map(beside::parted);
+    let grids: Vec<Grid> = parts.map(|part| turned::upright(&part)).collect();
     let mut found: Vec<Found> = Vec::new();
     for (sheet, grid) in grids.iter().enumerate() {
         let tables = table::locate(grid, mapping).into_iter();

@@ -342,13 +342,17 @@ fn symbols(text: &str, symbol: &str) -> usize {
     count
 }
 
-/// Whether a symbol is what the text gives a value to.
+/// Whether a symbol is what the text gives a value to, behind a sign or in the next cell.
 pub fn is_assigned(text: &str, symbol: &str) -> bool {
-    symbol_at(text, symbol, 0).is_some_and(|at| {
-        text[at + symbol.len()..]
-            .trim_start()
-            .starts_with(['=', '为'])
-    })
+    let beside = text
+        .split_once(" ; ")
+        .filter(|(first, _)| first.trim() == symbol);
+    beside.is_some_and(|(_, rest)| leading(rest).is_some())
+        || symbol_at(text, symbol, 0).is_some_and(|at| {
+            text[at + symbol.len()..]
+                .trim_start()
+                .starts_with(['=', '为'])
+        })
 }
 
 /// The last figure behind an equals sign.

@@ -16,8 +16,12 @@ mod words;
 #[cfg(test)]
 mod tests;
 
-use crate::calculate::{Calculation, Case};
+use gumption_core::quantity::{Decimal, Rounding};
+use gumption_fault::{Said, say};
+
+use crate::calculate::{Calculation, Case, Line};
 use crate::claim::Claimed;
+use crate::printed::PLAIN;
 use crate::search::Found;
 use crate::slips::Weight;
 
@@ -74,11 +78,22 @@ impl Rule {
     }
 }
 
+/// What a finding bears on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bearing {
+    /// The claimed figures: a slip that gives them.
+    Figures,
+    /// What a reviewer asks, while the claimed figures may follow from what is stated all the same.
+    Question,
+}
+
 /// Something that is against a rule.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     /// Number of the rule.
     pub rule: u8,
+    /// What it bears on.
+    pub bearing: Bearing,
     /// The row, where it is about one.
     pub row: Option<usize>,
     /// The numbers.
@@ -92,6 +107,17 @@ impl Finding {
     pub fn rule(&self) -> &'static Rule {
         // Findings are made of rules that exist.
         rule(self.rule).unwrap_or(&RULES[0])
+    }
+
+    /// The word for how much it weighs. A question is no error: the sheet may be sound, and still owe an answer.
+    pub fn said(&self) -> Said {
+        let weight = self.rule().weight;
+        match (self.bearing, weight) {
+            (Bearing::Figures, weight) => weight.said(),
+            (Bearing::Question, Weight::Error) => say!("to be answered"),
+            (Bearing::Question, Weight::Warning) => say!("to be asked"),
+            (Bearing::Question, Weight::Information) => say!("to be noted"),
+        }
     }
 }
 
@@ -138,6 +164,7 @@ pub fn findings(found: &Found<'_>) -> Vec<Finding> {
         let How::Look(look) = rule.how else { continue };
         let hits = look(&seen).into_iter().map(|hit| Finding {
             rule: rule.number,
+            bearing: Bearing::Question,
             row: hit.row,
             numbers: hit.numbers,
             corrected: hit.corrected,
@@ -163,7 +190,7 @@ fn of_slips(found: &Found<'_>) -> Vec<Finding> {
         let mut calculation = found.case.right.clone();
         let others = best.acts.iter().enumerate().filter(|(i, _)| *i != skipped);
         others.for_each(|(_, act)| act.apply(&mut calculation));
-        calculation.figures(&[], cmc).expanded
+        calculation
     };
     let of_act = |(i, act): (usize, &crate::slips::Act)| -> Vec<Finding> {
         let numbers = act
@@ -171,13 +198,67 @@ fn of_slips(found: &Found<'_>) -> Vec<Finding> {
             .rule
             .split('/')
             .filter_map(|number| number.parse().ok());
+        let other = without(i);
         let finding = |rule: u8| Finding {
             rule,
+            bearing: Bearing::Figures,
             row: act.row,
-            numbers: act.slip.id.to_string(),
-            corrected: Some(without(i)),
+            numbers: differing(&best.calculation, &other, act.row, found.case.claimed),
+            corrected: Some(other.figures(&[], cmc).expanded),
         };
         numbers.map(finding).collect()
     };
     best.acts.iter().enumerate().flat_map(of_act).collect()
+}
+
+/// The first figure that a slip changes, as the laboratory has it and as it would be without the slip.
+fn differing(
+    with: &Calculation,
+    without: &Calculation,
+    row: Option<usize>,
+    claimed: &Claimed,
+) -> String {
+    let counted = |line: &Line| {
+        if line.counted {
+            line.contribution().abs()
+        } else {
+            0.0
+        }
+    };
+    let line = row.and_then(|row| with.lines.get(row).zip(without.lines.get(row)));
+    let of_row = line.map(|(a, b)| {
+        [
+            ("u", a.u, b.u),
+            ("c", a.c, b.c),
+            ("u_i(y)", counted(a), counted(b)),
+            ("ν", a.dof, b.dof),
+        ]
+    });
+    let (a, b) = (with.figures(&[], None), without.figures(&[], None));
+    let of_whole = [
+        ("u_c", a.u_c, b.u_c),
+        ("ν_eff", a.nu_eff, b.nu_eff),
+        ("k", a.k, b.k),
+        ("U", a.expanded, b.expanded),
+    ];
+    let mut all = of_row.into_iter().flatten().chain(of_whole);
+    let differs = |a: f64, b: f64| a != b && (a - b).abs() > 1e-9 * b.abs();
+    match all.find(|(_, a, b)| differs(*a, *b)) {
+        Some((name, a, b)) => format!("{name} = {} ≠ {}", shown(a), shown(b)),
+        // Only the printing differs.
+        None => match &claimed.footer.expanded {
+            Some(expanded) => format!("U = {}, k·u_c = {}", expanded.as_read(), shown(b.expanded)),
+            None => String::new(),
+        },
+    }
+}
+
+/// A figure with four digits at most.
+fn shown(x: f64) -> String {
+    if x.is_infinite() {
+        return "∞".into();
+    }
+    let rounded = Decimal::from_f64(x).round_to_significant(4, Rounding::HalfEven);
+    // Without the zeros that only fill four digits.
+    Decimal::from_f64(rounded.to_f64()).print_plain(PLAIN)
 }

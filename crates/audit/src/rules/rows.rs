@@ -38,7 +38,7 @@ pub(super) fn contribution(seen: &Seen<'_>) -> Vec<Hit> {
         let (contribution, c, u) = (row.contribution.as_ref()?, row.c.as_ref()?, row.u.as_ref()?);
         let product = c.value * u.value * line.to_y;
         let differs = far(contribution, product, open(&[c, u]));
-        differs.then(|| format!("u_i(y) = {}, c·u = {product:.4}", contribution.text))
+        differs.then(|| format!("u_i(y) = {}, c·u = {product:.4}", contribution.as_read()))
     })
 }
 
@@ -50,7 +50,9 @@ pub(super) fn quotient(seen: &Seen<'_>) -> Vec<Hit> {
         differs.then(|| {
             format!(
                 "u = {}, {}/{} = {quotient:.4}",
-                u.text, used.text, divisor.text
+                u.as_read(),
+                used.as_read(),
+                divisor.as_read()
             )
         })
     })
@@ -67,7 +69,12 @@ pub(super) fn derivative(seen: &Seen<'_>) -> Vec<Hit> {
             let right = [derivatives[i], derivatives[i] * line.to_y, line.c];
             let near = |x: &f64| !far(c, *x, 0.01);
             let wrong = !right.iter().any(near);
-            wrong.then(|| Hit::of(Some(i), format!("c = {}, ∂f/∂x = {:.5}", c.text, line.c)))
+            wrong.then(|| {
+                Hit::of(
+                    Some(i),
+                    format!("c = {}, ∂f/∂x = {:.5}", c.as_read(), line.c),
+                )
+            })
         })
         .collect()
 }
@@ -80,7 +87,7 @@ fn named_divisor(distribution: &str) -> Option<f64> {
         Some(Shape::Triangular.divisor())
     } else if has(&["arcsin", "u-shape", "u shape", "反正弦"]) {
         Some(Shape::Arcsine.divisor())
-    } else if has(&["rect", "uniform", "均匀", "矩形"]) {
+    } else if has(&["rect", "rechteck", "uniform", "均匀", "矩形"]) {
         Some(Shape::Rectangular.divisor())
     } else {
         None
@@ -95,7 +102,7 @@ pub(super) fn distribution(seen: &Seen<'_>) -> Vec<Hit> {
         let right = [named, 2.0 * named];
         let near = |x: &f64| (divisor.value / x - 1.0).abs() < 0.01;
         let wrong = !right.iter().any(near);
-        wrong.then(|| format!("{}: {} ≠ {named:.4}", row.distribution, divisor.text))
+        wrong.then(|| format!("{}: {} ≠ {named:.4}", row.distribution, divisor.as_read()))
     })
 }
 
@@ -105,7 +112,7 @@ pub(super) fn certificate_without_k(seen: &Seen<'_>) -> Vec<Hit> {
             expanded,
             k_stated: false,
             ..
-        } => Some(format!("U = {}", expanded.text)),
+        } => Some(format!("U = {}", expanded.as_read())),
         _ => None,
     })
 }
@@ -151,7 +158,9 @@ pub(super) fn freedom_of_readings(seen: &Seen<'_>) -> Vec<Hit> {
     each(seen, |row, _| {
         let type_a = row.stated.is_type_a();
         match &row.dof {
-            Some(dof) if type_a && dof.value.is_infinite() => Some(format!("ν = {}", dof.text)),
+            Some(dof) if type_a && dof.value.is_infinite() => {
+                Some(format!("ν = {}", dof.as_read()))
+            }
             None if type_a && has_column => Some("ν = ?".into()),
             _ => None,
         }

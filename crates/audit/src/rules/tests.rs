@@ -657,3 +657,43 @@ fn hidden_rows_are_found() {
     let hidden = findings(&found);
     assert_eq!((hidden[0].rule, hidden[0].row), (82, Some(2)));
 }
+
+/// A sound sheet may owe an answer, which is no error; a slip is one, and is told by its figures.
+#[test]
+fn questions_are_no_errors_and_slips_have_figures() {
+    let sheet = |u: &str, u_c: &str, expanded: &str| {
+        format!(
+            "Mass comparison\nModel: m = m_S + dT\nCoverage factor k = 2\n\
+             Symbol,Source of uncertainty,Value ±,Probability distribution,Divisor,c_i,u_i(y) / g,ν_i\n\
+             m_S,\"certificate M-12: U = 0.040 g, k = 2\",0.040,normal,2,1,{u},∞\n\
+             dT,\"limits ±0.030 g, nothing else known\",0.030,rectangular,√3,1,0.0173,∞\n\
+             u_c,Combined standard uncertainty,,,,,{u_c},\nU,Expanded uncertainty,,,,,{expanded},\n"
+        )
+    };
+    let told = |text: String| -> Vec<(u8, String, String)> {
+        let grids = crate::sheet::grids("sheet.csv", text.as_bytes()).unwrap();
+        let claims = crate::read::budgets(&grids, &crate::read::Mapping::default());
+        let all = super::findings(&crate::audit(&claims[0]).found);
+        let told = all
+            .iter()
+            .map(|one| (one.rule, one.said().to_string(), one.numbers.clone()));
+        told.collect()
+    };
+    let sound = told(sheet("0.0200", "0.0264", "0.053"));
+    assert!(
+        sound
+            .iter()
+            .any(|(rule, said, _)| (*rule, said.as_str()) == (34, "to be answered")),
+        "{sound:?}"
+    );
+    assert!(
+        sound.iter().all(|(_, said, _)| said != "error"),
+        "{sound:?}"
+    );
+    let slip = told(sheet("0.0400", "0.0436", "0.087"));
+    assert!(
+        slip.iter()
+            .any(|(_, said, numbers)| said == "error" && numbers == "u = 0.04 ≠ 0.02"),
+        "{slip:?}"
+    );
+}

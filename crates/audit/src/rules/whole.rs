@@ -46,7 +46,9 @@ pub(super) fn sum(seen: &Seen<'_>) -> Vec<Hit> {
         return Vec::new();
     };
     let differs = (claimed.value - u_c).abs() > claimed.half_of_digits() + open;
-    when(differs, || format!("u_c = {}, √Σ = {u_c:.4}", claimed.text))
+    when(differs, || {
+        format!("u_c = {}, √Σ = {u_c:.4}", claimed.as_read())
+    })
 }
 
 pub(super) fn product(seen: &Seen<'_>) -> Vec<Hit> {
@@ -60,7 +62,7 @@ pub(super) fn product(seen: &Seen<'_>) -> Vec<Hit> {
     let open = 2.0 * expanded.half_of_digits() + u_c.half_of_digits() * k.value;
     let differs = (expanded.value - product.max(floor)).abs() > open * (1.0 + 1e-6);
     when(differs, || {
-        format!("U = {}, k·u_c = {product:.4}", expanded.text)
+        format!("U = {}, k·u_c = {product:.4}", expanded.as_read())
     })
 }
 
@@ -86,7 +88,7 @@ pub(super) fn result(seen: &Seen<'_>) -> Vec<Hit> {
         return Vec::new();
     };
     when(far(y, right, 1e-6), || {
-        format!("y = {}, f(x) = {right:.9}", y.text)
+        format!("y = {}, f(x) = {right:.9}", y.as_read())
     })
 }
 
@@ -125,7 +127,7 @@ pub(super) fn freedom(seen: &Seen<'_>) -> Vec<Hit> {
     let most: f64 = all.iter().sum();
     let outside = nu.value < libm::floor(least) - nu.half || nu.value > most + nu.half;
     when(outside && seen.claimed.correlations.is_empty(), || {
-        format!("ν_eff = {}, {least} … {most}", nu.text)
+        format!("ν_eff = {}, {least} … {most}", nu.as_read())
     })
 }
 
@@ -138,7 +140,7 @@ pub(super) fn freedom_of_correlated(seen: &Seen<'_>) -> Vec<Hit> {
         .as_ref()
         .filter(|nu| nu.value.is_finite());
     nu.filter(|_| correlated)
-        .map_or_else(Vec::new, |nu| one(format!("ν_eff = {}", nu.text)))
+        .map_or_else(Vec::new, |nu| one(format!("ν_eff = {}", nu.as_read())))
 }
 
 pub(super) fn rectangle(seen: &Seen<'_>) -> Vec<Hit> {
@@ -180,9 +182,9 @@ pub(super) fn factor_alone(seen: &Seen<'_>) -> Vec<Hit> {
     ];
     let said = by_t || level.iter().any(|word| text.contains(word));
     match (&footer.expanded, &footer.k) {
-        (Some(_), Some(k)) if !said => one(format!("k = {}, p = ?", k.text)),
+        (Some(_), Some(k)) if !said => one(format!("k = {}, p = ?", k.as_read())),
         (Some(expanded), None) if seen.claimed.coverage == Coverage::Unstated => {
-            one(format!("U = {}, k = ?", expanded.text))
+            one(format!("U = {}, k = ?", expanded.as_read()))
         }
         _ => Vec::new(),
     }
@@ -313,9 +315,9 @@ pub(super) fn not_in_the_model(seen: &Seen<'_>) -> Vec<Hit> {
 }
 
 pub(super) fn digits(seen: &Seen<'_>) -> Vec<Hit> {
-    let expanded = seen.claimed.footer.expanded.as_ref();
+    let expanded = seen.claimed.footer.expanded.as_ref().map(Printed::read);
     let long = expanded.filter(|figure| figure.digits > 2);
-    long.map_or_else(Vec::new, |figure| one(format!("U = {}", figure.text)))
+    long.map_or_else(Vec::new, |figure| one(format!("U = {}", figure.as_read())))
 }
 
 pub(super) fn one_digit(seen: &Seen<'_>) -> Vec<Hit> {
@@ -323,10 +325,10 @@ pub(super) fn one_digit(seen: &Seen<'_>) -> Vec<Hit> {
         let ten = libm::exp10(libm::floor(libm::log10(figure.value)));
         figure.value / ten
     };
-    let expanded = seen.claimed.footer.expanded.as_ref();
+    let expanded = seen.claimed.footer.expanded.as_ref().map(Printed::read);
     let short =
         expanded.filter(|figure| figure.digits == 1 && figure.value > 0.0 && leading(figure) < 2.5);
-    short.map_or_else(Vec::new, |figure| one(format!("U = {}", figure.text)))
+    short.map_or_else(Vec::new, |figure| one(format!("U = {}", figure.as_read())))
 }
 
 pub(super) fn last_places(seen: &Seen<'_>) -> Vec<Hit> {
@@ -334,11 +336,12 @@ pub(super) fn last_places(seen: &Seen<'_>) -> Vec<Hit> {
     let (Some(y), Some(expanded)) = (&footer.y, &footer.expanded) else {
         return Vec::new();
     };
+    let (y, expanded) = (y.read(), expanded.read());
     let known = y.half > 0.0 && expanded.half > 0.0 && y.half < 0.5 && expanded.half < 0.5;
     let same_unit = y.unit == expanded.unit || y.unit.is_empty() || expanded.unit.is_empty();
     let differ = (y.half / expanded.half - 1.0).abs() > 1e-6;
     when(known && same_unit && differ, || {
-        format!("y = {}, U = {}", y.text, expanded.text)
+        format!("y = {}, U = {}", y.as_read(), expanded.as_read())
     })
 }
 
@@ -347,6 +350,7 @@ pub(super) fn rounded_down(seen: &Seen<'_>) -> Vec<Hit> {
     let (Some(expanded), Some(u_c)) = (&footer.expanded, &footer.u_c) else {
         return Vec::new();
     };
+    let expanded = expanded.read();
     let k = footer
         .k
         .as_ref()
@@ -357,7 +361,7 @@ pub(super) fn rounded_down(seen: &Seen<'_>) -> Vec<Hit> {
     let by_digits = 0.05..0.5;
     let rounding = (product - expanded.value) <= 2.0 * expanded.half;
     when(rounding && by_digits.contains(&lowered), || {
-        format!("U = {}, k·u_c = {product:.4}", expanded.text)
+        format!("U = {}, k·u_c = {product:.4}", expanded.as_read())
     })
 }
 
@@ -394,7 +398,7 @@ pub(super) fn units_of_result(seen: &Seen<'_>) -> Vec<Hit> {
     let percent = crate::units::fraction(&expanded.unit).is_some();
     let other = percent && crate::units::fraction(&seen.claimed.unit).is_none();
     when(other, || {
-        format!("U = {}, y: {}", expanded.text, seen.claimed.unit)
+        format!("U = {}, y: {}", expanded.as_read(), seen.claimed.unit)
     })
 }
 
@@ -406,7 +410,7 @@ pub(super) fn below_cmc(seen: &Seen<'_>) -> Vec<Hit> {
     below.map_or_else(Vec::new, |(expanded, cmc)| {
         vec![Hit {
             row: None,
-            numbers: format!("U = {}, CMC = {}", expanded.text, cmc.text),
+            numbers: format!("U = {}, CMC = {}", expanded.as_read(), cmc.as_read()),
             corrected: Some(cmc.value),
         }]
     })
@@ -417,7 +421,7 @@ pub(super) fn equals_cmc(seen: &Seen<'_>) -> Vec<Hit> {
     let pair = claimed.footer.expanded.as_ref().zip(claimed.cmc.as_ref());
     let alike = pair.filter(|(expanded, cmc)| (expanded.value / cmc.value - 1.0).abs() < 1e-9);
     alike.map_or_else(Vec::new, |(expanded, _)| {
-        one(format!("U = CMC = {}", expanded.text))
+        one(format!("U = CMC = {}", expanded.as_read()))
     })
 }
 
@@ -435,7 +439,7 @@ pub(super) fn below_reference(seen: &Seen<'_>) -> Vec<Hit> {
                     Some(i),
                     format!(
                         "U = {}, |c|·U({}) = {reference:.3}",
-                        claimed.text,
+                        claimed.as_read(),
                         row.label()
                     ),
                 )

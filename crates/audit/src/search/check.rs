@@ -1,7 +1,7 @@
 //! A calculation held against the claimed figures of the whole.
 
 use crate::calculate::{Calculation, Case, Combined, Figures, Freedom, Printout};
-use crate::claim::RoundingStated;
+use crate::claim::{RoundingStated, Stated};
 use crate::printed::Printed;
 use crate::slips::{Act, Change};
 
@@ -100,8 +100,9 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         Some(_) => 0.0,
         None => case.claimed.rows.iter().map(shown).fold(0.0, f64::max),
     };
+    let open = left_open(case, calculation, exact.u_c);
     let u_c = claimed_u.as_ref().is_none_or(|figure| {
-        let half = figure.half_of_digits() + coarse * figure.value;
+        let half = figure.half_of_digits() + coarse * figure.value + open;
         of.iter().any(|f| figure.is_met_within(f.u_c, half))
     });
     let nu_eff = footer.nu_eff.as_ref().is_none_or(|figure| {
@@ -112,7 +113,17 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         // Where u_c is the sum of squares, ν_eff may have been found before.
         let before = (calculation.combined == Combined::Squares).then(|| rooted.figures(&[], cmc));
         let mut all = of.iter().chain(&before);
-        all.any(|f| freedom(figure, f.nu_eff, calculation, coarse))
+        // Where it was found from u_c as it is printed, that enters with its fourth power.
+        let of_printed_u = |f: &Figures| {
+            let ratio = claimed_u.as_ref().filter(|_| u_c).map(|u| u.value / f.u_c);
+            ratio.map(|ratio| f.nu_eff * libm::pow(ratio, 4.0))
+        };
+        all.any(|f| {
+            let found = [Some(f.nu_eff), of_printed_u(f)];
+            let mut found = found.into_iter().flatten();
+            let coarse = coarse.max(open / exact.u_c);
+            found.any(|nu| freedom(figure, nu, calculation, coarse))
+        })
     });
     let mut factors: Vec<f64> = of.iter().map(|f| f.k).collect();
     let claimed_k = footer.k.as_ref();
@@ -133,11 +144,15 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         let figure = unexchanged(figure, calculation, Printout::Expanded);
         // U is made of the u_c that is claimed, where one is.
         let fits = |f: &&Figures| {
-            let near =
-                |figure: &Printed| figure.is_met_within(f.u_c, figure.half + coarse * figure.value);
+            let near = |figure: &Printed| {
+                figure.is_met_within(f.u_c, figure.half + coarse * figure.value + open)
+            };
             claimed_u.as_ref().is_none_or(|figure| !u_c || near(figure))
         };
         let mut us: Vec<f64> = of.iter().filter(fits).map(|f| f.u_c).collect();
+        if claimed_u.is_none() && open > 0.0 {
+            us.extend([exact.u_c - open, exact.u_c + open]);
+        }
         // Of what is rounded up, the rounded u_c is no part.
         let again = u_c && case.claimed.rounding != RoundingStated::Up;
         let printed = [claimed_u.as_ref(), footer.u_c.as_ref()];
@@ -170,6 +185,30 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         figures: exact,
         of_printed: of.get(1).copied(),
     }
+}
+
+/// By how much u_c may differ because rows state no more than a standard uncertainty or a contribution, as it is printed:
+/// the sheet went on with more digits.
+fn left_open(case: &Case<'_>, calculation: &Calculation, u_c: f64) -> f64 {
+    let rows = case.claimed.rows.iter().zip(&calculation.lines);
+    let open = rows.filter(|(_, line)| line.counted).map(|(row, line)| {
+        let printed = match &row.stated {
+            Stated::Standard { u, .. } if row.used.is_none() => {
+                row.u.as_ref().filter(|own| own.at == u.at)
+            }
+            Stated::Nothing => row.contribution.as_ref(),
+            _ => None,
+        };
+        let contribution = line.contribution();
+        let relative = printed.map_or(0.0, |figure| figure.half_of_digits() / figure.value.abs());
+        if relative.is_finite() {
+            contribution * contribution * relative
+        } else {
+            0.0
+        }
+    });
+    let square: f64 = open.sum();
+    if u_c > 0.0 { square / u_c } else { 0.0 }
 }
 
 /// The figure as it was before two of its digits were exchanged.

@@ -84,7 +84,7 @@ fn elements(xml: &str, mut each: impl FnMut(&BytesStart<'_>)) {
     }
 }
 
-fn attribute(element: &BytesStart<'_>, key: &str) -> Option<String> {
+pub(super) fn attribute(element: &BytesStart<'_>, key: &str) -> Option<String> {
     let found = element.try_get_attribute(key).ok()??;
     Some(found.value.into_owned())
 }

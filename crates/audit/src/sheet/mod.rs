@@ -3,14 +3,24 @@
 //! | chapter | holds |
 //! |---|---|
 //! | `workbook` | `.xlsx`, `.xls`, `.ods`, with formulas beside their cached values |
-//! | `hidden` | which rows and columns of a workbook are hidden |
+//! | `hidden` | which rows and columns of a workbook in Open XML are hidden |
+//! | `open_document` | the same of a sheet in OpenDocument, and what its numbers show |
+//! | `shown` | numbers by what their cells show |
 //! | `text` | separated values, Markdown tables, plain text |
 
 mod hidden;
+mod open_document;
+mod shown;
 mod text;
 mod workbook;
 
 use std::collections::BTreeSet;
+
+use gumption_fault::Said;
+
+use crate::printed::Printed;
+
+pub(crate) use text::decoded;
 
 /// One sheet.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -32,6 +42,8 @@ pub struct Cell {
     pub text: String,
     /// The formula behind it, without the equals sign.
     pub formula: Option<String>,
+    /// What the cell shows, where it holds a number with more digits than that.
+    pub shown: Option<String>,
 }
 
 impl Cell {
@@ -40,7 +52,17 @@ impl Cell {
         Cell {
             text: crate::printed::clean(text).trim().to_string(),
             formula: None,
+            shown: None,
         }
+    }
+
+    /// The figure in it: the value that it holds, called by what it shows.
+    pub fn figure(&self) -> Option<Printed> {
+        let figure = Printed::parse(&self.text)?;
+        Some(match &self.shown {
+            Some(shown) => figure.called(shown),
+            None => figure,
+        })
     }
 
     /// Whether nothing stands in it.
@@ -55,6 +77,7 @@ impl Grid {
         static NOTHING: Cell = Cell {
             text: String::new(),
             formula: None,
+            shown: None,
         };
         self.rows
             .get(row)
@@ -72,9 +95,13 @@ impl Grid {
     }
 }
 
-/// What a file cannot be read as.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Unreadable(pub String);
+/// A sheet spans no more cells than this: a budget has some hundred, and a sheet is kept as a rectangle, so that two cells
+/// at its far corners would take hundreds of gigabytes.
+const MOST_CELLS: u64 = 1 << 20;
+
+/// Why a file cannot be read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unreadable(pub Said);
 
 /// Reads a file by the ending of its name, or by its first bytes where that says nothing.
 ///
@@ -86,7 +113,7 @@ pub fn grids(name: &str, bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
     if zipped || matches!(ending.as_str(), "xlsx" | "xlsm" | "xls" | "ods" | "xlsb") {
         return workbook::grids(bytes);
     }
-    let text = text::decoded(bytes)?;
+    let text = decoded(bytes)?;
     Ok(vec![match ending.as_str() {
         "md" | "markdown" => text::markdown(&text),
         "tsv" => text::separated(&text, '\t'),

@@ -1,15 +1,15 @@
 //! Texts: separated values, Markdown tables, plain text.
 
+use gumption_fault::say;
+
 use super::{Cell, Grid, Unreadable};
 
 /// UTF-8, UTF-16 with its mark, or GBK.
-pub(super) fn decoded(bytes: &[u8]) -> Result<String, Unreadable> {
+pub(crate) fn decoded(bytes: &[u8]) -> Result<String, Unreadable> {
     let decoded = gumption_format::csv::decode(bytes);
     let trouble = |at: gumption_format::csv::Undecodable| {
-        Unreadable(format!(
-            "line {}: text in none of UTF-8, UTF-16 and GBK",
-            at.line
-        ))
+        let line = at.line;
+        Unreadable(say!("line {line}: text in none of UTF-8, UTF-16 and GBK"))
     };
     decoded.map(|decoded| decoded.text).map_err(trouble)
 }

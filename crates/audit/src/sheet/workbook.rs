@@ -3,13 +3,15 @@
 use std::io::Cursor;
 
 use calamine::{Data, Reader, SheetVisible, Sheets, open_workbook_auto_from_rs};
-use gumption_core::quantity::{Decimal, Grouping, PowerStyle, Style};
 
-use super::{Cell, Grid, Unreadable};
+use gumption_fault::{Said, say};
+
+use super::{Cell, Grid, MOST_CELLS, Unreadable, open_document, shown};
 
 /// Every sheet of a workbook. Hidden ones come last: what is hidden is read, but does not stand in front.
 pub(super) fn grids(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
-    let unreadable = |error: &dyn std::fmt::Display| Unreadable(error.to_string());
+    let unreadable = |error: &dyn std::fmt::Display| Unreadable(Said::quoted(error.to_string()));
+    let mut documents = open_document::told(bytes)?;
     let mut book = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(|e| unreadable(&e))?;
     let mut sheets = book.sheets_metadata().to_vec();
     sheets.sort_by_key(|sheet| sheet.visible != SheetVisible::Visible);
@@ -20,7 +22,9 @@ pub(super) fn grids(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
         let Ok(values) = book.worksheet_range(&sheet.name) else {
             continue;
         };
-        let hidden = hidden.remove(&sheet.name).unwrap_or_default();
+        let document = documents.remove(&sheet.name).unwrap_or_default();
+        let hidden = hidden.remove(&sheet.name).unwrap_or(document.hidden);
+        let styles = book.worksheet_style(&sheet.name).ok();
         let mut grid = Grid {
             name: sheet.name.clone(),
             hidden_columns: hidden.columns,
@@ -29,7 +33,16 @@ pub(super) fn grids(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
         };
         let (top, left) = values.start().unwrap_or((0, 0));
         for (row, column, value) in values.used_cells() {
-            *cell(&mut grid, top as usize + row, left as usize + column) = Cell::new(&text(value));
+            let (row, column) = (top as usize + row, left as usize + column);
+            let shows = |x: f64| {
+                let place = (u32::try_from(row).ok()?, u32::try_from(column).ok()?);
+                let format = styles
+                    .as_ref()
+                    .and_then(|styles| styles.get(place)?.number_format.as_ref());
+                let of_format = format.and_then(|format| shown::formatted(x, &format.format_code));
+                of_format.or_else(|| document.shown.get(&(row, column)).cloned())
+            };
+            *cell(&mut grid, row, column) = of_value(value, shows);
         }
         if let Ok(formulas) = book.worksheet_formula(&sheet.name) {
             let (top, left) = formulas.start().unwrap_or((0, 0));
@@ -43,11 +56,8 @@ pub(super) fn grids(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
     Ok(grids)
 }
 
-/// A sheet spans no more cells than this: a budget has some hundred, and a sheet is kept as a rectangle, so that two cells
-/// at its far corners would take hundreds of gigabytes.
-const MOST_CELLS: u64 = 1 << 20;
-
-/// Looks at the places of the cells of a sheet before they are kept. The older forms cannot span more by themselves.
+/// Looks at the places of the cells of a sheet before they are kept. A sheet in
+/// OpenDocument has been looked at before; the oldest form cannot span more by itself.
 fn is_of_a_size(book: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<(), Unreadable> {
     match book {
         Sheets::Xlsx(book) => match book.worksheet_cells_reader(sheet) {
@@ -75,7 +85,7 @@ fn spans_few(mut next: impl FnMut() -> Option<(u32, u32)>, sheet: &str) -> Resul
         last = (last.0.max(row), last.1.max(column));
         let side = |from: u32, to: u32| u64::from(to - from) + 1;
         if side(first.0, last.0) * side(first.1, last.1) > MOST_CELLS {
-            return Err(Unreadable(format!(
+            return Err(Unreadable(say!(
                 "the sheet \"{sheet}\" spans more than {MOST_CELLS} cells; delete what stands far from the budget"
             )));
         }
@@ -94,22 +104,111 @@ fn cell(grid: &mut Grid, row: usize, column: usize) -> &mut Cell {
     &mut cells[column]
 }
 
-/// A value as text. A double that is the nearest to a decimal of fifteen digits was typed as that decimal: a
+/// The cell of a value. A double that is the nearest to a decimal of fifteen digits was typed as that decimal: a
 /// spreadsheet keeps no more.
-fn text(value: &Data) -> String {
-    const PLAIN: Style = Style {
-        grouping: Grouping::None,
-        power: PowerStyle::Caret,
-    };
+fn of_value(value: &Data, shows: impl Fn(f64) -> Option<String>) -> Cell {
     match value {
-        Data::Float(x) => {
-            let shortest = Decimal::from_f64(*x);
-            shortest.print_plain(PLAIN)
+        Data::Float(x) => shown::cell(*x, shows(*x).as_deref()),
+        Data::Int(n) => Cell::new(&n.to_string()),
+        Data::String(text) | Data::DateTimeIso(text) | Data::DurationIso(text) => Cell::new(text),
+        Data::Bool(b) => Cell::new(&b.to_string()),
+        Data::DateTime(date) => Cell::new(&date.to_string()),
+        Data::Error(_) | Data::Empty => Cell::default(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write as _;
+
+    use zip::write::{SimpleFileOptions, ZipWriter};
+
+    use super::*;
+
+    /// One sheet with formulas, formats that hide digits, a merged title and a hidden row, as LibreOffice saves it.
+    const BOOKS: [(&str, &[u8]); 3] = [
+        (
+            "xlsx",
+            include_bytes!("../../tests/workbooks/gauge-block.xlsx"),
+        ),
+        (
+            "ods",
+            include_bytes!("../../tests/workbooks/gauge-block.ods"),
+        ),
+        (
+            "xls",
+            include_bytes!("../../tests/workbooks/gauge-block.xls"),
+        ),
+    ];
+
+    #[test]
+    fn one_sheet_is_read_the_same_from_all_forms() {
+        let read = BOOKS.map(|(_, bytes)| grids(bytes).unwrap().remove(0));
+        assert_eq!(read[0], without_style_of_formulas(&read[1], &read[0]));
+        assert_eq!(read[0].hidden_rows.iter().collect::<Vec<_>>(), [&8]);
+        let [xlsx, _, xls] = &read;
+        for (row, cells) in xlsx.rows.iter().enumerate() {
+            for (column, cell) in cells.iter().enumerate() {
+                // The oldest form does not tell its formats: values alone are the same.
+                let (a, b) = (cell.figure(), xls.cell(row, column).figure());
+                let value =
+                    |figure: Option<crate::printed::Printed>| figure.map(|figure| figure.value);
+                match (value(a), value(b)) {
+                    (Some(a), Some(b)) => {
+                        assert!(a == b || (a - b).abs() <= 1e-14 * a.abs(), "{a} {b}")
+                    }
+                    _ => assert_eq!(cell.text, xls.cell(row, column).text),
+                }
+            }
         }
-        Data::Int(n) => n.to_string(),
-        Data::String(text) | Data::DateTimeIso(text) | Data::DurationIso(text) => text.clone(),
-        Data::Bool(b) => b.to_string(),
-        Data::DateTime(date) => date.to_string(),
-        Data::Error(_) | Data::Empty => String::new(),
+    }
+
+    /// Formulas are written in another way in OpenDocument.
+    fn without_style_of_formulas(grid: &Grid, like: &Grid) -> Grid {
+        let mut grid = grid.clone();
+        for (row, cells) in grid.rows.iter_mut().enumerate() {
+            for (column, cell) in cells.iter_mut().enumerate() {
+                let other = &like.cell(row, column).formula;
+                assert_eq!(cell.formula.is_some(), other.is_some());
+                cell.formula.clone_from(other);
+            }
+        }
+        grid
+    }
+
+    #[test]
+    fn figures_have_the_value_that_is_held_and_the_name_that_is_shown() {
+        for (_, bytes) in &BOOKS[..2] {
+            let grid = grids(bytes).unwrap().remove(0);
+            let figure = grid.cell(10, 6).figure().unwrap();
+            assert_eq!((figure.as_read(), figure.read().digits), ("0.09", 1));
+            assert!((figure.value - 0.085_322_916).abs() < 1e-9);
+            assert_eq!(grid.cell(5, 6).text, "0.030");
+        }
+    }
+
+    /// A few bytes that would be milliards of cells.
+    #[test]
+    fn repeated_cells_are_counted_before_they_are_kept() {
+        let cell = |rows: u32, columns: u32| {
+            let content = format!(
+                r#"<office:document-content xmlns:office="o" xmlns:table="t" xmlns:text="x"><office:body><office:spreadsheet>
+                <table:table table:name="Budget"><table:table-row table:number-rows-repeated="{rows}"><table:table-cell
+                table:number-columns-repeated="{columns}" office:value-type="float" office:value="1"><text:p>1</text:p></table:table-cell>
+                </table:table-row></table:table></office:spreadsheet></office:body></office:document-content>"#
+            );
+            let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+            archive
+                .start_file("content.xml", SimpleFileOptions::default())
+                .unwrap();
+            archive.write_all(content.as_bytes()).unwrap();
+            open_document::told(&archive.finish().unwrap().into_inner())
+        };
+        let why = cell(1_048_576, 16_384).unwrap_err().0.to_string();
+        assert!(
+            why.contains("\"Budget\" spans more than 1048576 cells"),
+            "{why}"
+        );
+        assert!(cell(100, 100).is_ok());
     }
 }

@@ -133,3 +133,118 @@ fn lines_in_chinese_are_rows() {
         扩展不确定度 U = 1.6 mΩ（k = 2）\n";
     assert_eq!(first("sheet.txt", sheet), "cert-undivided@R_s");
 }
+
+/// German and French heads, closing lines and distributions.
+#[test]
+fn neighbours_write_budgets_too() {
+    is_sound(
+        "sheet.csv",
+        "Messunsicherheitsbudget Messschieber;;;;;;;\n\
+         Größe;Schätzwert;Halbbreite;Verteilung;Teiler;Standardunsicherheit;Sensitivitätskoeffizient;Unsicherheitsbeitrag\n\
+         l_N;50,0001 mm;0,0002 mm;Normal;2;0,0001 mm;1;0,0001 mm\n\
+         dl_A;0 mm;0,005 mm;Rechteck;√3;0,0029 mm;1;0,0029 mm\n\
+         dl_M;0 mm;0,010 mm;Rechteck;√3;0,0058 mm;1;0,0058 mm\n\
+         kombinierte Standardunsicherheit;;;;;;;0,0065 mm\n\
+         erweiterte Messunsicherheit (k = 2);;;;;;;0,013 mm\n",
+    );
+    let french = "Bilan d'incertitude - thermocouple type K à 500 °C;;;;;;\n\
+         Source d'incertitude;Demi-étendue (°C);Loi;Diviseur;Incertitude-type (°C);Coefficient de sensibilité;Contribution (°C)\n\
+         Étalon de référence;0,50;normale;2;0,25;1;0,25\n\
+         Homogénéité du four;0,60;uniforme;√3;0,346;1;0,346\n\
+         Dérive;0,30;uniforme;√3;0,173;1;0,173\n\
+         Incertitude-type composée;;;;;;0,461\n\
+         Incertitude élargie (k = 2);;;;;;UUU\n";
+    is_sound("sheet.csv", &french.replace("UUU", "0,92"));
+    assert_eq!(
+        first("sheet.csv", &french.replace("UUU", "0,46")),
+        "k-forgotten"
+    );
+}
+
+/// Two budgets beside each other, each with its own closing lines.
+#[test]
+fn tables_stand_side_by_side() {
+    let sheet = "Multimeter 1 V,,,,,,Multimeter 10 V,,,,\n\
+         Source,± (µV),Distribution,Divisor,u (µV),,Source,± (µV),Distribution,Divisor,u (µV)\n\
+         Calibrator,12,normal,2,6.00,,Calibrator,80,normal,2,40.0\n\
+         Resolution,0.5,rectangular,√3,0.289,,Resolution,5,rectangular,√3,2.89\n\
+         Stability,4,rectangular,√3,2.31,,Stability,30,rectangular,√3,17.3\n\
+         u_c,,,,6.44,,u_c,,,,43.7\n\
+         U (k=2),,,,13,,U (k=2),,,,44\n";
+    let grids = crate::sheet::grids("sheet.csv", sheet.as_bytes()).unwrap();
+    let claims = crate::read::budgets(&grids, &crate::read::Mapping::default());
+    let verdicts: Vec<Verdict> = claims
+        .iter()
+        .map(|claimed| crate::audit(claimed).verdict)
+        .collect();
+    assert_eq!(verdicts, [Verdict::Sound, Verdict::WithEffect]);
+}
+
+/// Notes between the rows, a row of the sum without a figure, `u(c)`; inputs as columns with the closing figures in the first.
+#[test]
+fn closing_lines_are_no_rows() {
+    is_sound(
+        "sheet.csv",
+        "Micrometer 25 mm budget,,,,,,\n\
+         Symbol,Source,Half-width,Unit,Distribution,Divisor,u_i (µm)\n\
+         L1,Gauge blocks,0.30,µm,normal,2,0.15\n\
+         ,The gauge blocks were calibrated on 2025-11-02; U with k=2.,,,,,\n\
+         L2,Flatness and parallelism of faces,0.90,µm,rectangular,√3,0.52\n\
+         ,,,,,,\n\
+         L3,Thermal expansion,0.35,µm,rectangular,√3,0.20\n\
+         Sum,,,,,,\n\
+         u(c),,,µm,,,0.58\n\
+         U (k=2),,,µm,,,1.2\n",
+    );
+    is_sound(
+        "sheet.csv",
+        "\"Flow meter, gravimetric standard\",,,,\n\
+         ,Mass,Time,Density,Repeatability\n\
+         Symbol,m,t,rho,q_rep\n\
+         Limits or U in %,0.02,0.006,0.02,0.03\n\
+         Distribution,normal,rectangular,normal,normal\n\
+         Divisor,2,√3,2,1\n\
+         u in %,0.010,0.0035,0.010,0.030\n\
+         c,1,-1,-1,1\n\
+         Contribution in %,0.010,0.0035,0.010,0.030\n\
+         ,,,,\n\
+         u_c,0.033 %,,,\n\
+         k,2,,,\n\
+         U,0.067 %,,,\n",
+    );
+    let total = "Calibration of a 1 kg weight,,,,,,\n\
+         Quantity,Estimate,Uncertainty,Prob. distr.,Divisor,Sens. coeff.,Contribution [mg]\n\
+         \"Standard m_S (cert. U = 5 mg, k = 2)\",1000.000 g,5 mg,normal,1,1,5.0\n\
+         Drift dm_D,0 mg,2 mg,rectangular,1.73,1,1.15\n\
+         Weighing difference dm,12 mg,2.5 mg,normal,1,1,2.5\n\
+         Sum u(m_X),,,,,,5.71\n\
+         U = k*u (k=2),,,,,,11\n";
+    assert!(first("sheet.csv", total).starts_with("cert-undivided@"));
+}
+
+/// ν_eff that was found from u_c as it is printed, and u_c from more digits of u than are printed.
+#[test]
+fn what_digits_leave_open_is_no_slip() {
+    is_sound(
+        "sheet.md",
+        "# pH meter\n\n\
+         | No. | Component | Limits | Distribution | Divisor | u(x_i) | c_i | c_i·u(x_i) | ν_i |\n\
+         |---|---|---|---|---|---|---|---|---|\n\
+         | 1 | Buffer solution, certificate U = 0.010, k = 2 | 0.010 | normal | 2 | 0.0050 | 1 | 0.0050 | infinity |\n\
+         | 2 | Display resolution 0.01 | 0.005 | rectangular | 1.732 | 0.0029 | 1 | 0.0029 | infinity |\n\
+         | 3 | Temperature compensation | 0.008 | rectangular | 1.732 | 0.0046 | 1 | 0.0046 | infinity |\n\
+         | 4 | Repeatability, n = 6, mean | 0.0041 | normal | 1 | 0.0041 | 1 | 0.0041 | 5 |\n\n\
+         u_c = 0.0084, ν_eff = 88, k = 2, U = 0.017\n",
+    );
+    let bare = |u_c: &str| {
+        format!(
+            "Weight of 10 kg\nm_X = m_S + dm_D + dm + dm_C + dB\nk = 2\n\
+             Symbol,u(x_i) / g,c_i,u_i(y) / g\nm_S,0.0225,1,0.0225\ndm_D,0.00866,1,0.00866\ndm,0.0144,1,0.0144\n\
+             dm_C,0.00577,1,0.00577\ndB,0.00577,1,0.00577\nu_c,,,{u_c}\n"
+        )
+    };
+    // 0.0292437 of the printed figures, 0.0292618 of those behind them.
+    is_sound("sheet.csv", &bare("0.0293"));
+    let (verdict, _) = answer("sheet.csv", &bare("0.0296"));
+    assert_ne!(verdict, Verdict::Sound);
+}

@@ -126,7 +126,7 @@ fn with_unit(text: String, unit: &str) -> String {
 }
 
 fn shown(figure: Option<&Printed>) -> String {
-    figure.map_or(NONE.to_string(), |figure| figure.text.clone())
+    figure.map_or(NONE.to_string(), |figure| figure.as_read().to_string())
 }
 
 fn figures(audit: &Audit<'_>, language: Language) -> Vec<KeyFigure> {
@@ -273,7 +273,7 @@ fn findings(audit: &Audit<'_>, language: Language) -> Vec<Block> {
         });
         table.push(vec![
             rule.number.to_string().into(),
-            rule.weight.said().in_language(language).into(),
+            finding.said().in_language(language).into(),
             language.pick(rule.en, rule.zh).into(),
             place.into(),
             finding.numbers.clone().into(),

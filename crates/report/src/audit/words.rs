@@ -43,8 +43,8 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
     };
     let right_u = with_unit(found.right.expanded, 2);
     let claimed_u = match (&claimed.footer.expanded, language) {
-        (Some(u), Language::English) => format!(" where {} is claimed", u.text),
-        (Some(u), Language::Chinese) => format!("，声称值为 {}", u.text),
+        (Some(u), Language::English) => format!(" where {} is claimed", u.as_read()),
+        (Some(u), Language::Chinese) => format!("，声称值为 {}", u.as_read()),
         (None, Language::English) => "; none is claimed".to_string(),
         (None, Language::Chinese) => "；表中没有声称值".to_string(),
     };
@@ -129,6 +129,13 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
                 });
             }
             sentences
+        }
+        Verdict::NotRecomputed if found.right.u_c > 0.0 => {
+            let k = significant(found.right.k, 3);
+            vec![match language {
+                Language::English => format!("Nothing is claimed that could be held against a calculation. From what is stated, U is {right_u} with k = {k}."),
+                Language::Chinese => format!("文件没有可供核对的声称值。由所给信息得 U = {right_u}，k = {k}。"),
+            }]
         }
         Verdict::NotRecomputed => vec![language.pick(
             "Cannot be recomputed: the sheet holds no budget with figures and a claim that could be understood.",

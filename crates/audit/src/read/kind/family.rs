@@ -17,11 +17,11 @@ pub(super) const STEP: &[&str] = &["resolution", "digital step", "step", "increm
 #[rustfmt::skip]
 pub(super) const CYCLING: &[&str] = &["cycling", "cyclic", "cycles", "amplitude", "sinusoid", "arcsine", "u-shaped", "u shaped", "oscillat", "幅值", "振幅", "周期", "正弦", "反正弦", "u形", "循环"];
 #[rustfmt::skip]
-pub(super) const LIMITS: &[&str] = &["limit", "limits", "maximum permissible", "mpe", "tolerance", "specification", "accuracy", "within", "bound", "允许误差", "允差", "误差限", "极限", "最大允许", "界限", "半宽", "half-width", "half width", "rectang", "uniform", "均匀", "矩形", "spec.", "±", "不超过", "at most", "准确度", "误差范围", "范围"];
+pub(super) const LIMITS: &[&str] = &["limit", "limits", "maximum permissible", "mpe", "tolerance", "specification", "accuracy", "within", "bound", "允许误差", "允差", "误差限", "极限", "最大允许", "界限", "半宽", "half-width", "half width", "rectang", "rechteck", "uniform", "均匀", "矩形", "spec.", "±", "不超过", "at most", "准确度", "误差范围", "范围"];
 #[rustfmt::skip]
 pub(super) const STANDARD: &[&str] = &["standard uncertainty", "标准不确定度"];
 #[rustfmt::skip]
-pub(super) const TRIANGULAR: &[&str] = &["triang", "三角"];
+pub(super) const TRIANGULAR: &[&str] = &["triang", "dreieck", "三角"];
 #[rustfmt::skip]
 pub(super) const TRAPEZOID: &[&str] = &["trapez", "梯形"];
 #[rustfmt::skip]
@@ -29,7 +29,7 @@ pub(super) const NORMAL: &[&str] = &["normal", "gauss", "正态"];
 #[rustfmt::skip]
 pub(super) const TWO_POINT: &[&str] = &["two-point", "two point", "dirac", "两点"];
 #[rustfmt::skip]
-pub(super) const RECTANGULAR: &[&str] = &["rect", "uniform", "均匀", "矩形"];
+pub(super) const RECTANGULAR: &[&str] = &["rect", "rechteck", "gleichverteil", "uniform", "均匀", "矩形"];
 #[rustfmt::skip]
 pub(super) const READINGS: &[&str] = &["reading", "measurement", "observation", "repeat", "determination", "indications", "values", "runs", "cycle", "次"];
 #[rustfmt::skip]

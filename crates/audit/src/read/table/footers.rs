@@ -70,7 +70,7 @@ fn footer_row(
             row,
             column: *column,
         };
-        let figure = Printed::parse(text);
+        let figure = grid.cell(row, *column).figure();
         if figure.is_none() {
             // `U (k = 2)`, `k = 2.05`: the words hold figures.
             if text.contains('=') && !footer_words_only(text) {
@@ -202,7 +202,7 @@ fn across(
         .iter()
         .filter_map(|(i, text)| Some((*i, footer::label(text, &claimed.measurand)?)))
         .collect();
-    let below = |column: usize| Printed::parse(&grid.cell(row + 1, column).text);
+    let below = |column: usize| grid.cell(row + 1, column).figure();
     for (column, whole) in labels {
         if let Some(mut figure) = below(column) {
             if figure.unit.is_empty() {

@@ -117,6 +117,9 @@ fn what(grid: &Grid, row: usize, located: &Located, joined: bool) -> What {
                 &lower,
                 &[
                     "combined",
+                    "kombinierte",
+                    "composée",
+                    "élargie",
                     "expanded uncertainty u",
                     "effective degrees",
                     "coverage factor",
@@ -126,10 +129,12 @@ fn what(grid: &Grid, row: usize, located: &Located, joined: bool) -> What {
                     "包含因子",
                 ],
             ) || lower.starts_with("expanded uncertainty")
+                || lower.starts_with("erweiterte")
+                || lower.starts_with("sum u(")
                 || lower.starts_with("扩展不确定度")
                 || matches!(
                     t.trim(),
-                    "u_c" | "uc" | "U" | "k" | "u_c(y)" | "ν_eff" | "νeff"
+                    "u_c" | "uc" | "u(c)" | "U" | "k" | "u_c(y)" | "ν_eff" | "νeff"
                 )
         });
     if labelled && (strong && !figure(Role::C) || !inputs && !explained) {

@@ -76,7 +76,7 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
     let figure = |role: Role| -> Option<Printed> {
         let column = located.column(role)?;
         let cell = grid.cell(row, column.index);
-        let mut figure = Printed::parse(&cell.text)?.at(Place {
+        let mut figure = cell.figure()?.at(Place {
             sheet,
             row,
             column: column.index,

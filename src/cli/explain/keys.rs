@@ -42,15 +42,12 @@ pub(super) struct KeyTable {
 impl KeyTable {
     /// Where it stands, in words: `certificate` of a component.
     pub(super) fn place(&self) -> Said {
-        let [path] = &self.paths[..] else {
-            let inner = Said::row(
-                Between::Comma,
-                self.paths.iter().map(|p| quoted(split(p).1)),
-            );
-            let parent = self.paths.first().map_or("", |p| split(p).0);
-            return say!("{inner} of {}", in_words(parent));
-        };
-        in_words(path)
+        let parent = self.paths.first().map_or("", |path| split(path).0);
+        if parent.is_empty() || self.paths.len() == 1 {
+            return Said::row(Between::Comma, self.paths.iter().map(|path| in_words(path)));
+        }
+        let inner = self.paths.iter().map(|path| quoted(split(path).1));
+        say!("{inner} of {}", in_words(parent), inner = Said::row(Between::Comma, inner))
     }
 
     /// Whether its keys are those of a component.
@@ -232,7 +229,7 @@ mod tests {
             "`readings`, `sample` of a component",
             "`[[joint]]`",
             "`[[condition]]`",
-            "`[reading.NAME]`",
+            "`[input.NAME]`, `[reading.NAME]`",
             "`[[action]]`",
             "`inputs.NAME` of `[claim]`",
             "`beta` of `distribution` of a component",

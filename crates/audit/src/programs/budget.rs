@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use gumption_core::distribution::Entry;
+
 use crate::claim::Shape;
 use crate::import::{comment, number, quoted};
 
@@ -107,7 +109,10 @@ impl Part {
         }
         let mut dof = self.dof;
         let key = |key: &str, x: f64| format!("{key} = {}", number(x));
-        let shaped = |name: &str| format!("distribution = {}", quoted(name));
+        let shaped = |name: &str| {
+            let key = Entry::named(name).map_or(name, |entry| entry.kind.key);
+            format!("distribution = {}", quoted(key))
+        };
         lines.extend(match &self.known {
             Known::Standard(u) => vec![key("u", *u)],
             Known::Expanded(expanded, k) if dof.is_some() => vec![key("u", expanded / k)],
@@ -136,7 +141,7 @@ impl Part {
             Known::VagueLimits(half, d) => {
                 vec![
                     key("half_width", *half),
-                    shaped("curvilinear-trapezoid"),
+                    shaped("ctrap"),
                     key("d", *d),
                 ]
             }

@@ -185,13 +185,15 @@ impl Evidence<'_> {
     /// A certificate whose expanded uncertainty, carried to the measurand, exceeds the U that is reported. Of correlated
     /// references a difference or ratio is known better than any of them.
     fn below_reference(&self, measurand: usize) -> Option<FindingKind> {
-        /// The k of a certificate that states none (ILAC-P14).
+        /// The k of a certificate that states none (ILAC-P14), or that of another coverage probability.
         const K: f64 = 2.0;
+        /// From the k of 99 % of a normal distribution on, U is not that of 95 %.
+        const OTHER: f64 = 2.576;
         let result = &self.results[measurand];
         let lines = result.gum.components.iter().zip(&self.budget.components);
         let references = lines.enumerate().filter_map(|(index, (line, component))| {
             let certificate = component.certificate.as_ref()?;
-            let k = certificate.k.unwrap_or(K);
+            let k = certificate.k.filter(|k| *k < OTHER).unwrap_or(K);
             let alone = self.linear.covariance.group(index).is_none();
             alone.then_some((component, k, k * line.contribution.abs()))
         });

@@ -1,11 +1,13 @@
 //! Blocks of consecutive rows: of each, the mean is one observation.
 
 use super::case::{Blocks, Case, Role};
-use super::noise_correlation::MOST as MOST_COMPARED;
 use crate::recording::Labels;
 
 /// Prolonged recordings in time are averaged in blocks, unless the case says otherwise.
 const MOST_BLOCKS: usize = 400;
+
+/// The most observations of which matrices for laws of the noise are compared: larger ones take too long.
+pub(super) const MOST_COMPARED: usize = 600;
 
 /// So are recordings without a time that have more rows: work and memory grow with their square.
 const MOST_ROWS: usize = 1000;

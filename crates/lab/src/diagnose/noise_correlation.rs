@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
+use super::blocks::MOST_COMPARED;
 use super::catalogue::FittedModel;
 use super::chance::in_proportion;
 use super::design::Design;
@@ -17,8 +18,6 @@ use super::evidence::{self, Correlation, Noise, Refusal};
 use super::fit::Fit;
 use super::reduced::reduced;
 
-/// Larger matrices take too long.
-pub(super) const MOST: usize = 600;
 /// Fewer degrees of freedom cannot tell white from correlated noise.
 const LEAST: usize = 8;
 /// Matrices that stand for the posterior distribution.
@@ -79,7 +78,7 @@ pub(super) struct Courses {
 
 /// Matrices that so many observations have at most: one for each law, and one where there are too many for laws.
 pub(super) fn laws(observations: usize) -> usize {
-    match observations > MOST {
+    match observations > MOST_COMPARED {
         true => 1,
         false => 1 + SHARES.len() * (CONSTANTS + 1),
     }
@@ -92,7 +91,7 @@ impl Courses {
         let count = design.observations();
         let freedom = count.saturating_sub(design.unknowns.len());
         let open = fitted.clock.column.is_some();
-        if !open || freedom < LEAST || count > MOST {
+        if !open || freedom < LEAST || count > MOST_COMPARED {
             return None;
         }
         let times = design.reduced(&fitted.clock.values);

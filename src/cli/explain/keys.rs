@@ -47,7 +47,11 @@ impl KeyTable {
             return Said::row(Between::Comma, self.paths.iter().map(|path| in_words(path)));
         }
         let inner = self.paths.iter().map(|path| quoted(split(path).1));
-        say!("{inner} of {}", in_words(parent), inner = Said::row(Between::Comma, inner))
+        say!(
+            "{inner} of {}",
+            in_words(parent),
+            inner = Said::row(Between::Comma, inner)
+        )
     }
 
     /// Whether its keys are those of a component.

@@ -139,11 +139,7 @@ impl Part {
             }
             Known::Limits(half, _) => vec![key("half_width", *half)],
             Known::VagueLimits(half, d) => {
-                vec![
-                    key("half_width", *half),
-                    shaped("ctrap"),
-                    key("d", *d),
-                ]
+                vec![key("half_width", *half), shaped("ctrap"), key("d", *d)]
             }
             Known::Triangle(lower, mode, upper) => {
                 let limits = [

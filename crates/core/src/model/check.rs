@@ -424,6 +424,7 @@ impl<'r> Check<'r> {
             graph: graph.into(),
             program: program.into(),
             unused,
+            plain_angles: self.l.plain_angles.into(),
             blocks: Default::default(),
         })
     }

@@ -173,6 +173,7 @@ fn unary_call(
     };
     if row.dimension == DimensionRule::Angle {
         l.converted_once(argument)?;
+        l.note_plain_angle(argument);
     }
     let (input, unit) = match row.dimension {
         DimensionRule::One | DimensionRule::Angle | DimensionRule::ToAngle => {

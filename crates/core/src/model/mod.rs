@@ -183,6 +183,7 @@ pub struct Model {
     graph: Arc<graph::Graph>,
     program: Arc<block::Program>,
     unused: Arc<[usize]>,
+    plain_angles: Arc<[usize]>,
     /// What [`Model::interactions`] has found.
     blocks: Arc<OnceLock<Vec<Option<usize>>>>,
 }
@@ -299,6 +300,11 @@ impl Model {
     /// Which of the request's symbols no measurand depends on.
     pub fn unused_symbols(&self) -> Vec<usize> {
         self.unused.to_vec()
+    }
+
+    /// Inputs without a unit of which `sin`, `cos` or `tan` is taken as they are, in radians.
+    pub fn plain_angles(&self) -> &[usize] {
+        &self.plain_angles
     }
 
     /// Whether no operation has a corner, a step or a branch anywhere.

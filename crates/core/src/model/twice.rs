@@ -1,6 +1,7 @@
 //! Units that are converted by hand, although they are converted without it: angles to radians, `sin(phi*pi/180)`, and
 //! values to the wanted unit.
 
+use super::Role;
 use super::faults;
 use super::lower::{Lowering, Value};
 use super::printer;
@@ -84,6 +85,18 @@ impl Lowering<'_> {
                 _ => Some(()),
             },
             _ => Some(()),
+        }
+    }
+
+    /// Notes an input without a unit that is an angle by its place alone.
+    pub fn note_plain_angle(&mut self, argument: &Expr) {
+        let Node::Name(name) = &argument.node else {
+            return;
+        };
+        let symbol = self.symbol(name);
+        let plain = symbol.filter(|symbol| symbol.unit.symbol == Unit::one().symbol);
+        if let Some(Role::Input(place)) = plain.map(|symbol| &symbol.role) {
+            self.plain_angles.push(*place);
         }
     }
 

@@ -35,6 +35,11 @@ pub(super) fn for_unknown<'a>(
     if let Some((_, advice)) = FREQUENT.iter().find(|(wrong, _)| *wrong == name) {
         return advice.clone();
     }
+    if BY_PROCEDURE.contains(&name) {
+        return say!(
+            "what is counted, or defined by its procedure, is of dimension one: declare it in the [unit] table, `{name} = \"1\"`"
+        );
+    }
     let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
     if letters != name && is_known(letters) {
         return say!("write `{letters}^{}`", &name[letters.len()..]);
@@ -79,7 +84,9 @@ pub(super) fn for_unknown<'a>(
     let similar = || nearest(name, known()).filter(|_| name.chars().count() > 2);
     match (same_letters.as_slice(), similar()) {
         ([], Some(known)) => {
-            say!("did you mean `{known}`? A unit of your own is declared in the [unit] table")
+            say!(
+                "did you mean `{known}`? A unit of your own is declared in the [unit] table, a pure number as `{name} = \"1\"`"
+            )
         }
         ([], None) => say!(
             "a unit of your own is declared in the [unit] table, by other units, as in `FS = \"10 V\"`, or as a pure number, `{name} = \"1\"`"
@@ -176,6 +183,13 @@ const HARDNESS: Said = say!(
     "a hardness number is of dimension one: declare its scale in the [unit] table, as in `HV = \"1\"`"
 );
 
+/// Units that are counted, or that a procedure defines; what resembles their symbols is something else.
+const BY_PROCEDURE: &[&str] = &[
+    "NTU", "FNU", "FTU", "FAU", "EBC", "cfu", "CFU", "pfu", "PFU", "MPN", "copies", "cells", "pcs",
+    "px", "IU", "meq", "mEq", "Eq", "Brix", "Shore", "IRHD", "ShoreA", "ShoreD", "个", "次", "件",
+    "粒", "只",
+];
+
 /// Frequent mistakes that the distance between names would not explain.
 const FREQUENT: &[(&str, Said)] = &[
     (
@@ -220,6 +234,39 @@ const FREQUENT: &[(&str, Said)] = &[
     ("microns", say!("write `µm`")),
     ("mho", say!("write `S`")),
     ("RH", say!("write `%RH`")),
+    ("µε", say!("strain is a ratio of lengths: write `µm/m`")),
+    ("ue", say!("strain is a ratio of lengths: write `µm/m`")),
+    ("ε", say!("strain is a ratio of lengths: write `m/m`")),
+    (
+        "vol%",
+        say!("write `%`, and say in the description of what it is a part"),
+    ),
+    (
+        "wt%",
+        say!("write `%`, and say in the description of what it is a part"),
+    ),
+    (
+        "mol%",
+        say!("write `%`, and say in the description of what it is a part"),
+    ),
+    (
+        "v",
+        say!("write `V` for the volt; a ratio of volumes is `%`, or `L/L`"),
+    ),
+    ("cps", say!("write `1/s`")),
+    ("cpm", say!("write `1/min`")),
+    (
+        "week",
+        say!("declare it in the [unit] table: `week = \"7 d\"`"),
+    ),
+    (
+        "gal",
+        say!("declare the gallon that is meant in the [unit] table: `gal = \"3.785411784 L\"`"),
+    ),
+    (
+        "at",
+        say!("declare the technical atmosphere in the [unit] table: `at = \"98066.5 Pa\"`"),
+    ),
     ("oC", say!("write `°C`")),
     ("C°", say!("write `°C`")),
     ("Celsius", say!("write `°C`")),

@@ -69,14 +69,12 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, UnitError> {
             }
             _ => {
                 let span = start..start + c.len_utf8();
-                return Err(UnitError::new(
-                    MALFORMED_UNIT,
-                    span,
-                    say!("`{c}` has no meaning in a unit"),
-                )
-                .help(say!(
-                    "units are written as in `m/s^2`, `µV/(V·K)` or `°/√h`"
-                )));
+                let help = match c {
+                    '.' => say!("a product is written `N·m` or `N*m`, relative humidity `%RH`"),
+                    _ => say!("units are written as in `m/s^2`, `µV/(V·K)` or `°/√h`"),
+                };
+                let message = say!("`{c}` has no meaning in a unit");
+                return Err(UnitError::new(MALFORMED_UNIT, span, message).help(help));
             }
         };
         let end = chars.peek().map_or(text.len(), |(next, _)| *next);

@@ -49,9 +49,11 @@ fn quoted_percent(value: &Raw<'_>, text: &str) -> Option<Fault> {
 fn quoted_number(value: &Raw<'_>, text: &str) -> Option<Fault> {
     let number = text.trim();
     // TOML has one word for it.
-    let number = match number.parse::<f64>().ok()? {
-        f64::INFINITY => "inf",
-        _ => number,
+    let number = match number.parse::<f64>() {
+        Ok(f64::INFINITY) => "inf",
+        Ok(_) => number,
+        Err(_) if ["∞", "无穷", "无穷大"].contains(&number) => "inf",
+        Err(_) => return None,
     };
     let fault = Fault::new(
         QUOTED_NUMBER,

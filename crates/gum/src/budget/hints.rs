@@ -18,7 +18,7 @@ pub static HINTS: Hints = Hints {
 };
 
 /// Words that people try for the keys of an uncertainty, and those keys.
-pub const SYNONYMS: [(&str, &str); 47] = [
+pub const SYNONYMS: [(&str, &str); 49] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),
@@ -33,6 +33,8 @@ pub const SYNONYMS: [(&str, &str); 47] = [
     ("data", "readings"),
     ("observations", "readings"),
     ("measurements", "readings"),
+    ("digits", "counts"),
+    ("digit", "counts"),
     ("dist", "distribution"),
     ("pdf", "distribution"),
     ("nu", "dof"),
@@ -139,6 +141,34 @@ fn no_table(title: &str, found: &DeValue<'_>) -> Option<Said> {
         ("certificate", DeValue::String(_)) => {
             Some(say!("a certificate is {{ U = …, k = 2, number = \"…\" }}"))
         }
+        ("specification", DeValue::String(text)) => Some(say!(
+            "its parts stand by themselves: {{ {} }}",
+            parts_of(text)
+        )),
         _ => None,
     }
+}
+
+/// The keys of a specification as data sheets write it: `0.5 % of reading + 0.1 % of range + 2 digits`.
+fn parts_of(specification: &str) -> String {
+    let parts = specification.trim_start_matches(['±', '(']).split('+');
+    let keys = parts.map(|part| {
+        let part = part.trim().trim_end_matches(')').trim();
+        let lower = part.to_lowercase();
+        let says = |words: &[&str]| words.iter().any(|word| lower.contains(word));
+        let share = part.find('%').map(|end| &part[..=end]);
+        let number = part.split_whitespace().next().unwrap_or("…");
+        match share {
+            Some(share) if says(&["rang", "fs", "f.s", "full", "span", "量程", "满"]) => {
+                format!("range = \"{share}\", span = \"…\"")
+            }
+            Some(share) => format!("reading = \"{share}\""),
+            None if says(&["digit", "dgt", "count", "lsd", "字"]) => {
+                let number = number.trim_end_matches(char::is_alphabetic);
+                format!("counts = {number}, step = \"…\"")
+            }
+            None => format!("fixed = \"{part}\""),
+        }
+    });
+    keys.collect::<Vec<_>>().join(", ")
 }

@@ -45,6 +45,7 @@ pub fn administration(files: Files<'_>, path: &Path) -> Result<Administration, R
         tables_of::<CertificateFile>(text, "the data of a certificate", &HINTS, UNUSED)
             .map_err(refused)?;
     let mut check = Check {
+        text,
         faults,
         units: UnitTable::default(),
     };
@@ -79,12 +80,13 @@ pub fn certificate_template() -> String {
 }
 
 /// Collects faults while the tables are checked.
-struct Check {
+struct Check<'t> {
+    text: &'t str,
     faults: Vec<Fault>,
     units: UnitTable,
 }
 
-impl Check {
+impl Check<'_> {
     fn whole(&mut self, file: &CertificateFile, end: usize) -> Administration {
         let end = end..end;
         let begin = self.day(&file.begin);
@@ -261,6 +263,18 @@ impl Check {
         }
     }
 
+    /// A number with the zeros at its end that the file has: `20.0 °C`.
+    fn as_written(&self, number: f64, place: &Range<usize>) -> String {
+        let written = self.text.get(place.clone()).unwrap_or_default();
+        let behind = written.split_once('.').map_or("", |(_, behind)| behind);
+        let decimals = behind.chars().take_while(char::is_ascii_digit).count();
+        let aligned = format!("{number:.decimals$}");
+        match aligned.parse() == Ok(number) {
+            true => aligned,
+            false => exact(number),
+        }
+    }
+
     fn condition(&mut self, stated: &Stated<ConditionTable>) -> Option<Condition> {
         let table = &stated.value;
         let name = self.named(&table.name, &table.name_zh, "condition", &stated.span);
@@ -272,7 +286,7 @@ impl Check {
         };
         let (number, unit) = self.amount(value)?;
         let notation = Notation::of(&unit)?;
-        let shown = with_unit(&exact(number), &symbol(&unit));
+        let shown = with_unit(&self.as_written(number, &value.span), &symbol(&unit));
         let expanded = match &table.U {
             None => None,
             Some(expanded) => {
@@ -315,7 +329,9 @@ impl Check {
             text: match expanded {
                 None => shown,
                 Some(size) => {
-                    let size = with_unit(&exact(size), &symbol(&unit.difference()));
+                    let stated = table.U.as_ref().map_or(0..0, |stated| stated.span.clone());
+                    let size = self.as_written(size, &stated);
+                    let size = with_unit(&size, &symbol(&unit.difference()));
                     format!("{shown}, U = {size}, k = {}", exact(k))
                 }
             },

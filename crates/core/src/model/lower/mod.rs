@@ -81,6 +81,8 @@ pub struct Lowering<'r> {
     pub later: Vec<String>,
     /// The measurand whose own formula this is.
     pub defining: Option<String>,
+    /// Inputs without a unit of which `sin`, `cos` or `tan` is taken as they are: places in the input vector.
+    pub plain_angles: Vec<usize>,
     /// What becomes of an expression; it stands above what lowers its parts.
     expression: Expression,
     depth: usize,
@@ -109,6 +111,7 @@ impl<'r> Lowering<'r> {
             call: None,
             later: Vec::new(),
             defining: None,
+            plain_angles: Vec::new(),
             expression,
             depth: 0,
             work: 0,

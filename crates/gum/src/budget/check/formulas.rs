@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::checker::Checker;
+use super::draft::show;
 use super::entries::entries;
 use super::register::Register;
 use crate::budget::faults::{NO_MEASURAND, UNUSED};
@@ -110,6 +111,7 @@ impl Checker<'_> {
                     self.unused_fits(file, &model, constants.len(), register);
                 }
                 self.scaled_twice(&model);
+                self.plain_angles(&model, register);
                 self.no_inputs(&model, register);
                 self.undefined(&model, file, constants.len(), register);
                 Some(model)
@@ -241,6 +243,21 @@ impl Checker<'_> {
             self.remark(
                 format!("The formula of {name} holds the number {factor}, and units are converted without it: the value, with that number, is converted to {unit} by the same factor once more. If the number is meant to make it {unit}, remove it."),
                 format!("{name} 的公式中含有数 {factor}，而单位由程序自动换算：带有该数的值又以同一因子换算为 {unit}。如果该数是为了换算成 {unit}，请将其去掉。"),
+            );
+        }
+    }
+
+    /// Remarks on numbers without a unit that are angles of more than a turn: degrees, most likely.
+    fn plain_angles(&mut self, model: &Model, register: &Register) {
+        let mut angles = model.plain_angles().to_vec();
+        angles.sort_unstable();
+        angles.dedup();
+        let inputs = angles.into_iter().filter_map(|i| register.inputs.get(i));
+        for input in inputs.filter(|input| input.estimate.abs() > std::f64::consts::TAU) {
+            let (name, number) = (&input.name, show(input.estimate));
+            self.remark(
+                format!("{name} = {number} has no unit, and sin, cos and tan take plain numbers as radians: {number} rad is more than a turn. If these are degrees, write unit = \"°\"."),
+                format!("{name} = {number} 没有单位，而 sin、cos 和 tan 把无单位的数当作弧度：{number} rad 超过一周。如果是度，请写 unit = \"°\"。"),
             );
         }
     }

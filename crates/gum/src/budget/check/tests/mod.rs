@@ -156,3 +156,20 @@ fn a_conversion_that_is_made_twice_is_remarked_on() {
     }
     assert_eq!(remarks("m / V"), []);
 }
+
+/// 30 without a unit is hardly an angle in radians; 0.5 may be, and what has a unit is.
+#[test]
+fn degrees_without_a_unit_are_remarked_on() {
+    let remarks = |angle: &str, model: &str| {
+        let text = format!(
+            "[measurand.h]\nmodel = \"{model}\"\nunit = \"m\"\n[input.L]\nvalue = 2\nu = 0.1\nunit = \"m\"\n[input.a]\n{angle}\nu = 0.1\n"
+        );
+        budget(&text).remarks
+    };
+    let degrees = remarks("value = 30", "L * sin(a) + L * cos(a)");
+    assert_eq!(degrees.len(), 1);
+    assert!(degrees[0].en.contains("30 rad"), "{degrees:?}");
+    assert_eq!(remarks("value = 0.5", "L * sin(a)"), []);
+    assert_eq!(remarks("value = 30\nunit = \"°\"", "L * sin(a)"), []);
+    assert_eq!(remarks("value = 30\nunit = \"rad\"", "L * sin(a)"), []);
+}

@@ -135,7 +135,7 @@ const WORDS: &[(Role, How, &[&str])] = &[
     (Role::Value, How::Is, &["value", "wert", "valeur", "estimation", "x", "xi", "值", "mean", "level", "reading", "平均值", "示值"]),
     (Role::Symbol, How::Has, &["quantity", "größe", "grandeur", "输入量", "量的符号"]),
     (Role::Symbol, How::Is, &["量", "input", "xi", "parameter"]),
-    (Role::Name, How::Has, &["component", "名称", "分量", "项目", "contribut", "item", "effect", "内容"]),
+    (Role::Name, How::Has, &["komponente", "composante", "component", "名称", "分量", "项目", "contribut", "item", "effect", "内容"]),
     (Role::Name, How::Is, &["name", "input", "what", "uncertainty", "term", "label", "项", "parameter"]),
     (Role::Number, How::Is, &["no", "no.", "#", "序号", "编号", "nr", "nr.", "row", "line", "i", "№", "行", "号"]),
 ];

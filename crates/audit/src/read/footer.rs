@@ -70,7 +70,7 @@ fn symbol(text: &str) -> Option<Whole> {
     }
     match compact(name).as_str() {
         "uc" | "uc(y)" | "u(y)" | "u(c)" | "ucombined" | "uccombined" | "uy" | "u" | "sum"
-        | "rss" => Some(Whole::Combined),
+        | "summe" | "rss" => Some(Whole::Combined),
         "νeff" | "veff" | "nueff" | "νeff(y)" => Some(Whole::Freedom),
         "k" | "kp" | "k95" | "k(95%)" | "k(95.45%)" | "k(p)" => Some(Whole::Factor),
         "y" => Some(Whole::Y),

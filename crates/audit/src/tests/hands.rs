@@ -161,6 +161,31 @@ fn neighbours_write_budgets_too() {
     );
 }
 
+/// `c_i | U_i` without any other column of u, as in M3003: the last is the contribution; names without a head; `Std. uncertainty`
+/// beside a column that nothing makes use of.
+#[test]
+fn columns_are_what_stands_beside_them() {
+    let m3003 = "Symbol,Source,Value,Units,Probability Distribution,Divisor,ci,Ui (µm),Vi or Veff\n\
+         LS,Calibration of standard,0.06,µm,normal,2,1,0.030,infinity\n\
+         LD,Drift since calibration,0.05,µm,rectangular,1.7321,1,0.0289,infinity\n\
+         dT,Temperature,0.5,°C,rectangular,1.7321,0.35 µm/°C,0.101,infinity\n\
+         LV,Comparator,0.04,µm,normal,1,1,0.040,15\n\
+         uc,Combined standard uncertainty,,,normal,,,0.116,>500\n\
+         U,Expanded uncertainty,,,normal (k=2),,,0.23,>500\n";
+    is_sound("sheet.csv", m3003);
+    is_sound(
+        "sheet.csv",
+        "Tape measure;;;;\n;Half-width (mm);Distribution;Divisor;u (mm)\nScale;0,5;normal;2;0,25\nReading;0,5;rectangular;1,73;0,29\n\
+         Temperature;0,7;rectangular;1,73;0,40\nCombined standard uncertainty;;;;0,56\nExpanded uncertainty (k = 2);;;;1,1\n",
+    );
+    is_sound(
+        "sheet.csv",
+        "Conductivity meter,,,,\nUncertainty source,Std uncertainty,Relative,Unit,dof\nCRM,5.0,0.35%,µS/cm,inf\n\
+         Resolution,0.29,0.02%,µS/cm,inf\nRepeatability,2.1,0.15%,µS/cm,5\n\
+         Combined standard uncertainty,5.4,0.38%,µS/cm,\nExpanded uncertainty (k=2),11,0.8%,µS/cm,\n",
+    );
+}
+
 /// Two budgets beside each other, each with its own closing lines.
 #[test]
 fn tables_stand_side_by_side() {

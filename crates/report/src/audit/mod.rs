@@ -45,7 +45,8 @@ fn one(file: &str, audit: &Audit<'_>, language: Language) -> Vec<Block> {
         Block::Statement(words::verdict(audit, language)),
     ];
     let listed = &audit.found.explanations;
-    if audit.verdict != Verdict::Sound && !listed.is_empty() {
+    let is_open = !matches!(audit.verdict, Verdict::Sound | Verdict::NotRecomputed);
+    if is_open && !listed.is_empty() {
         blocks.push(Block::Section(pick(
             "What gives the claimed figures",
             "能给出所声称数值的差错",

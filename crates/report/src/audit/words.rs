@@ -239,7 +239,11 @@ pub(super) fn stated(row: &Row, language: Language) -> String {
     // As it is written, where no unit was changed: further digits would be made up.
     let number = |figure: &Printed| {
         let own = Printed::parse(&figure.text).is_some_and(|own| own.value == figure.value);
-        if own {
+        // What another program's file states is exact, and may have been computed.
+        let is_computed = figure.half == 0.0 && figure.text.len() > 10;
+        if is_computed {
+            significant(figure.value, 4)
+        } else if own {
             let text = figure.text.trim_end_matches(figure.unit.as_str());
             text.trim_start_matches('±').trim().to_string()
         } else {

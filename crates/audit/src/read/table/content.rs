@@ -185,9 +185,11 @@ pub(super) fn nameless_figures(grid: &Grid, located: &mut Located) {
     }
 }
 
-/// Whether the figures of a column give those of u by the divisor.
+/// Whether the figures of a column give those of u by the divisor, or those of the contribution by the coefficient, too.
 fn gives_u(grid: &Grid, located: &Located, index: usize) -> bool {
-    let (Some(divisor), Some(u)) = (at(located, Role::Divisor), at(located, Role::U)) else {
+    let coefficient = at(located, Role::C).filter(|_| !located.has(Role::U));
+    let made = at(located, Role::U).or(at(located, Role::Contribution));
+    let (Some(divisor), Some(u)) = (at(located, Role::Divisor), made) else {
         return false;
     };
     let figure = |row: usize, index: usize| {
@@ -195,9 +197,10 @@ fn gives_u(grid: &Grid, located: &Located, index: usize) -> bool {
     };
     let divides = |row: &&usize| {
         let pair = figure(**row, index).zip(figure(**row, divisor));
-        let quotient = pair.map(|(a, d)| a / d);
-        let pair = quotient.zip(figure(**row, u));
-        pair.is_some_and(|(q, u)| (q - u).abs() <= 0.05 * u.abs())
+        let c = coefficient.and_then(|c| figure(**row, c)).unwrap_or(1.0);
+        let quotient = pair.map(|(a, d)| (c * a / d).abs());
+        let pair = quotient.zip(figure(**row, u).map(f64::abs));
+        pair.is_some_and(|(q, u)| (q - u).abs() <= 0.05 * u)
     };
     2 * located.rows.iter().filter(divides).count() > located.rows.len()
 }

@@ -28,13 +28,40 @@ pub(super) fn head(grid: &Grid, row: usize, mapping: &Mapping) -> Option<Vec<Col
         return None;
     }
     let names = |index: usize| names_below(grid, row, index);
-    let columns = roles(&filled, mapping, &names);
+    let mut columns = roles(&filled, mapping, &names);
+    if let Some(column) = nameless_names(&columns, grid, &names, &filled) {
+        columns.push(column);
+    }
     let has = |roles: &[Role]| columns.iter().any(|c| roles.contains(&c.role));
     let identity = has(&[Role::Symbol, Role::Name]);
     let figure = has(&[Role::Used, Role::U, Role::Contribution])
         || has(&[Role::Remark]) && has(&[Role::Value, Role::C]);
     let enough = columns.len() >= 3 && columns.len() * 2 >= filled.len();
     (identity && figure && enough).then_some(columns)
+}
+
+/// The column of names in front of the first head, where nothing stands above it.
+fn nameless_names(
+    columns: &[Column],
+    grid: &Grid,
+    names: &dyn Fn(usize) -> Option<Role>,
+    filled: &[(usize, &str)],
+) -> Option<Column> {
+    let is_named = columns
+        .iter()
+        .any(|c| matches!(c.role, Role::Symbol | Role::Name));
+    let first = filled.iter().map(|(index, _)| *index).min()?;
+    let index = first
+        .checked_sub(1)
+        .filter(|_| !is_named && !columns.is_empty())?;
+    let role = names(index).filter(|_| !grid.hidden_columns.contains(&index))?;
+    let (head, unit) = (String::new(), String::new());
+    Some(Column {
+        index,
+        role,
+        head,
+        unit,
+    })
 }
 
 /// What a column is whose head promises figures and which holds none below it: `标准不确定度分量` above `u(m_1)` names
@@ -87,6 +114,8 @@ fn roles(
         }
         let taken = |role: Role| columns.iter().any(|c: &Column| c.role == role);
         let role = match role {
+            // `c_i | u_i`: a bare u behind the coefficient is what comes of both.
+            Role::U if taken(Role::C) && !contributions && is_bare_u(text) => Role::Contribution,
             // A second column of the same kind is what comes next in the calculation.
             Role::U if taken(Role::U) && !contributions && !taken(Role::Contribution) => {
                 Role::Contribution
@@ -112,6 +141,15 @@ fn roles(
         });
     }
     columns
+}
+
+/// Whether a head is `u_i` and no more than that: `u(x_i)` and words are of the input.
+fn is_bare_u(head: &str) -> bool {
+    let (name, _) = columns::apart(head);
+    matches!(
+        name.replace(['_', ' '], "").to_lowercase().as_str(),
+        "u" | "ui"
+    )
 }
 
 /// A line above the head whose words name what the head leaves open: `|c_i|u(x_i)` above `/kPa`.

@@ -1,12 +1,12 @@
 //! A document on pages: what goes on a certificate first in each part, as on screens.
 
 use gumption_fault::language::Language;
-use gumption_format::document::{Block, Document, Severity};
+use gumption_format::document::{Block, Document, Math, Severity};
 use gumption_format::render::parts::{Part, parts};
 
 use super::flow::{BLACK, BLUE, Flow, GREY, PALE, WIDTH};
 use super::fonts::Style;
-use super::{picture, table, text};
+use super::{formula, picture, table, text};
 
 /// Size of running text.
 const SIZE: f32 = 9.5;
@@ -74,8 +74,11 @@ fn lay_block(flow: &mut Flow<'_>, block: &Block, language: Language) {
         Block::Paragraph(words) => paragraph(flow, words, Style::Regular),
         Block::Formula(lines) => {
             for line in lines {
-                let letters = flow.plain(line, Style::Mono, 8.8);
-                flow.lines(&letters, [flow.left() + 10.0, WIDTH - 10.0], 12.0, BLACK);
+                let drawn = Math::of(line).is_some_and(|math| formula::draw(flow, &math));
+                if !drawn {
+                    let letters = flow.plain(line, Style::Mono, 8.8);
+                    flow.lines(&letters, [flow.left() + 10.0, WIDTH - 10.0], 12.0, BLACK);
+                }
             }
             flow.y += 5.0;
         }

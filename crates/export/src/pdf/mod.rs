@@ -3,6 +3,7 @@
 mod blocks;
 mod flow;
 mod fonts;
+mod formula;
 mod picture;
 mod table;
 mod text;

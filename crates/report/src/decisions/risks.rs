@@ -44,9 +44,10 @@ impl Assessment<'_> {
             // The probability of the statement, with the other beside it.
             let decided = known.probability.map_or_else(|| by_gum.clone(), chance);
             let beside = match known.probability == known.from_trials {
+                true if by_gum == decided => String::new(),
                 true => l.pick(
                     format!(", from y and u {by_gum}"),
-                    format!("，由 y 和 u {by_gum}"),
+                    format!("，由 y 和 u：{by_gum}"),
                 ),
                 false => trials,
             };

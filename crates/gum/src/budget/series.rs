@@ -281,6 +281,17 @@ fn column(file: &DeTable<'_>, name: &Stated<String>, faults: &mut Vec<Fault>) ->
         }
         return Some(Column::Path(path));
     }
+    if matches!(&path[..], [owner, _, key] if owner == "measurand" && key == "unit") {
+        let message = say!("{wanted} would give the rows results in several units");
+        faults.push(
+            Fault::new(SERIES, name.span.clone(), message)
+                .label(say!("the column of a result has one unit"))
+                .help(say!(
+                    "leave the column out: results are in the unit that the budget states"
+                )),
+        );
+        return None;
+    }
     if path.len() > 1 && FileTable::keys().contains(&path[0].as_str()) && path[0] != "series" {
         return Some(Column::Path(path));
     }

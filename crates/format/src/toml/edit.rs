@@ -160,10 +160,9 @@ impl Places<'_> {
             return Err(Unedited);
         }
         put(&mut wanted, &new, value).ok_or(Unedited)?;
-        let mut splices = Vec::new();
-        for place in self.key_places(path) {
-            splices.push((place, written_key(name)));
-        }
+        let written = self.keys().into_iter().filter(|(named, _)| named == path);
+        let splices = written.map(|(_, place)| (place, written_key(name)));
+        let splices = splices.collect();
         self.made(splices, &[wanted])
     }
 
@@ -191,24 +190,6 @@ impl Places<'_> {
             true => Ok(text),
             false => Err(Unedited),
         }
-    }
-
-    /// Where the last key of a path is written.
-    fn key_places(&self, path: &[Step]) -> Vec<Range<usize>> {
-        let mut all = Vec::new();
-        let step = path.len() - 1;
-        let mut look = vec![&self.statements];
-        while let Some(statements) = look.pop() {
-            for statement in statements {
-                if statement.path.starts_with(path) {
-                    let keys = statement.keys.iter().filter(|(at, _)| *at == step);
-                    all.extend(keys.map(|(_, span)| span.clone()));
-                } else if path.starts_with(&statement.path) {
-                    statement.value.iter().for_each(|v| tables(v, &mut look));
-                }
-            }
-        }
-        all
     }
 
     /// The element or the neighbouring entries of brackets or braces that a path names, with a comma.
@@ -464,15 +445,6 @@ fn spans(elements: &[Written]) -> Vec<Range<usize>> {
 /// Between the brackets.
 fn inside(container: &Written) -> Range<usize> {
     container.span.start + 1..container.span.end - 1
-}
-
-/// Adds the tables in braces of a value.
-fn tables<'w>(value: &'w Written, look: &mut Vec<&'w Vec<Statement>>) {
-    match &value.form {
-        Form::Scalar => {}
-        Form::List(elements) => elements.iter().for_each(|one| tables(one, look)),
-        Form::Table(inner) => look.push(inner),
-    }
 }
 
 /// A text with other bytes at some places.

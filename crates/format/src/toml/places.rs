@@ -99,6 +99,24 @@ impl<'t> Places<'t> {
             .find_map(|statement| statement.value_at(path))
     }
 
+    /// Every number, text and word with its path.
+    pub fn scalars(&self) -> Vec<(Vec<Step>, Range<usize>)> {
+        let mut found = Vec::new();
+        self.statements
+            .iter()
+            .for_each(|one| one.scalars(&mut found));
+        found
+    }
+
+    /// Every key, as often as it is written, with the path to what it names.
+    pub fn keys(&self) -> Vec<(Vec<Step>, Range<usize>)> {
+        let mut found = Vec::new();
+        self.statements
+            .iter()
+            .for_each(|one| one.all_keys(&mut found));
+        found
+    }
+
     /// All statements below a path; of a value in braces or brackets the one that holds it.
     pub fn below<'s>(&'s self, path: &'s [Step]) -> impl Iterator<Item = &'s Statement> {
         let all = self.statements.iter();
@@ -112,6 +130,21 @@ impl Statement {
         self.value.as_ref()?.at(path, self.path.len())
     }
 
+    fn scalars(&self, found: &mut Vec<(Vec<Step>, Range<usize>)>) {
+        if let Some(value) = &self.value {
+            value.scalars(&self.path, found);
+        }
+    }
+
+    fn all_keys(&self, found: &mut Vec<(Vec<Step>, Range<usize>)>) {
+        for (at, span) in &self.keys {
+            found.push((self.path[..=*at].to_vec(), span.clone()));
+        }
+        if let Some(value) = &self.value {
+            value.all_keys(found);
+        }
+    }
+
     /// Whether it is a header.
     pub fn is_header(&self) -> bool {
         self.value.is_none()
@@ -119,6 +152,26 @@ impl Statement {
 }
 
 impl Written {
+    fn all_keys(&self, found: &mut Vec<(Vec<Step>, Range<usize>)>) {
+        match &self.form {
+            Form::Scalar => {}
+            Form::Table(inner) => inner.iter().for_each(|one| one.all_keys(found)),
+            Form::List(elements) => elements.iter().for_each(|one| one.all_keys(found)),
+        }
+    }
+
+    fn scalars(&self, path: &[Step], found: &mut Vec<(Vec<Step>, Range<usize>)>) {
+        match &self.form {
+            Form::Scalar => found.push((path.to_vec(), self.span.clone())),
+            Form::Table(inner) => inner.iter().for_each(|one| one.scalars(found)),
+            Form::List(elements) => {
+                for (at, element) in elements.iter().enumerate() {
+                    element.scalars(&[path, &[Step::Index(at)]].concat(), found);
+                }
+            }
+        }
+    }
+
     fn at(&self, path: &[Step], depth: usize) -> Option<&Written> {
         match (&self.form, path.get(depth)) {
             (_, None) => Some(self),

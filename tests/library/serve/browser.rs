@@ -511,7 +511,7 @@ fn a_budget_is_made_in_the_form() {
     browser.until(
         "document.querySelector('[aria-invalid]')?.dataset.at === '[\"input\",\"I\",\"value\"]'",
     );
-    browser.until("document.getElementById(document.querySelector('[aria-invalid]').getAttribute('aria-describedby')).textContent.includes('2.0')");
+    browser.until("document.getElementById(document.querySelector('[aria-invalid]').getAttribute('aria-describedby')).textContent.includes('plain number')");
     chooses(&mut browser, r#"["input","I","value"]"#, "2.0");
     chooses(&mut browser, r#"["input","I","?"]"#, "half_width");
     browser.writes(r#"["input","I","half_width"]"#, "0.010");
@@ -543,7 +543,7 @@ fn a_budget_is_made_in_the_form() {
     chooses(
         &mut browser,
         r#"["input","I","components",1,"readings"]"#,
-        "2.0, 2.01, 1.990",
+        "2.0, 2.01, 1.990, 2.005",
     );
     browser.value(r#"document.querySelector('[data-at=\'["correlation","+"]\']').click(), form.queue.then(() => true)"#);
     chooses(&mut browser, r#"["correlation",0,"between"]"#, "V, I");
@@ -554,7 +554,7 @@ fn a_budget_is_made_in_the_form() {
     for part in [
         "model = \"U_x / I\"",
         "[input.U_x]\nvalue = 10.00010\n",
-        "components = [\n    { half_width = 0.010 },\n    { name = \"drift\", readings = [2.0, 2.01, 1.990] },\n]\n",
+        "components = [\n    { half_width = 0.010 },\n    { name = \"drift\", readings = [2.0, 2.01, 1.990, 2.005] },\n]\n",
         "[[correlation]]\nbetween = [\"U_x\", \"I\"]\nr = 0.25\n",
     ] {
         assert!(text.contains(part), "{part}\n{text}");

@@ -4,12 +4,15 @@
 const form = {
   on: false,
   entries: null, // what the text states; null where it has a fault
+  shown: null, // what it stated last
+  path: null, // the file of which it is
   schema: null, // keys of a budget or an experiment
   units: [],
   faults: [],
   open: new Set(), // keys without a value that are shown: asked for, or an uncertainty that is to be stated in another way
   ways: new Map(), // table → the way that was chosen for it and has no figure yet
   focus: null, // what is focused when the form is drawn again
+  past: [], // texts before the edits that were made here
   queue: Promise.resolve(),
 };
 // Keys that are shown before they have a value, by the table in which they stand.
@@ -18,6 +21,7 @@ const USUAL = {
   measurand: ["description", "model", "unit"], input: ["description", "value", "unit"],
   components: ["name"], correlation: ["between", "r"], source: ["description", "unit"],
 };
+const MOST_USUAL = 4; // of other tables: a line of fields
 const OF_UNCERTAINTY = ["distribution", "dof"]; // … and of an uncertainty
 
 const keyOf = path => JSON.stringify(path);
@@ -46,12 +50,13 @@ function edit(edits, focus = null) {
     if (!response.ok) { const why = await told(response); draw(); say(why); return; }
     const words = await vocabulary(), found = await response.json();
     form.entries = found.form && found.form.entries;
+    if (form.path !== state.path) Object.assign(form, { shown: null, path: state.path, past: [] });
+    form.shown = form.entries || form.shown;
     if (words) { form.schema = words[found.form ? found.form.kind : "budget"]; form.units = words.units; }
     form.focus = focus || form.focus;
     if (found.text !== written()) {
-      write(found.text);
-      form.faults = [];
-      soon();
+      form.past.push(written());
+      changed(found.text);
     }
     draw();
   });
@@ -59,10 +64,19 @@ function edit(edits, focus = null) {
 }
 
 /// Takes a text over as if its difference had been typed.
-function write(content) {
+function changed(content) {
   state.crlf = /\r\n/.test(content);
   text.value = content.replaceAll("\r\n", "\n");
   mark([]);
+  form.faults = [];
+  soon();
+}
+
+/// Takes the last edit of the form back.
+function undo() {
+  if (!form.past.length) return;
+  changed(form.past.pop());
+  formStale();
 }
 
 function formFaults(faults) {
@@ -70,8 +84,9 @@ function formFaults(faults) {
   if (form.on) showFaults();
 }
 
-/// Another text, or another language.
-function formStale() {
+/// Another text, or another language. What was edited in the text itself is undone there.
+function formStale(isTyped = false) {
+  if (isTyped) form.past = [];
   if (!form.on) return;
   form.open.clear();
   form.ways.clear();
@@ -81,7 +96,7 @@ function formStale() {
 function showView(asForm) {
   form.on = asForm;
   document.body.classList.toggle("form", asForm);
-  $("form").hidden = !asForm;
+  $("form").hidden = $("undo").hidden = !asForm;
   $("as-form").setAttribute("aria-pressed", asForm);
   $("as-text").setAttribute("aria-pressed", !asForm);
   formStale();
@@ -105,9 +120,9 @@ function options(select, words, chosen) {
 }
 
 /// A key with its value; an emptied one is removed.
-function fieldAt(path, inner, node, instead = []) {
+function fieldAt(path, inner, node, instead = [], called = last(path)) {
   const name = last(path), value = shownText(node);
-  const label = made("span", { title: inner.says || "" }, made("b", {}, String(name)), " ", brief(inner.says));
+  const label = made("span", { title: inner.says || "" }, made("b", {}, String(called)), " ", brief(inner.says));
   let control;
   if (value === null) control = made("input", { readonly: "", value: word("inText") });
   else if (inner.flag || inner.words && !inner.free) {
@@ -154,7 +169,7 @@ function button(label, act, more = {}) {
 /// A table of the schema: its fields, its rows, and those that can be added.
 function tableAt(path, place, node, isGroup = false) {
   const there = new Map(node && node.keys), keys = Object.entries(place.keys || {});
-  const usual = USUAL[path.length ? tableOf(path) : ""] || [], parts = [], missing = [];
+  const usual = USUAL[path.length ? tableOf(path) : ""] || keys.slice(0, MOST_USUAL).map(([key]) => key), parts = [], missing = [];
   const ways = keys.filter(([, inner]) => inner.way);
   const apart = place.keys.components && (there.has("components") || form.open.has(keyOf([...path, "components"])));
   const ofComponent = new Set(Object.keys((place.keys.components || {}).keys || {}));
@@ -256,7 +271,7 @@ function groupAt(path, inner, node, instead) {
       edit([...instead.map(other => ({ do: "remove", path: other })), { do: "set", path: at, typed: event.target.value }]);
     }, { capture: true });
   }
-  return made("fieldset", { class: "group", title: inner.says || "" }, made("legend", {}, ...heading(path, inner)), inside);
+  return made("fieldset", { class: "group", "data-at": keyOf(path), title: inner.says || "" }, made("legend", {}, ...heading(path, inner)), inside);
 }
 
 /// Tables under names: a row for each.
@@ -272,10 +287,10 @@ function rowsAt(path, inner, node) {
       if (!wanted || wanted === name) { title.value = name; return; }
       edit([{ do: "rename", path: at, name: wanted }], keyOf([...path, wanted, "!"]));
     });
-    const head = made("p", { class: "head" }, made("label", { class: "name" }, made("span", {}, word("name")), title), remover(at, name));
     const plain = isPlain(row) || row.items || !inner.any.keys;
-    const fields = plain ? made("div", { class: "fields" }, fieldAt(at, inner.any, row)) : tableAt(at, inner.any, row);
-    box.append(made("div", { class: "row", role: "group", "aria-label": name, "data-row": keyOf(at) }, head, fields));
+    const fields = plain ? made("div", { class: "fields" }, fieldAt(at, inner.any, row, [], word("valueOf"))) : tableAt(at, inner.any, row);
+    fields.prepend(made("label", { class: "name" }, made("span", {}, word("name")), title));
+    box.append(made("div", { class: "row", role: "group", "aria-label": name, "data-row": keyOf(at) }, fields, remover(at, name)));
   }
   const name = made("input", { "data-at": keyOf([...path, "+"]), autocomplete: "off", spellcheck: "false" });
   const adding = () => {
@@ -297,8 +312,7 @@ function listAt(path, inner, node) {
   for (const [index, row] of rows.entries()) {
     const at = isOne ? path : [...path, index], label = `${last(path)} ${index + 1}`;
     const fields = tableAt(at, inner, row);
-    fields.prepend(made("p", { class: "head" }, made("span", {}, label), remover(at, label)));
-    box.append(made("div", { class: "row", role: "group", "aria-label": label, "data-row": keyOf(at) }, fields));
+    box.append(made("div", { class: "row", role: "group", "aria-label": label, "data-row": keyOf(at) }, fields, remover(at, label)));
   }
   if (!isOne && last(path) !== "components") {
     const at = [...path, rows.length];
@@ -317,13 +331,11 @@ function remover(path, label) {
 
 function draw() {
   const box = $("form"), active = document.activeElement;
+  $("undo").disabled = !form.past.length;
   // Whoever types on is not disturbed.
   const held = box.contains(active) ? { at: active.dataset.at, value: active.value, from: active.selectionStart, to: active.selectionEnd } : null;
   const top = box.scrollTop;
   const frame = made("fieldset", { class: "all" });
-  if (form.entries && form.schema) {
-    form.shown = form.entries;
-  }
   box.replaceChildren(frame, made("datalist", { id: "units" }, ...form.units.map(([symbol, name]) => made("option", { value: symbol, label: name }))));
   if (form.shown && form.schema) frame.append(tableAt([], form.schema, form.shown));
   if (!form.entries) {
@@ -345,10 +357,10 @@ function draw() {
   form.focus = null;
 }
 
-/// The fields of a row, behind its name.
+/// The first field of a row, behind its name.
 function rowOf(key) {
   const row = [...$("form").querySelectorAll("[data-row]")].find(one => one.dataset.row === key);
-  return row && row.querySelector(".fields");
+  return row && row.querySelector(":is(label:not(.name), legend) :is(input, select, textarea)");
 }
 
 /// The path of the innermost entry at a place of the text.
@@ -380,6 +392,7 @@ function showFaults() {
   for (const [at, fault] of form.faults.entries()) {
     const found = pathAt(fault.from, form.entries), element = found && elementOf(found[0]);
     if (!element) continue;
+    $("faults").children[at]?.classList.add("placed");
     const words = made("p", { class: "fault", id: `field-fault-${at}` }, fault.message, fault.help ? ` → ${fault.help}` : "");
     if (element.matches("input, select, textarea")) {
       element.setAttribute("aria-invalid", "true");
@@ -400,4 +413,5 @@ function fieldOfFault(fault) {
 
 $("as-form").addEventListener("click", () => showView(true));
 $("as-text").addEventListener("click", () => showView(false));
+$("undo").addEventListener("click", undo);
 $("form").addEventListener("submit", event => event.preventDefault());

@@ -528,7 +528,7 @@ async function drop(dropped) {
 
 // ---- hands -----------------------------------------------------------------------------------------------------
 
-text.addEventListener("input", () => { mark([]); soon(); });
+text.addEventListener("input", () => { mark([]); formStale(true); soon(); });
 text.addEventListener("scroll", scrolled);
 $("file").addEventListener("change", choose);
 $("format").addEventListener("change", download);

@@ -508,10 +508,11 @@ fn a_budget_is_made_in_the_form() {
     browser.writes(r#"["input","I","value"]"#, "2,0");
     browser.writes(r#"["input","I","unit"]"#, "mA");
     // The fault is said at its field, with what to write.
-    browser.until(
-        "document.querySelector('[aria-invalid]')?.dataset.at === '[\"input\",\"I\",\"value\"]'",
-    );
-    browser.until("document.getElementById(document.querySelector('[aria-invalid]').getAttribute('aria-describedby')).textContent.includes('plain number')");
+    let field = r#"document.querySelector('[data-at=\'["input","I","value"]\'][aria-invalid]')"#;
+    browser.until(field);
+    browser.until(&format!(
+        "document.getElementById({field}.getAttribute('aria-describedby')).textContent.includes('plain number')"
+    ));
     chooses(&mut browser, r#"["input","I","value"]"#, "2.0");
     chooses(&mut browser, r#"["input","I","?"]"#, "half_width");
     browser.writes(r#"["input","I","half_width"]"#, "0.010");

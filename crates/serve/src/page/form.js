@@ -105,8 +105,10 @@ function showView(asForm) {
 // ---- fields ----------------------------------------------------------------------------------------------------
 
 /// What a key is, in a few words; all that it says is the title.
-function brief(says) {
-  const rest = (says || "").replace(/^[^:：;；。.]{1,30}[:：]\s*/, "");
+function brief(inner) {
+  // What it is for (`Way: …`) is told by where it stands.
+  const says = inner.says || "", isFor = inner.way || inner.with;
+  const rest = isFor ? says.replace(/^[^:：]*[:：]\s*/, "") : says;
   return rest.split(/[;；。:：(（]|[.,，]\s|\.$/)[0].trim();
 }
 
@@ -122,7 +124,7 @@ function options(select, words, chosen) {
 /// A key with its value; an emptied one is removed.
 function fieldAt(path, inner, node, instead = [], called = last(path)) {
   const name = last(path), value = shownText(node);
-  const label = made("span", { title: inner.says || "" }, made("b", {}, String(called)), " ", brief(inner.says));
+  const label = made("span", { title: inner.says || "" }, made("b", {}, String(called)), " ", brief(inner));
   let control;
   if (value === null) control = made("input", { readonly: "", value: word("inText") });
   else if (inner.flag || inner.words && !inner.free) {
@@ -202,8 +204,8 @@ function tableAt(path, place, node, isGroup = false) {
   const foot = made("p", { class: "foot" });
   if (missing.length && !isGroup) foot.append(moreAt(path, missing));
   if (place.keys.components) foot.append(button(word("addComponent"), () => addComponent(path, there, ofComponent), { "data-at": keyOf([...path, "+"]) }));
-  if (foot.childNodes.length) box.append(foot);
   if (apart) box.append(listAt([...path, "components"], place.keys.components, there.get("components")));
+  if (foot.childNodes.length) box.append(foot);
   return box;
 }
 
@@ -215,7 +217,7 @@ function wayAt(path, ways, chosen) {
   for (const [name, inner] of ways) {
     if (inner.way.some(partner => seen.has(partner))) continue;
     seen.add(name);
-    list.push([name, `${name}: ${brief(inner.says)}`]);
+    list.push([name, `${name}: ${brief(inner)}`]);
   }
   fill(select, [["", "–"], ...list], chosen);
   select.addEventListener("change", () => {
@@ -229,7 +231,7 @@ function wayAt(path, ways, chosen) {
 /// Keys that have no value yet.
 function moreAt(path, missing) {
   const select = made("select", { "aria-label": word("moreKeys"), "data-at": keyOf([...path, "…"]) });
-  fill(select, [["", word("moreKeys")], ...missing.filter(([, inner]) => !inner.way).map(([name, inner]) => [name, `${name}: ${brief(inner.says)}`])], "");
+  fill(select, [["", word("moreKeys")], ...missing.filter(([, inner]) => !inner.way).map(([name, inner]) => [name, `${name}: ${brief(inner)}`])], "");
   select.addEventListener("change", () => {
     if (!select.value) return;
     const path_ = [...path, select.value];
@@ -257,7 +259,7 @@ function addComponent(path, there, ofComponent) {
 
 // ---- rows ------------------------------------------------------------------------------------------------------
 
-const heading = (path, inner) => [made("b", {}, String(last(path))), " ", brief(inner.says)];
+const heading = (path, inner) => [made("b", {}, String(last(path))), " ", brief(inner)];
 
 /// A table within a table.
 function groupAt(path, inner, node, instead) {

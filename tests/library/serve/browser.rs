@@ -546,6 +546,15 @@ fn a_budget_is_made_in_the_form() {
         r#"["input","I","components",1,"readings"]"#,
         "2.0, 2.01, 1.990, 2.005",
     );
+    browser.until(&format!("{DOCUMENT}.includes('drift') && !flight"));
+    browser.value("$('form').scrollTop = 0");
+    browser.picture("form");
+    let media = json!({ "features": [{ "name": "prefers-color-scheme", "value": "dark" }] });
+    browser.call("Emulation.setEmulatedMedia", media);
+    set(&mut browser, "#language", "zh");
+    browser.until(&format!("{DOCUMENT}.includes('不确定度') && !flight"));
+    browser.value("form.queue.then(() => true)");
+    browser.picture("form-zh-dark");
     browser.value(r#"document.querySelector('[data-at=\'["correlation","+"]\']').click(), form.queue.then(() => true)"#);
     chooses(&mut browser, r#"["correlation",0,"between"]"#, "V, I");
     chooses(&mut browser, r#"["correlation",0,"r"]"#, "0.25");
@@ -560,15 +569,6 @@ fn a_budget_is_made_in_the_form() {
     ] {
         assert!(text.contains(part), "{part}\n{text}");
     }
-    browser.until(&format!("{DOCUMENT}.includes('drift') && !flight"));
-    browser.value("$('form').scrollTop = 0");
-    browser.picture("form");
-    let media = json!({ "features": [{ "name": "prefers-color-scheme", "value": "dark" }] });
-    browser.call("Emulation.setEmulatedMedia", media);
-    set(&mut browser, "#language", "zh");
-    browser.until(&format!("{DOCUMENT}.includes('不确定度') && !flight"));
-    browser.value("form.queue.then(() => true)");
-    browser.picture("form-zh-dark");
     for row in [r#"["correlation",0]"#, r#"["input","I","components",1]"#] {
         browser.value(&format!(
             "document.querySelector('[data-row=\\'{row}\\'] .remove').click(), form.queue.then(() => true)"

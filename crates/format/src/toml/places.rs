@@ -224,13 +224,13 @@ impl Scan<'_> {
         let (mut path, mut keys) = (Vec::new(), Vec::new());
         while self.events.last()?.kind() == EventKind::SimpleKey {
             let (name, span) = self.key()?;
-            self.into_last_element(&mut path);
+            self.enter_last_element(&mut path);
             keys.push((path.len(), span));
             path.push(Step::Key(name));
         }
         match open.kind() {
             EventKind::ArrayTableOpen => self.next_element(&mut path),
-            _ => self.into_last_element(&mut path),
+            _ => self.enter_last_element(&mut path),
         }
         let close = self.events.pop()?;
         Some(Statement {
@@ -242,7 +242,7 @@ impl Scan<'_> {
     }
 
     /// A header within a list of tables belongs to its last element.
-    fn into_last_element(&self, path: &mut Vec<Step>) {
+    fn enter_last_element(&self, path: &mut Vec<Step>) {
         if let Some((_, count)) = self.lists.iter().find(|(list, _)| list == path) {
             path.push(Step::Index(count - 1));
         }

@@ -511,7 +511,7 @@ fn a_budget_is_made_in_the_form() {
     let field = r#"document.querySelector('[data-at=\'["input","I","value"]\'][aria-invalid]')"#;
     browser.until(field);
     browser.until(&format!(
-        "document.getElementById({field}.getAttribute('aria-describedby')).textContent.includes('plain number')"
+        "document.getElementById({field}.getAttribute('aria-describedby')).textContent.includes('decimal point: 2.0')"
     ));
     chooses(&mut browser, r#"["input","I","value"]"#, "2.0");
     chooses(&mut browser, r#"["input","I","?"]"#, "half_width");

@@ -14,12 +14,14 @@
 //! | `work` | evaluations, audits, calibrations, diagnoses: a document, or what is wrong |
 //! | `lessons` | samples that a class watches, and what they show |
 //! | `exercises` | budgets and recordings in which something is concealed, handed out and graded |
+//! | `forms` | the form beside the text: its entries, and edits of one of them |
 //! | `vocabulary` | what an editor completes |
 //! | `page` | the files of the page |
 
 mod door;
 mod exchange;
 mod exercises;
+mod forms;
 mod lessons;
 mod page;
 mod pages;

@@ -3,7 +3,7 @@
 use super::exchange::Reply;
 
 /// Name, kind and content; the first is the page itself.
-const FILES: [(&str, &str, &str); 8] = [
+const FILES: [(&str, &str, &str); 9] = [
     (
         "",
         "text/html; charset=utf-8",
@@ -33,6 +33,11 @@ const FILES: [(&str, &str, &str); 8] = [
         "complete.js",
         "text/javascript; charset=utf-8",
         include_str!("page/complete.js"),
+    ),
+    (
+        "form.js",
+        "text/javascript; charset=utf-8",
+        include_str!("page/form.js"),
     ),
     (
         "residuals.js",

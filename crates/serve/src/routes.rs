@@ -17,6 +17,7 @@ use gumption_gum::budget;
 
 use super::exchange::{Contents, Reply, opened};
 use super::exercises::Shown;
+use super::forms::{self, Edit};
 use super::lessons::LESSONS;
 use super::page;
 use super::pages::{Ended, Job, Pages};
@@ -50,6 +51,9 @@ struct About {
     /// Whether the file is to be new.
     #[serde(default)]
     new: bool,
+    /// Edits that a form makes.
+    #[serde(default)]
+    edits: Vec<Edit>,
 }
 
 impl Routes {
@@ -93,6 +97,7 @@ impl Routes {
             }
             "vocabulary" => Reply::json(&vocabulary(about.language.into())),
             "open" => self.open(&about),
+            "form" => form(&about, &contents),
             "template" => Reply::json(&json!({ "text": budget::template() })),
             "save" => self.save(&about, &contents),
             "forget" => {
@@ -236,5 +241,23 @@ impl Routes {
                 self.shelf.keep(path, text);
             }
         }
+    }
+}
+
+/// The text that is sent, with the edits of a form, and what it states.
+fn form(about: &About, contents: &Contents) -> Reply {
+    let texts = contents
+        .first()
+        .map(|(_, bytes)| std::str::from_utf8(bytes));
+    let Some(Ok(text)) = texts else {
+        return Reply::status(StatusCode::BAD_REQUEST);
+    };
+    match forms::edited(text, &about.edits) {
+        Ok(text) => Reply::json(&json!({ "text": text, "form": forms::view(&text) })),
+        Err(why) => Reply::because(
+            StatusCode::UNPROCESSABLE_ENTITY,
+            &why,
+            about.language.into(),
+        ),
     }
 }

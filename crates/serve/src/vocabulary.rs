@@ -23,11 +23,26 @@ pub(crate) fn vocabulary(language: Language) -> Value {
 }
 
 /// A place of a file as its schema describes it: what it says, its keys (`keys`), what stands under any name (`any`), and the words that
-/// it takes (`words`). Lists are as their elements; of several forms the keys and words of all.
+/// it takes (`words`), whether it takes numbers or texts of one's own (`free`), whether it is true or false (`flag`), or tables one below the other (`rows`). Lists are as their elements; of several forms the keys and words of all.
 fn place(schema: &Value, language: Language) -> Value {
     let mut place = Map::new();
     if let Some(says) = schema["description"].as_str() {
         place.insert("says".into(), json!(told(says, language)));
+        office(&mut place, says);
+    }
+    let types = schema["type"].to_string();
+    if schema.get("enum").is_none()
+        && ["string", "number", "integer"]
+            .iter()
+            .any(|kind| types.contains(kind))
+    {
+        place.insert("free".into(), json!(true));
+    }
+    if schema["type"] == "boolean" {
+        place.insert("flag".into(), json!(true));
+    }
+    if schema["items"]["properties"].is_object() {
+        place.insert("rows".into(), json!(true));
     }
     let forms = ["oneOf", "anyOf"].iter();
     let forms = forms.filter_map(|key| schema[*key].as_array()).flatten();
@@ -48,6 +63,20 @@ fn place(schema: &Value, language: Language) -> Value {
         place.insert("words".into(), json!(words));
     }
     place.into()
+}
+
+/// What a key is for, by its first words: a way to state an uncertainty, with the keys that belong to it (`way`), or one of those that
+/// go with such a way (`with`).
+fn office(place: &mut Map<String, Value>, says: &str) {
+    let Some((office, _)) = says.split_once(':') else {
+        return;
+    };
+    let named: Vec<&str> = office.split('`').skip(1).step_by(2).collect();
+    if office == "Way" || office.starts_with("Way, with") {
+        place.insert("way".into(), json!(named));
+    } else if office.starts_with("With `") {
+        place.insert("with".into(), json!(named));
+    }
 }
 
 /// Adds what another form of a place has; what both have stays as the first says it.
@@ -80,6 +109,10 @@ mod tests {
         let all = vocabulary(Language::Chinese);
         let input = &all["budget"]["keys"]["input"]["any"]["keys"];
         assert!(input["half_width"].is_object() && input["components"]["keys"]["u"].is_object());
+        assert_eq!(input["certificate"]["way"], json!([]));
+        assert_eq!(input["plus"]["way"], json!(["minus"]));
+        assert_eq!(input["outlier_test"]["with"], json!(["readings"]));
+        assert!(input["dof"].get("way").is_none() && input["components"]["rows"] == true);
         let says = input["unit"]["says"].as_str().expect("words");
         assert!(!says.is_ascii(), "{says}");
         let kinds = input["distribution"]["words"].as_array().expect("words");

@@ -140,6 +140,13 @@ pub(crate) fn format(wish: &Wish) -> Option<&'static Format> {
     gumption_export::named(wish.format.as_deref().unwrap_or("html"))
 }
 
+/// Whether a text is an experiment: one that has no measurand, and says where readings come from.
+pub(crate) fn is_experiment(text: &str) -> bool {
+    let words = ["recording", "[recording", "equations", "procedure"];
+    let says = |line: &str| words.iter().any(|word| line.starts_with(word));
+    !text.contains("[measurand") && text.lines().any(says)
+}
+
 /// Does what a page asks for, with the contents that it sends in place of those on the disk.
 pub(crate) fn done(
     wish: &Wish,
@@ -198,13 +205,9 @@ impl Asked<'_> {
         Found::Nothing(why.in_language(self.language))
     }
 
-    /// Whether the file is an experiment: one that has no measurand, and says where readings come from.
     fn is_experiment(&self) -> bool {
         let bytes = self.files.read(self.path).unwrap_or_default();
-        let text = String::from_utf8_lossy(&bytes);
-        let words = ["recording", "[recording", "equations", "procedure"];
-        let says = |line: &str| words.iter().any(|word| line.starts_with(word));
-        !text.contains("[measurand") && text.lines().any(says)
+        is_experiment(&String::from_utf8_lossy(&bytes))
     }
 
     fn evaluate(&self) -> Result<Found, Found> {

@@ -67,6 +67,16 @@ use jet::Jet;
 use crate::quantity::{Unit, UnitTable};
 use gumption_fault::Fault;
 
+/// The names in a formula, each wherever it stands.
+pub fn names(text: &str) -> Vec<(String, Range<usize>)> {
+    let tokens = lexer::tokens(text, &mut Vec::new()).into_iter();
+    let named = tokens.filter_map(|token| match token.kind {
+        lexer::Kind::Name(name) => Some((name, token.span)),
+        _ => None,
+    });
+    named.collect()
+}
+
 /// A name that a model may use.
 #[derive(Debug, Clone)]
 pub struct Symbol {

@@ -1,13 +1,18 @@
 //! Files in TOML that people write: their tables, each defined once, and every fault at its place.
 
+mod edit;
 pub mod faults;
 mod file;
+mod places;
 mod strings;
 mod syntax;
 mod table;
 mod values;
+pub mod writing;
 
+pub use edit::{Content, Unedited, spliced};
 pub use file::{decoded, tables_of};
+pub use places::{Form, Places, Statement, Step, Written};
 pub use strings::StringMap;
 pub use syntax::{elsewhere, leaves_the_rest, syntax_faults, without_comma};
 pub use table::{

@@ -335,6 +335,8 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
     let bare = text.replace(',', "");
     if text.contains(',') && split_amount(&bare).is_some() {
         fault.help(without_comma(text.trim(), "\""))
+    } else if text.contains(',') && bare.trim().parse::<f64>().is_ok() {
+        fault.help(without_comma(text.trim(), ""))
     } else if let Some((number, rest)) = text
         .split_once(['±', '('])
         .filter(|(n, _)| !n.trim().is_empty())

@@ -34,7 +34,6 @@ pub mod saved;
 mod series;
 pub mod tables;
 pub mod variants;
-pub mod writing;
 
 pub use analysis::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
 pub use batch::{Batch, BatchFile, RowReader};

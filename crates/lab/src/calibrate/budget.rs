@@ -15,7 +15,7 @@ use crate::experiment::{Doubt, Scope};
 use gumption_core::distribution::{Distribution, Normal, Uniform, Univariate};
 use gumption_core::quantity::Unit;
 use gumption_fault::language::Language;
-use gumption_gum::budget::writing::{key, quoted};
+use gumption_format::toml::writing::{key, quoted};
 use gumption_gum::budget::{Certificate, Evaluation};
 
 /// More errors of one cause than these are summed up as one, of normal distribution.

@@ -6,7 +6,7 @@ use super::case::{Blocks, Case, Column, Data, NoiseClaim, NoiseOrigin, Role};
 use super::simulate::{heading, recorded};
 use crate::recording::{Heading, text_of};
 use gumption_format::files::Files;
-use gumption_gum::budget::writing::{key, quoted};
+use gumption_format::toml::writing::{key, quoted};
 
 /// Name of the recording beside the improved case.
 const RECORDING: &str = "recording.csv";

@@ -15,7 +15,7 @@ use super::fit;
 use super::omitted::Omitted;
 use super::run::Diagnosis;
 use gumption_core::quantity::Unit;
-use gumption_gum::budget::writing::{key, quoted};
+use gumption_format::toml::writing::{key, quoted};
 
 /// Lines that are smaller than this part of every parameter's u are left out.
 const MATTERS: f64 = 0.01;

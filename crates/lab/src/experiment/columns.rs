@@ -14,7 +14,7 @@ use crate::recording::{Content, Heading, Request, headings, text_of};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, Rejection, nearest, say};
 use gumption_format::toml::Stated;
-use gumption_gum::budget::writing::key;
+use gumption_format::toml::writing::key;
 
 /// A column of the recording.
 #[derive(Debug, Clone)]

@@ -36,6 +36,7 @@ function speak(code) {
   fillFormats();
   fillLessons($("lesson").value);
   fillExercises($("exercise-kind").value);
+  formStale();
 }
 
 function say(text) { $("status").textContent = text; }
@@ -69,6 +70,7 @@ function put(content) {
   state.crlf = /\r\n/.test(content);
   text.value = content.replaceAll("\r\n", "\n");
   mark([]);
+  formStale();
 }
 
 /// Line numbers, and the layer below the text that underlines faults and says them at the end of their line.
@@ -124,6 +126,8 @@ function list(faults, others) {
     go.type = "button";
     go.textContent = `${word("line", fault.line)}: ${fault.message}`;
     go.addEventListener("click", () => {
+      if (fieldOfFault(fault)) return;
+      if (form.on) showView(false);
       text.focus();
       text.setSelectionRange(fault.from, Math.max(fault.to, fault.from));
       text.scrollTop = (fault.line - 4) * parseFloat(getComputedStyle(text).lineHeight);
@@ -264,7 +268,7 @@ async function watch(own) {
 function received(found, ms, task) {
   if (found.stopped) { say(word("stopped")); return; }
   const faults = found.faults || [];
-  if (!APART.includes(task)) { mark(faults); list(faults, found.others); }
+  if (!APART.includes(task)) { mark(faults); list(faults, found.others); formFaults(faults); }
   $("elsewhere").hidden = ["see", "lesson"].includes(task) || state.path === null || (task === "exercise" && practice.kind === "budget");
   $("class").hidden = task !== "lesson";
   if (task !== "lesson") $("lesson").value = "";
@@ -459,14 +463,17 @@ function question(words, { yes, other = null, name = null }) {
 }
 
 async function create() {
-  if (await question(word("newName"), { yes: word("create"), name: "budget.toml" }) !== "yes") return;
+  const answer = await question(word("newName"), { yes: word("create"), other: word("emptyForm"), name: "budget.toml" });
+  if (answer === "") return;
   let path = $("name").value.trim();
   if (!path.endsWith(".toml")) path += ".toml";
-  const template = await (await ask("template")).json();
+  const isEmpty = answer === "other";
+  const template = isEmpty ? { text: "" } : await (await ask("template")).json();
   const response = await ask("save", { path, new: true }, [["text", template.text]]);
   if (!response.ok) { say(await told(response)); return; }
   await refresh();
   await open(path);
+  if (isEmpty) { form.focus = keyOf(["title"]); showView(true); }
 }
 
 /// Whether the text may be left for another one.
@@ -521,7 +528,7 @@ async function drop(dropped) {
 
 // ---- hands -----------------------------------------------------------------------------------------------------
 
-text.addEventListener("input", () => { mark([]); soon(); });
+text.addEventListener("input", () => { mark([]); formStale(true); soon(); });
 text.addEventListener("scroll", scrolled);
 $("file").addEventListener("change", choose);
 $("format").addEventListener("change", download);

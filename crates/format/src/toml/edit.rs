@@ -1,0 +1,695 @@
+//! Edits of one place of a TOML text, which leave every other byte as it is.
+//!
+//! An edit is made in the text at the places of [`Places`], and is then read: unless the text says what it said before with
+//! just that change, there is no edit. So a form and a text are two views of one file.
+
+use std::fmt::Write;
+use std::ops::Range;
+
+use toml::{Table, Value};
+
+use super::places::{Form, Places, Statement, Step, Written};
+use super::writing::key as written_key;
+
+/// What is written where nothing was.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Content {
+    /// A value as it is to be written.
+    Token(String),
+    /// A table with its entries.
+    Table(Vec<(String, Content)>),
+    /// A list.
+    List(Vec<Content>),
+}
+
+/// There is no edit of the kind at that place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Unedited;
+
+/// Bytes of a text with what takes their place.
+type Splices = Vec<(Range<usize>, String)>;
+
+impl Content {
+    /// Between braces or brackets.
+    fn inline(&self) -> String {
+        match self {
+            Content::Token(token) => token.clone(),
+            Content::Table(entries) if entries.is_empty() => "{}".into(),
+            Content::Table(entries) => {
+                let entries = entries.iter();
+                let entries = entries
+                    .map(|(key, content)| format!("{} = {}", written_key(key), content.inline()));
+                format!("{{ {} }}", entries.collect::<Vec<_>>().join(", "))
+            }
+            Content::List(elements) => {
+                let elements: Vec<String> = elements.iter().map(Content::inline).collect();
+                format!("[{}]", elements.join(", "))
+            }
+        }
+    }
+
+    /// As the value of a key of its own line: tables in a list stand one below the other.
+    fn of_line(&self) -> String {
+        match self {
+            Content::List(rows) if rows.iter().any(|row| matches!(row, Content::Table(_))) => {
+                let rows = rows.iter().map(|row| format!("    {},\n", row.inline()));
+                format!("[\n{}]", rows.collect::<String>())
+            }
+            other => other.inline(),
+        }
+    }
+
+    /// Under headers of its own; `name` as it is written in a header.
+    fn sections(&self, name: &str, out: &mut String) {
+        let lines = |entries: &[(String, Content)], out: &mut String| {
+            for (key, content) in entries {
+                let _ = writeln!(out, "{} = {}", written_key(key), content.of_line());
+            }
+        };
+        let is_table = |content: &Content| matches!(content, Content::Table(_));
+        match self {
+            Content::Table(rows)
+                if !rows.is_empty() && rows.iter().all(|(_, row)| is_table(row)) =>
+            {
+                for (key, row) in rows {
+                    row.sections(&format!("{name}.{}", written_key(key)), out);
+                }
+            }
+            Content::Table(entries) => {
+                let _ = writeln!(out, "\n[{name}]");
+                lines(entries, out);
+            }
+            Content::List(rows) if !rows.is_empty() && rows.iter().all(is_table) => {
+                for row in rows {
+                    let _ = writeln!(out, "\n[[{name}]]");
+                    if let Content::Table(entries) = row {
+                        lines(entries, out);
+                    }
+                }
+            }
+            other => {
+                let _ = writeln!(out, "{name} = {}", other.inline());
+            }
+        }
+    }
+
+    /// Whether it is tables, which may stand under headers.
+    fn is_rows(&self) -> bool {
+        match self {
+            Content::Table(_) => true,
+            Content::List(rows) => rows.iter().all(|row| matches!(row, Content::Table(_))),
+            Content::Token(_) => false,
+        }
+    }
+
+    /// As the content of what has these steps before it.
+    fn within(self, steps: &[Step]) -> Content {
+        steps.iter().rev().fold(self, |content, step| match step {
+            Step::Key(key) => Content::Table(vec![(key.clone(), content)]),
+            Step::Index(_) => Content::List(vec![content]),
+        })
+    }
+
+    fn value(&self) -> Option<Value> {
+        let text = format!("x = {}", self.inline());
+        text.parse::<Table>().ok()?.remove("x")
+    }
+}
+
+impl Places<'_> {
+    /// The text with a value at a path, in place of the one that is there or as a new one.
+    ///
+    /// # Errors
+    /// The path cannot be written there.
+    pub fn set(&self, path: &[Step], content: Content) -> Result<String, Unedited> {
+        let mut wanted = self.tree()?;
+        put(&mut wanted, path, content.value().ok_or(Unedited)?).ok_or(Unedited)?;
+        let wanted = [wanted];
+        let splices = match self.value(path) {
+            Some(there) => vec![(there.span.clone(), content.inline())],
+            None => self.inserted(path, content).ok_or(Unedited)?,
+        };
+        self.made(splices, &wanted)
+    }
+
+    /// The text without what a path names. Comments on lines of their own stay.
+    ///
+    /// # Errors
+    /// There is nothing.
+    pub fn remove(&self, path: &[Step]) -> Result<String, Unedited> {
+        let mut wanted = self.tree()?;
+        taken(&mut wanted, path).ok_or(Unedited)?;
+        let wanted = with_emptied(wanted, path);
+        let splices = match self.inline_removal(path) {
+            Some(range) => vec![(range, String::new())],
+            None => self.lines_below(path),
+        };
+        self.made(splices, &wanted)
+    }
+
+    /// The text with another name for the last key of a path.
+    ///
+    /// # Errors
+    /// There is no such key, or the name is taken.
+    pub fn rename(&self, path: &[Step], name: &str) -> Result<String, Unedited> {
+        let mut wanted = self.tree()?;
+        let (last, table) = path.split_last().ok_or(Unedited)?;
+        let value = taken(&mut wanted, path).ok_or(Unedited)?;
+        let new = [table, &[Step::Key(name.to_owned())]].concat();
+        if !matches!(last, Step::Key(_)) || at(&mut wanted, &new).is_some() {
+            return Err(Unedited);
+        }
+        put(&mut wanted, &new, value).ok_or(Unedited)?;
+        let written = self.keys().into_iter().filter(|(named, _)| named == path);
+        let splices = written.map(|(_, place)| (place, written_key(name)));
+        let splices = splices.collect();
+        self.made(splices, &[wanted])
+    }
+
+    /// The text with the value of one path at another.
+    ///
+    /// # Errors
+    /// There is nothing, or it cannot be written there.
+    pub fn moved(&self, from: &[Step], to: &[Step]) -> Result<String, Unedited> {
+        let there = self.value(from).ok_or(Unedited)?;
+        let token = Content::Token(self.text[there.span.clone()].to_owned());
+        let copied = self.set(to, token)?;
+        Places::of(&copied).ok_or(Unedited)?.remove(from)
+    }
+
+    fn tree(&self) -> Result<Value, Unedited> {
+        let table = self.text.parse::<Table>();
+        table.map(Value::Table).map_err(|_| Unedited)
+    }
+
+    /// The edited text, where it says what is wanted.
+    fn made(&self, splices: Splices, wanted: &[Value]) -> Result<String, Unedited> {
+        let text = spliced(self.text, splices);
+        let found = text.parse::<Table>().map(Value::Table);
+        match found.is_ok_and(|found| wanted.contains(&found)) {
+            true => Ok(text),
+            false => Err(Unedited),
+        }
+    }
+
+    /// The element or the neighbouring entries of brackets or braces that a path names, with a comma.
+    fn inline_removal(&self, path: &[Step]) -> Option<Range<usize>> {
+        let (last, parent) = path.split_last()?;
+        let container = self.value(parent)?;
+        let inside = inside(container);
+        let (from, to, spans) = match (&container.form, last) {
+            (Form::List(elements), Step::Index(at)) => (*at, *at, spans(elements)),
+            (Form::Table(inner), Step::Key(_)) => {
+                let named = |one: &Statement| one.path.starts_with(path);
+                let (from, to) = (
+                    inner.iter().position(named)?,
+                    inner.iter().rposition(named)?,
+                );
+                (from, to, inner.iter().map(|one| one.span.clone()).collect())
+            }
+            _ => return None,
+        };
+        let (start, end) = (spans.get(from)?.start, spans.get(to)?.end);
+        Some(match (from.checked_sub(1), spans.get(to + 1)) {
+            // Up to where the next begins, of the first; else from the end of the one before.
+            (None, Some(next)) => start..next.start,
+            (Some(before), _) => spans[before].end..end,
+            (None, None) => inside,
+        })
+    }
+
+    /// The lines of all statements below a path.
+    fn lines_below(&self, path: &[Step]) -> Splices {
+        let mut ranges: Vec<Range<usize>> = Vec::new();
+        let mut has_header = false;
+        for statement in self.below(path) {
+            has_header |= statement.is_header();
+            let lines = self.line_start(statement.span.start)..self.line_end(statement.span.end);
+            match ranges.last_mut() {
+                Some(last) if self.text[last.end..lines.start].trim().is_empty() => {
+                    last.end = lines.end;
+                }
+                _ => ranges.push(lines),
+            }
+        }
+        if has_header {
+            // Of the empty lines around a section one remains.
+            for range in &mut ranges {
+                let before = &self.text[..range.start];
+                let is_apart =
+                    before.is_empty() || before.ends_with("\n\n") || before.ends_with("\n\r\n");
+                let rest = &self.text[range.end..];
+                let empty = rest
+                    .find(|c: char| !c.is_whitespace())
+                    .unwrap_or(rest.len());
+                let empty = rest[..empty].rfind('\n').map_or(0, |end| end + 1);
+                if is_apart {
+                    range.end += empty;
+                }
+            }
+        }
+        ranges
+            .into_iter()
+            .map(|range| (range, String::new()))
+            .collect()
+    }
+
+    /// A new value.
+    fn inserted(&self, path: &[Step], content: Content) -> Option<Splices> {
+        // The longest part of the path that is there.
+        let there = (0..path.len()).rev().find(|length| {
+            let part = &path[..*length];
+            part.is_empty() || self.value(part).is_some() || self.below(part).next().is_some()
+        })?;
+        let (parent, missing) = path.split_at(there);
+        let (first, rest) = missing.split_first()?;
+        let content = content.within(rest);
+        if let Some(container) = self.value(parent) {
+            return self.in_brackets(container, first, &content);
+        }
+        let Step::Key(key) = first else {
+            return Some(self.as_section(parent, parent, &Content::List(vec![content])));
+        };
+        let line = format!("{} = {}", written_key(key), content.of_line());
+        let end = self.body_end(parent);
+        if let (Some((at, prefix)), None) = (self.dotted(parent), end) {
+            let line = format!("{prefix}{line}");
+            return Some(vec![self.line(self.line_end(at), &line)]);
+        }
+        if content.is_rows() && self.has_rows_under_headers(parent) {
+            let whole = [parent, std::slice::from_ref(first)].concat();
+            return Some(self.as_section(parent, &whole, &content));
+        }
+        if let Some(end) = end {
+            return Some(vec![self.line(end, &line)]);
+        }
+        // Only parts of the table have headers: its own goes before them.
+        let first = self.below(parent).find(|one| one.is_header())?;
+        let start = self.line_start(first.span.start);
+        let header = format!("[{}]", self.name(parent));
+        let text = format!("{header}{0}{line}{0}{0}", self.newline());
+        Some(vec![(start..start, text)])
+    }
+
+    /// Whether tables within a table have headers of their own: those at the top, and those of named rows that have them already.
+    fn has_rows_under_headers(&self, table: &[Step]) -> bool {
+        let header = |one: &Statement| one.is_header() && one.path.len() > table.len();
+        table.is_empty() || table.len() == 1 && self.below(table).any(header)
+    }
+
+    /// An entry or element behind the last one within braces or brackets.
+    fn in_brackets(&self, container: &Written, step: &Step, content: &Content) -> Option<Splices> {
+        let inside = inside(container);
+        let (written, spans) = match (&container.form, step) {
+            (Form::List(elements), Step::Index(at)) if *at == elements.len() => {
+                (content.inline(), spans(elements))
+            }
+            (Form::Table(inner), Step::Key(key)) => (
+                format!("{} = {}", written_key(key), content.inline()),
+                inner.iter().map(|one| one.span.clone()).collect(),
+            ),
+            _ => return None,
+        };
+        let Some(last) = spans.last() else {
+            let is_table = matches!(container.form, Form::Table(_));
+            let space = if is_table { " " } else { "" };
+            return Some(vec![(
+                inside.start..inside.start,
+                format!("{space}{written}{space}"),
+            )]);
+        };
+        let start = self.line_start(last.start);
+        let indent = &self.text[start..last.start];
+        // Elements with lines of their own get one more.
+        if !indent.trim().is_empty() || start < container.span.start {
+            return Some(vec![(last.end..last.end, format!(", {written}"))]);
+        }
+        let end = self.line_end(last.end).min(inside.end);
+        let rest = self.text[last.end..inside.end].trim_start();
+        let row = format!("{indent}{written}");
+        let (comma, behind) = match rest.starts_with(',') {
+            true => (None, ","),
+            false => (Some((last.end..last.end, ",".to_owned())), ""),
+        };
+        let (at, row) = match self.text[..end].ends_with('\n') {
+            true => (end, format!("{row}{behind}{}", self.newline())),
+            false => {
+                let end = self.text[..end].trim_end_matches([' ', '\t']).len();
+                (end, format!("{}{row}{behind}", self.newline()))
+            }
+        };
+        Some(comma.into_iter().chain([(at..at, row)]).collect())
+    }
+
+    /// The last line with dotted keys that begins a table, with what stands before the last key there.
+    fn dotted(&self, table: &[Step]) -> Option<(usize, String)> {
+        let longer = |one: &&Statement| {
+            !one.is_header()
+                && one.path.len() > table.len()
+                && one.keys.first().is_some_and(|(at, _)| *at < table.len())
+        };
+        let line = self.below(table).filter(longer).last()?;
+        let mut keys = line.keys.iter();
+        let last = keys.find(|(at, _)| *at == table.len())?;
+        let prefix = &self.text[line.span.start..last.1.start];
+        Some((line.span.end, prefix.to_owned()))
+    }
+
+    /// Behind the last line of its own that a header, or the top of the file, has.
+    fn body_end(&self, table: &[Step]) -> Option<usize> {
+        let header = self
+            .statements
+            .iter()
+            .position(|one| one.is_header() && one.path == table);
+        let from = match header {
+            Some(at) => at + 1,
+            None if table.is_empty() => 0,
+            None => return None,
+        };
+        let own = self.statements[from..]
+            .iter()
+            .take_while(|one| !one.is_header());
+        let last = own.last().or(header.and_then(|at| self.statements.get(at)));
+        Some(last.map_or(0, |last| self.line_end(last.span.end)))
+    }
+
+    /// Sections behind those of their kind, or at the end of the text.
+    fn as_section(&self, kind: &[Step], path: &[Step], content: &Content) -> Splices {
+        let mut written = String::new();
+        content.sections(&self.name(path), &mut written);
+        let last = match kind.is_empty() {
+            true => None,
+            false => self.below(kind).last(),
+        };
+        let at = last.map_or(self.text.len(), |last| self.line_end(last.span.end));
+        let before = &self.text[..at];
+        let written = match before.is_empty() {
+            true => written.trim_start().to_owned(),
+            false => written,
+        };
+        let apart = if before.is_empty() || before.ends_with('\n') {
+            ""
+        } else {
+            "\n"
+        };
+        let text = format!("{apart}{written}").replace('\n', self.newline());
+        vec![(at..at, text)]
+    }
+
+    /// A line of its own at the end of another.
+    fn line(&self, at: usize, line: &str) -> (Range<usize>, String) {
+        let before = &self.text[..at];
+        let apart = if before.is_empty() || before.ends_with('\n') {
+            ""
+        } else {
+            "\n"
+        };
+        // Headers that followed at once keep an empty line before them.
+        let is_first = at == 0 && self.text.trim_start().starts_with('[');
+        let behind = if is_first { "\n\n" } else { "\n" };
+        let text = format!("{apart}{line}{behind}").replace('\n', self.newline());
+        (at..at, text)
+    }
+
+    fn newline(&self) -> &'static str {
+        if self.text.contains("\r\n") {
+            "\r\n"
+        } else {
+            "\n"
+        }
+    }
+
+    /// A path as a header names it.
+    fn name(&self, path: &[Step]) -> String {
+        let keys = path.iter().filter_map(|step| match step {
+            Step::Key(key) => Some(written_key(key)),
+            Step::Index(_) => None,
+        });
+        keys.collect::<Vec<_>>().join(".")
+    }
+
+    fn line_start(&self, at: usize) -> usize {
+        self.text[..at].rfind('\n').map_or(0, |end| end + 1)
+    }
+
+    fn line_end(&self, at: usize) -> usize {
+        let end = self.text[at..].find('\n');
+        end.map_or(self.text.len(), |end| at + end + 1)
+    }
+}
+
+fn spans(elements: &[Written]) -> Vec<Range<usize>> {
+    elements.iter().map(|one| one.span.clone()).collect()
+}
+
+/// Between the brackets.
+fn inside(container: &Written) -> Range<usize> {
+    container.span.start + 1..container.span.end - 1
+}
+
+/// A text with other bytes at some places.
+pub fn spliced(text: &str, mut splices: Vec<(Range<usize>, String)>) -> String {
+    splices.sort_by_key(|(range, _)| range.start);
+    let (mut out, mut from) = (String::with_capacity(text.len()), 0);
+    for (range, new) in splices {
+        out += text.get(from..range.start).unwrap_or_default();
+        out += &new;
+        from = range.end;
+    }
+    out + text.get(from..).unwrap_or_default()
+}
+
+/// The value at a path of a tree.
+fn at<'v>(tree: &'v mut Value, path: &[Step]) -> Option<&'v mut Value> {
+    path.iter()
+        .try_fold(tree, |there, step| match (there, step) {
+            (Value::Table(table), Step::Key(key)) => table.get_mut(key),
+            (Value::Array(list), Step::Index(at)) => list.get_mut(*at),
+            _ => None,
+        })
+}
+
+/// Writes a value into a tree, with the tables and lists on the way to it.
+fn put(tree: &mut Value, path: &[Step], value: Value) -> Option<()> {
+    let Some((first, rest)) = path.split_first() else {
+        *tree = value;
+        return Some(());
+    };
+    let empty = match rest.first() {
+        Some(Step::Index(_)) => Value::Array(Vec::new()),
+        _ => Value::Table(Table::new()),
+    };
+    let next = match (tree, first) {
+        (Value::Table(table), Step::Key(key)) => table.entry(key.clone()).or_insert(empty),
+        (Value::Array(list), Step::Index(at)) => {
+            if *at == list.len() {
+                list.push(empty);
+            }
+            list.get_mut(*at)?
+        }
+        _ => return None,
+    };
+    put(next, rest, value)
+}
+
+/// Takes a value out of a tree.
+fn taken(tree: &mut Value, path: &[Step]) -> Option<Value> {
+    let (last, parent) = path.split_last()?;
+    match (at(tree, parent)?, last) {
+        (Value::Table(table), Step::Key(key)) => table.remove(key),
+        (Value::Array(list), Step::Index(at)) => (*at < list.len()).then(|| list.remove(*at)),
+        _ => None,
+    }
+}
+
+/// A tree from which something was taken, and those without the tables that it left empty: without a header of its own, a table goes
+/// with the last that it held.
+fn with_emptied(tree: Value, path: &[Step]) -> Vec<Value> {
+    let mut all = vec![tree];
+    for length in (1..path.len()).rev() {
+        let mut next = all[all.len() - 1].clone();
+        let emptied = at(&mut next, &path[..length]).is_some_and(|there| match there {
+            Value::Table(table) => table.is_empty(),
+            Value::Array(list) => list.is_empty(),
+            _ => false,
+        });
+        if !emptied || taken(&mut next, &path[..length]).is_none() {
+            break;
+        }
+        all.push(next);
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn path(text: &str) -> Vec<Step> {
+        let step = |part: &str| part.parse().map_or(Step::Key(part.into()), Step::Index);
+        text.split('.').map(step).collect()
+    }
+
+    fn token(text: &str) -> Content {
+        Content::Token(text.into())
+    }
+
+    fn set(text: &str, at: &str, content: Content) -> String {
+        Places::of(text).unwrap().set(&path(at), content).unwrap()
+    }
+
+    #[test]
+    fn a_value_is_replaced_where_it_stands() {
+        let text = "# c\n[input] # in\nx = { value = 1.0, u=2 } # d\n";
+        assert_eq!(
+            set(text, "input.x.value", token("1.50")),
+            "# c\n[input] # in\nx = { value = 1.50, u=2 } # d\n"
+        );
+    }
+
+    #[test]
+    fn a_new_value_stands_as_its_neighbours() {
+        let empty = || Content::Table(Vec::new());
+        for (text, at, content, edited) in [
+            ("", "title", token("'T'"), "title = 'T'\n"),
+            ("", "input.x.u", token("1"), "[input.x]\nu = 1\n"),
+            (
+                "[input]\nx = {}\n",
+                "title",
+                token("1"),
+                "title = 1\n\n[input]\nx = {}\n",
+            ),
+            (
+                "a = 1 # one\n\n[input]\n",
+                "b",
+                token("2"),
+                "a = 1 # one\nb = 2\n\n[input]\n",
+            ),
+            (
+                "[input]\nx = {}\n",
+                "input.x.u",
+                token("1"),
+                "[input]\nx = { u = 1 }\n",
+            ),
+            (
+                "[input]\nx = {u=1}\n",
+                "input.y",
+                empty(),
+                "[input]\nx = {u=1}\ny = {}\n",
+            ),
+            (
+                "[input.x]\nu = 1\n\n# end\n",
+                "input.y",
+                empty(),
+                "[input.x]\nu = 1\n\n[input.y]\n\n# end\n",
+            ),
+            (
+                "[input.x]\nu = 1",
+                "input.x.v",
+                token("2"),
+                "[input.x]\nu = 1\nv = 2\n",
+            ),
+            (
+                "input.x.u = 1\ntitle = 2\n",
+                "input.x.v",
+                token("3"),
+                "input.x.u = 1\ninput.x.v = 3\ntitle = 2\n",
+            ),
+            (
+                "input.x.u = 1\ntitle = 2\n",
+                "input.y",
+                empty(),
+                "input.x.u = 1\ninput.y = {}\ntitle = 2\n",
+            ),
+            (
+                "[a.b]\nc = 1\n",
+                "a.d",
+                token("2"),
+                "[a]\nd = 2\n\n[a.b]\nc = 1\n",
+            ),
+            ("x = [1, 2]\n", "x.2", token("3"), "x = [1, 2, 3]\n"),
+            ("x = []\n", "x.0", token("3"), "x = [3]\n"),
+            (
+                "x = [\n  1, # one\n  2 # two\n]\n",
+                "x.2",
+                token("3"),
+                "x = [\n  1, # one\n  2, # two\n  3\n]\n",
+            ),
+            (
+                "x = [\n  1, # one\n]\n",
+                "x.1",
+                token("3"),
+                "x = [\n  1, # one\n  3,\n]\n",
+            ),
+            (
+                "x = 1\r\n[i]\r\n",
+                "i.y",
+                token("3"),
+                "x = 1\r\n[i]\r\ny = 3\r\n",
+            ),
+            (
+                "a = 1\n",
+                "list.0.r",
+                token("1"),
+                "a = 1\n\n[[list]]\nr = 1\n",
+            ),
+            (
+                "[[list]]\nr = 1\n[b]\n",
+                "list.1",
+                empty(),
+                "[[list]]\nr = 1\n\n[[list]]\n[b]\n",
+            ),
+            (
+                "[i.x]\n",
+                "i.x.rows.0.u",
+                token("1"),
+                "[i.x]\nrows = [\n    { u = 1 },\n]\n",
+            ),
+        ] {
+            let found = Places::of(text).unwrap().set(&path(at), content);
+            assert_eq!(found.as_deref(), Ok(edited), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_removed_leaves_its_neighbours() {
+        for (text, at, edited) in [
+            ("a = 1 # one\nb = 2\n", "a", "b = 2\n"),
+            ("x = [1, 2, 3]", "x.0", "x = [2, 3]"),
+            ("x = [1, 2, 3]", "x.1", "x = [1, 3]"),
+            ("x = [1, 2, 3,]", "x.2", "x = [1, 2,]"),
+            ("x = { a = 1, b.c = 2 }", "x.b", "x = { a = 1 }"),
+            ("x = { a = 1 }", "x.a", "x = {}"),
+            ("[i.x]\nu = 1\n\n[o]\n\n[i.x.c]\nk = 2\n", "i.x", "[o]\n\n"),
+            (
+                "[[l]]\nr = 1\n\n# two\n[[l]]\nr = 2\n",
+                "l.0",
+                "# two\n[[l]]\nr = 2\n",
+            ),
+            ("[i.x]\nc.k = 2\nc.U = 1\n", "i.x.c", "[i.x]\n"),
+            ("a = 1\n\n[x]\nb = 1\n\n[y]\n", "x", "a = 1\n\n[y]\n"),
+        ] {
+            let found = Places::of(text).unwrap().remove(&path(at));
+            assert_eq!(found.as_deref(), Ok(edited), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_name_is_changed_wherever_it_is_written() {
+        let text = "[i.x]\nu = 1\n[i.x.c]\nx = 2\n[o]\nx = { x = 1 }\n";
+        let renamed = |at: &str, name: &str| Places::of(text).unwrap().rename(&path(at), name);
+        let other = text.replace("i.x", "i.\"x y\"");
+        assert_eq!(renamed("i.x", "x y"), Ok(other));
+        assert_eq!(renamed("o.x.x", "z"), Ok(text.replace("{ x", "{ z")));
+        assert_eq!(renamed("o.x.y", "z"), Err(Unedited));
+    }
+
+    #[test]
+    fn what_would_say_something_else_is_no_edit() {
+        let places = Places::of("a = 1\n").unwrap();
+        assert_eq!(places.set(&path("b"), token("1\nc = 2")), Err(Unedited));
+        assert_eq!(places.set(&path("a.b"), token("1")), Err(Unedited));
+        assert_eq!(places.rename(&path("b"), "c"), Err(Unedited));
+        assert_eq!(Places::of("a = "), None);
+    }
+}

@@ -297,11 +297,11 @@ impl Claimed {
         let Footer {
             u_c,
             nu_eff,
-            k,
             expanded,
             ..
         } = &self.footer;
-        let whole = [u_c, nu_eff, k, expanded];
+        // k alone is a rule, and no result.
+        let whole = [u_c, nu_eff, expanded];
         whole.iter().all(|figure| figure.is_none())
             && self.is_summary()
             && self

@@ -16,20 +16,51 @@ pub(crate) fn parse(text: &str) -> Option<Unit> {
     TABLE
         .parse(&written)
         .or_else(|_| TABLE.parse(text))
-        .or_else(|_| TABLE.parse(&with_powers(&written)))
         .ok()
+        .or_else(|| TABLE.parse(&with_powers(&written)?).ok())
 }
 
-/// `kg/m3` as sheets write it: a digit behind a letter is a power.
-fn with_powers(text: &str) -> String {
-    let mut out = String::with_capacity(text.len() + 2);
-    for c in text.chars() {
-        if c.is_ascii_digit() && out.ends_with(char::is_alphabetic) {
-            out.push('^');
+/// `kg/m3` as sheets write it: a power behind a known unit. A whole text of one letter and a digit is the name of a
+/// quantity (`m1`, `V1`), but for areas and volumes (`m2`, `cm3`) and what is usual for itself (`s-1`, `K-1`).
+fn with_powers(text: &str) -> Option<String> {
+    let factors: Vec<&str> = text.split_inclusive(['/', '·', '*', ' ']).collect();
+    let is_alone = factors.len() == 1;
+    let mut powers = 0;
+    let written = factors.iter().map(|factor| {
+        let end = factor.trim_end_matches(['/', '·', '*', ' ']).len();
+        let (factor, sign) = factor.split_at(end);
+        let name = factor.trim_end_matches(|c: char| c.is_ascii_digit());
+        let unit = name.trim_end_matches(['-', '−']);
+        let power = &factor[unit.len()..];
+        let is_bare = power.is_empty() || unit.is_empty() || unit.ends_with('^');
+        if is_bare {
+            return Some(format!("{factor}{sign}"));
         }
-        out.push(c);
-    }
-    out
+        TABLE.parse(unit).ok()?;
+        let is_inverse = name.len() > unit.len();
+        let is_usual = if is_inverse {
+            ["s", "K", "m"].iter().any(|base| is_of(unit, base))
+        } else {
+            matches!(power, "2" | "3") && is_of(unit, "m")
+        };
+        // An exponent is one digit, and no unit is written to the power of 0 or 1.
+        let is_power = power.chars().count() == 1 + usize::from(is_inverse)
+            && (is_inverse || !power.starts_with(['0', '1']));
+        powers += 1;
+        (is_power && (!is_alone || is_usual))
+            .then(|| format!("{unit}^{}{sign}", power.replace('−', "-")))
+    });
+    let written: Option<String> = written.collect();
+    written.filter(|_| powers > 0)
+}
+
+/// Whether a unit is one of the quantity that this one is a unit of.
+fn is_of(unit: &str, base: &str) -> bool {
+    let both = TABLE.parse(unit).ok().zip(TABLE.parse(base).ok());
+    both.is_some_and(|(unit, base)| {
+        let (unit, base) = (unit.difference(), base.difference());
+        unit.conversion_to(&base).is_some()
+    })
 }
 
 /// What a number in `from` is multiplied by to be one in `to`, as a difference; `None` where they do not agree.
@@ -61,6 +92,13 @@ mod tests {
     fn powers_need_no_sign() {
         assert_eq!(factor("kg/m3", "g/cm^3"), Some(1e-3));
         assert_eq!(factor("mm2", "mm²"), Some(1.0));
-        assert!(parse("m_3").is_none() && parse("x1").is_none());
+        assert_eq!(factor("cm3", "mL"), Some(1.0));
+        assert!(parse("s-1").is_some() && parse("m s-2").is_some() && parse("W/m2").is_some());
+        assert!(parse("J kg-1 K-1").is_some() && parse("N/mm2").is_some());
+        for name in [
+            "m_3", "x1", "m1", "V1", "A2", "s1", "m12", "W2", "g3", "K1/K2", "V10", "V-1",
+        ] {
+            assert!(parse(name).is_none(), "{name}");
+        }
     }
 }

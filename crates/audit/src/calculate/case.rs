@@ -115,6 +115,10 @@ fn line(claimed: &Claimed, row: &Row, derivative: Option<f64>) -> Line {
         c = derivative * to_y;
         rest = 1.0;
     }
+    if row.stated == Stated::Nothing && c * rest != 0.0 {
+        // The contribution has the coefficient in it.
+        u /= (c * rest).abs();
+    }
     let given = row
         .dof
         .as_ref()

@@ -17,4 +17,4 @@ pub use calculation::{
 };
 pub use case::{Case, factors};
 pub use known::{RANGE, range_factor, shape_of};
-pub(crate) use model::formula;
+pub(crate) use model::{formula, unit_of_y};

@@ -7,7 +7,7 @@ use crate::claim::{Claimed, Row};
 use crate::units;
 
 /// The unit of the result itself, which its uncertainty need not be in.
-pub(super) fn unit_of_y(claimed: &Claimed) -> &str {
+pub(crate) fn unit_of_y(claimed: &Claimed) -> &str {
     let own = claimed.footer.y.as_ref().map_or("", |y| y.unit.as_str());
     if own.is_empty() { &claimed.unit } else { own }
 }

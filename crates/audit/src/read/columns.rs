@@ -104,13 +104,13 @@ enum How {
 #[rustfmt::skip]
 const WORDS: &[(Role, How, &[&str])] = &[
     (Role::Derived, How::Has, &["贡献率", "百分比", "占比", "权重", "比例", "%contribution", "contribution%", "contribution(%)", "contribution/%", "percentcontribution", "share", "significance", "相对贡献", "贡献/%", "贡献(%)", "index"]),
-    (Role::Derived, How::Is, &["share", "%", "percent", "weight", "h", "比重"]),
-    (Role::Derived, How::Has, &["ui^2", "u^2", "(y)^2", "^2", "平方", "squared", "variance", "方差"]),
+    (Role::Derived, How::Is, &["share", "%", "percent", "weight", "h", "比重", "u(x)/x", "u(xi)/xi", "u(xi)/|xi|", "u/x"]),
+    (Role::Derived, How::Has, &["ui^2", "u^2", "(y)^2", "^2", "²", "平方", "squared", "variance", "方差"]),
     (Role::Name, How::Has, &["分量名称", "来源名称", "名称及来源"]),
     (Role::Contribution, How::Has, &["unsicherheitsbeitrag", "beitrag", "ciui", "|ci|ui", "|c|ui", "|ciui|", "ui(y)", "uy(", "u(y)", "|ci|u", "|c|u", "ciu(", "|ci|·u", "cu(", "|ci|×u", "contributiontou", "uncertaintycontribution", "contribution", "贡献", "|u(y", "uncertaintyiny"]),
     (Role::Name, How::Has, &["来源", "source", "influence", "einfluss", "unsicherheitsquelle", "因素", "影响量", "description", "contributor", "origin", "cause"]),
     (Role::Contribution, How::Has, &["不确定度分量", "分量值", "componentofu", "uncertaintycomponentu"]),
-    (Role::Contribution, How::Is, &["分量", "cu", "uc", "u.c", "c.u", "ci.u", "ciu", "c·u", "ui(y)", "|c|u", "component/y"]),
+    (Role::Contribution, How::Is, &["分量", "cu", "uc", "u.c", "c.u", "ci.u", "ciu", "c·u", "ui(y)", "|c|u", "component/y", "curel", "ciurel", "cw", "ciwi"]),
     (Role::Dof, How::Has, &["degreesoffreedom", "degreeoffreedom", "dof", "d.o.f", "自由度", "freiheitsgrad", "degrésdeliberté", "freedom", "νi", "νeff", "veff", "deg.fr", "d.f."]),
     (Role::Dof, How::Is, &["ν", "v", "vi", "df", "nu", "nui", "viorveff", "νioreff", "ν_i"]),
     (Role::C, How::Has, &["sensitivity", "sens.", "sensitivität", "empfindlichkeit", "sensibilité", "灵敏", "敏感系数", "传播系数", "partial", "∂", "coefficient", "传递系数"]),
@@ -121,21 +121,21 @@ const WORDS: &[(Role, How, &[&str])] = &[
     (Role::Divisor, How::Has, &["divisor", "teiler", "diviseur", "divideby", "dividedby", "除数", "分布因子", "置信因子", "包含因子", "coveragefactor", "kfactor"]),
     (Role::Divisor, How::Is, &["k", "ki", "k值", "ki值", "div", "div.", "因子", "b", "factor"]),
     (Role::U, How::Has, &["standarduncertainty", "standardunsicherheit", "standardmessunsicherheit", "incertitude-type", "incertitudetype", "标准不确定度", "stdunc", "std.unc", "stduncertainty", "u(x", "u(", "standardunc", "std.uncertainty", "标准不确定"]),
-    (Role::U, How::Is, &["u", "ui", "ux", "stdu", "u_i", "u(xi)"]),
+    (Role::U, How::Is, &["u", "ui", "ux", "stdu", "u_i", "u(xi)", "w", "wi", "w(xi)", "urel", "ui,rel", "urel(xi)", "unsicherheitu", "unsicherheitui", "uncertaintyu", "uncertaintyui", "incertitudeu"]),
     (Role::Readings, How::Has, &["numberofreadings", "测量次数", "readings(n)"]),
     (Role::Readings, How::Is, &["n", "readings", "次数"]),
     (Role::Type, How::Has, &["评定方法", "评定类别", "evaluation", "a/b", "类别", "typea", "评定类型", "typeof", "a类/b类"]),
     (Role::Type, How::Is, &["type", "类型", "评定", "method", "eval.", "a,b"]),
     (Role::Remark, How::Has, &["bemerkung", "remarque", "remark", "note", "comment", "备注", "说明", "information", "依据", "howknown", "basis", "evidence", "whatisknown", "已知", "信息", "statement", "注", "details", "data", "justification", "reference"]),
-    (Role::Used, How::Has, &["±", "halbbreite", "halbweite", "demi-étendue", "demi-largeur", "demi-intervalle", "half-width", "halfwidth", "半宽", "limit", "误差限", "expanded", "扩展不确定度", "a(half", "tolerance", "允差", "interval", "区间", "uncertaintyvalue", "不确定度值", "valueofuncertainty", "spread", "stated", "极限", "given", "最大允许", "+/-"]),
+    (Role::Used, How::Has, &["±", "variationsbreite", "variabilitätsintervall", "spannweite", "halbbreite", "halbweite", "demi-étendue", "demi-largeur", "demi-intervalle", "half-width", "halfwidth", "半宽", "limit", "误差限", "expanded", "扩展不确定度", "a(half", "tolerance", "允差", "interval", "区间", "uncertaintyvalue", "不确定度值", "valueofuncertainty", "spread", "stated", "极限", "given", "最大允许", "+/-"]),
     (Role::Used, How::Is, &["uncertainty", "unsicherheit", "incertitude", "a", "ai", "不确定度", "unc.", "unc", "accuracy", "error", "δ", "figure", "known", "数值", "magnitude", "a/u/s", "a,u,s", "size", "amount", "a或u", "u或a", "a/u", "u/a", "a,u", "半宽a或u", "aoru", "uora", "limit/u", "极限值/u"]),
     (Role::Unit, How::Is, &["unit", "units", "einheit", "unité", "单位", "[unit]", "unitofx", "unitofxi", "计量单位"]),
     (Role::Symbol, How::Has, &["symbol", "符号", "variable", "代号"]),
     (Role::Value, How::Has, &["estimate", "schätzwert", "valeurestimée", "估计值", "nominal", "标称", "measuredvalue", "量值", "bestvalue", "最佳", "meanvalue", "输入量的值", "输入量值", "inputvalue", "测得值", "取值"]),
-    (Role::Value, How::Is, &["value", "wert", "valeur", "estimation", "x", "xi", "值", "mean", "level", "reading", "平均值", "示值"]),
+    (Role::Value, How::Is, &["value", "valuex", "valuexi", "wert", "valeur", "estimation", "x", "xi", "值", "mean", "level", "reading", "平均值", "示值"]),
     (Role::Symbol, How::Has, &["quantity", "größe", "grandeur", "输入量", "量的符号"]),
     (Role::Symbol, How::Is, &["量", "input", "xi", "parameter"]),
-    (Role::Name, How::Has, &["component", "名称", "分量", "项目", "contribut", "item", "effect", "内容"]),
+    (Role::Name, How::Has, &["komponente", "composante", "component", "名称", "分量", "项目", "contribut", "item", "effect", "内容"]),
     (Role::Name, How::Is, &["name", "input", "what", "uncertainty", "term", "label", "项", "parameter"]),
     (Role::Number, How::Is, &["no", "no.", "#", "序号", "编号", "nr", "nr.", "row", "line", "i", "№", "行", "号"]),
 ];
@@ -162,7 +162,7 @@ fn of(head: &str) -> Option<Role> {
     match head.trim().replace(['_', ' '], "").as_str() {
         "" => return None,
         "Xi" | "X" | "量Xi" | "量X" | "输入量Xi" => return Some(Role::Symbol),
-        "U" => return Some(Role::Used),
+        "U" | "W" => return Some(Role::Used),
         _ => {}
     }
     // `u_i(R_X)` is a contribution to u of R_X; `u(x_i)`, `u_i(x)` are the inputs' own.
@@ -188,6 +188,16 @@ fn without_bracket(name: &str) -> Option<&str> {
     let parted = front.ends_with(|c: char| c == ' ' || ('\u{4e00}'..='\u{9fff}').contains(&c));
     let letters = (2..=6).contains(&inner.len()) && inner.chars().all(|c| c.is_ascii_alphabetic());
     (parted && letters).then(|| front.trim())
+}
+
+/// Whether a head is `u_i` and no more than that: `u(x_i)` and words are of the input.
+pub fn is_bare_u(head: &str) -> bool {
+    let (name, _) = apart(head);
+    let name = without_bracket(&name).unwrap_or(&name);
+    matches!(
+        name.replace(['_', ' '], "").to_lowercase().as_str(),
+        "u" | "ui"
+    )
 }
 
 /// A head without the unit in it: `u(x_i) / mm`, `Estimate [mm]`, `contribution (mm)`.

@@ -56,21 +56,23 @@ fn symbol(text: &str) -> Option<Whole> {
         .unwrap_or_default()
         .trim();
     let name = name.split_once(" (").map_or(name, |(name, _)| name);
+    let name = name.split_once(" in ").map_or(name, |(name, _)| name);
     // `u_c(E)`, `U(E)`: of whatever the result is called.
     let of_result = name.split_once('(').filter(|(_, rest)| rest.ends_with(')'));
     let name = match of_result {
-        Some((lead @ ("U" | "uc" | "u_c"), _)) => lead,
+        Some((lead @ ("U" | "W" | "uc" | "u_c" | "w_c"), _)) => lead,
         _ => name,
     };
-    if matches!(
-        name,
-        "U" | "U(y)" | "U95" | "U_95" | "Uexp" | "U_exp" | "U(95)"
-    ) {
+    if matches!(name, "U" | "U95" | "U_95" | "Uexp" | "U_exp") {
+        return Some(Whole::Expanded);
+    }
+    // `W` alone may be the watt; with a condition or a unit behind it, it is the relative one of ISO 376.
+    if name == "W" && name != text {
         return Some(Whole::Expanded);
     }
     match compact(name).as_str() {
-        "uc" | "uc(y)" | "u(y)" | "u(c)" | "ucombined" | "uccombined" | "uy" | "u" | "sum"
-        | "rss" => Some(Whole::Combined),
+        "uc" | "wc" | "w(y)" | "u(y)" | "u(c)" | "ucombined" | "uccombined" | "uy" | "u"
+        | "sum" | "summe" | "rss" => Some(Whole::Combined),
         "νeff" | "veff" | "nueff" | "νeff(y)" => Some(Whole::Freedom),
         "k" | "kp" | "k95" | "k(95%)" | "k(95.45%)" | "k(p)" => Some(Whole::Factor),
         "y" => Some(Whole::Y),
@@ -109,6 +111,14 @@ pub fn label(text: &str, measurand: &str) -> Option<Whole> {
     let first = found.min_by_key(|(at, _)| *at)?;
     let short = first.0 <= 12 || text.chars().count() < 40;
     short.then_some(first.1)
+}
+
+/// A figure with a coverage factor in a bracket behind it is an expanded uncertainty: `59 mg (k = 2)`.
+pub fn with_factor(text: &str) -> Option<Printed> {
+    let (front, condition) = text.split_once('(')?;
+    let condition = condition.trim_start();
+    let is_factor = condition.starts_with('k') && condition.contains('=');
+    Printed::parse(front).filter(|_| is_factor)
 }
 
 /// Sets a figure that is not there yet.
@@ -209,7 +219,7 @@ const NAMES: &[(Whole, &[&str])] = &[
     (
         Whole::Combined,
         &[
-            "u_c(y)", "uc(y)", "u_c", "uc", "u(y)", "u_crel", "u_c,rel", "ucrel", "u_cr", "u_c_rel",
+            "u_c", "uc", "u(y)", "u_crel", "u_c,rel", "ucrel", "u_cr", "u_c_rel", "w_c", "wc",
         ],
     ),
     (
@@ -219,9 +229,7 @@ const NAMES: &[(Whole, &[&str])] = &[
     (Whole::Factor, &["k", "k_p", "k95", "k_95"]),
     (
         Whole::Expanded,
-        &[
-            "U", "U95", "U_95", "U(y)", "U_rel", "Urel", "U_95rel", "U_r",
-        ],
+        &["U", "U95", "U_95", "U_rel", "Urel", "U_95rel", "U_r", "W"],
     ),
     (Whole::Y, &["y"]),
 ];

@@ -226,7 +226,7 @@ fn budget(
         &mut claimed,
         mapping,
     );
-    drop_measurand(&mut raw, &mut claimed);
+    drop_measurand(grid, &mut raw, &mut claimed);
     symbols_of_model(&mut raw, &mut claimed);
     let below = located.head + 1..bounds.end;
     table::footers(grid, sheet, &mut located, below, of_inputs, &mut claimed);
@@ -319,13 +319,11 @@ fn place_lines(all: &[&Line], claimed: &mut Claimed) {
 }
 
 fn unit_of_result(claimed: &Claimed) -> String {
-    let figures = [
-        &claimed.footer.u_c,
-        &claimed.footer.y,
-        &claimed.footer.expanded,
-    ];
+    let footer = &claimed.footer;
+    let contributions = claimed.rows.iter().map(|row| &row.contribution);
+    let figures = [&footer.u_c].into_iter().chain(contributions);
     let unit = figures
-        .into_iter()
+        .chain([&footer.y, &footer.expanded])
         .flatten()
         .map(|figure: &Printed| figure.unit.clone())
         .find(|unit| !unit.is_empty());
@@ -360,11 +358,10 @@ fn find_model(all: &[&Line], claimed: &mut Claimed, mapping: &Mapping) {
 }
 
 /// The last row of a table in the form of EA-4/02 is that of the result.
-fn drop_measurand(raw: &mut Vec<table::Raw>, claimed: &mut Claimed) {
-    let last = raw.len().saturating_sub(1);
-    let is_result =
-        |(i, raw): (usize, &table::Raw)| raw.is_result(&claimed.measurand, i == last && last > 0);
-    let Some(place) = raw.iter().enumerate().position(is_result) else {
+fn drop_measurand(grid: &Grid, raw: &mut Vec<table::Raw>, claimed: &mut Claimed) {
+    let named = raw.iter().position(|raw| raw.is_result(&claimed.measurand));
+    let closing = || table::closing(raw);
+    let Some(place) = named.or_else(closing) else {
         return;
     };
     let result = raw.remove(place).row;
@@ -372,13 +369,26 @@ fn drop_measurand(raw: &mut Vec<table::Raw>, claimed: &mut Claimed) {
     if claimed.measurand.is_empty() {
         claimed.measurand = result.symbol.clone();
     }
-    let u = result.contribution.or(result.u);
-    for (whole, figure) in [
-        (footer::Whole::Y, result.value),
-        (footer::Whole::Combined, u),
-        (footer::Whole::Freedom, result.dof),
-    ] {
-        if let Some(figure) = figure {
+    // `U = 59 mg (k = 2)`, `59 mg (k = 2)` in its cells.
+    for (column, cell) in grid.filled(result.at.row) {
+        let at = Place {
+            column,
+            ..result.at
+        };
+        let conditioned = footer::with_factor(&cell.text)
+            .map(|figure| footer::set(&mut claimed.footer, footer::Whole::Expanded, figure.at(at)));
+        if conditioned == Some(true) || cell.text.contains('=') {
+            let measurand = claimed.measurand.clone();
+            footer::sentence(&cell.text, &measurand, at, &mut claimed.footer);
+        }
+    }
+    for (whole, figure) in table::figures_of_result(result, raw) {
+        let is_known = claimed
+            .footer
+            .expanded
+            .as_ref()
+            .is_some_and(|known| known.at == figure.at);
+        if !is_known {
             claimed.understood.push(Understood {
                 at: figure.at,
                 text: figure.text.clone(),

@@ -1,6 +1,6 @@
 //! Lines beside the table: model, correlations, the rules for k and rounding, CMC.
 
-use crate::claim::{Claimed, Correlation, Coverage, RoundingStated, Row, Stated};
+use crate::claim::{Claimed, Correlation, Coverage, Footer, RoundingStated, Row, Stated};
 use crate::printed::{Place, Printed, leading};
 
 use super::footer;
@@ -396,7 +396,7 @@ pub fn model(text: &str, claimed: &Claimed) -> Option<(String, String)> {
         || left.starts_with("u_")
         || left.starts_with("u(")
         || left.starts_with("r(")
-        || left.starts_with("c_")
+        || is_coefficient(left, claimed)
         || left.starts_with('∂')
         || left.starts_with('ν');
     (enough
@@ -406,9 +406,27 @@ pub fn model(text: &str, claimed: &Claimed) -> Option<(String, String)> {
     .then(|| (left.to_string(), right.to_string()))
 }
 
+/// `c_1`, `c_i`, `c_m` beside a quantity m: a sensitivity coefficient, where `c_Cd` is a concentration.
+fn is_coefficient(name: &str, claimed: &Claimed) -> bool {
+    name.strip_prefix("c_").is_some_and(|of| {
+        let is_index = of == "i" || of.chars().all(|c| c.is_ascii_digit());
+        is_index
+            || claimed
+                .rows
+                .iter()
+                .any(|row| names_of(row).any(|name| name == of))
+    })
+}
+
 /// A certificate of an input of the model that no row has.
 pub fn absent(text: &str, at: Place, claimed: &Claimed) -> Option<Row> {
     let row = super::prose::row(text.strip_prefix("Note to ").unwrap_or(text), at)?;
+    // With a combined uncertainty it is the statement of a result.
+    let mut whole = Footer::default();
+    footer::sentence(text, &row.symbol, at, &mut whole);
+    if whole.u_c.is_some() {
+        return None;
+    }
     let is_missing = !row.symbol.is_empty()
         && claimed
             .model

@@ -55,11 +55,32 @@ fn heads_below(grid: &Grid, start: usize) -> Option<(usize, usize)> {
         roles.push(role);
         end += 1;
     }
+    let below = (start..end).filter_map(|row| Some(grid.filled(row).next()?.1.text.as_str()));
+    // Quantities called a, b, c below a usual head are no heads.
+    let across = grid.filled(start).map(|(_, cell)| cell.text.as_str());
+    let across: Vec<&str> = across.collect();
+    let across_roles = across
+        .iter()
+        .filter_map(|text| Some(columns::role(text)?.0));
+    let is_usual =
+        is_head(&across_roles.collect::<Vec<_>>()) && words(across.into_iter()) > words(below);
+    (roles.len() >= FEWEST && is_head(&roles) && !is_usual).then_some((start, end))
+}
+
+/// Whether heads name a quantity and a figure of its uncertainty.
+fn is_head(roles: &[Role]) -> bool {
     let has = |wanted: &[Role]| roles.iter().any(|role| wanted.contains(role));
-    let is_table = roles.len() >= FEWEST
-        && has(&[Role::Symbol, Role::Name])
-        && has(&[Role::Used, Role::U, Role::Contribution]);
-    is_table.then_some((start, end))
+    has(&[Role::Symbol, Role::Name]) && has(&[Role::Used, Role::U, Role::Contribution])
+}
+
+/// How many heads are words, and not letters that a quantity may be called by.
+fn words<'t>(heads: impl Iterator<Item = &'t str>) -> usize {
+    let is_word = |text: &&str| {
+        let name = text.split(['(', '/', '_', ' ']).next().unwrap_or_default();
+        name.chars().count() >= 3 || !name.is_ascii() && name.chars().count() >= 2
+    };
+    let known = heads.filter(|text| columns::role(text).is_some());
+    known.filter(is_word).count()
 }
 
 #[cfg(test)]

@@ -133,6 +133,10 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
                 rest = result.trim_start();
                 continue;
             }
+            // `U = 2·u_c`: a factor of what is not said.
+            if text.starts_with(['×', '*', '·']) {
+                return None;
+            }
             let counted = starts_counted(text);
             let level = text.starts_with('%') && (figure.value - 95.0).abs() < 1.0
                 || figure.value == 99.0 && text.starts_with('%');

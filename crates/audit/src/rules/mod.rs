@@ -23,7 +23,7 @@ use crate::calculate::{Calculation, Case, Line};
 use crate::claim::Claimed;
 use crate::printed::PLAIN;
 use crate::search::Found;
-use crate::slips::Weight;
+use crate::slips::{Change, Weight};
 
 pub use registry::RULES;
 
@@ -169,9 +169,11 @@ pub fn findings(found: &Found<'_>) -> Vec<Finding> {
             numbers: hit.numbers,
             corrected: hit.corrected,
         });
+        // What is known of a row needs not be said of the whole again.
         let known = |finding: &Finding| {
-            all.iter()
-                .any(|one| (one.rule, one.row) == (finding.rule, finding.row))
+            all.iter().any(|one| {
+                one.rule == finding.rule && (one.row == finding.row || finding.row.is_none())
+            })
         };
         let new: Vec<Finding> = hits.filter(|finding| !known(finding)).collect();
         all.extend(new);
@@ -199,11 +201,18 @@ fn of_slips(found: &Found<'_>) -> Vec<Finding> {
             .split('/')
             .filter_map(|number| number.parse().ok());
         let other = without(i);
+        let claimed = found.case.claimed;
+        let y = claimed.footer.y.as_ref();
+        let numbers_of_act = || match (act.change, y) {
+            (Change::Result(Some(right)), Some(y)) => format!("y = {} ≠ {right:.9}", y.as_read()),
+            (Change::Result(None), Some(y)) => format!("y = {}", y.as_read()),
+            _ => differing(&best.calculation, &other, act.row, claimed),
+        };
         let finding = |rule: u8| Finding {
             rule,
             bearing: Bearing::Figures,
             row: act.row,
-            numbers: differing(&best.calculation, &other, act.row, found.case.claimed),
+            numbers: numbers_of_act(),
             corrected: Some(other.figures(&[], cmc).expanded),
         };
         numbers.map(finding).collect()

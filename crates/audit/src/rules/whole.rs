@@ -84,7 +84,8 @@ pub(super) fn shares(seen: &Seen<'_>) -> Vec<Hit> {
 }
 
 pub(super) fn result(seen: &Seen<'_>) -> Vec<Hit> {
-    let (Some(y), Some(right)) = (&seen.claimed.footer.y, seen.case.y) else {
+    let y = seen.claimed.footer.y.as_ref();
+    let Some((y, right)) = y.zip(crate::slips::other_result(seen.case)) else {
         return Vec::new();
     };
     when(far(y, right, 1e-6), || {

@@ -20,6 +20,8 @@ pub struct Checked {
     pub figures: Figures,
     /// What it gives from the contributions as they are printed, where they are.
     pub of_printed: Option<Figures>,
+    /// By how much u_c may differ because the sheet computed with more digits than it states.
+    pub open: f64,
 }
 
 /// A figure of a row.
@@ -75,6 +77,15 @@ impl Act {
     /// Whether what the row prints as its contribution is not what enters the sum.
     pub fn changes_contribution(&self) -> bool {
         matches!(self.change, Change::U(_) | Change::Scaled(_) | Change::C(_))
+    }
+
+    /// Whether it changes what is stated, and no uncertainty: the result itself, or the unit of U.
+    pub fn changes_statement(&self) -> bool {
+        use crate::slips::Reporting;
+        matches!(
+            self.change,
+            Change::Result(_) | Change::Report(Reporting::Scale(1.0))
+        )
     }
 }
 
@@ -184,6 +195,50 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         expanded,
         figures: exact,
         of_printed: of.get(1).copied(),
+        open: open + coarse * exact.u_c,
+    }
+}
+
+/// The figures of a calculation as they are reported: k has two decimals, or those of the claimed one, where that is met.
+pub fn reported(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]) -> Figures {
+    let checked = check(case, calculation, printed);
+    let exact = checked.figures;
+    let claimed = case.claimed.footer.k.as_ref().filter(|_| checked.k);
+    let k = claimed.map_or_else(|| libm::round(100.0 * exact.k) / 100.0, |k| k.value);
+    let ratio = libm::pow(k / exact.k, f64::from(calculation.report.power));
+    let floor = case.claimed.cmc.as_ref().filter(|_| calculation.report.cmc);
+    let floor = floor.map_or(0.0, |cmc| cmc.value) * calculation.report.scale;
+    Figures {
+        k,
+        expanded: if exact.expanded > floor {
+            (exact.expanded * ratio).max(floor)
+        } else {
+            exact.expanded
+        },
+        ..exact
+    }
+}
+
+/// Whether U, or u_c where no U is claimed, would be printed as it is claimed: rounded as the laboratory rounded what it
+/// `made`, to nearest or up, whichever of them its own figure shows. u_c is `open` by so much.
+pub fn is_printed(case: &Case<'_>, right: &Figures, made: &Figures, open: f64) -> bool {
+    let footer = &case.claimed.footer;
+    let Some(expanded) = &footer.expanded else {
+        let met = |u_c: &Printed| u_c.is_met_within(right.u_c, u_c.half_of_digits() + open);
+        return footer.u_c.as_ref().is_none_or(met);
+    };
+    let half = expanded.half_of_digits();
+    let open = open * right.expanded / right.u_c;
+    let tolerance = 1e-6 * (half + expanded.value.abs());
+    let nearest = |x: f64, open: f64| expanded.is_met_within(x, half + open);
+    let up = |x: f64, open: f64| {
+        let above = expanded.value - x;
+        above >= -open - tolerance && above < 2.0 * half + open + tolerance
+    };
+    match (nearest(made.expanded, 0.0), up(made.expanded, 0.0)) {
+        (true, false) => nearest(right.expanded, open),
+        (false, true) => up(right.expanded, open),
+        _ => nearest(right.expanded, open) || up(right.expanded, open),
     }
 }
 
@@ -192,15 +247,17 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
 fn left_open(case: &Case<'_>, calculation: &Calculation, u_c: f64) -> f64 {
     let rows = case.claimed.rows.iter().zip(&calculation.lines);
     let open = rows.filter(|(_, line)| line.counted).map(|(row, line)| {
-        let printed = match &row.stated {
-            Stated::Standard { u, .. } if row.used.is_none() => {
-                row.u.as_ref().filter(|own| own.at == u.at)
-            }
-            Stated::Nothing => row.contribution.as_ref(),
-            _ => None,
-        };
+        let of_u = row.u.as_ref().filter(|own| match &row.stated {
+            Stated::Standard { u, .. } => row.used.is_none() && own.at == u.at,
+            _ => false,
+        });
+        let is_only = of_u.is_some() || row.stated == Stated::Nothing;
+        let printed = [of_u, row.contribution.as_ref().filter(|_| is_only)];
+        let widths = printed.into_iter().flatten();
+        let widths = widths.map(|figure| figure.half_of_digits() / figure.value.abs());
+        // Of two figures the one with more digits leaves less open.
+        let relative = widths.reduce(f64::min).unwrap_or(0.0);
         let contribution = line.contribution();
-        let relative = printed.map_or(0.0, |figure| figure.half_of_digits() / figure.value.abs());
         if relative.is_finite() {
             contribution * contribution * relative
         } else {

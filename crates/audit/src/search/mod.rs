@@ -15,10 +15,11 @@ mod row;
 
 use crate::calculate::{Calculation, Case, Figures, factors};
 use crate::claim::Claimed;
-use crate::slips::{self, Act};
+use crate::slips::{self, Act, Weight};
 
 use chance::Chance;
 pub use check::{Broken, Checked, Gap};
+use check::{is_printed, reported};
 use row::Options;
 
 /// What was found about a claim.
@@ -26,8 +27,10 @@ use row::Options;
 pub struct Found<'a> {
     /// The claim with its right calculation.
     pub case: Case<'a>,
-    /// The figures of the right calculation.
+    /// The figures of the right calculation, as they are reported.
     pub right: Figures,
+    /// By how much u_c may differ from the right one because the sheet computed with more digits than it states.
+    pub open: f64,
     /// What explains the claim, best first; an empty set for a claim that is right.
     pub explanations: Vec<Explanation>,
     /// Where the claim departs from what was stated, if nothing explains it.
@@ -38,6 +41,9 @@ pub struct Found<'a> {
     pub accident: f64,
     /// Matches that were not named because they are likely to be chance.
     pub withheld: usize,
+    /// Errors in rows that would give the same printed figures, where the claim is right: whether they were made cannot be
+    /// told.
+    pub untold: Vec<Act>,
 }
 
 /// A set of slips that gives every claimed figure.
@@ -95,8 +101,14 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
         .filter(|act| act.row.is_none_or(|row| options[row].leaves_room_for(act)))
         .copied()
         .collect();
+    let right = reported(&case, &case.right, &printed);
+    let open = check::check(&case, &case.right, &printed).open;
     let mut search = Search {
         case: &case,
+        right: Right {
+            figures: right,
+            open,
+        },
         printed: &printed,
         free: &free,
         chance: Chance::default(),
@@ -121,8 +133,14 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
         }
     }
     let tried = search.tried;
-    let open = options.iter().map(|o| 1.0 - o.accident).product::<f64>();
-    let accident = 1.0 - open * (1.0 - search.chance.accident());
+    let is_sound = search.found.iter().any(|e| e.acts.is_empty());
+    let untold = if is_sound {
+        search.untold()
+    } else {
+        Vec::new()
+    };
+    let unmatched = options.iter().map(|o| 1.0 - o.accident).product::<f64>();
+    let accident = 1.0 - unmatched * (1.0 - search.chance.accident());
     let mut explanations = search.found;
     let slips = explanations.first().map_or(0, |e| e.acts.len());
     let named = broken.is_empty() && no_accident(slips, accident) >= SURE;
@@ -131,9 +149,6 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
         explanations.clear();
     }
     rank(&case, &mut explanations);
-    let right = case
-        .right
-        .figures(&[], case.claimed.cmc.as_ref().map(|cmc| cmc.value));
     let mut gaps = broken;
     if explanations.is_empty() && gaps.is_empty() {
         gaps = bases
@@ -141,9 +156,18 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
             .map(|(_, start)| check::check(&case, start, &printed).gaps())
             .min_by_key(Vec::len)
             .unwrap_or_default();
+        if gaps.is_empty() && !is_printed(&case, &right, &right, open) {
+            gaps.push(Gap::Expanded);
+        }
+    }
+    let of_statement = [slips::of_result(&case), slips::of_unit(&case)];
+    for act in of_statement.into_iter().flatten() {
+        explanations.iter_mut().for_each(|one| one.acts.push(act));
     }
     Found {
         right,
+        open,
+        untold,
         explanations,
         gaps,
         tried,
@@ -196,8 +220,16 @@ fn bases(case: &Case<'_>, options: &[Options]) -> Vec<(Vec<Act>, Calculation)> {
         .collect()
 }
 
+/// What is right, and by how much u_c is open.
+#[derive(Clone, Copy)]
+struct Right {
+    figures: Figures,
+    open: f64,
+}
+
 struct Search<'s, 'a> {
     case: &'s Case<'a>,
+    right: Right,
     printed: &'s [Option<f64>],
     free: &'s [Act],
     chance: Chance,
@@ -235,6 +267,56 @@ impl Search<'_, '_> {
 
     fn attempt(&mut self, set: &[Act], start: &Calculation, extra: &[Act]) {
         self.tried += 1;
+        let (mut calculation, checked) = self.checked(start, extra);
+        self.chance.count(self.case, &checked, !extra.is_empty());
+        if !checked.meets_all() {
+            return;
+        }
+        let mut acts = [set, extra].concat();
+        if acts.is_empty() && !self.is_printed(&self.right.figures) {
+            // What follows from rounded figures alone, and would be printed differently without, is no sound claim.
+            let Some(act) = self.rounded(&checked) else {
+                return;
+            };
+            act.apply(&mut calculation);
+            acts.push(act);
+        }
+        self.found.push(Explanation { acts, calculation });
+    }
+
+    fn is_printed(&self, made: &Figures) -> bool {
+        is_printed(self.case, made, made, self.right.open)
+    }
+
+    /// The slip of a claim that follows from figures as they are printed: contributions, or u_c itself.
+    fn rounded(&self, checked: &Checked) -> Option<Act> {
+        let printed = checked.of_printed.map(|figures| figures.u_c);
+        let claimed = self.case.claimed.footer.u_c.as_ref().map(|u_c| u_c.value);
+        let acts = [printed, claimed].into_iter().flatten().map(slips::rounded);
+        let mut acts = acts.filter(|act| {
+            let mut calculation = self.case.right.clone();
+            act.apply(&mut calculation);
+            self.is_printed(&reported(self.case, &calculation, &[]))
+        });
+        acts.next()
+    }
+
+    /// Errors in rows that give the same printed figures as the right calculation.
+    fn untold(&self) -> Vec<Act> {
+        let errors = self.free.iter().filter(|act| {
+            let is_error = act.slip.weight == Weight::Error;
+            // Nothing is lost of what is nothing.
+            is_error
+                && act
+                    .row
+                    .is_some_and(|row| self.case.right.lines[row].contribution() != 0.0)
+        });
+        let is_met = |act: &&Act| self.checked(&self.case.right, &[**act]).1.meets_all();
+        errors.filter(is_met).copied().collect()
+    }
+
+    /// A calculation with further slips, held against the claim.
+    fn checked(&self, start: &Calculation, extra: &[Act]) -> (Calculation, Checked) {
         let mut calculation = start.clone();
         extra.iter().for_each(|act| act.apply(&mut calculation));
         let mut printed = self.printed.to_vec();
@@ -244,11 +326,21 @@ impl Search<'_, '_> {
             }
         }
         let checked = check::check(self.case, &calculation, &printed);
-        self.chance.count(self.case, &checked, !extra.is_empty());
-        if checked.meets_all() {
-            let acts = [set, extra].concat();
-            self.found.push(Explanation { acts, calculation });
-        }
+        (calculation, checked)
+    }
+}
+
+impl Found<'_> {
+    /// The right result, where the claimed one is another.
+    pub fn other_result(&self) -> Option<f64> {
+        slips::other_result(&self.case)
+    }
+
+    /// Whether the result would be printed differently if everything in an explanation were corrected.
+    pub fn has_effect(&self, best: &Explanation) -> bool {
+        let made = reported(&self.case, &best.calculation, &[]);
+        let result = best.acts.iter().any(Act::changes_statement);
+        result || !is_printed(&self.case, &self.right, &made, self.open)
     }
 }
 

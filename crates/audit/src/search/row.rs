@@ -45,7 +45,9 @@ pub fn options(case: &Case<'_>, i: usize, acts: &[Act]) -> Options {
         .collect();
     let right = case.right.lines[i];
     let fits = |set: &[Act]| {
-        mismatch(row, &changed(right, set)).is_none()
+        let line = changed(right, set);
+        mismatch(row, &line).is_none()
+            && follows_columns(row, &line)
             && set.iter().all(|act| is_supported(row, act))
     };
     let of = |group: Group| {
@@ -78,8 +80,12 @@ pub fn options(case: &Case<'_>, i: usize, acts: &[Act]) -> Options {
         sets.retain(|set| set.len() == fewest);
         sets.sort_by_key(|set| set.iter().map(|act| surprise(case, act)).sum::<u32>());
     }
-    let base = sets.first().cloned().unwrap_or_default();
     let broken = sets.is_empty().then(|| mismatch(row, &right)).flatten();
+    if sets.is_empty() && broken.is_none() {
+        // The printed figures follow, and nothing known makes what the divisor says of them.
+        sets.push(Vec::new());
+    }
+    let base = sets.first().cloned().unwrap_or_default();
     let room = own.iter().filter(|act| {
         let set: Vec<Act> = base
             .iter()
@@ -134,10 +140,7 @@ fn accident(row: &Row, right: Line, own: &[Act]) -> f64 {
             chance::of_row(u, lines(Group::U).map(|line| line.u))
         }
         (Some(Broken::Contribution), _, Some(figure)) => {
-            let figure = Printed {
-                value: figure.value.abs(),
-                ..figure.clone()
-            };
+            let figure = positive(figure);
             let c = row.c.as_ref().map_or(right.c, |c| c.value) * right.to_y;
             if row.u.is_none()
                 && worked.is_some_and(|x| figure.is_met_within((c * x).abs(), slack(&figure)))
@@ -206,13 +209,8 @@ fn mismatch(row: &Row, line: &Line) -> Option<Broken> {
         }
     };
     // The derivative is exact; sheets round theirs.
-    let sensitivity = |c: &Printed| {
-        Printed {
-            value: c.value.abs(),
-            ..c.clone()
-        }
-        .is_met_within(line.c.abs(), open(c) + 1e-3 * line.c.abs())
-    };
+    let sensitivity =
+        |c: &Printed| positive(c).is_met_within(line.c.abs(), open(c) + 1e-3 * line.c.abs());
     if row.c.as_ref().is_some_and(|c| !sensitivity(c)) {
         return Some(Broken::C);
     }
@@ -221,10 +219,7 @@ fn mismatch(row: &Row, line: &Line) -> Option<Broken> {
         .as_ref()
         .filter(|c| counted || c.value != 0.0)
     {
-        let contribution = Printed {
-            value: contribution.value.abs(),
-            ..contribution.clone()
-        };
+        let contribution = positive(contribution);
         let c = row.c.as_ref().map_or(line.c, |c| c.value);
         let by_columns = row
             .u
@@ -244,6 +239,43 @@ fn mismatch(row: &Row, line: &Line) -> Option<Broken> {
         dof.value >= AS_INFINITE && line.dof >= AS_INFINITE || dof.is_met_by(line.dof)
     };
     dof.is_some_and(|dof| !freedom(dof)).then_some(Broken::Dof)
+}
+
+/// Whether the ± and the divisor of the laboratory, where they give the figure that it prints, give that of a line, too. Few
+/// digits leave room for both: `0.002 / 2` and `0.002 / √3` are printed as `0.001`, and the divisor says which of them it is.
+fn follows_columns(row: &Row, line: &Line) -> bool {
+    let Some((used, divisor)) = row.used.as_ref().zip(row.divisor.as_ref()) else {
+        return true;
+    };
+    let worked = used.value / divisor.value;
+    // What is stated is exact where it is the figure that was used, once or as its half.
+    let copied = row.stated.figure().is_some_and(|stated| {
+        let ratio = stated.value / used.value;
+        [0.5, 1.0, 2.0].iter().any(|x| (ratio - x).abs() < 1e-9)
+    });
+    let of_used = if copied { 0.0 } else { used.relative_half() };
+    // A whole number is no rounded root.
+    let of_divisor = if divisor.half >= 0.5 {
+        0.0
+    } else {
+        divisor.relative_half()
+    };
+    let open = of_used + of_divisor + 1e-3;
+    let printed = |figure: &Printed, x: f64| figure.is_met_within(x.abs(), figure.half_of_digits());
+    let c = row.c.as_ref().map_or(line.c, |c| c.value) * line.to_y;
+    let gives = match (&row.u, &row.contribution) {
+        (Some(u), _) => printed(u, worked),
+        (None, Some(figure)) => printed(&positive(figure), c * worked),
+        (None, None) => false,
+    };
+    !gives || worked == line.u || (worked - line.u).abs() <= open * line.u
+}
+
+fn positive(figure: &Printed) -> Printed {
+    Printed {
+        value: figure.value.abs(),
+        ..figure.clone()
+    }
 }
 
 /// Whether the ± column denies a slip: what was used is the figure with its digits exchanged, or it is not.

@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use calamine::{Data, Reader, SheetVisible, Sheets, open_workbook_auto_from_rs};
+use calamine::{Data, DataRef, Reader, SheetVisible, Sheets, open_workbook_auto_from_rs};
 
 use gumption_fault::{Said, say};
 
@@ -61,26 +61,30 @@ pub(super) fn grids(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
 fn is_of_a_size(book: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<(), Unreadable> {
     match book {
         Sheets::Xlsx(book) => match book.worksheet_cells_reader(sheet) {
-            Ok(mut cells) => spans_few(
-                || Some(cells.next_cell().ok().flatten()?.get_position()),
-                sheet,
-            ),
+            Ok(mut cells) => spans_few(|| told(&cells.next_cell().ok().flatten()?), sheet),
             Err(_) => Ok(()),
         },
         Sheets::Xlsb(book) => match book.worksheet_cells_reader(sheet) {
-            Ok(mut cells) => spans_few(
-                || Some(cells.next_cell().ok().flatten()?.get_position()),
-                sheet,
-            ),
+            Ok(mut cells) => spans_few(|| told(&cells.next_cell().ok().flatten()?), sheet),
             Err(_) => Ok(()),
         },
         Sheets::Xls(_) | Sheets::Ods(_) => Ok(()),
     }
 }
 
-fn spans_few(mut next: impl FnMut() -> Option<(u32, u32)>, sheet: &str) -> Result<(), Unreadable> {
+/// A cell of a workbook, as far as its size matters: where it stands, where it holds anything. A style without a value
+/// is painted, and kept nowhere.
+type Told = Option<(u32, u32)>;
+
+fn told(cell: &calamine::Cell<DataRef<'_>>) -> Option<Told> {
+    let is_filled = !matches!(cell.get_value(), DataRef::Empty);
+    Some(is_filled.then(|| cell.get_position()))
+}
+
+fn spans_few(mut next: impl FnMut() -> Option<Told>, sheet: &str) -> Result<(), Unreadable> {
     let (mut first, mut last) = ((u32::MAX, u32::MAX), (0, 0));
-    while let Some((row, column)) = next() {
+    while let Some(told) = next() {
+        let Some((row, column)) = told else { continue };
         first = (first.0.min(row), first.1.min(column));
         last = (last.0.max(row), last.1.max(column));
         let side = |from: u32, to: u32| u64::from(to - from) + 1;
@@ -185,6 +189,20 @@ mod tests {
             assert!((figure.value - 0.085_322_916).abs() < 1e-9);
             assert_eq!(grid.cell(5, 6).text, "0.030");
         }
+    }
+
+    /// A style far from the budget is painted, and kept nowhere.
+    #[test]
+    fn painted_cells_span_nothing() {
+        let far = calamine::Cell::new((1_048_575, 16_383), DataRef::Empty);
+        let near = calamine::Cell::new((3, 4), DataRef::Float(1.0));
+        let spans = |cells: &[&calamine::Cell<DataRef<'_>>]| {
+            let mut cells = cells.iter();
+            spans_few(|| told(cells.next()?), "Budget")
+        };
+        assert!(spans(&[&near, &far]).is_ok());
+        let far = calamine::Cell::new((1_048_575, 16_383), DataRef::Float(1.0));
+        assert!(spans(&[&near, &far]).is_err());
     }
 
     /// A few bytes that would be milliards of cells.

@@ -5,12 +5,15 @@
 //! | `slip` | what a slip is, and what it does |
 //! | `rows` | slips in a row |
 //! | `whole` | slips between the rows and the statement |
+//! | `result` | slips in the result itself |
 
+mod result;
 mod rows;
 mod slip;
 mod whole;
 
-pub(crate) use whole::exchanged_digits;
+pub(crate) use result::{of_result, of_unit, other_result};
+pub(crate) use whole::{exchanged_digits, rounded};
 
 pub use slip::{Act, Change, Group, Reporting, Slip, Weight};
 
@@ -18,12 +21,14 @@ use crate::calculate::Case;
 
 /// All kinds, those of rows first.
 pub fn slips() -> impl Iterator<Item = &'static Slip> {
-    rows::SLIPS.iter().chain(whole::SLIPS)
+    rows::SLIPS.iter().chain(whole::SLIPS).chain(result::SLIPS)
 }
 
 /// Whether a kind of this name sits in a row, and not between the rows and the statement.
 pub fn is_of_a_row(id: &str) -> bool {
-    rows::SLIPS.iter().any(|slip| slip.id == id)
+    [rows::SLIPS, result::SLIPS]
+        .iter()
+        .any(|slips| slips.iter().any(|slip| slip.id == id))
 }
 
 /// The kind of this name.

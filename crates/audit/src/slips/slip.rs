@@ -80,6 +80,8 @@ pub enum Change {
     Factor(Factor),
     /// U is made in this way.
     Report(Reporting),
+    /// The result itself is another one; this is right, where signs of the estimates are known.
+    Result(Option<f64>),
 }
 
 /// What can be different about U.
@@ -143,6 +145,8 @@ pub enum Group {
     Cmc,
     /// Digits of U or u_c.
     Digits,
+    /// The result itself.
+    Result,
 }
 
 impl Act {
@@ -166,6 +170,7 @@ impl Act {
             Change::Correlation(_) => Group::Correlation,
             Change::Freedom(_) => Group::Freedom,
             Change::Factor(_) => Group::Factor,
+            Change::Result(_) => Group::Result,
             Change::Report(reporting) => match reporting {
                 Reporting::Power(_) => Group::Power,
                 Reporting::Scale(_) => Group::Scale,

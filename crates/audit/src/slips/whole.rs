@@ -3,11 +3,27 @@
 use crate::calculate::{Case, Combined, Factor, Freedom, Printout, factors};
 use crate::printed::Printed;
 
-use super::slip::{Change, Reporting, Slip, Weight::*};
+use super::slip::{Act, Change, Reporting, Slip, Weight::*};
 
 fn one(change: Change) -> Vec<(Option<usize>, Change)> {
     vec![(None, change)]
 }
+
+/// The slip of rounding on the way, where u_c was this one.
+pub(crate) fn rounded(u_c: f64) -> Act {
+    let change = Change::Combined(Combined::Typed(u_c));
+    let rounded = |slip: &&Slip| slip.id == ROUNDED;
+    // Slips of this name exist.
+    let slip = SLIPS.iter().find(rounded).unwrap_or(&SLIPS[0]);
+    Act {
+        slip,
+        row: None,
+        change,
+    }
+}
+
+pub(super) const UNIT_OF_U: &str = "U-unit";
+const ROUNDED: &str = "intermediates-rounded";
 
 fn report(reporting: Reporting) -> Vec<(Option<usize>, Change)> {
     one(Change::Report(reporting))
@@ -92,9 +108,9 @@ pub(super) const SLIPS: &[Slip] = &[
         en: "the sum of squares was given as u_c; the root was not taken",
         zh: "平方和未开方就作为 u_c",
         acts: |_| one(Change::Combined(Combined::Squares)) },
-    Slip { id: "intermediates-rounded", rule: "9", weight: Warning,
-        en: "the contributions were rounded to one digit before they were combined",
-        zh: "合成前各分量先修约到一位",
+    Slip { id: ROUNDED, rule: "9", weight: Warning,
+        en: "figures were rounded before they were used further: contributions before they were combined, or u_c before it was multiplied by k",
+        zh: "中间数值先修约再使用：各分量在合成前，或 u_c 在乘以 k 前",
         acts: |_| one(Change::Combined(Combined::Rounded)) },
     Slip { id: "sign-lost", rule: "3", weight: Error,
         en: "the signs of the sensitivity coefficients were lost in the correlation term",
@@ -144,7 +160,7 @@ pub(super) const SLIPS: &[Slip] = &[
         en: "u_c was reported as U; the coverage factor is missing",
         zh: "把 u_c 当作 U 报告，漏乘包含因子",
         acts: |_| report(Reporting::Power(0)) },
-    Slip { id: "U-unit", rule: "69", weight: Warning,
+    Slip { id: UNIT_OF_U, rule: "69", weight: Warning,
         en: "U is printed in a unit to which its figure does not belong",
         zh: "U 的数值与所标单位不符",
         acts: |case| {

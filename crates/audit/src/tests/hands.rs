@@ -161,6 +161,66 @@ fn neighbours_write_budgets_too() {
     );
 }
 
+/// `c_i | U_i` without any other column of u, as in M3003: the last is the contribution; names without a head; `Std. uncertainty`
+/// beside a column that nothing makes use of.
+#[test]
+fn columns_are_what_stands_beside_them() {
+    let m3003 = "Symbol,Source,Value,Units,Probability Distribution,Divisor,ci,Ui (µm),Vi or Veff\n\
+         LS,Calibration of standard,0.06,µm,normal,2,1,0.030,infinity\n\
+         LD,Drift since calibration,0.05,µm,rectangular,1.7321,1,0.0289,infinity\n\
+         dT,Temperature,0.5,°C,rectangular,1.7321,0.35 µm/°C,0.101,infinity\n\
+         LV,Comparator,0.04,µm,normal,1,1,0.040,15\n\
+         uc,Combined standard uncertainty,,,normal,,,0.116,>500\n\
+         U,Expanded uncertainty,,,normal (k=2),,,0.23,>500\n";
+    is_sound("sheet.csv", m3003);
+    is_sound(
+        "sheet.csv",
+        "Tape measure;;;;\n;Half-width (mm);Distribution;Divisor;u (mm)\nScale;0,5;normal;2;0,25\nReading;0,5;rectangular;1,73;0,29\n\
+         Temperature;0,7;rectangular;1,73;0,40\nCombined standard uncertainty;;;;0,56\nExpanded uncertainty (k = 2);;;;1,1\n",
+    );
+    is_sound(
+        "sheet.csv",
+        "Conductivity meter,,,,\nUncertainty source,Std uncertainty,Relative,Unit,dof\nCRM,5.0,0.35%,µS/cm,inf\n\
+         Resolution,0.29,0.02%,µS/cm,inf\nRepeatability,2.1,0.15%,µS/cm,5\n\
+         Combined standard uncertainty,5.4,0.38%,µS/cm,\nExpanded uncertainty (k=2),11,0.8%,µS/cm,\n",
+    );
+}
+
+/// `c_i | u_i` where the ± and the divisor give u without the coefficient: u is that of the input.
+#[test]
+fn a_bare_u_may_be_that_of_the_input() {
+    is_sound(
+        "sheet.csv",
+        "Source,±,Distribution,Divisor,c,u\nHead,4.0 mm,rectangular,√3,0.0098 kPa/mm,2.31 mm\nGauge,0.20 kPa,normal,2,1,0.10 kPa\n\
+         Temperature,0.6 K,rectangular,√3,0.15 kPa/K,0.346 K\nu_c,,,,,0.115 kPa\nU (k = 2),,,,,0.23 kPa\n",
+    );
+}
+
+/// DKD-R 6-1: full widths 2a, divided by 2√3; `s/√4` says that a figure is that of the mean.
+#[test]
+fn full_widths_have_their_divisor() {
+    is_sound(
+        "sheet.csv",
+        r#"DKD-R 6-1 Druckmessgerät 10 bar;;;;;;
+Größe;Schätzwert;Variationsbreite 2a;Verteilung;Teiler;Unsicherheit u;Sensitivität;Unsicherheitsbeitrag
+p_Normal;10,000 bar;;normal;2;0,0005 bar;1;0,0005 bar
+p_Anzeige;10,002 bar;0,001 bar;Rechteck;3,464;0,00029 bar;1;0,00029 bar
+f_Nullpunkt;0 bar;0,002 bar;Rechteck;3,464;0,00058 bar;1;0,00058 bar
+f_Wiederhol;0 bar;0,001 bar;Rechteck;3,464;0,00029 bar;1;0,00029 bar
+f_Hysterese;0 bar;0,003 bar;Rechteck;3,464;0,00087 bar;1;0,00087 bar
+dp;0,002 bar;;;;;;0,00123 bar
+U = 0,0025 bar (k = 2)
+"#,
+    );
+    is_sound(
+        "sheet.csv",
+        "Symbol,Source of Uncertainty,Value ±,Probability Distribution,Divisor,ci,ui(y) °C,νi\n\
+         R,Reference thermometer calibration,0.30,Normal,2,1,0.150,∞\nD,Drift of reference,0.20,Rectangular,1.7321,1,0.115,∞\n\
+         S,Repeatability (mean of 4; s/√4),0.06,Normal,1,1,0.060,3\n\
+         uc,Combined standard uncertainty,,Normal,,,0.199,>300\nU,Expanded uncertainty,,Normal (k=2),,,0.40,>300\n",
+    );
+}
+
 /// Two budgets beside each other, each with its own closing lines.
 #[test]
 fn tables_stand_side_by_side() {
@@ -247,4 +307,173 @@ fn what_digits_leave_open_is_no_slip() {
     is_sound("sheet.csv", &bare("0.0293"));
     let (verdict, _) = answer("sheet.csv", &bare("0.0296"));
     assert_ne!(verdict, Verdict::Sound);
+}
+
+/// ISO 376: relative half-widths W, divisors, w and its squares; √6 for the resolution at zero and under load.
+#[test]
+fn force_budgets_are_relative() {
+    is_sound(
+        "sheet.csv",
+        r#"Force transducer 10 kN ISO 376,,,,
+Source,Relative half width in %,Divisor,w in %,w²
+Calibration force,0.02,2,0.010,0.00010
+Reproducibility,0.03,3.464,0.0087,0.000075
+Repeatability,0.012,3.464,0.0035,0.000012
+Resolution,0.01,2.449,0.0041,0.0000167
+Creep,0.015,1.732,0.0087,0.000075
+Sum,,,,0.000279
+w_c in %,,,0.0167,
+W (k=2) in %,,,0.033,
+"#,
+    );
+    is_sound(
+        "sheet.csv",
+        r#"Force transducer 10 kN ISO 376
+Source;W in %;Divisor;w in %;w²
+Calibration force;0,02;2;0,010;0,00010
+Reproducibility;0,03;3,464;0,0087;0,000075
+Repeatability;0,012;3,464;0,0035;0,000012
+Zero;0,01;1,732;0,0058;0,000033
+Creep;0,015;1,732;0,0087;0,000075
+;;;Σ w²;0,000295
+;;;w_c;0,0172
+;;;W;0,034
+"#,
+    );
+    is_sound(
+        "sheet.md",
+        r#"# Calibration of a force-proving instrument, 50 kN
+
+| | Relative half width (%) | Divisor | Relative standard uncertainty w (%) | w² (%²) |
+|---|---|---|---|---|
+| Reference force | 0.010 | 2 | 0.0050 | 2.5E-5 |
+| Rotation | 0.025 | 1.73 | 0.0144 | 2.1E-4 |
+| Repeatability | 0.010 | 1.73 | 0.0058 | 3.3E-5 |
+| Interpolation | 0.008 | 2.45 | 0.0033 | 1.1E-5 |
+
+w_c = 0.0167 %
+W = 0.033 % (k = 2)
+"#,
+    );
+}
+
+/// M3003, K2: a rounding of a difference is triangular, and the sheet says so.
+#[test]
+fn a_difference_of_indications_has_a_triangle() {
+    let sound = r#"M3003 K2 Calibration of a weight of nominal value 10 kg,,,,,,,
+Symbol,Source of uncertainty,Value ± mg,Probability distribution,Divisor,ci,ui(Wx) mg,vi or veff
+Ws,Calibration of standard weight,30.0,Normal,2.0,1.0,15.0,∞
+Ds,Drift since last calibration,30.0,Rectangular,√3,1.0,17.3,∞
+δC,Comparator linearity,3.0,Rectangular,√3,1.0,1.73,∞
+Ab,Effect of air buoyancy,10.0,Rectangular,√3,1.0,5.77,∞
+δIdx,Digital rounding error,10.0,Triangular,√6,1.0,4.08,∞
+Wr,Repeatability,8.70,Normal,√3,1.0,5.02,4
+u(Wx),Combined uncertainty,,Normal,,,24.6,>500
+U,Expanded uncertainty,,Normal (k = 2),,,49,>500
+"#;
+    is_sound("sheet.csv", sound);
+    let slip = sound
+        .replace("√3,1.0,17.3", "1,1.0,30.0")
+        .replace(",24.6,", ",34.7,")
+        .replace(",49,", ",69,");
+    assert_eq!(first("sheet.csv", &slip), "root3-missing@Ds");
+}
+
+/// `Contribution %` of a relative budget, `u_rel`, and k looked up at 95.45 %.
+#[test]
+fn relative_contributions_are_no_shares() {
+    is_sound(
+        "sheet.csv",
+        r#"Torque wrench 100 N·m (relative),,,,,
+Source,Value %,Distribution,Divisor,ci,Contribution %
+Reference transducer U (k=2),0.30,Normal,2,1,0.150
+Resolution,0.10,Rectangular,1.732,1,0.058
+Reproducibility,0.25,Rectangular,1.732,1,0.144
+Drive interface,0.20,U-shaped,1.414,1,0.141
+Repeatability,0.12,Normal,1,1,0.120
+Combined,,,,,0.285
+Expanded (k=2),,,,,0.57
+"#,
+    );
+    is_sound(
+        "sheet.csv",
+        r#"Gas flow meter; relative standard uncertainties
+Component,u_rel (%),c,c·u_rel (%),dof
+Reference flow,0.10,1,0.10,60
+Temperature,0.035,1,0.035,50
+Pressure,0.020,-1,0.020,50
+Repeatability,0.060,1,0.060,4
+Combined,,,0.123,
+Veff,,,,46
+k (95.45 %),,,2.06,
+U,,,0.25,
+"#,
+    );
+    is_sound(
+        "sheet.csv",
+        r#"Nordtest TR 537: ammonium in water,,,
+Uncertainty component,Value,Relative u(x) %,Comments
+Reproducibility within laboratory u(Rw),,1.67,from control sample
+Bias component RMSbias,,2.26,CRM and PT
+u(Cref),,1.52,
+Combined standard uncertainty uc,,3.20,
+Expanded uncertainty U = 2·uc,,6.4,
+"#,
+    );
+}
+
+/// `u(E)` closes a German table; half a step of height in millimetres is not the pressure that comes of it; a concentration is
+/// called c_Cd.
+#[test]
+fn names_and_figures_of_other_things() {
+    let balance = r#"Balance 200 g,,,,
+Influence,Halbbreite / mg,Verteilung,Teiler,u / mg
+Rundung (Leer),0.05,Rechteck,√3,0.029
+Rundung (Last),0.05,Rechteck,√3,0.029
+Wiederholbarkeit,0.08,Normal,1,0.080
+Außermittige Belastung,0.10,Rechteck,√3,0.058
+Prüfgewicht U (k=2),0.10,Normal,2,0.050
+u(E),,,,0.118
+U(E) k=2,,,,0.24
+"#;
+    is_sound("sheet.csv", balance);
+    let linear = balance
+        .replace("0.118", "0.246")
+        .replace(",0.24\n", ",0.49\n");
+    assert_eq!(first("sheet.csv", &linear), "linear-sum");
+    is_sound(
+        "sheet.csv",
+        r#"压力变送器校准不确定度（1 MPa）
+符号;不确定度来源;半宽;单位;分布;k;u/kPa;c;u_i/kPa
+p_s;标准器证书 U=0.20 kPa k=2;0,20;kPa;正态;2;0,10;1;0,10
+δ_I;电流表最大允许误差 ±1,6 µA;1,6;µA;均匀;√3;0,92;0,0625 kPa/µA;0,058
+δ_h;高度差 ±5 mm;0,05;kPa;均匀;√3;0,029;1;0,029
+δ_r;重复性 s;0,06;kPa;正态;1;0,06;1;0,06
+u_c;;;;;;;;0,134
+U;k=2;;;;;;;0,27
+"#,
+    );
+    is_sound(
+        "sheet.md",
+        r#"# Purity of a cadmium standard (Eurachem A1), c_Cd = 1000·m·P/V
+
+| Quantity | Value x | u(x) | u(x)/x |
+|---|---|---|---|
+| Purity P | 0.9999 | 0.000058 | 0.000058 |
+| Mass m (mg) | 100.28 | 0.05 | 0.0005 |
+| Volume V (mL) | 100.0 | 0.07 | 0.0007 |
+
+c_Cd = 1002.7 mg/L, u_c = 0.9 mg/L, U = 1.8 mg/L (k = 2)
+"#,
+    );
+}
+
+/// Quantities called A, B and C stand below heads, and are none.
+#[test]
+fn letters_in_the_first_column_turn_no_table() {
+    is_sound(
+        "sheet.csv",
+        "Source,Half-width,Distribution,Divisor,u\nA,0.30,rectangular,√3,0.17\nB,0.40,rectangular,√3,0.23\nC,0.02,rectangular,√3,0.01\n\
+         u_c,,,,0.29\nU (k = 2),,,,0.58\n",
+    );
 }

@@ -1,9 +1,11 @@
 //! Sheets from text to verdict.
 
+mod digits;
 mod hands;
+mod statements;
 
 use crate::read::Mapping;
-use crate::{Verdict, audit, read, sheet};
+use crate::{Audit, Verdict, audit, read, sheet};
 
 /// Verdict and candidates of a text.
 fn answer(name: &str, text: &str) -> (Verdict, Vec<String>) {
@@ -11,6 +13,10 @@ fn answer(name: &str, text: &str) -> (Verdict, Vec<String>) {
     let claims = read::budgets(&grids, &Mapping::default());
     assert_eq!(claims.len(), 1, "{text}");
     let audited = audit(&claims[0]);
+    assert!(
+        audited.verdict != Verdict::Sound || is_printed_as_claimed(&audited),
+        "{text}"
+    );
     let found = &audited.found;
     let sets = found.explanations.iter().filter(|e| !e.acts.is_empty());
     let ids = sets.map(|e| {
@@ -21,6 +27,20 @@ fn answer(name: &str, text: &str) -> (Verdict, Vec<String>) {
             .join("+")
     });
     (audited.verdict, ids.collect())
+}
+
+/// Whether the recomputed U, rounded to nearest or up, is what is claimed: within what rows leave open that state no more
+/// than printed digits.
+fn is_printed_as_claimed(audited: &Audit<'_>) -> bool {
+    let found = &audited.found;
+    let Some(claimed) = &found.case.claimed.footer.expanded else {
+        return true;
+    };
+    let open = found.open * found.right.expanded / found.right.u_c;
+    let above = claimed.value - found.right.expanded;
+    let half = claimed.half_of_digits();
+    let tolerance = 1e-6 * (half + claimed.value);
+    (-half - open - tolerance..2.0 * half + open + tolerance).contains(&above)
 }
 
 fn first(name: &str, text: &str) -> String {

@@ -47,6 +47,8 @@ record! {
         /// Expanded uncertainty that is right.
         #[serde(rename = "U")]
         expanded: Number,
+        /// Errors in rows of a sound claim that would give the same printed figures, as in `candidates`.
+        untold: Vec<String>,
         /// Where the claim departs, if nothing explains it.
         gaps: Vec<String>,
         /// Combinations that were tried.
@@ -171,6 +173,7 @@ fn budget(audit: &Audit<'_>) -> BudgetJson {
         nu_eff: Number(found.right.nu_eff),
         k: Number(found.right.k),
         expanded: Number(found.right.expanded),
+        untold: found.untold.iter().map(|act| act.id(&found.case)).collect(),
         gaps: found
             .gaps
             .iter()

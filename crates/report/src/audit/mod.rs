@@ -7,6 +7,7 @@ use gumption_audit::claim::Claimed;
 use gumption_audit::printed::Printed;
 use gumption_audit::rules;
 use gumption_audit::search::{Explanation, Gap};
+use gumption_audit::slips::Act;
 use gumption_audit::{Audit, Verdict};
 use gumption_format::document::{Block, Cell, ColumnKind, Document, KeyFigure, Table};
 use gumption_format::machine;
@@ -44,13 +45,23 @@ fn one(file: &str, audit: &Audit<'_>, language: Language) -> Vec<Block> {
         Block::Figures(figures(audit, language)),
         Block::Statement(words::verdict(audit, language)),
     ];
+    if audit.verdict == Verdict::Sound && !audit.found.untold.is_empty() {
+        blocks.push(Block::Section(pick(
+            "What the printed digits do not tell",
+            "所印位数不能判断的差错",
+        )));
+        let sets = audit.found.untold.iter().map(std::slice::from_ref);
+        blocks.push(explanations(audit, sets, language));
+    }
     let listed = &audit.found.explanations;
-    if audit.verdict != Verdict::Sound && !listed.is_empty() {
+    let is_open = !matches!(audit.verdict, Verdict::Sound | Verdict::NotRecomputed);
+    if is_open && !listed.is_empty() {
         blocks.push(Block::Section(pick(
             "What gives the claimed figures",
             "能给出所声称数值的差错",
         )));
-        blocks.push(explanations(audit, language));
+        let sets = listed.iter().map(|one| one.acts.as_slice());
+        blocks.push(explanations(audit, sets, language));
         blocks.extend(words::question(audit, language).map(Block::Paragraph));
     }
     if !audit.found.gaps.is_empty() && listed.is_empty() {
@@ -162,7 +173,12 @@ fn figures(audit: &Audit<'_>, language: Language) -> Vec<KeyFigure> {
     all
 }
 
-fn explanations(audit: &Audit<'_>, language: Language) -> Block {
+/// Sets of slips, one below the other.
+fn explanations<'s>(
+    audit: &Audit<'_>,
+    sets: impl Iterator<Item = &'s [Act]>,
+    language: Language,
+) -> Block {
     let mut table = Table::new([
         ("", ColumnKind::Numbers),
         (language.pick("slips", "差错"), ColumnKind::Words),
@@ -171,8 +187,8 @@ fn explanations(audit: &Audit<'_>, language: Language) -> Block {
     ]);
     /// More than these are not read; the machine form has all.
     const MOST: usize = 8;
-    for (i, explanation) in audit.found.explanations.iter().take(MOST).enumerate() {
-        for (j, act) in explanation.acts.iter().enumerate() {
+    for (i, acts) in sets.take(MOST).enumerate() {
+        for (j, act) in acts.iter().enumerate() {
             let number = if j == 0 {
                 (i + 1).to_string()
             } else {

@@ -3,6 +3,7 @@
 use gumption_audit::claim::{Row, Shape, Stated};
 use gumption_audit::printed::Printed;
 use gumption_audit::search::{Broken, Gap};
+use gumption_audit::slips::Change;
 use gumption_audit::{Audit, Verdict};
 use gumption_core::distribution::Entry;
 
@@ -92,16 +93,17 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
         ),
     };
     match audit.verdict {
-        Verdict::Sound => vec![match language {
-            Language::English => format!("Sound: every claimed figure follows from what the sheet states. U = {right_u}."),
-            Language::Chinese => format!("无差错：全部声称值都能由表中信息得出。U = {right_u}。"),
-        }],
+        Verdict::Sound => {
+            let mut sentences = sound(audit, language);
+            sentences.extend(untold(audit, language));
+            sentences
+        }
         Verdict::WithEffect => vec![
             named(),
-            match language {
+            corrected(audit, language).unwrap_or_else(|| match language {
                 Language::English => format!("Corrected, U is {right_u}{claimed_u}."),
                 Language::Chinese => format!("改正后 U = {right_u}{claimed_u}。"),
-            },
+            }),
             chance(),
         ],
         Verdict::WithoutEffect => vec![
@@ -142,6 +144,126 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
             "无法重新计算：表中没有可以理解的、带有数值和声称值的不确定度预算。",
         ).to_string()],
     }
+}
+
+/// A number in the unit of the result.
+fn in_unit(audit: &Audit<'_>, x: f64, digits: u8) -> String {
+    match audit.found.case.claimed.unit.as_str() {
+        "" => significant(x, digits),
+        unit => format!("{} {unit}", significant(x, digits)),
+    }
+}
+
+/// That a claim is right, with U as the sheet prints it and as it is before rounding; as far as printed digits tell.
+fn sound(audit: &Audit<'_>, language: Language) -> Vec<String> {
+    let found = &audit.found;
+    let footer = &found.case.claimed.footer;
+    let pick = |en: String, zh: String| match language {
+        Language::English => en,
+        Language::Chinese => zh,
+    };
+    let other = found.other_result().zip(footer.y.as_ref());
+    let verdict = match &other {
+        None => pick(
+            "Sound: every claimed figure follows from what the sheet states.".into(),
+            "无差错：全部声称值都能由表中信息得出。".into(),
+        ),
+        Some((right, y)) => {
+            let (y, right) = (y.as_read(), significant(*right, 9));
+            pick(
+                format!(
+                    "Sound: every claimed figure of the uncertainty follows from what the sheet states. The result does not: y is {y} where the estimates give {right}."
+                ),
+                format!(
+                    "无差错：不确定度的全部声称值都能由表中信息得出。但测量结果不能：y 为 {y}，而由各估计值得 {right}。"
+                ),
+            )
+        }
+    };
+    let right = found.right.expanded;
+    let open = found.open * right / found.right.u_c;
+    let exact = in_unit(audit, right, 4);
+    let reach = || [right - open, right + open].map(|x| in_unit(audit, x, 4));
+    let before = match open > 1e-3 * right {
+        true => {
+            let [low, high] = reach();
+            pick(
+                format!(
+                    "from {low} to {high} before rounding, since rows state no more than printed digits"
+                ),
+                format!("修约前在 {low} 与 {high} 之间，因为有的行只给出所印的位数"),
+            )
+        }
+        false => pick(
+            format!("{exact} before rounding"),
+            format!("修约前 {exact}"),
+        ),
+    };
+    let u = match &footer.expanded {
+        Some(claimed) => {
+            let (text, unit) = (claimed.as_read(), claimed.unit.as_str());
+            let unit = if unit.is_empty() {
+                &found.case.claimed.unit
+            } else {
+                unit
+            };
+            let claimed = match text.ends_with(unit) {
+                true => text.to_string(),
+                false => format!("{text} {unit}"),
+            };
+            pick(
+                format!("U = {claimed}: {before}."),
+                format!("U = {claimed}：{before}。"),
+            )
+        }
+        None => pick(
+            format!("No U is claimed; it is {before}."),
+            format!("没有声称 U；{before}。"),
+        ),
+    };
+    vec![format!("{verdict}{}{u}", language.pick(" ", ""))]
+}
+
+/// What is wrong with the statement while U is right: the result, or the unit of U.
+fn corrected(audit: &Audit<'_>, language: Language) -> Option<String> {
+    let best = audit.found.explanations.first()?;
+    let right = best.acts.iter().find_map(|act| match act.change {
+        Change::Result(right) => right,
+        _ => None,
+    })?;
+    let y = audit.found.case.claimed.footer.y.as_ref()?.as_read();
+    let (right, u) = (
+        significant(right, 9),
+        in_unit(audit, audit.found.right.expanded, 2),
+    );
+    Some(match language {
+        Language::English => {
+            format!("Corrected, the result is {right} where {y} is claimed; U is {u}.")
+        }
+        Language::Chinese => format!("改正后测量结果为 {right}，声称值为 {y}；U = {u}。"),
+    })
+}
+
+/// Rows in which an error would give the same printed figures.
+fn untold(audit: &Audit<'_>, language: Language) -> Option<String> {
+    let rows = &audit.found.case.claimed.rows;
+    let mut places: Vec<usize> = audit
+        .found
+        .untold
+        .iter()
+        .filter_map(|act| act.row)
+        .collect();
+    places.sort_unstable();
+    places.dedup();
+    let names: Vec<String> = places
+        .iter()
+        .map(|row| place(&rows[*row], *row, language))
+        .collect();
+    let names = names.join(language.pick("; ", "；"));
+    (!places.is_empty()).then(|| match language {
+        Language::English => format!("Cannot be told within the printed digits: an error in {names} would give the same figures."),
+        Language::Chinese => format!("所印位数不足以判断：{names}若有差错，也会得到相同的数值。"),
+    })
 }
 
 /// What the laboratory should be asked where several explanations are equally good.
@@ -239,7 +361,11 @@ pub(super) fn stated(row: &Row, language: Language) -> String {
     // As it is written, where no unit was changed: further digits would be made up.
     let number = |figure: &Printed| {
         let own = Printed::parse(&figure.text).is_some_and(|own| own.value == figure.value);
-        if own {
+        // What another program's file states is exact, and may have been computed.
+        let is_computed = figure.half == 0.0 && figure.text.len() > 10;
+        if is_computed {
+            significant(figure.value, 4)
+        } else if own {
             let text = figure.text.trim_end_matches(figure.unit.as_str());
             text.trim_start_matches('±').trim().to_string()
         } else {

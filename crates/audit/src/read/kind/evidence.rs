@@ -42,8 +42,8 @@ impl Evidence<'_> {
             open || used.is_none_or(of)
         };
         named_figure(self.words, keys)
-            .filter(fits)
-            .or_else(|| only_figure(self.words, keys).filter(meant))
+            .filter(&fits)
+            .or_else(|| only_figure(self.words, keys).filter(fits).filter(meant))
     }
 
     /// The same, or else what was used.

@@ -29,7 +29,7 @@ pub(super) const NORMAL: &[&str] = &["normal", "gauss", "正态"];
 #[rustfmt::skip]
 pub(super) const TWO_POINT: &[&str] = &["two-point", "two point", "dirac", "两点"];
 #[rustfmt::skip]
-pub(super) const RECTANGULAR: &[&str] = &["rect", "rechteck", "gleichverteil", "uniform", "均匀", "矩形"];
+pub(super) const RECTANGULAR: &[&str] = &["rect", "rectang", "rechteck", "gleichverteil", "uniform", "均匀", "矩形"];
 #[rustfmt::skip]
 pub(super) const READINGS: &[&str] = &["reading", "measurement", "observation", "repeat", "determination", "indications", "values", "runs", "cycle", "次"];
 #[rustfmt::skip]

@@ -110,6 +110,20 @@ pub(super) fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         });
     }
     let used = e.used?.clone();
+    // A difference of two indications, of which each may be off by half a step, has a triangle (ISO 376, annex C; M3003,
+    // K2): the divisor is all that says so.
+    let triangle = Shape::Triangular;
+    let by_root6 = e
+        .divisor
+        .is_some_and(|d| (d / triangle.divisor() - 1.0).abs() < 0.01);
+    let of_column = shape(&e.columns.to_lowercase()).unwrap_or(triangle);
+    if by_root6 && shape(text).is_none() && of_column == triangle {
+        return Some(Stated::Limits {
+            half_width: used,
+            shape: triangle,
+            shape_stated: false,
+        });
+    }
     let by_twice_root3 = e
         .divisor
         .is_some_and(|d| (d - 2.0 * libm::sqrt(3.0)).abs() < 0.02);

@@ -72,6 +72,11 @@ fn standard(e: &Evidence<'_>) -> Option<Stated> {
 fn by_columns(e: &Evidence<'_>, columns: &str) -> Option<Stated> {
     let used = e.used?.clone();
     if let Some(shape) = shape(columns) {
+        // A divisor of twice the root belongs to a full width.
+        let twice = |divisor: f64| (divisor / (2.0 * shape.divisor()) - 1.0).abs() < 0.01;
+        if e.divisor.is_some_and(twice) {
+            return Some(Stated::FullWidth { width: used, shape });
+        }
         return Some(Stated::Limits {
             half_width: used,
             shape,

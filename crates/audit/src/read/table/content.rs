@@ -3,6 +3,7 @@
 use crate::printed::Printed;
 use crate::read::columns::{self, Role};
 use crate::sheet::Grid;
+use crate::units;
 
 use super::located::{Column, Located};
 
@@ -64,6 +65,7 @@ pub(super) fn by_content(grid: &Grid, located: &mut Located) {
         column.role = role;
     }
     value_is_used(grid, located);
+    without_coefficient(grid, located);
     nameless_words(grid, located);
 }
 
@@ -110,6 +112,38 @@ fn value_is_used(grid: &Grid, located: &mut Located) {
     let mut columns = located.columns.iter_mut();
     if let Some(column) = columns.find(|c| Some(c.index) == value) {
         column.role = Role::Used;
+    }
+}
+
+/// `c_i | u_i`: what is behind the coefficient is the contribution, unless the ± and the divisor give it without the
+/// coefficient.
+fn without_coefficient(grid: &Grid, located: &mut Located) {
+    let roles = [Role::Used, Role::Divisor, Role::C, Role::Contribution];
+    let indices: Vec<usize> = roles.iter().filter_map(|role| at(located, *role)).collect();
+    let [used, divisor, c, made] = indices[..] else {
+        return;
+    };
+    if located.has(Role::U) {
+        return;
+    }
+    let gives = |with_coefficient: bool| {
+        let met = located.rows.iter().filter(|row| {
+            let value = |index: usize| Some(grid.cell(**row, index).figure()?.value);
+            let product = || {
+                let c = value(c).filter(|_| with_coefficient).unwrap_or(1.0);
+                Some((
+                    (c * value(used)? / value(divisor)?).abs(),
+                    value(made)?.abs(),
+                ))
+            };
+            product().is_some_and(|(x, made)| (x - made).abs() <= 0.05 * made)
+        });
+        met.count()
+    };
+    let is_u = gives(false) > gives(true);
+    let mut columns = located.columns.iter_mut();
+    if let Some(column) = columns.find(|c| is_u && c.index == made && columns::is_bare_u(&c.head)) {
+        column.role = Role::U;
     }
 }
 
@@ -172,7 +206,7 @@ pub(super) fn nameless_figures(grid: &Grid, located: &mut Located) {
         .filter(|i| !known(*i) && numeric(*i) && !grid.hidden_columns.contains(i))
         .collect();
     let divided = open.iter().find(|index| gives_u(grid, located, **index));
-    let only = (open.len() == 1).then(|| &open[0]);
+    let only = (open.len() == 1 && may_be_divided(grid, located, open[0])).then(|| &open[0]);
     if let Some(&index) = divided.or(only) {
         let head = grid.cell(located.head, index).text.clone();
         let unit = columns::apart(&head).1;
@@ -185,19 +219,55 @@ pub(super) fn nameless_figures(grid: &Grid, located: &mut Located) {
     }
 }
 
-/// Whether the figures of a column give those of u by the divisor.
+/// Columns from which a ± column tells itself: what was made of it, and the coefficient that is in that.
+struct Made {
+    of: usize,
+    coefficient: Option<usize>,
+}
+
+impl Made {
+    fn of(located: &Located) -> Option<Made> {
+        let coefficient = at(located, Role::C).filter(|_| !located.has(Role::U));
+        let of = at(located, Role::U).or(at(located, Role::Contribution))?;
+        Some(Made { of, coefficient })
+    }
+
+    /// c·a of a row, and what was made of it, as far as their units allow to compare them.
+    fn pair(&self, grid: &Grid, row: usize, index: usize) -> Option<(f64, f64)> {
+        let figure = |index: usize| grid.cell(row, index).figure();
+        let (a, made) = (figure(index)?, figure(self.of)?);
+        let c = self.coefficient.and_then(figure);
+        let units = [&a.unit, &made.unit];
+        let alike = units.iter().any(|unit| unit.is_empty())
+            || c.is_some()
+            || units::factor(units[0], units[1]) == Some(1.0);
+        let product = a.value * c.map_or(1.0, |c| c.value);
+        alike.then_some((product.abs(), made.value.abs()))
+    }
+}
+
+/// Whether a divisor may have made the other figures of those of a column: not more than they are, and not less than a
+/// tenth. A relative column beside an absolute one is none that was divided.
+fn may_be_divided(grid: &Grid, located: &Located, index: usize) -> bool {
+    let Some(made) = Made::of(located) else {
+        return true;
+    };
+    let divided = |row: &&usize| {
+        let pair = made.pair(grid, **row, index);
+        pair.is_some_and(|(a, u)| (0.99..=10.1).contains(&(a / u)))
+    };
+    2 * located.rows.iter().filter(divided).count() > located.rows.len()
+}
+
+/// Whether the figures of a column give those of u by the divisor, or those of the contribution by the coefficient, too.
 fn gives_u(grid: &Grid, located: &Located, index: usize) -> bool {
-    let (Some(divisor), Some(u)) = (at(located, Role::Divisor), at(located, Role::U)) else {
+    let (Some(divisor), Some(made)) = (at(located, Role::Divisor), Made::of(located)) else {
         return false;
     };
-    let figure = |row: usize, index: usize| {
-        Printed::parse(&grid.cell(row, index).text).map(|figure| figure.value)
-    };
     let divides = |row: &&usize| {
-        let pair = figure(**row, index).zip(figure(**row, divisor));
-        let quotient = pair.map(|(a, d)| a / d);
-        let pair = quotient.zip(figure(**row, u));
-        pair.is_some_and(|(q, u)| (q - u).abs() <= 0.05 * u.abs())
+        let divisor = grid.cell(**row, divisor).figure();
+        let pair = made.pair(grid, **row, index).zip(divisor);
+        pair.is_some_and(|((a, u), divisor)| (a / divisor.value - u).abs() <= 0.05 * u)
     };
     2 * located.rows.iter().filter(divides).count() > located.rows.len()
 }

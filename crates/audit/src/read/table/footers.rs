@@ -72,6 +72,12 @@ fn footer_row(
         };
         let figure = grid.cell(row, *column).figure();
         if figure.is_none() {
+            if let Some(figure) = footer::with_factor(text)
+                && footer::set(&mut claimed.footer, Whole::Expanded, figure.at(place))
+            {
+                understood(claimed, place, text, Some(Whole::Expanded));
+                found = true;
+            }
             // `U (k = 2)`, `k = 2.05`: the words hold figures.
             if text.contains('=') && !footer_words_only(text) {
                 let found_here = footer::sentence(text, &measurand, place, &mut claimed.footer);
@@ -86,7 +92,8 @@ fn footer_row(
                     continue;
                 }
             }
-            if let Some(whole) = footer::label(text, &measurand) {
+            let relative = || (text == "W" && labels == 0).then_some(Whole::Expanded);
+            if let Some(whole) = footer::label(text, &measurand).or_else(relative) {
                 // `U | Expanded uncertainty`: symbol and words of the same figure.
                 open = Some(whole);
                 open_unit = columns::apart(text).1;
@@ -121,10 +128,14 @@ fn footer_row(
             {
                 Some(Whole::Y)
             }
+            // `m_X | 10 000.025 g | U = 59 mg (k = 2)`
+            (None, Some(Role::Value)) if labels > 0 && figure.value != 0.0 => Some(Whole::Y),
             (open, _) => open,
         };
         let Some(whole) = whole else { continue };
         if figure.unit.is_empty() {
+            let of_row = located.column(Role::Unit).filter(|_| inside);
+            let of_row = of_row.map(|c| grid.cell(row, c.index).text.trim());
             let next = cells
                 .get(position + 1)
                 .map(|(_, t)| t.as_str())
@@ -132,8 +143,11 @@ fn footer_row(
             let head = by_column
                 .filter(|role| matches!(role, Role::Contribution | Role::U))
                 .map(|role| located.unit(role));
-            figure.unit = [open_unit.as_str(), next.unwrap_or(""), head.unwrap_or("")]
+            let of_row = of_row.filter(|unit| units::parse(unit).is_some());
+            let said = [open_unit.as_str(), next.unwrap_or(""), of_row.unwrap_or("")];
+            figure.unit = said
                 .into_iter()
+                .chain(head)
                 .find(|u| !u.is_empty())
                 .unwrap_or_default()
                 .to_string();

@@ -28,13 +28,65 @@ pub(super) fn head(grid: &Grid, row: usize, mapping: &Mapping) -> Option<Vec<Col
         return None;
     }
     let names = |index: usize| names_below(grid, row, index);
-    let columns = roles(&filled, mapping, &names);
+    let mut columns = roles(&filled, mapping, &names);
+    if let Some(column) = nameless_names(&columns, grid, &names, &filled) {
+        columns.push(column);
+    }
+    relative_contributions(grid, row, &mut columns);
     let has = |roles: &[Role]| columns.iter().any(|c| roles.contains(&c.role));
     let identity = has(&[Role::Symbol, Role::Name]);
     let figure = has(&[Role::Used, Role::U, Role::Contribution])
         || has(&[Role::Remark]) && has(&[Role::Value, Role::C]);
     let enough = columns.len() >= 3 && columns.len() * 2 >= filled.len();
     (identity && figure && enough).then_some(columns)
+}
+
+/// `Contribution %` is the share in the variance where the figures total 100, else the contribution to a relative result.
+fn relative_contributions(grid: &Grid, head: usize, columns: &mut [Column]) {
+    let has = |role: Role| columns.iter().any(|c| c.role == role);
+    if has(Role::U) || has(Role::Contribution) {
+        return;
+    }
+    let is_meant = |column: &&mut Column| {
+        let words = ["contribution", "beitrag", "分量"];
+        let head = column.head.to_lowercase();
+        column.role == Role::Derived && words.iter().any(|word| head.starts_with(word))
+    };
+    let Some(column) = columns.iter_mut().find(is_meant) else {
+        return;
+    };
+    let below = (head + 1..grid.rows.len()).map(|row| grid.cell(row, column.index).figure());
+    let figures: Vec<f64> = below.map_while(|figure| Some(figure?.value)).collect();
+    let total: f64 = figures.iter().sum();
+    // Shares are printed in whole percent, and may miss 100 by half of one each.
+    let is_whole = (total - 100.0).abs() <= 0.5 * figures.len() as f64;
+    if figures.len() >= 2 && !is_whole {
+        (column.role, column.unit) = (Role::Contribution, "%".into());
+    }
+}
+
+/// The column of names in front of the first head, where nothing stands above it.
+fn nameless_names(
+    columns: &[Column],
+    grid: &Grid,
+    names: &dyn Fn(usize) -> Option<Role>,
+    filled: &[(usize, &str)],
+) -> Option<Column> {
+    let is_named = columns
+        .iter()
+        .any(|c| matches!(c.role, Role::Symbol | Role::Name));
+    let first = filled.iter().map(|(index, _)| *index).min()?;
+    let index = first
+        .checked_sub(1)
+        .filter(|_| !is_named && !columns.is_empty())?;
+    let role = names(index).filter(|_| !grid.hidden_columns.contains(&index))?;
+    let (head, unit) = (String::new(), String::new());
+    Some(Column {
+        index,
+        role,
+        head,
+        unit,
+    })
 }
 
 /// What a column is whose head promises figures and which holds none below it: `标准不确定度分量` above `u(m_1)` names
@@ -87,6 +139,10 @@ fn roles(
         }
         let taken = |role: Role| columns.iter().any(|c: &Column| c.role == role);
         let role = match role {
+            // `c_i | u_i`: a bare u behind the coefficient is what comes of both.
+            Role::U if taken(Role::C) && !contributions && columns::is_bare_u(text) => {
+                Role::Contribution
+            }
             // A second column of the same kind is what comes next in the calculation.
             Role::U if taken(Role::U) && !contributions && !taken(Role::Contribution) => {
                 Role::Contribution

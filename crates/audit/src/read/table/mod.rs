@@ -22,4 +22,4 @@ pub use footers::footers;
 pub use interpret::interpret;
 pub use locate::locate;
 pub use located::Located;
-pub use rows::{Raw, rows};
+pub use rows::{Raw, closing, figures_of_result, rows};

@@ -3,6 +3,7 @@
 use crate::claim::{Figure, Row};
 use crate::printed::{Place, Printed};
 use crate::read::columns::Role;
+use crate::read::footer::Whole;
 use crate::read::words::has;
 use crate::sheet::Grid;
 use crate::units;
@@ -252,21 +253,107 @@ impl Raw {
         }
     }
 
-    /// Whether the row is that of the result: its name, or nothing that an input has.
-    pub fn is_result(&self, measurand: &str, is_last: bool) -> bool {
+    /// Whether the row is called the result, and has nothing that an input has.
+    pub fn is_result(&self, measurand: &str) -> bool {
         let row = &self.row;
         let named = !measurand.is_empty() && row.symbol == measurand;
-        let input = row.used.is_some() || row.c.is_some() || row.divisor.is_some();
         let y = matches!(row.symbol.as_str(), "y" | "Y")
             || has(
                 &row.name.to_lowercase(),
-                &["result", "measurand", "结果", "被测量"],
+                &[
+                    "result",
+                    "measurand",
+                    "ergebnis",
+                    "résultat",
+                    "结果",
+                    "被测量",
+                ],
             );
-        // The last row has what no input lacks, and nothing of what an input has.
-        let closing =
-            is_last && row.contribution.is_some() && row.u.is_none() && row.value.is_some();
-        (named || y || closing)
-            && !input
-            && (row.contribution.is_some() || row.u.is_some() || row.value.is_some())
+        let input = row.used.is_some() || row.c.is_some() || row.divisor.is_some();
+        let figure = row.contribution.is_some() || row.u.is_some() || row.value.is_some();
+        (named || y) && !input && figure
     }
+
+    /// What an input has and a result has not: how it is distributed, what it was divided by, how it enters.
+    fn is_input(&self) -> bool {
+        let row = &self.row;
+        let said = self.columns_text.contains(|c: char| c.is_alphanumeric());
+        said || row.used.is_some() || row.c.is_some() || row.divisor.is_some()
+    }
+
+    /// The contribution that its row states, without its sign.
+    fn part(&self) -> Option<f64> {
+        let row = &self.row;
+        let c = row.c.as_ref().map_or(1.0, |c| c.value);
+        let of_u = row.u.as_ref().map(|u| c * u.value);
+        let part = row.contribution.as_ref().map(|part| part.value).or(of_u);
+        part.map(f64::abs)
+    }
+}
+
+/// The last row, where it has nothing of what the others have and its figures come of theirs: it closes the table.
+pub fn closing(rows: &[Raw]) -> Option<usize> {
+    let (last, others) = rows.split_last()?;
+    let inputs = others.iter().filter(|raw| raw.is_input()).count();
+    if others.len() < 2 || 2 * inputs <= others.len() || last.is_input() {
+        return None;
+    }
+    let row = &last.row;
+    // `u(E)` below names that are no symbols of uncertainties.
+    let of_result = |row: &Row| row.label().starts_with("u(") || row.label().starts_with("u_c(");
+    let is_symbol = of_result(row) && !others.iter().any(|raw| of_result(&raw.row));
+    let has_both = row.value.is_some() && row.contribution.is_some() && row.u.is_none();
+    let figures = [&row.value, &row.u, &row.contribution];
+    let is_made = figures
+        .into_iter()
+        .flatten()
+        .any(|figure| times(figure, others).is_some());
+    (has_both || is_made || is_symbol || is_sum(row, others)).then_some(others.len())
+}
+
+/// Whether the estimate of a row is made of those of others: their sum with any signs, or the largest of them with small
+/// corrections.
+fn is_sum(row: &Row, others: &[Raw]) -> bool {
+    let values = others.iter().filter_map(|raw| raw.row.value.as_ref());
+    let values: Vec<f64> = values.map(|value| value.value.abs()).collect();
+    let largest = values.iter().copied().fold(0.0_f64, f64::max);
+    let rest: f64 = values.iter().sum::<f64>() - largest;
+    let near = |value: &Printed| (value.value.abs() - largest).abs() <= rest + value.half;
+    // What is made of all is not known better than the worst of them.
+    let worst = others.iter().filter_map(Raw::part).fold(0.0_f64, f64::max);
+    let made = [&row.u, &row.contribution].into_iter().flatten();
+    if made.into_iter().any(|figure| figure.value.abs() < worst) {
+        return false;
+    }
+    let first = row.value.as_ref();
+    first.is_some_and(|value| value.value != 0.0 && rest < 0.5 * largest && near(value))
+}
+
+/// How many times the root of the sum of squares of other rows a figure is: once for u_c, k times for U.
+fn times(figure: &Printed, others: &[Raw]) -> Option<f64> {
+    let squares = others
+        .iter()
+        .map(|raw| raw.part().map_or(0.0, |part| part * part));
+    let root = libm::sqrt(squares.sum());
+    let open = 0.02 + figure.relative_half().min(0.05);
+    let near = |k: &f64| (figure.value / (k * root) - 1.0).abs() <= open;
+    [1.0, 2.0, 3.0].into_iter().find(near)
+}
+
+/// What the figures of the row of the result are.
+pub fn figures_of_result(row: Row, others: &[Raw]) -> Vec<(Whole, Printed)> {
+    let u = row.contribution.or(row.u);
+    let of_u = |figure: &Printed| match times(figure, others) {
+        Some(k) if k > 1.0 => Whole::Expanded,
+        _ => Whole::Combined,
+    };
+    // `V_X | 0.000055 V`: what alone stands in the column of estimates may be u_c.
+    let of_value = |value: &Printed| match times(value, others) {
+        Some(_) if u.is_none() => of_u(value),
+        _ => Whole::Y,
+    };
+    let value = row.value.map(|value| (of_value(&value), value));
+    let u = u.map(|u| (of_u(&u), u));
+    let dof = row.dof.map(|dof| (Whole::Freedom, dof));
+    [value, u, dof].into_iter().flatten().collect()
 }

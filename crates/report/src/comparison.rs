@@ -306,7 +306,7 @@ fn verdict(report: &Report<'_>, measurand: usize, v: &Validation) -> String {
 
 /// Where k came from, in a few words.
 pub(super) fn basis_of_k(coverage: &Coverage, language: Language) -> String {
-    match (&coverage.basis, language) {
+    match (coverage.named_basis(), language) {
         (CoverageBasis::Normal, Language::English) => "normal distribution".to_string(),
         (CoverageBasis::Normal, Language::Chinese) => "正态分布".to_string(),
         (CoverageBasis::StudentT { dof }, Language::English) => {

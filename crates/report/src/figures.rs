@@ -4,7 +4,7 @@ use gumption_core::quantity::{Rounded, Unit, space_before};
 use gumption_gum::budget::CoverageRule;
 use gumption_gum::propagate::{Reason, Reported, ReportedUncertainty};
 
-use super::number::{STYLE, coverage_factor, exact, freedom, print, significant};
+use super::number::{STYLE, at_place, exact, freedom, print, significant};
 use super::{Report, difference_symbol, symbol};
 use crate::language::Language;
 
@@ -36,7 +36,7 @@ impl<'a> Figures<'a> {
         };
         let k = match (conventions.coverage_factor, reported.uncertainty) {
             (CoverageRule::Fixed(k), ReportedUncertainty::Multiple { .. }) => Some(exact(k)),
-            _ => reported.coverage_factor().map(coverage_factor),
+            _ => reported.coverage_factor().map(|k| print(&at_place(k, -2))),
         };
         let mean = result.monte_carlo.as_ref().and_then(|mc| mc.estimate);
         Figures {

@@ -68,11 +68,6 @@ pub(super) fn at_place(x: f64, place: i32) -> Decimal {
     Decimal::from_f64(x).round_to_place(place, Rounding::HalfEven)
 }
 
-/// k to two decimals, as certificates and tables of t have it.
-pub(super) fn coverage_factor(k: f64) -> String {
-    print(&at_place(k, -2))
-}
-
 /// Power of ten of the last of the first `digits` significant digits of `scale`.
 fn place_of(scale: f64, digits: u8) -> Option<i32> {
     let rounded = Decimal::from_f64(scale).round_to_significant(digits, Rounding::HalfEven);

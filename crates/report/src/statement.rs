@@ -4,7 +4,6 @@
 //! result that rests on Monte Carlo states half the width of its coverage interval as U where that
 //! interval is symmetric about y, and the interval itself where it is not.
 
-use gumption_core::special::normal_two_sided_quantile;
 use gumption_gum::budget::{Conventions, StatementForm, profile_named};
 use gumption_gum::propagate::{
     Basis, CoverageBasis, Freedom, Gum, IntervalKind, Reason, ReportedUncertainty,
@@ -13,7 +12,7 @@ use gumption_gum::propagate::{
 
 use super::figures::Figures;
 use super::language::Language;
-use super::number::{NONE, STYLE, at_place, coverage_factor, grouped, probability};
+use super::number::{NONE, STYLE, at_place, grouped, probability};
 use super::{Report, decisions};
 
 /// One sentence (or a few) per measurand, one for the correlation of several, and one per decision.
@@ -150,22 +149,6 @@ impl Subject<'_> {
         format!("{relation} {}", self.figures.freedom().unwrap_or_default())
     }
 
-    /// What k rests on; the normal distribution where that of t gives the same k as it is printed (JCGM 100, G.6.4: ν_eff is
-    /// large enough).
-    fn basis(&self) -> &CoverageBasis {
-        let basis = &self.gum.coverage.basis;
-        let normal = match self.figures.reported.probability {
-            StatedProbability::Of(p) => Some(coverage_factor(normal_two_sided_quantile(p))),
-            _ => None,
-        };
-        match basis {
-            CoverageBasis::StudentT { .. } if normal.as_deref() == self.figures.k() => {
-                &CoverageBasis::Normal
-            }
-            _ => basis,
-        }
-    }
-
     /// Why k has this value, and what it covers.
     fn reason(&self) -> String {
         let k = self.k();
@@ -180,7 +163,7 @@ impl Subject<'_> {
                 return words.to_string();
             }
         };
-        match (self.basis(), self.language) {
+        match (self.gum.coverage.named_basis(), self.language) {
             (CoverageBasis::Normal, Language::English) => {
                 format!(
                     ", which for a normal distribution corresponds to a coverage probability of about {p}"
@@ -225,7 +208,7 @@ impl Subject<'_> {
             StatedProbability::Of(p) => format!("_{}", probability(p).trim_end_matches(" %")),
             _ => String::new(),
         };
-        let nu = match self.basis() {
+        let nu = match self.gum.coverage.named_basis() {
             CoverageBasis::StudentT { .. } => format!(", ν_eff {}", self.freedom()),
             _ => String::new(),
         };

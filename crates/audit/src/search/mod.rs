@@ -160,7 +160,9 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
             gaps.push(Gap::Expanded);
         }
     }
-    let of_statement = [slips::of_result(&case), slips::of_unit(&case)];
+    let of_result = slips::of_result(&case);
+    let of_result = of_result.filter(|(_, accident)| no_accident(1, *accident) >= SURE);
+    let of_statement = [of_result.map(|(act, _)| act), slips::of_unit(&case)];
     for act in of_statement.into_iter().flatten() {
         explanations.iter_mut().for_each(|one| one.acts.push(act));
     }
@@ -292,7 +294,10 @@ impl Search<'_, '_> {
     fn rounded(&self, checked: &Checked) -> Option<Act> {
         let printed = checked.of_printed.map(|figures| figures.u_c);
         let claimed = self.case.claimed.footer.u_c.as_ref().map(|u_c| u_c.value);
-        let acts = [printed, claimed].into_iter().flatten().map(slips::rounded);
+        let acts = [printed, claimed]
+            .into_iter()
+            .flatten()
+            .filter_map(slips::rounded);
         let mut acts = acts.filter(|act| {
             let mut calculation = self.case.right.clone();
             act.apply(&mut calculation);

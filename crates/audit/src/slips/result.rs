@@ -27,11 +27,9 @@ pub(super) const SLIPS: &[Slip] = &[
 /// How often an estimate is missing in the result: once where it was left out, twice where its sign is wrong.
 const TIMES: [f64; 2] = [1.0, 2.0];
 
-/// A result that a slip with one estimate has made: the only one that gives it, and no accident. With n places to look at,
-/// a result that departs by d is met by chance with the probability n·h/d, where h is half a unit of its last digit; one
-/// slip is named up to 0.29, as everywhere.
-pub(crate) fn of_result(case: &Case<'_>) -> Option<Act> {
-    const ACCIDENT: f64 = 0.29;
+/// A result that a slip with one estimate has made, the only one that gives it, and the probability that it is met by
+/// chance: with n places to look at and a result that departs by d, n·h/d, where h is half a unit of its last digit.
+pub(crate) fn of_result(case: &Case<'_>) -> Option<(Act, f64)> {
     let y = case.claimed.footer.y.as_ref()?;
     let half = y.half_of_digits();
     let met = |x: f64| y.is_met_within(x, half);
@@ -59,7 +57,7 @@ pub(crate) fn of_result(case: &Case<'_>) -> Option<Act> {
     }
     let accident = f64::from(places) * half / departs;
     match found.as_slice() {
-        [one] if accident <= ACCIDENT => Some(*one),
+        [one] => Some((*one, accident)),
         _ => None,
     }
 }
@@ -137,7 +135,7 @@ fn of_model(case: &Case<'_>, total: f64) -> Sum {
 /// Without a model, estimates in the unit of the result are added; where all coefficients are printed as positive, each with
 /// either sign.
 fn of_estimates(case: &Case<'_>) -> Option<Vec<Sum>> {
-    /// More estimates than this with unknown signs give any sum.
+    /// A bound of the work: 2^6 sums.
     const MOST: usize = 6;
     let rows = &case.claimed.rows;
     let unit = unit_of_y(case.claimed);

@@ -10,16 +10,12 @@ fn one(change: Change) -> Vec<(Option<usize>, Change)> {
 }
 
 /// The slip of rounding on the way, where u_c was this one.
-pub(crate) fn rounded(u_c: f64) -> Act {
-    let change = Change::Combined(Combined::Typed(u_c));
-    let rounded = |slip: &&Slip| slip.id == ROUNDED;
-    // Slips of this name exist.
-    let slip = SLIPS.iter().find(rounded).unwrap_or(&SLIPS[0]);
-    Act {
-        slip,
+pub(crate) fn rounded(u_c: f64) -> Option<Act> {
+    Some(Act {
+        slip: super::slip(ROUNDED)?,
         row: None,
-        change,
-    }
+        change: Change::Combined(Combined::Typed(u_c)),
+    })
 }
 
 pub(super) const UNIT_OF_U: &str = "U-unit";

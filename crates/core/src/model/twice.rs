@@ -93,7 +93,8 @@ impl Lowering<'_> {
         let Node::Name(name) = &argument.node else {
             return;
         };
-        let symbol = self.symbol(name);
+        let is_local = self.locals.iter().any(|names| names.contains_key(name));
+        let symbol = self.symbol(name).filter(|_| !is_local);
         let plain = symbol.filter(|symbol| symbol.unit.symbol == Unit::one().symbol);
         if let Some(Role::Input(place)) = plain.map(|symbol| &symbol.role) {
             self.plain_angles.push(*place);

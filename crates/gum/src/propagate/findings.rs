@@ -10,6 +10,7 @@ use super::second_order::{self, SecondOrderOutcome, Terms};
 use super::{few_readings, validation};
 use crate::budget::{Budget, FitVerdict, Group, Law, Owner};
 use gumption_core::model::Notice;
+use gumption_core::special::normal_two_sided_quantile;
 
 /// Poles and ends of domains are looked for within this many standard uncertainties.
 pub(super) const REACH: f64 = 4.0;
@@ -187,13 +188,13 @@ impl Evidence<'_> {
     fn below_reference(&self, measurand: usize) -> Option<FindingKind> {
         /// The k of a certificate that states none (ILAC-P14), or that of another coverage probability.
         const K: f64 = 2.0;
-        /// From the k of 99 % of a normal distribution on, U is not that of 95 %.
-        const OTHER: f64 = 2.576;
+        // From the k of 99 % of a normal distribution on, U is not that of 95 %.
+        let other = normal_two_sided_quantile(0.99);
         let result = &self.results[measurand];
         let lines = result.gum.components.iter().zip(&self.budget.components);
         let references = lines.enumerate().filter_map(|(index, (line, component))| {
             let certificate = component.certificate.as_ref()?;
-            let k = certificate.k.filter(|k| *k < OTHER).unwrap_or(K);
+            let k = certificate.k.filter(|k| *k < other).unwrap_or(K);
             let alone = self.linear.covariance.group(index).is_none();
             alone.then_some((component, k, k * line.contribution.abs()))
         });

@@ -16,6 +16,7 @@ use super::result::{
 use super::validation::{self, numerical_tolerance};
 use crate::budget::{Confirmation, Conventions, CoverageRule};
 use gumption_core::quantity::RoundingRule;
+use gumption_core::special::normal_two_sided_quantile;
 
 /// Half-lengths of a coverage interval that differ by less than this part of U are called equal.
 ///
@@ -348,6 +349,19 @@ impl Coverage {
         /// Probabilities are stated to the whole percent.
         const PERCENT: f64 = 0.01;
         (self.probability - probability).abs() < PERCENT
+    }
+
+    /// By which distribution k is named: the normal one where t has the same k to the two decimals of tables and
+    /// certificates (JCGM 100, G.6.4: ν_eff is large).
+    pub fn named_basis(&self) -> &CoverageBasis {
+        let hundredths = |k: f64| libm::round(100.0 * k);
+        let normal = normal_two_sided_quantile(self.probability);
+        match &self.basis {
+            CoverageBasis::StudentT { .. } if hundredths(self.k) == hundredths(normal) => {
+                &CoverageBasis::Normal
+            }
+            basis => basis,
+        }
     }
 
     /// ν that gave k; `None` where k follows from no ν.

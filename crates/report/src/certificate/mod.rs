@@ -158,7 +158,7 @@ fn distribution(
     measurand: usize,
     uncertainty: ReportedUncertainty,
 ) -> Option<String> {
-    let basis = &row.evaluation.results[measurand].gum.coverage.basis;
+    let basis = row.evaluation.results[measurand].gum.coverage.named_basis();
     match (uncertainty, basis) {
         (ReportedUncertainty::Multiple { .. }, CoverageBasis::Normal) => Some("normal".into()),
         (ReportedUncertainty::Multiple { .. }, CoverageBasis::StudentT { .. }) => {

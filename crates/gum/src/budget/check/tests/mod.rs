@@ -170,6 +170,8 @@ fn degrees_without_a_unit_are_remarked_on() {
     assert_eq!(degrees.len(), 1);
     assert!(degrees[0].en.contains("30 rad"), "{degrees:?}");
     assert_eq!(remarks("value = 0.5", "L * sin(a)"), []);
+    let converted = "s(a) = sin(a)\\ny = L * s(a * pi / 180)\\ny";
+    assert_eq!(remarks("value = 30", converted), []);
     assert_eq!(remarks("value = 30\nunit = \"°\"", "L * sin(a)"), []);
     assert_eq!(remarks("value = 30\nunit = \"rad\"", "L * sin(a)"), []);
 }

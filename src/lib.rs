@@ -149,7 +149,7 @@
 //! | [`recording`] | recordings of instruments: columns, dwells, averages, Allan deviation |
 //! | [`mod@calibrate`] | recordings and measurement equations → coefficients |
 //! | [`mod@diagnose`] | which physics a measurement model left out of a recording |
-//! | [`challenge`] | sealed cases with something concealed, and the grading of a diagnosis |
+//! | `challenge` | sealed cases with something concealed, and the grading of a diagnosis (feature `challenge`) |
 //! | [`verify`] | published examples held against their published figures |
 //! | [`document`] | what every command composes: blocks for people, a typed form for machines |
 //! | [`render`] | the formats of a document: text, Markdown, HTML, JSON, spreadsheets … |
@@ -160,6 +160,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 pub use gumption_audit as audit;
+#[cfg(feature = "challenge")]
 pub use gumption_challenge as challenge;
 pub use gumption_core::{
     distribution, equations, least_squares, model, quantity, special, statistics,

@@ -44,13 +44,15 @@ pub fn sources(krate: &str) -> &'static Uses {
     &READ[krate]
 }
 
+fn manifest(krate: &str) -> toml::Table {
+    let path = folder(krate).join("Cargo.toml");
+    let text = std::fs::read_to_string(path).expect("a manifest");
+    text.parse().expect("TOML")
+}
+
 /// Names of the packages that a crate asks for, outside of tests.
 fn packages(krate: &str) -> Vec<String> {
-    let path = folder(krate).join("Cargo.toml");
-    let manifest: toml::Table = std::fs::read_to_string(path)
-        .expect("a manifest")
-        .parse()
-        .expect("TOML");
+    let manifest = manifest(krate);
     let packages = manifest.get("dependencies").and_then(toml::Value::as_table);
     packages
         .into_iter()
@@ -130,6 +132,17 @@ fn libraries_ask_for_no_terminal() {
                 "{krate} asks for {package}"
             );
         }
+    }
+}
+
+/// What the program alone needs is left out where the facade is used as a library.
+#[test]
+fn the_facade_without_the_program_asks_for_no_terminal() {
+    let manifest = manifest("gumption");
+    for package in ["clap", "ctrlc", "terminal_size", "sha2", "gumption-serve"] {
+        let asked = &manifest["dependencies"][package];
+        let optional = asked.get("optional").and_then(toml::Value::as_bool);
+        assert_eq!(optional, Some(true), "{package}");
     }
 }
 

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use gumption_fault::is_obeyed;
+use serde_json::Value;
 
 use super::format::{Format, Page, Unfit};
 use crate::document::Document;
@@ -17,12 +18,22 @@ pub const FORMAT: Format = Format {
 };
 
 fn render(document: &Document, _: &Page) -> Result<Vec<u8>, Unfit> {
-    Ok(escaped(&format!("{:#}\n", document.machine)).into_bytes())
+    Ok(escaped(pretty(&document.machine)).into_bytes())
+}
+
+fn pretty(value: &Value) -> String {
+    // A value has keys that are texts, and memory takes what is written: neither can fail.
+    let mut text = serde_json::to_string_pretty(value).unwrap_or_default();
+    text.push('\n');
+    text
 }
 
 /// JSON in which characters that a terminal would obey are escaped. They stand inside strings alone, where `\u`
 /// says the same.
-fn escaped(json: &str) -> String {
+fn escaped(json: String) -> String {
+    if !json.chars().any(is_obeyed) {
+        return json;
+    }
     let mut out = String::with_capacity(json.len());
     for c in json.chars() {
         if is_obeyed(c) {
@@ -43,9 +54,9 @@ mod tests {
     #[test]
     fn a_string_means_the_same_and_is_not_obeyed() {
         let text = "\x1b[0m \u{9b} \u{202e} \u{e0041} \n\t\"\\ µ 电";
-        let json = escaped(&format!("{:#}\n", serde_json::json!({ text: [text] })));
+        let json = escaped(pretty(&serde_json::json!({ text: [text] })));
         assert!(!json.chars().any(is_obeyed), "{json:?}");
-        let back: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+        let back: Value = serde_json::from_str(&json).expect("JSON");
         assert_eq!(back[text][0], text);
     }
 }

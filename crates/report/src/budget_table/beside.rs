@@ -81,27 +81,21 @@ pub(crate) fn correlated(report: &Report<'_>) -> Vec<Block> {
     const MOST: usize = 24;
     let l = report.language;
     let name = |t: usize| report.budget.components[t].name.as_str();
-    let mut pairs = Vec::new();
-    for group in &report.budget.groups {
-        for (i, a) in group.members.iter().enumerate() {
-            for (j, b) in group.members.iter().enumerate().skip(i + 1) {
-                let r = group.correlation[(i, j)];
-                if r != 0.0 {
-                    pairs.push(format!(
-                        "r({}, {}) = {}",
-                        name(*a),
-                        name(*b),
-                        coefficient(r)
-                    ));
-                }
-            }
-        }
-    }
+    let groups = report.budget.groups.iter();
+    let mut correlated = groups.flat_map(|group| {
+        let places = 0..group.members.len();
+        let above = places.flat_map(|i| (i + 1..group.members.len()).map(move |j| (i, j)));
+        above.filter_map(|(i, j)| {
+            let r = group.correlation[(i, j)];
+            (r != 0.0).then_some((group.members[i], group.members[j], r))
+        })
+    });
+    let said = |(a, b, r)| format!("r({}, {}) = {}", name(a), name(b), coefficient(r));
+    let mut pairs: Vec<String> = correlated.by_ref().take(MOST).map(said).collect();
     if pairs.is_empty() {
         return Vec::new();
     }
-    let left_out = pairs.len().saturating_sub(MOST);
-    pairs.truncate(MOST);
+    let left_out = correlated.count();
     if left_out > 0 {
         pairs.push(l.pick(
             format!("… and {left_out} more"),

@@ -30,6 +30,8 @@ pub(crate) enum Edit {
     Rename { path: Vec<Step>, name: String },
     /// Puts a value elsewhere.
     Move { path: Vec<Step>, to: Vec<Step> },
+    /// Puts two rows in each other's place.
+    Exchange { path: Vec<Step>, with: Vec<Step> },
 }
 
 /// A text after edits, one after the other.
@@ -57,6 +59,7 @@ fn one_edited(text: &str, edit: &Edit) -> Result<String, Said> {
         Edit::Remove { path } => places.remove(path),
         Edit::Rename { path, name } => return renamed(&places, path, name),
         Edit::Move { path, to } => places.moved(path, to),
+        Edit::Exchange { path, with } => places.exchanged(path, with),
     };
     found.map_err(|Unedited| say!("this cannot be changed in the form; change it in the text"))
 }
@@ -526,6 +529,38 @@ mod tests {
                 assert!(found == wanted || found == without, "{name} {entry:?}");
             }
         }
+    }
+
+    /// Rows of every budget in each other's place: the order of the inputs changes, and no figure; back again it is the same text.
+    #[test]
+    fn rows_are_moved_and_moved_back() {
+        let mut count = 0;
+        for (root, name, text) in budgets() {
+            let entries = &view(&text)["entries"]["keys"];
+            let rows = entries.as_array().into_iter().flatten();
+            let inputs = rows.filter(|entry| entry[0] == "input");
+            let inputs: Vec<&str> = inputs
+                .flat_map(|entry| entry[1]["keys"].as_array().into_iter().flatten())
+                .filter_map(|row| row[0].as_str())
+                .collect();
+            for pair in inputs.windows(2) {
+                let [one, other] = [pair[0], pair[1]].map(|row| vec![key("input"), key(row)]);
+                let edit = |path: &[Step], with: &[Step]| {
+                    let (path, with) = (path.to_vec(), with.to_vec());
+                    [Edit::Exchange { path, with }]
+                };
+                let moved = edited(&text, &edit(&one, &other));
+                let moved = moved.unwrap_or_else(|why| panic!("{name} {pair:?}: {why}"));
+                assert_ne!(moved, text);
+                assert_eq!(edited(&moved, &edit(&one, &other)), Ok(text.clone()), "{name}");
+                if count % 40 == 0 {
+                    let [moved, own] = [&moved, &text].map(|text| figures(&root, &name, text));
+                    assert_eq!(moved.len(), own.len(), "{name}");
+                }
+                count += 1;
+            }
+        }
+        assert!(count > 100, "{count}");
     }
 
     /// A value that is added and removed again leaves the text as it was.

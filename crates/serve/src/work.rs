@@ -17,7 +17,7 @@ use gumption_format::files::{Files, Folder};
 use gumption_gum::budget::{self, Budget, Row};
 use gumption_gum::propagate::{self, Evaluation, MonteCarloChoice, Options};
 use gumption_gum::versions::versions;
-use gumption_lab::calibrate::{self, Calibration, Campaign, PointNames, Residual};
+use gumption_lab::calibrate::{self, Calibration, Campaign, PointNames, Reading, Residual};
 use gumption_lab::diagnose::{self, case};
 use gumption_lab::experiment::Purpose;
 use gumption_report::{self as report, Report};
@@ -357,7 +357,11 @@ impl Asked<'_> {
         let document = report::calibration(&campaign, &found, self.language);
         Ok(Found::Document(
             Box::new(document),
-            json!({ "experiment": true, "residuals": by_line(&campaign, &found) }),
+            json!({
+                "experiment": true,
+                "residuals": by_line(&campaign, &found),
+                "dwells": matches!(campaign.points.names, PointNames::Words(_)),
+            }),
         ))
     }
 
@@ -417,30 +421,34 @@ fn beside(report: &Report<'_>) -> Value {
     })
 }
 
-/// The residuals of a calibration in which each row of the recording is a point: line, response, standardised residual.
+/// What the page brushes: line, response, standardised residual where each row of the recording is a point; else of the
+/// readings that were averaged, how far they lie from their averages.
 fn by_line(campaign: &Campaign, found: &Calibration) -> Vec<Value> {
-    let PointNames::Lines(lines) = &campaign.points.names else {
-        return Vec::new();
-    };
     let responses = campaign.experiment.equations.responses();
-    let row = |one: &Residual| {
-        let line = lines.get(one.point)?;
-        let response = responses
-            .get(one.response)
-            .map_or("", |response| &response.name);
-        let size = one.standardised;
-        size.is_finite().then(|| json!([line, response, size]))
-    };
-    let mut rows: Vec<Value> = found.residuals.iter().filter_map(row).collect();
-    match rows.len() {
-        0..=MOST_RESIDUALS => rows,
-        _ => {
-            let size = |row: &Value| row[2].as_f64().unwrap_or(0.0).abs();
-            rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
-            rows.truncate(MOST_RESIDUALS);
-            rows
+    let mut rows: Vec<Value> = match &campaign.points.names {
+        PointNames::Lines(lines) => {
+            let row = |one: &Residual| {
+                let line = lines.get(one.point)?;
+                let response = responses.get(one.response);
+                let response = response.map_or("", |response| &response.name);
+                let size = one.standardised;
+                size.is_finite().then(|| json!([line, response, size]))
+            };
+            found.residuals.iter().filter_map(row).collect()
         }
+        PointNames::Words(_) => {
+            let is_response = |one: &&Reading| responses.iter().any(|own| own.name == one.column);
+            let own = campaign.points.readings.iter().filter(is_response);
+            let row = |one: &Reading| json!([one.line, one.column, one.deviation]);
+            own.map(row).collect()
+        }
+    };
+    if rows.len() > MOST_RESIDUALS {
+        let size = |row: &Value| row[2].as_f64().unwrap_or(0.0).abs();
+        rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        rows.truncate(MOST_RESIDUALS);
     }
+    rows
 }
 
 /// The unit as printed after a number; nothing for the unit one.

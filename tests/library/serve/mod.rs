@@ -268,6 +268,41 @@ fn sheets_are_audited_and_recordings_calibrated() {
     assert!(!Path::new(&served.folder.join("run.csv")).exists());
 }
 
+/// Of dwells the readings are shown by their lines; one that lies apart is left out, and its dwell stays.
+#[test]
+fn readings_of_dwells_can_be_left_out() {
+    let served = Served::new("serve-dwells", &[]);
+    let experiment = "recording = { file = \"run.csv\", dwells = [\"position\"] }\nequations = \"U = K*omega + b\"\n\
+        [columns]\nposition = \"label\"\n";
+    let mut run = String::from("position,omega [deg/s],U [V]\n");
+    for position in 0..6 {
+        for n in 0..10 {
+            let omega = 10 * position - 20;
+            let glitch = if (position, n) == (2, 4) { 0.05 } else { 0.0 };
+            let noise = f64::from((n * 7 + position * 3) % 10 - 4) * 1e-4;
+            let reading = 0.01 * f64::from(omega) + noise + glitch;
+            run += &format!("p{position},{omega},{reading:.4}\n");
+        }
+    }
+    let see = json!({ "task": "see", "path": "gyro.toml" });
+    let brushed = |text: &str| -> Vec<(u64, String, f64)> {
+        let found = served.told("work", see.clone(), &[("gyro.toml", text), ("run.csv", &run)]);
+        assert_eq!(found["beside"]["dwells"], true, "{found}");
+        serde_json::from_value(found["beside"]["residuals"].clone()).expect("rows")
+    };
+    let all = brushed(experiment);
+    assert_eq!(all.len(), 60);
+    // The largest of ten readings of which nine are alike, (n − 1)/√n standard deviations from their average.
+    let far = all.iter().max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()));
+    let (line, response, size) = far.expect("a reading");
+    assert_eq!((*line, response.as_str()), (26, "U"));
+    assert!((size - 9.0 / 10.0f64.sqrt()).abs() < 0.05, "{size}");
+    let left_out = format!("{experiment}[[left_out]]\nlines = [26]\nreason = \"a knock\"\n");
+    let rest = brushed(&left_out);
+    assert_eq!(rest.len(), 59);
+    assert!(rest.iter().all(|one| one.0 != 26 && one.2.abs() < 2.0));
+}
+
 /// A hundred intervals of which some miss, the same for the same seed.
 #[test]
 fn lessons_draw_their_samples() {

@@ -296,7 +296,7 @@ const MOST_SLIDERS = 60; // inputs that a reader finds
 function moved(beside) {
   state.beside = beside;
   $("experiment").hidden = !beside.experiment;
-  brush(beside.residuals);
+  brush(beside.residuals, beside.dwells);
   $("what-if").hidden = !beside.inputs;
   $("compare").disabled = state.disk === null || isSaved();
   if (!beside.inputs) return;

@@ -552,7 +552,11 @@ mod tests {
                 let moved = edited(&text, &edit(&one, &other));
                 let moved = moved.unwrap_or_else(|why| panic!("{name} {pair:?}: {why}"));
                 assert_ne!(moved, text);
-                assert_eq!(edited(&moved, &edit(&one, &other)), Ok(text.clone()), "{name}");
+                assert_eq!(
+                    edited(&moved, &edit(&one, &other)),
+                    Ok(text.clone()),
+                    "{name}"
+                );
                 if count % 40 == 0 {
                     let [moved, own] = [&moved, &text].map(|text| figures(&root, &name, text));
                     assert_eq!(moved.len(), own.len(), "{name}");

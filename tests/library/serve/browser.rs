@@ -577,7 +577,7 @@ fn a_budget_is_made_in_the_form() {
         moved.as_str().expect("a text").contains(drift_first),
         "{moved}"
     );
-    browser.presses("Enter", 0);
+    browser.presses(" ", 0);
     browser.until("text.value.includes('components = [\\n    { half_width = 0.010 }')");
     browser.value("form.queue.then(() => true)");
     for row in [r#"["correlation",0]"#, r#"["input","I","components",1]"#] {

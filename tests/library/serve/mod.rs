@@ -122,7 +122,14 @@ fn nobody_else_is_let_in() {
             "{outside}"
         );
     }
-    for outside in ["../../etc/hostname", "/etc/hostname", "none.toml"] {
+    for outside in [
+        "../../etc/hostname",
+        "/etc/hostname",
+        "none.toml",
+        "",
+        ".",
+        "a.toml\0",
+    ] {
         let (status, _) = served.ask("open", json!({ "path": outside }), &[]);
         assert_eq!(status, 404, "{outside}");
     }
@@ -208,6 +215,64 @@ fn what_others_have_changed_is_not_overwritten() {
     }
 }
 
+/// A program that is ended while it saves leaves the old text or the new one, whole, and nothing beside it.
+#[test]
+fn a_kill_while_saving_tears_no_file() {
+    let old = BUDGET.to_owned() + &"# old\n".repeat(200_000);
+    let new = BUDGET.to_owned() + &"# new\n".repeat(200_000);
+    let mut saved = 0;
+    for attempt in 0..12u32 {
+        let mut served = Served::new("serve-killed", &[("a.toml", &old)]);
+        let head = json!({ "path": "a.toml", "new": false, "page": "test", "language": "en",
+            "files": [{ "path": "text", "bytes": new.len() }, { "path": "base", "bytes": old.len() }] });
+        let body = format!("{head}\n{new}{old}");
+        let (host, base) = (served.host.clone(), served.base.clone());
+        let request = format!(
+            "POST {base}api/save HTTP/1.1\r\nHost: {host}\r\nContent-Length: {}\r\n\r\n{body}",
+            body.len()
+        );
+        let sending = std::thread::spawn(move || {
+            let mut stream = TcpStream::connect(&host).expect("a connection");
+            let _ = stream.write_all(request.as_bytes());
+            let _ = stream.read(&mut [0; 1]);
+        });
+        std::thread::sleep(std::time::Duration::from_millis(u64::from(attempt)));
+        served.program.kill().expect("it runs");
+        served.program.wait().expect("it ends");
+        sending.join().expect("sent");
+        let there = served.text("a.toml");
+        assert!(there == old || there == new, "{} bytes", there.len());
+        saved += u32::from(there == new);
+    }
+    println!("{saved} of 12 were saved");
+}
+
+/// A body of a gigabyte is refused as it is announced; whoever sends it all the same fills no memory.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_gigabyte_is_not_kept() {
+    let served = Served::new("serve-gigabyte", &[]);
+    let mut stream = TcpStream::connect(&served.host).expect("a connection");
+    let head = format!(
+        "POST {}api/work HTTP/1.1\r\nHost: {}\r\nContent-Length: 1000000000\r\n\r\n",
+        served.base, served.host
+    );
+    stream.write_all(head.as_bytes()).expect("sent");
+    let part = vec![b'x'; 1_000_000];
+    let sent = (0..1000).take_while(|_| stream.write_all(&part).is_ok());
+    let sent = sent.count();
+    assert!(sent < 1000, "all of it was taken");
+    let status = std::fs::read_to_string(format!("/proc/{}/status", served.program.id()));
+    let status = status.expect("a program");
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes = peak.and_then(|peak| peak.trim().strip_suffix(" kB"));
+    let kilobytes: u64 = kilobytes
+        .and_then(|peak| peak.parse().ok())
+        .expect("a size");
+    // Less than the gigabyte by far, and more than the largest body that is taken (64 MiB) cannot be needed for one that is not.
+    assert!(kilobytes < 64 * 1024, "{kilobytes} kB");
+}
+
 /// Twenty pages that ask at once, of which each is answered; and a long run that a newer wish of its page ends.
 #[test]
 fn the_newest_wish_of_a_page_wins() {
@@ -273,7 +338,7 @@ fn sheets_are_audited_and_recordings_calibrated() {
 fn readings_of_dwells_can_be_left_out() {
     let served = Served::new("serve-dwells", &[]);
     let experiment = "recording = { file = \"run.csv\", dwells = [\"position\"] }\nequations = \"U = K*omega + b\"\n\
-        [columns]\nposition = \"label\"\n";
+        [columns]\nposition = \"position\"\n";
     let mut run = String::from("position,omega [deg/s],U [V]\n");
     for position in 0..6 {
         for n in 0..10 {
@@ -286,7 +351,11 @@ fn readings_of_dwells_can_be_left_out() {
     }
     let see = json!({ "task": "see", "path": "gyro.toml" });
     let brushed = |text: &str| -> Vec<(u64, String, f64)> {
-        let found = served.told("work", see.clone(), &[("gyro.toml", text), ("run.csv", &run)]);
+        let found = served.told(
+            "work",
+            see.clone(),
+            &[("gyro.toml", text), ("run.csv", &run)],
+        );
         assert_eq!(found["beside"]["dwells"], true, "{found}");
         serde_json::from_value(found["beside"]["residuals"].clone()).expect("rows")
     };

@@ -115,7 +115,9 @@ impl Points {
         for column in &recording.columns {
             match &column.data {
                 Data::Numbers(samples) => {
-                    points.readings.extend(readings(recording, column, &cut.kept));
+                    points
+                        .readings
+                        .extend(readings(recording, column, &cut.kept));
                     points.findings.extend(spikes(recording, column, &cut.kept));
                     let averages: Vec<Option<Average>> = cut
                         .kept
@@ -180,9 +182,7 @@ fn readings(recording: &Recording, column: &Column, dwells: &[Dwell]) -> Vec<Rea
 }
 
 fn farthest(found: &mut Vec<(usize, f64)>) {
-    found.sort_unstable_by(|(row, a), (other, b)| {
-        b.abs().total_cmp(&a.abs()).then(row.cmp(other))
-    });
+    found.sort_unstable_by(|(row, a), (other, b)| b.abs().total_cmp(&a.abs()).then(row.cmp(other)));
     found.truncate(MOST_READINGS);
 }
 

@@ -221,7 +221,10 @@ fn is_marked(audit: &Audit<'_>, i: usize) -> bool {
     let best: Option<&Explanation> = audit.found.explanations.first();
     let slipped = best.is_some_and(|best| best.acts.iter().any(|act| act.row == Some(i)));
     let gaps = &audit.found.gaps;
-    slipped || gaps.iter().any(|gap| matches!(gap, Gap::Row(row, _) if *row == i))
+    slipped
+        || gaps
+            .iter()
+            .any(|gap| matches!(gap, Gap::Row(row, _) if *row == i))
 }
 
 /// U if everything in an explanation were corrected is the right one; what a single correction does is shown in words.

@@ -80,7 +80,11 @@ fn rows(audit: &Audit<'_>) -> Vec<Pair> {
         let mark = if is_marked(audit, i) { MARK } else { "" };
         Pair {
             name: format!("{}{mark}", words::short(row)),
-            recomputed: if line.counted { line.contribution().abs() } else { 0.0 },
+            recomputed: if line.counted {
+                line.contribution().abs()
+            } else {
+                0.0
+            },
             // Without a column of contributions the claimed u stands for what it contributes.
             claimed: claimed.or(row.u.as_ref().map(|u| u.value.abs() * factor)),
         }
@@ -107,7 +111,9 @@ fn whole(audit: &Audit<'_>) -> [Pair; 2] {
         ("U", right.expanded, &footer.expanded),
     ]
     .map(|(name, recomputed, claimed): (_, _, &Option<Printed>)| {
-        let departs = claimed.as_ref().is_some_and(|own| !own.is_met_by(recomputed));
+        let departs = claimed
+            .as_ref()
+            .is_some_and(|own| !own.is_met_by(recomputed));
         let mark = if is_open && departs { MARK } else { "" };
         is_open &= !departs;
         Pair {

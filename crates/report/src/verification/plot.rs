@@ -49,18 +49,26 @@ fn figure(row: &Row, comparison: &Comparison) -> Option<Figure> {
 }
 
 /// A layer for each kind that there is, those that matter most above the others.
-fn layers(figures: &[Figure], l: Language, place: impl Fn(usize, &Figure) -> [f64; 2]) -> Vec<Layer> {
-    let kinds = [
-        (Kind::Shown, l.pick("not gating", "不作判据"), Tone::Quiet),
-        (Kind::Agrees, l.pick("agrees", "一致"), Tone::Main),
-        (Kind::Differs, l.pick("DIFFERS", "不一致"), Tone::Contrast),
-    ];
-    let layers = kinds.map(|(kind, name, tone)| {
-        let own = figures.iter().enumerate().filter(|(_, one)| one.kind == kind);
+fn layers(
+    kinds: &[Kind],
+    figures: &[Figure],
+    l: Language,
+    place: impl Fn(usize, &Figure) -> [f64; 2],
+) -> Vec<Layer> {
+    let layers = kinds.iter().map(|kind| {
+        let (name, tone) = match kind {
+            Kind::Shown => (l.pick("not gating", "不作判据"), Tone::Quiet),
+            Kind::Agrees => (l.pick("agrees", "一致"), Tone::Main),
+            Kind::Differs => (l.pick("DIFFERS", "不一致"), Tone::Contrast),
+        };
+        let own = figures
+            .iter()
+            .enumerate()
+            .filter(|(_, one)| one.kind == *kind);
         let points: Vec<[f64; 2]> = own.map(|(at, one)| place(at, one)).collect();
         (!points.is_empty()).then(|| layer(name, tone, Marks::data(points)))
     });
-    layers.into_iter().flatten().collect()
+    layers.flatten().collect()
 }
 
 fn layer(name: &str, tone: Tone, marks: Marks) -> Layer {
@@ -81,7 +89,8 @@ fn against(figures: &[Figure], l: Language) -> Panel {
     let name = l.pick("equal", "相等");
     let equal = Marks::Line(vec![[low, low], [high, high]]);
     let mut all = vec![layer(name, Tone::Quiet, equal)];
-    all.extend(layers(figures, l, |_, one| {
+    let kinds = [Kind::Shown, Kind::Agrees, Kind::Differs];
+    all.extend(layers(&kinds, figures, l, |_, one| {
         [one.published.abs(), one.obtained.abs()]
     }));
     Panel {
@@ -94,13 +103,19 @@ fn against(figures: &[Figure], l: Language) -> Panel {
     }
 }
 
+/// Of the figures on which a verdict depends: others may be so far off that nothing else could be seen.
 fn deviations(figures: &[Figure], l: Language) -> Panel {
+    let all_shown = figures.iter().all(|one| one.kind == Kind::Shown);
+    let kinds: &[Kind] = match all_shown {
+        true => &[Kind::Shown],
+        false => &[Kind::Agrees, Kind::Differs],
+    };
     let name = l.pick("tolerance", "允差");
     let mut all = vec![
         layer(name, Tone::Quiet, Marks::Level(1.0)),
         layer("", Tone::Quiet, Marks::Level(-1.0)),
     ];
-    all.extend(layers(figures, l, |at, one| {
+    all.extend(layers(kinds, figures, l, |at, one| {
         [(at + 1) as f64, one.deviation]
     }));
     Panel {
@@ -108,7 +123,13 @@ fn deviations(figures: &[Figure], l: Language) -> Panel {
             .pick("Deviations in units of the tolerance", "以允差为单位的偏差")
             .to_owned(),
         x: Axis::linear(l.pick("no. of the figure", "数值序号"), ""),
-        y: Axis::linear(l.pick("(obtained − published) / tolerance", "（计算值 − 发表值）/ 允差"), ""),
+        y: Axis::linear(
+            l.pick(
+                "(obtained − published) / tolerance",
+                "（计算值 − 发表值）/ 允差",
+            ),
+            "",
+        ),
         layers: all,
     }
 }

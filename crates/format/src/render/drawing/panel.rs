@@ -177,9 +177,7 @@ impl<'a> Frame<'a> {
                 look.line([[x, y], [x + SAMPLE, y]])
             }
             Marks::Band(_) => look.area(rectangle([x, y - 5.0], [SAMPLE, 10.0]), PALE),
-            Marks::Bars(_) => {
-                look.area(rectangle([x, y - 5.0], [SAMPLE, 10.0]), look.ground())
-            }
+            Marks::Bars(_) => look.area(rectangle([x, y - 5.0], [SAMPLE, 10.0]), look.ground()),
         };
         self.shapes.push(shape);
     }

@@ -106,13 +106,13 @@ fn contributions(report: &Report<'_>, m: usize) -> Panel {
 
 /// How the squares of the contributions, correlation and second order add up to u².
 fn waterfall(report: &Report<'_>, m: usize) -> Panel {
+    /// Per cent of u² that a bar can show.
+    const SEEN: f64 = 0.05;
     let l = report.language;
     let name = report.measurand(m).0;
     let result = &report.evaluation.results[m];
     let gum = &result.gum;
     let part = |i: usize| 100.0 * (gum.inputs[i].contribution / gum.u).powi(2);
-    /// Per cent of u² that a bar can show.
-    const SEEN: f64 = 0.05;
     let mut order = largest(gum);
     order.retain(|i| part(*i) > SEEN);
     let mut at = 0.0;

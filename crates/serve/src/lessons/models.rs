@@ -4,9 +4,10 @@ use gumption_core::special::{normal_pdf, normal_two_sided_quantile};
 use gumption_format::document::{Axis, ColumnKind, Marks, Panel, Table, Tone};
 use gumption_format::machine::Number;
 
-use super::{
-    Class, Drawn, EXPERIMENTS, MOST_READINGS, P, SEEN, curve, ends, layer, moments, outline,
-};
+use super::{Class, Drawn, P, SEEN, curve, ends, layer, moments, outline};
+
+/// Equal steps of the slider multiply the trials alike: the last of them, STEP³⁰, is all 10 000.
+const STEP: f64 = 1.359_356_39;
 
 /// The first trials of a product; the slider adds to those that are there, from two to all.
 pub(super) fn histogram(class: &Class<'_>) -> Drawn {
@@ -15,11 +16,9 @@ pub(super) fn histogram(class: &Class<'_>) -> Drawn {
          [input]\na = { value = 1, u = 0.2 }\nb = { value = 1, half_width = 0.2 }\n",
     );
     let all = samples.into_iter().next().unwrap_or_default();
-    // Equal steps of the slider multiply their number alike.
-    let share = class.n as f64 / MOST_READINGS as f64;
-    let trials = (EXPERIMENTS as f64).powf(share).round().max(2.0) as usize;
+    let trials = STEP.powi(class.n as i32).round() as usize;
     let drawn = &all[..trials.min(all.len())];
-    // (ab)² = a²b²: u² = u²(a) + u²(b) + u²(a) u²(b), of which the first order has the first two.
+    // u² = u²(a) + u²(b): at the estimates both coefficients are 1.
     let u = 0.2 * (4.0_f64 / 3.0).sqrt();
     let reach = [1.0 - 4.0 * u, 1.0 + 4.0 * u];
     let mut table = Table::new([
@@ -47,8 +46,8 @@ pub(super) fn histogram(class: &Class<'_>) -> Drawn {
     let [centre, s] = moments(drawn);
     Drawn {
         words: class.language.pick(
-            format!("Monte Carlo does what a laboratory cannot: it repeats the measurement. Each trial draws a value of a (normal, u = 0.2) and one of b (anywhere within ±0.2), and multiplies them. The slider adds trials to those that are there, from 2 to 10 000; now there are {trials}. A few say little, hundreds show the shape, and only thousands the ends of an interval: the last digits of u stand still when trials are a hundred times as many as parts of u that matter."),
-            format!("蒙特卡洛法能做实验室做不到的事：重复整个测量。每次试验抽取一个 a（正态，u = 0.2）和一个 b（在 ±0.2 内均匀），并求其积。滑块在已有试验上继续增加，从 2 次到 10 000 次；现在是 {trials} 次。几次说明不了什么，几百次可看出形状，几千次才能确定区间端点。"),
+            format!("Monte Carlo does what a laboratory cannot: it repeats the measurement. Each trial draws a value of a (normal, u = 0.2) and one of b (anywhere within ±0.2), and multiplies them. The slider adds trials to those that are there, from 2 to 10 000; now there are {trials}. A few say little, hundreds show the shape, and only thousands the ends of an interval: u is known to one part in √(2 M) after M trials."),
+            format!("蒙特卡洛法能做实验室做不到的事：重复整个测量。每次试验抽取一个 a（正态，u = 0.2）和一个 b（在 ±0.2 内均匀），并求其积。滑块在已有试验上继续增加，从 2 次到 10 000 次；现在是 {trials} 次。几次说明不了什么，几百次可看出形状，几千次才能确定区间端点：M 次试验后，u 约准至 √(2 M) 分之一。"),
         ),
         table,
         panel: Panel {
@@ -210,9 +209,9 @@ pub(super) fn square(class: &Class<'_>) -> Drawn {
 
 /// An accelerometer turned through four positions on a support that is not level.
 pub(super) fn tumble(class: &Class<'_>) -> Drawn {
-    let level = class.n as f64;
-    // Scatter of a reading, in units of g.
+    /// Scatter of a reading, in units of g.
     const SCATTER: f64 = 2e-5;
+    let level = class.n as f64;
     let samples = class.samples(&format!(
         "title = \"Tumble\"\n[measurand]\nlevel = {{ model = \"eps\", unit = \"rad\" }}\n\
          one = {{ model = \"sin(eps) + r2\", unit = \"1\" }}\n\

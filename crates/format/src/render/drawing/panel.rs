@@ -98,7 +98,7 @@ fn length(row: &[&Layer]) -> f64 {
 }
 
 /// Room that a group of bars takes.
-fn thick(group: &Vec<(&Layer, &Bar)>) -> f64 {
+fn thick(group: &[(&Layer, &Bar)]) -> f64 {
     BAR * group.len() as f64 + BETWEEN
 }
 
@@ -116,7 +116,10 @@ impl<'a> Frame<'a> {
         let numbers = ticks(y, panel.y.scale).into_iter();
         let numbers = numbers.map(|(_, number)| wide(&number));
         let (widest, height) = match groups.is_empty() {
-            false => (names.fold(0.0, f64::max), groups.iter().map(thick).sum()),
+            false => (
+                names.fold(0.0, f64::max),
+                groups.iter().map(|group| thick(group)).sum(),
+            ),
             true => (numbers.fold(0.0, f64::max), HEIGHT),
         };
         let left = (widest.min(WIDEST_NAME) + 12.0).max(LEFT);

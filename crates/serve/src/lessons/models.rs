@@ -78,19 +78,15 @@ pub(super) fn resistors(class: &Class<'_>) -> Drawn {
             ColumnKind::Numbers,
         ),
         (
-            class.language.pick("U by the GUM / Ω", "GUM 法的 U / Ω"),
+            class.language.pick("U, GUM / Ω", "GUM 法的 U / Ω"),
             ColumnKind::Numbers,
         ),
         (
-            class
-                .language
-                .pick("95 % of those drawn / Ω", "抽样的 95 % / Ω"),
+            class.language.pick("95 % drawn / Ω", "抽样的 95 % / Ω"),
             ColumnKind::Numbers,
         ),
         (
-            class
-                .language
-                .pick("largest of 10 000 / Ω", "10 000 个中最大 / Ω"),
+            class.language.pick("largest / Ω", "最大 / Ω"),
             ColumnKind::Numbers,
         ),
     ]);
@@ -150,7 +146,7 @@ pub(super) fn square(class: &Class<'_>) -> Drawn {
     let ([centre, s], [low, high]) = (moments(&drawn), ends(&drawn));
     let k = normal_two_sided_quantile(P);
     let mut table = Table::new([
-        ("", ColumnKind::Words),
+        ("", ColumnKind::Names),
         ("y", ColumnKind::Numbers),
         ("u", ColumnKind::Numbers),
         (
@@ -228,44 +224,41 @@ pub(super) fn tumble(class: &Class<'_>) -> Drawn {
     let error: Vec<f64> = scale.iter().map(|k| k - 1.0).collect();
     let first_of_one = (1e-6 * level * level + SCATTER * SCATTER).sqrt();
     let mut table = Table::new([
-        ("", ColumnKind::Words),
+        ("10⁻⁶", ColumnKind::Names),
         (
-            class
-                .language
-                .pick("u, first order / 10⁻⁶", "u，一阶 / 10⁻⁶"),
+            class.language.pick("u, first order", "u，一阶"),
             ColumnKind::Numbers,
         ),
         (
-            class.language.pick("s drawn / 10⁻⁶", "抽样的 s / 10⁻⁶"),
+            class.language.pick("s drawn", "抽样的 s"),
             ColumnKind::Numbers,
         ),
         (
-            class
-                .language
-                .pick("mean error drawn / 10⁻⁶", "抽样的平均误差 / 10⁻⁶"),
+            class.language.pick("mean error", "平均误差"),
             ColumnKind::Numbers,
         ),
     ]);
     let rows = [
         (
-            class.pick("bias from one horizontal reading", "由一个水平位置得零偏"),
+            class.pick("bias, one position", "零偏，单位置"),
             first_of_one,
             &one,
         ),
         (
-            class.pick("bias as the mean of four", "取四位置平均得零偏"),
+            class.pick("bias, mean of four", "零偏，四位置平均"),
             0.5 * SCATTER,
             &four,
         ),
         (
-            class.pick("scale factor (E₀ − E₁₈₀)/2", "标度因数 (E₀ − E₁₈₀)/2"),
+            class.pick("scale factor", "标度因数"),
             SCATTER / 2.0_f64.sqrt(),
             &error,
         ),
     ];
     for (what, first, drawn) in rows {
         let [centre, s] = moments(drawn);
-        let millionths = |x: f64| format!("{:.1}", 1e6 * x);
+        // Without a sign of nothing.
+        let millionths = |x: f64| format!("{:.1}", (1e7 * x).round() / 10.0 + 0.0);
         table.push(vec![
             what.into(),
             millionths(first).into(),
@@ -279,8 +272,8 @@ pub(super) fn tumble(class: &Class<'_>) -> Drawn {
         .collect();
     Drawn {
         words: class.language.pick(
-            format!("An accelerometer is turned to 0°, 90°, 180° and 270° on a support whose level is known to u = {level:.0} mrad (the slider). In one horizontal reading the level error is in the bias to its full size; in the mean of all four it cancels. In the scale factor it acts by its cosine: always too small, by ε²/2 on average. A first-order budget has nothing of that, since the slope of the cosine at zero is zero: it is a correction, not a scatter."),
-            format!("加速度计在水平误差为 u = {level:.0} mrad（滑块）的支座上转到 0°、90°、180° 和 270°。单个水平位置的读数中，水平误差全部进入零偏；四位置平均时则抵消。对标度因数它以余弦起作用：总是偏小，平均为 ε²/2。余弦在零点处斜率为零，一阶评定中看不到它：这是应作的修正，而不是分散性。"),
+            format!("An accelerometer is turned to 0°, 90°, 180° and 270° on a support whose level is known to u = {level:.0} mrad (the slider). In one horizontal reading the level error is in the bias to its full size; in the mean of all four it cancels. In the scale factor, (E₀ − E₁₈₀)/2, it acts by its cosine: always too small, by ε²/2 on average. A first-order budget has nothing of that, since the slope of the cosine at zero is zero: it is a correction, not a scatter."),
+            format!("加速度计在水平误差为 u = {level:.0} mrad（滑块）的支座上转到 0°、90°、180° 和 270°。单个水平位置的读数中，水平误差全部进入零偏；四位置平均时则抵消。对标度因数 (E₀ − E₁₈₀)/2 它以余弦起作用：总是偏小，平均为 ε²/2。余弦在零点处斜率为零，一阶评定中看不到它：这是应作的修正，而不是分散性。"),
         ),
         table,
         panel: Panel {

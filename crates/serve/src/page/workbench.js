@@ -226,8 +226,8 @@ const APART = ["audit", "lesson", "exercise"];
 async function run(task) {
   if (!APART.includes(task) && state.path === null) {
     // There is no text to go back to.
-    $("class").hidden = $("elsewhere").hidden = true;
-    $("lesson").value = "";
+    $("elsewhere").hidden = true;
+    teaching(false);
     note(word("none"));
     return;
   }
@@ -270,8 +270,7 @@ function received(found, ms, task) {
   const faults = found.faults || [];
   if (!APART.includes(task)) { mark(faults); list(faults, found.others); formFaults(faults); }
   $("elsewhere").hidden = ["see", "lesson"].includes(task) || state.path === null || (task === "exercise" && practice.kind === "budget");
-  $("class").hidden = task !== "lesson";
-  if (task !== "lesson") $("lesson").value = "";
+  teaching(task === "lesson");
   if (found.html) {
     show(found.html);
     if (task === "exercise") { $("what-if").hidden = $("experiment").hidden = $("residuals").hidden = true; exerciseReceived(found); return; }
@@ -384,6 +383,13 @@ function fillFormats() {
 function fillLessons(chosen) {
   const at = language === "zh" ? 1 : 0;
   fill($("lesson"), [["", word("chooseLesson")], ...state.lessons.map(([name, titles]) => [name, titles[at]])], chosen);
+}
+
+/// A lesson has the whole page: its pictures are to be read from afar.
+function teaching(isLesson) {
+  $("class").hidden = !isLesson;
+  document.body.classList.toggle("lesson", isLesson);
+  if (!isLesson) $("lesson").value = "";
 }
 
 /// Draws the samples of a lesson; of none, what was there before.
@@ -538,7 +544,7 @@ $("language").addEventListener("change", () => {
   if (practice.open) practice.wanted = "task";
   run(practice.open ? "exercise" : state.shown);
 });
-$("lesson").addEventListener("change", teach);
+$("lesson").addEventListener("change", () => { $("n").value = $("n").defaultValue; teach(); });
 $("n").addEventListener("input", teach);
 $("again").addEventListener("click", () => { state.seed += 1; teach(); });
 $("leave").addEventListener("click", () => run("see"));

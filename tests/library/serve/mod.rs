@@ -173,6 +173,30 @@ fn the_page_shows_what_the_command_line_prints() {
     what_if["changes"] = json!([{ "input": "b", "factor": 10 }]);
     let moved = served.told("work", what_if, &[]);
     assert_eq!(moved["beside"]["results"], typed["beside"]["results"]);
+    // A correlation and degrees of freedom, as if the text said so.
+    let stated = BUDGET.replace("u = 0.01", "u = 0.01, dof = 5")
+        + "[[correlation]]\nbetween = [\"a\", \"b\"]\nr = 0.25\n";
+    let mut moved = see.clone();
+    moved["changes"] = json!([
+        { "path": ["correlation", 0, "r"], "typed": "-0.50" },
+        { "path": ["input", "b", "dof"], "typed": "20" },
+    ]);
+    let moved = served.told("work", moved, &[("a.toml", &stated)]);
+    let said = stated
+        .replace("0.25", "-0.50")
+        .replace("dof = 5", "dof = 20");
+    let said = served.told("work", see.clone(), &[("a.toml", &said)]);
+    assert_eq!(moved["beside"], said["beside"]);
+    assert_eq!(said["beside"]["entries"][0]["name"], "ν(b)");
+    let mut beyond = see.clone();
+    beyond["changes"] = json!([{ "path": ["correlation", 0, "r"], "typed": "2" }]);
+    let beyond = served.told("work", beyond, &[("a.toml", &stated)]);
+    assert!(
+        beyond["message"]
+            .as_str()
+            .is_some_and(|why| !why.is_empty()),
+        "{beyond}"
+    );
     // A fault, at its place in units of UTF-16.
     let broken = BUDGET
         .replace("title = \"T\"", "title = \"电压𝑈\"")

@@ -8,7 +8,7 @@ const state = {
   disk: null, // its text as it was read; null of a file that is new
   crlf: false, // whether its lines end in CR LF, which a text field does not keep
   added: new Map(), // files that were dropped: name → bytes
-  changes: new Map(), // input → { value, factor }
+  changes: new Map(), // input → { value, factor }; path of an entry → { path, typed }
   saved: null, // what the page shows beside the result of the saved text
   beside: null, // … of the last result
   shown: "see", // what the document is: see, require, diagnose, audit
@@ -196,7 +196,7 @@ function soon() {
 }
 
 function changes() {
-  return [...state.changes].map(([input, change]) => ({ input, ...change }));
+  return [...state.changes].map(([input, change]) => change.path ? change : { input, ...change });
 }
 
 /// What travels with every question: the text as it is now, and what was dropped.
@@ -300,12 +300,12 @@ function moved(beside) {
   $("compare").disabled = state.disk === null || isSaved();
   if (!beside.inputs) return;
   if (isSaved() && state.changes.size === 0) state.saved = beside;
-  const rows = $("sliders"), names = beside.inputs.map(input => input.name).join("\n");
+  const rows = $("sliders"), names = [...beside.inputs, ...beside.entries].map(one => one.name).join("\n");
   // While nothing is moved the sliders begin where the text is.
   if (rows.dataset.names !== names || state.changes.size === 0) {
     rows.dataset.names = names;
     const focused = [...rows.querySelectorAll("input")].indexOf(document.activeElement);
-    rows.replaceChildren(...beside.inputs.slice(0, MOST_SLIDERS).map(sliders));
+    rows.replaceChildren(...beside.inputs.slice(0, MOST_SLIDERS).map(sliders), ...beside.entries.slice(0, MOST_SLIDERS).map(entrySlider));
     if (focused >= 0) rows.querySelectorAll("input")[focused]?.focus();
     fill($("measurand"), beside.results.map(result => [result.name, result.name]), $("measurand").value);
   }
@@ -347,6 +347,27 @@ function sliders(input) {
     slider(word("value"), -40, 40, 0, at => `${value(at).toFixed(digits)} ${input.unit}`, at => ({ value: value(at) })),
     slider(word("factor"), -9, 8, 0, at => `× ${Number(factor(at).toPrecision(2))}`, at => ({ factor: factor(at) })),
   );
+  return row;
+}
+
+/// A slider of a correlation coefficient, or of degrees of freedom.
+function entrySlider(entry) {
+  const row = document.createElement("tr"), name = document.createElement("th"), cell = document.createElement("td");
+  name.scope = "row";
+  name.textContent = entry.name;
+  const range = document.createElement("input"), out = document.createElement("output"), key = JSON.stringify(entry.path);
+  const [min, max, step] = entry.key === "r" ? [-1, 1, 0.05] : [1, Math.max(100, entry.value), 1];
+  Object.assign(range, { type: "range", min, max, step, value: entry.value });
+  range.setAttribute("aria-label", entry.name);
+  const typed = () => entry.key === "r" ? Number(range.value).toFixed(2) : range.value;
+  range.addEventListener("input", () => {
+    out.textContent = typed();
+    state.changes.set(key, { path: entry.path, typed: typed() });
+    soon();
+  });
+  out.textContent = String(entry.value);
+  cell.append(range, out);
+  row.append(name, cell);
   return row;
 }
 

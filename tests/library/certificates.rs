@@ -50,6 +50,7 @@ fn certificate(budget: &str, folder: &Path, ending: &str) -> PathBuf {
 fn digital_certificates_are_valid() {
     let folder = folder("digital");
     let files = BUDGETS.map(|budget| certificate(budget, &folder, "xml"));
+    let of_others = root().join("tests/data/dcc/thermometers-3.3.0.xml");
     let again = std::fs::read(&files[0]).expect("a certificate");
     certificate(BUDGETS[0], &folder, "xml");
     assert_eq!(again, std::fs::read(&files[0]).expect("a certificate"));
@@ -58,6 +59,7 @@ fn digital_certificates_are_valid() {
         .arg(root().join("tests/library/valid.py"))
         .arg(&schema)
         .args(&files)
+        .arg(of_others)
         .output();
     let Some(checked) = checked.ok().filter(|run| run.status.code() != Some(77)) else {
         eprintln!("skipped: needs Python with lxml and the schemas of the DCC");
@@ -128,6 +130,112 @@ fn a_certificate_comes_in_as_it_went_out() {
     );
     let u = told["standard_uncertainty"].as_f64().expect("u");
     assert!((u / (number(&expanded) / number(&k)) - 1.0).abs() < 1e-12);
+}
+
+/// Certificates that others write: lists named by their nominal values, hybrids, a covariance matrix, a relative uncertainty,
+/// the form of the first years. What is expected is read from the files by hand.
+#[test]
+fn certificates_of_others_come_in() {
+    let folder = folder("others");
+    for file in ["thermometers-3.3.0.xml", "weights-2.4.0.xml"] {
+        let kept = root().join("tests/data/dcc").join(file);
+        std::fs::copy(kept, folder.join(file)).expect("a certificate");
+    }
+    let thermometers = "dcc = \"thermometers-3.3.0.xml\"";
+    let weights = "dcc = \"weights-2.4.0.xml\"";
+    for (keys, unit, value, u) in [
+        (
+            format!("{thermometers}, result = \"Error\", point = \"100 °C\""),
+            "K",
+            0.089,
+            0.031,
+        ),
+        (
+            format!("{thermometers}, result = \"Abweichung\", point = \"3\""),
+            "K",
+            0.107,
+            0.035,
+        ),
+        // The root of 4.0 (mΩ)², and not the factor of the ellipse.
+        (
+            format!("{thermometers}, result = \"coefficients\", point = \"R0\""),
+            "mohm",
+            100_012.3,
+            2.0,
+        ),
+        (
+            format!("{thermometers}, result = \"coefficients\", point = \"A\""),
+            "1/K",
+            0.003_908_3,
+            5e-7,
+        ),
+        (
+            format!("{thermometers}, result = \"insulation\", k = 2"),
+            "Mohm",
+            250.0,
+            5.0,
+        ),
+        (
+            format!("{weights}, result = \"Gemessener Wert\", point = \"1\""),
+            "g",
+            1000.0012,
+            2.5e-4,
+        ),
+        (
+            format!("{weights}, result = \"Gemessener Wert\", point = \"2\""),
+            "kg",
+            2.000_003_1,
+            1e-6 / 2.1,
+        ),
+        (
+            format!("{weights}, result = \"Dichte\""),
+            "kg/m^3",
+            7950.0,
+            20.0,
+        ),
+    ] {
+        let text = format!(
+            "[measurand.y]\nmodel = \"x\"\nunit = \"{unit}\"\n[input.x]\ncertificate = {{ {keys} }}\n"
+        );
+        let found = evaluated(&folder, &text);
+        let told = &found["measurands"][0]["reported"];
+        for (key, wanted) in [("estimate", value), ("standard_uncertainty", u)] {
+            let own = told[key].as_f64().expect(key);
+            assert!((own / wanted - 1.0).abs() < 1e-12, "{keys}, {key}: {own}");
+        }
+    }
+    // Valid for a year from the seventh of March.
+    let dated = |date: &str| {
+        let text = format!(
+            "date = {date}\n[measurand.y]\nmodel = \"x\"\nunit = \"K\"\n[input.x]\ncertificate = {{ {thermometers}, result = \"Error\", point = \"1\" }}\n"
+        );
+        evaluated(&folder, &text).to_string()
+    };
+    let was_due = "The certificate INM-2025-417 of x was due on 2026-03-07";
+    assert!(!dated("2026-03-07").contains(was_due));
+    assert!(dated("2026-03-08").contains(was_due));
+}
+
+/// The next calibration of a certificate that is written is the end of its use where it is read.
+#[test]
+fn the_next_calibration_is_written_and_read() {
+    let folder = folder("due");
+    let template = gumption::report::certificate_template();
+    let data = template.replace("# due = 2027-01-15  ", "due = 2027-01-15");
+    assert_ne!(data, template);
+    std::fs::write(folder.join("laboratory.toml"), data).expect("a file");
+    let file = certificate("mass/weight-10kg-ea402-s2", &folder, "xml");
+    let text = std::fs::read_to_string(certificate("mass/weight-10kg-ea402-s2", &folder, "md"));
+    assert!(text.expect("a document").contains("Next calibration"));
+    let name = file.file_name().expect("a name");
+    let used = |date: &str| {
+        let text = format!(
+            "date = {date}\n[measurand.y]\nmodel = \"x\"\nunit = \"g\"\n[input.x]\ncertificate = {{ dcc = {name:?}, result = \"result1\" }}\n"
+        );
+        evaluated(&folder, &text).to_string()
+    };
+    assert!(!used("2027-01-15").contains("was due"));
+    assert!(used("2027-01-16").contains("was due on 2027-01-15"));
 }
 
 /// `pydcc`, a reader of others, finds what the statement says.

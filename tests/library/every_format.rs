@@ -3,12 +3,16 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use gumption::audit::read::Mapping;
+use gumption::audit::{audit, claims};
 use gumption::budget::{self, Trials};
 use gumption::document::Document;
-use gumption::propagate::{self, Options};
+use gumption::experiment::Purpose;
+use gumption::propagate::{self, MonteCarloChoice, Options};
 use gumption::render::{FORMATS, Page, archive};
 use gumption::report::{self, Language, Report};
-use gumption::{Files, render};
+use gumption::verify::{Environment, Example, Verification};
+use gumption::{Files, calibrate, challenge, render};
 
 use super::common::{self, cases, program, root};
 
@@ -133,30 +137,9 @@ fn no_figure_of_the_library_differs_between_formats() {
     for path in common::files("budgets", "toml") {
         let document = certificate(&path, &laboratory);
         let what = |format: &str| format!("{}, {format}", common::relative(&path));
-        let html = seen("html", &written(&document, "html"));
+        let html = same_in_every_format(&document, &what);
         assert!(html.len() > 5, "{html:?}");
-        let docx = seen("docx", &written(&document, "docx"));
-        within(&html, &docx, &what("HTML, not in Word"));
-        within(&docx, &html, &what("Word, not in HTML"));
-        let markdown = seen("markdown", &written(&document, "markdown"));
-        within(&html, &markdown, &what("HTML, not in Markdown"));
-        within(&markdown, &html, &what("Markdown, not in HTML"));
-        within(
-            &seen("text", &written(&document, "text")),
-            &html,
-            &what("text, not in HTML"),
-        );
-        let workbook = written(&document, "xlsx");
         let stated = statement(&document);
-        within(
-            &stated,
-            &seen("xlsx", &workbook),
-            &what("statement, not in Excel"),
-        );
-        within(&stated, &html, &what("statement, not in HTML"));
-        let json: serde_json::Value =
-            serde_json::from_slice(&written(&document, "json")).expect("JSON");
-        assert!(json.is_object() || json.is_array());
         // A digital certificate is refused with a reason where it cannot say what is stated.
         let dcc = render::with_ending("xml").expect("the format");
         match (dcc.render)(&document, &Page::default()) {
@@ -177,6 +160,91 @@ fn no_figure_of_the_library_differs_between_formats() {
         count > 100 && certified * 4 > count * 3,
         "{certified} of {count}"
     );
+}
+
+/// Holds the words of every format against those of HTML, which it gives.
+#[track_caller]
+fn same_in_every_format(document: &Document, what: &dyn Fn(&str) -> String) -> Figures {
+    let seen = |name: &str| seen(name, &written(document, name));
+    let html = seen("html");
+    let docx = seen("docx");
+    within(&html, &docx, &what("HTML, not in Word"));
+    within(&docx, &html, &what("Word, not in HTML"));
+    let markdown = seen("markdown");
+    within(&html, &markdown, &what("HTML, not in Markdown"));
+    within(&markdown, &html, &what("Markdown, not in HTML"));
+    within(&seen("text"), &html, &what("text, not in HTML"));
+    let stated = statement(document);
+    within(&stated, &seen("xlsx"), &what("statement, not in Excel"));
+    within(&stated, &html, &what("statement, not in HTML"));
+    let json: serde_json::Value = serde_json::from_slice(&written(document, "json")).expect("JSON");
+    assert!(json.is_object() || json.is_array());
+    html
+}
+
+/// The words of two languages beside each other.
+fn both(composed: impl Fn(Language) -> Document) -> Document {
+    composed(Language::English).beside_the_words_of(composed(Language::Chinese))
+}
+
+/// Calibrations of every experiment, audits of sheets of every layout, and the verification of the library.
+#[test]
+fn no_figure_of_other_commands_differs_between_formats() {
+    let mut calibrations = 0;
+    for path in common::files("experiments", "toml") {
+        let name = common::relative(&path);
+        // Of some the recording is not here, and plans have none.
+        let Ok(campaign) = calibrate::load(&path, Purpose::Calibrate) else {
+            continue;
+        };
+        let Ok(found) = calibrate::calibrate(&campaign) else {
+            continue;
+        };
+        let document = both(|language| report::calibration(&campaign, &found, language));
+        assert!(document.plots().next().is_some(), "{name}");
+        same_in_every_format(&document, &|format| format!("{name}, {format}"));
+        calibrations += 1;
+    }
+    assert!(calibrations >= 10, "{calibrations}");
+    let mut marked = 0;
+    for number in 1..=40 {
+        let sealed = challenge::budget::sheet(20_261_124, number);
+        let name = format!("{number}.{}", sealed.ending);
+        let claimed = claims(&name, &sealed.bytes, &Mapping::default()).expect("a sheet");
+        let audits: Vec<_> = claimed.iter().map(audit).collect();
+        let document = both(|language| report::audit(&name, &audits, language));
+        same_in_every_format(&document, &|format| format!("audit of {name}, {format}"));
+        // Where a row is marked in the table, it is in the picture.
+        let html = String::from_utf8(written(&document, "html")).expect("UTF-8");
+        let (words, pictures) = html.split_once("<svg").unwrap_or((&html, ""));
+        if words.contains('◀') {
+            assert!(pictures.contains(" ◀</text>"), "{name}");
+            marked += 1;
+        }
+    }
+    assert!(marked >= 10, "{marked}");
+    let options = Options {
+        monte_carlo: MonteCarloChoice::Off,
+        ..Options::default()
+    };
+    let files = common::files("budgets", "toml");
+    let examples = files
+        .iter()
+        .filter_map(|path| Example::evaluate(Files::Disk, path, &common::relative(path), &options));
+    let verification = Verification {
+        environment: Environment {
+            version: "0",
+            os: "any",
+            architecture: "any",
+            instruction_set: "any",
+            date: "2026-01-31".into(),
+        },
+        examples: examples.collect(),
+        without_claims: Vec::new(),
+    };
+    let document = both(|language| report::dossier(&verification, language));
+    assert_eq!(document.plots().count(), 1);
+    same_in_every_format(&document, &|format| format!("verification, {format}"));
 }
 
 /// The figures of the sentences of a certificate.
@@ -215,6 +283,8 @@ fn every_command_writes_every_format() {
         ),
         ("eval", vec![here("docs/examples/voltage-and-current.toml")]),
     ];
+    // A plan in which everything has one cause has none.
+    let mut pictured = BTreeSet::new();
     for (command, arguments) in commands {
         let mut all = Vec::new();
         for format in FORMATS {
@@ -253,9 +323,23 @@ fn every_command_writes_every_format() {
             seen(name, bytes)
         };
         let html = of("html");
+        let (_, page) = all.iter().find(|(own, _)| *own == "html").expect("a page");
+        if String::from_utf8_lossy(page).contains("<svg") {
+            pictured.insert(command);
+        }
         let what = |format: &str| format!("{command} {arguments:?}, {format}");
         within(&html, &of("docx"), &what("HTML, not in Word"));
         within(&of("docx"), &html, &what("Word, not in HTML"));
         within(&html, &of("markdown"), &what("HTML, not in Markdown"));
     }
+    let all = [
+        "allan",
+        "audit",
+        "calibrate",
+        "diagnose",
+        "eval",
+        "plan",
+        "verify",
+    ];
+    assert_eq!(pictured, BTreeSet::from(all));
 }

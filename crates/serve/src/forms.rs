@@ -30,6 +30,8 @@ pub(crate) enum Edit {
     Rename { path: Vec<Step>, name: String },
     /// Puts a value elsewhere.
     Move { path: Vec<Step>, to: Vec<Step> },
+    /// Puts two rows in each other's place.
+    Exchange { path: Vec<Step>, with: Vec<Step> },
 }
 
 /// A text after edits, one after the other.
@@ -57,6 +59,7 @@ fn one_edited(text: &str, edit: &Edit) -> Result<String, Said> {
         Edit::Remove { path } => places.remove(path),
         Edit::Rename { path, name } => return renamed(&places, path, name),
         Edit::Move { path, to } => places.moved(path, to),
+        Edit::Exchange { path, with } => places.exchanged(path, with),
     };
     found.map_err(|Unedited| say!("this cannot be changed in the form; change it in the text"))
 }
@@ -264,6 +267,49 @@ fn is_local(places: &Places<'_>, formula: &[Step], name: &str) -> bool {
             ];
             places.value(&own).is_some() || places.below(&own).next().is_some()
         })
+}
+
+// ---- what if ----------------------------------------------------------------------------------------------------
+
+/// Numbers of a budget that are moved in the text itself: correlation coefficients and degrees of freedom, each with its path
+/// and what it is called.
+pub(crate) fn movable(text: &str) -> Vec<Value> {
+    let Some(places) = Places::of(text) else {
+        return Vec::new();
+    };
+    let scalars = places.scalars();
+    let said = |path: &[Step]| {
+        let (_, span) = scalars.iter().find(|(at, _)| at == path)?;
+        StringMap::new(text, span.clone()).map(|map| map.text().to_owned())
+    };
+    let entry = |(path, span): &(Vec<Step>, Range<usize>)| {
+        let number: f64 = text[span.clone()].parse().ok()?;
+        let [Step::Key(table), .., Step::Key(key)] = path.as_slice() else {
+            return None;
+        };
+        let parent = &path[..path.len() - 1];
+        let name = match (table.as_str(), key.as_str()) {
+            ("correlation", "r") => {
+                let between = |at| {
+                    let list = [Step::Key("between".into()), Step::Index(at)];
+                    said(&[parent, &list].concat())
+                };
+                format!("r({}, {})", between(0)?, between(1)?)
+            }
+            ("input", "dof") => {
+                let steps = parent[1..].iter().filter_map(|step| match step {
+                    Step::Key(key) if ["components", "certificate"].contains(&key.as_str()) => None,
+                    Step::Key(key) => Some(key.clone()),
+                    Step::Index(at) => Some((at + 1).to_string()),
+                });
+                format!("ν({})", steps.collect::<Vec<_>>().join(", "))
+            }
+            _ => return None,
+        };
+        let shown = json!({ "path": path, "name": name, "key": key, "value": number });
+        number.is_finite().then_some(shown)
+    };
+    scalars.iter().filter_map(entry).collect()
 }
 
 // ---- what is shown ---------------------------------------------------------------------------------------------
@@ -528,6 +574,42 @@ mod tests {
         }
     }
 
+    /// Rows of every budget in each other's place: the order of the inputs changes, and no figure; back again it is the same text.
+    #[test]
+    fn rows_are_moved_and_moved_back() {
+        let mut count = 0;
+        for (root, name, text) in budgets() {
+            let entries = &view(&text)["entries"]["keys"];
+            let rows = entries.as_array().into_iter().flatten();
+            let inputs = rows.filter(|entry| entry[0] == "input");
+            let inputs: Vec<&str> = inputs
+                .flat_map(|entry| entry[1]["keys"].as_array().into_iter().flatten())
+                .filter_map(|row| row[0].as_str())
+                .collect();
+            for pair in inputs.windows(2) {
+                let [one, other] = [pair[0], pair[1]].map(|row| vec![key("input"), key(row)]);
+                let edit = |path: &[Step], with: &[Step]| {
+                    let (path, with) = (path.to_vec(), with.to_vec());
+                    [Edit::Exchange { path, with }]
+                };
+                let moved = edited(&text, &edit(&one, &other));
+                let moved = moved.unwrap_or_else(|why| panic!("{name} {pair:?}: {why}"));
+                assert_ne!(moved, text);
+                assert_eq!(
+                    edited(&moved, &edit(&one, &other)),
+                    Ok(text.clone()),
+                    "{name}"
+                );
+                if count % 40 == 0 {
+                    let [moved, own] = [&moved, &text].map(|text| figures(&root, &name, text));
+                    assert_eq!(moved.len(), own.len(), "{name}");
+                }
+                count += 1;
+            }
+        }
+        assert!(count > 100, "{count}");
+    }
+
     /// A value that is added and removed again leaves the text as it was.
     #[test]
     fn what_was_added_can_be_removed() {
@@ -686,6 +768,25 @@ mod tests {
         assert_eq!(
             typed("recording = 'r.csv'\n", "columns.x.unit", "V"),
             "recording = 'r.csv'\n\n[columns.x]\nunit = \"V\"\n"
+        );
+    }
+
+    #[test]
+    fn coefficients_and_degrees_of_freedom_are_movable() {
+        let text = "[[correlation]]\nbetween = [\"a\", \"b\"]\nr = 0.3\n[input.a]\ndof = 4\n[input]\n\
+            b.components = [{ u = 1 }, { u = 2, dof = 9 }]\nc.dof = inf\nd = { certificate = { dof = 7 } }\n";
+        let found = movable(text).into_iter();
+        let found: Vec<Value> = found
+            .map(|one| json!([one["name"], one["value"], one["path"]]))
+            .collect();
+        assert_eq!(
+            found,
+            [
+                json!(["r(a, b)", 0.3, ["correlation", 0, "r"]]),
+                json!(["ν(a)", 4.0, ["input", "a", "dof"]]),
+                json!(["ν(b, 2)", 9.0, ["input", "b", "components", 1, "dof"]]),
+                json!(["ν(d)", 7.0, ["input", "d", "certificate", "dof"]]),
+            ]
         );
     }
 

@@ -127,7 +127,8 @@ impl Routes {
         self.shelf.open(path).map_or_else(
             |error| {
                 let (status, why) = match error.kind() {
-                    ErrorKind::NotFound => (
+                    // Nor is a folder one, or a name that no file can have.
+                    ErrorKind::NotFound | ErrorKind::IsADirectory | ErrorKind::InvalidInput => (
                         StatusCode::NOT_FOUND,
                         say!("there is no file {path} in the folder"),
                     ),

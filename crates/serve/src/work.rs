@@ -1,5 +1,6 @@
 //! Evaluations, audits, calibrations, diagnoses: a document, or what is wrong.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use serde::Deserialize;
@@ -14,16 +15,18 @@ use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::document::Document;
 use gumption_format::files::{Files, Folder};
+use gumption_format::toml::Step;
 use gumption_gum::budget::{self, Budget, Row};
 use gumption_gum::propagate::{self, Evaluation, MonteCarloChoice, Options};
 use gumption_gum::versions::versions;
-use gumption_lab::calibrate::{self, Calibration, Campaign, PointNames, Residual};
+use gumption_lab::calibrate::{self, Calibration, Campaign, PointNames, Reading, Residual};
 use gumption_lab::diagnose::{self, case};
 use gumption_lab::experiment::Purpose;
 use gumption_report::{self as report, Report};
 
 use super::exchange::Contents;
 use super::exercises::{self, Practice, Shown};
+use super::forms::{self, Edit};
 use super::lessons;
 use super::pages::Job;
 use super::shelf::Shelf;
@@ -93,14 +96,20 @@ impl From<Tongue> for Language {
     }
 }
 
-/// What an input would be.
+/// What would be otherwise.
 #[derive(Debug, Clone, Deserialize)]
-pub(crate) struct Change {
-    input: String,
-    /// Its estimate.
-    value: Option<f64>,
-    /// What its uncertainty is multiplied by.
-    factor: Option<f64>,
+#[serde(untagged)]
+pub(crate) enum Change {
+    /// An input.
+    Input {
+        input: String,
+        /// Its estimate.
+        value: Option<f64>,
+        /// What its uncertainty is multiplied by.
+        factor: Option<f64>,
+    },
+    /// An entry of the text.
+    Entry { path: Vec<Step>, typed: String },
 }
 
 /// A wish for U.
@@ -154,10 +163,18 @@ pub(crate) fn done(
     (shelf, shown): (&Shelf, &Shown),
     job: &Job,
 ) -> Found {
+    let otherwise = match otherwise(wish, contents) {
+        Ok(otherwise) => otherwise,
+        Err(why) => return Found::Nothing(why.in_language(wish.language.into())),
+    };
     let contents = contents.iter();
-    let instead: Vec<(&str, &[u8])> = contents
+    let mut instead: Vec<(&str, &[u8])> = contents
         .map(|(path, content)| (path.as_str(), content.as_slice()))
         .collect();
+    if let Some(text) = &otherwise {
+        instead.retain(|(path, _)| *path != wish.path);
+        instead.push((&wish.path, text.as_bytes()));
+    }
     let folder = shelf.folder(&instead);
     let files = Files::Folder(&folder);
     let asked = Asked {
@@ -179,7 +196,34 @@ pub(crate) fn done(
         Task::Lesson => asked.lesson(),
         Task::Exercise => asked.exercise(),
     };
-    found.unwrap_or_else(|found| found)
+    match found.unwrap_or_else(|found| found) {
+        // Its places are not those of the text that is edited.
+        Found::Refused(rejection) if otherwise.is_some() => {
+            let why = rejection.faults.first().map(|fault| &fault.message);
+            Found::Nothing(why.map_or(String::new(), |why| why.in_language(asked.language)))
+        }
+        found => found,
+    }
+}
+
+/// The text as it would be; nothing where all its entries stay.
+fn otherwise(wish: &Wish, contents: &Contents) -> Result<Option<String>, Said> {
+    let edits = wish.changes.iter().filter_map(|change| match change {
+        Change::Entry { path, typed } => Some(Edit::Set {
+            path: path.clone(),
+            typed: typed.clone(),
+        }),
+        Change::Input { .. } => None,
+    });
+    let edits: Vec<Edit> = edits.collect();
+    if edits.is_empty() {
+        return Ok(None);
+    }
+    let own = contents.iter().find(|(path, _)| *path == wish.path);
+    let text = own.map_or(Cow::Borrowed(""), |(_, content)| {
+        String::from_utf8_lossy(content)
+    });
+    forms::edited(&text, &edits).map(Some)
 }
 
 /// A wish with what it takes.
@@ -213,7 +257,9 @@ impl Asked<'_> {
     fn evaluate(&self) -> Result<Found, Found> {
         let rows = self.rows(MonteCarloChoice::AsBudget)?;
         let reports: Vec<Report<'_>> = rows.iter().map(|row| self.report(row)).collect();
-        let first = reports.first().map_or(Value::Null, beside);
+        let mut first = reports.first().map_or(Value::Null, beside);
+        let text = self.files.read(self.path).unwrap_or_default();
+        first["entries"] = json!(forms::movable(&String::from_utf8_lossy(&text)));
         let document = report::evaluations(&reports, 1);
         let document = document.ok_or_else(|| self.nothing(&say!("the file has no rows")))?;
         Ok(Found::Document(Box::new(document), first))
@@ -246,18 +292,23 @@ impl Asked<'_> {
 
     fn changed(&self, budget: Budget) -> Budget {
         self.wish.changes.iter().fold(budget, |budget, change| {
-            let mut inputs = budget.inputs.iter();
-            let Some(input) = inputs.position(|input| input.name == change.input) else {
+            let Change::Input {
+                input,
+                value,
+                factor,
+            } = change
+            else {
                 return budget;
             };
-            let budget = match change.value.filter(|value| value.is_finite()) {
+            let mut inputs = budget.inputs.iter();
+            let Some(input) = inputs.position(|one| one.name == *input) else {
+                return budget;
+            };
+            let budget = match value.filter(|value| value.is_finite()) {
                 Some(value) => budget.at(input, value),
                 None => budget,
             };
-            match change
-                .factor
-                .filter(|factor| factor.is_finite() && *factor >= 0.0)
-            {
+            match factor.filter(|factor| factor.is_finite() && *factor >= 0.0) {
                 Some(factor) => budget.with_uncertainty(input, factor),
                 None => budget,
             }
@@ -357,7 +408,11 @@ impl Asked<'_> {
         let document = report::calibration(&campaign, &found, self.language);
         Ok(Found::Document(
             Box::new(document),
-            json!({ "experiment": true, "residuals": by_line(&campaign, &found) }),
+            json!({
+                "experiment": true,
+                "residuals": by_line(&campaign, &found),
+                "dwells": matches!(campaign.points.names, PointNames::Words(_)),
+            }),
         ))
     }
 
@@ -417,30 +472,34 @@ fn beside(report: &Report<'_>) -> Value {
     })
 }
 
-/// The residuals of a calibration in which each row of the recording is a point: line, response, standardised residual.
+/// What the page brushes: line, response, standardised residual where each row of the recording is a point; else of the
+/// readings that were averaged, how far they lie from their averages.
 fn by_line(campaign: &Campaign, found: &Calibration) -> Vec<Value> {
-    let PointNames::Lines(lines) = &campaign.points.names else {
-        return Vec::new();
-    };
     let responses = campaign.experiment.equations.responses();
-    let row = |one: &Residual| {
-        let line = lines.get(one.point)?;
-        let response = responses
-            .get(one.response)
-            .map_or("", |response| &response.name);
-        let size = one.standardised;
-        size.is_finite().then(|| json!([line, response, size]))
-    };
-    let mut rows: Vec<Value> = found.residuals.iter().filter_map(row).collect();
-    match rows.len() {
-        0..=MOST_RESIDUALS => rows,
-        _ => {
-            let size = |row: &Value| row[2].as_f64().unwrap_or(0.0).abs();
-            rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
-            rows.truncate(MOST_RESIDUALS);
-            rows
+    let mut rows: Vec<Value> = match &campaign.points.names {
+        PointNames::Lines(lines) => {
+            let row = |one: &Residual| {
+                let line = lines.get(one.point)?;
+                let response = responses.get(one.response);
+                let response = response.map_or("", |response| &response.name);
+                let size = one.standardised;
+                size.is_finite().then(|| json!([line, response, size]))
+            };
+            found.residuals.iter().filter_map(row).collect()
         }
+        PointNames::Words(_) => {
+            let is_response = |one: &&Reading| responses.iter().any(|own| own.name == one.column);
+            let own = campaign.points.readings.iter().filter(is_response);
+            let row = |one: &Reading| json!([one.line, one.column, one.deviation]);
+            own.map(row).collect()
+        }
+    };
+    if rows.len() > MOST_RESIDUALS {
+        let size = |row: &Value| row[2].as_f64().unwrap_or(0.0).abs();
+        rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        rows.truncate(MOST_RESIDUALS);
     }
+    rows
 }
 
 /// The unit as printed after a number; nothing for the unit one.

@@ -569,6 +569,17 @@ fn a_budget_is_made_in_the_form() {
     ] {
         assert!(text.contains(part), "{part}\n{text}");
     }
+    // A row moves with its button, and back with the key of the one that has the focus then.
+    browser.value(r#"document.querySelector('[data-row=\'["input","I","components",1]\'] .moves button').click(), form.queue.then(() => true)"#);
+    let drift_first = "components = [\n    { name = \"drift\", readings = [2.0, 2.01, 1.990, 2.005] },\n    { half_width = 0.010 },\n]\n";
+    let moved = browser.value("text.value");
+    assert!(
+        moved.as_str().expect("a text").contains(drift_first),
+        "{moved}"
+    );
+    browser.presses(" ", 0);
+    browser.until("text.value.includes('components = [\\n    { half_width = 0.010 }')");
+    browser.value("form.queue.then(() => true)");
     for row in [r#"["correlation",0]"#, r#"["input","I","components",1]"#] {
         browser.value(&format!(
             "document.querySelector('[data-row=\\'{row}\\'] .remove').click(), form.queue.then(() => true)"

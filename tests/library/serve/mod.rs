@@ -122,7 +122,14 @@ fn nobody_else_is_let_in() {
             "{outside}"
         );
     }
-    for outside in ["../../etc/hostname", "/etc/hostname", "none.toml"] {
+    for outside in [
+        "../../etc/hostname",
+        "/etc/hostname",
+        "none.toml",
+        "",
+        ".",
+        "a.toml\0",
+    ] {
         let (status, _) = served.ask("open", json!({ "path": outside }), &[]);
         assert_eq!(status, 404, "{outside}");
     }
@@ -166,6 +173,30 @@ fn the_page_shows_what_the_command_line_prints() {
     what_if["changes"] = json!([{ "input": "b", "factor": 10 }]);
     let moved = served.told("work", what_if, &[]);
     assert_eq!(moved["beside"]["results"], typed["beside"]["results"]);
+    // A correlation and degrees of freedom, as if the text said so.
+    let stated = BUDGET.replace("u = 0.01", "u = 0.01, dof = 5")
+        + "[[correlation]]\nbetween = [\"a\", \"b\"]\nr = 0.25\n";
+    let mut moved = see.clone();
+    moved["changes"] = json!([
+        { "path": ["correlation", 0, "r"], "typed": "-0.50" },
+        { "path": ["input", "b", "dof"], "typed": "20" },
+    ]);
+    let moved = served.told("work", moved, &[("a.toml", &stated)]);
+    let said = stated
+        .replace("0.25", "-0.50")
+        .replace("dof = 5", "dof = 20");
+    let said = served.told("work", see.clone(), &[("a.toml", &said)]);
+    assert_eq!(moved["beside"], said["beside"]);
+    assert_eq!(said["beside"]["entries"][0]["name"], "ν(b)");
+    let mut beyond = see.clone();
+    beyond["changes"] = json!([{ "path": ["correlation", 0, "r"], "typed": "2" }]);
+    let beyond = served.told("work", beyond, &[("a.toml", &stated)]);
+    assert!(
+        beyond["message"]
+            .as_str()
+            .is_some_and(|why| !why.is_empty()),
+        "{beyond}"
+    );
     // A fault, at its place in units of UTF-16.
     let broken = BUDGET
         .replace("title = \"T\"", "title = \"电压𝑈\"")
@@ -206,6 +237,64 @@ fn what_others_have_changed_is_not_overwritten() {
     for outside in ["../b.toml", "/tmp/b.toml", "b.sh", "none/b.toml"] {
         assert_eq!(save("new", None, outside).0, 403, "{outside}");
     }
+}
+
+/// A program that is ended while it saves leaves the old text or the new one, whole, and nothing beside it.
+#[test]
+fn a_kill_while_saving_tears_no_file() {
+    let old = BUDGET.to_owned() + &"# old\n".repeat(200_000);
+    let new = BUDGET.to_owned() + &"# new\n".repeat(200_000);
+    let mut saved = 0;
+    for attempt in 0..12u32 {
+        let mut served = Served::new("serve-killed", &[("a.toml", &old)]);
+        let head = json!({ "path": "a.toml", "new": false, "page": "test", "language": "en",
+            "files": [{ "path": "text", "bytes": new.len() }, { "path": "base", "bytes": old.len() }] });
+        let body = format!("{head}\n{new}{old}");
+        let (host, base) = (served.host.clone(), served.base.clone());
+        let request = format!(
+            "POST {base}api/save HTTP/1.1\r\nHost: {host}\r\nContent-Length: {}\r\n\r\n{body}",
+            body.len()
+        );
+        let sending = std::thread::spawn(move || {
+            let mut stream = TcpStream::connect(&host).expect("a connection");
+            let _ = stream.write_all(request.as_bytes());
+            let _ = stream.read(&mut [0; 1]);
+        });
+        std::thread::sleep(std::time::Duration::from_millis(u64::from(attempt)));
+        served.program.kill().expect("it runs");
+        served.program.wait().expect("it ends");
+        sending.join().expect("sent");
+        let there = served.text("a.toml");
+        assert!(there == old || there == new, "{} bytes", there.len());
+        saved += u32::from(there == new);
+    }
+    println!("{saved} of 12 were saved");
+}
+
+/// A body of a gigabyte is refused as it is announced; whoever sends it all the same fills no memory.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_gigabyte_is_not_kept() {
+    let served = Served::new("serve-gigabyte", &[]);
+    let mut stream = TcpStream::connect(&served.host).expect("a connection");
+    let head = format!(
+        "POST {}api/work HTTP/1.1\r\nHost: {}\r\nContent-Length: 1000000000\r\n\r\n",
+        served.base, served.host
+    );
+    stream.write_all(head.as_bytes()).expect("sent");
+    let part = vec![b'x'; 1_000_000];
+    let sent = (0..1000).take_while(|_| stream.write_all(&part).is_ok());
+    let sent = sent.count();
+    assert!(sent < 1000, "all of it was taken");
+    let status = std::fs::read_to_string(format!("/proc/{}/status", served.program.id()));
+    let status = status.expect("a program");
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes = peak.and_then(|peak| peak.trim().strip_suffix(" kB"));
+    let kilobytes: u64 = kilobytes
+        .and_then(|peak| peak.parse().ok())
+        .expect("a size");
+    // Less than the gigabyte by far, and more than the largest body that is taken (64 MiB) cannot be needed for one that is not.
+    assert!(kilobytes < 64 * 1024, "{kilobytes} kB");
 }
 
 /// Twenty pages that ask at once, of which each is answered; and a long run that a newer wish of its page ends.
@@ -266,6 +355,45 @@ fn sheets_are_audited_and_recordings_calibrated() {
     let missing = served.told("work", see, &files[..1]);
     assert!(missing["faults"].is_array(), "{missing}");
     assert!(!Path::new(&served.folder.join("run.csv")).exists());
+}
+
+/// Of dwells the readings are shown by their lines; one that lies apart is left out, and its dwell stays.
+#[test]
+fn readings_of_dwells_can_be_left_out() {
+    let served = Served::new("serve-dwells", &[]);
+    let experiment = "recording = { file = \"run.csv\", dwells = [\"position\"] }\nequations = \"U = K*omega + b\"\n\
+        [columns]\nposition = \"position\"\n";
+    let mut run = String::from("position,omega [deg/s],U [V]\n");
+    for position in 0..6 {
+        for n in 0..10 {
+            let omega = 10 * position - 20;
+            let glitch = if (position, n) == (2, 4) { 0.05 } else { 0.0 };
+            let noise = f64::from((n * 7 + position * 3) % 10 - 4) * 1e-4;
+            let reading = 0.01 * f64::from(omega) + noise + glitch;
+            run += &format!("p{position},{omega},{reading:.4}\n");
+        }
+    }
+    let see = json!({ "task": "see", "path": "gyro.toml" });
+    let brushed = |text: &str| -> Vec<(u64, String, f64)> {
+        let found = served.told(
+            "work",
+            see.clone(),
+            &[("gyro.toml", text), ("run.csv", &run)],
+        );
+        assert_eq!(found["beside"]["dwells"], true, "{found}");
+        serde_json::from_value(found["beside"]["residuals"].clone()).expect("rows")
+    };
+    let all = brushed(experiment);
+    assert_eq!(all.len(), 60);
+    // The largest of ten readings of which nine are alike, (n − 1)/√n standard deviations from their average.
+    let far = all.iter().max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()));
+    let (line, response, size) = far.expect("a reading");
+    assert_eq!((*line, response.as_str()), (26, "U"));
+    assert!((size - 9.0 / 10.0f64.sqrt()).abs() < 0.05, "{size}");
+    let left_out = format!("{experiment}[[left_out]]\nlines = [26]\nreason = \"a knock\"\n");
+    let rest = brushed(&left_out);
+    assert_eq!(rest.len(), 59);
+    assert!(rest.iter().all(|one| one.0 != 26 && one.2.abs() < 2.0));
 }
 
 /// A hundred intervals of which some miss, the same for the same seed.

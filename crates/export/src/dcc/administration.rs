@@ -23,7 +23,7 @@ pub(super) fn element(certificate: &Certificate, given: &Administration) -> Elem
         )
         .with(persons(given))
         .with(contact("dcc:customer", &given.customer))
-        .with_all(statements(certificate))
+        .with_all(statements(certificate, given))
 }
 
 /// The program, with its version as others compare them.
@@ -123,26 +123,30 @@ fn persons(given: &Administration) -> Element {
     xml::element("dcc:respPersons").with_all(persons)
 }
 
-/// What holds for all results: how the uncertainty was evaluated and is stated.
-fn statements(certificate: &Certificate) -> Option<Element> {
+/// What holds for all results: how the uncertainty was evaluated and is stated; when the next calibration is due.
+fn statements(certificate: &Certificate, given: &Administration) -> Option<Element> {
+    let named = |english, chinese| {
+        let name = words(certificate, "dcc:name", english, chinese);
+        xml::element("dcc:statement").with(name)
+    };
     let declaration =
         |sentence| xml::element("dcc:statement").with(told("dcc:declaration", sentence));
-    let mut sentences = certificate.statement.iter().map(declaration).peekable();
-    sentences.peek()?;
-    let name = words(
-        certificate,
-        "dcc:name",
-        "Statement of the results and their uncertainty",
-        "结果及其不确定度的说明",
-    );
-    let first = xml::element("dcc:statement").with(name);
-    let first = match certificate.guide.as_str() {
-        "" => first,
-        guide => first.with(tidy("dcc:norm", guide)),
-    };
-    Some(
-        xml::element("dcc:statements")
-            .with(first)
-            .with_all(sentences),
-    )
+    let mut all: Vec<Element> = certificate.statement.iter().map(declaration).collect();
+    if !all.is_empty() {
+        let first = named(
+            "Statement of the results and their uncertainty",
+            "结果及其不确定度的说明",
+        );
+        let guide = Some(certificate.guide.as_str()).filter(|guide| !guide.is_empty());
+        all.insert(
+            0,
+            first.with_all(guide.map(|guide| tidy("dcc:norm", guide))),
+        );
+    }
+    all.extend(given.due.as_ref().map(|due| {
+        named("Next calibration", "下次校准日期")
+            .attribute("refType", "gumption_nextCalibration")
+            .with(text("dcc:date", due.as_str()))
+    }));
+    (!all.is_empty()).then(|| xml::element("dcc:statements").with_all(all))
 }

@@ -72,6 +72,9 @@ fn without_bars(table: &Table) -> Table {
     narrow
 }
 
+/// Ems of a term that stays on one line: Chinese ones have up to four characters, each an em wide.
+const TERM: f32 = 4.05;
+
 /// The glyphs of a table at a size, and whether every word fits.
 fn lay(flow: &mut Flow<'_>, table: &Table, size: f32) -> (Laid, bool) {
     let kinds: Vec<ColumnKind> = table.columns.iter().map(|column| column.kind).collect();
@@ -89,7 +92,14 @@ fn lay(flow: &mut Flow<'_>, table: &Table, size: f32) -> (Laid, bool) {
     let mut most = Vec::new();
     for (at, kind) in kinds.iter().enumerate() {
         let whole = matches!(kind, ColumnKind::Numbers);
-        let mut narrowest = text::widest_part(&head[at]);
+        let unbroken = |letters: &[Letter]| {
+            let width = text::width(letters);
+            match width <= TERM * size {
+                true => width,
+                false => text::widest_part(letters),
+            }
+        };
+        let mut narrowest = unbroken(&head[at]);
         let mut widest = text::width(&head[at]);
         for row in &rows {
             match row {
@@ -99,7 +109,7 @@ fn lay(flow: &mut Flow<'_>, table: &Table, size: f32) -> (Laid, bool) {
                         widest = widest.max(width);
                         narrowest = narrowest.max(match whole {
                             true => width,
-                            false => text::widest_part(letters),
+                            false => unbroken(letters),
                         });
                     }
                     Some(LaidCell::Bar(_)) => {

@@ -2,7 +2,7 @@
 
 use rust_xlsxwriter::{
     Chart, ChartFont, ChartFormat, ChartLine, ChartLineDashType, ChartMarker, ChartMarkerType,
-    ChartType, Workbook, Worksheet, XlsxError,
+    ChartSolidFill, ChartType, Workbook, Worksheet, XlsxError,
 };
 
 use super::looks::Looks;
@@ -106,15 +106,24 @@ fn chart(
     column: &mut u16,
 ) -> Result<Chart, XlsxError> {
     let is_bars = |layer: &Layer| matches!(layer.marks, Marks::Bars(_));
-    let mut chart = match panel.layers.iter().any(is_bars) {
-        true => Chart::new(ChartType::BarStacked),
-        false => Chart::new(ChartType::Scatter),
-    };
+    let bars = panel.layers.iter().filter(|layer| is_bars(layer)).count();
+    let mut chart = Chart::new(match bars {
+        0 => ChartType::Scatter,
+        1 => ChartType::BarStacked,
+        _ => ChartType::Bar,
+    });
     let (mut series_count, mut unnamed) = (0, Vec::new());
     for layer in &panel.layers {
-        if let Marks::Bars(bars) = &layer.marks {
-            self::bars(&mut chart, layer, bars, name, sheet, looks, column)?;
-            continue;
+        match &layer.marks {
+            Marks::Bars(own) if bars == 1 => {
+                stretches(&mut chart, layer, own, name, sheet, looks, column)?;
+                continue;
+            }
+            Marks::Bars(own) => {
+                lengths(&mut chart, layer, own, name, sheet, looks, column)?;
+                continue;
+            }
+            _ => {}
         }
         let columns = columns(layer, panel);
         let first = *column;
@@ -152,7 +161,7 @@ fn chart(
         .title()
         .set_name(said(&panel.title).as_str())
         .set_font(&font);
-    if panel.layers.iter().any(is_bars) {
+    if bars > 0 {
         // The first bar on top.
         chart.y_axis().set_reverse();
         axis(chart.x_axis(), &panel.x);
@@ -160,7 +169,7 @@ fn chart(
         axis(chart.x_axis(), &panel.x);
         axis(chart.y_axis(), &panel.y);
     }
-    if panel.layers.iter().any(is_bars) {
+    if bars == 1 {
         chart.legend().set_hidden();
     } else {
         chart
@@ -172,8 +181,48 @@ fn chart(
     Ok(chart)
 }
 
+/// Bars from 0 beside those of other layers.
+fn lengths(
+    chart: &mut Chart,
+    layer: &Layer,
+    bars: &[Bar],
+    name: &str,
+    sheet: &mut Worksheet,
+    looks: &Looks,
+    column: &mut u16,
+) -> Result<(), XlsxError> {
+    let first = *column;
+    for (head, at) in ["", layer.name.as_str()].into_iter().zip(first..) {
+        sheet.write_string_with_format(0, at, cut(head), &looks.head)?;
+    }
+    for (bar, row) in bars.iter().zip(1u32..) {
+        sheet.write_string(row, first, cut(&bar.name))?;
+        if bar.to.is_finite() {
+            sheet.write_number(row, first + 1, bar.to)?;
+        }
+    }
+    *column += 2;
+    let rows = u32::try_from(bars.len()).unwrap_or(0);
+    if rows > 0 {
+        chart
+            .add_series()
+            .set_categories((name, 1, first, rows, first))
+            .set_values((name, 1, first + 1, rows, first + 1))
+            .set_name(said(&layer.name).as_str())
+            .set_gap(40)
+            .set_format(&mut filled(colour(layer.tone)));
+    }
+    Ok(())
+}
+
+fn filled(colour: u32) -> ChartFormat {
+    let mut format = ChartFormat::new();
+    format.set_solid_fill(ChartSolidFill::new().set_color(colour));
+    format
+}
+
 /// Bars from one number to another: the first part of each is not seen.
-fn bars(
+fn stretches(
     chart: &mut Chart,
     layer: &Layer,
     bars: &[Bar],
@@ -206,8 +255,7 @@ fn bars(
     }
     let mut unseen = ChartFormat::new();
     unseen.set_no_fill().set_no_line();
-    let mut seen = ChartFormat::new();
-    seen.set_solid_fill(rust_xlsxwriter::ChartSolidFill::new().set_color(0x0000_72B2));
+    let mut seen = filled(colour(layer.tone));
     for (at, format) in [(first + 3, &mut unseen), (first + 4, &mut seen)] {
         chart
             .add_series()
@@ -236,33 +284,28 @@ fn axis(axis: &mut rust_xlsxwriter::ChartAxis, of: &Axis) {
     }
 }
 
+fn colour(tone: Tone) -> u32 {
+    match tone {
+        Tone::Main => 0x0000_72B2,
+        Tone::Contrast => 0x00D5_5E00,
+        Tone::Quiet => 0x0044_4444,
+    }
+}
+
 /// Points without lines, lines without points; told apart by shape and dashes too.
 fn draw(series: &mut rust_xlsxwriter::ChartSeries, layer: &Layer) {
-    let (colour, shape, dashes) = match layer.tone {
-        Tone::Main => (
-            0x0000_72B2,
-            ChartMarkerType::Circle,
-            ChartLineDashType::Solid,
-        ),
-        Tone::Contrast => (
-            0x00D5_5E00,
-            ChartMarkerType::Diamond,
-            ChartLineDashType::Dash,
-        ),
-        Tone::Quiet => (
-            0x0044_4444,
-            ChartMarkerType::Circle,
-            ChartLineDashType::RoundDot,
-        ),
+    let colour = colour(layer.tone);
+    let (shape, dashes) = match layer.tone {
+        Tone::Main => (ChartMarkerType::Circle, ChartLineDashType::Solid),
+        Tone::Contrast => (ChartMarkerType::Diamond, ChartLineDashType::Dash),
+        Tone::Quiet => (ChartMarkerType::Circle, ChartLineDashType::RoundDot),
     };
     let mut marker = ChartMarker::new();
     let mut format = ChartFormat::new();
     match layer.marks {
         Marks::Points(_) => {
             marker.set_type(shape).set_size(5);
-            let mut look = ChartFormat::new();
-            look.set_solid_fill(rust_xlsxwriter::ChartSolidFill::new().set_color(colour));
-            marker.set_format(&mut look);
+            marker.set_format(&mut filled(colour));
             format.set_no_line();
         }
         _ => {

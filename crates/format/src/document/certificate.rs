@@ -169,6 +169,8 @@ pub struct Administration {
     pub place: String,
     /// Date of issue.
     pub issued: Option<String>,
+    /// Date of the next calibration.
+    pub due: Option<String>,
     /// Code of the laboratory's accreditation.
     pub code: Option<String>,
     /// The laboratory.

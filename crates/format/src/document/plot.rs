@@ -79,7 +79,8 @@ pub enum Marks {
     Upright(f64),
     /// Upright lines with ends: x, lower y, upper y.
     Whiskers(Vec<[f64; 3]>),
-    /// Bars along x, one below the other from the top, in a panel of their own.
+    /// Bars along x, one below the other from the top, in a panel of their own. The bars of several layers lie beside
+    /// each other by their order; those begin at 0, and one without an end is absent.
     Bars(Vec<Bar>),
 }
 
@@ -195,10 +196,21 @@ impl Marks {
 impl Panel {
     /// The bars, where that is what the panel shows.
     pub fn bars(&self) -> impl Iterator<Item = &Bar> {
-        self.layers.iter().flat_map(|layer| match &layer.marks {
-            Marks::Bars(bars) => bars.as_slice(),
-            _ => &[],
-        })
+        self.groups().into_iter().flatten().map(|(_, bar)| bar)
+    }
+
+    /// The bars that lie beside each other and bear the name of the first, each with its layer.
+    pub fn groups(&self) -> Vec<Vec<(&Layer, &Bar)>> {
+        let mut groups: Vec<Vec<(&Layer, &Bar)>> = Vec::new();
+        for layer in &self.layers {
+            if let Marks::Bars(bars) = &layer.marks {
+                groups.resize_with(groups.len().max(bars.len()), Vec::new);
+                for (group, bar) in groups.iter_mut().zip(bars) {
+                    group.push((layer, bar));
+                }
+            }
+        }
+        groups
     }
 
     /// Ends of both axes in places (logarithms on a logarithmic axis), a little more than the data take up.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::drawing::{Anchor, Colour, Drawing, SIZE, Shape, Step};
+use super::drawing::{Anchor, Colour, Drawing, SIZE, Shape, Step, width};
 use crate::document::Plot;
 
 /// A plot as the text of an SVG file.
@@ -66,10 +66,12 @@ fn element(svg: &mut String, shape: &Shape) {
                 Anchor::End => " text-anchor=\"end\"",
             };
             let weight = if *bold { " font-weight=\"bold\"" } else { "" };
+            // The room that the drawing left for them, in whatever font the reader has.
+            let room = SIZE * width(words, *bold);
             let words = escaped(words);
             writeln!(
                 svg,
-                "<text x=\"{x:.1}\" y=\"{y:.1}\"{anchor}{weight}>{words}</text>"
+                "<text x=\"{x:.1}\" y=\"{y:.1}\"{anchor}{weight} textLength=\"{room:.1}\" lengthAdjust=\"spacingAndGlyphs\">{words}</text>"
             )
         }
     };

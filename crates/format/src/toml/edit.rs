@@ -177,6 +177,76 @@ impl Places<'_> {
         Places::of(&copied).ok_or(Unedited)?.remove(from)
     }
 
+    /// The text with two rows of one list or table in each other's place, and with them the comments above and behind them.
+    ///
+    /// # Errors
+    /// They are no such rows, or other entries lie between their parts.
+    pub fn exchanged(&self, one: &[Step], other: &[Step]) -> Result<String, Unedited> {
+        let mut wanted = self.tree()?;
+        let [first, second] = [one, other].map(|path| at(&mut wanted, path).cloned());
+        let (first, second) = first.zip(second).ok_or(Unedited)?;
+        let siblings = one.split_last().zip(other.split_last());
+        match siblings {
+            // Tables know no order.
+            Some(((Step::Key(_), table), (Step::Key(_), same))) if table == same => {}
+            Some(((Step::Index(_), list), (Step::Index(_), same))) if list == same => {
+                put(&mut wanted, one, second).ok_or(Unedited)?;
+                put(&mut wanted, other, first).ok_or(Unedited)?;
+            }
+            _ => return Err(Unedited),
+        }
+        let parts = self.parts_of_row(one).zip(self.parts_of_row(other));
+        let (own, others) = parts.ok_or(Unedited)?;
+        let both = own.into_iter().zip(others).filter(|(a, b)| a != b);
+        let splices = both.flat_map(|(a, b)| {
+            let [of_a, of_b] = [&a, &b].map(|range| self.text[range.clone()].to_owned());
+            [(a, of_b), (b, of_a)]
+        });
+        self.made(splices.collect(), &[wanted])
+    }
+
+    /// What belongs to a row: the comment lines right above it, itself, the comment behind it. Commas stay where they are.
+    fn parts_of_row(&self, path: &[Step]) -> Option<[Range<usize>; 3]> {
+        let (last, parent) = path.split_last()?;
+        let own = match self.value(parent).map(|container| (&container.form, last)) {
+            Some((Form::List(elements), Step::Index(at))) => elements.get(*at)?.span.clone(),
+            Some((Form::Table(inner), Step::Key(_))) => {
+                inner.iter().find(|one| one.path == path)?.span.clone()
+            }
+            Some(_) => return None,
+            None => self.stretch(path)?,
+        };
+        let start = self.line_start(own.start);
+        let is_first = self.text[start..own.start].trim().is_empty();
+        let line = &self.text[own.end..self.line_end(own.end)];
+        let line = line.trim_end_matches(['\r', '\n']);
+        let behind = line.trim_start().trim_start_matches(',');
+        let comment = behind.trim_start();
+        if !is_first || !(comment.is_empty() || comment.starts_with('#')) {
+            return Some([own.start..own.start, own.clone(), own.end..own.end]);
+        }
+        let end = own.end + line.len();
+        let mut above = start;
+        while let Some(before) = above.checked_sub(1).map(|end| self.line_start(end)) {
+            if !self.text[before..above].trim_start().starts_with('#') {
+                break;
+            }
+            above = before;
+        }
+        Some([above..start, own.clone(), end - behind.len()..end])
+    }
+
+    /// From the first statement below a path to the last, where no other lies between them.
+    fn stretch(&self, path: &[Step]) -> Option<Range<usize>> {
+        let mut own = self.below(path).map(|one| one.span.clone());
+        let first = own.next()?;
+        let end = own.last().map_or(first.end, |last| last.end);
+        let inside = |one: &&Statement| (first.start..end).contains(&one.span.start);
+        let mut all = self.statements.iter().filter(inside);
+        all.all(|one| one.path.starts_with(path))
+            .then_some(first.start..end)
+    }
+
     fn tree(&self) -> Result<Value, Unedited> {
         let table = self.text.parse::<Table>();
         table.map(Value::Table).map_err(|_| Unedited)
@@ -545,6 +615,55 @@ mod tests {
             set(text, "input.x.value", token("1.50")),
             "# c\n[input] # in\nx = { value = 1.50, u=2 } # d\n"
         );
+    }
+
+    #[test]
+    fn rows_change_places_with_their_comments() {
+        let exchanged = |text: &str, one: &str, other: &str| {
+            let places = Places::of(text).unwrap();
+            let made = places.exchanged(&path(one), &path(other));
+            let back = places.exchanged(&path(other), &path(one));
+            assert_eq!(made, back);
+            made
+        };
+        for (text, one, other, wanted) in [
+            // Sections, with what stands above and behind them.
+            (
+                "# top\n\n# of a\n[input.a]\nvalue = 1 # one\n\n[input.b]\n# in b\nvalue = 2\nunit = 'V'\n",
+                "input.a",
+                "input.b",
+                "# top\n\n[input.b]\n# in b\nvalue = 2\nunit = 'V'\n\n# of a\n[input.a]\nvalue = 1 # one\n",
+            ),
+            // Lines, the last without an end.
+            (
+                "[input]\na = { value = 1 } # one\n# of b\nb.value = 2\nb.unit = 'V'",
+                "input.b",
+                "input.a",
+                "[input]\n# of b\nb.value = 2\nb.unit = 'V'\na = { value = 1 } # one",
+            ),
+            // Elements of a list: commas stay.
+            (
+                "components = [\r\n  { u = 1 }, # one\r\n  # of two\r\n  { u = 2 }\r\n]\r\n",
+                "components.0",
+                "components.1",
+                "components = [\r\n  # of two\r\n  { u = 2 },\r\n  { u = 1 } # one\r\n]\r\n",
+            ),
+            ("x = [1, 22]\n", "x.0", "x.1", "x = [22, 1]\n"),
+            (
+                "[[c]]\nr = 1\n[[c]]\nr = 2\ns = 3\n",
+                "c.0",
+                "c.1",
+                "[[c]]\nr = 2\ns = 3\n[[c]]\nr = 1\n",
+            ),
+        ] {
+            assert_eq!(exchanged(text, one, other).as_deref(), Ok(wanted));
+            assert_eq!(exchanged(wanted, one, other).as_deref(), Ok(text));
+        }
+        // Parts of others lie between, or they are no rows of one table.
+        let torn = "[input]\na.value = 1\nb.value = 2\na.unit = 'V'\n";
+        assert_eq!(exchanged(torn, "input.a", "input.b"), Err(Unedited));
+        assert_eq!(exchanged(torn, "input.a.value", "input.b"), Err(Unedited));
+        assert_eq!(exchanged(torn, "input.a", "input.c"), Err(Unedited));
     }
 
     #[test]

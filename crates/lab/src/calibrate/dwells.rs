@@ -1,6 +1,6 @@
 //! From the samples of a recording to the averages of its dwells.
 
-use super::points::{PointColumn, PointNames, Points};
+use super::points::{PointColumn, PointNames, Points, Reading};
 use crate::experiment::Words;
 use crate::recording::{
     Average, Column, Cut, Data, Dwell, Finding, Labels, Problem, Recording, Settling, Steps,
@@ -115,6 +115,9 @@ impl Points {
         for column in &recording.columns {
             match &column.data {
                 Data::Numbers(samples) => {
+                    points
+                        .readings
+                        .extend(readings(recording, column, &cut.kept));
                     points.findings.extend(spikes(recording, column, &cut.kept));
                     let averages: Vec<Option<Average>> = cut
                         .kept
@@ -146,6 +149,41 @@ impl Points {
         }
         (points, cut.lost)
     }
+}
+
+/// So many readings of a column are kept: as many as a picture shows one by one.
+const MOST_READINGS: usize = 2000;
+
+/// The readings of a column that lie farthest from the averages of their dwells, in the order of the file.
+fn readings(recording: &Recording, column: &Column, dwells: &[Dwell]) -> Vec<Reading> {
+    let samples = recording.numbers(&column.role).unwrap_or_default();
+    let mut found: Vec<(usize, f64)> = Vec::new();
+    for dwell in dwells {
+        let Ok(average) = Average::of(&samples[dwell.rows.clone()]) else {
+            continue;
+        };
+        let deviations = dwell.rows.clone().map(|row| {
+            let deviation = (samples[row] - average.mean) / average.s;
+            (row, deviation)
+        });
+        found.extend(deviations.filter(|(_, deviation)| deviation.is_finite()));
+        if found.len() > 2 * MOST_READINGS {
+            farthest(&mut found);
+        }
+    }
+    farthest(&mut found);
+    found.sort_unstable_by_key(|(row, _)| *row);
+    let reading = |(row, deviation)| Reading {
+        line: recording.line(row),
+        column: column.role.clone(),
+        deviation,
+    };
+    found.into_iter().map(reading).collect()
+}
+
+fn farthest(found: &mut Vec<(usize, f64)>) {
+    found.sort_unstable_by(|(row, a), (other, b)| b.abs().total_cmp(&a.abs()).then(row.cmp(other)));
+    found.truncate(MOST_READINGS);
 }
 
 /// So many times the scatter of its dwell is a sample away that is no noise.

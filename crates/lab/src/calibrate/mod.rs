@@ -72,7 +72,7 @@ pub use dwells::{Dwelling, DwellsBy};
 pub use identify::{Alias, Combination, Identifiability, NearAlias, Shift, Shifts};
 pub use limits::Limit;
 pub use plan::{Plan, plan};
-pub use points::{PointColumn, PointNames, Points};
+pub use points::{PointColumn, PointNames, Points, Reading};
 pub use residual::Residual;
 pub use scatter::{Misfit, ResponseScatter, ScatterTest};
 pub use trouble::Trouble;

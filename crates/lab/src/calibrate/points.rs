@@ -15,6 +15,19 @@ pub struct Points {
     pub labels: Vec<(String, Labels)>,
     /// What is doubtful in the recording.
     pub findings: Vec<Finding>,
+    /// Where points are averages of dwells: what was averaged, the readings farthest from their averages where there are very many.
+    pub readings: Vec<Reading>,
+}
+
+/// A reading within a dwell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// Its line in the file.
+    pub line: usize,
+    /// The role of its column.
+    pub column: String,
+    /// Its difference from the average of its dwell, over the standard deviation of the dwell.
+    pub deviation: f64,
 }
 
 /// What points are called in reports.
@@ -110,7 +123,7 @@ impl Points {
         columns.any(|column| !column.averages.is_empty())
     }
 
-    /// Some of the points, in the given order; places that do not exist are passed over.
+    /// Some of the points, in the given order, without the readings behind them; places that do not exist are passed over.
     #[must_use]
     pub fn select(&self, rows: &[usize]) -> Points {
         let rows: Vec<usize> = rows
@@ -136,6 +149,7 @@ impl Points {
             columns: self.columns.iter().map(column).collect(),
             labels: self.labels.iter().map(labels).collect(),
             findings: self.findings.clone(),
+            readings: Vec::new(),
         }
     }
 

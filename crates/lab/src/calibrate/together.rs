@@ -41,6 +41,7 @@ impl Points {
             })
             .collect();
         points.names = PointNames::Words(names);
+        points.readings.clone_from(&self.readings);
         for (column, own) in points.columns.iter_mut().zip(&self.columns) {
             let rows = groups.iter().map(|(_, rows)| rows);
             *column = own.averaged(rows);

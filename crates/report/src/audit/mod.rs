@@ -1,6 +1,7 @@
 //! The audit of a claimed budget as a document: the answer on one page, then how the sheet was understood.
 
 mod form;
+mod plot;
 mod words;
 
 use gumption_audit::claim::Claimed;
@@ -23,7 +24,9 @@ pub fn audit(file: &str, audits: &[Audit<'_>], language: Language) -> Document {
     for audit in audits {
         blocks.extend(one(file, audit, language));
     }
-    Document::new(&machine, language, blocks)
+    let plots = audits.iter().enumerate();
+    let plots = plots.filter_map(|(i, audit)| plot::contributions(i + 1, audit, language));
+    Document::new(&machine, language, blocks).with_plots(plots.collect())
 }
 
 /// Schema of the machine form.
@@ -213,23 +216,20 @@ fn explanations<'s>(
     Block::Table(table)
 }
 
+/// Whether the first explanation, or a gap, sits in a row.
+fn is_marked(audit: &Audit<'_>, i: usize) -> bool {
+    let best: Option<&Explanation> = audit.found.explanations.first();
+    let slipped = best.is_some_and(|best| best.acts.iter().any(|act| act.row == Some(i)));
+    let gaps = &audit.found.gaps;
+    slipped
+        || gaps
+            .iter()
+            .any(|gap| matches!(gap, Gap::Row(row, _) if *row == i))
+}
+
 /// U if everything in an explanation were corrected is the right one; what a single correction does is shown in words.
 fn rows(audit: &Audit<'_>, language: Language) -> Table {
     let case = &audit.found.case;
-    let in_slips = |i: usize| {
-        audit
-            .found
-            .explanations
-            .first()
-            .is_some_and(|e: &Explanation| e.acts.iter().any(|act| act.row == Some(i)))
-    };
-    let gap = |i: usize| {
-        audit
-            .found
-            .gaps
-            .iter()
-            .any(|gap| matches!(gap, Gap::Row(row, _) if *row == i))
-    };
     let mut table = Table::new([
         (language.pick("row", "行"), ColumnKind::Names),
         (language.pick("stated", "已知信息"), ColumnKind::Words),
@@ -242,7 +242,7 @@ fn rows(audit: &Audit<'_>, language: Language) -> Table {
         ("", ColumnKind::Names),
     ]);
     for (i, (row, line)) in case.claimed.rows.iter().zip(&case.right.lines).enumerate() {
-        let mark = if in_slips(i) || gap(i) { "◀" } else { "" };
+        let mark = if is_marked(audit, i) { "◀" } else { "" };
         let contribution = if line.counted {
             significant(line.contribution().abs(), 3)
         } else {

@@ -104,6 +104,14 @@ impl Check<'_> {
             let fault = Fault::new(MISSING_KEY, stated.span.clone(), message);
             self.faults.push(fault.label(say!("begun on {first}")));
         }
+        let due = self.day(&file.due);
+        if let (Some(last), Some(stated)) = (&last, &file.due)
+            && due.as_ref().is_some_and(|due| due <= last)
+        {
+            let message = say!("the next calibration is due before this one has ended");
+            let fault = Fault::new(MISSING_KEY, stated.span.clone(), message);
+            self.faults.push(fault.label(say!("ended on {last}")));
+        }
         let laboratory = self.stated(&file.laboratory, "laboratory", &end);
         let customer = self.stated(&file.customer, "customer", &end);
         let items = self.stated(&file.item, "item", &end);
@@ -126,6 +134,7 @@ impl Check<'_> {
             }
             .to_owned(),
             issued: self.day(&file.issued),
+            due,
             code: laboratory.and_then(|table: &LaboratoryTable| text(&table.code)),
             laboratory: contact,
             customer: customer

@@ -89,6 +89,7 @@ fn fields(given: &Administration, l: Language) -> Vec<(String, String)> {
         add("Condition", "环境条件", Some(text));
     }
     add("Issued", "签发日期", given.issued.clone());
+    add("Next calibration", "下次校准日期", given.due.clone());
     for person in &given.persons {
         let role = person.role.as_ref().map(|role| role.text(l));
         let text = role.map_or(person.name.clone(), |role| {

@@ -18,6 +18,8 @@ table! {
         end: Date,
         /// Date of issue.
         issued: Date,
+        /// Date of the next calibration, where it is agreed with the customer (ISO/IEC 17025, 7.8.4.3).
+        due: Date,
         /// Where it was measured; in the laboratory when left out.
         place: PlaceWord,
         /// Who issues the certificate.

@@ -29,7 +29,7 @@ pub(super) fn plots(report: &Report<'_>) -> Vec<Plot> {
     let results = &report.evaluation.results;
     for (m, result) in results.iter().enumerate().take(MOST_MEASURANDS) {
         let name = plain(&format!("{}{row}", report.measurand(m).0));
-        if result.gum.u > 0.0 && result.gum.u.is_finite() && result.gum.inputs.len() > 1 {
+        if result.gum.u > 0.0 && result.gum.u.is_finite() && largest(&result.gum).len() > 1 {
             plots.push(Plot {
                 id: format!("budget_{name}"),
                 panels: vec![contributions(report, m), waterfall(report, m)],
@@ -106,12 +106,15 @@ fn contributions(report: &Report<'_>, m: usize) -> Panel {
 
 /// How the squares of the contributions, correlation and second order add up to u².
 fn waterfall(report: &Report<'_>, m: usize) -> Panel {
+    /// Per cent of u² that a bar can show.
+    const SEEN: f64 = 0.05;
     let l = report.language;
     let name = report.measurand(m).0;
     let result = &report.evaluation.results[m];
     let gum = &result.gum;
     let part = |i: usize| 100.0 * (gum.inputs[i].contribution / gum.u).powi(2);
-    let order = largest(gum);
+    let mut order = largest(gum);
+    order.retain(|i| part(*i) > SEEN);
     let mut at = 0.0;
     let mut bars = Vec::new();
     let mut step = |name: String, change: f64| {
@@ -127,8 +130,6 @@ fn waterfall(report: &Report<'_>, m: usize) -> Panel {
     }
     let all: f64 = (0..gum.inputs.len()).map(part).sum();
     let shown: f64 = order.iter().map(|i| part(*i)).sum();
-    /// Per cent of u² that a bar can show.
-    const SEEN: f64 = 0.05;
     if all - shown > SEEN {
         step(l.pick("all others", "其余输入量").to_string(), all - shown);
     }

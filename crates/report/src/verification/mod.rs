@@ -3,6 +3,7 @@
 mod dossier;
 mod example;
 mod json;
+mod plot;
 mod words;
 
 use crate::language::Language;
@@ -29,13 +30,18 @@ pub fn verification(verification: &Verification, language: Language, detail: Det
         }
     }
     blocks.push(Block::Closing(words::closing(verification, language)));
-    Document::new(&json::form(verification, language), language, blocks)
+    composed(verification, language, blocks)
 }
 
 /// The dossier that goes into the file of a laboratory.
 pub fn dossier(verification: &Verification, language: Language) -> Document {
     let blocks = dossier::blocks(verification, language);
-    Document::new(&json::form(verification, language), language, blocks)
+    composed(verification, language, blocks)
+}
+
+fn composed(verification: &Verification, language: Language, blocks: Vec<Block>) -> Document {
+    let plots = plot::figures(verification, language).into_iter().collect();
+    Document::new(&json::form(verification, language), language, blocks).with_plots(plots)
 }
 
 #[cfg(test)]

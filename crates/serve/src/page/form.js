@@ -280,7 +280,7 @@ function groupAt(path, inner, node, instead) {
 function rowsAt(path, inner, node) {
   const rows = node && node.keys || [];
   const box = made("fieldset", { class: "rows", "data-at": keyOf(path) }, made("legend", { title: inner.says || "" }, ...heading(path, inner)));
-  for (const [name, row] of rows) {
+  for (const [index, [name, row]] of rows.entries()) {
     const at = [...path, name];
     const title = made("input", { "data-at": keyOf([...at, "!"]), autocomplete: "off", spellcheck: "false" });
     title.value = name;
@@ -292,7 +292,8 @@ function rowsAt(path, inner, node) {
     const plain = isPlain(row) || row.items || !inner.any.keys;
     const fields = plain ? made("div", { class: "fields" }, fieldAt(at, inner.any, row, [], word("valueOf"))) : tableAt(at, inner.any, row);
     fields.prepend(made("label", { class: "name" }, made("span", {}, word("name")), title));
-    box.append(made("div", { class: "row", role: "group", "aria-label": name, "data-row": keyOf(at) }, fields, remover(at, name)));
+    const near = [rows[index - 1], rows[index + 1]].map(other => other && [...path, other[0]]);
+    box.append(framed(at, name, fields, near, at, at));
   }
   const name = made("input", { "data-at": keyOf([...path, "+"]), autocomplete: "off", spellcheck: "false" });
   const adding = () => {
@@ -313,8 +314,8 @@ function listAt(path, inner, node) {
   const box = made("fieldset", { class: "rows", "data-at": keyOf(path) }, made("legend", { title: inner.says || "" }, ...heading(path, inner)));
   for (const [index, row] of rows.entries()) {
     const at = isOne ? path : [...path, index], label = `${last(path)} ${index + 1}`;
-    const fields = tableAt(at, inner, row);
-    box.append(made("div", { class: "row", role: "group", "aria-label": label, "data-row": keyOf(at) }, fields, remover(at, label)));
+    const near = [index - 1, index + 1].map(other => !isOne && rows[other] && [...path, other]);
+    box.append(framed(at, label, tableAt(at, inner, row), near, ...near));
   }
   if (!isOne && last(path) !== "components") {
     const at = [...path, rows.length];
@@ -322,6 +323,16 @@ function listAt(path, inner, node) {
     box.append(made("p", { class: "foot" }, adding));
   }
   return box;
+}
+
+/// A row with what moves and removes it; `near` are the rows above and below it, `up` and `down` the paths that it has when it was moved there.
+function framed(path, label, fields, near, up, down) {
+  const moves = [["↑", near[0], up], ["↓", near[1], down]].map(([sign, other, moved]) => {
+    const said = word(sign === "↑" ? "moveUp" : "moveDown", label);
+    const move = () => edit([{ do: "exchange", path, with: other }], keyOf([...moved, sign]));
+    return button(sign, move, { disabled: !other, "aria-label": said, title: said, "data-at": keyOf([...path, sign]) });
+  });
+  return made("div", { class: "row", role: "group", "aria-label": label, "data-row": keyOf(path) }, fields, made("div", { class: "moves" }, ...moves), remover(path, label));
 }
 
 function remover(path, label) {
@@ -350,7 +361,9 @@ function draw() {
   if (!wanted || !(held || form.focus) ) return;
   const target = wanted.endsWith(">") ? rowOf(wanted.slice(0, -1))
     : [...box.querySelectorAll("[data-at]")].find(one => one.dataset.at === wanted);
-  const control = target && (target.matches("input, select, textarea, button") ? target : target.querySelector("input, select, textarea, button"));
+  const found = target && (target.matches("input, select, textarea, button") ? target : target.querySelector("input, select, textarea, button"));
+  // What was moved to an end goes on to move back.
+  const control = found && found.disabled ? found.parentElement.querySelector("button:enabled") : found;
   if (control) {
     control.focus();
     if (!form.focus && held.value !== control.value && control.matches("input, textarea")) control.value = held.value;

@@ -1,5 +1,5 @@
 "use strict";
-// Residuals of a calibration: selected by brushing or in the list, left out of the file with a reason.
+// Residuals of a calibration, or readings within its dwells: selected by brushing or in the list, left out of the file with a reason.
 
 const residuals = { rows: [], chosen: new Set() }; // rows: [line, response, standardised residual]
 const SVG = "http://www.w3.org/2000/svg";
@@ -11,12 +11,15 @@ function drawn(name, attributes, parent) {
   return element;
 }
 
-/// Shows the residuals that come with a calibration; hides them where there are none by line.
-function brush(rows) {
+/// Shows the residuals, or readings of dwells, that come with a calibration; hides them where there are none by line.
+function brush(rows, ofDwells) {
   residuals.rows = rows || [];
   residuals.chosen.clear();
   $("residuals").hidden = !residuals.rows.length;
   if (!residuals.rows.length) return;
+  $("residuals").querySelector("summary").textContent = word(ofDwells ? "readings" : "residuals");
+  $("of-rows").textContent = word(ofDwells ? "readingRows" : "rows");
+  $("brush").setAttribute("aria-label", word(ofDwells ? "brushReadings" : "brush"));
   $("rows").replaceChildren(...residuals.rows.map(([line, response, size], at) => {
     const option = new Option(`${word("line", line)}, ${response}: ${size.toFixed(1).replace("-", "−")}`, at);
     return option;

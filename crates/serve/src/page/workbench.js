@@ -8,7 +8,7 @@ const state = {
   disk: null, // its text as it was read; null of a file that is new
   crlf: false, // whether its lines end in CR LF, which a text field does not keep
   added: new Map(), // files that were dropped: name → bytes
-  changes: new Map(), // input → { value, factor }
+  changes: new Map(), // input → { value, factor }; path of an entry → { path, typed }
   saved: null, // what the page shows beside the result of the saved text
   beside: null, // … of the last result
   shown: "see", // what the document is: see, require, diagnose, audit
@@ -196,7 +196,7 @@ function soon() {
 }
 
 function changes() {
-  return [...state.changes].map(([input, change]) => ({ input, ...change }));
+  return [...state.changes].map(([input, change]) => change.path ? change : { input, ...change });
 }
 
 /// What travels with every question: the text as it is now, and what was dropped.
@@ -226,8 +226,8 @@ const APART = ["audit", "lesson", "exercise"];
 async function run(task) {
   if (!APART.includes(task) && state.path === null) {
     // There is no text to go back to.
-    $("class").hidden = $("elsewhere").hidden = true;
-    $("lesson").value = "";
+    $("elsewhere").hidden = true;
+    teaching(false);
     note(word("none"));
     return;
   }
@@ -270,8 +270,7 @@ function received(found, ms, task) {
   const faults = found.faults || [];
   if (!APART.includes(task)) { mark(faults); list(faults, found.others); formFaults(faults); }
   $("elsewhere").hidden = ["see", "lesson"].includes(task) || state.path === null || (task === "exercise" && practice.kind === "budget");
-  $("class").hidden = task !== "lesson";
-  if (task !== "lesson") $("lesson").value = "";
+  teaching(task === "lesson");
   if (found.html) {
     show(found.html);
     if (task === "exercise") { $("what-if").hidden = $("experiment").hidden = $("residuals").hidden = true; exerciseReceived(found); return; }
@@ -296,17 +295,17 @@ const MOST_SLIDERS = 60; // inputs that a reader finds
 function moved(beside) {
   state.beside = beside;
   $("experiment").hidden = !beside.experiment;
-  brush(beside.residuals);
+  brush(beside.residuals, beside.dwells);
   $("what-if").hidden = !beside.inputs;
   $("compare").disabled = state.disk === null || isSaved();
   if (!beside.inputs) return;
   if (isSaved() && state.changes.size === 0) state.saved = beside;
-  const rows = $("sliders"), names = beside.inputs.map(input => input.name).join("\n");
+  const rows = $("sliders"), names = [...beside.inputs, ...beside.entries].map(one => one.name).join("\n");
   // While nothing is moved the sliders begin where the text is.
   if (rows.dataset.names !== names || state.changes.size === 0) {
     rows.dataset.names = names;
     const focused = [...rows.querySelectorAll("input")].indexOf(document.activeElement);
-    rows.replaceChildren(...beside.inputs.slice(0, MOST_SLIDERS).map(sliders));
+    rows.replaceChildren(...beside.inputs.slice(0, MOST_SLIDERS).map(sliders), ...beside.entries.slice(0, MOST_SLIDERS).map(entrySlider));
     if (focused >= 0) rows.querySelectorAll("input")[focused]?.focus();
     fill($("measurand"), beside.results.map(result => [result.name, result.name]), $("measurand").value);
   }
@@ -351,6 +350,27 @@ function sliders(input) {
   return row;
 }
 
+/// A slider of a correlation coefficient, or of degrees of freedom.
+function entrySlider(entry) {
+  const row = document.createElement("tr"), name = document.createElement("th"), cell = document.createElement("td");
+  name.scope = "row";
+  name.textContent = entry.name;
+  const range = document.createElement("input"), out = document.createElement("output"), key = JSON.stringify(entry.path);
+  const [min, max, step] = entry.key === "r" ? [-1, 1, 0.05] : [1, Math.max(100, entry.value), 1];
+  Object.assign(range, { type: "range", min, max, step, value: entry.value });
+  range.setAttribute("aria-label", entry.name);
+  const typed = () => entry.key === "r" ? Number(range.value).toFixed(2) : range.value;
+  range.addEventListener("input", () => {
+    out.textContent = typed();
+    state.changes.set(key, { path: entry.path, typed: typed() });
+    soon();
+  });
+  out.textContent = String(entry.value);
+  cell.append(range, out);
+  row.append(name, cell);
+  return row;
+}
+
 function reset() {
   state.changes.clear();
   $("sliders").dataset.names = "";
@@ -384,6 +404,13 @@ function fillFormats() {
 function fillLessons(chosen) {
   const at = language === "zh" ? 1 : 0;
   fill($("lesson"), [["", word("chooseLesson")], ...state.lessons.map(([name, titles]) => [name, titles[at]])], chosen);
+}
+
+/// A lesson has the whole page: its pictures are to be read from afar.
+function teaching(isLesson) {
+  $("class").hidden = !isLesson;
+  document.body.classList.toggle("lesson", isLesson);
+  if (!isLesson) $("lesson").value = "";
 }
 
 /// Draws the samples of a lesson; of none, what was there before.
@@ -538,7 +565,7 @@ $("language").addEventListener("change", () => {
   if (practice.open) practice.wanted = "task";
   run(practice.open ? "exercise" : state.shown);
 });
-$("lesson").addEventListener("change", teach);
+$("lesson").addEventListener("change", () => { $("n").value = $("n").defaultValue; teach(); });
 $("n").addEventListener("input", teach);
 $("again").addEventListener("click", () => { state.seed += 1; teach(); });
 $("leave").addEventListener("click", () => run("see"));

@@ -12,8 +12,9 @@ const RIGHT: f64 = 16.0;
 const BOTTOM: f64 = 48.0;
 /// From line to line.
 const LINE: f64 = 17.0;
-/// A bar with the space to the next.
-const BAR: f64 = 22.0;
+/// A bar, and the space to the next.
+const BAR: f64 = 14.0;
+const BETWEEN: f64 = 8.0;
 /// The mark beside a word of the legend.
 const SAMPLE: f64 = 22.0;
 /// Between the entries of a legend.
@@ -30,6 +31,7 @@ pub(super) fn draw(panel: &Panel, above: f64, shapes: &mut Vec<Shape>) -> f64 {
     for layer in &panel.layers {
         frame.layer(layer);
     }
+    frame.bars();
     frame.bottom + BOTTOM
 }
 
@@ -38,6 +40,7 @@ struct Frame<'a> {
     panel: &'a Panel,
     x: [f64; 2],
     y: [f64; 2],
+    groups: Vec<Vec<(&'a Layer, &'a Bar)>>,
     /// Edges of the axes; the names of bars need room at the left.
     left: f64,
     top: f64,
@@ -94,6 +97,11 @@ fn length(row: &[&Layer]) -> f64 {
     entries.sum::<f64>() + APART * row.len().saturating_sub(1) as f64
 }
 
+/// Room that a group of bars takes.
+fn thick(group: &[(&Layer, &Bar)]) -> f64 {
+    BAR * group.len() as f64 + BETWEEN
+}
+
 /// Room that words take.
 fn wide(words: &str) -> f64 {
     SIZE * letters::width(words, false)
@@ -103,13 +111,16 @@ impl<'a> Frame<'a> {
     fn new(panel: &'a Panel, above: f64, shapes: &'a mut Vec<Shape>) -> Self {
         const WIDEST_NAME: f64 = 300.0;
         let [x, y] = panel.limits();
-        let bars = panel.bars().count() as f64;
+        let groups = panel.groups();
         let names = panel.bars().map(|bar| wide(&bar.name));
         let numbers = ticks(y, panel.y.scale).into_iter();
         let numbers = numbers.map(|(_, number)| wide(&number));
-        let widest = match bars > 0.0 {
-            true => names.fold(0.0, f64::max),
-            false => numbers.fold(0.0, f64::max),
+        let (widest, height) = match groups.is_empty() {
+            false => (
+                names.fold(0.0, f64::max),
+                groups.iter().map(|group| thick(group)).sum(),
+            ),
+            true => (numbers.fold(0.0, f64::max), HEIGHT),
         };
         let left = (widest.min(WIDEST_NAME) + 12.0).max(LEFT);
         let lines = head(panel, WIDTH - left - RIGHT).lines() as f64;
@@ -118,17 +129,15 @@ impl<'a> Frame<'a> {
         Frame {
             panel,
             // Bars begin at an edge, where they begin at zero.
-            x: match bars > 0.0 && from_zero {
+            x: match !groups.is_empty() && from_zero {
                 true => [0.0, x[1]],
                 false => x,
             },
-            y: match bars > 0.0 {
-                true => [bars - 0.5, -0.5],
-                false => y,
-            },
+            y,
+            groups,
             left,
             top,
-            bottom: top + if bars > 0.0 { BAR * bars } else { HEIGHT },
+            bottom: top + height,
             shapes,
         }
     }
@@ -170,9 +179,8 @@ impl<'a> Frame<'a> {
             Marks::Line(_) | Marks::Level(_) | Marks::Upright(_) | Marks::Whiskers(_) => {
                 look.line([[x, y], [x + SAMPLE, y]])
             }
-            Marks::Band(_) | Marks::Bars(_) => {
-                look.area(rectangle([x, y - 5.0], [SAMPLE, 10.0]), PALE)
-            }
+            Marks::Band(_) => look.area(rectangle([x, y - 5.0], [SAMPLE, 10.0]), PALE),
+            Marks::Bars(_) => look.area(rectangle([x, y - 5.0], [SAMPLE, 10.0]), look.ground()),
         };
         self.shapes.push(shape);
     }
@@ -198,7 +206,7 @@ impl<'a> Frame<'a> {
             fill: None,
             stroke: Some(thin(colour)),
         };
-        if self.panel.bars().count() == 0 {
+        if self.groups.is_empty() {
             for (tick, number) in ticks(self.y, self.panel.y.scale) {
                 let y = self.up(tick);
                 self.shapes.push(line([left, y], [right, y], GRID));
@@ -269,26 +277,38 @@ impl<'a> Frame<'a> {
                     self.shapes.push(look.line([[left, y], [right, y]]));
                 }
             }
-            Marks::Bars(bars) => {
-                for (at, bar) in bars.iter().enumerate() {
-                    self.bar(at, bar, &look);
-                }
-            }
+            // Drawn group by group.
+            Marks::Bars(_) => {}
         }
     }
 
-    /// A bar with its name at the left edge; one that goes back has a paler ground.
-    fn bar(&mut self, at: usize, bar: &Bar, look: &Look) {
+    /// Bars, and the name of each group at the left edge.
+    fn bars(&mut self) {
+        let mut top = self.top;
+        for group in std::mem::take(&mut self.groups) {
+            let thick = thick(&group);
+            let name = group.first().map_or("", |(_, bar)| bar.name.as_str());
+            let name = letters::shortened(name, (self.left - 10.0) / SIZE, false);
+            let middle = [self.left - 6.0, top + thick / 2.0 + 4.0];
+            self.words(middle, Anchor::End, false, name);
+            for (at, (layer, bar)) in group.into_iter().enumerate() {
+                let above = top + BETWEEN / 2.0 + BAR * at as f64;
+                self.bar(bar, above, &Look::of(layer.tone));
+            }
+            top += thick;
+        }
+    }
+
+    /// A bar; one that goes back has a paler ground.
+    fn bar(&mut self, bar: &Bar, above: f64, look: &Look) {
         let (Some(from), Some(to)) = (self.panel.x.place(bar.from), self.panel.x.place(bar.to))
         else {
             return;
         };
-        let (from, to, y) = (self.across(from), self.across(to), self.up(at as f64));
-        let name = letters::shortened(&bar.name, (self.left - 10.0) / SIZE, false);
-        self.words([self.left - 6.0, y + 4.0], Anchor::End, false, name);
-        let opacity = if to < from { PALE } else { FULL };
+        let (from, to) = (self.across(from), self.across(to));
+        let opacity = if to < from { PALE } else { look.ground() };
         let length = (to - from).abs().max(0.5);
-        let bar = rectangle([from.min(to), y - 7.0], [length, 14.0]);
+        let bar = rectangle([from.min(to), above], [length, BAR]);
         self.shapes.push(look.area(bar, opacity));
     }
 
@@ -376,6 +396,14 @@ impl Look {
             steps,
             fill: Some(self.fill(opacity)),
             stroke: Some(self.outline()),
+        }
+    }
+
+    /// How far bars are seen through: in grey print two tones beside each other differ by their ground.
+    fn ground(&self) -> f64 {
+        match self.tone {
+            Tone::Main => FULL,
+            Tone::Contrast | Tone::Quiet => PALE,
         }
     }
 

@@ -30,20 +30,19 @@ fn bars(panel: &Panel, page: usize) -> Vec<String> {
     let width = page.saturating_sub(names + 8).clamp(NARROWEST, WIDEST);
     let [limits, _] = panel.limits();
     let mut lines = vec![format!("  {}", panel.title)];
-    for bar in panel.bars() {
-        let (Some(from), Some(to)) = (panel.x.place(bar.from), panel.x.place(bar.to)) else {
-            continue;
-        };
-        let [from, to] = [from, to].map(|place| nearest(place, limits, width));
-        let (start, end) = (from.min(to), from.max(to));
-        let sign = if to < from { "-" } else { "=" };
-        let space = " ".repeat(names.saturating_sub(bar.name.width()));
-        let drawn = sign.repeat((end - start).max(1));
-        lines.push(format!(
-            "  {}{space} |{}{drawn}",
-            bar.name,
-            " ".repeat(start)
-        ));
+    for group in panel.groups() {
+        for (at, (layer, bar)) in group.into_iter().enumerate() {
+            let (Some(from), Some(to)) = (panel.x.place(bar.from), panel.x.place(bar.to)) else {
+                continue;
+            };
+            let [from, to] = [from, to].map(|place| nearest(place, limits, width));
+            let (start, end) = (from.min(to), from.max(to));
+            let sign = if to < from { '-' } else { sign(layer) };
+            let name = if at == 0 { bar.name.as_str() } else { "" };
+            let space = " ".repeat(names.saturating_sub(name.width()));
+            let drawn = sign.to_string().repeat((end - start).max(1));
+            lines.push(format!("  {name}{space} |{}{drawn}", " ".repeat(start)));
+        }
     }
     let [left, right] = limits.map(|place| label(&panel.x, place));
     let name = panel.x.label();
@@ -53,11 +52,20 @@ fn bars(panel: &Panel, page: usize) -> Vec<String> {
         " ".repeat((space - space / 2).max(1)),
     );
     lines.push(format!("  {} +{}", " ".repeat(names), "-".repeat(width)));
-    lines.push(format!(
-        "  {}  {left}{before}{name}{after}{right}",
-        " ".repeat(names)
-    ));
+    let blank = " ".repeat(names + 3);
+    lines.push(format!("{blank} {left}{before}{name}{after}{right}"));
+    if panel.layers.len() > 1 {
+        lines.extend(legend(panel, &blank));
+    }
     lines
+}
+
+/// What each sign stands for.
+fn legend(panel: &Panel, blank: &str) -> Vec<String> {
+    let named = panel.layers.iter().filter(|layer| !layer.name.is_empty());
+    named
+        .map(|layer| format!("{blank} {} {}", sign(layer), layer.name))
+        .collect()
 }
 
 fn drawn(panel: &Panel, page: usize) -> Vec<String> {
@@ -97,9 +105,7 @@ fn drawn(panel: &Panel, page: usize) -> Vec<String> {
         " ".repeat((space - space / 2).max(1)),
     );
     lines.push(format!("{blank} {left}{before}{name}{after}{right}"));
-    for layer in panel.layers.iter().filter(|layer| !layer.name.is_empty()) {
-        lines.push(format!("{blank} {} {}", sign(layer), layer.name));
-    }
+    lines.extend(legend(panel, &blank));
     lines
 }
 
@@ -108,7 +114,8 @@ fn sign(layer: &Layer) -> char {
     match (&layer.marks, layer.tone) {
         (Marks::Band(_), _) => ':',
         (Marks::Upright(_) | Marks::Whiskers(_), _) => '|',
-        (Marks::Bars(_), _) => '=',
+        (Marks::Bars(_), Tone::Main) => '=',
+        (Marks::Bars(_), _) => '~',
         (Marks::Level(_), _) => '-',
         (Marks::Line(_), Tone::Quiet) => '.',
         (Marks::Line(_), _) => '*',

@@ -138,28 +138,23 @@ fn names(node: Node<'_, '_>) -> Vec<String> {
 
 /// The quantities of data, and of lists in it.
 fn within(data: Node<'_, '_>, of: &[String], found: &mut Vec<Quantity>, faults: &mut Faults) {
-    // The points of a list are named by the texts beside its values.
-    let labels: Vec<String> = children(data, "quantity")
-        .filter_map(|quantity| child(quantity, "charsXMLList"))
-        .flat_map(|list| text(list).split_ascii_whitespace())
-        .map(|label| label.replace('\u{a0}', " "))
-        .collect();
+    let named = labels(data);
     for quantity in children(data, "quantity") {
         let values = values(quantity, faults);
         if values.is_empty() {
             continue;
         }
         let refers = quantity.attribute("refType").unwrap_or_default();
+        let own = child(quantity, "realListXMLList").and_then(|list| child(list, "labelXMLList"));
+        let own = own.map(words).filter(|own| own.len() == values.len());
+        let labels = own.or_else(|| named.clone().filter(|all| all.len() == values.len()));
         found.push(Quantity {
             names: names(quantity),
             of: of.to_vec(),
             measured: refers
                 .split_ascii_whitespace()
                 .any(|one| matches!(one, "basic_measuredValue" | "basic_measurementError")),
-            labels: match labels.len() == values.len() {
-                true => labels.clone(),
-                false => Vec::new(),
-            },
+            labels: labels.unwrap_or_default(),
             freedom: freedom(quantity, values.len(), faults),
             values,
         });
@@ -169,6 +164,38 @@ fn within(data: Node<'_, '_>, of: &[String], found: &mut Vec<Quantity>, faults: 
         all.extend(names(list));
         within(list, &all, found, faults);
     }
+}
+
+/// What the points of a list are called: by the texts beside its values, else by their nominal or reference values.
+fn labels(data: Node<'_, '_>) -> Option<Vec<String>> {
+    let texts: Vec<String> = children(data, "quantity")
+        .filter_map(|quantity| child(quantity, "charsXMLList"))
+        .flat_map(words)
+        .collect();
+    if !texts.is_empty() {
+        return Some(texts);
+    }
+    let kinds = ["basic_nominalValue", "basic_referenceValue"].into_iter();
+    let mut settings = kinds.filter_map(|kind| {
+        let is_of = |quantity: &Node<'_, '_>| {
+            let refers = quantity.attribute("refType").unwrap_or_default();
+            refers.split_ascii_whitespace().any(|one| one == kind)
+        };
+        children(data, "quantity").find(is_of)
+    });
+    // Their faults are told where they are read as quantities.
+    let settings = values(settings.next()?, &mut Faults::new()).into_iter();
+    let label = |one: Value| match one.unit.is_one() {
+        true => one.value.to_string(),
+        false => format!("{} {}", one.value, one.unit.symbol),
+    };
+    Some(settings.map(label).collect())
+}
+
+/// The words of a list; a space that no line breaks at stands for one inside of them.
+fn words(list: Node<'_, '_>) -> Vec<String> {
+    let words = text(list).split_ascii_whitespace();
+    words.map(|word| word.replace('\u{a0}', " ")).collect()
 }
 
 /// ν_eff, where a certificate states it beside the quantity.

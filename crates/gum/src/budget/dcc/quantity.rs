@@ -196,7 +196,7 @@ fn absolute(quantity: Node<'_, '_>, faults: &mut Faults) -> Vec<Value> {
         };
     }
     if let Some(list) = child(quantity, "realListXMLList") {
-        return listed(list, faults);
+        return with_joint(list, listed(list, faults), faults);
     }
     let lists = child(quantity, "list").into_iter();
     let lists = lists.flat_map(|list| [Some(list), child(list, "realList")]);
@@ -206,13 +206,56 @@ fn absolute(quantity: Node<'_, '_>, faults: &mut Faults) -> Vec<Value> {
             .filter_map(|real| single(real, unit, Some(list), faults))
             .collect();
         if !all.is_empty() {
-            return all;
+            return with_joint(list, all, faults);
         }
         if let Some(inner) = child(list, "realListXMLList") {
-            return listed(inner, faults);
+            return with_joint(inner, listed(inner, faults), faults);
         }
     }
     Vec::new()
+}
+
+/// Values with the standard uncertainties of their covariance matrix, where that is how they are stated: the square roots of
+/// its diagonal, whatever the factor of the region that they cover together.
+fn with_joint(list: Node<'_, '_>, mut values: Vec<Value>, faults: &mut Faults) -> Vec<Value> {
+    let begins = |node: &Node<'_, '_>, word: &str| node.tag_name().name().starts_with(word);
+    let mut all = list.descendants();
+    let Some(matrix) = all.find(|node| begins(node, "covarianceMatrix")) else {
+        return values;
+    };
+    let columns = matrix.children().filter(|node| begins(node, "column"));
+    for ((at, column), own) in columns.enumerate().zip(&mut values) {
+        let mut entries = column.children().filter(|node| begins(node, "covariance"));
+        let Some(entry) = entries.nth(at) else {
+            continue;
+        };
+        let part = |name, of_list| child(entry, name).or_else(|| child(entry, of_list));
+        let stated = part("value", "valueXMLList").zip(part("unit", "unitXMLList"));
+        let Some((value, unit_node)) = stated else {
+            continue;
+        };
+        let difference = own.unit.difference();
+        let unit = unit(text(unit_node), unit_node, faults);
+        let square = unit.map(|unit| unit.conversion_to(&difference.product(&difference)));
+        if matches!(square, Some(None)) {
+            let message = say!("a variance whose unit is not the square of that of its value");
+            faults.push(fault(unit_node, message));
+        }
+        let variance = numbers(value, faults).into_iter().next().flatten();
+        if let Some(variance) = variance.filter(|variance| *variance < 0.0) {
+            faults.push(fault(value, no_uncertainty(variance)));
+        }
+        let u = variance
+            .zip(square.flatten())
+            .map(|(variance, square)| libm::sqrt(variance * square.factor));
+        let stated = u.filter(|u| u.is_finite()).map(|u| Uncertainty {
+            expanded: u,
+            k: Some(1.0),
+            p: None,
+        });
+        own.uncertainty = own.uncertainty.or(stated);
+    }
+    values
 }
 
 /// A value of its own, or of a list that has a unit and an uncertainty for all.

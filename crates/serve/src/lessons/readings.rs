@@ -1,194 +1,12 @@
-//! Lessons that run: samples drawn by the engine from budgets of a few lines, and what they show.
+//! Readings and their sums: what a class draws first.
 
 use gumption_core::special::{normal_pdf, normal_two_sided_quantile, student_t_upper_quantile};
-use gumption_fault::language::Language;
-use gumption_format::document::{
-    Axis, Block, ColumnKind, Document, Layer, Marks, Panel, Plot, Table, Tone,
-};
-use gumption_format::files::Files;
-use gumption_format::machine::{Machine, Number, record};
-use gumption_gum::budget::{self, MonteCarloSettings};
-use gumption_gum::propagate::{self, MonteCarloChoice, Options, Progress};
+use gumption_format::document::{Axis, ColumnKind, Marks, Panel, Table, Tone};
+use gumption_format::machine::Number;
 
-/// Experiments of a lesson: rates of 95 % are then known to 0.2 % (one standard uncertainty).
-const EXPERIMENTS: u64 = 10_000;
+use super::{Class, Drawn, P, SEEN, curve, ends, layer, mean, outline, pairs};
 
-/// Experiments that are drawn one by one.
-const SEEN: usize = 100;
-
-/// Most readings of an experiment.
-const MOST_READINGS: usize = 30;
-
-/// Classes of a histogram.
-const CLASSES: usize = 60;
-
-/// Probability of the intervals.
-const P: f64 = 0.95;
-
-/// What a lesson is about.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Lesson {
-    /// Its name.
-    pub name: &'static str,
-    /// What it is called, in English and in Chinese.
-    pub title: [&'static str; 2],
-    /// Whether it has a number of readings, or of terms.
-    pub counts: bool,
-    /// Its document, from the number of readings and samples of a budget.
-    draw: fn(&Class<'_>) -> Drawn,
-}
-
-/// All lessons, in the order of a course.
-pub(crate) const LESSONS: [Lesson; 4] = [
-    Lesson {
-        name: "divisor",
-        title: ["Why n − 1", "为什么除以 n − 1"],
-        counts: true,
-        draw: divisor,
-    },
-    Lesson {
-        name: "coverage",
-        title: ["What an interval covers", "区间包含什么"],
-        counts: true,
-        draw: coverage,
-    },
-    Lesson {
-        name: "rectangles",
-        title: ["Sums of rectangles", "均匀分布之和"],
-        counts: true,
-        draw: rectangles,
-    },
-    Lesson {
-        name: "shared",
-        title: ["One standard for two", "共用一个标准"],
-        counts: false,
-        draw: shared,
-    },
-];
-
-/// What a lesson is drawn from.
-struct Class<'a> {
-    n: usize,
-    seed: u64,
-    language: Language,
-    progress: &'a Progress,
-}
-
-/// What a lesson shows.
-struct Drawn {
-    words: String,
-    table: Table,
-    panel: Panel,
-    figures: Vec<Number>,
-}
-
-record! {
-    /// A lesson.
-    LessonJson {
-        /// Its name.
-        lesson: &'static str,
-        /// Number of readings, or of terms.
-        n: usize,
-        /// Seed of the samples.
-        seed: u64,
-        /// The figures of its table, row by row.
-        figures: Vec<Number>,
-    }
-}
-
-impl Machine for LessonJson {
-    const KIND: &'static str = "lesson";
-    const VERSION: u32 = 1;
-}
-
-/// The document of a lesson with n readings; nothing of one that there is not.
-pub(crate) fn lesson(
-    name: &str,
-    n: usize,
-    seed: u64,
-    language: Language,
-    progress: &Progress,
-) -> Option<Document> {
-    let lesson = LESSONS.iter().find(|lesson| lesson.name == name)?;
-    let n = n.clamp(2, MOST_READINGS);
-    let drawn = (lesson.draw)(&Class {
-        n,
-        seed,
-        language,
-        progress,
-    });
-    let form = LessonJson {
-        lesson: lesson.name,
-        n,
-        seed,
-        figures: drawn.figures,
-    };
-    let [english, chinese] = lesson.title;
-    let blocks = vec![
-        Block::Title(language.pick(english, chinese).to_owned()),
-        Block::Paragraph(drawn.words),
-        Block::Plot(Plot {
-            id: lesson.name.to_owned(),
-            panels: vec![drawn.panel],
-        }),
-        Block::Table(drawn.table),
-    ];
-    Some(Document::new(&form, language, blocks))
-}
-
-impl Class<'_> {
-    /// Samples of the measurands of a budget, a list for each.
-    fn samples(&self, text: &str) -> Vec<Vec<f64>> {
-        let files: &[(&str, &[u8])] = &[("lesson.toml", text.as_bytes())];
-        let loaded = budget::load_from(Files::Library(files), "lesson.toml".as_ref(), None);
-        let rows = loaded.map(|loaded| loaded.rows).unwrap_or_default();
-        let Some(row) = rows.first() else {
-            return Vec::new();
-        };
-        let settings = MonteCarloSettings {
-            seed: self.seed,
-            ..row.budget.monte_carlo.clone()
-        };
-        let options = Options {
-            monte_carlo: MonteCarloChoice::With(settings),
-            progress: self.progress.clone(),
-            ..Options::default()
-        };
-        propagate::samples(&row.budget, EXPERIMENTS, &options)
-    }
-
-    /// Means and standard deviations of n readings of a quantity whose value is 0, with a standard deviation of 1.
-    fn readings(&self, n: usize) -> Vec<[f64; 2]> {
-        let zeros = vec!["0"; n].join(", ");
-        let samples = self.samples(&format!(
-            "title = \"Readings\"\n[measurand]\nm = {{ model = \"mean(x)\", unit = \"1\" }}\n\
-             s = {{ model = \"sd(x)\", unit = \"1\" }}\n[input]\nx = {{ values = [{zeros}], u = 1 }}\n"
-        ));
-        pairs(&samples)
-    }
-
-    fn pick(&self, english: &str, chinese: &str) -> String {
-        self.language.pick(english, chinese).to_owned()
-    }
-}
-
-fn pairs(samples: &[Vec<f64>]) -> Vec<[f64; 2]> {
-    match samples {
-        [first, second, ..] => first.iter().zip(second).map(|(a, b)| [*a, *b]).collect(),
-        _ => Vec::new(),
-    }
-}
-
-fn mean(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), x| (sum + x, count + 1.0));
-    sum / count
-}
-
-fn layer(name: String, tone: Tone, marks: Marks) -> Layer {
-    Layer { name, tone, marks }
-}
-
-fn divisor(class: &Class<'_>) -> Drawn {
+pub(super) fn divisor(class: &Class<'_>) -> Drawn {
     let mut table = Table::new([
         ("n", ColumnKind::Numbers),
         ("Σ(x − x̄)² / n", ColumnKind::Numbers),
@@ -229,18 +47,18 @@ fn divisor(class: &Class<'_>) -> Drawn {
     }
 }
 
-fn coverage(class: &Class<'_>) -> Drawn {
+pub(super) fn coverage(class: &Class<'_>) -> Drawn {
     let size = class.n as f64;
     let experiments = class.readings(class.n);
     let t = student_t_upper_quantile(0.5 * (1.0 - P), size - 1.0);
-    let ends = |k: f64, [m, s]: [f64; 2]| [m - k * s / size.sqrt(), m + k * s / size.sqrt()];
+    let interval = |k: f64, [m, s]: [f64; 2]| [m - k * s / size.sqrt(), m + k * s / size.sqrt()];
     let covers = |k: f64, one: &[f64; 2]| {
-        let [low, high] = ends(k, *one);
+        let [low, high] = interval(k, *one);
         low <= 0.0 && 0.0 <= high
     };
     let (mut hits, mut misses) = (Vec::new(), Vec::new());
     for (at, one) in experiments.iter().take(SEEN).enumerate() {
-        let [low, high] = ends(t, *one);
+        let [low, high] = interval(t, *one);
         let list = if covers(t, one) {
             &mut hits
         } else {
@@ -313,37 +131,17 @@ fn coverage(class: &Class<'_>) -> Drawn {
     }
 }
 
-fn rectangles(class: &Class<'_>) -> Drawn {
+pub(super) fn rectangles(class: &Class<'_>) -> Drawn {
     let n = class.n;
     let terms = vec!["0"; n].join(", ");
     let samples = class.samples(&format!(
         "title = \"Sum\"\n[measurand.y]\nmodel = \"sum(x)\"\nunit = \"1\"\n[input]\nx = {{ values = [{terms}], half_width = 1 }}\n"
     ));
-    let mut sums = samples.into_iter().next().unwrap_or_default();
-    sums.sort_by(f64::total_cmp);
+    let sums = samples.into_iter().next().unwrap_or_default();
     let u = (n as f64 / 3.0).sqrt();
-    let reach = n as f64;
-    let width = 2.0 * reach / CLASSES as f64;
-    let mut counts = [0.0; CLASSES];
-    for sum in &sums {
-        let at = ((sum + reach) / width) as usize;
-        counts[at.min(CLASSES - 1)] += 1.0;
-    }
-    let density = |count: f64| count / (sums.len().max(1) as f64 * width);
-    let steps = counts.iter().enumerate().flat_map(|(at, count)| {
-        let (left, height) = (at as f64 * width - reach, density(*count));
-        [[left, height], [left + width, height]]
-    });
-    let curve = (0..=4 * CLASSES).map(|at| {
-        let x = at as f64 * width / 4.0 - reach;
-        [x, normal_pdf(x / u) / u]
-    });
-    let tail = |p: f64| {
-        sums.get((p * sums.len() as f64) as usize)
-            .copied()
-            .unwrap_or(f64::NAN)
-    };
-    let k = 0.5 * (tail(0.975) - tail(0.025)) / u;
+    let reach = [-(n as f64), n as f64];
+    let [low, high] = ends(&sums);
+    let k = 0.5 * (high - low) / u;
     let mut table = Table::new([
         ("n", ColumnKind::Numbers),
         ("u = √(n/3)", ColumnKind::Numbers),
@@ -373,15 +171,15 @@ fn rectangles(class: &Class<'_>) -> Drawn {
             x: Axis::linear("y", ""),
             y: Axis::linear(class.pick("density", "概率密度"), ""),
             layers: vec![
-                layer(class.pick("drawn", "抽样"), Tone::Main, Marks::Line(steps.collect())),
-                layer(class.pick("normal, same u", "正态，u 相同"), Tone::Contrast, Marks::Line(curve.collect())),
+                layer(class.pick("drawn", "抽样"), Tone::Main, outline(&sums, reach)),
+                layer(class.pick("normal, same u", "正态，u 相同"), Tone::Contrast, curve(|x| normal_pdf(x / u) / u, reach)),
             ],
         },
         figures: vec![Number(u), Number(k)],
     }
 }
 
-fn shared(class: &Class<'_>) -> Drawn {
+pub(super) fn shared(class: &Class<'_>) -> Drawn {
     let samples = class.samples(
         "title = \"Two weights\"\n[measurand]\na = { model = \"m_a + s\", unit = \"mg\" }\n\
          b = { model = \"m_b + s\", unit = \"mg\" }\n[input]\ns = { value = 0, unit = \"mg\", u = 2 }\n\
@@ -436,58 +234,5 @@ fn shared(class: &Class<'_>) -> Drawn {
             layers: vec![layer(class.pick("drawn", "抽样"), Tone::Main, Marks::Points(seen))],
         },
         figures,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn figures(name: &str, n: usize, seed: u64) -> Vec<f64> {
-        let progress = Progress::default();
-        let document = lesson(name, n, seed, Language::English, &progress).expect("a lesson");
-        let figures = document.machine["figures"]
-            .as_array()
-            .expect("figures")
-            .clone();
-        figures
-            .iter()
-            .map(|x| x.as_f64().expect("a number"))
-            .collect()
-    }
-
-    /// Against closed forms, within four standard uncertainties of 10 000 experiments.
-    #[test]
-    fn samples_show_what_the_words_say() {
-        for row in figures("divisor", 6, 3).chunks(3) {
-            let (n, variance) = (row[0], row[2]);
-            assert!(
-                (variance - 1.0).abs() < 4.0 * (2.0 / (n - 1.0)).sqrt() / 100.0,
-                "{row:?}"
-            );
-            assert!((row[1] - (n - 1.0) / n).abs() < 0.06, "{row:?}");
-        }
-        let covered = figures("coverage", 4, 5);
-        assert!((covered[2] - 95.0).abs() < 0.9, "{covered:?}");
-        // P(|t₃| ≤ 1.96) = 85.5 %.
-        assert!((covered[5] - 85.5).abs() < 1.5, "{covered:?}");
-        // Of two, a triangle: k = √6 (1 − √0.05).
-        let k = figures("rectangles", 2, 7)[1];
-        assert!(
-            (k - 6.0_f64.sqrt() * (1.0 - 0.05_f64.sqrt())).abs() < 0.04,
-            "{k}"
-        );
-        let shared = figures("shared", 2, 9);
-        assert!((shared[0] - 0.8).abs() < 0.02, "{shared:?}");
-        assert!((shared[1] / shared[2] - 1.0).abs() < 0.03, "{shared:?}");
-        assert!((shared[4] / shared[5] - 1.0).abs() < 0.03, "{shared:?}");
-    }
-
-    #[test]
-    fn a_seed_gives_the_same_samples_again() {
-        assert_eq!(figures("coverage", 5, 1), figures("coverage", 5, 1));
-        assert_ne!(figures("coverage", 5, 1), figures("coverage", 5, 2));
-        let progress = Progress::default();
-        assert!(lesson("none", 5, 1, Language::English, &progress).is_none());
     }
 }

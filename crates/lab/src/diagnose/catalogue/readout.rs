@@ -61,8 +61,12 @@ fn steps(readings: &[f64]) -> Option<Steps> {
     const CHANCE: f64 = 1e-3;
     /// Where the digits of the file are the steps: the share of the readings that are different from all others, at most.
     const ALIKE: f64 = 0.7;
-    let values = super::modifiers::levels_of(readings);
-    if values.len() < 3 || !values.iter().all(|x| x.is_finite()) {
+    // Rows that are still to be recorded have none.
+    let readings: Vec<f64> = (readings.iter().copied())
+        .filter(|x| x.is_finite())
+        .collect();
+    let values = super::modifiers::levels_of(&readings);
+    if values.len() < 3 {
         return None;
     }
     let digit = digit(&values)?;
@@ -118,7 +122,11 @@ fn spacing(values: &[f64], digit: f64) -> Option<f64> {
     let step = 0.5 * (low + high);
     // A step of few digits is meant where it is possible.
     let short = super::modifiers::rounded(step, high - low);
-    Some(if (low..=high).contains(&short) { short } else { step })
+    Some(if (low..=high).contains(&short) {
+        short
+    } else {
+        step
+    })
 }
 
 /// Every output stands one row too late or too early.
@@ -157,9 +165,8 @@ mod tests {
             let shown = (x / step).round() * step;
             (shown / digit).round() * digit
         };
-        let of = |step, digit| -> Vec<f64> {
-            course.iter().map(|x| shown(step, digit, *x)).collect()
-        };
+        let of =
+            |step, digit| -> Vec<f64> { course.iter().map(|x| shown(step, digit, *x)).collect() };
         let found = steps(&of(0.05, 0.01)).unwrap();
         assert!((found.step - 0.05).abs() < 1e-9 && found.origin == 0.0);
         // A step of many digits, in a file of few.

@@ -8,7 +8,7 @@ use super::accidents;
 use super::adopted::{Adopted, adopt_named};
 use super::candidates::{Candidates, baseline, settings};
 use super::case::Case;
-use super::catalogue::{Cell, Finer, FittedModel};
+use super::catalogue::{Cell, Finer, FittedModel, generics};
 use super::coarse::Coarse;
 use super::confirm::{self, Estimated, Quality, estimates};
 use super::design::Design;
@@ -168,10 +168,18 @@ pub fn diagnose(
     }
     let Candidates {
         fitted,
-        cells,
+        mut cells,
         places,
         ..
     } = candidates;
+    if examination.verdict == Verdict::None && claimed.wanders() {
+        // Two tests, each with half of the probability of a false alarm.
+        let p = (2.0 * evidence::unsteadiness(&baseline, settings.seed)).min(1.0);
+        if p <= settings.alpha {
+            examination.unnamed(cells.len(), p);
+            cells.push(generics::unsteady(&fitted));
+        }
+    }
     let nameless = accidents::nameless(&fitted, &cells, &places, &examination);
     examination.demote(&nameless);
     let located = if examination.verdict == Verdict::None {

@@ -35,6 +35,8 @@ pub struct Diagnosis {
     pub examination: Examination,
     /// Where the mismatch sits, the most conspicuous first.
     pub located: Vec<(evidence::Cell, Located)>,
+    /// Whether the readings hardly vary: effects on the output and on the scale are then one.
+    pub steady: bool,
     /// The noise that was used.
     pub noise: Claimed,
     /// Names and values of the unknowns of the declared model, with their standard uncertainties.
@@ -264,6 +266,7 @@ pub fn diagnose(
         choices,
         cells,
         atoms: places,
+        steady: fitted.is_steady(),
         noise: claimed,
     })
 }

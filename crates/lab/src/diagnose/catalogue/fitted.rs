@@ -369,6 +369,13 @@ impl<'f> FittedModel<'f> {
         constant_terms(self.design, self.fit, response)
     }
 
+    /// Whether the readings hardly vary, so that what acts on the output and what acts on the scale are one. A constant that
+    /// the model should give has inputs that vary.
+    pub fn is_steady(&self) -> bool {
+        let implicit = (0..self.case().responses.len()).any(|response| self.is_implicit(response));
+        !implicit && !self.has_signal()
+    }
+
     /// Whether the signal of any response varies so much that its scale is something else than an offset.
     pub fn has_signal(&self) -> bool {
         const LEAST: f64 = 0.01;

@@ -409,6 +409,7 @@ fn name(pick: &Pick) -> Name {
         id: pick.id.to_string(),
         along: pick.along.clone(),
         variants: Vec::new(),
+        on_scale: None,
         size: Vec::new(),
         u: Vec::new(),
         coverage_factor: None,

@@ -1,5 +1,7 @@
 //! What the readout and the protocol do: rounding to a step, outputs in the wrong line.
 
+use std::f64::consts::PI;
+
 use super::building::{on_output, plain};
 use super::fitted::{FittedModel, varies};
 use super::{Cell, EffectId, Modifier, Variation, tied};
@@ -21,28 +23,38 @@ fn quantisation(fitted: &FittedModel<'_>, response: usize) -> Option<Cell> {
     }
     let Steps { step, origin } = steps(&observed)?;
     let model = &fitted.fit.linear.values[response];
-    let shift = |y: f64| ((y - origin) / step).round() * step + origin - y;
     let name = &fitted.case().responses[response].name;
-    let unit = fitted.case().responses[response].unit.typeset();
+    let unit = &fitted.case().responses[response].unit;
     let shown = super::modifiers::figure(step);
-    let text = match origin == 0.0 {
-        true => format!("(round({name}/{shown})*{shown} - {name})"),
-        false => {
-            format!("(round(({name} - {origin})/{shown})*{shown} - ({name} - {origin}))")
-        }
+    let from = match origin == 0.0 {
+        true => name.clone(),
+        false => format!("({name} - {origin})"),
     };
-    let term = on_output(Modifier::new(
-        super::modifiers::map(model, shift),
-        text,
-        fitted.case().responses[response].unit.difference(),
-    ));
-    let label = format!("step {shown} {unit}");
-    let mut cell = plain(
-        fitted,
-        EffectId::Quantisation,
-        name,
-        vec![Variation::one(label, term.on(response))],
-    );
+    let blurred = |blur: f64| {
+        let modifier = super::modifiers::map(model, |y| rounding((y - origin) / step, blur) * step);
+        let (text, noise) = match blur == 0.0 {
+            true => (
+                format!("(round({from}/{shown})*{shown} - {from})"),
+                String::new(),
+            ),
+            false => {
+                let noise = super::modifiers::figure(blur * step);
+                (
+                    format!("(mean of round(({from} + noise)/{shown})*{shown} - {from})"),
+                    format!(", noise {noise}"),
+                )
+            }
+        };
+        let term = on_output(Modifier::new(modifier, text, unit.difference()));
+        let label = format!("step {shown}{noise} {}", unit.typeset());
+        Variation::one(label, term.on(response))
+    };
+    // What the declared model leaves is noise, and perhaps something else.
+    let most = blur(fitted, response, step);
+    let mut blurs = vec![0.0, 0.5 * most, most];
+    blurs.dedup();
+    let variants = blurs.into_iter().map(blurred).collect();
+    let mut cell = plain(fitted, EffectId::Quantisation, name, variants);
     cell.words.y = name.clone();
     Some(cell)
 }
@@ -53,6 +65,35 @@ struct Steps {
     step: f64,
     /// One of the readings that are possible; zero where zero is.
     origin: f64,
+}
+
+/// Standard deviation of what is rounded about the model, in steps: what the residuals have beyond the error of rounding.
+fn blur(fitted: &FittedModel<'_>, response: usize, step: f64) -> f64 {
+    let rows = fitted.rows();
+    let own = fitted.fit.residuals.rows(response * rows, rows);
+    let known: Vec<f64> = own.iter().copied().filter(|r| r.is_finite()).collect();
+    let squares = known.iter().map(|r| r * r).sum::<f64>() / known.len().max(1) as f64;
+    (squares / (step * step) - 1.0 / 12.0).max(0.0).sqrt()
+}
+
+/// The mean error of rounding to whole numbers where normal noise is added before: harmonics of the saw-tooth, each as far as
+/// the noise leaves it (Widrow).
+fn rounding(x: f64, blur: f64) -> f64 {
+    /// Harmonics with less than this are nothing.
+    const NOTHING: f64 = 1e-4;
+    /// With less noise the edges are sharp.
+    const SHARP: f64 = 0.02;
+    if blur < SHARP {
+        return x.round() - x;
+    }
+    let of = |k: i32| {
+        let order = PI * f64::from(k);
+        let kept = libm::exp(-2.0 * (order * blur).powi(2));
+        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+        (kept, sign * kept / order * libm::sin(2.0 * order * x))
+    };
+    let harmonics = (1..).map(of).take_while(|(kept, _)| *kept > NOTHING);
+    harmonics.map(|(_, harmonic)| harmonic).sum()
 }
 
 /// The equal steps in which readings come, if they are coarse. The file may round the readings once more, to its digits.
@@ -157,6 +198,21 @@ fn shifted(fitted: &FittedModel<'_>) -> Option<Cell> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn noise_blurs_the_error_of_rounding() {
+        for x in [0.1, 0.3, 0.45, 0.7, 3.9] {
+            // Without noise it is the saw-tooth, but for what the harmonics leave of its edges.
+            assert!((rounding(x, 0.02) - (x.round() - x)).abs() < 0.05, "{x}");
+            // By quadrature over the noise.
+            let sum = |f: &dyn Fn(f64) -> f64| -> f64 {
+                let at = (-400..=400).map(|k| f64::from(k) / 100.0);
+                at.map(|z| libm::exp(-0.5 * z * z) * f(z)).sum()
+            };
+            let mean = sum(&|z| (x + 0.25 * z).round() - x) / sum(&|_| 1.0);
+            assert!((rounding(x, 0.25) - mean).abs() < 2e-3, "{x}");
+        }
+    }
 
     #[test]
     fn a_coarse_display_has_a_step() {

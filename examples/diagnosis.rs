@@ -103,7 +103,8 @@ fn save_tables(options: &Options) -> Result<(), String> {
          without the effect. Rivals are every other effect of the simulator, in all its forms, and every wrong candidate of the \
          catalogue that has at most one coefficient more than the right one. Every case is a line of diagnosis.jsonl. \
          Earlier tables: diagnosis-1.md (four rigs, the catalogue scored by slopes), diagnosis-2.md (noise judged before \
-         the explanation), diagnosis-3.md (departures of a form allowed to everything beside it), diagnosis-4.md (a delay written as two terms).",
+         the explanation), diagnosis-3.md (departures of a form allowed to everything beside it), diagnosis-4.md (a delay written as two terms), \
+         diagnosis-5.md (effects on the scale of specimens not looked for, shapes looked for anew in a held-out recording).",
         env!("CARGO_PKG_VERSION")
     );
     std::fs::write(out.join("diagnosis.md"), report(&read(&lines), &made))
@@ -409,6 +410,7 @@ fn name(pick: &Pick) -> Name {
         id: pick.id.to_string(),
         along: pick.along.clone(),
         variants: Vec::new(),
+        on_scale: None,
         size: Vec::new(),
         u: Vec::new(),
         coverage_factor: None,

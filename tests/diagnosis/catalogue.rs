@@ -103,6 +103,109 @@ fn a_scale_of_its_own_is_no_reversed_polarity() {
     assert_eq!(label, "operator B");
 }
 
+/// Readings of five weights of both signs, and the temperature.
+fn weighings(seed: u64, reading: impl Fn(f64, f64) -> f64) -> String {
+    let mut noise = Noise(seed);
+    let mut rows = "weight,reading [mg],temperature [°C]\n".to_owned();
+    for row in 0..60 {
+        let weight = row * 7 % 5;
+        let mass = [0.8, -0.5, 0.3, -0.9, 0.6][weight];
+        let temperature = 23.0 + 1.5 * libm::sin(0.37 * row as f64);
+        let value = reading(mass, temperature - 23.0) + 0.004 * noise.normal();
+        let _ = writeln!(rows, "{weight},{value:.5},{temperature:.3}");
+    }
+    rows
+}
+
+const WEIGHINGS: &str = "equations = \"reading = mass\"\n[columns]\nreading = \"output\"\nweight = \"factor\"\ntemperature = \"covariate\"\n[parameter]\nmass = { per = \"weight\" }\n";
+
+#[test]
+fn a_scale_multiplies_the_values_of_specimens() {
+    let rows = weighings(11, |mass, warm| mass * (1.0 + 0.03 * warm));
+    let found = diagnosed("weights", &rows, WEIGHINGS);
+    assert_eq!(named(&found)[0], ["tempco-scale"], "{found}");
+    let size = found["effects"][0]["named"][0]["size"][0].as_f64();
+    assert!(
+        size.is_some_and(|size| (size - 0.03).abs() < 0.003),
+        "{size:?}"
+    );
+}
+
+#[test]
+fn where_readings_hardly_vary_a_name_says_that_the_scale_gives_the_same() {
+    let mut noise = Noise(12);
+    let mut rows = "R [ohm],room [°C],t [h]\n".to_owned();
+    for row in 0..60 {
+        let room = 23.0 + 1.5 * libm::sin(0.37 * f64::from(row));
+        let value = 100.0 + 2e-3 * (room - 23.0) + 2e-4 * noise.normal();
+        let _ = writeln!(rows, "{value:.6},{room:.3},{row}");
+    }
+    let case =
+        "equations = \"R = R0\"\n[columns]\nR = \"output\"\nroom = \"covariate\"\nt = \"time\"\n";
+    let found = diagnosed("steady", &rows, case);
+    let name = &found["effects"][0]["named"][0];
+    assert_eq!(
+        (&name["id"], &name["on_scale"]),
+        (&"tempco-bias".into(), &"tempco-scale".into())
+    );
+    let statement = found["statement"].as_str().unwrap_or_default();
+    assert!(statement.contains("or of the scale"), "{statement}");
+    let rows = weighings(13, |mass, warm| mass + 0.03 * warm);
+    let found = diagnosed("unsteady", &rows, WEIGHINGS);
+    let name = &found["effects"][0]["named"][0];
+    assert_eq!(
+        (&name["id"], &name["on_scale"]),
+        (&"tempco-bias".into(), &Value::Null)
+    );
+}
+
+#[test]
+fn coarse_steps_are_found_behind_the_digits_of_the_file() {
+    let mut noise = Noise(14);
+    let mut rows = "p [MPa],U [mV],t [h]\n".to_owned();
+    for row in 0..90 {
+        let pressure = f64::from(row * 29 % 90) / 9.0;
+        let value = 0.4 + 10.0 * pressure + 3e-3 * noise.normal();
+        let shown = (value / 0.023_47).round() * 0.023_47;
+        let _ = writeln!(rows, "{pressure:.4},{shown:.4},{row}");
+    }
+    let case =
+        "equations = \"U = U0 + S*p\"\n[columns]\nU = \"output\"\np = \"stimulus\"\nt = \"time\"\n";
+    let found = diagnosed("coarse", &rows, case);
+    assert_eq!(named(&found)[0], ["quantisation"], "{found}");
+}
+
+#[test]
+fn noise_that_jumps_is_not_taken_for_noise_that_wanders() {
+    let readings = |jumps: f64, name: &str| {
+        let mut noise = Noise(15);
+        let mut rows = "load [kN],U [mV],t [h]\n".to_owned();
+        let (mut state, mut until) = (1.0, 0.0);
+        let mut wandering = 0.0;
+        for row in 0..80 {
+            if f64::from(row) > until {
+                state = -state;
+                until += 4.0 + 9.0 * noise.uniform();
+            }
+            wandering = 0.6 * wandering + 0.8 * noise.normal();
+            let load = f64::from(row * 37 % 80);
+            let error = jumps * state + (1.0 - 0.7 * f64::from(jumps > 0.0)) * wandering;
+            let _ = writeln!(
+                rows,
+                "{load},{:.5},{}",
+                0.1 * load + 0.01 * error,
+                0.02 * f64::from(row)
+            );
+        }
+        let case = "equations = \"U = U0 + S*load\"\n[columns]\nU = \"output\"\nload = \"stimulus\"\nt = \"time\"\n";
+        diagnosed(name, &rows, case)
+    };
+    let found = readings(2.0, "jumps");
+    assert_eq!(found["verdict"], "unexplained", "{}", found["statement"]);
+    let found = readings(0.0, "wanders");
+    assert_eq!(found["verdict"], "none", "{}", found["statement"]);
+}
+
 #[test]
 fn a_pendulum_swings_slower_with_the_square_of_its_amplitude() {
     let mut noise = Noise(7);

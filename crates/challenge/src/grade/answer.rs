@@ -82,6 +82,9 @@ pub struct Name {
     /// Variants with their shares, most probable first.
     #[serde(default)]
     pub variants: Vec<Variant>,
+    /// The effect on the scale that would be the same, because the readings hardly vary.
+    #[serde(default)]
+    pub on_scale: Option<String>,
     /// Estimates of its coefficients.
     #[serde(default)]
     pub size: Vec<Option<f64>>,

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::answer::{Answer, AnsweredEffect, State};
-use super::vocabulary::{accepts, accepts_or_alias};
+use super::vocabulary::{accepts, accepts_or_alias, tells_both};
 use crate::truth::{TrueEffect, Truth};
 
 /// What became of a concealed effect.
@@ -169,7 +169,10 @@ fn graded(truth: &TrueEffect, found: Option<usize>, answer: &Answer, open: bool)
         None if open => Finding::Unexplained,
         None => Finding::Missed,
     };
-    let overclaimed = finding == Finding::Identified && !truth.aliases.is_empty();
+    let name = found.and_then(|effect| effect.named.first());
+    let overclaimed = finding == Finding::Identified
+        && !truth.aliases.is_empty()
+        && !name.is_some_and(|name| tells_both(truth, name));
     GradedEffect {
         points: points(truth, finding, overclaimed),
         answered_size: found.and_then(|effect| effect.in_residuals),

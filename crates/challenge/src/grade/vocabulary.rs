@@ -15,6 +15,14 @@ pub(super) fn accepts_or_alias(truth: &TrueEffect, name: &Name) -> bool {
     accepts(truth, name) || truth.aliases.iter().any(|alias| is(name, alias))
 }
 
+/// Whether a name leaves open which of two effects it is that give the same recording.
+pub(super) fn tells_both(truth: &TrueEffect, name: &Name) -> bool {
+    let tells = |accepted: &Accepted| {
+        is(name, accepted) || name.on_scale.as_ref().is_some_and(|id| *id == accepted.id)
+    };
+    truth.names.iter().any(tells) && truth.aliases.iter().any(tells)
+}
+
 fn is(name: &Name, accepted: &Accepted) -> bool {
     (name.id == accepted.id || holds(name, &accepted.id))
         && (accepted.along.is_empty()

@@ -261,6 +261,16 @@ pub fn measures(records: &[Record]) -> Vec<Measure> {
         Floor::AtLeast(93.0),
         Rate::count(predicted, |ratio| *ratio <= 1.2),
     );
+    for (noise, word) in NoiseKnowledge::ALL {
+        let ratios = noisy(Class::Null, noise).filter_map(|r| r.predicted);
+        add(
+            format!("fresh recording predicted, nothing concealed, noise {word}"),
+            "cases in which nothing is concealed, so that the declared model is the truth; the error of its prediction of a \
+             fresh recording within 1.2 times the true noise of its rows",
+            Floor::Told,
+            Rate::count(ratios, |ratio| *ratio <= 1.2),
+        );
+    }
     let located = outcomes().filter_map(|o| o.located);
     add(
         "axis or moment stated wrongly".into(),

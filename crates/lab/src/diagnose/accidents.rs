@@ -1,6 +1,7 @@
 //! Several bad rows at once are not bad rows: what is wrong at one position, or time and again, is an
 //! effect of its own, which no catalogue names; a jump that is taken back is something that came and went;
-//! and a wave in time beside stronger effects is what their shape leaves.
+//! a wave in time beside stronger effects is what their shape leaves; and several bends over one column are pieces of
+//! one curve.
 
 use super::catalogue::{Cell, FittedModel, Pattern};
 use super::evidence::{Examination, Slot, State};
@@ -61,6 +62,7 @@ pub(super) fn nameless(
         let first = examination.slots[*slot].named.first();
         first.is_some_and(|one| cells[one.candidate].place.along == fitted.along_time())
     };
+    found.extend(pieces(cells, examination));
     // The strongest stands first.
     found.extend(
         of_kind(Pattern::Wave)
@@ -69,6 +71,22 @@ pub(super) fn nameless(
             .filter(in_time),
     );
     found
+}
+
+/// Slots that together describe a curve over one column, tentative ones counted.
+fn pieces(cells: &[Cell], examination: &Examination) -> Vec<usize> {
+    const CURVES: [&str; 3] = ["nonlinearity", "limits", "periodic"];
+    let place = |slot: &Slot| {
+        let cell = &cells[slot.named.first()?.candidate];
+        let is_curve = CURVES.contains(&cell.effect.family.as_str());
+        is_curve.then_some(&cell.place)
+    };
+    let places: Vec<_> = examination.slots.iter().map(place).collect();
+    let alike = |at: &usize| places.iter().filter(|other| **other == places[*at]).count();
+    (0..places.len())
+        .filter(|at| places[*at].is_some() && alike(at) >= MANY)
+        .filter(|at| examination.slots[*at].state != State::Unexplained)
+        .collect()
 }
 
 /// Whether one jump takes back another: something came and went.

@@ -3,7 +3,7 @@
 //! Everything that is weighed is weighed here; reports put it into words.
 
 use super::case::Case;
-use super::catalogue::{Term, Variation};
+use super::catalogue::{EffectId, Term, Variation};
 use super::confirm::Estimated;
 use super::evidence::{Alternative, Slot, State, Verdict};
 use super::run::Diagnosis;
@@ -231,6 +231,12 @@ impl Diagnosis {
             .into_iter()
             .filter(|(_, share)| *share >= SHARE)
             .collect()
+    }
+
+    /// The effect on the scale that gives the same recording as an alternative, because the readings hardly vary.
+    pub fn same_on_scale(&self, alternative: &Alternative) -> Option<EffectId> {
+        let effect = self.cells[alternative.candidate].effect;
+        effect.on_scale.filter(|_| self.steady)
     }
 
     /// The amplitude of what repeats with the sine and the cosine of one argument, in the unit of the sine's size.

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::adopted::Adopted;
 use super::case::Data;
-use super::catalogue::{self, Cell, FittedModel, Term};
+use super::catalogue::{self, Cell, FittedModel, Pattern, Term, modifiers};
 use super::coarse::Coarse;
 use super::confirm::{self, Estimated};
 use super::design::Design;
@@ -25,7 +25,7 @@ pub struct HeldOutQuality {
     /// By the declared model.
     pub before: Prediction,
     /// With the adopted physics; `None` if nothing was adopted, or where its course in this recording does
-    /// not follow from the columns.
+    /// not follow from the columns: that of a jump does only in what was recorded after it.
     pub after: Option<Prediction>,
 }
 
@@ -136,11 +136,23 @@ fn improved(
     let fit = fit::at(&design, super::prolonged::unknowns(known, &design));
     let coarse = Coarse::of(&design, &fit);
     let seen = coarse.design();
-    let wide = FittedModel::new(&seen, &coarse.fit).refined(fitted.finer.clone());
+    let found = || adopted.atoms.iter().map(|atom| places[*atom]);
+    let mut finer = fitted.finer.clone();
+    for (cell, variation) in found() {
+        finer.keep(&cells[cell], &cells[cell].variants[variation]);
+    }
+    let wide = FittedModel::new(&seen, &coarse.fit).refined(finer);
     let others = catalogue::cells(&wide);
     let mut rows = held.rows.clone();
-    for (atom, free) in adopted.atoms.iter().zip(&adopted.extended.effects) {
-        let cell = &cells[places[*atom].0];
+    for ((cell, _), free) in found().zip(&adopted.extended.effects) {
+        let cell = &cells[cell];
+        let is_jump = matches!(
+            cell.effect.pattern,
+            Some(Pattern::Jump | Pattern::ScaleJump)
+        );
+        if is_jump && !follows(&wide, known.case.rows) {
+            return None;
+        }
         // Each harmonic of an angle is a cell of its own.
         let alike = |other: &&Cell| other.effect.id == cell.effect.id && other.words == cell.words;
         let alike: Vec<&Cell> = others.iter().filter(alike).collect();
@@ -174,6 +186,16 @@ fn improved(
     let fit = model.at(&design);
     let claimed = noise_of(known, &design, &fit, 0);
     Some(model.prediction(&design, &fit, &claimed))
+}
+
+/// Whether the rows behind the first ones were recorded after them: what jumped stays where it is. At another time nobody knows
+/// whether it has happened.
+fn follows(both: &FittedModel<'_>, rows: usize) -> bool {
+    let (own, rest) = both
+        .clock
+        .values
+        .split_at(rows.min(both.clock.values.len()));
+    modifiers::range(own).1 <= modifiers::range(rest).0
 }
 
 /// The course of a modifier in the rows that follow its own in the design of both recordings: of the term of the same effect that

@@ -131,6 +131,12 @@ impl Claimed {
         is_steady && self.correlated == other.correlated && pairs.all(is_scaled)
     }
 
+    /// Whether the recording shows that successive rows are correlated.
+    pub fn wanders(&self) -> bool {
+        let correlated = self.correlated.as_ref();
+        correlated.is_some_and(|one| !matches!(one.memory, Memory::White | Memory::Claimed))
+    }
+
     /// Whether the size of the noise follows from the residuals alone.
     pub fn is_estimated(&self) -> bool {
         self.dof == 0.0

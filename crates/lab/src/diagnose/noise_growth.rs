@@ -74,7 +74,8 @@ impl Spread {
 /// A shape of the noise, and those that are likely beside it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Likely {
-    /// The likeliest.
+    /// The mean variance of those that are likely. The likeliest one may have no noise at all where few readings tell it, and
+    /// would give those all weight.
     pub best: Spread,
     /// In proportion to their likelihood.
     pub draws: Vec<Spread>,
@@ -106,9 +107,11 @@ pub(super) fn likely(values: &[f64], gain: f64, misfit: impl Fn(&Spread) -> f64)
         .iter()
         .map(|(_, misfit)| libm::exp(0.5 * (best.1 - misfit)));
     let drawn = in_proportion(&tried, &weights.collect::<Vec<f64>>(), DRAWS);
-    (constant - best.1 > gain).then(|| Likely {
-        best: best.0,
-        draws: drawn.into_iter().map(|(spread, _)| *spread).collect(),
+    let draws: Vec<Spread> = drawn.into_iter().map(|(spread, _)| *spread).collect();
+    let share = draws.iter().map(|spread| spread.share).sum::<f64>() / draws.len() as f64;
+    (constant - best.1 > gain).then_some(Likely {
+        best: Spread { share, level },
+        draws,
     })
 }
 

@@ -8,7 +8,7 @@ use super::accidents;
 use super::adopted::{Adopted, adopt_named};
 use super::candidates::{Candidates, baseline, settings};
 use super::case::Case;
-use super::catalogue::{Cell, Finer, FittedModel};
+use super::catalogue::{Cell, Finer, FittedModel, generics};
 use super::coarse::Coarse;
 use super::confirm::{self, Estimated, Quality, estimates};
 use super::design::Design;
@@ -35,6 +35,8 @@ pub struct Diagnosis {
     pub examination: Examination,
     /// Where the mismatch sits, the most conspicuous first.
     pub located: Vec<(evidence::Cell, Located)>,
+    /// Whether the readings hardly vary: effects on the output and on the scale are then one.
+    pub steady: bool,
     /// The noise that was used.
     pub noise: Claimed,
     /// Names and values of the unknowns of the declared model, with their standard uncertainties.
@@ -168,10 +170,18 @@ pub fn diagnose(
     }
     let Candidates {
         fitted,
-        cells,
+        mut cells,
         places,
         ..
     } = candidates;
+    if examination.verdict == Verdict::None && claimed.wanders() {
+        // Two tests, each with half of the probability of a false alarm.
+        let p = (2.0 * evidence::unsteadiness(&baseline, settings.seed)).min(1.0);
+        if p <= settings.alpha {
+            examination.unnamed(cells.len(), p);
+            cells.push(generics::unsteady(&fitted));
+        }
+    }
     let nameless = accidents::nameless(&fitted, &cells, &places, &examination);
     examination.demote(&nameless);
     let located = if examination.verdict == Verdict::None {
@@ -256,6 +266,7 @@ pub fn diagnose(
         choices,
         cells,
         atoms: places,
+        steady: fitted.is_steady(),
         noise: claimed,
     })
 }

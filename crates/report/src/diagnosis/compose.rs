@@ -255,7 +255,7 @@ fn headline(
     let title = match alternative.variants.first() {
         Some(variant) => names.variant(diagnosis.atoms[variant.atom]),
         None => names.plain(alternative.candidate),
-    } + &names.orders(diagnosis, alternative);
+    } + &names.open(diagnosis, alternative);
     let rival = alternative.nearest.as_ref().map_or(String::new(), |rival| {
         let (other, kappa) = (names.plain(rival.candidate), significant(rival.kappa, 2));
         l.pick(

@@ -199,6 +199,8 @@ form! {
         },
         /// What each size multiplies.
         terms: Vec<TermForm<'a>> = d.terms(one).into_iter().map(|term| TermForm::of(term, case)).collect(),
+        /// Identifier of the effect on the scale that would be the same here, where the readings hardly vary.
+        on_scale: Option<&'static str> = d.same_on_scale(one).map(|id| id.as_str()),
         /// Sizes; null where the recording does not determine one.
         size: Vec<Option<Number>> = one.estimate.iter().copied().map(finite).collect(),
         /// Their standard uncertainties.

@@ -102,7 +102,7 @@ impl<'a> Names<'a> {
 
     /// What a slot may be, most probable first.
     pub(super) fn slot(self, diagnosis: &Diagnosis, slot: &Slot) -> Vec<String> {
-        let told = |one| self.told(diagnosis, one) + &self.orders(diagnosis, one);
+        let told = |one| self.told(diagnosis, one) + &self.open(diagnosis, one);
         slot.named.iter().map(told).collect()
     }
 
@@ -115,8 +115,20 @@ impl<'a> Names<'a> {
         }
     }
 
+    /// What a name leaves open: its order, and whether it acts on the output or on the scale.
+    pub(super) fn open(self, diagnosis: &Diagnosis, one: &Alternative) -> String {
+        let same = match diagnosis.same_on_scale(one) {
+            Some(_) => self.l.pick(
+                " (or of the scale: the readings hardly vary)",
+                "（或标度的同类影响：读数几乎不变）",
+            ),
+            None => "",
+        };
+        self.orders(diagnosis, one) + same
+    }
+
     /// That the order of a cause is open, where it is: what else than the name may hold.
-    pub(super) fn orders(self, diagnosis: &Diagnosis, one: &Alternative) -> String {
+    fn orders(self, diagnosis: &Diagnosis, one: &Alternative) -> String {
         let others = diagnosis.other_orders(one).into_iter();
         let others =
             others.map(|(cell, share)| format!("{} {} %", self.plain(cell), percent(share)));

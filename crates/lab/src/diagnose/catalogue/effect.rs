@@ -32,6 +32,8 @@ pub struct Effect {
     pub exact: Option<f64>,
     /// The effect of which this is another order: the cause is the same.
     pub order_of: Option<EffectId>,
+    /// The same on the scale: where the readings hardly vary the two are one.
+    pub on_scale: Option<EffectId>,
     /// Whether it is of a higher order in what it follows, or goes with its rate: less likely beforehand.
     #[serde(default)]
     pub is_higher: bool,

@@ -59,6 +59,17 @@ impl Finer {
         new
     }
 
+    /// Keeps the parameter of a variation for another recording, whose grid has others.
+    pub fn keep(&mut self, cell: &Cell, found: &Variation) {
+        self.0.extend(found.shape.as_ref().map(|shape| Around {
+            id: cell.effect.id,
+            along: cell.place.along.clone(),
+            is_time: shape.symbol != "x₀",
+            values: vec![shape.value],
+            span: f64::INFINITY,
+        }));
+    }
+
     /// A grid of times with those between.
     pub(super) fn times(&self, grid: Vec<f64>) -> Vec<f64> {
         self.with(grid, true)

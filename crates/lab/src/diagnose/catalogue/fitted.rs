@@ -369,6 +369,13 @@ impl<'f> FittedModel<'f> {
         constant_terms(self.design, self.fit, response)
     }
 
+    /// Whether the readings hardly vary, so that what acts on the output and what acts on the scale are one. A constant that
+    /// the model should give has inputs that vary.
+    pub fn is_steady(&self) -> bool {
+        let implicit = (0..self.case().responses.len()).any(|response| self.is_implicit(response));
+        !implicit && !self.has_signal()
+    }
+
     /// Whether the signal of any response varies so much that its scale is something else than an offset.
     pub fn has_signal(&self) -> bool {
         const LEAST: f64 = 0.01;
@@ -407,8 +414,19 @@ fn signal(design: &Design<'_>, fit: &Fit, response: usize) -> Vec<f64> {
     signal
 }
 
+/// Parameters that are added as they stand. Values of specimens, one for each label, are no zero where nothing else varies:
+/// they are what is measured, and a scale multiplies them.
 fn constant_terms(design: &Design<'_>, fit: &Fit, response: usize) -> Vec<usize> {
     let slopes = &fit.linear.slopes[response];
+    let parameters = &design.case.parameters;
     let constant = |parameter: &usize| slopes.column(*parameter).iter().all(|slope| *slope == 1.0);
-    (0..design.case.parameters.len()).filter(constant).collect()
+    let constants: Vec<usize> = (0..parameters.len()).filter(constant).collect();
+    let used = design.case.equations.uses(response);
+    let is_specimens = |parameter: &usize| parameters[*parameter].per.is_some();
+    match used.iter().all(|symbol| constants.contains(symbol)) {
+        true => (constants.into_iter())
+            .filter(|parameter| !is_specimens(parameter))
+            .collect(),
+        false => constants,
+    }
 }

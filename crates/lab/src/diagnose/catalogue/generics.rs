@@ -70,6 +70,17 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     cells
 }
 
+/// What wanders like noise but jumps or comes in bursts.
+pub(in crate::diagnose) fn unsteady(fitted: &FittedModel<'_>) -> Cell {
+    generic(
+        fitted,
+        EffectId::Unsteady,
+        Node::Output,
+        &fitted.along_time(),
+        &[],
+    )
+}
+
 /// What a smooth curve may follow.
 fn courses(fitted: &FittedModel<'_>) -> Vec<(String, Vec<f64>)> {
     let columns = fitted.numeric().into_iter().chain(angles(fitted));

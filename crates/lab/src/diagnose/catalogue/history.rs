@@ -11,10 +11,10 @@ use crate::diagnose::case::Role;
 /// Cells of one column that is an input.
 pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let (x, label) = (fitted.numbers(column), fitted.label(column));
-    if !comes_back(x) {
+    if !comes_back(&fitted.clock.values, x) {
         return Vec::new();
     }
-    let way = direction(x);
+    let way = direction(&fitted.clock.values, x);
     let mut cells = vec![plain(
         fitted,
         EffectId::Hysteresis,
@@ -30,7 +30,9 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         .map(five_digits)
         .filter(|width| *width < 2.0 * step || step == 0.0);
     let variants = told_apart(x, widths).into_iter().map(|width| {
-        let modifier = map2(&play(x, width), x, |played, x| (played - x) / width);
+        let modifier = map2(&play(&fitted.clock.values, x, width), x, |played, x| {
+            (played - x) / width
+        });
         let shown = fitted.figure(column, width);
         let text = format!("(play({label}, {shown}) - {label})/({shown})");
         let term = Term::new(Node::Column(column), Modifier::number(modifier, text));
@@ -125,7 +127,11 @@ fn plays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     let (least, most) = range(x);
     let width = |part: f64| five_digits(part * (most - least));
     let behind = |part: f64| {
-        let modifier = map2(x, &play(x, width(part)), |x, played| x - played);
+        let modifier = map2(
+            x,
+            &play(&fitted.clock.values, x, width(part)),
+            |x, played| x - played,
+        );
         let shown = fitted.figure(column, width(part));
         let text = format!("({label} - play({label}, {shown}))");
         Modifier::new(modifier, text, fitted.step_unit(column))
@@ -153,10 +159,10 @@ fn plays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
 }
 
 /// Whether a course goes both ways, more than by returning to where a series begins.
-pub(super) fn comes_back(x: &[f64]) -> bool {
+pub(super) fn comes_back(t: &[f64], x: &[f64]) -> bool {
     /// Rows of the rarer way, one in so many.
     const ONE_IN: usize = 8;
-    let way = direction(x);
+    let way = direction(t, x);
     let rising = way.iter().filter(|way| **way > 0.0).count();
     let turns = way.windows(2).any(|pair| pair[0] != pair[1]);
     turns && rising.min(way.len() - rising) * ONE_IN >= way.len()

@@ -10,7 +10,7 @@ use super::generics::over_signals;
 use super::history::comes_back;
 use super::modifiers::{
     correlation, creeps, figure, five_digits, held_lag, lag, largest, map, map2, play_from, range,
-    rate,
+    rate, recordings,
 };
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::case::Role;
@@ -362,8 +362,9 @@ fn products(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
 /// What depends on the inputs before: relaxation, late reading, hysteresis.
 fn memory(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
     let mut cells = Vec::new();
-    if inputs.iter().any(|input| comes_back(&input.own)) {
-        cells.push(cell(fitted, inputs, EffectId::Hysteresis, loops()));
+    let t = &fitted.clock.values;
+    if inputs.iter().any(|input| comes_back(t, &input.own)) {
+        cells.push(cell(fitted, inputs, EffectId::Hysteresis, loops(t)));
     }
     if !fitted.is_timed() {
         return cells;
@@ -418,11 +419,16 @@ fn memory(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
 }
 
 /// Loops of a body with inner friction: one play, or several of growing width in parallel.
-fn loops() -> Vec<Shaped<'static>> {
+fn loops(t: &[f64]) -> Vec<Shaped<'_>> {
     const WIDTHS: [f64; 5] = [0.1, 0.3, 0.6, 1.0, 1.5];
     let behind = |input: &Input, width: f64| {
         // At rest there was no input.
-        let played = play_from(0.0, &input.own, &input.came, width);
+        let each = recordings(t).into_iter();
+        let played = each.flat_map(|rows| {
+            let came = input.came.get(rows.clone()).unwrap_or_default();
+            play_from(0.0, &input.own[rows], came, width)
+        });
+        let played: Vec<f64> = played.collect();
         map2(&input.own, &played, |s, behind| s - behind)
     };
     let one = WIDTHS.map(|width| {

@@ -34,7 +34,7 @@ mod effect;
 mod fields;
 mod finer;
 mod fitted;
-mod generics;
+pub(super) mod generics;
 mod heating;
 mod history;
 mod implicit;
@@ -297,9 +297,13 @@ impl Variation {
     }
 
     /// The label for a reader: a time constant is the best of some that were tried, and has three digits. A
-    /// knee may need more, where the range is far from zero.
+    /// knee may need more, where the range is far from zero, and so may a period, where there are many.
     pub fn short_label(&self) -> String {
-        let Some(shape) = self.shape.as_ref().filter(|shape| shape.symbol != "x₀") else {
+        let Some(shape) = self
+            .shape
+            .as_ref()
+            .filter(|shape| !matches!(shape.symbol, "x₀" | "P"))
+        else {
             return self.label.clone();
         };
         let exact = modifiers::figure(shape.value);

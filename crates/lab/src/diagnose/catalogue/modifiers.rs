@@ -1,5 +1,7 @@
 //! What a disturbance may follow, computed row by row along the recorded order.
 
+use std::ops::Range;
+
 /// Less the middle.
 pub fn centred(x: &[f64]) -> Vec<f64> {
     let middle = middle(x);
@@ -98,9 +100,27 @@ pub fn late(t: &[f64], x: &[f64], tau: f64) -> Vec<f64> {
     }
 }
 
+/// Rows between which the time does not go backwards: another recording begins where it does, with a history of its own.
+pub fn recordings(t: &[f64]) -> Vec<Range<usize>> {
+    let begins = (1..t.len()).filter(|row| t[*row] < t[*row - 1]);
+    let begins: Vec<usize> = std::iter::once(0).chain(begins).collect();
+    let ends = begins.iter().copied().skip(1).chain([t.len()]);
+    begins
+        .iter()
+        .zip(ends)
+        .map(|(from, to)| *from..to)
+        .collect()
+}
+
 /// The course a time `delay` earlier, along straight lines between the rows; where the recording had not
 /// begun, or is over, along the line of its ends.
 pub fn delayed(t: &[f64], x: &[f64], delay: f64) -> Vec<f64> {
+    let each = recordings(t).into_iter();
+    each.flat_map(|rows| delayed_in_one(&t[rows.clone()], &x[rows], delay))
+        .collect()
+}
+
+fn delayed_in_one(t: &[f64], x: &[f64], delay: f64) -> Vec<f64> {
     if t.len() < 2 {
         return x.to_vec();
     }
@@ -131,8 +151,14 @@ pub fn rate(t: &[f64], x: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// The direction in which `x` moved last: +1 or −1; the first rows take that of the first movement.
-pub fn direction(x: &[f64]) -> Vec<f64> {
+/// The direction in which `x` moved last: +1 or −1; the first rows take that of the first movement, and so do those after the
+/// time went backwards.
+pub fn direction(t: &[f64], x: &[f64]) -> Vec<f64> {
+    let each = recordings(t).into_iter();
+    each.flat_map(|rows| direction_in_one(&x[rows])).collect()
+}
+
+fn direction_in_one(x: &[f64]) -> Vec<f64> {
     let mut out = vec![0.0; x.len()];
     let mut now = 0.0;
     for row in 1..x.len() {
@@ -148,9 +174,12 @@ pub fn direction(x: &[f64]) -> Vec<f64> {
     out
 }
 
-/// Play of width `w`: what follows `x` only when `x` reaches the end of the gap.
-pub fn play(x: &[f64], w: f64) -> Vec<f64> {
-    play_from(x.first().copied().unwrap_or(0.0), x, &[], w)
+/// Play of width `w`: what follows `x` only when `x` reaches the end of the gap. It begins in the middle of its gap, and anew
+/// where the time goes backwards.
+pub fn play(t: &[f64], x: &[f64], w: f64) -> Vec<f64> {
+    let each = recordings(t).into_iter();
+    each.flat_map(|rows| play_from(x[rows.start], &x[rows], &[], w))
+        .collect()
 }
 
 /// Play of width `w` that begins in the middle of its gap at a value; some rows were reached by way of
@@ -294,8 +323,18 @@ mod tests {
     #[test]
     fn play_follows_behind_the_gap() {
         let x = [0.0, 1.0, 2.0, 1.5, 1.0, 0.0];
-        assert_eq!(play(&x, 1.0), [0.0, 0.5, 1.5, 1.5, 1.5, 0.5]);
-        assert_eq!(direction(&x), [1.0, 1.0, 1.0, -1.0, -1.0, -1.0]);
+        let t = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
+        assert_eq!(play(&t, &x, 1.0), [0.0, 0.5, 1.5, 1.5, 1.5, 0.5]);
+        assert_eq!(direction(&t, &x), [1.0, 1.0, 1.0, -1.0, -1.0, -1.0]);
+    }
+
+    #[test]
+    fn another_recording_has_a_history_of_its_own() {
+        let t = [0.0, 1.0, 2.0, 0.5, 1.5, 2.5];
+        let x = [0.0, 2.0, 0.0, 0.0, 2.0, 0.0];
+        for course in [play(&t, &x, 1.0), direction(&t, &x), delayed(&t, &x, 0.5)] {
+            assert_eq!(course[..3], course[3..]);
+        }
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! What the readout and the protocol do: rounding to a step, outputs in the wrong line.
 
+use std::f64::consts::PI;
+
 use super::building::{on_output, plain};
 use super::fitted::{FittedModel, varies};
 use super::{Cell, EffectId, Modifier, Variation, tied};
@@ -19,52 +21,153 @@ fn quantisation(fitted: &FittedModel<'_>, response: usize) -> Option<Cell> {
     if fitted.is_implicit(response) || fitted.design.blocks.len() < fitted.rows() {
         return None;
     }
-    let step = step(&observed)?;
+    let Steps { step, origin } = steps(&observed)?;
     let model = &fitted.fit.linear.values[response];
-    let modifier: Vec<f64> = model
-        .iter()
-        .map(|y| (y / step).round() * step - y)
-        .collect();
     let name = &fitted.case().responses[response].name;
-    let unit = fitted.case().responses[response].unit.typeset();
+    let unit = &fitted.case().responses[response].unit;
     let shown = super::modifiers::figure(step);
-    let term = on_output(Modifier::new(
-        modifier,
-        format!("(round({name}/{shown})*{shown} - {name})"),
-        fitted.case().responses[response].unit.difference(),
-    ));
-    let label = format!("step {shown} {unit}");
-    let mut cell = plain(
-        fitted,
-        EffectId::Quantisation,
-        name,
-        vec![Variation::one(label, term.on(response))],
-    );
+    let from = match origin == 0.0 {
+        true => name.clone(),
+        false => format!("({name} - {origin})"),
+    };
+    let blurred = |blur: f64| {
+        let modifier = super::modifiers::map(model, |y| rounding((y - origin) / step, blur) * step);
+        let (text, noise) = match blur == 0.0 {
+            true => (
+                format!("(round({from}/{shown})*{shown} - {from})"),
+                String::new(),
+            ),
+            false => {
+                let noise = super::modifiers::figure(blur * step);
+                (
+                    format!("(mean of round(({from} + noise)/{shown})*{shown} - {from})"),
+                    format!(", noise {noise}"),
+                )
+            }
+        };
+        let term = on_output(Modifier::new(modifier, text, unit.difference()));
+        let label = format!("step {shown}{noise} {}", unit.typeset());
+        Variation::one(label, term.on(response))
+    };
+    // What the declared model leaves is noise, and perhaps something else.
+    let most = blur(fitted, response, step);
+    let mut blurs = vec![0.0, 0.5 * most, most];
+    blurs.dedup();
+    let variants = blurs.into_iter().map(blurred).collect();
+    let mut cell = plain(fitted, EffectId::Quantisation, name, variants);
     cell.words.y = name.clone();
     Some(cell)
 }
 
-/// The step of which all differences of readings are multiples, if it is coarse: several readings agree.
-fn step(readings: &[f64]) -> Option<f64> {
-    /// Share of the readings that are different from all others, at most.
+/// Equal steps in which readings come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Steps {
+    step: f64,
+    /// One of the readings that are possible; zero where zero is.
+    origin: f64,
+}
+
+/// Standard deviation of what is rounded about the model, in steps: what the residuals have beyond the error of rounding.
+fn blur(fitted: &FittedModel<'_>, response: usize, step: f64) -> f64 {
+    let rows = fitted.rows();
+    let own = fitted.fit.residuals.rows(response * rows, rows);
+    let known: Vec<f64> = own.iter().copied().filter(|r| r.is_finite()).collect();
+    let squares = known.iter().map(|r| r * r).sum::<f64>() / known.len().max(1) as f64;
+    (squares / (step * step) - 1.0 / 12.0).max(0.0).sqrt()
+}
+
+/// The mean error of rounding to whole numbers where normal noise is added before: harmonics of the saw-tooth, each as far as
+/// the noise leaves it (Widrow).
+fn rounding(x: f64, blur: f64) -> f64 {
+    /// Harmonics with less than this are nothing.
+    const NOTHING: f64 = 1e-4;
+    /// With less noise the edges are sharp.
+    const SHARP: f64 = 0.02;
+    if blur < SHARP {
+        return x.round() - x;
+    }
+    let of = |k: i32| {
+        let order = PI * f64::from(k);
+        let kept = libm::exp(-2.0 * (order * blur).powi(2));
+        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+        (kept, sign * kept / order * libm::sin(2.0 * order * x))
+    };
+    let harmonics = (1..).map(of).take_while(|(kept, _)| *kept > NOTHING);
+    harmonics.map(|(_, harmonic)| harmonic).sum()
+}
+
+/// The equal steps in which readings come, if they are coarse. The file may round the readings once more, to its digits.
+fn steps(readings: &[f64]) -> Option<Steps> {
+    /// Probability that readings lie on equal steps by chance, at most.
+    const CHANCE: f64 = 1e-3;
+    /// Where the digits of the file are the steps: the share of the readings that are different from all others, at most.
     const ALIKE: f64 = 0.7;
-    /// A multiple is whole to this part of the step.
-    const WHOLE: f64 = 1e-3;
-    let mut values = readings.to_vec();
-    values.sort_by(f64::total_cmp);
-    values.dedup();
-    if values.len() < 3 || values.len() as f64 > ALIKE * readings.len() as f64 {
+    // Rows that are still to be recorded have none.
+    let readings: Vec<f64> = (readings.iter().copied())
+        .filter(|x| x.is_finite())
+        .collect();
+    let values = super::modifiers::levels_of(&readings);
+    if values.len() < 3 {
         return None;
     }
-    let gaps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let step = gaps.iter().copied().fold(f64::INFINITY, f64::min);
-    let whole = |gap: &f64| {
-        let times = gap / step;
-        (times - times.round()).abs() < WHOLE * times.max(1.0)
+    let digit = digit(&values)?;
+    let step = spacing(&values, digit)?;
+    // Of the readings that the file can hold, so many lie next to a step, on either side.
+    let near = (2.0 * digit / step).min(1.0);
+    let by_chance = libm::pow(near, (values.len() - 2) as f64);
+    let again = values.len() as f64 <= ALIKE * readings.len() as f64;
+    if by_chance > CHANCE && !again {
+        return None;
+    }
+    let from_zero = |x: &f64| (x - (x / step).round() * step).abs() <= digit;
+    let origin = match values.iter().all(from_zero) {
+        true => 0.0,
+        false => values[0],
     };
-    // Values that come again because the stimulus does have no common step.
-    let range = values[values.len() - 1] - values[0];
-    (gaps.iter().all(whole) && range < 1e4 * step).then_some(step)
+    Some(Steps { step, origin })
+}
+
+/// The unit of the last decimal place of numbers.
+fn digit(values: &[f64]) -> Option<f64> {
+    /// A double has no more.
+    const PLACES: i32 = 15;
+    let size = super::modifiers::largest(values);
+    let is_whole = |place: &i32| {
+        let times = libm::pow(10.0, f64::from(*place));
+        // What is left of a number of 53 bits.
+        let rounding = 4.0 * f64::EPSILON * size * times;
+        let is_whole = |x: &f64| (x * times - (x * times).round()).abs() <= rounding;
+        rounding < 0.01 && values.iter().all(is_whole)
+    };
+    let place = (-PLACES..=PLACES).find(is_whole)?;
+    Some(libm::pow(10.0, f64::from(-place)))
+}
+
+/// The largest step of which all distances of ascending values are multiples, each value rounded to a digit. Longer and longer
+/// distances from the first narrow it down.
+fn spacing(values: &[f64], digit: f64) -> Option<f64> {
+    // A bound is met by rounding as well.
+    let slack = digit * (1.0 + 1e-6);
+    let gaps = values.windows(2).map(|pair| pair[1] - pair[0]);
+    let least = gaps.fold(f64::INFINITY, f64::min);
+    let (mut low, mut high) = ((least - slack).max(digit / 2.0), least + slack);
+    for value in &values[1..] {
+        let far = value - values[0];
+        let times = (far / (0.5 * (low + high))).round().max(1.0);
+        low = low.max((far - slack) / times);
+        high = high.min((far + slack) / times);
+        if low > high {
+            return None;
+        }
+    }
+    let step = 0.5 * (low + high);
+    // A step of few digits is meant where it is possible.
+    let short = super::modifiers::rounded(step, high - low);
+    Some(if (low..=high).contains(&short) {
+        short
+    } else {
+        step
+    })
 }
 
 /// Every output stands one row too late or too early.
@@ -97,13 +200,37 @@ mod tests {
     use super::*;
 
     #[test]
+    fn noise_blurs_the_error_of_rounding() {
+        for x in [0.1, 0.3, 0.45, 0.7, 3.9] {
+            // Without noise it is the saw-tooth, but for what the harmonics leave of its edges.
+            assert!((rounding(x, 0.02) - (x.round() - x)).abs() < 0.05, "{x}");
+            // By quadrature over the noise.
+            let sum = |f: &dyn Fn(f64) -> f64| -> f64 {
+                let at = (-400..=400).map(|k| f64::from(k) / 100.0);
+                at.map(|z| libm::exp(-0.5 * z * z) * f(z)).sum()
+            };
+            let mean = sum(&|z| (x + 0.25 * z).round() - x) / sum(&|_| 1.0);
+            assert!((rounding(x, 0.25) - mean).abs() < 2e-3, "{x}");
+        }
+    }
+
+    #[test]
     fn a_coarse_display_has_a_step() {
-        let readings: Vec<f64> = (0..60)
-            .map(|k| (f64::from(k) * 0.013 / 0.05).round() * 0.05)
-            .collect();
-        let found = step(&readings).unwrap();
-        assert!((found - 0.05).abs() < 1e-9);
-        let fine: Vec<f64> = (0..60).map(|k| libm::sin(f64::from(k))).collect();
-        assert_eq!(step(&fine), None);
+        let course: Vec<f64> = (0..60).map(|k| f64::from(k) * 0.013).collect();
+        let shown = |step: f64, digit: f64, x: f64| {
+            let shown = (x / step).round() * step;
+            (shown / digit).round() * digit
+        };
+        let of =
+            |step, digit| -> Vec<f64> { course.iter().map(|x| shown(step, digit, *x)).collect() };
+        let found = steps(&of(0.05, 0.01)).unwrap();
+        assert!((found.step - 0.05).abs() < 1e-9 && found.origin == 0.0);
+        // A step of many digits, in a file of few.
+        let found = steps(&of(0.023_47, 1e-3)).unwrap();
+        assert!((found.step - 0.023_47).abs() < 1e-4, "{found:?}");
+        let fine: Vec<f64> = course.iter().map(|x| libm::sin(37.0 * x)).collect();
+        assert_eq!(steps(&fine), None);
+        let digits: Vec<f64> = fine.iter().map(|x| (x * 1e5).round() / 1e5).collect();
+        assert_eq!(steps(&digits), None);
     }
 }

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use super::building::{on_outputs, words};
 use super::fitted::FittedModel;
 use super::modifiers::{correlation, figure, map, range, rounded};
-use super::{Cell, EffectId, Modifier, Variants};
+use super::{Cell, EffectId, Modifier, ShapeParameter, Variants};
 use crate::diagnose::case::Role;
 
 /// A wave with fewer periods is the business of drifts and smooth curves.
@@ -101,18 +101,19 @@ fn wave(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
         .map(|k| (FEWEST_PERIODS + step * k as f64) / span)
         .collect();
     move_to_peaks(fitted, &blocks, &mut frequencies, step / span);
+    let periods = frequencies.iter().map(|frequency| 1.0 / frequency);
+    let periods = fitted.finer.times(periods.collect());
     let least = rounded(least, 1e-4 * span);
     let began = match course.column {
         Some(column) => fitted.less(column, least),
         None => fitted.time_less(least),
     };
-    let variants: Variants = frequencies
+    let variants: Variants = periods
         .iter()
-        .map(|frequency| {
-            let period = 1.0 / frequency;
+        .map(|period| {
             let of =
-                |wave: fn(f64) -> f64| map(&course.values, |x| wave(TAU * frequency * (x - least)));
-            let shown = format!("{} {}", figure(period), course.unit);
+                |wave: fn(f64) -> f64| map(&course.values, |x| wave(TAU * (x - least) / period));
+            let shown = format!("{} {}", figure(*period), course.unit);
             let argument = format!("2*pi*{began}/({})", shown.trim_end());
             (
                 format!("period {}", shown.trim_end()),
@@ -123,13 +124,18 @@ fn wave(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
             )
         })
         .collect();
-    Some(on_outputs(
-        fitted,
-        EffectId::Wave,
-        words(fitted, &course.words),
-        &course.name,
-        variants,
-    ))
+    let words = words(fitted, &course.words);
+    let mut cell = on_outputs(fitted, EffectId::Wave, words, &course.name, variants);
+    // Of each period one for each output, and one for all of them.
+    let scopes = cell.variants.len() / periods.len();
+    for (at, variation) in cell.variants.iter_mut().enumerate() {
+        variation.shape = Some(ShapeParameter {
+            symbol: "P",
+            value: periods[at / scopes],
+            unit: course.unit.clone(),
+        });
+    }
+    Some(cell)
 }
 
 /// How many values tell waves apart: readings that scatter about set points are no more than these. A wave

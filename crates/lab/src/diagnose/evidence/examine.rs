@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 
 use super::closed_form::Scale;
 use super::confusion::confusions;
-use super::findings::{Examination, Fitted, Invisible, Slot, State, Verdict};
+use super::findings::{Alternative, Examination, Fitted, Invisible, Slot, State, Verdict};
 use super::fit::fitted;
 use super::grades::{alike, graded};
 use super::null::Simulated;
@@ -162,6 +162,19 @@ impl Examination {
     pub fn doubted(&mut self, p: f64) {
         if let Some(first) = self.levels.first_mut() {
             first.p = first.p.max(p);
+        }
+    }
+
+    /// Nothing was found but a competitor without a name that is no direction of the recording, with this probability for as
+    /// much by chance.
+    pub fn unnamed(&mut self, candidate: usize, p: f64) {
+        self.slots.push(Slot {
+            generic: vec![Alternative::unnamed(candidate)],
+            ..nameless()
+        });
+        self.verdict = Verdict::Unexplained;
+        if let Some(first) = self.levels.first_mut() {
+            first.p = p;
         }
     }
 

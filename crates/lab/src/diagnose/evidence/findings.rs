@@ -138,6 +138,21 @@ impl Slot {
 }
 
 impl Alternative {
+    /// A competitor without a name, and without doubt.
+    pub(super) fn unnamed(candidate: usize) -> Alternative {
+        Alternative {
+            candidate,
+            probability: 1.0,
+            variants: Vec::new(),
+            estimate: DVector::zeros(0),
+            covariance: DMatrix::zeros(0, 0),
+            choice: DVector::zeros(0),
+            dof: f64::INFINITY,
+            lambda: f64::NAN,
+            nearest: None,
+        }
+    }
+
     /// Standard uncertainties of the coefficients: from the noise, by the choice between explanations of the other
     /// slots, and because weak effects are found where they came out large.
     pub fn u(&self) -> DVector<f64> {

@@ -48,6 +48,7 @@
 //! | `fit` | estimates, strength, distance to rivals |
 //! | `look_alikes` | effects that are the shape of another, aliases, mixtures |
 //! | `unlisted` | effects outside the catalogue that look like what is in it |
+//! | `unsteady` | whether noise that wanders does so as noise does |
 //! | `confusion` | how often names are confused, by simulation |
 //! | `locate` | where the mismatch sits |
 //! | `plan` | without data: what an experiment can see and tell apart |
@@ -88,6 +89,7 @@ mod sequential;
 mod slots;
 mod space;
 mod unlisted;
+mod unsteady;
 
 pub use baseline::{Baseline, Prior};
 pub use contest::{Contest, Course, contest};
@@ -104,3 +106,4 @@ pub use plan::{Pair, Plan, Seen, visibility};
 pub use question::{Atom, Candidate, Kind, Place, Question, Settings, Shape};
 pub use refusal::Refusal;
 pub use separate::{Prospects, Separability, Standing, Worth, apart, doubt};
+pub use unsteady::unsteadiness;

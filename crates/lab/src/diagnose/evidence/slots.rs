@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::choice;
 use super::closed_form::log_sum;
@@ -324,19 +324,10 @@ fn alternative(
 }
 
 fn unnamed(ranked: Ranked) -> Alternative {
+    let variants = ranked.blocks.into_iter().map(|(_, variant)| variant);
     Alternative {
-        candidate: ranked.candidate,
         probability: ranked.probability,
-        variants: ranked
-            .blocks
-            .into_iter()
-            .map(|(_, variant)| variant)
-            .collect(),
-        estimate: DVector::zeros(0),
-        covariance: DMatrix::zeros(0, 0),
-        choice: DVector::zeros(0),
-        dof: f64::INFINITY,
-        lambda: f64::NAN,
-        nearest: None,
+        variants: variants.collect(),
+        ..Alternative::unnamed(ranked.candidate)
     }
 }

@@ -18,7 +18,7 @@ pub static HINTS: Hints = Hints {
 };
 
 /// Words that people try, and the keys and words that they mean.
-pub const SYNONYMS: [(&str, &str); 99] = [
+pub const SYNONYMS: [(&str, &str); 96] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),
@@ -72,9 +72,6 @@ pub const SYNONYMS: [(&str, &str); 99] = [
     ("independent", "stimulus"),
     ("group", "run"),
     ("day", "run"),
-    ("u", "arcsine"),
-    ("tri", "triangular"),
-    ("bimodal", "arcsine"),
     ("simple_acceptance", "simple"),
     ("shared_risk", "simple"),
     ("guarded", "guarded-acceptance"),

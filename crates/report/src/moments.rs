@@ -151,8 +151,8 @@ pub(super) fn few_readings(
             true => {
                 let times = significant((few.dof / (few.dof - 2.0)).sqrt(), 3);
                 l.pick(
-                    format!("`{name}` has ν = {nu}, and that is {times} times s/√n"),
-                    format!("`{name}` 的自由度为 {nu}，标准差为 s/√n 的 {times} 倍"),
+                    format!("`{name}` has ν = {nu}, and that is {times} times u"),
+                    format!("`{name}` 的自由度为 {nu}，标准差为 u 的 {times} 倍"),
                 )
             }
             false => l.pick(
@@ -165,11 +165,11 @@ pub(super) fn few_readings(
     let follows = what_follows(report, measurand, components);
     l.pick(
         format!(
-            "Few readings: Monte Carlo draws their mean from a t-distribution (JCGM 101, 6.4.9), whose standard deviation is larger than s/√n: {}. {follows} More readings would bring both together.",
+            "Few degrees of freedom: Monte Carlo draws from a t-distribution (JCGM 101, 6.4.9), whose standard deviation is larger than u: {}. {follows} More readings would bring both together.",
             Language::English.list(&named)
         ),
         format!(
-            "重复测量次数少：蒙特卡洛法对其均值取 t 分布（JCGM 101 的 6.4.9），其标准差大于 s/√n：{}。{follows}增加测量次数可使两者接近。",
+            "自由度小：蒙特卡洛法取 t 分布（JCGM 101 的 6.4.9），其标准差大于 u：{}。{follows}增加测量次数可使两者接近。",
             named.join("；")
         ),
     )
@@ -191,8 +191,8 @@ fn what_follows(
     let k = exact(coverage.k);
     match (reported.reason, &coverage.basis) {
         (Reason::FewReadings | Reason::NotValidatedFewReadings | Reason::MomentsAgree, _) => l.pick(
-            "The profile multiplies u = s/√n (GUM 4.2.3) by its k, and so does the statement.".to_string(),
-            "规范以 u = s/√n（GUM 4.2.3）乘以 k，证书用语亦然。".to_string(),
+            "The profile multiplies u itself (GUM 4.2.3) by its k, and so does the statement.".to_string(),
+            "规范以 u 本身（GUM 4.2.3）乘以 k，证书用语亦然。".to_string(),
         ),
         (Reason::NotValidated, _) => l.pick(
             "The statement takes the result of Monte Carlo.".to_string(),
@@ -207,16 +207,16 @@ fn what_follows(
             "证书用语采用 GUM 法的结果，其 k 按 t 分布取值，已考虑自由度小的影响。".to_string(),
         ),
         (_, CoverageBasis::Fixed) => l.pick(
-            format!("The statement takes the GUM result, whose k = {k} is fixed whatever the degrees of freedom; these readings are {of_u} % of u²."),
-            format!("证书用语采用 GUM 法的结果，其 k = {k} 为约定值，不随自由度改变；这些读数占 u² 的 {of_u} %。"),
+            format!("The statement takes the GUM result, whose k = {k} is fixed whatever the degrees of freedom; they are {of_u} % of u²."),
+            format!("证书用语采用 GUM 法的结果，其 k = {k} 为约定值，不随自由度改变；这些分量占 u² 的 {of_u} %。"),
         ),
         (_, CoverageBasis::Normal) => l.pick(
-            format!("The statement takes the GUM result, whose k is that of a normal distribution; these readings are {of_u} % of u²."),
-            format!("证书用语采用 GUM 法的结果，其 k 按正态分布取值；这些读数占 u² 的 {of_u} %。"),
+            format!("The statement takes the GUM result, whose k is that of a normal distribution; they are {of_u} % of u²."),
+            format!("证书用语采用 GUM 法的结果，其 k 按正态分布取值；这些分量占 u² 的 {of_u} %。"),
         ),
         (_, CoverageBasis::Output { .. }) => l.pick(
-            format!("The statement takes the GUM result, whose k comes from the components that dominate; these readings are {of_u} % of u²."),
-            format!("证书用语采用 GUM 法的结果，其 k 由占优势的分量确定；这些读数占 u² 的 {of_u} %。"),
+            format!("The statement takes the GUM result, whose k comes from the components that dominate; they are {of_u} % of u²."),
+            format!("证书用语采用 GUM 法的结果，其 k 由占优势的分量确定；这些分量占 u² 的 {of_u} %。"),
         ),
     }
 }

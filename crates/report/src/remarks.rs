@@ -96,8 +96,8 @@ pub(super) fn finding_sentence(
 
 fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) -> String {
     match kind {
-        FindingKind::VanishingSensitivity { inputs, shift, u_effect, matters } => {
-            unseen_in_english(report, measurand, (inputs, *shift, *u_effect, *matters))
+        FindingKind::VanishingSensitivity { inputs, shift, u_effect } => {
+            unseen_in_english(report, measurand, (inputs, *shift, *u_effect))
         }
         FindingKind::SecondOrderMatters { shift, u_first, u_second } => format!(
             "The model is noticeably nonlinear over the uncertainties of its inputs: second-order terms {} and {}. Do not use the first-order figures alone.",
@@ -193,8 +193,8 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
 
 fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) -> String {
     match kind {
-        FindingKind::VanishingSensitivity { inputs, shift, u_effect, matters } => {
-            unseen_in_chinese(report, measurand, (inputs, *shift, *u_effect, *matters))
+        FindingKind::VanishingSensitivity { inputs, shift, u_effect } => {
+            unseen_in_chinese(report, measurand, (inputs, *shift, *u_effect))
         }
         FindingKind::SecondOrderMatters { shift, u_first, u_second } => format!(
             "在输入量的不确定度范围内，测量模型的非线性明显：二阶项{}，{}。不应单独使用一阶结果。",
@@ -285,11 +285,11 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
     }
 }
 
-/// Inputs, shift, effect on u, and whether it matters, of [`FindingKind::VanishingSensitivity`].
-type Unseen<'a> = (&'a [String], f64, f64, bool);
+/// Inputs, shift and effect on u of [`FindingKind::VanishingSensitivity`].
+type Unseen<'a> = (&'a [String], f64, f64);
 
 fn unseen_in_english(report: &Report<'_>, measurand: Option<usize>, unseen: Unseen<'_>) -> String {
-    let (inputs, shift, u_effect, matters) = unseen;
+    let (inputs, shift, u_effect) = unseen;
     let names = Language::English.first_of(inputs);
     let (coefficient, verb) = match inputs.len() {
         1 => ("sensitivity coefficient", "vanishes"),
@@ -314,17 +314,13 @@ fn unseen_in_english(report: &Report<'_>, measurand: Option<usize>, unseen: Unse
         "{whose} second-order terms add {} to u in quadrature{moved}",
         amount(u_effect)
     );
-    if matters {
-        format!(
-            "{first} {found}: the first-order result is wrong. Rely on Monte Carlo, and on second order where it agrees with it."
-        )
-    } else {
-        format!("{first} {found}, which does not matter here.")
-    }
+    format!(
+        "{first} {found}: the first-order result is wrong. Rely on Monte Carlo, and on second order where it agrees with it."
+    )
 }
 
 fn unseen_in_chinese(report: &Report<'_>, measurand: Option<usize>, unseen: Unseen<'_>) -> String {
-    let (inputs, shift, u_effect, matters) = unseen;
+    let (inputs, shift, u_effect) = unseen;
     let names = Language::Chinese.first_of(inputs);
     let first = format!(
         "{names} 存在不确定度，但在估计值处其灵敏系数为零（或近于零），一阶 GUM 法反映不出其影响。"
@@ -344,13 +340,7 @@ fn unseen_in_chinese(report: &Report<'_>, measurand: Option<usize>, unseen: Unse
         "其二阶项对标准不确定度的贡献为 {}（按方和根合成）{moved}",
         amount(u_effect)
     );
-    if matters {
-        format!(
-            "{first}{found}，一阶结果因而不正确，应以蒙特卡洛法为准；二阶结果仅在与之一致时可用。"
-        )
-    } else {
-        format!("{first}{found}，在此可以忽略。")
-    }
+    format!("{first}{found}，一阶结果因而不正确，应以蒙特卡洛法为准；二阶结果仅在与之一致时可用。")
 }
 
 /// Why the statement takes its method.
@@ -370,7 +360,7 @@ fn not_validated_in_english(report: &Report<'_>, measurand: Option<usize>) -> St
     let take = format!("Take the Monte Carlo interval wherever a {p} interval is needed.");
     match reported(report, measurand) {
         Reason::FewReadings => format!(
-            "{differs}, because Monte Carlo gives means of few readings a wider distribution. The statement claims the u_c of the GUM and the k of the profile; with s/√n for the standard uncertainty of these means Monte Carlo confirms y and u. {take}"
+            "{differs}, because Monte Carlo gives what has few degrees of freedom a wider distribution. {take}"
         ),
         Reason::NotValidatedFewReadings => format!(
             "{differs}, and y and u differ also with s/√n for the standard uncertainty of means of few readings, because the model is nonlinear. The statement takes y and u of that Monte Carlo run, and the k of the profile. {take}"
@@ -394,9 +384,9 @@ fn not_validated_in_chinese(report: &Report<'_>, measurand: Option<usize>) -> St
     );
     let take = format!("需要 {p} 包含区间时，应取蒙特卡洛法的区间。");
     match reported(report, measurand) {
-        Reason::FewReadings => format!(
-            "{differs}，原因是蒙特卡洛法对少量重复测量的均值取更宽的分布。证书用语采用 GUM 法的合成标准不确定度和规范的 k；这些均值的标准不确定度取 s/√n 时，蒙特卡洛法证实了 y 和 u。{take}"
-        ),
+        Reason::FewReadings => {
+            format!("{differs}，原因是蒙特卡洛法对自由度小的分量取更宽的分布。{take}")
+        }
         Reason::NotValidatedFewReadings => format!(
             "{differs}，并且由于模型非线性，少量重复测量的均值的标准不确定度取 s/√n 时 y 和 u 仍不一致。证书用语采用该次蒙特卡洛法的 y 和 u 以及规范的 k。{take}"
         ),

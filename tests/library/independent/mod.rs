@@ -11,6 +11,7 @@ mod correlation;
 mod counts_and_samples;
 mod curved;
 mod invariance;
+mod laboratory;
 mod least_squares;
 mod linear_models;
 mod readings;

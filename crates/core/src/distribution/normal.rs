@@ -22,7 +22,7 @@ pub struct Normal {
 impl Univariate for Normal {
     const KIND: Kind = Kind {
         key: "normal",
-        aliases: &["gaussian", "gauss", "正态"],
+        aliases: &["gaussian", "gauss", "正态", "正态分布"],
         name_en: "normal (Gaussian)",
         name_zh: "正态分布",
         parameters: "N(x, u²)",

@@ -31,7 +31,7 @@ const BETA: ParameterRule = ParameterRule::number(
 impl Univariate for Trapezoidal {
     const KIND: Kind = Kind {
         key: "trapezoidal",
-        aliases: &["trapezoid", "梯形"],
+        aliases: &["trapezoid", "梯形", "梯形分布"],
         name_en: "trapezoidal",
         name_zh: "梯形分布",
         parameters: "Trap(a, b, β), top width β·(b - a)",

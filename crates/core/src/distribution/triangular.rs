@@ -24,7 +24,7 @@ pub struct Triangular {
 impl Univariate for Triangular {
     const KIND: Kind = Kind {
         key: "triangular",
-        aliases: &["triangle", "三角"],
+        aliases: &["triangle", "三角", "三角形", "三角分布"],
         name_en: "triangular",
         name_zh: "三角分布",
         parameters: "T(a, c, b), mode c, symmetric when c = (a + b)/2",

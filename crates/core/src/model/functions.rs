@@ -76,6 +76,14 @@ pub fn unknown_function(l: &mut Lowering<'_>, name: &Name) {
             ("gamma" | "tgamma", _) => say!("write `gamma_function`"),
             ("lgamma" | "gammaln", _) => say!("write `ln_gamma`"),
             ("std" | "stdev" | "stddev", _) => say!("did you mean `sd`?"),
+            ("Σ" | "∑", _) => say!("did you mean `sum`?"),
+            ("var" | "variance", _) => say!("write `sd(x)^2`"),
+            ("weighted_mean" | "wmean" | "average_weighted", _) => {
+                say!("write `dot(w, x) / sum(w)`, with the weights w a vector constant")
+            }
+            ("radians" | "degrees" | "deg2rad" | "rad2deg", _) => say!(
+                "angles carry their unit, and functions take any: `sin(phi)` with phi in °; the number of degrees is `value_in(phi, '°')`"
+            ),
             (_, Some(near)) => say!("did you mean `{near}`?"),
             (_, None) => {
                 say!("define it above, `{text}(x) = …`; for a product write `{text} * (…)`")

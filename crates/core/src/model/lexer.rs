@@ -341,7 +341,8 @@ impl<'a> Lexer<'a> {
             ':' => say!("write `=` to define a quantity"),
             '√' => say!("write `sqrt(x)`"),
             '{' | '}' => say!("use round brackets"),
-            '&' | '|' | '!' => say!("write `and`, `or`, `not`"),
+            '|' => say!("the absolute value is `abs(x)`; logic is written in words: `or`"),
+            '&' | '!' => say!("write `and`, `or`, `not`"),
             '.' => say!("write the decimal point between digits, as in `0.5`"),
             _ => say!("remove it"),
         };

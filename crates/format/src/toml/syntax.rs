@@ -106,7 +106,9 @@ fn unquoted_key(span: Range<usize>, marked: &str, text: &str, synonyms: &Synonym
         .trim_start()
         .starts_with('[');
     let meant = synonyms.iter().find(|(word, _)| *word == marked);
+    let first = in_header && text[..span.start].ends_with('[');
     let help = match meant {
+        Some((_, key)) if first => say!("the table is [{key}]"),
         Some((_, key)) if !in_header => say!("the key is `{key}`"),
         _ => say!(
             "write \"{marked}\", also behind a dot: [input.\"{marked}\"]; formulas use the name without quotes"
@@ -137,6 +139,7 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
     let marked = text.get(span.clone()).unwrap_or_default();
     let unquoted = says("string values must be quoted") || says("invalid float");
     let fault = |message: Said| Fault::new(TOML_SYNTAX, span.clone(), message);
+    let half_width = half_width_number(marked);
     if says("duplicate key") {
         fault(say!("`{marked}` is stated a second time"))
             .label(say!("stated before"))
@@ -149,10 +152,18 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
             .help(say!(
                 "write a number, or a text in quotes; remove the line if there is nothing to say"
             ))
+    } else if let (true, Some(number)) = (unquoted, &half_width) {
+        fault(say!("`{marked}` is written in full-width characters"))
+            .label(say!("expected a number"))
+            .help(say!("write {number}"))
     } else if let (true, Some(number)) = (unquoted, concise(marked)) {
         fault(say!("`{marked}` is a value with its uncertainty"))
             .label(say!("expected a number"))
             .help(of_concise(number))
+    } else if let (true, Some((number, rest))) = (unquoted, marked.split_once('±')) {
+        fault(say!("`{marked}` is a value with its uncertainty"))
+            .label(say!("expected a number"))
+            .help(of_plus_minus(number.trim(), rest.trim()))
     } else if unquoted && is_calculation(marked) {
         let help = match quotient(marked) {
             Some(result) => say!("write {result}; formulas stand in a `model`"),
@@ -166,7 +177,7 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
     {
         fault(say!("`{marked}` needs quotes"))
             .label(say!("an amount with a unit is a text"))
-            .help(say!("write \"{number} {unit}\""))
+            .help(quoted(number, unit))
     } else if says("invalid unquoted key") && !marked.is_empty() {
         let span = word_at(&span, text);
         let marked = text.get(span.clone()).unwrap_or_default();
@@ -211,6 +222,30 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
     }
 }
 
+/// How an amount is written that stands without quotes.
+fn quoted(number: &str, unit: &str) -> Said {
+    let share: Option<f64> = number.parse().ok().filter(|_| unit == "%");
+    match share {
+        Some(share) => say!(
+            "write \"{number} {unit}\" for a relative amount, and {} where a fraction is wanted",
+            share / 100.0
+        ),
+        None => say!("write \"{number} {unit}\""),
+    }
+}
+
+/// The number that full-width digits and signs of a Chinese or Japanese keyboard stand for.
+fn half_width_number(text: &str) -> Option<String> {
+    let narrow = |c: char| match c {
+        '\u{ff01}'..='\u{ff5e}' => char::from_u32(c as u32 - 0xfee0).unwrap_or(c),
+        '。' => '.',
+        '−' => '-',
+        c => c,
+    };
+    let number: String = text.trim().chars().map(narrow).collect();
+    (number != text.trim() && number.parse::<f64>().is_ok()).then_some(number)
+}
+
 /// Whether a value without quotes is numbers with operators between them.
 fn is_calculation(text: &str) -> bool {
     let text = text.trim();
@@ -232,6 +267,13 @@ fn concise(text: &str) -> Option<&str> {
 pub(super) fn of_concise(number: &str) -> Said {
     say!(
         "the value and its uncertainty have keys of their own: value = \"{number} …\" and u = …; the digits in brackets are in units of the last digit"
+    )
+}
+
+/// What is written in place of a value with ± and its uncertainty.
+pub(super) fn of_plus_minus(number: &str, rest: &str) -> Said {
+    say!(
+        "the value and its uncertainty have keys of their own: value = \"{number} …\", and u, half_width or certificate = {{ U = \"{rest}\", k = 2 }}, whichever it is"
     )
 }
 

@@ -198,15 +198,17 @@ pub trait Table: Default {
 
 /// The known key that an unknown one most likely means.
 fn meant(name: &str, known: &[&'static str], hints: &Hints) -> Option<&'static str> {
-    let name = name.to_lowercase().replace(['-', ' '], "_");
-    let name = name.as_str();
-    let synonym = hints
-        .synonyms
-        .iter()
-        .find(|(word, key)| *word == name && known.contains(key));
-    synonym
+    let plain = name.to_lowercase().replace(['-', ' '], "_");
+    synonym(name, known, hints).or_else(|| nearest(&plain, known.iter().copied()))
+}
+
+/// The known word or key of which this one is a synonym, whatever its case, hyphens and spaces.
+fn synonym(name: &str, known: &[&'static str], hints: &Hints) -> Option<&'static str> {
+    let plain = name.to_lowercase().replace(['-', ' '], "_");
+    let mut synonyms = hints.synonyms.iter();
+    synonyms
+        .find(|(word, key)| *word == plain && known.contains(key))
         .map(|(_, key)| *key)
-        .or_else(|| nearest(name, known.iter().copied()))
 }
 
 /// Reads the entries of a table in the order of the file.
@@ -458,7 +460,7 @@ macro_rules! words {
                     other => {
                         let known = [ $( $word, $( $alias, )* )+ ];
                         reader.refuse($crate::toml::unknown_word(
-                            value, other, &known, <Self as $crate::toml::FromToml>::expected()))
+                            value, other, &known, <Self as $crate::toml::FromToml>::expected(), reader.hints))
                     }
                 }
             }
@@ -472,14 +474,20 @@ macro_rules! words {
 pub use words;
 
 /// The fault for a word that is none of the choice.
-pub fn unknown_word(value: &Raw<'_>, word: &str, known: &[&'static str], expected: Said) -> Fault {
+pub fn unknown_word(
+    value: &Raw<'_>,
+    word: &str,
+    known: &[&'static str],
+    expected: Said,
+    hints: &Hints,
+) -> Fault {
     let fault = Fault::new(
         UNKNOWN_WORD,
         value.span(),
         say!("`{word}` is not known here"),
     )
     .label(say!("expected {expected}"));
-    match nearest(word, known.iter().copied()) {
+    match synonym(word, known, hints).or_else(|| nearest(word, known.iter().copied())) {
         Some(near) => fault.help(say!("did you mean \"{near}\"?")),
         None => fault,
     }

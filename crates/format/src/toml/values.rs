@@ -7,7 +7,7 @@ use toml::de::{DeFloat, DeInteger, DeValue};
 
 use super::faults::{AMOUNT, NOT_FINITE, NOT_WHOLE, QUOTED_NUMBER, WRONG_TYPE};
 use super::strings::StringMap;
-use super::syntax::{of_concise, without_comma};
+use super::syntax::{of_concise, of_plus_minus, without_comma};
 use super::table::{FromToml, KeyRow, Raw, Reader, Stated, in_order, inner};
 use gumption_core::calendar::Day;
 use gumption_fault::{Fault, Said, say};
@@ -343,7 +343,7 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
     {
         let (number, rest) = (number.trim(), rest.trim());
         fault.help(match text.contains('±') {
-            true => say!("the value and its uncertainty have keys of their own: value = \"{number} …\", and u, half_width or certificate = {{ U = \"{rest}\", k = 2 }}, whichever it is"),
+            true => of_plus_minus(number, rest),
             false => of_concise(number),
         })
     } else if text.contains(['/', '*', '^']) && text.starts_with(|c: char| c.is_ascii_digit()) {

@@ -199,7 +199,7 @@ fn shape(text: &str, value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<&'stati
         let known: Vec<&'static str> = shape_names().collect();
         let words = shapes().map(|shape| format!("\"{}\"", shape.kind.key));
         let expected = say!("one of {}", words.collect::<Vec<_>>().join(", "));
-        return reader.refuse(unknown_word(value, text, &known, expected));
+        return reader.refuse(unknown_word(value, text, &known, expected, reader.hints));
     };
     shapes().find(|entry| entry.kind.key == kind.key).or_else(|| {
         reader.refuse(

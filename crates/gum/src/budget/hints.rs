@@ -17,11 +17,14 @@ pub static HINTS: Hints = Hints {
     ),
 };
 
-/// Words that people try for the keys of an uncertainty, and those keys.
-pub const SYNONYMS: [(&str, &str); 49] = [
+/// Words that people try, and the keys and words that they mean.
+pub const SYNONYMS: [(&str, &str); 96] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),
+    ("tolerance", "conformity"),
+    ("tolerances", "conformity"),
+    ("specification", "conformity"),
     ("std", "u"),
     ("stdev", "u"),
     ("sd", "u"),
@@ -30,7 +33,23 @@ pub const SYNONYMS: [(&str, &str); 49] = [
     ("standard_uncertainty", "u"),
     ("resolution", "step"),
     ("q", "step"),
+    ("interval", "limits"),
+    ("bounds", "limits"),
+    ("expanded_uncertainty", "U"),
+    ("coverage_factor", "k"),
+    ("coverage_probability", "p"),
+    ("p", "coverage_probability"),
+    ("k", "coverage_factor"),
+    ("n", "trials"),
+    ("samples", "trials"),
+    ("u95", "U"),
+    ("u_95", "U"),
+    ("k95", "k"),
+    ("confidence", "p"),
+    ("rows", "lines"),
     ("data", "readings"),
+    ("data", "recording"),
+    ("file", "recording"),
     ("observations", "readings"),
     ("measurements", "readings"),
     ("digits", "counts"),
@@ -44,7 +63,22 @@ pub const SYNONYMS: [(&str, &str); 49] = [
     ("estimate", "value"),
     ("mean", "value"),
     ("formula", "model"),
+    ("equation", "equations"),
     ("equation", "model"),
+    ("temperature", "covariate"),
+    ("humidity", "covariate"),
+    ("response", "output"),
+    ("dependent", "output"),
+    ("independent", "stimulus"),
+    ("group", "run"),
+    ("day", "run"),
+    ("simple_acceptance", "simple"),
+    ("shared_risk", "simple"),
+    ("guarded", "guarded-acceptance"),
+    ("guard_band", "guarded-acceptance"),
+    ("jjf1094", "JJF 1094"),
+    ("iso_14253", "ISO 14253-1"),
+    ("ilac_g8:09/2019", "ILAC-G8"),
     ("标题", "title"),
     ("被测量", "measurand"),
     ("输入", "input"),
@@ -55,6 +89,19 @@ pub const SYNONYMS: [(&str, &str); 49] = [
     ("值", "value"),
     ("单位", "unit"),
     ("标准不确定度", "u"),
+    ("扩展不确定度", "U"),
+    ("包含因子", "k"),
+    ("包含概率", "p"),
+    ("类型", "type"),
+    ("名称", "name"),
+    ("规范", "profile"),
+    ("方法", "method"),
+    ("备注", "note"),
+    ("符合性", "conformity"),
+    ("符合性判定", "conformity"),
+    ("相关", "correlation"),
+    ("相关系数", "correlation"),
+    ("常量", "constant"),
     ("读数", "readings"),
     ("测量值", "readings"),
     ("半宽", "half_width"),
@@ -73,9 +120,25 @@ pub const SYNONYMS: [(&str, &str); 49] = [
 /// Keys of an uncertainty that stand in the wrong place.
 pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Said> {
     // `U` must not be taken for a misspelt `u`: they differ by the coverage factor.
-    if matches!(key, "U" | "k" | "expanded") && known.contains(&"certificate") {
+    const EXPANDED: [&str; 9] = [
+        "U",
+        "U95",
+        "U_95",
+        "k95",
+        "expanded",
+        "expanded_uncertainty",
+        "coverage_factor",
+        "扩展不确定度",
+        "包含因子",
+    ];
+    if EXPANDED.contains(&key) && known.contains(&"certificate") {
         return Some(say!(
             "an expanded uncertainty stands with its k: certificate = {{ U = …, k = 2 }}"
+        ));
+    }
+    if key == "k" && known.contains(&"certificate") {
+        return Some(say!(
+            "an expanded uncertainty stands with its k: certificate = {{ U = …, k = 2 }}; the divisor of limits follows from their distribution"
         ));
     }
     let has = |wanted: &str| known.contains(&wanted);
@@ -85,7 +148,53 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
                 "limits ±a are half_width = …; those of an instrument that depend on its reading specification = {{ reading = \"0.05 %\", counts = 2, step = … }}"
             ))
         }
-        ("[input]" | "a component", "s" | "n") if has("pooled") => Some(say!(
+        (_, "u_rel" | "urel" | "u_r" | "rel_u" | "relative_u" | "relative_uncertainty")
+            if has("relative") =>
+        {
+            Some(say!(
+                "a relative uncertainty is u = \"0.1 %\", or u = 0.001 with relative = true"
+            ))
+        }
+        (_, "upper" | "lower" | "min" | "max") if has("limits") => Some(say!(
+            "limits of the quantity itself are limits = [lower, upper], distances from its value plus = … and minus = …"
+        )),
+        ("certificate" | "specification" | "[conformity]" | "a component" | "pooled", "unit") => {
+            Some(say!(
+                "a plain number is in the unit of the quantity; another unit stands with its number: \"0.1 mg\""
+            ))
+        }
+        ("distribution", "type" | "name" | "kind" | "shape") => Some(say!(
+            "the shape that goes with another way is a text: distribution = \"triangular\""
+        )),
+        (
+            "[input]" | "a component",
+            "c" | "ci" | "c_i" | "sensitivity_coefficient" | "灵敏系数",
+        ) => Some(say!(
+            "sensitivity coefficients follow from the model; one that is known is a factor in it"
+        )),
+        ("[input]" | "a component", "correlation" | "correlated" | "相关系数") => Some(say!(
+            "write [[correlation]], between = [\"A\", \"B\"] with the names of two inputs, and r = …"
+        )),
+        ("[measurand]", "functions" | "function" | "model2" | "equations") => Some(say!(
+            "functions and intermediate quantities are lines of the `model`, above its last one: f(x) = …"
+        )),
+        (
+            "[measurand]",
+            "k"
+            | "p"
+            | "digits"
+            | "rounding"
+            | "coverage"
+            | "coverage_factor"
+            | "coverage_probability",
+        ) => Some(say!(
+            "what holds for all results stands below [conventions]: coverage_probability = 0.95, or coverage_factor = 2"
+        )),
+        (
+            "[input]" | "a component",
+            "s" | "n" | "standard_deviation" | "std_dev" | "stddev" | "标准差" | "标准偏差"
+            | "实验标准差",
+        ) if has("pooled") => Some(say!(
             "s of n readings that are not listed: pooled = {{ s = …, dof = n - 1 }}, of = n"
         )),
         ("[conformity]", "tolerance" | "limits" | "limit") => Some(say!(
@@ -101,6 +210,18 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
                 "write [[correlation]], between = [\"{one}\", \"{other}\"] and r = …"
             ))
         }
+        ("[[correlation]]", _) if nearest(key, known.iter().copied()).is_none() => Some(say!(
+            "write [[correlation]], between = [\"A\", \"B\"] with the names of two inputs, and r = …"
+        )),
+        (_, "language" | "lang" | "语言") if has("conventions") => Some(say!(
+            "the language of a report is chosen on the command line: --lang en, zh or both"
+        )),
+        ("[[joint]]", "readings") => Some(say!(
+            "the readings stand with each input, in the same order: [input.V] readings = […], [input.I] readings = […]"
+        )),
+        ("a CSV column in groups", _) => Some(say!(
+            "groups are lists of readings, one for each group: groups = [[…], […]]"
+        )),
         ("[series]", _) if nearest(key, known.iter().copied()).is_none() => Some(say!(
             "the columns of a series are named once, its rows follow: columns = [\"{key}\"], rows = [[…], […]]"
         )),
@@ -138,9 +259,9 @@ fn no_table(title: &str, found: &DeValue<'_>) -> Option<Said> {
         ("[input]", DeValue::String(_) | DeValue::Integer(_) | DeValue::Float(_)) => Some(say!(
             "an input has a value and a reason for doubt: {{ value = …, u = … }}; what is exactly known stands below [constant]"
         )),
-        ("[measurand]", DeValue::String(_)) => {
-            Some(say!("the formula is its model: {{ model = \"…\" }}"))
-        }
+        ("[measurand]", DeValue::String(_)) => Some(say!(
+            "its name stands in the header, its formula is the model: [measurand.NAME], model = \"…\""
+        )),
         ("certificate", DeValue::String(_)) => {
             Some(say!("a certificate is {{ U = …, k = 2, number = \"…\" }}"))
         }

@@ -206,6 +206,7 @@ impl FromToml for ReadingsOf {
                 word,
                 &["mean", "single"],
                 Self::expected(),
+                reader.hints,
             )),
             _ => match u64::read(value, reader)? {
                 0 => reader.wrong_type(WRONG_TYPE, value, Self::expected()),
@@ -236,9 +237,13 @@ impl FromToml for TrialsEntry {
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         match value.get_ref() {
             DeValue::String(word) if word == "adaptive" => Some(TrialsEntry::Adaptive),
-            DeValue::String(word) if word.parse::<f64>().is_err() => {
-                reader.refuse(unknown_word(value, word, &["adaptive"], Self::expected()))
-            }
+            DeValue::String(word) if word.parse::<f64>().is_err() => reader.refuse(unknown_word(
+                value,
+                word,
+                &["adaptive"],
+                Self::expected(),
+                reader.hints,
+            )),
             _ => u64::read(value, reader).map(TrialsEntry::Fixed),
         }
     }

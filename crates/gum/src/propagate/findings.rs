@@ -190,6 +190,9 @@ impl Evidence<'_> {
         const K: f64 = 2.0;
         // From the k of 99 % of a normal distribution on, U is not that of 95 %.
         let other = normal_two_sided_quantile(0.99);
+        // The k = 2 of a certificate and the 1.96 of a normal distribution stand for the same coverage.
+        let p = self.budget.conventions.coverage_probability.max(0.95);
+        let same = normal_two_sided_quantile(p);
         let result = &self.results[measurand];
         let lines = result.gum.components.iter().zip(&self.budget.components);
         let references = lines.enumerate().filter_map(|(index, (line, component))| {
@@ -202,7 +205,10 @@ impl Evidence<'_> {
         let reported = result.reported(&self.budget.conventions);
         let expanded = reported.rounding.uncertainty(reported.expanded()?).to_f64();
         // U is compared as it is printed.
-        let certified = reported.rounding.uncertainty(reference).to_f64();
+        let certified = reported
+            .rounding
+            .uncertainty(reference * same.min(k) / k)
+            .to_f64();
         (expanded < certified).then(|| FindingKind::BelowReference {
             component: component.name.clone(),
             k,
@@ -231,13 +237,7 @@ impl Evidence<'_> {
 
     fn of_second_order(&self, measurand: usize, already_doubtful: bool) -> Vec<FindingKind> {
         let mut kinds = Vec::from_iter(self.vanished(measurand));
-        let is_unseen = |kind: &FindingKind| {
-            matches!(
-                kind,
-                FindingKind::VanishingSensitivity { matters: true, .. }
-            )
-        };
-        let unseen = kinds.iter().any(is_unseen);
+        let unseen = !kinds.is_empty();
         let u_first = self.results[measurand].gum.u;
         let doubtful = unseen
             | match &self.second_order[measurand].terms {
@@ -261,7 +261,8 @@ impl Evidence<'_> {
     }
 
     /// Inputs whose sensitivity coefficient vanishes although the measurand depends on them, and what
-    /// second order finds of them: all of it, less what is left when they stay at their estimates.
+    /// second order finds of them: all of it, less what is left when they stay at their estimates. Nothing where that
+    /// is not seen in the digits that are printed.
     fn vanished(&self, measurand: usize) -> Option<FindingKind> {
         let seen: Vec<Sight> = (0..self.budget.inputs.len())
             .map(|input| self.sight(measurand, input))
@@ -281,7 +282,9 @@ impl Evidence<'_> {
         let u_effect = ((more - less) * (more + less)).max(0.0).sqrt();
         let u_first = self.results[measurand].gum.u;
         let told = shift.is_finite() && u_effect.is_finite() && !seen.contains(&Sight::Neither);
-        Some(FindingKind::VanishingSensitivity {
+        let matters =
+            !told || second_order::matters(u_first, libm::hypot(u_first, u_effect), shift);
+        matters.then(|| FindingKind::VanishingSensitivity {
             inputs: seen
                 .iter()
                 .zip(&self.budget.inputs)
@@ -290,7 +293,6 @@ impl Evidence<'_> {
                 .collect(),
             shift,
             u_effect,
-            matters: !told || second_order::matters(u_first, libm::hypot(u_first, u_effect), shift),
         })
     }
 

@@ -90,7 +90,7 @@ pub enum StatedProbability {
     Of(f64),
     /// The profile names none for its fixed k (JJF 1059.1, 5.3).
     Unnamed,
-    /// Monte Carlo has refuted the one that the fixed k would have.
+    /// The fixed k does not have that of the profile: by the distribution of the result, or because Monte Carlo refutes it.
     Refuted,
 }
 
@@ -345,7 +345,7 @@ impl Conventions {
 impl Coverage {
     /// Whether k has about the probability of the profile: always, unless it is fixed and the distribution of the
     /// result is another than it was fixed for.
-    pub fn grants(&self, probability: f64) -> bool {
+    fn grants(&self, probability: f64) -> bool {
         /// Probabilities are stated to the whole percent.
         const PERCENT: f64 = 0.01;
         (self.probability - probability).abs() < PERCENT
@@ -389,7 +389,10 @@ fn stated_probability(
 ) -> StatedProbability {
     match coverage.basis {
         CoverageBasis::Fixed if !conventions.state_probability => StatedProbability::Unnamed,
-        CoverageBasis::Fixed if refuted => StatedProbability::Refuted,
+        // A fixed k has the probability of the profile only where the distribution of the result grants it.
+        CoverageBasis::Fixed if refuted || !coverage.grants(conventions.coverage_probability) => {
+            StatedProbability::Refuted
+        }
         // What the fixed k happens to have, to the whole percent.
         CoverageBasis::Fixed => {
             StatedProbability::Of((coverage.probability * 100.0).round() / 100.0)

@@ -228,6 +228,15 @@ impl<'s> Checker<'s> {
         headings: &[Heading],
         names: &Names,
     ) {
+        if name.is_empty() {
+            let message = say!("the equation does not say which column it gives");
+            self.faults.push(
+                Fault::new(UNKNOWN_SYMBOL, place.clone(), message)
+                    .label(say!("there is no `=`"))
+                    .help(say!("write what was observed on the left: U = …")),
+            );
+            return;
+        }
         let headers: Vec<&str> = headings
             .iter()
             .map(|heading| heading.name.as_str())

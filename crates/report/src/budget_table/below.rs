@@ -7,7 +7,9 @@ use crate::figures::Figures;
 use crate::language::{Language, Word};
 use crate::number::{NONE, TABLE_DIGITS, freedom, percent, probability, significant};
 use gumption_format::document::{Cell, ColumnKind, Table};
-use gumption_gum::propagate::{Basis, Coverage, CoverageBasis, Freedom, Gum, ReportedUncertainty};
+use gumption_gum::propagate::{
+    Basis, Coverage, Freedom, Gum, ReportedUncertainty, StatedProbability,
+};
 
 pub(super) fn elision(language: Language, gum: &Gum, elided: &[usize]) -> String {
     let largest = elided
@@ -57,7 +59,7 @@ pub(super) fn footer(report: &Report<'_>, measurand: usize) -> Vec<(String, Stri
     }
     if let Some(k) = figures.k() {
         let why = match of_gum {
-            true => basis(report, &gum.coverage),
+            true => basis(&figures, &gum.coverage, l),
             false => match figures.reported.uncertainty {
                 ReportedUncertainty::HalfWidth { .. } => "U/u".to_string(),
                 _ => comparison::basis_of_k(&gum.coverage, l),
@@ -106,18 +108,13 @@ fn effective(gum: &Gum, figures: &Figures<'_>, l: Language) -> String {
     }
 }
 
-/// Where k came from, and its probability.
-fn basis(report: &Report<'_>, coverage: &Coverage) -> String {
-    let l = report.language;
-    let fixed = coverage.basis == CoverageBasis::Fixed;
-    // A fixed k has the profile's probability only where the distribution of the result grants it.
-    let conventions = &report.budget.conventions;
-    let granted = coverage.grants(conventions.coverage_probability);
-    let p = if fixed && !(conventions.state_probability && granted) {
-        l.pick("no probability stated", "不注明包含概率")
-            .to_string()
-    } else {
-        format!("p = {}", probability(coverage.probability))
+/// Where k came from, and its probability; none where the statement names none.
+fn basis(figures: &Figures<'_>, coverage: &Coverage, l: Language) -> String {
+    let p = match figures.reported.probability {
+        StatedProbability::Of(_) => format!("p = {}", probability(coverage.probability)),
+        StatedProbability::Unnamed | StatedProbability::Refuted => l
+            .pick("no probability stated", "不注明包含概率")
+            .to_string(),
     };
     [comparison::basis_of_k(coverage, l), p].join(l.pick(", ", "，"))
 }

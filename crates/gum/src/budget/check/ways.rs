@@ -65,7 +65,7 @@ ways! {
     GroupSummary "group_summary" "groups" locates [of between significance],
     Pooled "pooled" "repeatability" [relative of pooled common],
     Specification "specification" "specification" [beta d p distribution dof reliability type gum_u common],
-    Step "step" "resolution" [dof reliability gum_u common],
+    Step "step" "resolution" [beta d p distribution dof reliability gum_u common],
     Bits "bits" "quantisation" [range dof reliability gum_u common],
     Source "source" "source" [relative sensitivity],
     Sample "sample" "sample" locates [type gum_u],
@@ -142,7 +142,12 @@ static MODIFIERS: [(&str, Said); 20] = [
         "type",
         say!("the type follows from the way the uncertainty is stated"),
     ),
-    ("sensitivity", say!("`sensitivity` goes with `source`")),
+    (
+        "sensitivity",
+        say!(
+            "`sensitivity` goes with `source`; a cause of its own is an input that the model adds"
+        ),
+    ),
     (
         "gum_u",
         say!("`gum_u` goes with a distribution of known shape"),

@@ -18,7 +18,8 @@ pub struct Finding {
 /// The kinds of findings; the report has a sentence in each language for every one.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub enum FindingKind {
-    /// c = 0 (or next to it) while u(x) > 0 and the input does act beyond first order.
+    /// c = 0 (or next to it) while u(x) > 0 and the input does act beyond first order: so much that it is seen at two
+    /// digits of u(y), or second order cannot tell.
     VanishingSensitivity {
         /// Names of all inputs concerned.
         inputs: Vec<String>,
@@ -26,8 +27,6 @@ pub enum FindingKind {
         shift: f64,
         /// What their second derivatives alone add to u(y), in quadrature.
         u_effect: f64,
-        /// Whether that is seen at two digits of u(y), or second order cannot tell.
-        matters: bool,
     },
     /// Second-order terms change u or the estimate at the digits reported.
     SecondOrderMatters {
@@ -188,8 +187,7 @@ impl FindingKind {
     /// What it means for the figures: whether a reader may take them as they are.
     pub fn severity(&self) -> Severity {
         match self {
-            FindingKind::VanishingSensitivity { matters: false, .. }
-            | FindingKind::FewDegreesOfFreedom { .. }
+            FindingKind::FewDegreesOfFreedom { .. }
             | FindingKind::FewReadings { .. }
             | FindingKind::Undecided { .. }
             | FindingKind::ResidualsTooSmall { .. }

@@ -126,11 +126,17 @@ impl Found {
 
 /// A budget that is told in sentences.
 fn prose(all: &[Line], mapping: &Mapping) -> Option<Claimed> {
-    let rows: Vec<(usize, crate::claim::Row)> = all
+    let mut rows: Vec<(usize, Row)> = all
         .iter()
         .enumerate()
         .filter_map(|(i, line)| Some((i, prose::row(&line.text, line.at)?)))
         .collect();
+    // What stands in front of a list of symbols is its title, and notes.
+    let has_symbol = |(_, row): &(usize, Row)| !row.symbol.is_empty();
+    if rows.iter().filter(|row| has_symbol(row)).count() >= 2 {
+        let first = rows.iter().position(has_symbol).unwrap_or(0);
+        rows.drain(..first);
+    }
     if rows.len() < 2 {
         return None;
     }

@@ -95,11 +95,12 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
     let exact = calculation.figures(&[], cmc);
     let any_printed =
         printed.iter().any(Option::is_some) && calculation.combined != Combined::Rounded;
-    let of = if any_printed {
-        vec![exact, calculation.figures(printed, cmc)]
-    } else {
-        vec![exact]
-    };
+    let mut of = vec![exact];
+    if any_printed {
+        of.push(calculation.figures(printed, cmc));
+    } else if let Some(coefficients) = with_claimed_coefficients(case, calculation) {
+        of.push(coefficients.figures(&[], cmc));
+    }
     let footer = &case.claimed.footer;
     let claimed_u = footer
         .u_c
@@ -116,13 +117,15 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         let half = figure.half_of_digits() + coarse * figure.value + open;
         of.iter().any(|f| figure.is_met_within(f.u_c, half))
     });
+    let rooted = Calculation {
+        combined: Combined::Root,
+        ..calculation.clone()
+    };
+    // Where u_c is the sum of squares, or made of rounded contributions, ν_eff may have been found from what was there
+    // before.
+    let is_after = matches!(calculation.combined, Combined::Squares | Combined::Rounded);
+    let before = is_after.then(|| rooted.figures(&[], cmc));
     let nu_eff = footer.nu_eff.as_ref().is_none_or(|figure| {
-        let rooted = Calculation {
-            combined: Combined::Root,
-            ..calculation.clone()
-        };
-        // Where u_c is the sum of squares, ν_eff may have been found before.
-        let before = (calculation.combined == Combined::Squares).then(|| rooted.figures(&[], cmc));
         let mut all = of.iter().chain(&before);
         // Where it was found from u_c as it is printed, that enters with its fourth power.
         let of_printed_u = |f: &Figures| {
@@ -136,7 +139,7 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
             found.any(|nu| freedom(figure, nu, calculation, coarse))
         })
     });
-    let mut factors: Vec<f64> = of.iter().map(|f| f.k).collect();
+    let mut factors: Vec<f64> = of.iter().chain(&before).map(|f| f.k).collect();
     let claimed_k = footer.k.as_ref();
     if let Some(nu) = footer.nu_eff.as_ref().filter(|_| nu_eff) {
         let looked_up = Calculation {
@@ -181,8 +184,14 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         let floor = cmc.filter(|_| report.cmc).unwrap_or(0.0);
         let product =
             |k: f64, u: f64| (libm::pow(k, f64::from(report.power)) * u).max(floor) * report.scale;
-        let rounded = |x: f64| is_rounded(&figure, x, case.claimed.rounding, report.down);
-        let long = (3..=8).contains(&figure.digits);
+        // Who prints too many digits has not rounded to two by the rule.
+        let rule = if report.long {
+            RoundingStated::Unstated
+        } else {
+            case.claimed.rounding
+        };
+        let rounded = |x: f64| is_rounded(&figure, x, rule, report.down);
+        let long = (3..=8).contains(&figure.read().digits);
         long == report.long
             && ks
                 .iter()
@@ -197,6 +206,19 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         of_printed: of.get(1).copied(),
         open: open + coarse * exact.u_c,
     }
+}
+
+/// The calculation with the coefficients that the laboratory states, where it has used derivatives that it rounded: rule 6
+/// leaves a percent.
+fn with_claimed_coefficients(case: &Case<'_>, calculation: &Calculation) -> Option<Calculation> {
+    let mut own = calculation.clone();
+    for (line, row) in own.lines.iter_mut().zip(&case.claimed.rows) {
+        let claimed = row.c.as_ref().map(|c| c.value.abs());
+        if let Some(c) = claimed.filter(|c| (c - line.c.abs()).abs() <= 0.01 * line.c.abs()) {
+            line.c = c.copysign(line.c);
+        }
+    }
+    (own != *calculation).then_some(own)
 }
 
 /// The figures of a calculation as they are reported: k has two decimals, or those of the claimed one, where that is met.

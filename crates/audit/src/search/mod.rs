@@ -139,11 +139,16 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
     } else {
         Vec::new()
     };
-    let unmatched = options.iter().map(|o| 1.0 - o.accident).product::<f64>();
-    let accident = 1.0 - unmatched * (1.0 - search.chance.accident());
+    let of_rows = 1.0 - options.iter().map(|o| 1.0 - o.accident).product::<f64>();
+    let of_whole = search.chance.accident();
+    let accident = 1.0 - (1.0 - of_rows) * (1.0 - of_whole);
     let mut explanations = search.found;
     let slips = explanations.first().map_or(0, |e| e.acts.len());
-    let named = broken.is_empty() && no_accident(slips, accident) >= SURE;
+    // What the figures of the rows show is one question, what is left between them and the statement the next.
+    let shown = bases.first().map_or(0, |(set, _)| set.len().min(slips));
+    let is_sure =
+        no_accident(shown, of_rows) >= SURE && no_accident(slips - shown, of_whole) >= SURE;
+    let named = broken.is_empty() && is_sure;
     let withheld = if named { 0 } else { explanations.len() };
     if !named {
         explanations.clear();

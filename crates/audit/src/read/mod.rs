@@ -163,11 +163,13 @@ fn prose(all: &[Line], mapping: &Mapping) -> Option<Claimed> {
     Some(claimed)
 }
 
-/// Where the text between two tables passes from one to the other: at the last blank row, or half a page.
+/// Where the text between two tables passes from one to the other: at the widest gap, the last of equal ones, or half a
+/// page.
 fn between(grid: &Grid, end: usize, head: usize) -> usize {
-    (end..head)
-        .rev()
-        .find(|row| grid.filled(*row).next().is_none())
+    let is_blank = |row: usize| grid.filled(row).next().is_none();
+    let gap = |row: usize| (end..=row).rev().take_while(|row| is_blank(*row)).count();
+    let last = (end..head).max_by_key(|row| gap(*row));
+    last.filter(|row| gap(*row) > 0)
         .map_or(head, |blank| blank + 1)
 }
 

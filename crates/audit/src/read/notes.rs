@@ -153,7 +153,7 @@ fn rule(lower: &str, claimed: &mut Claimed) -> bool {
             "rule for k",
         ],
     );
-    let certificate = has(lower, &["certificate", "证书", "calibrat"]);
+    let certificate = has(lower, &["certificate", "cert.", "证书", "calibrat"]);
     // A line of nothing but `k = 2.13` is the claim.
     let bare = lower
         .strip_prefix('k')

@@ -88,13 +88,17 @@ fn coefficient(words: &str) -> Option<Printed> {
         "c =",
     ];
     let clauses = words.split([';', ',']).map(str::trim);
-    let mut own = clauses.filter(|clause| {
-        NAMES
+    let behind = |clause: &str| {
+        let name = NAMES
             .iter()
-            .any(|name| clause.to_lowercase().starts_with(name))
-    });
-    let (_, figure) = own.next()?.split_once(['=', ':'])?;
-    leading(figure.trim_start()).map(|(figure, _)| figure)
+            .find(|name| clause.to_lowercase().starts_with(**name))?;
+        let rest = clause.get(name.len()..)?;
+        let figure = rest
+            .rsplit_once(['=', ':'])
+            .map_or(rest, |(_, figure)| figure);
+        leading(figure.trim_start()).map(|(figure, _)| figure)
+    };
+    clauses.filter_map(behind).next()
 }
 
 /// What leads to a standard uncertainty, and the uncertainty: `step 0.01 bar -> 0.0029 bar`.

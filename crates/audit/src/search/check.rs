@@ -159,7 +159,10 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         // U is made of the u_c that is claimed, where one is.
         let fits = |f: &&Figures| {
             let near = |figure: &Printed| {
-                figure.is_met_within(f.u_c, figure.half + coarse * figure.value + open)
+                figure.is_met_within(
+                    f.u_c,
+                    figure.half_of_digits() + coarse * figure.value + open,
+                )
             };
             claimed_u.as_ref().is_none_or(|figure| !u_c || near(figure))
         };
@@ -191,7 +194,7 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
             case.claimed.rounding
         };
         let rounded = |x: f64| is_rounded(&figure, x, rule, report.down);
-        let long = (3..=8).contains(&figure.read().digits);
+        let long = is_long(&figure);
         long == report.long
             && ks
                 .iter()
@@ -291,7 +294,7 @@ fn left_open(case: &Case<'_>, calculation: &Calculation, u_c: f64) -> f64 {
 }
 
 /// The figure as it was before two of its digits were exchanged.
-fn unexchanged(figure: &Printed, calculation: &Calculation, which: Printout) -> Printed {
+pub fn unexchanged(figure: &Printed, calculation: &Calculation, which: Printout) -> Printed {
     match calculation.report.exchanged {
         Some((place, pair)) if place == which => {
             let own = Printed::parse(&figure.text).map_or(figure.value, |p| p.value.abs());
@@ -334,6 +337,14 @@ fn freedom(figure: &Printed, nu: f64, calculation: &Calculation, coarse: f64) ->
         } else {
             figure.is_met_by(nu) && calculation.freedom != Freedom::Up || figure.value == cut
         }
+}
+
+/// Whether a figure is printed with more than two digits. What a cell computes, it cannot show with fewer than its whole
+/// number has.
+fn is_long(figure: &Printed) -> bool {
+    let shown = figure.read();
+    let is_whole = figure.shown.is_some() && shown.half >= 0.5;
+    !is_whole && (3..=8).contains(&shown.digits)
 }
 
 /// Whether a factor is printed like this. A whole number has been rounded to two decimals before.

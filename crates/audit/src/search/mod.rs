@@ -139,15 +139,15 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
     } else {
         Vec::new()
     };
-    let of_rows = 1.0 - options.iter().map(|o| 1.0 - o.accident).product::<f64>();
+    let unmatched = options.iter().map(|o| 1.0 - o.accident).product::<f64>();
     let of_whole = search.chance.accident();
-    let accident = 1.0 - (1.0 - of_rows) * (1.0 - of_whole);
+    let accident = 1.0 - unmatched * (1.0 - of_whole);
     let mut explanations = search.found;
     let slips = explanations.first().map_or(0, |e| e.acts.len());
-    // What the figures of the rows show is one question, what is left between them and the statement the next.
+    // Each row that departs is one question, what is left between the rows and the statement another.
     let shown = bases.first().map_or(0, |(set, _)| set.len().min(slips));
-    let is_sure =
-        no_accident(shown, of_rows) >= SURE && no_accident(slips - shown, of_whole) >= SURE;
+    let rows_are_sure = options.iter().all(|o| no_accident(1, o.accident) >= SURE);
+    let is_sure = rows_are_sure && no_accident(slips - shown, of_whole) >= SURE;
     let named = broken.is_empty() && is_sure;
     let withheld = if named { 0 } else { explanations.len() };
     if !named {
@@ -275,7 +275,8 @@ impl Search<'_, '_> {
     fn attempt(&mut self, set: &[Act], start: &Calculation, extra: &[Act]) {
         self.tried += 1;
         let (mut calculation, checked) = self.checked(start, extra);
-        self.chance.count(self.case, &checked, !extra.is_empty());
+        self.chance
+            .count(self.case, &calculation, &checked, !extra.is_empty());
         if !checked.meets_all() {
             return;
         }

@@ -245,10 +245,7 @@ pub(super) const SLIPS: &[Slip] = &[
             let claimed = row.c.as_ref().filter(|_| case.derivatives.is_some()).map(|c| c.value);
             // Where none is claimed: a factor 2, its half, the reciprocal.
             let usual = || if c.abs() == 1.0 || case.derivatives.is_none() { Vec::new() } else { vec![2.0 * c, 0.5 * c, 1.0 / c] };
-            let stated = claimed.into_iter().collect();
-            // A summary states a coefficient, and may have used another.
-            let all = if claimed.is_some() && row.contribution.is_some() { stated } else { [stated, usual()].concat() };
-            all.into_iter().map(Change::C).collect()
+            claimed.map_or_else(usual, |c| vec![c]).into_iter().map(Change::C).collect()
         }) },
     Slip { id: "pooled-dof", rule: "22", weight: Error,
         en: "the degrees of freedom n − 1 of one series were given to a pooled s",

@@ -54,9 +54,13 @@ fn type_a_freedom(case: &Case<'_>) -> Vec<f64> {
         .iter()
         .zip(&case.right.lines)
         .filter(|(row, _)| row.stated.is_type_a());
-    rows.map(|(_, line)| line.dof)
-        .filter(|dof| dof.is_finite())
-        .collect()
+    let own = rows.map(|(_, line)| line.dof).filter(|dof| dof.is_finite());
+    // Those of a range are no whole number, and may be cut to one.
+    let mut all: Vec<f64> = own
+        .flat_map(|dof| [dof, libm::floor(dof).max(1.0)])
+        .collect();
+    all.dedup();
+    all
 }
 
 /// Figures with two different digits next to one another exchanged: which pair, and the figure.

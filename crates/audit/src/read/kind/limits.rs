@@ -150,9 +150,13 @@ pub(super) fn certificate(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         "不确定度",
     ];
     let expanded = e.figure_or_used(KEYS)?;
-    let stated = figure_after(text, &["k =", "k=", "k", "coverage factor", "包含因子"])
-        .map(|k| k.value)
-        .filter(|k| (1.0..5.0).contains(k));
+    // The number of a certificate may begin with a K, too.
+    let stated = ["k =", "k=", "coverage factor", "包含因子", "k"]
+        .iter()
+        .find_map(|key| {
+            let k = figure_after(text, &[key])?.value;
+            (1.0..5.0).contains(&k).then_some(k)
+        });
     let head = figure_after(&e.used_head.to_lowercase(), &["k"])
         .map(|k| k.value)
         .filter(|k| (1.0..5.0).contains(k));

@@ -231,7 +231,20 @@ fn mean(text: &str, e: &Evidence<'_>) -> Option<f64> {
                 ],
             )
         })
-        .or_else(|| count_after(text, &["实际测量", "日常测量", "实际"]))
+        .or_else(|| {
+            count_after(
+                text,
+                &[
+                    "实际测量",
+                    "日常测量",
+                    "实际",
+                    "只测",
+                    "仅测",
+                    "只测量",
+                    "仅测量",
+                ],
+            )
+        })
         .or(single)
         .or(e.mean_of)
 }

@@ -5,7 +5,9 @@ use crate::printed::{Place, Printed, leading};
 
 use super::footer;
 use super::kind::{self, Evidence};
-use super::words::{count_after, count_before, figure_after, has, has_symbol, symbol_at};
+use super::words::{
+    count_after, count_before, figure_after, has, has_symbol, sole_figure, symbol_at,
+};
 
 /// What a line says of the whole; `None` for what it says nothing of.
 pub fn note(text: &str, at: Place, claimed: &mut Claimed) -> Option<&'static str> {
@@ -29,7 +31,9 @@ pub fn note(text: &str, at: Place, claimed: &mut Claimed) -> Option<&'static str
             "not below",
             "±",
         ];
-        let figure = figure_after(text, &keys).or_else(|| last_figure(text));
+        let figure = figure_after(text, &keys)
+            .or_else(|| sole_figure(text))
+            .or_else(|| last_figure(text));
         if let Some(figure) = figure {
             claimed.cmc = Some(figure.at(at));
             return Some("CMC");
@@ -165,7 +169,12 @@ fn rule(lower: &str, claimed: &mut Claimed) -> bool {
     if !about || certificate {
         return false;
     }
-    if has(lower, &["1.65", "1,65"]) && has(lower, &["rect", "矩形", "均匀", "dominat"]) {
+    if has(lower, &["1.65", "1,65"])
+        && has(
+            lower,
+            &["rect", "rectang", "矩形", "均匀", "dominat", "dominant"],
+        )
+    {
         let conditions = ["where", "if", "when", "whenever", "若", "如果", "当", "时"];
         claimed.coverage = if has(lower, &conditions) {
             Coverage::Rectangle

@@ -145,6 +145,11 @@ impl Chance {
         }
     }
 
+    /// Whether u_c follows without a further slip, and U does not.
+    pub fn is_behind(&self) -> bool {
+        self.follows == [true, false]
+    }
+
     /// The probability that a claim which has nothing to do with slips would be matched.
     pub fn accident(&self) -> f64 {
         let met = |interval: Option<Interval>| interval.is_none_or(Interval::is_met);

@@ -79,6 +79,14 @@ impl Act {
         matches!(self.change, Change::U(_) | Change::Scaled(_) | Change::C(_))
     }
 
+    /// Whether it leaves u_c as it is.
+    pub fn acts_behind_sum(&self) -> bool {
+        matches!(
+            self.change,
+            Change::Factor(_) | Change::Freedom(_) | Change::Report(_)
+        )
+    }
+
     /// Whether it changes what is stated, and no uncertainty: the result itself, or the unit of U.
     pub fn changes_statement(&self) -> bool {
         use crate::slips::Reporting;

@@ -15,7 +15,7 @@ mod row;
 
 use crate::calculate::{Calculation, Case, Figures, factors};
 use crate::claim::Claimed;
-use crate::slips::{self, Act, Weight};
+use crate::slips::{self, Act, Change, Reporting, Weight};
 
 use chance::Chance;
 pub use check::{Broken, Checked, Gap};
@@ -70,6 +70,28 @@ fn no_accident(slips: usize, accident: f64) -> f64 {
     odds / (odds + ODDS_OF_NO_NAME * accident)
 }
 
+/// The same where u_c follows and U does not, of which this `share` of the kinds of slips is capable. Something without a
+/// name sits there as often as one slip does; that both of two do is rarer by the share.
+fn no_accident_behind(slips: usize, share: f64, accident: f64) -> f64 {
+    let others = slips.saturating_sub(1) as f64;
+    no_accident(slips, accident / libm::pow(share, others))
+}
+
+/// How many of the kinds of slips act behind u_c.
+fn share_behind(acts: &[Act]) -> f64 {
+    let kinds = |of: &dyn Fn(&Act) -> bool| {
+        let mut ids: Vec<&str> = acts
+            .iter()
+            .filter(|act| of(act))
+            .map(|act| act.slip.id)
+            .collect();
+        ids.sort_unstable();
+        ids.dedup();
+        ids.len() as f64
+    };
+    kinds(&Act::acts_behind_sum) / kinds(&|_| true).max(1.0)
+}
+
 /// Searches.
 pub fn search(claimed: &Claimed) -> Found<'_> {
     let case = Case::of(claimed);
@@ -121,14 +143,21 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
         .filter_map(|(i, o)| o.broken.map(|figure| Gap::Row(i, figure)))
         .collect();
     let most = if free.len() > MOST_FOR_PAIRS { 1 } else { 2 };
+    let of_rounding = |act: &&Act| matches!(act.change, Change::Report(Reporting::Down));
+    let of_rounding: Vec<Act> = free.iter().filter(of_rounding).copied().collect();
     for extra in 0..=most {
+        if !search.found.is_empty() {
+            search.free = &of_rounding;
+        }
         for (set, start) in &bases {
             // Slips come alone and in pairs; what the rows show is beyond doubt, whatever its number.
             if extra < 2 || set.is_empty() {
                 search.with(set, start, extra);
             }
         }
-        if !search.found.is_empty() {
+        // A claim that follows from rounded figures alone has one slip, as one that was rounded down.
+        let fewest = bases.first().map_or(0, |(set, _)| set.len()) + extra;
+        if search.found.iter().any(|one| one.acts.len() <= fewest) {
             break;
         }
     }
@@ -147,7 +176,12 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
     // Each row that departs is one question, what is left between the rows and the statement another.
     let shown = bases.first().map_or(0, |(set, _)| set.len().min(slips));
     let rows_are_sure = options.iter().all(|o| no_accident(1, o.accident) >= SURE);
-    let is_sure = rows_are_sure && no_accident(slips - shown, of_whole) >= SURE;
+    let of_whole = if search.chance.is_behind() {
+        no_accident_behind(slips - shown, share_behind(&acts), of_whole)
+    } else {
+        no_accident(slips - shown, of_whole)
+    };
+    let is_sure = rows_are_sure && of_whole >= SURE;
     let named = broken.is_empty() && is_sure;
     let withheld = if named { 0 } else { explanations.len() };
     if !named {

@@ -60,8 +60,13 @@ pub struct Explanation {
 const ODDS: [f64; 3] = [1.0, 11.0, 4.0];
 const ODDS_OF_NO_NAME: f64 = 2.0;
 
-/// Explanations are named if they are no accident with this probability at least.
-const SURE: f64 = 0.95;
+/// In a report, no more names than one in twenty are expected to be wrong.
+const WRONG: f64 = 0.05;
+
+/// Whether slips may be named that are no accident with this probability: two that are one are two wrong names.
+fn is_sure(slips: usize, no_accident: f64) -> bool {
+    slips as f64 * (1.0 - no_accident) <= WRONG
+}
 
 /// The probability that a set of `slips` which matches is no accident, where a claim that has nothing to do with slips is
 /// matched with the probability `accident`.
@@ -175,14 +180,15 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
     let slips = explanations.first().map_or(0, |e| e.acts.len());
     // Each row that departs is one question, what is left between the rows and the statement another.
     let shown = bases.first().map_or(0, |(set, _)| set.len().min(slips));
-    let rows_are_sure = options.iter().all(|o| no_accident(1, o.accident) >= SURE);
+    let rows_are_sure = options
+        .iter()
+        .all(|o| is_sure(1, no_accident(1, o.accident)));
     let of_whole = if search.chance.is_behind() {
         no_accident_behind(slips - shown, share_behind(&acts), of_whole)
     } else {
         no_accident(slips - shown, of_whole)
     };
-    let is_sure = rows_are_sure && of_whole >= SURE;
-    let named = broken.is_empty() && is_sure;
+    let named = broken.is_empty() && rows_are_sure && is_sure(slips - shown, of_whole);
     let withheld = if named { 0 } else { explanations.len() };
     if !named {
         explanations.clear();
@@ -200,7 +206,7 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
         }
     }
     let of_result = slips::of_result(&case);
-    let of_result = of_result.filter(|(_, accident)| no_accident(1, *accident) >= SURE);
+    let of_result = of_result.filter(|(_, accident)| is_sure(1, no_accident(1, *accident)));
     let of_statement = [of_result.map(|(act, _)| act), slips::of_unit(&case)];
     for act in of_statement.into_iter().flatten() {
         explanations.iter_mut().for_each(|one| one.acts.push(act));

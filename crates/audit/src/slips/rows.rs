@@ -215,10 +215,12 @@ pub(super) const SLIPS: &[Slip] = &[
     Slip { id: "prefix", rule: "46", weight: Error,
         en: "a factor of 1000 between units was lost or made twice",
         zh: "单位换算漏乘或多乘了 1000",
-        // In the standard uncertainty, or in the coefficient that has the factor in it.
-        acts: |case| each(case, |i, _| {
+        // In the standard uncertainty, or in a coefficient that is printed with it.
+        acts: |case| each(case, |i, row| {
             let c = case.right.lines[i].c;
-            vec![Change::Scaled(1e3), Change::Scaled(1e-3), Change::C(1e3 * c), Change::C(1e-3 * c)]
+            let has = |factor: &f64| row.c.as_ref().is_some_and(|claimed| ((claimed.value / (factor * c)).abs() - 1.0).abs() < 0.01);
+            let of_c = [1e3, 1e-3].into_iter().filter(has).map(|factor| Change::C(factor * c));
+            [Change::Scaled(1e3), Change::Scaled(1e-3)].into_iter().chain(of_c).collect()
         }) },
     Slip { id: "c-one", rule: "3/6", weight: Error,
         en: "the sensitivity coefficient was left out (taken as 1)",

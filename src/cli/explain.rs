@@ -389,7 +389,7 @@ fn topics(lang: Language) -> Vec<Topic> {
 
 /// Source, weight and what speaks for the other side.
 fn rule_text(rule: &audit::rules::Rule, lang: Language) -> String {
-    let weight = rule.weight.said();
+    let weight = rule.said();
     let mut text = say!("{weight}; {}.", rule.clause).in_language(lang);
     let fine = lang.pick(rule.fine_en, rule.fine_zh);
     text += "\n\n";

@@ -244,8 +244,10 @@ pub enum Coverage {
     Fixed(f64),
     /// From t at ν_eff for this probability.
     StudentT(f64),
-    /// 1.65 where one rectangle dominates, else the other rule.
+    /// 1.65 where one rectangle dominates, else 2.
     Rectangle,
+    /// 1.65, because one rectangle dominates: so the sheet says.
+    OfRectangle,
 }
 
 /// The rule for rounding.

@@ -88,7 +88,9 @@ fn conventions(claimed: &Claimed) -> String {
             lines.push(format!("coverage_probability = {p}"));
             lines.push("coverage_factor_from = \"t\"".into());
         }
-        Coverage::Rectangle => lines.push("output_distribution = \"dominant\"".into()),
+        Coverage::Rectangle | Coverage::OfRectangle => {
+            lines.push("output_distribution = \"dominant\"".into())
+        }
         Coverage::Unstated => {
             lines.push("# The sheet states no rule for k.".into());
             lines.push("coverage_factor = 2.0".into());

@@ -70,6 +70,7 @@ pub fn factors(claimed: &Claimed) -> Vec<Factor> {
         Coverage::Fixed(k) => vec![Factor::Fixed(k)],
         Coverage::StudentT(p) => vec![Factor::StudentT(p)],
         Coverage::Rectangle => vec![Factor::Rectangle],
+        Coverage::OfRectangle => vec![Factor::Fixed(1.65)],
         Coverage::Unstated => {
             let mut rules = vec![
                 Factor::Fixed(2.0),

@@ -40,10 +40,11 @@ pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>,
     };
     let missing = |i: usize| used[i] && rows[first(i)].value.is_none();
     let any_missing = (0..rows.len()).any(missing);
-    let at = |unknown: f64| -> Vec<f64> {
+    // Each unknown estimate on a way of its own, so that ratios of them move, too.
+    let at = |power: f64| -> Vec<f64> {
         let value = |(i, row): (usize, &Row)| match &row.value {
             Some(value) => value.value,
-            None => unknown * (1.0 + 0.37 * i as f64),
+            None => libm::pow(1.3 + 0.37 * i as f64, power),
         };
         rows.iter().enumerate().map(value).collect()
     };
@@ -52,31 +53,41 @@ pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>,
         return Ok(None);
     }
     let formula = renamed(text, claimed);
-    let unit_of = |row: &Row| row.value.as_ref().and_then(|v| units::parse(&v.unit));
-    let with_units = !unit_of_y(claimed).is_empty()
+    // An estimate that is not stated has the unit of its uncertainty.
+    let unit_of = |row: &Row| units::parse(row.value.as_ref().map_or(&row.unit, |v| &v.unit));
+    // Among estimates that have units, one that has none is a number.
+    let is_number = |row: &Row| row.value.as_ref().is_some_and(|v| v.unit.is_empty());
+    let bare_sheet = rows.iter().all(|row| unit_of(row).is_none());
+    let have_units = !bare_sheet
+        && !unit_of_y(claimed).is_empty()
         && rows
             .iter()
             .zip(&used)
-            .all(|(row, used)| !used || unit_of(row).is_some());
-    let units: Vec<Unit> = rows
+            .all(|(row, used)| !used || unit_of(row).is_some() || is_number(row));
+    let units = rows
         .iter()
-        .map(|row| {
-            unit_of(row)
-                .filter(|_| with_units)
-                .unwrap_or_else(Unit::one)
-        })
-        .collect();
-    let target = units::parse(unit_of_y(claimed))
-        .filter(|_| with_units)
-        .unwrap_or_else(Unit::one);
+        .map(|row| unit_of(row).unwrap_or_else(Unit::one));
+    let units: Vec<Unit> = units.collect();
     let plain = vec![Unit::one(); units.len()];
     let bare = |formula: &str| compiled(formula, &plain, Unit::one(), &used);
-    let bare_sheet = rows.iter().all(|row| unit_of(row).is_none());
-    let by_units =
-        (with_units || bare_sheet) && compiled(&formula, &units, target.clone(), &used).is_ok();
-    let mut model = compiled(&formula, &units, target, &used).or_else(|_| bare(&formula))?;
-    // Without units, an angle may be in degrees: the claimed coefficients and y tell.
-    if !with_units && let Ok(degrees) = bare(&in_degrees(&formula)) {
+    let target = units::parse(unit_of_y(claimed)).unwrap_or_else(Unit::one);
+    let with_units = have_units
+        .then(|| compiled(&formula, &units, target.clone(), &used).ok())
+        .flatten();
+    let is_converted = with_units.is_some();
+    let by_units = is_converted || bare_sheet;
+    let mut model = with_units.map_or_else(|| bare(&formula), Ok)?;
+    // Without a unit, an angle may be in degrees: the claimed coefficients and y tell.
+    let any_number = rows
+        .iter()
+        .zip(&used)
+        .any(|(row, used)| *used && is_number(row));
+    let in_degrees = in_degrees(&formula);
+    let degrees = match is_converted {
+        true => any_number.then(|| compiled(&in_degrees, &units, target, &used)),
+        false => Some(bare(&in_degrees)),
+    };
+    if let Some(Ok(degrees)) = degrees {
         let fit = |model: &Model| agreement(claimed, &values, &used, model);
         if fit(&degrees) > fit(&model) {
             model = degrees;

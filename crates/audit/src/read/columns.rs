@@ -230,7 +230,7 @@ pub fn apart(head: &str) -> (String, String) {
     {
         return (name.into(), unit.into());
     }
-    for mark in [" / ", "/", ", ", " in "] {
+    for mark in [", ", " in ", " / ", "/"] {
         if let Some((name, unit)) = head.split_once(mark)
             && (name.chars().count() > 1 || mark == " in ")
             && is_unit(unit.trim_matches(['(', ')', ' ', '/']))

@@ -126,11 +126,17 @@ impl Found {
 
 /// A budget that is told in sentences.
 fn prose(all: &[Line], mapping: &Mapping) -> Option<Claimed> {
-    let rows: Vec<(usize, crate::claim::Row)> = all
+    let mut rows: Vec<(usize, Row)> = all
         .iter()
         .enumerate()
         .filter_map(|(i, line)| Some((i, prose::row(&line.text, line.at)?)))
         .collect();
+    // What stands in front of a list of symbols is its title, and notes.
+    let has_symbol = |(_, row): &(usize, Row)| !row.symbol.is_empty();
+    if rows.iter().filter(|row| has_symbol(row)).count() >= 2 {
+        let first = rows.iter().position(has_symbol).unwrap_or(0);
+        rows.drain(..first);
+    }
     if rows.len() < 2 {
         return None;
     }
@@ -157,11 +163,13 @@ fn prose(all: &[Line], mapping: &Mapping) -> Option<Claimed> {
     Some(claimed)
 }
 
-/// Where the text between two tables passes from one to the other: at the last blank row, or half a page.
+/// Where the text between two tables passes from one to the other: at the widest gap, the last of equal ones, or half a
+/// page.
 fn between(grid: &Grid, end: usize, head: usize) -> usize {
-    (end..head)
-        .rev()
-        .find(|row| grid.filled(*row).next().is_none())
+    let is_blank = |row: usize| grid.filled(row).next().is_none();
+    let gap = |row: usize| (end..=row).rev().take_while(|row| is_blank(*row)).count();
+    let last = (end..head).max_by_key(|row| gap(*row));
+    last.filter(|row| gap(*row) > 0)
         .map_or(head, |blank| blank + 1)
 }
 

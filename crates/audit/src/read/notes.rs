@@ -5,7 +5,9 @@ use crate::printed::{Place, Printed, leading};
 
 use super::footer;
 use super::kind::{self, Evidence};
-use super::words::{count_after, count_before, figure_after, has, has_symbol, symbol_at};
+use super::words::{
+    count_after, count_before, figure_after, has, has_symbol, sole_figure, symbol_at,
+};
 
 /// What a line says of the whole; `None` for what it says nothing of.
 pub fn note(text: &str, at: Place, claimed: &mut Claimed) -> Option<&'static str> {
@@ -29,7 +31,9 @@ pub fn note(text: &str, at: Place, claimed: &mut Claimed) -> Option<&'static str
             "not below",
             "±",
         ];
-        let figure = figure_after(text, &keys).or_else(|| last_figure(text));
+        let figure = figure_after(text, &keys)
+            .or_else(|| sole_figure(text))
+            .or_else(|| last_figure(text));
         if let Some(figure) = figure {
             claimed.cmc = Some(figure.at(at));
             return Some("CMC");
@@ -153,7 +157,7 @@ fn rule(lower: &str, claimed: &mut Claimed) -> bool {
             "rule for k",
         ],
     );
-    let certificate = has(lower, &["certificate", "证书", "calibrat"]);
+    let certificate = has(lower, &["certificate", "cert.", "证书", "calibrat"]);
     // A line of nothing but `k = 2.13` is the claim.
     let bare = lower
         .strip_prefix('k')
@@ -165,8 +169,18 @@ fn rule(lower: &str, claimed: &mut Claimed) -> bool {
     if !about || certificate {
         return false;
     }
-    if has(lower, &["1.65", "1,65"]) && has(lower, &["rect", "矩形", "均匀", "dominat"]) {
-        claimed.coverage = Coverage::Rectangle;
+    if has(lower, &["1.65", "1,65"])
+        && has(
+            lower,
+            &["rect", "rectang", "矩形", "均匀", "dominat", "dominant"],
+        )
+    {
+        let conditions = ["where", "if", "when", "whenever", "若", "如果", "当", "时"];
+        claimed.coverage = if has(lower, &conditions) {
+            Coverage::Rectangle
+        } else {
+            Coverage::OfRectangle
+        };
         return true;
     }
     if claimed.coverage != Coverage::Unstated {
@@ -217,8 +231,29 @@ fn rule(lower: &str, claimed: &mut Claimed) -> bool {
     }
 }
 
-/// The coverage probability of a line: 0.9545 for `95.45 %`.
+/// The coverage probability of a line: 0.9545 for `95.45 %`, for `t_95.45(ν_eff)` and for `p = 0.9545`.
 fn probability(lower: &str) -> Option<f64> {
+    index_of_t(lower).or_else(|| named_probability(lower))
+}
+
+/// The probability that a factor has as its index.
+fn index_of_t(lower: &str) -> Option<f64> {
+    let factors = lower.match_indices(['t', 'k']).filter(|(at, _)| {
+        let before = lower[..*at].chars().next_back();
+        !before.is_some_and(char::is_alphanumeric)
+    });
+    let of = |(at, _): (usize, &str)| {
+        let index = lower[at + 1..].trim_start_matches(['_', '{', '(']);
+        let (figure, _) =
+            leading(index).filter(|_| index.starts_with(|c: char| c.is_ascii_digit()))?;
+        [figure.value / 100.0, figure.value]
+            .into_iter()
+            .find(|p| (0.5..1.0).contains(p))
+    };
+    factors.filter_map(of).next()
+}
+
+fn named_probability(lower: &str) -> Option<f64> {
     let mut at = 0;
     while let Some(found) = lower
         .get(at..)
@@ -420,7 +455,10 @@ fn is_coefficient(name: &str, claimed: &Claimed) -> bool {
 
 /// A certificate of an input of the model that no row has.
 pub fn absent(text: &str, at: Place, claimed: &Claimed) -> Option<Row> {
-    let row = super::prose::row(text.strip_prefix("Note to ").unwrap_or(text), at)?;
+    let mut row = super::prose::row(text.strip_prefix("Note to ").unwrap_or(text), at)?;
+    if row.symbol.is_empty() {
+        row.symbol = without_row(text, claimed)?;
+    }
     // With a combined uncertainty it is the statement of a result.
     let mut whole = Footer::default();
     footer::sentence(text, &row.symbol, at, &mut whole);
@@ -444,6 +482,29 @@ pub fn absent(text: &str, at: Place, claimed: &Claimed) -> Option<Row> {
         relative,
         ..row
     })
+}
+
+/// The one input of the model in a line that no row has: `Reference used: m_S, certificate …`.
+fn without_row(text: &str, claimed: &Claimed) -> Option<String> {
+    let model = claimed.model.as_deref()?;
+    let is_row = |name: &str| {
+        claimed
+            .rows
+            .iter()
+            .any(|row| names_of(row).any(|own| own == name))
+    };
+    let mut names: Vec<&str> = text
+        .split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
+        .filter(|name| {
+            name.starts_with(|c: char| c.is_ascii_alphabetic()) && has_symbol(model, name)
+        })
+        .filter(|name| !is_row(name) && !matches!(*name, "U" | "u" | "k"))
+        .collect();
+    names.dedup();
+    match names.as_slice() {
+        [name] => Some((*name).to_string()),
+        _ => None,
+    }
 }
 
 /// The words by which a model may call a row: its symbol, or what looks like one in its name.

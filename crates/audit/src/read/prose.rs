@@ -64,6 +64,7 @@ pub fn row(text: &str, at: Place) -> Option<Row> {
         words: &words,
         ..Evidence::default()
     });
+    let c = coefficient(&words).map(|c| c.at(at));
     let known = !matches!(stated, Stated::Nothing);
     known.then(|| Row {
         symbol: symbol.into(),
@@ -71,9 +72,33 @@ pub fn row(text: &str, at: Place) -> Option<Row> {
         at,
         value,
         u,
+        c,
         words,
         ..Row::default()
     })
+}
+
+/// The sensitivity coefficient, where a clause states one.
+fn coefficient(words: &str) -> Option<Printed> {
+    const NAMES: [&str; 5] = [
+        "sensitivity coefficient",
+        "sensitivity",
+        "灵敏系数",
+        "c_i =",
+        "c =",
+    ];
+    let clauses = words.split([';', ',']).map(str::trim);
+    let behind = |clause: &str| {
+        let name = NAMES
+            .iter()
+            .find(|name| clause.to_lowercase().starts_with(**name))?;
+        let rest = clause.get(name.len()..)?;
+        let figure = rest
+            .rsplit_once(['=', ':'])
+            .map_or(rest, |(_, figure)| figure);
+        leading(figure.trim_start()).map(|(figure, _)| figure)
+    };
+    clauses.filter_map(behind).next()
 }
 
 /// What leads to a standard uncertainty, and the uncertainty: `step 0.01 bar -> 0.0029 bar`.
@@ -82,7 +107,11 @@ fn result_of(text: &str) -> (&str, Option<Printed>) {
     let arrow = ARROWS
         .iter()
         .find_map(|arrow| text.rsplit_once(*arrow))
-        .and_then(|(front, behind)| Some((front, Printed::parse(behind.trim())?)));
+        .and_then(|(front, behind)| {
+            // `-> u = 0.0029 bar`
+            let figure = behind.rsplit_once('=').map_or(behind, |(_, figure)| figure);
+            Some((front, Printed::parse(figure.trim())?))
+        });
     arrow.map_or((text, None), |(front, u)| (front, Some(u)))
 }
 

@@ -62,8 +62,9 @@ fn heads_below(grid: &Grid, start: usize) -> Option<(usize, usize)> {
     let across_roles = across
         .iter()
         .filter_map(|text| Some(columns::role(text)?.0));
-    let is_usual =
-        is_head(&across_roles.collect::<Vec<_>>()) && words(across.into_iter()) > words(below);
+    let across_roles: Vec<Role> = across_roles.collect();
+    let is_usual = (is_head(&across_roles) || is_head_of_summary(&across_roles))
+        && words(across.into_iter()) > words(below);
     (roles.len() >= FEWEST && is_head(&roles) && !is_usual).then_some((start, end))
 }
 
@@ -71,6 +72,12 @@ fn heads_below(grid: &Grid, start: usize) -> Option<(usize, usize)> {
 fn is_head(roles: &[Role]) -> bool {
     let has = |wanted: &[Role]| roles.iter().any(|role| wanted.contains(role));
     has(&[Role::Symbol, Role::Name]) && has(&[Role::Used, Role::U, Role::Contribution])
+}
+
+/// Whether heads name a quantity and what is known of it.
+fn is_head_of_summary(roles: &[Role]) -> bool {
+    let has = |wanted: &[Role]| roles.iter().any(|role| wanted.contains(role));
+    has(&[Role::Symbol, Role::Name]) && has(&[Role::Remark]) && has(&[Role::Value, Role::C])
 }
 
 /// How many heads are words, and not letters that a quantity may be called by.

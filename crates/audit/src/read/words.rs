@@ -375,12 +375,24 @@ fn unit_in(lower: &str, whole: &str) -> String {
             || (c.is_alphabetic() && !c.is_ascii() && !"µΩω°".contains(c))
     });
     let unit = lower[..end.unwrap_or(lower.len())].trim_end_matches('.');
+    let unit = alone(unit);
     // What is left of the whole text has the same length at the end.
     let start = whole.len().checked_sub(lower.len());
     let original = start
         .filter(|_| whole.to_lowercase().len() == whole.len())
         .and_then(|s| whole.get(s..s + unit.len()));
     original.unwrap_or(unit).to_string()
+}
+
+/// A unit of ratios without what it is a ratio of: `%FS`, `ppm×`.
+fn alone(unit: &str) -> &str {
+    const RATIOS: [&str; 5] = ["%", "％", "‰", "ppm", "ppb"];
+    const OF_WHAT: [&str; 7] = ["×", "*", "·", "fs", "f.s", "rdg", "of"];
+    let is_of = |rest: &str| OF_WHAT.iter().any(|what| rest.starts_with(what));
+    let ratio = RATIOS
+        .iter()
+        .find(|ratio| unit.strip_prefix(**ratio).is_some_and(is_of));
+    ratio.map_or(unit, |ratio| &unit[..ratio.len()])
 }
 
 /// The whole number in front of one of these words, with at most one other word between: `10 repeated readings`.

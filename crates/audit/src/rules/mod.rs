@@ -72,6 +72,16 @@ impl std::fmt::Debug for How {
 }
 
 impl Rule {
+    /// The word for how much it weighs: that of its slips, where any has figures; else it asks.
+    pub fn said(&self) -> Said {
+        let number = self.number.to_string();
+        let mut slips = crate::slips::slips();
+        match slips.any(|slip| slip.rule.split('/').any(|rule| rule == number)) {
+            true => self.weight.said(),
+            false => question(self.weight),
+        }
+    }
+
     /// Whether a sheet can show it.
     pub fn is_seen(&self) -> bool {
         !matches!(self.how, How::Unseen)
@@ -111,13 +121,26 @@ impl Finding {
 
     /// The word for how much it weighs. A question is no error: the sheet may be sound, and still owe an answer.
     pub fn said(&self) -> Said {
-        let weight = self.rule().weight;
-        match (self.bearing, weight) {
-            (Bearing::Figures, weight) => weight.said(),
-            (Bearing::Question, Weight::Error) => say!("to be answered"),
-            (Bearing::Question, Weight::Warning) => say!("to be asked"),
-            (Bearing::Question, Weight::Information) => say!("to be noted"),
+        match self.bearing {
+            Bearing::Figures => self.rule().weight.said(),
+            Bearing::Question => question(self.rule().weight),
         }
+    }
+
+    /// The same as a name for machines.
+    pub fn weight(&self) -> &'static str {
+        match (self.bearing, self.rule().weight) {
+            (Bearing::Figures, weight) => weight.name(),
+            (Bearing::Question, Weight::Information) => "note",
+            (Bearing::Question, _) => "question",
+        }
+    }
+}
+
+fn question(weight: Weight) -> Said {
+    match weight {
+        Weight::Information => say!("note"),
+        Weight::Error | Weight::Warning => say!("question"),
     }
 }
 

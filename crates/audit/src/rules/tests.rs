@@ -683,7 +683,7 @@ fn questions_are_no_errors_and_slips_have_figures() {
     assert!(
         sound
             .iter()
-            .any(|(rule, said, _)| (*rule, said.as_str()) == (34, "to be answered")),
+            .any(|(rule, said, _)| (*rule, said.as_str()) == (34, "question")),
         "{sound:?}"
     );
     assert!(

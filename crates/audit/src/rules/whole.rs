@@ -169,7 +169,7 @@ pub(super) fn factor_alone(seen: &Seen<'_>) -> Vec<Hit> {
     let footer = &seen.claimed.footer;
     let by_t = matches!(
         seen.claimed.coverage,
-        Coverage::StudentT(_) | Coverage::Rectangle
+        Coverage::StudentT(_) | Coverage::Rectangle | Coverage::OfRectangle
     );
     let text = seen.claimed.words.to_lowercase();
     let level = [

@@ -25,7 +25,7 @@ fn rows_speak(seen: &Seen<'_>, keys: &[&str]) -> bool {
 
 fn missing(so: bool) -> Vec<Hit> {
     if so {
-        vec![Hit::of(None, "–".into())]
+        vec![Hit::of(None, String::new())]
     } else {
         Vec::new()
     }

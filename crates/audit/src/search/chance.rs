@@ -5,11 +5,11 @@
 //! covers the width of its rounding there; the share of the neighbourhood that all of them cover together is the
 //! probability that a number which has nothing to do with slips is matched all the same.
 
-use crate::calculate::{Case, Figures};
+use crate::calculate::{Calculation, Case, Figures, Printout};
 use crate::claim::RoundingStated;
 use crate::printed::Printed;
 
-use super::check::Checked;
+use super::check::{Checked, unexchanged};
 
 /// How far about a figure its neighbourhood reaches at most, in logarithms on either side: a figure that has nothing to
 /// do with slips is known to a factor of two, as what it should be is known.
@@ -87,25 +87,40 @@ pub struct Chance {
 
 impl Chance {
     /// Notes a combination; `further` says whether it has slips that the rows do not show.
-    pub fn count(&mut self, case: &Case<'_>, checked: &Checked, further: bool) {
+    pub fn count(&mut self, case: &Case<'_>, made: &Calculation, checked: &Checked, further: bool) {
         // A claim may follow from unrounded contributions or from the printed ones: both were open.
         for figures in [Some(checked.figures), checked.of_printed]
             .into_iter()
             .flatten()
         {
-            self.add(case, figures, checked.nu_eff && checked.k, further);
+            self.add(case, made, figures, checked.nu_eff && checked.k, further);
         }
     }
 
-    fn add(&mut self, case: &Case<'_>, figures: Figures, met: bool, further: bool) {
+    fn add(
+        &mut self,
+        case: &Case<'_>,
+        made: &Calculation,
+        figures: Figures,
+        met: bool,
+        further: bool,
+    ) {
         let footer = &case.claimed.footer;
-        let u_c = footer.u_c.as_ref().map(|claimed| {
+        // A figure whose digits were exchanged is matched by what it was before.
+        let before = |figure: &Option<Printed>, which: Printout| {
+            figure
+                .as_ref()
+                .map(|figure| unexchanged(figure, made, which))
+        };
+        let whole = before(&footer.u_c, Printout::Combined);
+        let expanded = before(&footer.expanded, Printout::Expanded);
+        let u_c = whole.as_ref().map(|claimed| {
             let half = claimed.half_of_digits() / claimed.value;
             Interval::about(figures.u_c, claimed.value, half, half)
         });
-        let ratio = footer.expanded.as_ref().map(|expanded| {
+        let ratio = expanded.as_ref().map(|expanded| {
             // Where no u_c is claimed, U is all there is.
-            let whole = footer.u_c.as_ref();
+            let whole = whole.as_ref();
             let (value, claimed) = match whole {
                 Some(u_c) => (figures.expanded / figures.u_c, expanded.value / u_c.value),
                 None => (figures.expanded, expanded.value),
@@ -128,6 +143,11 @@ impl Chance {
         for (follows, interval) in self.follows.iter_mut().zip(point) {
             *follows |= interval.is_none_or(Interval::is_met);
         }
+    }
+
+    /// Whether u_c follows without a further slip, and U does not.
+    pub fn is_behind(&self) -> bool {
+        self.follows == [true, false]
     }
 
     /// The probability that a claim which has nothing to do with slips would be matched.

@@ -79,6 +79,14 @@ impl Act {
         matches!(self.change, Change::U(_) | Change::Scaled(_) | Change::C(_))
     }
 
+    /// Whether it leaves u_c as it is.
+    pub fn acts_behind_sum(&self) -> bool {
+        matches!(
+            self.change,
+            Change::Factor(_) | Change::Freedom(_) | Change::Report(_)
+        )
+    }
+
     /// Whether it changes what is stated, and no uncertainty: the result itself, or the unit of U.
     pub fn changes_statement(&self) -> bool {
         use crate::slips::Reporting;
@@ -95,11 +103,12 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
     let exact = calculation.figures(&[], cmc);
     let any_printed =
         printed.iter().any(Option::is_some) && calculation.combined != Combined::Rounded;
-    let of = if any_printed {
-        vec![exact, calculation.figures(printed, cmc)]
-    } else {
-        vec![exact]
-    };
+    let mut of = vec![exact];
+    if any_printed {
+        of.push(calculation.figures(printed, cmc));
+    } else if let Some(coefficients) = with_claimed_coefficients(case, calculation) {
+        of.push(coefficients.figures(&[], cmc));
+    }
     let footer = &case.claimed.footer;
     let claimed_u = footer
         .u_c
@@ -116,13 +125,15 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         let half = figure.half_of_digits() + coarse * figure.value + open;
         of.iter().any(|f| figure.is_met_within(f.u_c, half))
     });
+    let rooted = Calculation {
+        combined: Combined::Root,
+        ..calculation.clone()
+    };
+    // Where u_c is the sum of squares, or made of rounded contributions, ν_eff may have been found from what was there
+    // before.
+    let is_after = matches!(calculation.combined, Combined::Squares | Combined::Rounded);
+    let before = is_after.then(|| rooted.figures(&[], cmc));
     let nu_eff = footer.nu_eff.as_ref().is_none_or(|figure| {
-        let rooted = Calculation {
-            combined: Combined::Root,
-            ..calculation.clone()
-        };
-        // Where u_c is the sum of squares, ν_eff may have been found before.
-        let before = (calculation.combined == Combined::Squares).then(|| rooted.figures(&[], cmc));
         let mut all = of.iter().chain(&before);
         // Where it was found from u_c as it is printed, that enters with its fourth power.
         let of_printed_u = |f: &Figures| {
@@ -136,7 +147,7 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
             found.any(|nu| freedom(figure, nu, calculation, coarse))
         })
     });
-    let mut factors: Vec<f64> = of.iter().map(|f| f.k).collect();
+    let mut factors: Vec<f64> = of.iter().chain(&before).map(|f| f.k).collect();
     let claimed_k = footer.k.as_ref();
     if let Some(nu) = footer.nu_eff.as_ref().filter(|_| nu_eff) {
         let looked_up = Calculation {
@@ -156,7 +167,10 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         // U is made of the u_c that is claimed, where one is.
         let fits = |f: &&Figures| {
             let near = |figure: &Printed| {
-                figure.is_met_within(f.u_c, figure.half + coarse * figure.value + open)
+                figure.is_met_within(
+                    f.u_c,
+                    figure.half_of_digits() + coarse * figure.value + open,
+                )
             };
             claimed_u.as_ref().is_none_or(|figure| !u_c || near(figure))
         };
@@ -181,8 +195,14 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         let floor = cmc.filter(|_| report.cmc).unwrap_or(0.0);
         let product =
             |k: f64, u: f64| (libm::pow(k, f64::from(report.power)) * u).max(floor) * report.scale;
-        let rounded = |x: f64| is_rounded(&figure, x, case.claimed.rounding, report.down);
-        let long = (3..=8).contains(&figure.digits);
+        // Who prints too many digits has not rounded to two by the rule.
+        let rule = if report.long {
+            RoundingStated::Unstated
+        } else {
+            case.claimed.rounding
+        };
+        let rounded = |x: f64| is_rounded(&figure, x, rule, report.down);
+        let long = is_long(&figure);
         long == report.long
             && ks
                 .iter()
@@ -197,6 +217,19 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         of_printed: of.get(1).copied(),
         open: open + coarse * exact.u_c,
     }
+}
+
+/// The calculation with the coefficients that the laboratory states, where it has used derivatives that it rounded: rule 6
+/// leaves a percent.
+fn with_claimed_coefficients(case: &Case<'_>, calculation: &Calculation) -> Option<Calculation> {
+    let mut own = calculation.clone();
+    for (line, row) in own.lines.iter_mut().zip(&case.claimed.rows) {
+        let claimed = row.c.as_ref().map(|c| c.value.abs());
+        if let Some(c) = claimed.filter(|c| (c - line.c.abs()).abs() <= 0.01 * line.c.abs()) {
+            line.c = c.copysign(line.c);
+        }
+    }
+    (own != *calculation).then_some(own)
 }
 
 /// The figures of a calculation as they are reported: k has two decimals, or those of the claimed one, where that is met.
@@ -269,7 +302,7 @@ fn left_open(case: &Case<'_>, calculation: &Calculation, u_c: f64) -> f64 {
 }
 
 /// The figure as it was before two of its digits were exchanged.
-fn unexchanged(figure: &Printed, calculation: &Calculation, which: Printout) -> Printed {
+pub fn unexchanged(figure: &Printed, calculation: &Calculation, which: Printout) -> Printed {
     match calculation.report.exchanged {
         Some((place, pair)) if place == which => {
             let own = Printed::parse(&figure.text).map_or(figure.value, |p| p.value.abs());
@@ -312,6 +345,14 @@ fn freedom(figure: &Printed, nu: f64, calculation: &Calculation, coarse: f64) ->
         } else {
             figure.is_met_by(nu) && calculation.freedom != Freedom::Up || figure.value == cut
         }
+}
+
+/// Whether a figure is printed with more than two digits. What a cell computes, it cannot show with fewer than its whole
+/// number has.
+fn is_long(figure: &Printed) -> bool {
+    let shown = figure.read();
+    let is_whole = figure.shown.is_some() && shown.half >= 0.5;
+    !is_whole && (3..=8).contains(&shown.digits)
 }
 
 /// Whether a factor is printed like this. A whole number has been rounded to two decimals before.

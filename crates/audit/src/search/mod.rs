@@ -15,7 +15,7 @@ mod row;
 
 use crate::calculate::{Calculation, Case, Figures, factors};
 use crate::claim::Claimed;
-use crate::slips::{self, Act, Weight};
+use crate::slips::{self, Act, Change, Reporting, Weight};
 
 use chance::Chance;
 pub use check::{Broken, Checked, Gap};
@@ -60,14 +60,41 @@ pub struct Explanation {
 const ODDS: [f64; 3] = [1.0, 11.0, 4.0];
 const ODDS_OF_NO_NAME: f64 = 2.0;
 
-/// Explanations are named if they are no accident with this probability at least.
-const SURE: f64 = 0.95;
+/// In a report, no more names than one in twenty are expected to be wrong.
+const WRONG: f64 = 0.05;
+
+/// Whether slips may be named that are no accident with this probability: two that are one are two wrong names.
+fn is_sure(slips: usize, no_accident: f64) -> bool {
+    slips as f64 * (1.0 - no_accident) <= WRONG
+}
 
 /// The probability that a set of `slips` which matches is no accident, where a claim that has nothing to do with slips is
 /// matched with the probability `accident`.
 fn no_accident(slips: usize, accident: f64) -> f64 {
     let odds = ODDS[slips.min(2)];
     odds / (odds + ODDS_OF_NO_NAME * accident)
+}
+
+/// The same where u_c follows and U does not, of which this `share` of the kinds of slips is capable. Something without a
+/// name sits there as often as one slip does; that both of two do is rarer by the share.
+fn no_accident_behind(slips: usize, share: f64, accident: f64) -> f64 {
+    let others = slips.saturating_sub(1) as f64;
+    no_accident(slips, accident / libm::pow(share, others))
+}
+
+/// How many of the kinds of slips act behind u_c.
+fn share_behind(acts: &[Act]) -> f64 {
+    let kinds = |of: &dyn Fn(&Act) -> bool| {
+        let mut ids: Vec<&str> = acts
+            .iter()
+            .filter(|act| of(act))
+            .map(|act| act.slip.id)
+            .collect();
+        ids.sort_unstable();
+        ids.dedup();
+        ids.len() as f64
+    };
+    kinds(&Act::acts_behind_sum) / kinds(&|_| true).max(1.0)
 }
 
 /// Searches.
@@ -121,14 +148,21 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
         .filter_map(|(i, o)| o.broken.map(|figure| Gap::Row(i, figure)))
         .collect();
     let most = if free.len() > MOST_FOR_PAIRS { 1 } else { 2 };
+    let of_rounding = |act: &&Act| matches!(act.change, Change::Report(Reporting::Down));
+    let of_rounding: Vec<Act> = free.iter().filter(of_rounding).copied().collect();
     for extra in 0..=most {
+        if !search.found.is_empty() {
+            search.free = &of_rounding;
+        }
         for (set, start) in &bases {
             // Slips come alone and in pairs; what the rows show is beyond doubt, whatever its number.
             if extra < 2 || set.is_empty() {
                 search.with(set, start, extra);
             }
         }
-        if !search.found.is_empty() {
+        // A claim that follows from rounded figures alone has one slip, as one that was rounded down.
+        let fewest = bases.first().map_or(0, |(set, _)| set.len()) + extra;
+        if search.found.iter().any(|one| one.acts.len() <= fewest) {
             break;
         }
     }
@@ -140,10 +174,21 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
         Vec::new()
     };
     let unmatched = options.iter().map(|o| 1.0 - o.accident).product::<f64>();
-    let accident = 1.0 - unmatched * (1.0 - search.chance.accident());
+    let of_whole = search.chance.accident();
+    let accident = 1.0 - unmatched * (1.0 - of_whole);
     let mut explanations = search.found;
     let slips = explanations.first().map_or(0, |e| e.acts.len());
-    let named = broken.is_empty() && no_accident(slips, accident) >= SURE;
+    // Each row that departs is one question, what is left between the rows and the statement another.
+    let shown = bases.first().map_or(0, |(set, _)| set.len().min(slips));
+    let rows_are_sure = options
+        .iter()
+        .all(|o| is_sure(1, no_accident(1, o.accident)));
+    let of_whole = if search.chance.is_behind() {
+        no_accident_behind(slips - shown, share_behind(&acts), of_whole)
+    } else {
+        no_accident(slips - shown, of_whole)
+    };
+    let named = broken.is_empty() && rows_are_sure && is_sure(slips - shown, of_whole);
     let withheld = if named { 0 } else { explanations.len() };
     if !named {
         explanations.clear();
@@ -161,7 +206,7 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
         }
     }
     let of_result = slips::of_result(&case);
-    let of_result = of_result.filter(|(_, accident)| no_accident(1, *accident) >= SURE);
+    let of_result = of_result.filter(|(_, accident)| is_sure(1, no_accident(1, *accident)));
     let of_statement = [of_result.map(|(act, _)| act), slips::of_unit(&case)];
     for act in of_statement.into_iter().flatten() {
         explanations.iter_mut().for_each(|one| one.acts.push(act));
@@ -270,7 +315,8 @@ impl Search<'_, '_> {
     fn attempt(&mut self, set: &[Act], start: &Calculation, extra: &[Act]) {
         self.tried += 1;
         let (mut calculation, checked) = self.checked(start, extra);
-        self.chance.count(self.case, &checked, !extra.is_empty());
+        self.chance
+            .count(self.case, &calculation, &checked, !extra.is_empty());
         if !checked.meets_all() {
             return;
         }

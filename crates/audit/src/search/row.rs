@@ -32,9 +32,6 @@ impl Options {
     }
 }
 
-/// Degrees of freedom from here on are as good as infinitely many: spreadsheets write `1E+99`.
-const AS_INFINITE: f64 = 1e5;
-
 /// Slips of one row.
 pub fn options(case: &Case<'_>, i: usize, acts: &[Act]) -> Options {
     let row = &case.claimed.rows[i];
@@ -60,7 +57,8 @@ pub fn options(case: &Case<'_>, i: usize, acts: &[Act]) -> Options {
     let unknown = row.is_absent && (row.stated == Stated::Nothing || case.unknown_slopes[i]);
     if unknown {
         // Nothing is known of it but that the model has it.
-        sets.push(own.clone());
+        let is_missing = |act: &&Act| matches!(act.change, Change::Counted(_));
+        sets.push(own.iter().filter(is_missing).copied().collect());
     } else if fits(&[]) {
         sets.push(Vec::new());
     } else {
@@ -130,6 +128,11 @@ fn accident(row: &Row, right: Line, own: &[Act]) -> f64 {
         acts.map(|act| changed(right, &[*act]))
     };
     let slack = |figure: &Printed| figure.half_of_digits() + 0.01 * figure.value;
+    // A nought is no coarse figure.
+    let is_nothing = |figure: &Option<Printed>| figure.as_ref().is_some_and(|f| f.value == 0.0);
+    if is_nothing(&row.u) || is_nothing(&row.contribution) {
+        return 0.0;
+    }
     match (mismatch(row, &right), &row.u, &row.contribution) {
         (Some(Broken::U), Some(u), _) => {
             let copied = |used: &Printed| used.value == u.value && used.unit == u.unit;
@@ -236,7 +239,7 @@ fn mismatch(row: &Row, line: &Line) -> Option<Broken> {
     }
     let dof = row.dof.as_ref().filter(|_| counted);
     let freedom = |dof: &Printed| {
-        dof.value >= AS_INFINITE && line.dof >= AS_INFINITE || dof.is_met_by(line.dof)
+        dof.value.is_infinite() && line.dof.is_infinite() || dof.is_met_by(line.dof)
     };
     dof.is_some_and(|dof| !freedom(dof)).then_some(Broken::Dof)
 }

@@ -195,16 +195,61 @@ fn aligned(text: &str) -> Grid {
             .and_then(|l| l.strip_suffix('"'));
         quoted.map_or(line.to_string(), |inner| inner.replace("\"\"", "\""))
     };
-    let row = |line: &str| {
-        aligned_fields(&bare(line))
-            .into_iter()
-            .map(Cell::new)
-            .collect()
+    let mut widest: Vec<Start> = Vec::new();
+    let row = |line: &str| -> Vec<Cell> {
+        let line = bare(line);
+        let starts = starts(&line);
+        let fields = aligned_fields(&line).into_iter().map(Cell::new);
+        let columns = under(&starts, &widest);
+        if starts.is_empty() || starts.len() >= widest.len() {
+            widest = starts;
+        }
+        let Some(columns) = columns else {
+            return fields.collect();
+        };
+        let mut cells = Vec::new();
+        for (column, cell) in columns.into_iter().zip(fields) {
+            cells.resize_with(column, || Cell::new(""));
+            cells.push(cell);
+        }
+        cells
     };
     Grid {
         rows: text.lines().map(row).collect(),
         ..Grid::default()
     }
+}
+
+/// Where a field begins: letters in front of it, and the columns of a terminal that they take.
+#[derive(Clone, Copy)]
+struct Start([usize; 2]);
+
+fn starts(line: &str) -> Vec<Start> {
+    let fields = aligned_fields(line);
+    let places = fields.iter().map(|field| {
+        let front = &line[..field.as_ptr() as usize - line.as_ptr() as usize];
+        let wide = front.chars().filter(|c| is_wide(*c)).count();
+        let letters = front.chars().count();
+        Start([letters, letters + wide])
+    });
+    places.collect()
+}
+
+/// Letters of Chinese, Japanese and Korean take two columns.
+fn is_wide(c: char) -> bool {
+    matches!(c, '\u{1100}'..='\u{115f}' | '\u{2e80}'..='\u{a4cf}' | '\u{ac00}'..='\u{d7a3}' | '\u{f900}'..='\u{faff}' | '\u{fe30}'..='\u{fe6f}' | '\u{ff00}'..='\u{ff60}')
+}
+
+/// Under which fields of the widest line above the fields of a line with gaps begin, where each begins under one.
+fn under(starts: &[Start], widest: &[Start]) -> Option<Vec<usize>> {
+    if starts.len() < 2 || starts.len() >= widest.len() {
+        return None;
+    }
+    let by = |how: usize| -> Option<Vec<usize>> {
+        let place = |start: &Start| widest.iter().position(|above| above.0[how] == start.0[how]);
+        starts.iter().map(place).collect()
+    };
+    by(0).or_else(|| by(1))
 }
 
 fn aligned_fields(line: &str) -> Vec<&str> {

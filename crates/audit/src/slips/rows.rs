@@ -215,7 +215,13 @@ pub(super) const SLIPS: &[Slip] = &[
     Slip { id: "prefix", rule: "46", weight: Error,
         en: "a factor of 1000 between units was lost or made twice",
         zh: "单位换算漏乘或多乘了 1000",
-        acts: |case| each(case, |_, _| vec![Change::Scaled(1e3), Change::Scaled(1e-3)]) },
+        // In the standard uncertainty, or in a coefficient that is printed with it.
+        acts: |case| each(case, |i, row| {
+            let c = case.right.lines[i].c;
+            let has = |factor: &f64| row.c.as_ref().is_some_and(|claimed| ((claimed.value / (factor * c)).abs() - 1.0).abs() < 0.01);
+            let of_c = [1e3, 1e-3].into_iter().filter(has).map(|factor| Change::C(factor * c));
+            [Change::Scaled(1e3), Change::Scaled(1e-3)].into_iter().chain(of_c).collect()
+        }) },
     Slip { id: "c-one", rule: "3/6", weight: Error,
         en: "the sensitivity coefficient was left out (taken as 1)",
         zh: "漏乘灵敏系数（当作 1）",
@@ -271,7 +277,7 @@ pub(super) const SLIPS: &[Slip] = &[
         zh: "应为公式的单元格中填入了固定数值",
         acts: |case| {
             let total = case.claimed.footer.u_c.as_ref().filter(|_| case.claimed.typed).map(|u_c| (None, Change::Combined(Combined::Typed(u_c.value))));
-            each(case, |i, row| typed_contribution(case, i, row)).into_iter().chain(total).collect()
+            each(case, |i, _| typed(case, i)).into_iter().chain(total).collect()
         } },
     Slip { id: "res-and-rep", rule: "31", weight: Warning,
         en: "the resolution was counted beside a repeatability that already contains it",
@@ -289,25 +295,23 @@ pub(super) const SLIPS: &[Slip] = &[
         }) },
 ];
 
-/// The contribution of a row, where it is a number and those of most rows are formulas.
-fn typed_contribution(case: &Case<'_>, i: usize, row: &Row) -> Vec<Change> {
-    let is_formula = |row: &Row| {
-        row.formulas
-            .iter()
-            .any(|(figure, _)| *figure == Figure::Contribution)
-    };
+/// The computed figures of a row that are numbers, where those of most rows are formulas.
+fn typed(case: &Case<'_>, i: usize) -> Vec<Change> {
     let rows = &case.claimed.rows;
-    let others = (0..rows.len())
-        .filter(|j| *j != i && is_formula(&rows[*j]))
-        .count();
+    let row = &rows[i];
+    let stands_out = |figure: Figure| {
+        let is_formula = |row: &Row| row.formulas.iter().any(|(of, _)| *of == figure);
+        let others = rows.iter().filter(|row| is_formula(row)).count();
+        !is_formula(row) && 2 * others >= rows.len()
+    };
+    let u = row.u.as_ref().filter(|_| stands_out(Figure::U));
     let contribution = row
         .contribution
         .as_ref()
-        .filter(|_| !is_formula(row) && 2 * others >= rows.len());
-    contribution
-        .map(|figure| Change::Typed(figure.value))
-        .into_iter()
-        .collect()
+        .filter(|_| stands_out(Figure::Contribution));
+    let u = u.map(|figure| Change::U(figure.value));
+    let contribution = contribution.map(|figure| Change::Typed(figure.value));
+    u.into_iter().chain(contribution).collect()
 }
 
 fn is_resolution(row: &Row) -> bool {

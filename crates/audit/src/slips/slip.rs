@@ -24,8 +24,8 @@ pub struct Slip {
     pub acts: fn(&Case<'_>) -> Vec<Place>,
 }
 
-/// How much a slip weighs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// How much a slip weighs, the most first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Weight {
     /// E.
     Error,

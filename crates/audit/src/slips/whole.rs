@@ -1,6 +1,7 @@
 //! Slips between the rows and the statement.
 
 use crate::calculate::{Case, Combined, Factor, Freedom, Printout, factors};
+use crate::claim::Coverage;
 use crate::printed::Printed;
 
 use super::slip::{Act, Change, Reporting, Slip, Weight::*};
@@ -53,9 +54,13 @@ fn type_a_freedom(case: &Case<'_>) -> Vec<f64> {
         .iter()
         .zip(&case.right.lines)
         .filter(|(row, _)| row.stated.is_type_a());
-    rows.map(|(_, line)| line.dof)
-        .filter(|dof| dof.is_finite())
-        .collect()
+    let own = rows.map(|(_, line)| line.dof).filter(|dof| dof.is_finite());
+    // Those of a range are no whole number, and may be cut to one.
+    let mut all: Vec<f64> = own
+        .flat_map(|dof| [dof, libm::floor(dof).max(1.0)])
+        .collect();
+    all.dedup();
+    all
 }
 
 /// Figures with two different digits next to one another exchanged: which pair, and the figure.
@@ -147,7 +152,7 @@ pub(super) const SLIPS: &[Slip] = &[
     Slip { id: "k2-rect", rule: "43", weight: Warning,
         en: "k = 2 was used although one rectangle dominates and the rule asks for 1.65",
         zh: "矩形分布占优、规则要求 k = 1.65，却取 k = 2",
-        acts: |case| if case.right.factor == Factor::Rectangle { one(Change::Factor(Factor::Fixed(2.0))) } else { Vec::new() } },
+        acts: |case| if matches!(case.claimed.coverage, Coverage::Rectangle | Coverage::OfRectangle) { one(Change::Factor(Factor::Fixed(2.0))) } else { Vec::new() } },
     Slip { id: "k-twice", rule: "10", weight: Error,
         en: "the coverage factor was applied twice",
         zh: "包含因子乘了两次",

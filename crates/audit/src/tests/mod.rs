@@ -2,6 +2,7 @@
 
 mod digits;
 mod hands;
+mod others;
 mod statements;
 
 use crate::read::Mapping;

@@ -71,7 +71,7 @@ record! {
         rule: usize,
         /// Its name.
         name: &'static str,
-        /// `error`, `warning` or `information`.
+        /// `error`, `warning` or `information` of what a slip explains; `question` or `note` of what is seen by looking.
         weight: &'static str,
         /// The row, where it is about one.
         row: Option<String>,
@@ -186,7 +186,7 @@ fn budget(audit: &Audit<'_>) -> BudgetJson {
             .map(|finding| FindingJson {
                 rule: usize::from(finding.rule),
                 name: finding.rule().id,
-                weight: finding.rule().weight.name(),
+                weight: finding.weight(),
                 row: finding.row.map(|row| claimed.rows[row].label().to_string()),
                 numbers: finding.numbers.clone(),
                 corrected: finding.corrected.map(Number),

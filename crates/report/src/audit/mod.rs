@@ -6,7 +6,7 @@ mod words;
 
 use gumption_audit::claim::Claimed;
 use gumption_audit::printed::Printed;
-use gumption_audit::rules;
+use gumption_audit::rules::{self, Bearing, Finding};
 use gumption_audit::search::{Explanation, Gap};
 use gumption_audit::slips::Act;
 use gumption_audit::{Audit, Verdict};
@@ -263,13 +263,44 @@ fn rows(audit: &Audit<'_>, language: Language) -> Table {
     table.without_empty_columns()
 }
 
-/// What is against a rule, with its numbers and what U would be.
+/// What is against a rule: figures that slips explain, and what a reviewer asks besides.
 fn findings(audit: &Audit<'_>, language: Language) -> Vec<Block> {
-    let claimed = audit.found.case.claimed;
     let all = rules::findings(&audit.found);
-    if all.is_empty() {
-        return Vec::new();
+    let (figures, questions): (Vec<Finding>, Vec<Finding>) = all
+        .into_iter()
+        .partition(|finding| finding.bearing == Bearing::Figures);
+    let mut blocks = Vec::new();
+    if !figures.is_empty() {
+        blocks.push(Block::Section(
+            language
+                .pick("Rules that are broken", "违反的规则")
+                .to_string(),
+        ));
+        blocks.push(Block::Table(broken_rules(audit, &figures, language)));
     }
+    if !questions.is_empty() {
+        blocks.push(Block::Section(
+            language
+                .pick("Questions to the laboratory", "请实验室说明的问题")
+                .to_string(),
+        ));
+        let paragraph = language.pick(
+            "The verdict does not depend on them: it is about figures that follow from what the sheet states.",
+            "以下问题不影响结论：结论只说明各数值能否由表中信息得出。",
+        );
+        blocks.push(Block::Paragraph(paragraph.to_string()));
+        let mut questions: Vec<&Finding> = questions.iter().collect();
+        questions.sort_by_key(|finding| finding.rule().weight);
+        let texts = questions
+            .into_iter()
+            .map(|finding| question(audit, finding, language));
+        blocks.push(Block::List(texts.collect()));
+    }
+    blocks
+}
+
+/// With its numbers, and what U would be if it alone were corrected.
+fn broken_rules(audit: &Audit<'_>, figures: &[Finding], language: Language) -> Table {
     let mut table = Table::new([
         (language.pick("rule", "规则"), ColumnKind::Numbers),
         (language.pick("weight", "程度"), ColumnKind::Names),
@@ -282,16 +313,13 @@ fn findings(audit: &Audit<'_>, language: Language) -> Vec<Block> {
         ),
         (language.pick("source", "依据"), ColumnKind::Words),
     ]);
-    for finding in &all {
+    for finding in figures {
         let rule = finding.rule();
-        let place = finding.row.map_or(String::new(), |row| {
-            words::place(&claimed.rows[row], row, language)
-        });
         table.push(vec![
             rule.number.to_string().into(),
             finding.said().in_language(language).into(),
             language.pick(rule.en, rule.zh).into(),
-            place.into(),
+            place(audit, finding, language).into(),
             finding.numbers.clone().into(),
             finding
                 .corrected
@@ -300,10 +328,36 @@ fn findings(audit: &Audit<'_>, language: Language) -> Vec<Block> {
             rule.clause.into(),
         ]);
     }
-    vec![
-        Block::Section(language.pick("Findings", "检查发现").to_string()),
-        Block::Table(table.without_empty_columns()),
-    ]
+    table.without_empty_columns()
+}
+
+/// One line: what is asked, of which row, with which numbers, by which rule.
+fn question(audit: &Audit<'_>, finding: &Finding, language: Language) -> String {
+    let rule = finding.rule();
+    let asked = language.pick(rule.en, rule.zh);
+    let mut details = vec![place(audit, finding, language), finding.numbers.clone()];
+    details.retain(|text| !text.is_empty());
+    let number = rule.number;
+    let clause = rule.clause;
+    let source = match language {
+        Language::English => format!(" (rule {number}; {clause})"),
+        Language::Chinese => format!("（规则 {number}；{clause}）"),
+    };
+    match details.is_empty() {
+        true => format!("{asked}{source}"),
+        false => format!(
+            "{asked}{}{}{source}",
+            language.pick(": ", "："),
+            details.join(language.pick(", ", "，"))
+        ),
+    }
+}
+
+fn place(audit: &Audit<'_>, finding: &Finding, language: Language) -> String {
+    let rows = &audit.found.case.claimed.rows;
+    finding
+        .row
+        .map_or(String::new(), |row| words::place(&rows[row], row, language))
 }
 
 fn understood(claimed: &Claimed, language: Language) -> Table {

@@ -1,13 +1,13 @@
 //! Families of words that say what is known.
 
 #[rustfmt::skip]
-pub(super) const RANGE: &[&str] = &["range method", "range of the readings", "range of readings", "range r", "range of", "极差", "max-min", "max - min"];
+pub(super) const RANGE: &[&str] = &["range method", "range of the readings", "range of readings", "range r", "range of", "range table", "极差", "max-min", "max - min"];
 #[rustfmt::skip]
-pub(super) const ALIKE: &[&str] = &["readings are equal", "readings were equal", "equal readings", "readings are alike", "readings were alike", "readings are identical", "readings were identical", "identical readings", "no scatter", "读数完全相同", "读数相同", "读数均相同", "示值相同", "示值完全相同", "读数完全一致", "读数一致", "示值一致"];
+pub(super) const ALIKE: &[&str] = &["equal", "alike", "identical", "the same", "no scatter", "相同", "一致"];
 #[rustfmt::skip]
-pub(super) const POOLED: &[&str] = &["pooled", "合并样本", "合并标准", "合并实验", "合并"];
+pub(super) const POOLED: &[&str] = &["pooled", "合并样本", "合并标准", "合并实验", "合并", "s_p", "sp ="];
 #[rustfmt::skip]
-pub(super) const DEVIATION: &[&str] = &["standard deviation", "repeatability", "type a", "标准偏差", "标准差", "重复性", "s of", "s =", "s=", "a类", "experimental", "scatter", "readings agree", "readings are equal", "equal readings", "贝塞尔", "bessel", "次测量", "repeated"];
+pub(super) const DEVIATION: &[&str] = &["standard deviation", "repeatability", "type a", "标准偏差", "标准差", "重复性", "s of", "s =", "s=", "s_p", "a类", "experimental", "scatter", "readings agree", "readings are equal", "equal readings", "贝塞尔", "bessel", "次测量", "repeated"];
 #[rustfmt::skip]
 pub(super) const CERTIFICATE: &[&str] = &["certificate", "calibration certificate", "expanded", "证书", "扩展不确定度", "cert.", "calibration of", "calibrated", "u(k", "u (k", "k=2", "k = 2"];
 #[rustfmt::skip]

@@ -33,31 +33,34 @@ pub(super) fn limits(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         "误差",
     ];
     let half_width = e.figure_or_used(KEYS)?;
-    let level = has(
-        text,
-        &[
-            "95 %",
-            "95%",
-            "confidence of",
-            "level of confidence",
-            "置信",
-        ],
-    ) && !has(
-        text,
-        &[
-            "no level",
-            "without a level",
-            "nothing else",
-            "without level",
-            "未给出置信",
-            "无置信",
-        ],
-    );
+    let level = (is_95(text) || has(text, &["confidence of", "level of confidence", "置信"]))
+        && !has(
+            text,
+            &[
+                "no level",
+                "without a level",
+                "nothing else",
+                "without level",
+                "未给出置信",
+                "无置信",
+            ],
+        );
     let shape = shape(text).or_else(|| level.then(|| Shape::Normal(normal_factor(e, text))));
     Some(Stated::Limits {
         half_width,
         shape: shape.unwrap_or(Shape::Rectangular),
         shape_stated: shape.is_some(),
+    })
+}
+
+/// Whether a text speaks of 95 %, and not of 0.95 % or 95 %RH.
+fn is_95(text: &str) -> bool {
+    ["95 %", "95%"].iter().any(|level| {
+        text.match_indices(level).any(|(at, _)| {
+            let inside = text[..at].ends_with(|c: char| c.is_ascii_digit() || ".,".contains(c));
+            let of_a_unit = text[at + level.len()..].starts_with(char::is_alphabetic);
+            !inside && !of_a_unit
+        })
     })
 }
 
@@ -150,9 +153,13 @@ pub(super) fn certificate(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         "不确定度",
     ];
     let expanded = e.figure_or_used(KEYS)?;
-    let stated = figure_after(text, &["k =", "k=", "k", "coverage factor", "包含因子"])
-        .map(|k| k.value)
-        .filter(|k| (1.0..5.0).contains(k));
+    // The number of a certificate may begin with a K, too.
+    let stated = ["k =", "k=", "coverage factor", "包含因子", "k"]
+        .iter()
+        .find_map(|key| {
+            let k = figure_after(text, &[key])?.value;
+            (1.0..5.0).contains(&k).then_some(k)
+        });
     let head = figure_after(&e.used_head.to_lowercase(), &["k"])
         .map(|k| k.value)
         .filter(|k| (1.0..5.0).contains(k));

@@ -29,6 +29,8 @@ use subject::{Subject, subject};
 
 /// What is stated, and whether it is relative.
 pub fn stated(e: &Evidence<'_>) -> (Stated, Relative) {
+    let own = own_words(e.words);
+    let e = &Evidence { words: &own, ..*e };
     let text = e.words.to_lowercase();
     let columns = e.columns.to_lowercase();
     let stated = by_words(e, &text).or_else(|| by_columns(e, &columns));
@@ -44,6 +46,35 @@ pub fn stated(e: &Evidence<'_>) -> (Stated, Relative) {
     });
     let relative = relative(&stated, &text);
     (stated, relative)
+}
+
+/// Words without the clause that says in which other row this one is contained: what that one is, is not said of this.
+fn own_words(words: &str) -> String {
+    const CONTAINED: [&str; 6] = [
+        "contained in",
+        "included in",
+        "已包含",
+        "包含在",
+        "已含",
+        "已计入",
+    ];
+    let ends = |c: char| matches!(c, ';' | ',' | '(');
+    let clause = CONTAINED
+        .iter()
+        .filter_map(|key| words.find(key))
+        .min()
+        .and_then(|at| {
+            let start = words[..at].rfind(ends)?;
+            let end = words[at..].find(';').map_or(words.len(), |end| at + end);
+            Some(start..end)
+        });
+    let mut own = words.to_string();
+    if let Some(clause) =
+        clause.filter(|clause| own[..clause.start].contains(|c: char| c.is_ascii_digit()))
+    {
+        own.replace_range(clause, "");
+    }
+    own
 }
 
 /// What the words state. What the heads and the laboratory's columns call a distribution is its own; words decide.

@@ -64,6 +64,7 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     const KEYS: &[&str] = &[
         "standard deviation",
         "s_p =",
+        "s_p=",
         "s_p",
         "sp =",
         "s(x)",
@@ -84,15 +85,9 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     let n = count(text, e);
     let pooled = has(text, POOLED).then(|| pooled_freedom(text, n)).flatten();
     // `repeatability, mean of 5`, with u as it stands: it is not said that the figure is that of single readings.
-    let mut m = mean(text, e);
+    let m = behind(text, e, n);
     let unsaid = !has(text, OF_SINGLE) && m.is_none_or(|m| n == Some(m));
     let of_mean = has(text, OF_THE_MEAN) || unsaid && e.u_is_used();
-    if m.is_none()
-        && has(text, &["mean", "average", "平均", "均值"])
-        && !has(text, &["single", "单次"])
-    {
-        m = n;
-    }
     let by_u = || e.u.map(|u| s.value / u.value).filter(|d| d.is_finite());
     let squared = e
         .divisor
@@ -101,7 +96,7 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         .filter(|m| *m > 1.2 && (m - libm::round(*m)).abs() < 0.03 * m);
     // Nothing is stated of how many readings are behind the value: the laboratory's own divisor is all there is, where it
     // is the root of a number of readings that there were.
-    let unsaid = !has(text, &["single", "单次"]);
+    let unsaid = !reports_single(text);
     let possible = |m: &f64| n.is_none_or(|n| n == *m);
     let m = of_mean
         .then_some(1.0)
@@ -113,10 +108,11 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
 }
 
 pub(super) fn range(e: &Evidence<'_>, text: &str) -> Option<Stated> {
+    let n = count(text, e)?;
     Some(Stated::Range {
-        range: e.figure_or_used(&["range method", "range r", "range", "极差"])?,
-        n: count(text, e)?,
-        m: mean(text, e).unwrap_or(1.0),
+        range: e.figure_or_used(&["range method", "range r", "range", "极差法", "极差"])?,
+        n,
+        m: behind(text, e, Some(n)).unwrap_or(1.0),
     })
 }
 
@@ -165,7 +161,7 @@ pub(super) fn count(text: &str, e: &Evidence<'_>) -> Option<f64> {
     let mean = MEAN.iter().filter_map(|key| find(text, key, 0)).min();
     let before_mean = mean.map_or(text, |at| &text[..at]);
     let direct = count_after(text, &["n =", "n=", "n"]);
-    let each = || count_after(text, &["series of", "sets of", "每组"]).filter(|n| *n > 1.0);
+    let each = || count_after(text, &["series of", "sets of", "每组", "组各"]).filter(|n| *n > 1.0);
     let counted = || {
         count_before(before_mean, READINGS)
             .or_else(|| count_after(before_mean, OF).filter(|_| has(before_mean, READINGS)))
@@ -185,7 +181,20 @@ fn after_mean(text: &str, mean: Option<usize>) -> Option<f64> {
     count_before(&rest[clause..], READINGS)
 }
 
-/// Readings behind the reported value.
+/// Readings behind the reported value: as many as are said, or all where it is their mean.
+fn behind(text: &str, e: &Evidence<'_>, n: Option<f64>) -> Option<f64> {
+    let is_mean = has(text, &["mean", "average", "平均", "均值"]) && !reports_single(text);
+    mean(text, e).or(n.filter(|_| is_mean))
+}
+
+/// Whether a single reading is what is reported: one whose deviation is stated (`s of a single reading`) is not.
+fn reports_single(text: &str) -> bool {
+    let deviation = ["deviation", "s of", "标准差", "标准偏差"];
+    text.split([',', ';', '。', '、', '('])
+        .any(|clause| has(clause, &["single", "单次"]) && !has(clause, &deviation))
+}
+
+/// Readings behind the reported value, where their number is said.
 fn mean(text: &str, e: &Evidence<'_>) -> Option<f64> {
     // `取 3 次测量的平均值`: a count with 平均 behind it in the same clause.
     let chinese = || {
@@ -219,6 +228,20 @@ fn mean(text: &str, e: &Evidence<'_>) -> Option<f64> {
                     "readings averaged",
                     "readings behind",
                     "readings reported",
+                ],
+            )
+        })
+        .or_else(|| {
+            count_after(
+                text,
+                &[
+                    "实际测量",
+                    "日常测量",
+                    "实际",
+                    "只测",
+                    "仅测",
+                    "只测量",
+                    "仅测量",
                 ],
             )
         })

@@ -42,7 +42,7 @@ pub(super) fn subject(e: &Evidence<'_>, text: &str) -> Option<Subject> {
         Some(Subject::Range)
     } else if has(text, FULL_WIDTH) {
         Some(Subject::FullWidth)
-    } else if has(text, ALIKE) {
+    } else if are_alike(text) {
         Some(Subject::Alike)
     } else if is_step(text, &first) {
         Some(Subject::Step)
@@ -57,6 +57,33 @@ pub(super) fn subject(e: &Evidence<'_>, text: &str) -> Option<Subject> {
     } else {
         has(text, STANDARD).then_some(Subject::Standard)
     }
+}
+
+/// `all 5 readings equal`, `3 次示值全部相同`: a clause that says nothing else of readings.
+fn are_alike(text: &str) -> bool {
+    let readings = [
+        "reading",
+        "indication",
+        "observation",
+        "读数",
+        "示值",
+        "测得值",
+    ];
+    text.split([',', ';', '。', '、', '(', ':']).any(|clause| {
+        has(clause, &["no scatter"])
+            || readings.iter().any(|word| clause.contains(word))
+                && has(clause, ALIKE)
+                && !has(
+                    clause,
+                    &[
+                        "equal to",
+                        "same as",
+                        "same condition",
+                        "same operator",
+                        "same day",
+                    ],
+                )
+    })
 }
 
 fn is_range(e: &Evidence<'_>, text: &str) -> bool {

@@ -137,6 +137,9 @@ fn roles(
         {
             before.role = Role::Name;
         }
+        if role == Role::Used {
+            estimate_beside_used(&mut columns);
+        }
         let taken = |role: Role| columns.iter().any(|c: &Column| c.role == role);
         let role = match role {
             // `c_i | u_i`: a bare u behind the coefficient is what comes of both.
@@ -168,6 +171,20 @@ fn roles(
         });
     }
     columns
+}
+
+/// `数值 | 半宽`: a figure of which the head says no more is the estimate, beside one of which it does.
+fn estimate_beside_used(columns: &mut [Column]) {
+    const OPEN: [&str; 5] = ["数值", "figure", "magnitude", "size", "amount"];
+    if columns.iter().any(|c| c.role == Role::Value) {
+        return;
+    }
+    let is_open = |c: &&mut Column| {
+        c.role == Role::Used && OPEN.contains(&columns::apart(&c.head).0.to_lowercase().as_str())
+    };
+    if let Some(column) = columns.iter_mut().find(is_open) {
+        column.role = Role::Value;
+    }
 }
 
 /// A line above the head whose words name what the head leaves open: `|c_i|u(x_i)` above `/kPa`.

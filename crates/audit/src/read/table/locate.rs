@@ -51,7 +51,8 @@ fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
     const STRANGE: usize = 3;
     let mut strange = 0;
     for row in located.end..grid.rows.len() {
-        let repeated = head(grid, row, mapping).is_some();
+        // A row with the symbol A and a unit may look like a head.
+        let repeated = figures(grid, row, located) < 2 && head(grid, row, mapping).is_some();
         if repeated || labels_across(grid, row, "") {
             break;
         }
@@ -74,6 +75,15 @@ fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
     }
 }
 
+/// How many of the columns of figures hold one in a row.
+fn figures(grid: &Grid, row: usize, located: &Located) -> usize {
+    let is_figure = |role: &&Role| {
+        let column = located.column(**role).filter(|_| role.is_figure());
+        column.is_some_and(|c| Printed::parse(&grid.cell(row, c.index).text).is_some())
+    };
+    Role::ALL.iter().filter(is_figure).count()
+}
+
 enum What {
     Row,
     Footer,
@@ -89,10 +99,7 @@ fn what(grid: &Grid, row: usize, located: &Located, joined: bool) -> What {
     };
     let figure = |role: Role| Printed::parse(text(role)).is_some();
     let named = !text(Role::Symbol).is_empty() || !text(Role::Name).is_empty();
-    let count = Role::ALL
-        .iter()
-        .filter(|role| role.is_figure() && figure(**role))
-        .count();
+    let count = figures(grid, row, located);
     // Words about a row, its figures and its distribution label nothing.
     let labels = |column: usize| {
         use Role::{Distribution, Remark, Used, Value};

@@ -44,6 +44,8 @@ pub fn rows(grid: &Grid, sheet: usize, located: &Located) -> Vec<Raw> {
     for column in columns {
         zeros_are_digits(
             rows.iter_mut()
+                // The row of the result has digits of its own.
+                .filter(|raw| raw.is_input())
                 .filter_map(|raw| column(&mut raw.row).as_mut())
                 .collect(),
         );
@@ -172,7 +174,7 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
             u: figure(Role::U).map(positive),
             c: figure(Role::C),
             contribution: figure(Role::Contribution),
-            dof: figure(Role::Dof),
+            dof: figure(Role::Dof).map(as_infinite),
             unit: unit_cell,
             is_hidden: grid.hidden_rows.contains(&row),
             distribution: text(Role::Distribution),
@@ -203,6 +205,17 @@ fn share(grid: &Grid, row: usize, located: &Located) -> Option<Printed> {
     let mut columns = located.columns.iter();
     let column = columns.find(|c| c.role == Role::Derived && is_share(&c.head))?;
     Printed::parse(&grid.cell(row, column.index).text)
+}
+
+/// Degrees of freedom from here on are as good as infinitely many: spreadsheets write `1E+99`.
+fn as_infinite(dof: Printed) -> Printed {
+    const MANY: f64 = 1e5;
+    let value = if dof.value >= MANY {
+        f64::INFINITY
+    } else {
+        dof.value
+    };
+    Printed { value, ..dof }
 }
 
 pub(super) fn positive(mut figure: Printed) -> Printed {

@@ -1,0 +1,252 @@
+//! Sheets of laboratories that nobody here knew: what each of them had in common with none before.
+
+use super::{answer, first};
+use crate::Verdict;
+use crate::read::{self, Mapping};
+use crate::{audit, sheet};
+
+fn is_sound(name: &str, sheet: &str) {
+    assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
+}
+
+/// u_c of the first budget, as it is right.
+fn u_c(name: &str, sheet: &str) -> f64 {
+    let grids = sheet::grids(name, sheet.as_bytes()).unwrap();
+    audit(&read::budgets(&grids, &Mapping::default())[0])
+        .found
+        .right
+        .u_c
+}
+
+fn near(a: f64, b: f64) {
+    assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
+}
+
+/// A sum of one row and two limits: the row is what is tested.
+fn summary(row: &str, statement: &str) -> String {
+    format!(
+        "Input,Information,c\n{row}\nb,limits ±0.3 mm,1\nc,\"certificate B-7: U = 0.2 mm, k = 2\",1\n{statement}\n"
+    )
+}
+
+fn of_row(row: &str) -> f64 {
+    let all = u_c("sheet.csv", &summary(row, "u_c = 1 mm"));
+    (all * all - 0.09 / 3.0 - 0.01).sqrt()
+}
+
+#[test]
+fn the_mean_of_all_readings_may_be_said_in_many_words() {
+    let root = 5_f64.sqrt();
+    for (row, u) in [
+        (
+            "a,\"5 readings, range 1.2 mm, C from the range table; their mean is reported\",1",
+            1.2 / 2.33 / root,
+        ),
+        ("a,\"极差法:R=1.2 mm,n=5,取平均值\",1", 1.2 / 2.33 / root),
+        (
+            "a,\"range R = 1.2 mm of 5 readings (range method), a single reading is reported\",1",
+            1.2 / 2.33,
+        ),
+        (
+            "a,\"5 次测量,单次实验标准差 s=1.2 mm;以平均值报告\",1",
+            1.2 / root,
+        ),
+        (
+            "a,\"experimental standard deviation of a single reading s = 1.2 mm (n = 5); the mean of these is the result\",1",
+            1.2 / root,
+        ),
+        (
+            "a,\"示值平均;贝塞尔公式,n = 5,单次测量标准差 s = 1.2 mm;校准时只测 1 次\",1",
+            1.2,
+        ),
+        (
+            "a,\"6 组各 5 次,s_p=1.2 mm;报告 3 次平均值\",1",
+            1.2 / 3_f64.sqrt(),
+        ),
+    ] {
+        near(of_row(row), u);
+    }
+}
+
+#[test]
+fn readings_that_are_equal_leave_the_step() {
+    for row in [
+        "a,\"all 5 readings equal, resolution 0.5 mm\",1",
+        "a,\"5 次示值相同（s = 0）,数字分辨力 0.5 mm\",1",
+        "a,\"3 次读数全部相同,分辨力 0.5 mm\",1",
+    ] {
+        near(of_row(row), 0.25 / 3_f64.sqrt());
+    }
+    let table = "Symbol,Source,Value ±,Distribution,Divisor,c_i,u_i / mm,ν\n\
+        a,\"all 5 readings equal, resolution 0.5 mm\",0 mm,normal,1,1,0,4\n\
+        b,limits ±0.3 mm,0.3 mm,rectangular,√3,1,0.173,∞\n\
+        c,\"certificate B-7: U = 0.2 mm, k = 2\",0.2 mm,normal,2,1,0.100,∞\n\
+        u_c,Combined standard uncertainty,,,,,0.200,\n\
+        U,Expanded uncertainty,,normal (k = 2),,,0.40,\n";
+    assert_eq!(first("sheet.csv", table), "zero-scatter@a");
+}
+
+#[test]
+fn a_row_is_not_the_one_that_contains_it() {
+    let slip = summary(
+        "a,\"MPE ±0.5 mm, already contained in the certificate of c, not counted\",1",
+        "u_c = 0.351 mm\n\"U = 0.70 mm, k = 2\"",
+    );
+    assert_eq!(first("sheet.csv", &slip), "counted-twice@a");
+}
+
+#[test]
+fn the_number_of_a_certificate_is_no_coverage_factor() {
+    near(
+        of_row("a,\"certificate K-8497: U = 0.5 mm (coverage factor 2.28)\",1"),
+        0.5 / 2.28,
+    );
+}
+
+/// 0.95 %RH is no level of confidence, and %RH no percentage.
+#[test]
+fn units_that_look_like_percent() {
+    let humidity =
+        "Input,Information,c\na,bounds of ±0.95 %RH,1\nb,limits ±0.3 %RH,1\nu_c = 1 %RH\n";
+    near(
+        u_c("sheet.csv", humidity),
+        ((0.95_f64.powi(2) + 0.09) / 3.0).sqrt(),
+    );
+    let percent =
+        "Input,Estimate,Information,c\na,50 mm,±0.4%×读数,1\nb,0 mm,limits ±0.3 mm,1\nu_c = 1 mm\n";
+    near(u_c("sheet.csv", percent), ((0.04 + 0.09) / 3.0_f64).sqrt());
+}
+
+/// A purity has no unit where a mass and a volume have theirs, and an estimate that is not stated hides no ratio.
+#[test]
+fn models_with_units_and_without_estimates() {
+    let cadmium = |c: &str| {
+        format!(
+            "Model: w = m*P/V\nQuantity,Estimate,Information,c\nm,100.28 mg,limits ±0.34 mg,{c}\nP,0.9999,limits ±0.001,1002.8\n\
+             V,100 mL,limits ±0.2 mL,-10.027\n\"w = 1002.7 mg/L, u_c = 2.35 mg/L, U = 4.7 mg/L, k = 2\"\n"
+        )
+    };
+    is_sound("sheet.csv", &cadmium("9.999"));
+    let piston = "Model: p = m*g/A\nSymbol,Source,Value ±,Distribution,Divisor,c_i,u_i(y) / kPa,ν\n\
+        m,\"certificate 1: U = 0.00097 kg, k = 2.28\",0.00097 kg,normal,2.28,100.02,0.0426,∞\n\
+        g,\"certificate 2: U = 0.0012 m/s², k = 3\",0.0012 m/s²,normal,3,50.996,0.0204,∞\n\
+        A,limits ±0.0047 mm²,0.0047 mm²,rectangular,√3,-5.1005,0.0138,∞\n\
+        u_c,Combined standard uncertainty,,,,,0.0492,\nU,Expanded uncertainty,,normal (k = 2),,,0.098,\n";
+    is_sound("sheet.csv", piston);
+}
+
+#[test]
+fn the_probability_may_be_an_index_of_t() {
+    let sheet = |rule: &str| {
+        let row = "a,\"s = 0.5 mm of 9 readings, a single reading is reported\",1";
+        summary(
+            row,
+            &format!("{rule}\n\"u_c = 0.539 mm, ν_eff = 10, k = 2.28, U = 1.2 mm\""),
+        )
+    };
+    is_sound("sheet.csv", &sheet("k = t_95.45(ν_eff)"));
+    assert_eq!(first("sheet.csv", &sheet("k = t_95(ν_eff)")), "k-level");
+}
+
+/// That one rectangle dominates is stated as a fact, whatever it would be without a slip.
+#[test]
+fn a_rule_that_states_its_reason() {
+    let sheet = |k: &str, u: &str| {
+        format!(
+            "Input,Information,c\na,limits ±3 mm,1\nb,limits ±0.3 mm,1\n一个均匀分布分量占优势，取 k = 1.65\n\"u_c = 1.74 mm, k = {k}, U = {u} mm\"\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("1.65", "2.9"));
+    assert_eq!(first("sheet.csv", &sheet("2.00", "3.5")), "k2-rect");
+}
+
+/// A list in words with its coefficients and uncertainties; the title and a note on the reference stand in front of it.
+#[test]
+fn lists_have_titles_notes_and_coefficients() {
+    let list = "Calibration of a weight, nominal 100 g\n\nModel: m_X = m_S + d + e\n\n\
+        m_S = 100000.05 mg: reference weight, certificate M-1: U = 0.13 mg, k = 2 -> u = 0.0650 mg\n\
+        d = 0.12 mg: weighing difference, 10 readings, s = 0.042 mg, their mean reported -> u = 0.0133 mg\n\
+        e = 0 µg: air buoyancy, limits ±60 µg; c = 0.001 -> u = 34.6 µg\n\n\
+        The combined standard uncertainty is u_c = 0.0748 mg; the expanded uncertainty is U = 0.15 mg with k = 2.\n";
+    is_sound("sheet.txt", list);
+    let without = list.replace(
+        "m_S = 100000.05 mg: reference weight, certificate M-1: U = 0.13 mg, k = 2 -> u = 0.0650 mg\n",
+        "Reference used: m_S (reference weight), certificate K-8: U = 0.13 mg (k = 2)\n",
+    );
+    let without = without
+        .replace("u_c = 0.0748 mg", "u_c = 0.0371 mg")
+        .replace("U = 0.15 mg", "U = 0.074 mg");
+    assert_eq!(first("sheet.txt", &without), "ref-missing@m_S");
+}
+
+/// What stands below a head keeps its column in plain text, too, where others of its line are blank.
+#[test]
+fn gaps_in_plain_text_keep_their_columns() {
+    let text = "Quantity  Estimate  Standard uncertainty  Sensitivity coefficient  Contribution  Degrees of freedom\n\
+                a         0 mm      0.300 mm              1                        0.300 mm      9\n\
+                b         0 mm      0.173 mm              1                        0.173 mm      ∞\n\
+                长度      0 mm                                                     0.346 mm      15\n\
+                k = t_95(ν_eff)\nU = 0.74 mm (k = 2.13)\n";
+    let grids = sheet::grids("sheet.txt", text.as_bytes()).unwrap();
+    let row = |i: usize| {
+        grids[0].rows[i]
+            .iter()
+            .map(|cell| cell.text.as_str())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(row(3), ["长度", "0 mm", "", "", "0.346 mm", "15"]);
+    let claims = read::budgets(&grids, &Mapping::default());
+    assert_eq!(
+        claims[0].footer.nu_eff.as_ref().map(|nu| nu.value),
+        Some(15.0)
+    );
+}
+
+/// The unit behind the comma is the whole of it, and a row of the area A is no second head.
+#[test]
+fn heads_and_what_looks_like_them() {
+    let table = "Symbol,Source,Estimate,Value,Units,Distribution,Divisor,ci,\"ui(y), m/s²\",Remarks\n\
+        g,gravity,9.8015,0.0036,m/s²,Normal,3,1,0.00120,\"certificate 1: U = 0.0036 m/s², k=3\"\n\
+        A,area,0,0.05,m/s²,Rect.,1.7321,1,0.0289,within ±0.05 m/s²\n\
+        u_c,Combined uncertainty,,,,,,,0.0289,\nU,Expanded uncertainty,,,,Normal k=2,,,0.058,\n";
+    let grids = sheet::grids("sheet.csv", table.as_bytes()).unwrap();
+    let claims = read::budgets(&grids, &Mapping::default());
+    assert_eq!(
+        (claims[0].rows.len(), claims[0].unit.as_str()),
+        (2, "m/s^2")
+    );
+    is_sound("sheet.csv", table);
+}
+
+/// What belongs to a second budget stands behind the widest gap, and its CMC has a unit with a power.
+#[test]
+fn a_second_budget_begins_behind_the_widest_gap() {
+    let budget = |cmc: &str, rounding: &str, u: &str| {
+        format!(
+            "Title\n\nModel: y = a + b\nThe expanded uncertainty is given with k = 2\n{rounding}\n{cmc}\n\n\
+             Symbol,Source,Value ±,Distribution,Divisor,c_i,u_i / (m/s²)\na,limits ±0.3 m/s²,0.3 m/s²,rectangular,√3,1,0.173\n\
+             b,limits ±0.2 m/s²,0.2 m/s²,rectangular,√3,1,0.115\nu_c,Combined,,,,,0.208\nU,Expanded uncertainty,,,,,{u}\n"
+        )
+    };
+    let both = budget("", "U is always rounded up", "0.42")
+        + "\n\n"
+        + &budget("CMC of the laboratory: 0.31 m/s²", "U to nearest", "0.42");
+    let grids = sheet::grids("sheet.csv", both.as_bytes()).unwrap();
+    let claims = read::budgets(&grids, &Mapping::default());
+    let known: Vec<_> = claims
+        .iter()
+        .map(|one| (one.model.is_some(), one.cmc.as_ref().map(|cmc| cmc.value)))
+        .collect();
+    assert_eq!(known, [(true, None), (true, Some(0.31))]);
+}
+
+/// A standard uncertainty that was typed where the others are computed.
+#[test]
+fn a_factor_of_a_thousand_may_sit_in_the_coefficient() {
+    let table = "Model: y = a + b\nSymbol,Source,Estimate,Value ±,Distribution,Divisor,u(x_i),c_i,u_i(y) / mm\n\
+        a,limits ±30 µm,0 µm,30 µm,rectangular,√3,17.3 µm,1,17.3\n\
+        b,limits ±0.2 mm,0 mm,0.2 mm,rectangular,√3,0.115 mm,1,0.115\n\
+        u_c,Combined,,,,,,,17.3\nU,Expanded uncertainty (k = 2),,,,,,,35\n";
+    let slip = first("sheet.csv", table);
+    assert!(slip == "c-one@a" || slip == "prefix@a", "{slip}");
+}

@@ -10,6 +10,7 @@
 mod common;
 
 mod archives;
+mod audits;
 mod batch;
 mod bit_identity;
 mod budgets;

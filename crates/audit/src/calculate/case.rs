@@ -4,7 +4,7 @@ use crate::claim::{Claimed, Coverage, Row, Stated};
 use crate::units;
 
 use super::calculation::{Calculation, Combined, Factor, Freedom, Line, Report};
-use super::model::{differentiate, unit_of_y};
+use super::model::{differentiate, unit_of_estimate, unit_of_y};
 
 /// What is known, computed once.
 #[derive(Debug, Clone)]
@@ -168,7 +168,7 @@ fn to_y(claimed: &Claimed, row: &Row, from_model: bool) -> f64 {
                 units::factor(from, to).unwrap_or(1.0)
             }
         };
-        let value = row.value.as_ref().map_or("", |v| v.unit.as_str());
+        let value = unit_of_estimate(row);
         let bare_c = row
             .c
             .as_ref()

@@ -12,6 +12,15 @@ pub(crate) fn unit_of_y(claimed: &Claimed) -> &str {
     if own.is_empty() { &claimed.unit } else { own }
 }
 
+/// The unit of an estimate; of one that only a note knows, that of its uncertainty.
+pub(super) fn unit_of_estimate(row: &Row) -> &str {
+    match &row.value {
+        Some(value) => &value.unit,
+        None if row.is_absent => &row.unit,
+        None => "",
+    }
+}
+
 /// What a model gives at the estimates.
 pub(super) struct Differentiated {
     pub(super) slopes: Vec<f64>,
@@ -53,8 +62,7 @@ pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>,
         return Ok(None);
     }
     let formula = renamed(text, claimed);
-    // An estimate that is not stated has the unit of its uncertainty.
-    let unit_of = |row: &Row| units::parse(row.value.as_ref().map_or(&row.unit, |v| &v.unit));
+    let unit_of = |row: &Row| units::parse(unit_of_estimate(row));
     // Among estimates that have units, one that has none is a number.
     let is_number = |row: &Row| row.value.as_ref().is_some_and(|v| v.unit.is_empty());
     let bare_sheet = rows.iter().all(|row| unit_of(row).is_none());

@@ -135,6 +135,17 @@ fn models_with_units_and_without_estimates() {
     is_sound("sheet.csv", piston);
 }
 
+/// Rows have units of their own and no estimates: the coefficients of the sheet convert them.
+#[test]
+fn units_of_rows_without_estimates() {
+    let table = "Model: E = V_i - V_S + d\nSymbol,Source,Value ±,Distribution,Divisor,c_i,u_i(y) / mV,ν\n\
+        V_i,limits ±0.000064 V,0.000064 V,rectangular,√3,1000,0.0370,∞\n\
+        V_S,\"certificate 1: U = 0.000062 V, k = 2\",0.000062 V,normal,2,-1000,0.0310,∞\n\
+        d,limits ±74 µV,74 µV,rectangular,√3,0.001,0.0427,∞\n\
+        u_c,Combined standard uncertainty,,,,,0.0644,\nU,Expanded uncertainty,,normal (k = 2),,,0.13,\n";
+    is_sound("sheet.csv", table);
+}
+
 #[test]
 fn the_probability_may_be_an_index_of_t() {
     let sheet = |rule: &str| {

@@ -52,7 +52,7 @@ fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
     let mut strange = 0;
     for row in located.end..grid.rows.len() {
         // A row with the symbol A and a unit may look like a head.
-        let repeated = figures(grid, row, located) < 2 && head(grid, row, mapping).is_some();
+        let repeated = figures(grid, row, located) == 0 && head(grid, row, mapping).is_some();
         if repeated || labels_across(grid, row, "") {
             break;
         }

@@ -208,7 +208,9 @@ fn one(trial: &Trial, folder: &Path, options: &Options) -> Option<Record> {
             eprintln!("{}: {why}", trial.command());
             let answer = refused();
             let graded = grade::grade(&sealed.truth, &answer);
-            return Some(Record::of(trial, &sealed, &graded, &answer));
+            let mut record = Record::of(trial, &sealed, &graded, &answer);
+            record.seconds = seconds;
+            return Some(record);
         }
     };
     let found = likenesses(trial, &sealed, &case);

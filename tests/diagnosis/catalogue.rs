@@ -160,22 +160,6 @@ fn where_readings_hardly_vary_a_name_says_that_the_scale_gives_the_same() {
 }
 
 #[test]
-fn coarse_steps_are_found_behind_the_digits_of_the_file() {
-    let mut noise = Noise(14);
-    let mut rows = "p [MPa],U [mV],t [h]\n".to_owned();
-    for row in 0..90 {
-        let pressure = f64::from(row * 29 % 90) / 9.0;
-        let value = 0.4 + 10.0 * pressure + 3e-3 * noise.normal();
-        let shown = (value / 0.023_47).round() * 0.023_47;
-        let _ = writeln!(rows, "{pressure:.4},{shown:.4},{row}");
-    }
-    let case =
-        "equations = \"U = U0 + S*p\"\n[columns]\nU = \"output\"\np = \"stimulus\"\nt = \"time\"\n";
-    let found = diagnosed("coarse", &rows, case);
-    assert_eq!(named(&found)[0], ["quantisation"], "{found}");
-}
-
-#[test]
 fn noise_that_jumps_is_not_taken_for_noise_that_wanders() {
     let readings = |jumps: f64, name: &str| {
         let mut noise = Noise(15);

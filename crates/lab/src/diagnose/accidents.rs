@@ -75,10 +75,12 @@ pub(super) fn nameless(
 
 /// Slots that together describe a curve over one column, tentative ones counted.
 fn pieces(cells: &[Cell], examination: &Examination) -> Vec<usize> {
-    const CURVES: [&str; 3] = ["nonlinearity", "limits", "periodic"];
+    const CURVES: [&str; 2] = ["nonlinearity", "limits"];
     let place = |slot: &Slot| {
         let cell = &cells[slot.named.first()?.candidate];
-        let is_curve = CURVES.contains(&cell.effect.family.as_str());
+        let effect = cell.effect;
+        let is_curve =
+            CURVES.contains(&effect.family.as_str()) || effect.pattern == Some(Pattern::Wave);
         is_curve.then_some(&cell.place)
     };
     let places: Vec<_> = examination.slots.iter().map(place).collect();

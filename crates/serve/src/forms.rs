@@ -14,8 +14,6 @@ use gumption_format::toml::{Content, Form, Places, Step, StringMap, Unedited, Wr
 use gumption_gum::budget;
 use gumption_lab::experiment;
 
-use super::work::is_experiment;
-
 /// An edit of one entry.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
@@ -62,6 +60,13 @@ fn one_edited(text: &str, edit: &Edit) -> Result<String, Said> {
         Edit::Exchange { path, with } => places.exchanged(path, with),
     };
     found.map_err(|Unedited| say!("this cannot be changed in the form; change it in the text"))
+}
+
+/// Whether a text is an experiment: one that has no measurand, and says where readings come from.
+pub(crate) fn is_experiment(text: &str) -> bool {
+    let words = ["recording", "[recording", "equations", "procedure"];
+    let says = |line: &str| words.iter().any(|word| line.starts_with(word));
+    !text.contains("[measurand") && text.lines().any(says)
 }
 
 /// The schema of a text.

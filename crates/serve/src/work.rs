@@ -26,7 +26,7 @@ use gumption_report::{self as report, Report};
 
 use super::exchange::Contents;
 use super::exercises::{self, Practice, Shown};
-use super::forms::{self, Edit};
+use super::forms::{self, Edit, is_experiment};
 use super::lessons;
 use super::pages::Job;
 use super::shelf::Shelf;
@@ -147,13 +147,6 @@ impl From<Rejection> for Found {
 /// The format that a wish names.
 pub(crate) fn format(wish: &Wish) -> Option<&'static Format> {
     gumption_export::named(wish.format.as_deref().unwrap_or("html"))
-}
-
-/// Whether a text is an experiment: one that has no measurand, and says where readings come from.
-pub(crate) fn is_experiment(text: &str) -> bool {
-    let words = ["recording", "[recording", "equations", "procedure"];
-    let says = |line: &str| words.iter().any(|word| line.starts_with(word));
-    !text.contains("[measurand") && text.lines().any(says)
 }
 
 /// Does what a page asks for, with the contents that it sends in place of those on the disk.

@@ -255,8 +255,8 @@ fn a_kill_while_saving_tears_no_file() {
             "POST {base}api/save HTTP/1.1\r\nHost: {host}\r\nContent-Length: {}\r\n\r\n{body}",
             body.len()
         );
+        let mut stream = TcpStream::connect(&host).expect("a connection");
         let sending = std::thread::spawn(move || {
-            let mut stream = TcpStream::connect(&host).expect("a connection");
             let _ = stream.write_all(request.as_bytes());
             let _ = stream.read(&mut [0; 1]);
         });

@@ -220,7 +220,7 @@ impl Places<'_> {
         let is_first = self.text[start..own.start].trim().is_empty();
         let line = &self.text[own.end..self.line_end(own.end)];
         let line = line.trim_end_matches(['\r', '\n']);
-        let behind = line.trim_start().trim_start_matches(',');
+        let behind = line.trim_start().strip_prefix(',').unwrap_or(line);
         let comment = behind.trim_start();
         if !is_first || !(comment.is_empty() || comment.starts_with('#')) {
             return Some([own.start..own.start, own.clone(), own.end..own.end]);

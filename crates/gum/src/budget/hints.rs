@@ -200,9 +200,11 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
         ("[conformity]", "tolerance" | "limits" | "limit") => Some(say!(
             "a tolerance is lower = … and upper = …, or mpe = … about a nominal = …"
         )),
-        ("[[correlation]]", "matrix" | "correlation" | "coefficients" | "covariance") => Some(say!(
-            "a matrix stands in [[joint]]: inputs = [\"a\", \"b\"] and correlation = [[1, 0.3], [0.3, 1]], or covariance = [[…], […]]"
-        )),
+        ("[[correlation]]", "matrix" | "correlation" | "coefficients" | "covariance") => {
+            Some(say!(
+                "a matrix stands in [[joint]]: inputs = [\"a\", \"b\"] and correlation = [[1, 0.3], [0.3, 1]], or covariance = [[…], […]]"
+            ))
+        }
         ("[[correlation]]", lower) if lower.contains(',') => {
             let (one, other) = key.split_once(',').unwrap_or((key, ""));
             let (one, other) = (one.trim(), other.trim());

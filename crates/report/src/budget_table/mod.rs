@@ -24,28 +24,28 @@ struct Selection {
     shown: Vec<usize>,
     /// Inputs left out of a long table.
     elided: Vec<usize>,
-    /// Inputs that do not act on this measurand at all.
-    without_effect: Vec<usize>,
+    /// Inputs whose contribution to this measurand is zero.
+    without_contribution: Vec<usize>,
 }
 
 /// The table of one measurand with what belongs below it.
 pub(super) fn blocks(report: &Report<'_>, measurand: usize) -> Vec<Block> {
     let selection = select(report, measurand);
     let mut blocks = vec![Block::Table(table(report, measurand, &selection))];
-    if !selection.without_effect.is_empty() {
+    if !selection.without_contribution.is_empty() {
         let names: Vec<String> = selection
-            .without_effect
+            .without_contribution
             .iter()
             .map(|i| report.budget.inputs[*i].name.clone())
             .collect();
         let shown = shortened(&names, report.language);
         blocks.push(Block::Paragraph(match report.language {
             Language::English => format!(
-                "Without effect on {}: {shown}.",
+                "Without a contribution to {}: {shown}.",
                 report.measurand(measurand).0
             ),
             Language::Chinese => format!(
-                "对 {} 没有影响的输入量：{shown}。",
+                "对 {} 没有贡献的输入量：{shown}。",
                 report.measurand(measurand).0
             ),
         }));
@@ -79,7 +79,7 @@ fn select(report: &Report<'_>, measurand: usize) -> Selection {
         let flagged = |k: &FindingKind| matches!(k, FindingKind::VanishingSensitivity { inputs, .. } if inputs.contains(name));
         several && contributions[*i].sensitivity == 0.0 && !report.finds(measurand, flagged)
     };
-    let (without_effect, mut shown): (Vec<usize>, Vec<usize>) =
+    let (without_contribution, mut shown): (Vec<usize>, Vec<usize>) =
         (0..contributions.len()).partition(hidden);
     let mut elided = Vec::new();
     if shown.len() > LONG {
@@ -99,7 +99,7 @@ fn select(report: &Report<'_>, measurand: usize) -> Selection {
     Selection {
         shown,
         elided,
-        without_effect,
+        without_contribution,
     }
 }
 

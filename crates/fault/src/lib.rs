@@ -227,8 +227,21 @@ mod tests {
                 .map(|(_, known)| known)
         };
         let known = [
-            "value", "half_width", "unit", "u", "U", "dof", "İstanbul", "Ångström", "half_life", "µm",
-            "readings", "reading", "", "电阻", "电压",
+            "value",
+            "half_width",
+            "unit",
+            "u",
+            "U",
+            "dof",
+            "İstanbul",
+            "Ångström",
+            "half_life",
+            "µm",
+            "readings",
+            "reading",
+            "",
+            "电阻",
+            "电压",
         ];
         for name in known {
             let letters: Vec<char> = name.chars().collect();
@@ -246,7 +259,11 @@ mod tests {
                     around(&['X', 'Y'], at + 1),
                     around(&['é'], at + 2).to_uppercase(),
                 ] {
-                    assert_eq!(nearest(&misspelt, known), all(&misspelt, &known), "{misspelt}");
+                    assert_eq!(
+                        nearest(&misspelt, known),
+                        all(&misspelt, &known),
+                        "{misspelt}"
+                    );
                 }
             }
         }

@@ -75,10 +75,14 @@ const WRITERS: &[Writer] = &[
     folder(
         "diagnose case.toml --plots OUT",
         "--plots",
-        &["residuals-y.svg"],
+        &["residuals_x.svg"],
     ),
     file("simulate case.toml -o OUT.csv", "--output"),
-    folder("verify --report OUT", "--report", &["verification.md"]),
+    folder(
+        "verify budget.toml --report OUT",
+        "--report",
+        &["verification.md"],
+    ),
     file("verify budget.toml -o OUT.md", "--output"),
     file(
         "allan recording.csv --column y --interval 1 -o OUT.md",
@@ -164,7 +168,7 @@ impl Place {
         assert!(sealed.status.success());
         put("answer.json", "{}");
         let diagnosed = place.run(
-            "diagnose sealed/case/experiment.toml --json -o answer.json --force",
+            "diagnose sealed/case/CASE.toml --json -o answer.json --force",
             "",
         );
         assert_ne!(diagnosed.status.code(), Some(2), "{}", said(&diagnosed));

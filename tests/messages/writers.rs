@@ -157,7 +157,7 @@ impl Place {
              V = { value = 5, unit = \"V\", u = 0.01 }\nI = { value = 20, unit = \"mA\", u = 0.05 }\n\
              [claim]\nU = 2\nk = 2\n",
         );
-        put("devices.csv", "device,V\na,5.1\nb,5.2\nc,5.3\n");
+        put("devices.csv", "label,V\na,5.1\nb,5.2\nc,5.3\n");
         for (name, of) in [
             ("claim.csv", "docs/examples/claimed-budget.csv"),
             ("laboratory.toml", "reports/certificates/laboratory.toml"),
@@ -256,14 +256,15 @@ fn leftovers(all: &[(PathBuf, Vec<u8>)]) -> Vec<&PathBuf> {
 #[test]
 fn a_disk_that_takes_nothing_leaves_everything_as_it_was() {
     let place = Place::new("full");
-    for writer in WRITERS {
-        let output = writer.output(&place, "full");
+    for (number, writer) in WRITERS.iter().enumerate() {
+        let name = format!("full{number}");
+        let output = writer.output(&place, &name);
         if writer.is_forceful {
             std::fs::create_dir_all(output.parent().expect("a folder")).expect("a folder");
             std::fs::write(&output, "mine").expect("a file");
         }
         let before = place.all();
-        let run = place.run(&writer.at("full"), "ulimit -f 0; trap '' XFSZ;");
+        let run = place.run(&writer.at(&name), "ulimit -f 0; trap '' XFSZ;");
         let said = said(&run);
         assert_eq!(run.status.code(), Some(2), "{}\n{said}", writer.arguments);
         assert!(
@@ -278,14 +279,15 @@ fn a_disk_that_takes_nothing_leaves_everything_as_it_was() {
 #[test]
 fn a_program_killed_while_it_writes_leaves_the_old_file_and_the_next_one_clears_up() {
     let place = Place::new("killed");
-    for writer in WRITERS {
-        let output = writer.output(&place, "killed");
+    for (number, writer) in WRITERS.iter().enumerate() {
+        let name = format!("killed{number}");
+        let output = writer.output(&place, &name);
         if writer.is_forceful {
             std::fs::create_dir_all(output.parent().expect("a folder")).expect("a folder");
             std::fs::write(&output, "mine").expect("a file");
         }
         let old = std::fs::read(&output).ok();
-        let run = place.run(&writer.at("killed"), "ulimit -f 0;");
+        let run = place.run(&writer.at(&name), "ulimit -f 0;");
         assert_eq!(
             run.status.code(),
             None,
@@ -294,7 +296,7 @@ fn a_program_killed_while_it_writes_leaves_the_old_file_and_the_next_one_clears_
             said(&run)
         );
         assert_eq!(std::fs::read(&output).ok(), old, "{}", writer.arguments);
-        let again = place.run(&writer.at("killed"), "");
+        let again = place.run(&writer.at(&name), "");
         assert!(
             matches!(again.status.code(), Some(0 | 1)),
             "{}\n{}",

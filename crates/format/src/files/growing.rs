@@ -5,7 +5,7 @@ use std::io::{ErrorKind, Write};
 use std::path::Path;
 use std::sync::PoisonError;
 
-use super::mark::{self, Digest};
+use super::mark::Digest;
 use super::steps::{DISK, Disk, Draft};
 use super::write::{
     Output, Planned, Replacing, Unwritten, WRITTEN, Way, cleared, discard, placed, plan,

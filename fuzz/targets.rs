@@ -1,13 +1,16 @@
 //! What every fuzz target does with some bytes: nothing may panic, hang or command a terminal.
 //!
-//! One function for each kind of text that a user hands in. The fuzzer calls them (`fuzz_targets/`), and so does
-//! `cargo test` with every file of `corpus/`.
+//! One function for each kind of file that a user hands in or is sent. The fuzzer calls them (`fuzz_targets/`), and so
+//! does `cargo test` with every file of `corpus/`. Where a kind has several endings, the first byte says which one.
 
 // Each fuzz target uses one of the functions.
 #![allow(dead_code)]
 
 use std::path::{Path, PathBuf};
 
+use gumption::audit::read::Mapping;
+use gumption::audit::sheet::Unreadable;
+use gumption::audit::{self, Audit};
 use gumption::budget::Budget;
 use gumption::calibrate;
 use gumption::experiment::Purpose;
@@ -15,7 +18,7 @@ use gumption::model::{self, MeasurandSource, Role, Symbol};
 use gumption::propagate::{self, MonteCarloChoice, Options};
 use gumption::quantity::UnitTable;
 use gumption::recording::Recording;
-use gumption::render::{FORMATS, Page};
+use gumption::render::{FORMATS, Page, archive};
 use gumption::report::{self, Language, Report};
 use gumption::{Files, Rejection};
 
@@ -31,7 +34,18 @@ pub const TARGETS: &[Target] = &[
     ("experiment", experiment),
     ("saved", saved),
     ("statement", statement),
+    ("workbook", workbook),
+    ("claim", claim),
+    ("program", program),
+    ("dcc", dcc),
+    ("packed", packed),
+    ("administration", administration),
 ];
+
+thread_local! {
+    /// The units that are built in: they do not change, and a table for every text would take longer than the text.
+    static UNITS: UnitTable = UnitTable::default();
+}
 
 /// A budget file, read and checked, beside a table of values and another budget that it may name.
 pub fn budget(bytes: &[u8]) {
@@ -48,10 +62,12 @@ pub fn statement(bytes: &[u8]) {
 
 /// Formulas over inputs of several units.
 pub fn language(bytes: &[u8]) {
-    let Ok(text) = std::str::from_utf8(bytes) else {
-        return;
-    };
-    let units = UnitTable::default();
+    if let Ok(text) = std::str::from_utf8(bytes) {
+        UNITS.with(|units| formula(text, units));
+    }
+}
+
+fn formula(text: &str, units: &UnitTable) {
     let symbol = |(name, unit, role): (&str, &str, Role)| Symbol {
         name: name.to_string(),
         unit: units
@@ -81,7 +97,7 @@ pub fn language(bytes: &[u8]) {
             symbols: &symbols,
             shared: None,
             measurands: &[measurand(unit)],
-            units: &units,
+            units,
         });
         match compiled {
             Ok(model) => {
@@ -118,7 +134,7 @@ pub fn units(bytes: &[u8]) {
 /// A table of values: as a recording, as readings of an input, and as a series.
 pub fn csv(bytes: &[u8]) {
     if let Ok(text) = std::str::from_utf8(bytes)
-        && let Err(rejection) = Recording::read_all("data.csv", text, &UnitTable::default())
+        && let Err(rejection) = UNITS.with(|units| Recording::read_all("data.csv", text, units))
     {
         said(&rejection);
     }
@@ -161,6 +177,128 @@ pub fn saved(bytes: &[u8]) {
         [input]\nV = { unit = \"V\", from = { result = \"saved.json\", measurand = \"V\" } }\n";
     if let Some(budgets) = read(&[("budget.toml", main.as_slice()), ("saved.json", bytes)]) {
         evaluated(&budgets);
+    }
+}
+
+/// A workbook: as it comes, or its one sheet in a workbook that is whole.
+pub fn workbook(bytes: &[u8]) {
+    let Some((first, rest)) = bytes.split_first() else {
+        return;
+    };
+    let framed = |frame: &[(&str, &[u8])], sheet: &str| {
+        let members = frame.iter().copied().chain([(sheet, rest)]);
+        let members = members.map(|(name, content)| (name.to_owned(), content.to_vec()));
+        archive::packed(&members.collect::<Vec<_>>()).expect("an archive")
+    };
+    let (ending, bytes) = match first % 5 {
+        0 => ("xlsx", rest.to_vec()),
+        1 => ("xls", rest.to_vec()),
+        2 => ("ods", rest.to_vec()),
+        3 => ("xlsx", framed(XLSX, "xl/worksheets/sheet1.xml")),
+        _ => ("ods", framed(ODS, "content.xml")),
+    };
+    read_and_imported(&format!("claim.{ending}"), &bytes);
+}
+
+/// What surrounds the sheet of a workbook of Microsoft.
+const XLSX: &[(&str, &[u8])] = &[
+    (
+        "[Content_Types].xml",
+        br#"<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"/>"#,
+    ),
+    (
+        "xl/workbook.xml",
+        br#"<workbook xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main" xmlns:r="http://schemas.openxmlformats.org/officeDocument/2006/relationships"><sheets><sheet name="S" sheetId="1" r:id="r1"/></sheets></workbook>"#,
+    ),
+    (
+        "xl/_rels/workbook.xml.rels",
+        br#"<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/worksheet" Target="worksheets/sheet1.xml"/></Relationships>"#,
+    ),
+    (
+        "xl/sharedStrings.xml",
+        br#"<sst xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><si><t>Quantity</t></si><si><t>u</t></si></sst>"#,
+    ),
+];
+
+/// The same of OpenDocument.
+const ODS: &[(&str, &[u8])] = &[(
+    "mimetype",
+    b"application/vnd.oasis.opendocument.spreadsheet",
+)];
+
+/// A claimed budget as text.
+pub fn claim(bytes: &[u8]) {
+    let Some((first, rest)) = bytes.split_first() else {
+        return;
+    };
+    let ending = ["csv", "md", "txt", "tsv"][usize::from(*first) % 4];
+    read_and_imported(&format!("claim.{ending}"), rest);
+    /// The search for slips takes longer than the reading by far.
+    const MOST: usize = 400;
+    if let Ok(claims) = audit::claims(&format!("claim.{ending}"), rest, &Mapping::default())
+        && rest.len() <= MOST
+    {
+        let audits: Vec<Audit<'_>> = claims.iter().map(audit::audit).collect();
+        for language in [Language::English, Language::Chinese] {
+            shown(&report::audit("claim", &audits, language));
+        }
+    }
+}
+
+/// A file of another program.
+pub fn program(bytes: &[u8]) {
+    if let Some((first, rest)) = bytes.split_first() {
+        let ending = ["yaml", "um", "smu", "txp"][usize::from(*first) % 4];
+        read_and_imported(&format!("claim.{ending}"), rest);
+    }
+}
+
+/// Claims, and the budget files that are made of them: whatever was read, they are files that are read again without
+/// trouble for the reader.
+fn read_and_imported(name: &str, bytes: &[u8]) {
+    let mapping = Mapping::default();
+    let claims = audit::claims(name, bytes, &mapping);
+    let files = audit::budget_files(name, bytes, &mapping);
+    assert_eq!(claims.is_ok(), files.is_ok());
+    match files {
+        Ok(files) => {
+            for file in files {
+                let _ = read(&[("budget.toml", file.as_bytes())]);
+            }
+        }
+        Err(Unreadable(why)) => {
+            for language in [Language::English, Language::Chinese] {
+                harmless(&gumption::fault::harmless(&why.in_language(language)));
+            }
+        }
+    }
+}
+
+/// A digital certificate that a budget names.
+pub fn dcc(bytes: &[u8]) {
+    let main = b"[measurand.R]\nmodel = \"r * R_ref\"\nunit = \"ohm\"\n[input.R_ref]\n\
+        certificate = { dcc = \"dcc.xml\" }\n[input]\nr = { value = 1, u = 3e-6 }\n";
+    if let Some(budgets) = read(&[("budget.toml", main.as_slice()), ("dcc.xml", bytes)]) {
+        evaluated(&budgets);
+    }
+}
+
+/// An archive: what comes out goes in again and comes out the same.
+pub fn packed(bytes: &[u8]) {
+    if let Ok(members) = archive::unpacked(bytes)
+        && let Ok(again) = archive::packed(&members)
+    {
+        assert_eq!(archive::unpacked(&again), Ok(members));
+    }
+}
+
+/// The laboratory's data of a certificate.
+pub fn administration(bytes: &[u8]) {
+    let files = [("laboratory.toml", bytes)];
+    if let Err(rejection) =
+        report::administration(Files::Library(&files), Path::new("laboratory.toml"))
+    {
+        said(&rejection);
     }
 }
 

@@ -11,3 +11,4 @@ mod common;
 mod arguments;
 mod budgets;
 mod files;
+mod writers;

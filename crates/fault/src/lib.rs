@@ -136,15 +136,62 @@ impl Fault {
 /// misspelt `I`.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted = name.to_lowercase();
-    known
-        .into_iter()
-        .map(|k| (strsim::damerau_levenshtein(&wanted, &k.to_lowercase()), k))
-        .filter(|(distance, k)| {
-            let length = name.chars().count().max(k.chars().count());
-            *distance <= (length / 3).max(1) && *distance < length
-        })
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, k)| k)
+    let letters = Letters::of(name);
+    let mut best: Option<(usize, &str)> = None;
+    for known in known {
+        let others = Letters::of(known);
+        let length = letters.count.max(others.count);
+        // Of names that are equally near, the first.
+        let nearer = |distance: usize| {
+            distance <= (length / 3).max(1)
+                && distance < length
+                && best.is_none_or(|(least, _)| distance < least)
+        };
+        if !nearer(letters.least_distance(others)) {
+            continue;
+        }
+        let distance = strsim::damerau_levenshtein(&wanted, &known.to_lowercase());
+        if nearer(distance) {
+            best = Some((distance, known));
+        }
+    }
+    best.map(|(_, known)| known)
+}
+
+/// What tells at a glance that two names are far from each other: of thousands, few are compared letter by letter.
+#[derive(Clone, Copy)]
+struct Letters {
+    /// How many.
+    count: usize,
+    /// How many without regard to case.
+    lower: usize,
+    /// Which, by their remainders without regard to case.
+    set: u64,
+}
+
+impl Letters {
+    fn of(name: &str) -> Letters {
+        let mut letters = Letters {
+            count: 0,
+            lower: 0,
+            set: 0,
+        };
+        for letter in name.chars() {
+            letters.count += 1;
+            for lower in letter.to_lowercase() {
+                letters.lower += 1;
+                letters.set |= 1 << (u32::from(lower) % u64::BITS);
+            }
+        }
+        letters
+    }
+
+    /// No fewer edits make one name of the other: each adds or takes away one letter at most.
+    fn least_distance(self, other: Letters) -> usize {
+        let only = |one: u64, other: u64| (one & !other).count_ones() as usize;
+        let missing = only(self.set, other.set).max(only(other.set, self.set));
+        missing.max(self.lower.abs_diff(other.lower))
+    }
 }
 
 #[cfg(test)]
@@ -162,5 +209,63 @@ mod tests {
         assert_eq!(nearest("J", ["V", "I"]), None);
         assert_eq!(nearest("δ", ["V", "I"]), None);
         assert_eq!(nearest("", ["V"]), None);
+    }
+
+    /// What is left out at a glance would not have been near.
+    #[test]
+    fn the_nearest_is_the_one_that_all_distances_give() {
+        let all = |name: &str, known: &[&'static str]| {
+            let wanted = name.to_lowercase();
+            let distances = known.iter().filter_map(|known| {
+                let distance = strsim::damerau_levenshtein(&wanted, &known.to_lowercase());
+                let length = name.chars().count().max(known.chars().count());
+                let is_near = distance <= (length / 3).max(1) && distance < length;
+                is_near.then_some((distance, *known))
+            });
+            distances
+                .min_by_key(|(distance, _)| *distance)
+                .map(|(_, known)| known)
+        };
+        let known = [
+            "value",
+            "half_width",
+            "unit",
+            "u",
+            "U",
+            "dof",
+            "İstanbul",
+            "Ångström",
+            "half_life",
+            "µm",
+            "readings",
+            "reading",
+            "",
+            "电阻",
+            "电压",
+        ];
+        for name in known {
+            let letters: Vec<char> = name.chars().collect();
+            for at in 0..=letters.len() {
+                let around = |middle: &[char], rest: usize| -> String {
+                    letters[..at]
+                        .iter()
+                        .chain(middle)
+                        .chain(&letters[rest.min(letters.len())..])
+                        .collect()
+                };
+                for misspelt in [
+                    around(&[], at + 1),
+                    around(&['x'], at),
+                    around(&['X', 'Y'], at + 1),
+                    around(&['é'], at + 2).to_uppercase(),
+                ] {
+                    assert_eq!(
+                        nearest(&misspelt, known),
+                        all(&misspelt, &known),
+                        "{misspelt}"
+                    );
+                }
+            }
+        }
     }
 }

@@ -89,7 +89,7 @@ impl Rejection {
     }
 
     fn draw(&self, fault: &Fault, language: Language, renderer: &Renderer) -> String {
-        let show = |said: &Said| harmless(&said.in_language(language)).into_owned();
+        let show = |said: &Said| shortened(&harmless(&said.in_language(language)));
         let title = Level::ERROR
             .with_name(language.pick("error", "错误"))
             .primary_title(show(&fault.message))
@@ -122,16 +122,38 @@ impl Rejection {
         renderer.render(&[group])
     }
 
-    /// The range inside the text, at character boundaries, and never behind its end.
+    /// The range inside the text, at character boundaries, and never behind its end; of a line that is too long to be read,
+    /// its beginning.
     fn inside(&self, span: &Range<usize>) -> Range<usize> {
+        /// More of a line is not drawn.
+        const MOST: usize = 200;
         let start = self
             .text
             .floor_char_boundary(span.start.min(self.text.len()));
         let end = self
             .text
             .ceil_char_boundary(span.end.max(start).min(self.text.len()));
-        start..end
+        let is_long = |line: &str| line.len() > MOST;
+        match self.text[start..end].split('\n').any(is_long) {
+            true => start..self.text.floor_char_boundary(end.min(start + MOST)),
+            false => start..end,
+        }
     }
+}
+
+/// A text that quotes more of a file than anybody reads, without its middle.
+fn shortened(text: &str) -> String {
+    /// Characters that are left at either end.
+    const LEFT: usize = 500;
+    let count = text.chars().count();
+    if count <= 2 * LEFT {
+        return text.to_owned();
+    }
+    let from = |start: usize, length: usize| text.chars().skip(start).take(length);
+    from(0, LEFT)
+        .chain(" … ".chars())
+        .chain(from(count - LEFT, LEFT))
+        .collect()
 }
 
 impl fmt::Display for Rejection {
@@ -253,6 +275,22 @@ mod tests {
             last(&rejection, Language::English).as_deref(),
             Some("1 error in the file")
         );
+    }
+
+    #[test]
+    fn what_nobody_reads_is_not_drawn() {
+        let text = format!("unit = \"{}\"\nvalue = 1", "电".repeat(100_000));
+        for span in [8..text.len() - 12, 0..text.len()] {
+            let fault = Fault::new(UNIT_CLASH, span, &*text)
+                .label(&*text)
+                .help(&*text);
+            let shown = Rejection::new("budget.toml", &text, vec![fault]).render(false);
+            assert!(shown.chars().count() < 10_000, "{}", shown.len());
+            assert!(
+                shown.contains(" … ") && shown.contains("budget.toml:1:"),
+                "{shown}"
+            );
+        }
     }
 
     /// What a file says is quoted; it does not command the terminal, wherever it stands.

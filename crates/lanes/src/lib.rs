@@ -64,6 +64,7 @@ pub mod sampler;
 pub mod separate;
 pub mod sobol;
 pub mod sum;
+pub mod triangle;
 mod words;
 
 pub use generator::Generator;

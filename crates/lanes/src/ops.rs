@@ -227,40 +227,6 @@ pub fn scale(level: Level, s: f64, out: &mut Block) {
     dispatch!(level, _ => out.0.iter_mut().for_each(#[inline(always)] |out| *out *= s))
 }
 
-/// `out` ← Σ wₖ·aₖ over as many as there are of both, summed in their order, each step with one rounding.
-pub fn combine(level: Level, weights: &[f64], a: &[Block], out: &mut Block) {
-    dispatch!(level, _ => combine_with(weights, a, out, |sum| sum))
-}
-
-/// `out` ← (s·Σ wₖ·aₖ)·t + c, the sum as that of [`combine`], the product with t and c with one rounding.
-pub fn combine_affine(
-    level: Level,
-    weights: &[f64],
-    a: &[Block],
-    [s, t, c]: [f64; 3],
-    out: &mut Block,
-) {
-    dispatch!(level, _ => {
-        combine_with(weights, a, out, #[inline(always)] |sum: f64| (sum * s).mul_add(t, c))
-    })
-}
-
-#[inline(always)]
-fn combine_with(weights: &[f64], a: &[Block], out: &mut Block, f: impl Fn(f64) -> f64) {
-    /// Sums that are held at a time.
-    const HELD: usize = 64;
-    for (row, out) in out.0.as_chunks_mut::<HELD>().0.iter_mut().enumerate() {
-        let mut sums = [0.0; HELD];
-        for (weight, a) in weights.iter().zip(a) {
-            let a = &a.0.as_chunks::<HELD>().0[row];
-            for lane in 0..HELD {
-                sums[lane] = f64::mul_add(a[lane], *weight, sums[lane]);
-            }
-        }
-        *out = sums.map(&f);
-    }
-}
-
 /// `a` where the condition is true (not 0), `b` where it is 0, NaN where it is NaN.
 pub fn select(level: Level, condition: &Block, a: &Block, b: &Block, out: &mut Block) {
     #[inline(always)]

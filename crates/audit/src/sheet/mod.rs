@@ -7,7 +7,9 @@
 //! | `open_document` | the same of a sheet in OpenDocument, and what its numbers show |
 //! | `shown` | numbers by what their cells show |
 //! | `text` | separated values, Markdown tables, plain text |
+//! | `contained` | libraries that give up by a panic |
 
+mod contained;
 mod hidden;
 mod open_document;
 mod shown;

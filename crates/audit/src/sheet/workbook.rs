@@ -6,10 +6,20 @@ use calamine::{Data, DataRef, Reader, SheetVisible, Sheets, open_workbook_auto_f
 
 use gumption_fault::{Said, say};
 
+use super::contained::contained;
 use super::{Cell, Grid, MOST_CELLS, Unreadable, open_document, shown};
 
 /// Every sheet of a workbook. Hidden ones come last: what is hidden is read, but does not stand in front.
 pub(super) fn grids(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
+    // The library trusts the sizes that a file states of its own parts, and panics where one is cut off.
+    contained(|| sheets(bytes)).unwrap_or_else(|| {
+        Err(Unreadable(say!(
+            "it is damaged, or was not copied to its end; open it in the program that wrote it, and save it again"
+        )))
+    })
+}
+
+fn sheets(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
     let unreadable = |error: &dyn std::fmt::Display| Unreadable(Said::quoted(error.to_string()));
     let mut documents = open_document::told(bytes)?;
     let mut book = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(|e| unreadable(&e))?;

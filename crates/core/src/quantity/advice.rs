@@ -1,5 +1,8 @@
 //! What may have been meant by a name that is no unit.
 
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
 use super::builtin::{PREFIXES, Prefixes, UNITS};
 use super::chinese::by_chinese_name;
 use super::faults::{UNKNOWN_UNIT, UnitError};
@@ -62,53 +65,68 @@ pub(super) fn for_unknown<'a>(
         return advice;
     }
     let own: Vec<&String> = own.collect();
-    let prefixed: Vec<String> = PREFIXES
-        .iter()
-        .flat_map(|(prefix, _)| {
-            let takes_prefix = UNITS.iter().filter(|u| u.prefixes == Prefixes::All);
-            takes_prefix.map(move |u| format!("{prefix}{}", u.symbol))
-        })
-        .collect();
     let known = || {
-        let builtin = UNITS
-            .iter()
-            .flat_map(|u| std::iter::once(&u.symbol).chain(u.aliases))
-            .copied();
-        own.iter()
-            .map(|name| name.as_str())
-            .chain(builtin)
-            .chain(prefixed.iter().map(String::as_str))
+        let builtin = SPELLINGS.iter().map(|(spelling, _)| spelling.as_str());
+        own.iter().map(|name| name.as_str()).chain(builtin)
     };
-    let same_letters = same_letters(name, known());
+    let same_letters = same_letters(name, &own);
     // In names of one or two letters every other unit is only one letter away.
     let similar = || nearest(name, known()).filter(|_| name.chars().count() > 2);
-    match (same_letters.as_slice(), similar()) {
-        ([], Some(known)) => {
-            say!(
+    match same_letters.as_slice() {
+        [] => match similar() {
+            Some(known) => say!(
                 "did you mean `{known}`? A unit of your own is declared in the [unit] table, a pure number as `{name} = \"1\"`"
-            )
-        }
-        ([], None) => say!(
-            "a unit of your own is declared in the [unit] table, by other units, as in `FS = \"10 V\"`, or as a pure number, `{name} = \"1\"`"
-        ),
-        ([known], _) => say!("write `{known}`"),
-        (several, _) => say!(
+            ),
+            None => say!(
+                "a unit of your own is declared in the [unit] table, by other units, as in `FS = \"10 V\"`, or as a pure number, `{name} = \"1\"`"
+            ),
+        },
+        [known] => say!("write `{known}`"),
+        several => say!(
             "write `{}`: upper and lower case matter",
             several.join("` or `")
         ),
     }
 }
 
+/// All spellings of built-in units, those with prefixes last, each with its letters in lower case.
+static SPELLINGS: LazyLock<Vec<(String, String)>> = LazyLock::new(|| {
+    let plain = UNITS
+        .iter()
+        .flat_map(|unit| std::iter::once(&unit.symbol).chain(unit.aliases));
+    let prefixed = PREFIXES.iter().flat_map(|(prefix, _)| {
+        let takes_prefix = UNITS.iter().filter(|unit| unit.prefixes == Prefixes::All);
+        takes_prefix.map(move |unit| format!("{prefix}{}", unit.symbol))
+    });
+    let all = plain.map(|name| (*name).to_owned()).chain(prefixed);
+    let with_letters = |name: String| {
+        let letters = name.to_lowercase();
+        (name, letters)
+    };
+    all.map(with_letters).collect()
+});
+
+/// The symbols of units by their English names in lower case.
+static ENGLISH: LazyLock<HashMap<String, &'static str>> = LazyLock::new(|| {
+    // Of units with one name the first counts.
+    let names = UNITS.iter().rev();
+    names
+        .map(|unit| (unit.name_en.to_lowercase(), unit.symbol))
+        .collect()
+});
+
 /// Names that differ in upper and lower case only, those with most characters alike first: `MPa` and
 /// `mPa` for `Mpa`.
-fn same_letters<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+fn same_letters<'a>(name: &str, own: &[&'a String]) -> Vec<&'a str> {
     let changed = |known: &str| {
         let pairs = name.chars().zip(known.chars());
         pairs.filter(|(a, b)| a != b).count()
     };
-    let mut same: Vec<&str> = known
-        .filter(|known| known.to_lowercase() == name.to_lowercase())
-        .collect();
+    let lower = name.to_lowercase();
+    let own = own.iter().map(|own| own.as_str());
+    let mut same: Vec<&str> = own.filter(|own| own.to_lowercase() == lower).collect();
+    let builtin = SPELLINGS.iter().filter(|(_, letters)| *letters == lower);
+    same.extend(builtin.map(|(spelling, _)| spelling.as_str()));
     same.sort_by_key(|known| (changed(known), *known));
     same.dedup();
     same
@@ -139,11 +157,8 @@ fn by_english_name(name: &str) -> Option<&'static str> {
         other => other,
     };
     let british = singular.replace("meter", "metre").replace("liter", "litre");
-    let wanted = [name.as_str(), singular, british.as_str()];
-    UNITS
-        .iter()
-        .find(|u| wanted.contains(&u.name_en.to_lowercase().as_str()))
-        .map(|u| u.symbol)
+    let mut wanted = [name.as_str(), singular, british.as_str()].into_iter();
+    wanted.find_map(|name| ENGLISH.get(name).copied())
 }
 
 /// The symbol of a unit that was written out behind a prefix: `mAmp`, `kilovolts`.

@@ -1,6 +1,6 @@
 //! The units known to a file, and the reading of unit texts.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 use std::sync::LazyLock;
 
 use gumption_fault::say;
@@ -146,27 +146,42 @@ impl UnitTable {
         &mut self,
         entries: impl IntoIterator<Item = (&'a str, &'a str)>,
     ) -> Vec<(usize, DefinitionError)> {
-        let mut waiting: Vec<(usize, (&str, &str))> = entries.into_iter().enumerate().collect();
-        let mut faults = Vec::new();
-        while !waiting.is_empty() {
-            let names: Vec<String> = waiting.iter().map(|(_, (name, _))| unified(name)).collect();
-            let (ready, blocked): (Vec<_>, Vec<_>) = waiting
-                .iter()
-                .copied()
-                .partition(|(_, (_, definition))| used(definition, &names).is_none());
-            if ready.is_empty() {
-                faults.extend(
-                    blocked
-                        .iter()
-                        .filter_map(|(i, entry)| Some((*i, circular(*entry, &names)?))),
-                );
-                break;
-            }
-            for (i, (name, definition)) in ready {
-                faults.extend(self.define(name, definition).err().map(|fault| (i, fault)));
-            }
-            waiting = blocked;
+        let entries: Vec<(&str, &str)> = entries.into_iter().collect();
+        let names: Vec<String> = entries.iter().map(|(name, _)| unified(name)).collect();
+        let mut places: HashMap<&str, Vec<usize>> = HashMap::new();
+        for (place, name) in names.iter().enumerate() {
+            places.entry(name).or_default().push(place);
         }
+        // How many definitions each one waits for, and which wait for it.
+        let mut missing = vec![0; entries.len()];
+        let mut waiting = vec![Vec::new(); entries.len()];
+        for (place, (_, definition)) in entries.iter().enumerate() {
+            for name in used(definition, |name| places.contains_key(name)).map(|(name, _)| name) {
+                for other in places.get(name.as_str()).into_iter().flatten() {
+                    missing[place] += 1;
+                    waiting[*other].push(place);
+                }
+            }
+        }
+        let mut faults = Vec::new();
+        let mut ready: VecDeque<usize> = (0..entries.len()).filter(|i| missing[*i] == 0).collect();
+        while let Some(place) = ready.pop_front() {
+            let (name, definition) = entries[place];
+            let fault = self.define(name, definition).err();
+            faults.extend(fault.map(|fault| (place, fault)));
+            for other in &waiting[place] {
+                missing[*other] -= 1;
+                if missing[*other] == 0 {
+                    ready.push_back(*other);
+                }
+            }
+        }
+        let left = |name: &str| {
+            let mut places = places.get(name).into_iter().flatten();
+            places.any(|place| missing[*place] > 0)
+        };
+        let blocked = entries.iter().enumerate().filter(|(i, _)| missing[*i] > 0);
+        faults.extend(blocked.filter_map(|(i, entry)| Some((i, circular(*entry, left)?))));
         faults.sort_by_key(|(i, _)| *i);
         faults
     }
@@ -278,26 +293,34 @@ fn own_name(name: &str) -> Result<String, UnitError> {
     }
 }
 
-/// The first of `names` that a definition uses, with or without a prefix, and where.
-fn used(definition: &str, names: &[String]) -> Option<NamedTerm> {
-    let depends = |term: &NamedTerm| {
-        let prefixed = |name: &String| {
-            PREFIXES
+/// The names of those that are asked for which a definition uses, with or without a prefix, and where.
+fn used(
+    definition: &str,
+    is_asked: impl Fn(&str) -> bool,
+) -> impl Iterator<Item = (String, NamedTerm)> {
+    let terms = parse(definition, Numbers::Any).map_or_else(|_| Vec::new(), |parsed| parsed.terms);
+    terms.into_iter().filter_map(move |term| {
+        let prefixed = || {
+            let names = PREFIXES
                 .iter()
-                .any(|(p, _)| term.name.strip_prefix(p) == Some(name.as_str()))
+                .filter_map(|(p, _)| term.name.strip_prefix(p));
+            names
+                .filter(|_| !BUILTIN.contains_key(term.name.as_str()))
+                .find(|name| is_asked(name))
         };
-        names.contains(&term.name)
-            || (!BUILTIN.contains_key(term.name.as_str()) && names.iter().any(prefixed))
-    };
-    parse(definition, Numbers::Any)
-        .ok()?
-        .terms
-        .into_iter()
-        .find(depends)
+        let name = match is_asked(&term.name) {
+            true => term.name.clone(),
+            false => prefixed()?.to_owned(),
+        };
+        Some((name, term))
+    })
 }
 
-fn circular((name, definition): (&str, &str), names: &[String]) -> Option<DefinitionError> {
-    let term = used(definition, names)?;
+fn circular(
+    (name, definition): (&str, &str),
+    is_waiting: impl Fn(&str) -> bool,
+) -> Option<DefinitionError> {
+    let (_, term) = used(definition, is_waiting).next()?;
     let message = say!(
         "`{name}` cannot be defined by `{}`, which is itself waiting for a definition",
         term.name

@@ -5,10 +5,11 @@ use std::io::{ErrorKind, Write};
 use std::path::Path;
 use std::sync::PoisonError;
 
-use super::mark::{self, Digest};
-use super::steps::{DISK, Draft};
+use super::mark::Digest;
+use super::steps::{DISK, Disk, Draft};
 use super::write::{
-    Output, Planned, Replacing, Unwritten, WRITTEN, Way, discard, place, plan, unwritten,
+    Output, Planned, Replacing, Unwritten, WRITTEN, Way, cleared, discard, placed, plan,
+    unfinished, unwritten,
 };
 
 /// A file that grows beside its place, and takes it when it is [finished](Growing::finish); whatever ends before leaves the
@@ -24,8 +25,6 @@ enum Goal {
     Draft(Draft),
     /// What is no file: a terminal, a pipe.
     Stream(File),
-    /// It has its place.
-    Done,
 }
 
 impl Growing {
@@ -34,15 +33,28 @@ impl Growing {
     /// # Errors
     /// As [`super::write::write`].
     pub fn begin(path: &Path, replacing: Replacing) -> Result<Growing, Unwritten> {
+        Growing::begin_by(&DISK, path, replacing)
+    }
+
+    pub(super) fn begin_by(
+        disk: &Disk<'_>,
+        path: &Path,
+        replacing: Replacing,
+    ) -> Result<Growing, Unwritten> {
+        cleared(path);
         let planned = plan(path, replacing)?;
         let goal = match planned.way {
             Way::Stream => File::options().write(true).open(path).map(Goal::Stream),
-            _ => DISK
+            _ => disk
                 .create(planned.folder(), planned.there.as_ref())
                 .map(Goal::Draft),
         };
+        let goal = goal.map_err(|error| unwritten(path, error))?;
+        if let Goal::Draft(draft) = &goal {
+            unfinished().push(draft.path.clone());
+        }
         Ok(Growing {
-            goal: goal.map_err(|error| unwritten(path, error))?,
+            goal,
             planned,
             digest: Digest::default(),
         })
@@ -53,15 +65,18 @@ impl Growing {
     /// # Errors
     /// The system does not write.
     pub fn add(&mut self, content: &[u8]) -> Result<(), Unwritten> {
+        self.add_by(&DISK, content)
+    }
+
+    pub(super) fn add_by(&mut self, disk: &Disk<'_>, content: &[u8]) -> Result<(), Unwritten> {
         self.digest.add(content);
         let added = match &mut self.goal {
-            Goal::Draft(draft) => draft.file.write_all(content),
+            Goal::Draft(draft) => disk.add(draft, content),
             Goal::Stream(stream) => match stream.write_all(content) {
                 // A reader that has gone away is no error.
                 Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
                 other => other,
             },
-            Goal::Done => Ok(()),
         };
         added.map_err(|error| unwritten(&self.planned.asked, error))
     }
@@ -70,25 +85,31 @@ impl Growing {
     ///
     /// # Errors
     /// The system does not; then the place is as it was.
-    pub fn finish(mut self) -> Result<(), Unwritten> {
+    pub fn finish(self) -> Result<(), Unwritten> {
+        self.finish_by(&DISK)
+    }
+
+    pub(super) fn finish_by(self, disk: &Disk<'_>) -> Result<(), Unwritten> {
         let Goal::Draft(draft) = &self.goal else {
             return Ok(());
         };
         let mut written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
-        mark::set(&draft.file, &self.digest);
-        let placed = draft.file.sync_all().and_then(|()| {
+        let path = self.planned.asked.clone();
+        let safe = disk.end(draft, &self.digest).and_then(|()| {
             // A file with several names is overwritten within, by what is in memory.
-            let content = match self.planned.way {
-                Way::Within => super::content_of(&draft.path)?,
-                _ => Vec::new(),
-            };
-            let path = self.planned.asked.clone();
-            place(&DISK, &self.planned, &Output { path, content }, draft)?;
-            DISK.sync_folder(self.planned.folder())
+            match self.planned.way {
+                Way::Within => super::content_of(&draft.path),
+                _ => Ok(Vec::new()),
+            }
         });
-        placed.map_err(|error| unwritten(&self.planned.asked, error))?;
+        let content = safe.map_err(|error| unwritten(&path, error))?;
+        let output = Output { path, content };
+        placed(
+            disk,
+            &[(&self.planned, &output)],
+            std::slice::from_ref(draft),
+        )?;
         *written += 1;
-        self.goal = Goal::Done;
         Ok(())
     }
 }
@@ -97,6 +118,7 @@ impl Drop for Growing {
     fn drop(&mut self) {
         if let Goal::Draft(draft) = &self.goal {
             discard(std::slice::from_ref(draft));
+            unfinished().retain(|path| *path != draft.path);
         }
     }
 }

@@ -13,6 +13,7 @@ use super::mark;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Step {
     Create,
+    Add,
     FirstHalf,
     SecondHalf,
     Sync,
@@ -104,6 +105,19 @@ impl Disk<'_> {
         }
         (self.before)(Step::Sync)?;
         file.sync_all()
+    }
+
+    /// Adds to a draft whose whole content nobody has in memory.
+    pub fn add(&self, draft: &mut Draft, content: &[u8]) -> Result<()> {
+        (self.before)(Step::Add)?;
+        draft.file.write_all(content)
+    }
+
+    /// Marks a draft that is whole, and waits until it is safe.
+    pub fn end(&self, draft: &Draft, digest: &mark::Digest) -> Result<()> {
+        mark::set(&draft.file, digest);
+        (self.before)(Step::Sync)?;
+        draft.file.sync_all()
     }
 
     /// Gives a draft its name, which nobody has.

@@ -16,7 +16,7 @@ use std::fmt::Display;
 use std::fs::Metadata;
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use gumption_fault::language::Language;
 
@@ -138,10 +138,21 @@ fn takes_files(folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Waits for files that are being written and lets none be written from now on; how many there were.
+/// Drafts of files that still grow.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+pub(super) fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Waits for files that are being written, removes what there is of those that still grow, and lets none be written
+/// from now on; how many there were.
 pub fn stop() -> usize {
     let written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
     let count = *written;
+    for path in unfinished().drain(..) {
+        let _ = std::fs::remove_file(path);
+    }
     // Kept until the process ends.
     std::mem::forget(written);
     count
@@ -153,15 +164,7 @@ pub(super) fn write_by(
     replacing: Replacing,
 ) -> Result<(), Unwritten> {
     let mut written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
-    for output in outputs {
-        if let Some(folder) = followed(&output.path)
-            .ok()
-            .as_deref()
-            .and_then(Path::parent)
-        {
-            sweep(here(folder));
-        }
-    }
+    outputs.iter().for_each(|output| cleared(&output.path));
     let mut planned = Vec::new();
     for output in outputs {
         planned.push(plan(&output.path, replacing)?);
@@ -179,6 +182,13 @@ pub(super) fn write_by(
         write_to(&output.path, &output.content).map_err(|error| unwritten(&output.path, error))?;
     }
     Ok(())
+}
+
+/// Removes what killed programs have left where an output goes.
+pub(super) fn cleared(path: &Path) {
+    if let Some(folder) = followed(path).ok().as_deref().and_then(Path::parent) {
+        sweep(here(folder));
+    }
 }
 
 /// Where an output goes, and how.
@@ -294,7 +304,7 @@ fn drafts(disk: &Disk<'_>, files: &[(&Planned, &Output)]) -> Result<Vec<Draft>, 
 }
 
 /// Puts the drafts into their places; if one cannot be put there, everything is as it was.
-fn placed(
+pub(super) fn placed(
     disk: &Disk<'_>,
     files: &[(&Planned, &Output)],
     drafts: &[Draft],
@@ -336,12 +346,7 @@ fn placed(
     result
 }
 
-pub(super) fn place(
-    disk: &Disk<'_>,
-    planned: &Planned,
-    output: &Output,
-    draft: &Draft,
-) -> io::Result<()> {
+fn place(disk: &Disk<'_>, planned: &Planned, output: &Output, draft: &Draft) -> io::Result<()> {
     match planned.way {
         Way::New => disk.place_new(draft, &planned.place),
         Way::Replaced => disk.rename(&draft.path, &planned.place),

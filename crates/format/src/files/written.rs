@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::Growing;
 use super::mark;
-use super::steps::{Author, DISK, Disk};
+use super::steps::{Author, DISK, Disk, Step};
 use super::write::{Output, Replacing, Unwritten, Why, write, write_by};
 
 /// A folder of its own, removed afterwards.
@@ -376,4 +376,84 @@ fn a_file_that_grows_keeps_its_other_names() {
     growing.add(b"new").expect("it is written");
     growing.finish().expect("it has its place");
     assert_eq!(std::fs::read(&other).expect("it is there"), b"new");
+}
+
+/// What a file that grows goes through, and its place: a new one, one that is replaced, and one that has two names.
+fn grown(disk: &Disk<'_>, path: &Path) -> Result<(), Unwritten> {
+    let mut growing = Growing::begin_by(disk, path, Replacing::Anything)?;
+    let (first, second) = NEW.split_at(4);
+    growing.add_by(disk, first.as_bytes())?;
+    growing.add_by(disk, second.as_bytes())?;
+    growing.finish_by(disk)
+}
+
+#[test]
+fn a_fault_at_any_step_of_a_file_that_grows_leaves_everything_as_it_was() {
+    let folder = Folder::new("growing-faults");
+    for (name, other) in [
+        ("new", None),
+        ("replaced", Some("replaced")),
+        ("linked", Some("linked-too")),
+    ] {
+        for faulty in 1.. {
+            three(&folder);
+            let count = Cell::new(0);
+            let disk = Disk {
+                before: &|step| {
+                    // Names that a system does not make safe are no fault: everything else is done.
+                    let counts = usize::from(step != Step::SyncFolder);
+                    count.set(count.get() + counts);
+                    match counts == 1 && count.get() == faulty {
+                        true => Err(Error::from(ErrorKind::StorageFull)),
+                        false => Ok(()),
+                    }
+                },
+                ..DISK
+            };
+            let result = grown(&disk, &folder.at(name));
+            let is_past_the_last = count.get() < faulty;
+            let now = folder.text(name);
+            match result {
+                // What has served could not be removed, or there was no fault.
+                Ok(()) => assert_eq!(now.as_deref(), Some(NEW), "{name}, step {faulty}"),
+                Err(_) => {
+                    let old = other.map(|_| OLD);
+                    assert_eq!(now.as_deref(), old, "{name}, step {faulty}");
+                    if let Some(other) = other {
+                        assert_eq!(
+                            folder.text(other).as_deref(),
+                            Some(OLD),
+                            "{name}, step {faulty}"
+                        );
+                    }
+                }
+            }
+            if !is_past_the_last {
+                write(&[output(folder.at("another"), NEW)], Replacing::Anything).expect("written");
+            }
+            let waiting = folder.leftovers();
+            let left: Vec<&String> = waiting
+                .iter()
+                .filter(|name| !name.ends_with("-new"))
+                .collect();
+            assert!(left.is_empty(), "{name}, step {faulty}: {left:?}");
+            let _ = std::fs::remove_file(folder.at(".linked.gumption-new"));
+            if is_past_the_last {
+                assert!(faulty > 5, "{name}: {faulty} steps");
+                break;
+            }
+        }
+    }
+}
+
+/// Of killed programs and of living ones that end here.
+#[test]
+fn what_was_left_of_a_file_that_grows_is_removed_by_the_next_one() {
+    let folder = Folder::new("growing-killed");
+    folder.put(".gumption-1-1.tmp", "of a killed program");
+    let path = folder.at("results.csv");
+    let growing = Growing::begin(&path, Replacing::Nothing).expect("it may be written");
+    assert_eq!(folder.leftovers().len(), 1, "its own");
+    drop(growing);
+    assert_eq!(folder.leftovers(), [""; 0]);
 }

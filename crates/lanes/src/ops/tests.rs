@@ -228,29 +228,3 @@ fn whole_powers() {
     powi(level(), &Block([-0.0; LANES]), -1, &mut out);
     assert_eq!(out.0, [f64::NEG_INFINITY; LANES]);
 }
-
-#[test]
-fn combinations_are_those_of_single_steps() {
-    let blocks: Vec<Block> = (0..5)
-        .map(|k| Block(std::array::from_fn(|i| ((i * 5 + k) as f64).sin())))
-        .collect();
-    let weights = [0.3, -1.7, 0.0, 2.5];
-    let mut expected = Block::ZERO;
-    for (weight, block) in weights.iter().zip(&blocks) {
-        axpy(level(), *weight, block, &mut expected);
-    }
-    same_on_all_levels("combine", |level, out| {
-        combine(level, &weights, &blocks, out)
-    });
-    let mut out = Block::ZERO;
-    combine(level(), &weights, &blocks, &mut out);
-    assert_eq!(out, expected);
-    let scaled = |level, out: &mut Block| {
-        combine_affine(level, &weights, &blocks, [0.3, -1.7, 12.0], out);
-    };
-    same_on_all_levels("combine_affine", scaled);
-    scaled(level(), &mut out);
-    for (out, sum) in out.0.iter().zip(expected.0) {
-        assert_eq!(*out, (sum * 0.3).mul_add(-1.7, 12.0));
-    }
-}

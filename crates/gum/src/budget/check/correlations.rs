@@ -19,6 +19,10 @@ use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
 use gumption_format::toml::faults::WRONG_TYPE;
 
+/// Pairs of quantities that one statement correlates: with their places, matrices and factor they take some 250 bytes each,
+/// a gibibyte together.
+const MOST_PAIRS: usize = 1 << 22;
+
 /// One side of a correlation: components with their shares of the side's standard uncertainty.
 pub(super) struct Side {
     name: Arc<str>,
@@ -102,6 +106,21 @@ impl Checker<'_> {
                 )),
             );
         }
+        let names = between.value.len();
+        let pairs = names * (names - 1) / 2;
+        if pairs > MOST_PAIRS {
+            return self.refuse(
+                Fault::new(
+                    WRONG_TYPE,
+                    between.span.clone(),
+                    say!("a correlation of {names} quantities, which are {pairs} pairs"),
+                )
+                .label(say!("expected {MOST_PAIRS} pairs at most"))
+                .help(say!(
+                    "state what they have in common as a [source.NAME] that feeds all of them: of a share u_s of u it makes r = u_s²/u², and takes no pairs"
+                )),
+            );
+        }
         let sides: Vec<Option<Side>> = between
             .value
             .iter()
@@ -111,7 +130,7 @@ impl Checker<'_> {
             return None;
         }
         let sides: Vec<Side> = sides.into_iter().collect::<Option<_>>()?;
-        let mut statements = Vec::new();
+        let mut statements = Vec::with_capacity(pairs);
         for (index, second) in sides.iter().enumerate() {
             for first in &sides[..index] {
                 // The other pairs have the same fault.

@@ -11,14 +11,14 @@
 //! | Gaussian copula | G_i⁻¹(Φ((L Z)_i)), L Lᵀ = latent correlation, G_i the member's own distribution |
 
 use gumption_lanes::sampler::{gamma_block, normal_block};
+use gumption_lanes::triangle::Triangle;
 use gumption_lanes::{Block, Generator, Level, Sampler, level, ops};
 use nalgebra::DMatrix;
 
 use super::assembly::{self, Assembly, Straight};
 use super::factor::lower_factor;
+use super::margin::Margin;
 use crate::budget::{Component, Group, Input, Law};
-use gumption_core::distribution::{Distribution, Normal};
-use gumption_core::special::{normal_cdf, normal_sf};
 
 /// Draws trials of all inputs.
 pub(super) struct JointDraw<'b> {
@@ -170,8 +170,8 @@ pub(super) struct Scratch {
 /// How the members of a group are drawn.
 struct JointSampler {
     members: Vec<usize>,
-    /// The rows of the triangular factor, up to the diagonal.
-    rows: Vec<Vec<f64>>,
+    /// The triangular factor.
+    factor: Triangle,
     law: JointLaw,
     /// Per member the input that it makes up alone.
     straight: Vec<Option<Straight>>,
@@ -186,7 +186,7 @@ enum JointLaw {
         dof: f64,
         stream: usize,
     },
-    Copula(Vec<Distribution>),
+    Copula(Vec<Margin>),
 }
 
 impl JointSampler {
@@ -211,13 +211,13 @@ impl JointSampler {
                 (law, &group.correlation)
             }
             Law::GaussianCopula { latent } => (
-                JointLaw::Copula(members().map(|c| c.distribution.clone()).collect()),
+                JointLaw::Copula(members().map(|c| Margin::of(&c.distribution)).collect()),
                 latent,
             ),
         };
         JointSampler {
             members: group.members.clone(),
-            rows: rows(&lower_factor(correlation)),
+            factor: Triangle::new(&rows(&lower_factor(correlation))),
             law,
             straight: group.members.iter().map(|i| straight[*i]).collect(),
         }
@@ -237,31 +237,23 @@ impl JointSampler {
         if let JointLaw::StudentT { dof, stream, .. } = self.law {
             mix(level, &mut generators[stream], dof, mixing);
         }
-        for (i, &member) in self.members.iter().enumerate() {
-            let row = &self.rows[i];
-            if let (JointLaw::Normal(u), Some(input)) = (&self.law, self.straight[i]) {
-                let [coefficient, estimate] = input.scale;
-                let scale = [u[i], coefficient, estimate];
-                ops::combine_affine(level, row, normals, scale, &mut inputs[input.place]);
-                continue;
-            }
-            let error = &mut errors[member];
-            ops::combine(level, row, normals, error);
+        self.factor.apply(level, normals);
+        for (i, (&member, z)) in self.members.iter().zip(normals).enumerate() {
             match &self.law {
-                JointLaw::Normal(u) => ops::scale(level, u[i], error),
+                JointLaw::Normal(u) => ops::scale(level, u[i], z),
                 JointLaw::StudentT { scale, .. } => {
-                    error
-                        .0
-                        .iter_mut()
+                    z.0.iter_mut()
                         .zip(&mixing.0)
                         .for_each(|(z, w)| *z *= w * scale[i]);
                 }
-                JointLaw::Copula(margins) => {
-                    error
-                        .0
-                        .iter_mut()
-                        .for_each(|z| *z = from_normal(&margins[i], *z));
+                JointLaw::Copula(margins) => margins[i].apply(level, z),
+            }
+            match (&self.law, self.straight[i]) {
+                (JointLaw::Normal(_), Some(input)) => {
+                    let [coefficient, estimate] = input.scale;
+                    ops::affine(level, z, coefficient, estimate, &mut inputs[input.place]);
                 }
+                _ => errors[member] = *z,
             }
         }
     }
@@ -285,21 +277,12 @@ fn mix(level: Level, generator: &mut Generator, dof: f64, out: &mut Block) {
     }
 }
 
-/// The value of a distribution that has the same rank as z among standard normals, from the nearer
-/// tail, where probabilities keep their digits.
-fn from_normal(margin: &Distribution, z: f64) -> f64 {
-    match *margin {
-        Distribution::Normal(Normal { mean, sd }) => sd.mul_add(z, mean),
-        _ if z <= 0.0 => margin.quantile(normal_cdf(z)),
-        _ => margin.upper_quantile(normal_sf(z)),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::samples::{component, input};
     use super::*;
-    use gumption_core::distribution::{Exponential, StudentT, Uniform};
+    use gumption_core::distribution::{Distribution, Exponential, Normal, StudentT, Uniform};
+    use gumption_core::special::normal_sf;
 
     fn normal(name: &str, sd: f64) -> Component {
         component(name, Distribution::Normal(Normal { mean: 0.0, sd }), sd)

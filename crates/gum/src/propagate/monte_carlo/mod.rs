@@ -40,6 +40,7 @@ mod histogram;
 mod indices;
 mod interval;
 mod joint_draw;
+mod margin;
 mod moments;
 mod order_counts;
 mod outcome;

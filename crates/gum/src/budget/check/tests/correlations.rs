@@ -159,3 +159,15 @@ fn different_distributions_are_joined_by_a_copula() {
     // Closed form for two rectangles: ρ = 2 sin(π r/6).
     assert!((latent[(0, 1)] - 2.0 * (std::f64::consts::PI / 12.0).sin()).abs() < 1e-9);
 }
+
+/// Before any of its pairs is looked at: the names need not even be known.
+#[test]
+fn a_correlation_of_more_pairs_than_memory_holds_is_refused() {
+    let names: Vec<String> = (0..3000).map(|i| format!("\"x{i}\"")).collect();
+    let list = format!("[{}]", names.join(", "));
+    let text = format!(
+        "{}[[correlation]]\nbetween = {list}\nr = 0.3\n",
+        one("value = 1\nu = 0.1")
+    );
+    assert_eq!(faults(&text), [("B0105", list)]);
+}

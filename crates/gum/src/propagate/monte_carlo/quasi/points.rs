@@ -11,6 +11,7 @@ use super::trial::{Trial, effects, inputs_of};
 use crate::budget::{Budget, Group, Law};
 use gumption_lanes::quantile::{OfScore, Quantile, scores};
 use gumption_lanes::sobol::DIMENSIONS;
+use gumption_lanes::triangle::Triangle;
 use gumption_lanes::{Block, Generator, LANES, Level, Sobol, level, ops};
 
 /// Random numbers beyond the last dimension of the sequence; no trial takes them.
@@ -38,8 +39,8 @@ struct Joint<'b> {
     members: &'b [usize],
     /// Of each member.
     dimensions: Vec<usize>,
-    /// The rows of the triangular factor, up to the diagonal.
-    rows: Vec<Vec<f64>>,
+    /// The triangular factor.
+    factor: Triangle,
     law: JointLaw,
 }
 
@@ -245,7 +246,7 @@ impl<'b> Joint<'b> {
         Ok(Joint {
             members: &group.members,
             dimensions: Vec::new(),
-            rows: rows(&lower_factor(correlation)),
+            factor: Triangle::new(&rows(&lower_factor(correlation))),
             law,
         })
     }
@@ -270,9 +271,10 @@ impl<'b> Joint<'b> {
             scores(level, &mut shared);
             mixing.apply(level, &mut shared);
         }
-        for (i, member) in self.members.iter().enumerate() {
+        self.factor.apply(level, normals);
+        for (i, (member, z)) in self.members.iter().zip(normals).enumerate() {
             let error = &mut errors[*member];
-            ops::combine(level, &self.rows[i], normals, error);
+            *error = *z;
             match &self.law {
                 JointLaw::Normal(scale) => ops::scale(level, scale[i], error),
                 JointLaw::StudentT { scale, .. } => {

@@ -4,13 +4,15 @@
 //! deviations of such readings lose all those digits; here a reading is the decimal that the file has.
 //! Nearly dependent columns of a design lose as many.
 //!
-//! Algorithms of Dekker (1971), Knuth and Hida, Li & Bailey (2001); products by fused
-//! multiply-add. Relative errors are a few 2⁻¹⁰⁴ as long as nothing overflows.
+//! The four operations are those of [`gumption_lanes::twice`], which has them for blocks, too. Relative errors are a few
+//! 2⁻¹⁰⁴ as long as nothing overflows.
 
 use std::cmp::Ordering;
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use std::sync::LazyLock;
+
+use gumption_lanes::twice::{self, Twice, two_prod, two_sum};
 
 /// A number of about 32 decimal digits.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -19,31 +21,15 @@ pub struct Dd {
     low: f64,
 }
 
-/// a + b without error: the rounded sum, and what rounding took away.
-fn two_sum(a: f64, b: f64) -> Dd {
-    let high = a + b;
-    let part = high - a;
-    Dd {
-        high,
-        low: (a - (high - part)) + (b - part),
+impl From<Twice> for Dd {
+    fn from([high, low]: Twice) -> Dd {
+        Dd { high, low }
     }
 }
 
-/// The same for |a| ≥ |b|.
-fn quick_two_sum(a: f64, b: f64) -> Dd {
-    let high = a + b;
-    Dd {
-        high,
-        low: b - (high - a),
-    }
-}
-
-/// a·b without error.
-fn two_prod(a: f64, b: f64) -> Dd {
-    let high = a * b;
-    Dd {
-        high,
-        low: a.mul_add(b, -high),
+impl From<Dd> for Twice {
+    fn from(x: Dd) -> Twice {
+        [x.high, x.low]
     }
 }
 
@@ -76,27 +62,7 @@ impl Dd {
     /// The same where that decimal has a fraction and at most 15 digits: then it is the only one of so many digits, and
     /// is found without being written.
     pub(crate) fn from_short_decimal(x: f64) -> Option<Dd> {
-        /// As many digits as every double keeps.
-        const FIFTEEN_DIGITS: f64 = 1e15;
-        if x.fract() == 0.0 {
-            return None;
-        }
-        // Up to 10²² powers of ten are doubles, so that the quotient is what the decimal is read as.
-        let scaled = TENS
-            .iter()
-            .enumerate()
-            .skip(1)
-            .map(|(decimals, ten)| (decimals, x * ten, ten));
-        let mut scaled = scaled.take_while(|(_, scaled, _)| scaled.abs() < FIFTEEN_DIGITS);
-        let (decimals, digits) = scaled.find_map(|(decimals, scaled, ten)| {
-            let digits = scaled.round();
-            (digits / ten == x).then_some((decimals, digits))
-        })?;
-        let exact = Dd::from(digits) / *POWERS_OF_TEN.get(decimals)?;
-        Some(Dd {
-            high: x,
-            low: (exact - x.into()).high,
-        })
+        twice::short_decimal(x).map(Dd::from)
     }
 
     /// The same with the shortest decimal of x at hand.
@@ -120,8 +86,8 @@ impl Dd {
             return root.into();
         }
         // One Newton step from the f64 root doubles its digits.
-        let rest = (self - two_prod(root, root)).high;
-        two_sum(root, rest / (2.0 * root))
+        let rest = (self - two_prod(root, root).into()).high;
+        two_sum(root, rest / (2.0 * root)).into()
     }
 
     /// The square.
@@ -158,12 +124,6 @@ fn decimal(text: &str) -> Option<Dd> {
     })
 }
 
-/// 10⁰ to 10²², which are doubles.
-const TENS: [f64; 23] = [
-    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
-    1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
-];
-
 /// Beyond these they are no longer good to the last digit, or overflow.
 static POWERS_OF_TEN: LazyLock<Vec<Dd>> = LazyLock::new(|| {
     let powers = std::iter::successors(Some(Dd::ONE), |power| Some(*power * Dd::from(10.0)));
@@ -173,7 +133,7 @@ static POWERS_OF_TEN: LazyLock<Vec<Dd>> = LazyLock::new(|| {
 /// A whole number, exact up to 106 bits.
 fn whole_number(x: i128) -> Dd {
     let high = x as f64;
-    two_sum(high, x.saturating_sub(high as i128) as f64)
+    two_sum(high, x.saturating_sub(high as i128) as f64).into()
 }
 
 impl From<f64> for Dd {
@@ -195,10 +155,7 @@ impl Neg for Dd {
 impl Add for Dd {
     type Output = Dd;
     fn add(self, other: Dd) -> Dd {
-        let sum = two_sum(self.high, other.high);
-        let rest = two_sum(self.low, other.low);
-        let sum = quick_two_sum(sum.high, sum.low + rest.high);
-        quick_two_sum(sum.high, sum.low + rest.low)
+        twice::add(self.into(), other.into()).into()
     }
 }
 
@@ -212,24 +169,14 @@ impl Sub for Dd {
 impl Mul for Dd {
     type Output = Dd;
     fn mul(self, other: Dd) -> Dd {
-        let product = two_prod(self.high, other.high);
-        let low = self.high.mul_add(other.low, self.low * other.high) + product.low;
-        quick_two_sum(product.high, low)
+        twice::mul(self.into(), other.into()).into()
     }
 }
 
 impl Div for Dd {
     type Output = Dd;
     fn div(self, other: Dd) -> Dd {
-        let first = self.high / other.high;
-        if !first.is_finite() || !other.high.is_finite() {
-            return first.into();
-        }
-        let rest = self - other * first.into();
-        let second = rest.high / other.high;
-        let rest = rest - other * second.into();
-        let third = rest.high / other.high;
-        quick_two_sum(first, second) + third.into()
+        twice::div(self.into(), other.into()).into()
     }
 }
 

@@ -7,17 +7,19 @@
 use std::io::Read;
 use std::ops::ControlFlow;
 
-use crate::budget::{Batch, BatchFile, Budget, MonteCarloSettings, RowReader, Wanted};
+use crate::budget::{Batch, BatchFile, Budget, MonteCarloSettings, RowReader, Rows, Wanted};
 use crate::propagate::{
-    self, Evaluation, EvaluationError, MonteCarloChoice, Options, Progress, parallel_map,
+    self, Evaluation, EvaluationError, MonteCarloChoice, Options, Progress, RowEvaluation,
+    RowFigures, parallel_map,
 };
 use gumption_fault::say;
 use gumption_fault::{Fault, Rejection};
 use gumption_format::csv::faults::NO_HEADER;
 use gumption_format::csv::{self, Pieces, Sheet};
+use gumption_lanes::LANES;
 
-/// Rows that a thread takes at a time.
-const BLOCK: usize = 64;
+/// Rows that a thread takes at a time: as many as are evaluated together.
+const BLOCK: usize = LANES;
 
 /// How the rows of a table are evaluated.
 #[derive(Debug, Clone)]
@@ -40,7 +42,16 @@ pub struct Evaluated<'a> {
     /// Its label, where the table has such a column.
     pub label: Option<&'a str>,
     /// Its budget, of which the numbers hold and not the words, and what was found; or why nothing was.
-    pub found: Result<(&'a Budget, &'a Evaluation), &'a Failed>,
+    pub found: Result<(&'a Budget, Found<'a>), &'a Failed>,
+}
+
+/// What was found of a row.
+#[derive(Debug, Clone, Copy)]
+pub enum Found<'a> {
+    /// Everything.
+    Evaluation(&'a Evaluation),
+    /// What is reported, where there is no more to be said.
+    Figures(&'a RowFigures),
 }
 
 /// Why a row has no result.
@@ -95,14 +106,13 @@ pub fn run<T: Default + Send>(
             number += rows.len() as u64;
             blocks.push((begin, rows));
         }
-        let block = |reader: &mut RowReader<'_>, (begin, rows): (u64, Vec<_>)| {
+        let block = |worker: &mut Worker<'_>, (begin, rows): (u64, Vec<_>)| {
             let mut block = T::default();
-            for (row, number) in rows.into_iter().zip(begin + 1..) {
-                evaluate(reader, sheet, row, number, plan, |row| add(&mut block, row));
-            }
+            worker.evaluate(sheet, (begin, rows), plan, |row| add(&mut block, row));
             block
         };
-        let (done, _) = parallel_map(blocks, plan.threads, || batch.reader(), block, drop);
+        let worker = || Worker::new(&batch);
+        let (done, _) = parallel_map(blocks, plan.threads, worker, block, drop);
         let mut done = done.into_iter().map(|block| take(block, read));
         let ended = plan.progress.is_stopped() || done.any(|flow| flow.is_break());
         Ok::<bool, Rejection>(!ended)
@@ -143,57 +153,141 @@ fn hopeless(
     }
 }
 
-/// Evaluates a row and hands it on.
-fn evaluate(
-    reader: &mut RowReader<'_>,
-    sheet: &Sheet<'_>,
-    row: Result<csv::Row, Fault>,
-    number: u64,
-    plan: &Plan,
-    hand_on: impl FnOnce(&Evaluated<'_>),
-) {
-    let row = match row {
-        Ok(row) => row,
-        Err(fault) => {
-            return hand_on(&Evaluated {
+/// Evaluates rows on one thread.
+struct Worker<'b> {
+    reader: RowReader<'b>,
+    /// As soon as rows are numbers: blocks of them, where they can be evaluated so.
+    blocks: Option<Option<(RowEvaluation, Rows)>>,
+}
+
+impl<'b> Worker<'b> {
+    fn new(batch: &'b Batch<'b>) -> Self {
+        Worker {
+            reader: batch.reader(),
+            blocks: None,
+        }
+    }
+
+    /// Evaluates rows of a table, which begin behind so many others, and hands each on, in their order.
+    fn evaluate(
+        &mut self,
+        sheet: &Sheet<'_>,
+        (begin, rows): (u64, Vec<Result<csv::Row, Fault>>),
+        plan: &Plan,
+        mut hand_on: impl FnMut(&Evaluated<'_>),
+    ) {
+        let mut rest = rows.into_iter().zip(begin + 1..);
+        while !self.is_ready(plan) {
+            let Some((row, number)) = rest.next() else {
+                return;
+            };
+            self.one(sheet, row, number, plan, &mut hand_on);
+        }
+        let rest: Vec<_> = rest.collect();
+        let figures = self.figures(sheet, &rest);
+        for ((row, number), figures) in rest.into_iter().zip(figures) {
+            let known = self.blocks.as_ref().and_then(Option::as_ref);
+            let (Ok(row), Some(((evaluation, _), figures))) = (&row, known.zip(figures.as_ref()))
+            else {
+                self.one(sheet, row, number, plan, &mut hand_on);
+                continue;
+            };
+            hand_on(&Evaluated {
                 number,
-                line: 0,
-                label: None,
-                found: Err(&Failed::Row(Box::new(fault))),
+                line: row.line,
+                label: self.reader.label(row),
+                found: Ok((evaluation.budget(), Found::Figures(figures))),
             });
         }
-    };
-    let (line, label) = (row.line, reader.label(&row));
-    // Why a row has no value is told by the reader of the file.
-    let taken = reader
-        .takes(&row, sheet)
-        .then(|| reader.numbers())
-        .flatten();
-    let taken = taken.and_then(|budget| Some((budget, result(budget, plan).ok()?)));
-    if let Some((budget, evaluation)) = &taken {
-        return hand_on(&Evaluated {
+    }
+
+    /// Whether it is known how rows are to be evaluated.
+    fn is_ready(&mut self, plan: &Plan) -> bool {
+        if self.blocks.is_none() && self.reader.takes_numbers() {
+            let budget = self.reader.numbers().filter(|_| plan.monte_carlo.is_none());
+            let evaluation = |budget| Some((RowEvaluation::new(budget)?, Rows::of(budget)));
+            self.blocks = Some(budget.and_then(evaluation));
+        }
+        self.blocks.is_some()
+    }
+
+    /// What is reported of those rows of a block that are numbers and need no more.
+    fn figures(
+        &mut self,
+        sheet: &Sheet<'_>,
+        rows: &[(Result<csv::Row, Fault>, u64)],
+    ) -> Vec<Option<RowFigures>> {
+        let Some(Some((evaluation, columns))) = &mut self.blocks else {
+            return vec![None; rows.len()];
+        };
+        let mut taken = Vec::with_capacity(rows.len());
+        for (lane, (row, _)) in rows.iter().enumerate() {
+            let numbers = row.as_ref().is_ok_and(|row| self.reader.takes(row, sheet));
+            if numbers {
+                self.reader.write(lane, columns);
+            }
+            taken.push(numbers);
+        }
+        let mut found = evaluation.evaluate(columns, rows.len());
+        for (found, taken) in found.iter_mut().zip(taken) {
+            *found = found.take().filter(|_| taken);
+        }
+        found
+    }
+
+    /// Evaluates a row by itself and hands it on.
+    fn one(
+        &mut self,
+        sheet: &Sheet<'_>,
+        row: Result<csv::Row, Fault>,
+        number: u64,
+        plan: &Plan,
+        hand_on: impl FnOnce(&Evaluated<'_>),
+    ) {
+        let row = match row {
+            Ok(row) => row,
+            Err(fault) => {
+                return hand_on(&Evaluated {
+                    number,
+                    line: 0,
+                    label: None,
+                    found: Err(&Failed::Row(Box::new(fault))),
+                });
+            }
+        };
+        let reader = &mut self.reader;
+        let (line, label) = (row.line, reader.label(&row));
+        // Why a row has no value is told by the reader of the file.
+        let taken = reader
+            .takes(&row, sheet)
+            .then(|| reader.numbers())
+            .flatten();
+        let taken = taken.and_then(|budget| Some((budget, result(budget, plan).ok()?)));
+        if let Some((budget, evaluation)) = &taken {
+            return hand_on(&Evaluated {
+                number,
+                line,
+                label,
+                found: Ok((budget, Found::Evaluation(evaluation))),
+            });
+        }
+        let read = reader.row(&row, sheet);
+        let read = read.map_err(|rejection| Failed::Refused(Box::new(rejection)));
+        let found = read.and_then(|row| {
+            let evaluation = result(&row.budget, plan).map_err(Failed::NoResult)?;
+            Ok((row.budget, evaluation))
+        });
+        let found = match &found {
+            Ok((budget, evaluation)) => Ok((budget, Found::Evaluation(evaluation))),
+            Err(failed) => Err(failed),
+        };
+        hand_on(&Evaluated {
             number,
             line,
             label,
-            found: Ok((budget, evaluation)),
+            found,
         });
     }
-    let read = reader.row(&row, sheet);
-    let read = read.map_err(|rejection| Failed::Refused(Box::new(rejection)));
-    let found = read.and_then(|row| {
-        let evaluation = result(&row.budget, plan).map_err(Failed::NoResult)?;
-        Ok((row.budget, evaluation))
-    });
-    let found = match &found {
-        Ok((budget, evaluation)) => Ok((budget, evaluation)),
-        Err(failed) => Err(failed),
-    };
-    hand_on(&Evaluated {
-        number,
-        line,
-        label,
-        found,
-    });
 }
 
 fn result(budget: &Budget, plan: &Plan) -> Result<Evaluation, EvaluationError> {

@@ -21,6 +21,9 @@
 //! | [`products`] | products of rows, subtracted from a symmetric matrix |
 //! | [`bins`] | counts in equal bins, and the values of chosen ones |
 //! | [`separate`] | the values outside of two stretches, and counts of the others |
+//! | [`adjoint`] | reverse sweeps through formulas |
+//! | [`twice`] | numbers of twice the precision, with what is known of their errors |
+//! | [`bounds`] | how far formulas move and bend within the uncertainties of their inputs |
 //! | [`moments`] | sums of powers, extremes and the count of trials that have no finite value |
 //!
 //! Words of this crate: a *lane* is one trial of the 256 that a [`Block`] holds; a *level* is an instruction set, found
@@ -50,7 +53,9 @@
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+pub mod adjoint;
 pub mod bins;
+pub mod bounds;
 pub mod elementary;
 pub mod generator;
 pub mod kernel;
@@ -65,6 +70,7 @@ pub mod separate;
 pub mod sobol;
 pub mod sum;
 pub mod triangle;
+pub mod twice;
 mod words;
 
 pub use generator::Generator;

@@ -7,9 +7,9 @@ use super::{Report, failure, remarks, rows};
 use gumption_core::model::Output;
 use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection};
-use gumption_gum::batch::{Evaluated, Failed};
+use gumption_gum::batch::{Evaluated, Failed, Found};
 use gumption_gum::budget::{BatchFile, Budget};
-use gumption_gum::propagate::Verdict;
+use gumption_gum::propagate::{Figures, FindingKind, RowFigures, Verdict};
 
 /// What the lines hold beside what is reported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,20 +48,28 @@ impl Columns {
             .label
             .map_or_else(|| row.number.to_string(), str::to_owned);
         let (cells, rejected) = match &row.found {
-            Ok((budget, evaluation)) => {
-                let report = Report {
-                    budget,
-                    evaluation,
-                    label: None,
-                    language: self.language,
-                };
+            Ok((budget, found)) => {
                 lines.heads.get_or_insert_with(|| self.heads(budget));
                 push_field(&mut lines.text, &label);
-                let cells = self.cells(&report, &mut lines.text);
+                let (cells, rejected) = match found {
+                    Found::Figures(figures) => {
+                        let cells = self.figures(budget, figures, &mut lines.text);
+                        (cells, false)
+                    }
+                    Found::Evaluation(evaluation) => {
+                        let report = Report {
+                            budget,
+                            evaluation,
+                            label: None,
+                            language: self.language,
+                        };
+                        let refuses = |verdict| verdict == Some(Verdict::NotConforming);
+                        let mut conformity = evaluation.conformity.iter();
+                        let rejected = conformity.any(|found| refuses(found.verdict));
+                        (self.cells(&report, &mut lines.text), rejected)
+                    }
+                };
                 lines.text.push(b'\n');
-                let conformity = &evaluation.conformity;
-                let refuses = |verdict| verdict == Some(Verdict::NotConforming);
-                let rejected = conformity.iter().any(|found| refuses(found.verdict));
                 (Ok((lines.text.len(), cells)), rejected)
             }
             Err(failed) => (Err(why(failed, self.language)), false),
@@ -87,6 +95,38 @@ impl Columns {
         heads.extend(self.seeds.then(|| "seed".into()));
         heads.extend(["findings".into(), "error".into()]);
         heads
+    }
+
+    /// As [`Columns::cells`], of a row with nothing but figures.
+    fn figures(self, budget: &Budget, row: &RowFigures, text: &mut Vec<u8>) -> usize {
+        let mut count = 1;
+        let mut add = |cell: &dyn std::fmt::Display| {
+            count += 1;
+            // Writing to memory does not fail.
+            let _ = write!(text, ",{cell}");
+        };
+        let measurands = &row.measurands;
+        for (figures, _) in measurands {
+            rows::figures(figures, |cell| add(&cell));
+        }
+        if self.shares {
+            let shares = row.shares.iter().flatten();
+            shares.for_each(|share| add(&Cell::Number(Some(*share))));
+        }
+        if self.seeds {
+            add(&"");
+        }
+        let few = |(measurand, (_, few)): (usize, &(Figures, Option<FindingKind>))| {
+            let code = remarks::code(few.as_ref()?);
+            Some(match measurands.len() {
+                1 => code.to_string(),
+                _ => format!("{code}({})", budget.model.outputs()[measurand].name),
+            })
+        };
+        let codes: Vec<String> = measurands.iter().enumerate().filter_map(few).collect();
+        add(&codes.join(" "));
+        add(&"");
+        count
     }
 
     /// Writes the cells behind the label; tells how many the line has with it.

@@ -6,7 +6,7 @@ use super::{Report, decisions};
 use gumption_core::model::Output;
 use gumption_core::quantity::Unit;
 use gumption_gum::budget::Budget;
-use gumption_gum::propagate::ReportedUncertainty;
+use gumption_gum::propagate::Figures;
 
 /// One line for every row, exact, as comma-separated values: label, and for every measurand what is reported of it, with its
 /// unit in the head; for every assessment its verdict and conformance probability. What a row has not is empty.
@@ -72,21 +72,7 @@ impl fmt::Display for Cell {
 pub(super) fn cells(report: &Report<'_>, mut give: impl FnMut(Cell)) {
     for result in &report.evaluation.results {
         let found = result.reported(&report.budget.conventions);
-        let ends = match (found.uncertainty, found.expanded()) {
-            (ReportedUncertainty::Interval { ends, .. }, _) => Some(ends),
-            (_, Some(expanded)) => Some([found.estimate - expanded, found.estimate + expanded]),
-            _ => None,
-        };
-        let numbers = [
-            Some(found.estimate),
-            found.u,
-            found.dof,
-            found.coverage_factor(),
-            found.expanded(),
-            ends.map(|ends| ends[0]),
-            ends.map(|ends| ends[1]),
-        ];
-        numbers.into_iter().for_each(|x| give(Cell::Number(x)));
+        figures(&found.figures(), &mut give);
     }
     for found in &report.evaluation.conformity {
         give(Cell::Code(
@@ -95,4 +81,18 @@ pub(super) fn cells(report: &Report<'_>, mut give: impl FnMut(Cell)) {
         let known = found.conformance.as_ref();
         give(Cell::Number(known.and_then(|known| known.probability)));
     }
+}
+
+/// Gives the cells of what is reported of a measurand.
+pub(super) fn figures(found: &Figures, mut give: impl FnMut(Cell)) {
+    let numbers = [
+        Some(found.estimate),
+        found.u,
+        found.dof,
+        found.k,
+        found.expanded,
+        found.ends.map(|ends| ends[0]),
+        found.ends.map(|ends| ends[1]),
+    ];
+    numbers.into_iter().for_each(|x| give(Cell::Number(x)));
 }

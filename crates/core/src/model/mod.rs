@@ -33,6 +33,7 @@ mod parser;
 mod printer;
 mod reductions;
 mod resolution;
+mod rows;
 mod scales;
 mod space;
 mod steps;
@@ -59,6 +60,7 @@ pub use interaction::Neighbours;
 pub use notice::{Notice, Office};
 pub use outline::{Outline, outline};
 pub use resolution::Resolved;
+pub use rows::RowRunner;
 pub use steps::{Operand, Step, Steps};
 pub use tree::Leaf;
 

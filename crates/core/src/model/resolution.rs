@@ -3,13 +3,14 @@
 //!
 //! Estimates and constants are the decimals of the file. What one operation does to them is exact to 31 digits for the
 //! four operations, whole powers and roots, and to 16 for all other functions; the errors are carried on by the
-//! slopes (first-order running error analysis: Higham, Accuracy and Stability of Numerical Algorithms, 2002, 3.3).
+//! slopes (see [`gumption_lanes::twice`], which has the four operations).
 
 use super::graph::{Graph, Op};
 use super::implicit;
 use super::jet::Jet;
-use super::operation::{self, Binary, DimensionRule, Rule};
+use super::operation::{self, Binary, DimensionRule, Rule, Unary};
 use crate::dd::Dd;
+use gumption_lanes::twice::{self, Known, ROUNDING, ROUNDING_TWICE};
 
 /// What the arithmetic knows of an output.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,80 +23,64 @@ pub struct Resolved {
     pub error_of_doubles: f64,
 }
 
-/// Half a unit in the last place of a double, relative.
-const ROUNDING: f64 = f64::EPSILON / 2.0;
-
-/// What the four operations lose in twice the precision, relative.
-const ROUNDING_TWICE: f64 = ROUNDING * ROUNDING * 16.0;
-
 /// Whole exponents up to here are products.
 const PRODUCTS: f64 = 64.0;
 
-/// A value on its way.
-#[derive(Clone, Copy)]
-struct Known {
-    value: Dd,
-    error: f64,
-    doubles: f64,
+/// The decimal that a double was read from. Up to 15 digits it is the only one; of a longer one the double
+/// may have dropped half a unit in its last place.
+pub(super) fn decimal(x: f64) -> Known {
+    let half = ROUNDING * x.abs();
+    if x.fract() == 0.0 && x.abs() < 1.0 / f64::EPSILON {
+        return Known {
+            value: [x, 0.0],
+            error: 0.0,
+            doubles: 0.0,
+        };
+    }
+    if let Some(value) = twice::short_decimal(x) {
+        return Known {
+            value,
+            error: 0.0,
+            doubles: half,
+        };
+    }
+    let text = format!("{x:e}");
+    let value = if x == std::f64::consts::PI {
+        // π and the double next to it.
+        Dd::from(x) + Dd::from(1.224_646_799_147_353_2e-16)
+    } else {
+        Dd::nearest(x, &text)
+    };
+    Known {
+        value: value.into(),
+        error: if is_short(&text) { 0.0 } else { half },
+        doubles: if x.fract() == 0.0 { 0.0 } else { half },
+    }
 }
 
-impl Known {
-    /// The decimal that a double was read from. Up to 15 digits it is the only one; of a longer one the double
-    /// may have dropped half a unit in its last place.
-    fn decimal(x: f64) -> Known {
-        let half = ROUNDING * x.abs();
-        if x.fract() == 0.0 && x.abs() < 1.0 / f64::EPSILON {
-            return Known {
-                value: x.into(),
-                error: 0.0,
-                doubles: 0.0,
-            };
-        }
-        if let Some(value) = Dd::from_short_decimal(x) {
-            return Known {
-                value,
-                error: 0.0,
-                doubles: half,
-            };
-        }
-        let text = format!("{x:e}");
-        let value = if x == std::f64::consts::PI {
-            // π and the double next to it.
-            Dd::from(x) + Dd::from(1.224_646_799_147_353_2e-16)
-        } else {
-            Dd::nearest(x, &text)
+/// The value of an operation on operands with these slopes; it adds `rounding`, relative to the value.
+fn of(value: Dd, rounding: f64, operands: &[(Known, f64)]) -> Known {
+    let size = value.value().abs();
+    let carried = |error: fn(&Known) -> f64| -> f64 {
+        let moved = |(operand, slope): &(Known, f64)| match error(operand) {
+            0.0 => 0.0,
+            error => error * slope.abs(),
         };
-        Known {
-            value,
-            error: if is_short(&text) { 0.0 } else { half },
-            doubles: if x.fract() == 0.0 { 0.0 } else { half },
-        }
+        operands.iter().map(moved).sum()
+    };
+    Known {
+        value: value.into(),
+        error: carried(|known| known.error) + rounding * size,
+        doubles: carried(|known| known.doubles) + ROUNDING * size,
     }
+}
 
-    /// The value of an operation on operands with these slopes; it adds `rounding`, relative to the value.
-    fn of(value: Dd, rounding: f64, operands: &[(Known, f64)]) -> Known {
-        let size = value.value().abs();
-        let carried = |error: fn(&Known) -> f64| -> f64 {
-            let moved = |(operand, slope): &(Known, f64)| match error(operand) {
-                0.0 => 0.0,
-                error => error * slope.abs(),
-            };
-            operands.iter().map(moved).sum()
-        };
-        Known {
-            value,
-            error: carried(|known| known.error) + rounding * size,
-            doubles: carried(|known| known.doubles) + ROUNDING * size,
-        }
-    }
+fn high(known: &Known) -> f64 {
+    known.value[0]
+}
 
-    fn high(&self) -> f64 {
-        self.value.value()
-    }
-
-    fn jet(&self) -> Jet<1> {
-        Jet::constant(self.high())
-    }
+fn jet(known: &Known) -> Jet<1> {
+    Jet::constant(high(known))
 }
 
 /// Whether the shortest decimal of a double, as `{:e}` writes it, has at most 15 digits, or 16 that stand farther apart
@@ -122,11 +107,11 @@ fn is_short(text: &str) -> bool {
 
 /// What the arithmetic knows of the outputs of a graph at these estimates.
 pub fn resolved(graph: &Graph, x: &[f64]) -> Vec<Resolved> {
-    let known = run(graph, x.iter().map(|x| Known::decimal(*x)).collect());
+    let known = run(graph, x.iter().map(|x| decimal(*x)).collect());
     let of = |id: &u32| {
         let known = known[*id as usize];
         Resolved {
-            value: known.high(),
+            value: high(&known),
             error: known.error,
             error_of_doubles: known.doubles,
         }
@@ -140,29 +125,16 @@ fn run(graph: &Graph, inputs: Vec<Known>) -> Vec<Known> {
         let at = |id: u32| all[id as usize];
         let known = match *op {
             Op::Input(place) => inputs[place as usize],
-            Op::Constant(bits) => Known::decimal(f64::from_bits(bits)),
-            Op::Unknown(_) => Known::decimal(f64::NAN),
-            Op::Unary(row, a) => {
-                let a = at(a);
-                let slope = (row.derivatives)(a.high())[1];
-                match row.name {
-                    "sqrt" => Known::of(a.value.sqrt(), ROUNDING_TWICE, &[(a, slope)]),
-                    "abs" => Known::of(a.value.abs(), 0.0, &[(a, slope)]),
-                    "-" => Known::of(-a.value, 0.0, &[(a, slope)]),
-                    "^2" => Known::of(a.value.squared(), ROUNDING_TWICE, &[(a, slope)]),
-                    _ => {
-                        let value = (row.scalar)(a.high());
-                        Known::of(moved(value, slope, a), 2.0 * ROUNDING, &[(a, slope)])
-                    }
-                }
-            }
+            Op::Constant(bits) => decimal(f64::from_bits(bits)),
+            Op::Unknown(_) => decimal(f64::NAN),
+            Op::Unary(row, a) => unary(row, at(a)),
             Op::Binary(row, a, b) => binary(row, at(a), at(b)),
             Op::Power(a, c) => power(at(a), f64::from_bits(c)),
-            Op::Select(c, a, b) => at(if at(c).high() != 0.0 { a } else { b }),
+            Op::Select(c, a, b) => at(if high(&at(c)) != 0.0 { a } else { b }),
             Op::Solve(n) => {
                 let equation = &graph.implicit[n as usize];
                 let parameters: Vec<Known> = equation.parameters.iter().map(|p| at(*p)).collect();
-                root(&equation.residual, at(equation.start).high(), &parameters)
+                root(&equation.residual, high(&at(equation.start)), &parameters)
             }
         };
         all.push(known);
@@ -170,9 +142,23 @@ fn run(graph: &Graph, inputs: Vec<Known>) -> Vec<Known> {
     all
 }
 
+pub(super) fn unary(row: &Unary, a: Known) -> Known {
+    let (value, slope) = (Dd::from(a.value), (row.derivatives)(high(&a))[1]);
+    match row.name {
+        "sqrt" => of(value.sqrt(), ROUNDING_TWICE, &[(a, slope)]),
+        "abs" => of(value.abs(), 0.0, &[(a, slope)]),
+        "-" => of(-value, 0.0, &[(a, slope)]),
+        "^2" => of(value.squared(), ROUNDING_TWICE, &[(a, slope)]),
+        _ => {
+            let value = (row.scalar)(high(&a));
+            of(moved(value, slope, a), 2.0 * ROUNDING, &[(a, slope)])
+        }
+    }
+}
+
 /// The value of a function beside the double at which it was taken.
 fn moved(value: f64, slope: f64, at: Known) -> Dd {
-    let rest = (at.value - at.high().into()).value();
+    let rest = (Dd::from(at.value) - high(&at).into()).value();
     let change = slope * rest;
     match change.is_finite() {
         true => Dd::from(value) + Dd::from(change),
@@ -181,75 +167,75 @@ fn moved(value: f64, slope: f64, at: Known) -> Dd {
 }
 
 fn binary(row: &Binary, a: Known, b: Known) -> Known {
-    let (x, y) = (a.high(), b.high());
-    let slopes = || {
-        let (da, db) = row.slopes(a.jet(), b.jet());
-        [(a, da.value()), (b, db.value())]
-    };
+    let (x, y) = (high(&a), high(&b));
     match row.rule {
-        Rule::Add => Known::of(a.value + b.value, ROUNDING_TWICE, &slopes()),
-        Rule::Sub => Known::of(a.value - b.value, ROUNDING_TWICE, &slopes()),
-        Rule::Mul => Known::of(a.value * b.value, ROUNDING_TWICE, &slopes()),
-        Rule::Div => Known::of(a.value / b.value, ROUNDING_TWICE, &slopes()),
+        Rule::Add => twice::sum(a, b),
+        Rule::Sub => twice::difference(a, b),
+        Rule::Mul => twice::product(a, b),
+        Rule::Div => twice::quotient(a, b),
         Rule::Pick => {
             let chosen = (row.scalar)(x, y);
             match (chosen == x, chosen == y) {
                 (true, false) => a,
                 (false, true) => b,
                 // Equal doubles may be different decimals.
-                _ if (row.name == "min") == (a.value < b.value) => a,
+                _ if (row.name == "min") == (Dd::from(a.value) < Dd::from(b.value)) => a,
                 _ => b,
             }
         }
         // A comparison is one of the difference with zero.
         Rule::Constant if row.dimension == DimensionRule::Ratio => {
-            let truth = (row.scalar)((a.value - b.value).value(), 0.0);
-            Known::of(Dd::from(truth), 0.0, &[])
+            let truth = (row.scalar)((Dd::from(a.value) - b.value.into()).value(), 0.0);
+            of(Dd::from(truth), 0.0, &[])
         }
         _ => {
-            let [(_, da), (_, db)] = slopes();
+            let (da, db) = row.slopes(jet(&a), jet(&b));
+            let (da, db) = (da.value(), db.value());
             let value = moved((row.scalar)(x, y), da, a) + moved(0.0, db, b);
-            Known::of(value, 2.0 * ROUNDING, &slopes())
+            of(value, 2.0 * ROUNDING, &[(a, da), (b, db)])
         }
     }
 }
 
-fn power(a: Known, c: f64) -> Known {
-    let slope = operation::power_derivatives(a.high(), c)[1];
+pub(super) fn power(a: Known, c: f64) -> Known {
+    let (twice, slope) = (
+        Dd::from(a.value),
+        operation::power_derivatives(high(&a), c)[1],
+    );
     if c.fract() != 0.0 || c.abs() > PRODUCTS {
         let value = match c == 0.5 {
-            true => return Known::of(a.value.sqrt(), ROUNDING_TWICE, &[(a, slope)]),
-            false => operation::power(a.high(), c),
+            true => return of(twice.sqrt(), ROUNDING_TWICE, &[(a, slope)]),
+            false => operation::power(high(&a), c),
         };
-        return Known::of(moved(value, slope, a), 2.0 * ROUNDING, &[(a, slope)]);
+        return of(moved(value, slope, a), 2.0 * ROUNDING, &[(a, slope)]);
     }
-    let product = (0..c.abs() as u32).fold(Dd::ONE, |product, _| product * a.value);
+    let product = (0..c.abs() as u32).fold(Dd::ONE, |product, _| product * twice);
     let value = if c < 0.0 { Dd::ONE / product } else { product };
-    Known::of(value, (c.abs() + 1.0) * ROUNDING_TWICE, &[(a, slope)])
+    of(value, (c.abs() + 1.0) * ROUNDING_TWICE, &[(a, slope)])
 }
 
 /// The root of an equation: as far off as doubles know the residual there, divided by its slope.
 fn root(residual: &Graph, start: f64, parameters: &[Known]) -> Known {
-    let jets: Vec<Jet<1>> = parameters.iter().map(Known::jet).collect();
+    let jets: Vec<Jet<1>> = parameters.iter().map(jet).collect();
     let y = implicit::root(residual, start, &jets);
     let slopes = implicit::slopes(residual, y, &jets);
     let mut inputs = vec![Known {
-        value: Dd::from(y.value()),
+        value: [y.value(), 0.0],
         error: 0.0,
         doubles: 0.0,
     }];
     inputs.extend_from_slice(parameters);
-    let values: Vec<Jet<1>> = inputs.iter().map(Known::jet).collect();
+    let values: Vec<Jet<1>> = inputs.iter().map(jet).collect();
     let values = residual.evaluate(&values);
-    let of = residual.outputs[0];
-    let by_y = residual.gradient(&values, of, inputs.len())[0].value();
-    let left = run(residual, inputs)[of as usize].doubles / by_y.abs();
+    let output = residual.outputs[0];
+    let by_y = residual.gradient(&values, output, inputs.len())[0].value();
+    let left = run(residual, inputs)[output as usize].doubles / by_y.abs();
     let operands: Vec<(Known, f64)> = parameters
         .iter()
         .copied()
         .zip(slopes.iter().map(|slope| slope.value()))
         .collect();
-    let known = Known::of(Dd::from(y.value()), ROUNDING, &operands);
+    let known = of(Dd::from(y.value()), ROUNDING, &operands);
     Known {
         error: known.error.max(left),
         doubles: known.doubles.max(left),

@@ -12,6 +12,7 @@ use super::open_files::OpenFiles;
 use super::pattern::Pattern;
 use super::points::{Columns, plain_number};
 use super::reader::{checked, open_files, read_under, tables, text_of};
+use super::rows::Rows;
 use super::series::{self, Column};
 use super::{Budget, Files, Profile, Row, hints::HINTS};
 use gumption_fault::{Fault, Rejection, say};
@@ -170,6 +171,18 @@ impl RowReader<'_> {
         match &mut self.rest {
             Rest::Numbers(pattern) => pattern.take(row, sheet),
             Rest::Unknown | Rest::Likely(_) | Rest::Read => false,
+        }
+    }
+
+    /// Whether it is settled that the numbers of rows are written into a budget.
+    pub fn takes_numbers(&self) -> bool {
+        matches!(self.rest, Rest::Numbers(_))
+    }
+
+    /// Writes the numbers of the row that was taken last into a row of a block.
+    pub(crate) fn write(&self, lane: usize, rows: &mut Rows) {
+        if let Rest::Numbers(pattern) = &self.rest {
+            pattern.write(lane, rows);
         }
     }
 

@@ -30,6 +30,7 @@ mod profile;
 pub mod quantities;
 mod reader;
 mod remark;
+mod rows;
 pub mod saved;
 mod series;
 pub mod tables;
@@ -55,6 +56,7 @@ pub use gumption_format::toml::KeyRow;
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{keys, load, load_from, load_under, read, schema, template};
 pub use remark::Remark;
+pub use rows::Rows;
 pub use saved::{RESULT_FORMAT, result_schema};
 
 pub use gumption_fault::Rejection;

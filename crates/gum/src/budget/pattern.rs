@@ -10,6 +10,7 @@ use super::Budget;
 use super::check::Plain;
 use super::components::{Component, Owner};
 use super::points::plain_number;
+use super::rows::Rows;
 use super::series::Column;
 use super::tables::{ComponentTable, FileTable, InputTable};
 use gumption_core::quantity::{Conversion, Unit, UnitTable};
@@ -140,6 +141,20 @@ impl Pattern {
             component.distribution = distribution;
         }
         true
+    }
+
+    /// Writes the numbers of the row that was taken last into a row of a block.
+    pub fn write(&self, lane: usize, rows: &mut Rows) {
+        for cell in &self.cells {
+            if let Cell::Estimate(input, _) = cell {
+                rows.estimates[*input].0[lane] = self.budget.inputs[*input].estimate;
+            }
+        }
+        for one in &self.restated {
+            let component = &self.budget.components[one.component];
+            rows.u[one.component].0[lane] = component.u;
+            rows.dof[one.component].0[lane] = component.dof;
+        }
     }
 
     /// Makes sure that nothing is left of the row from which the pattern was made.

@@ -28,7 +28,7 @@ use gumption_core::distribution::{Distribution, rectangular};
 const REMAINDER: f64 = 0.3;
 
 /// From here on degrees of freedom do not change k noticeably.
-const MANY: f64 = 50.0;
+pub(super) const MANY: f64 = 50.0;
 
 /// What k depends on.
 pub(super) struct Situation<'b> {
@@ -118,14 +118,15 @@ impl<'b> Situation<'b> {
             return None;
         };
         let size = first.weight.abs();
-        if !self.is_normal(first) && rest(size) <= REMAINDER * size {
+        if !self.is_normal(first) && is_dominated_by(size) {
             return Some(self.one(first, rule));
         }
         let &[_, second] = parts.as_slice() else {
             return None;
         };
         let widths = self.half_width(first).zip(self.half_width(second))?;
-        pair_dominates(first, second).then(|| self.two([first, second], widths, rule))
+        is_dominated_by_pair(first.weight.abs(), second.weight.abs())
+            .then(|| self.two([first, second], widths, rule))
     }
 
     /// The two largest contributions that are not correlated with others, as parts of u(y).
@@ -229,10 +230,14 @@ fn student_t<'b>(dof: f64) -> Output<'b> {
 /// Whether two contributions dominate: together as one does, or because each by itself outweighs all others
 /// together. By the second, S11 has its trapezoid at a remainder of 0.34 of the pair, and the furnace of S5,
 /// whose second largest is smaller than the rest, k = 2 at 0.36.
-fn pair_dominates(first: Part, second: Part) -> bool {
-    let together = libm::hypot(first.weight, second.weight);
-    let rest = rest(together);
-    rest <= REMAINDER * together || rest <= second.weight.abs()
+pub(super) fn is_dominated_by_pair(first: f64, second: f64) -> bool {
+    let together = libm::hypot(first, second);
+    is_dominated_by(together) || rest(together) <= second
+}
+
+/// Whether contributions that make up this part of u(y) leave little to all others.
+pub(super) fn is_dominated_by(part: f64) -> bool {
+    rest(part) <= REMAINDER * part
 }
 
 /// Standard uncertainty of all others, for contributions that make up `part` of u(y).

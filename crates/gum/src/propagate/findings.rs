@@ -19,13 +19,32 @@ pub(super) const REACH: f64 = 4.0;
 const FEW: f64 = 10.0;
 
 /// A sensitivity coefficient below this part of its own standard deviation has vanished.
-const VANISHED: f64 = 0.1;
+pub(super) const VANISHED: f64 = 0.1;
 
 /// An effect below this part of u(y) is nothing to speak of.
-const NEGLIGIBLE: f64 = 1e-3;
+pub(super) const NEGLIGIBLE: f64 = 1e-3;
 
 /// A contribution below this part of u(y) is what the arithmetic left of zero, as in cos 90°.
-const RESIDUE: f64 = 1e-12;
+pub(super) const RESIDUE: f64 = 1e-12;
+
+/// That effective degrees of freedom are few.
+pub(super) fn few_degrees(dof: f64) -> Option<FindingKind> {
+    (dof < FEW).then_some(FindingKind::FewDegreesOfFreedom { dof })
+}
+
+/// An input whose effect is so many times that of all others has a wrong unit, or nobody can tell.
+pub(super) const BEYOND_DOUBT: f64 = 1e5;
+
+/// Likewise where its u exceeds its estimate.
+pub(super) const LARGE: f64 = 100.0;
+
+/// k of the U of a certificate: its own, or 2 where it states none (ILAC-P14), or that of another coverage probability.
+pub(super) fn certified_factor(k: Option<f64>) -> f64 {
+    const K: f64 = 2.0;
+    // From the k of 99 % of a normal distribution on, U is not that of 95 %.
+    let other = normal_two_sided_quantile(0.99);
+    k.filter(|k| *k < other).unwrap_or(K)
+}
 
 /// Whether a contribution is nothing but a residue of the arithmetic, given what it contributes to.
 pub fn is_residue(contribution: f64, whole: f64) -> bool {
@@ -165,8 +184,6 @@ impl Evidence<'_> {
     /// exceeds the estimate. A slip between V and mV is a factor 10³, between V and µV 10⁶, in a contribution that
     /// otherwise is one among several.
     fn large(&self, measurand: usize) -> Option<FindingKind> {
-        const BEYOND_DOUBT: f64 = 1e5;
-        const LARGE: f64 = 100.0;
         let lines = &self.results[measurand].gum.inputs;
         let size = |input: &usize| lines[*input].contribution.abs();
         let all = || (0..lines.len()).filter(|input| size(input) > 0.0);
@@ -186,10 +203,6 @@ impl Evidence<'_> {
     /// A certificate whose expanded uncertainty, carried to the measurand, exceeds the U that is reported. Of correlated
     /// references a difference or ratio is known better than any of them.
     fn below_reference(&self, measurand: usize) -> Option<FindingKind> {
-        /// The k of a certificate that states none (ILAC-P14), or that of another coverage probability.
-        const K: f64 = 2.0;
-        // From the k of 99 % of a normal distribution on, U is not that of 95 %.
-        let other = normal_two_sided_quantile(0.99);
         // The k = 2 of a certificate and the 1.96 of a normal distribution stand for the same coverage.
         let p = self.budget.conventions.coverage_probability.max(0.95);
         let same = normal_two_sided_quantile(p);
@@ -197,7 +210,7 @@ impl Evidence<'_> {
         let lines = result.gum.components.iter().zip(&self.budget.components);
         let references = lines.enumerate().filter_map(|(index, (line, component))| {
             let certificate = component.certificate.as_ref()?;
-            let k = certificate.k.filter(|k| *k < other).unwrap_or(K);
+            let k = certified_factor(certificate.k);
             let alone = self.linear.covariance.group(index).is_none();
             alone.then_some((component, k, k * line.contribution.abs()))
         });
@@ -226,12 +239,7 @@ impl Evidence<'_> {
                 members: members.clone(),
                 lower_bound: *lower_bound,
             }],
-            freedom if freedom.value() < FEW => {
-                vec![FindingKind::FewDegreesOfFreedom {
-                    dof: freedom.value(),
-                }]
-            }
-            _ => Vec::new(),
+            freedom => few_degrees(freedom.value()).into_iter().collect(),
         }
     }
 

@@ -64,7 +64,7 @@ pub(super) fn linearise(budget: &Budget) -> Result<Linear, EvaluationError> {
     }
     let resolved = budget.model.resolved(&x);
     for (value, resolved) in values.iter_mut().zip(&resolved) {
-        settle(value, resolved);
+        settle(value, resolved.value, resolved.error);
     }
     let gradient = budget.model.gradients(&x);
     let covariance = Covariance::new(&budget.components, &budget.groups);
@@ -73,10 +73,10 @@ pub(super) fn linearise(budget: &Budget) -> Result<Linear, EvaluationError> {
 }
 
 /// The value by twice the precision, where doubles are off by more than a unit in the last place.
-fn settle(value: &mut f64, resolved: &Resolved) {
-    let off = (*value - resolved.value).abs();
-    if off > f64::EPSILON * resolved.value.abs() && resolved.error < off {
-        *value = resolved.value;
+pub(super) fn settle(value: &mut f64, resolved: f64, error: f64) {
+    let off = (*value - resolved).abs();
+    if off > f64::EPSILON * resolved.abs() && error < off {
+        *value = resolved;
     }
 }
 

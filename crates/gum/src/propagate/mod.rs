@@ -24,6 +24,7 @@ mod reported;
 mod requirements;
 mod resolution;
 mod result;
+mod rows;
 mod second_order;
 mod shape;
 #[cfg(test)]
@@ -38,7 +39,9 @@ pub use findings::is_residue;
 pub(crate) use monte_carlo::parallel_map;
 pub use options::{MonteCarloChoice, Options};
 pub use progress::Progress;
-pub use reported::{IntervalKind, Reason, Reported, ReportedUncertainty, StatedProbability};
+pub use reported::{
+    Figures, IntervalKind, Reason, Reported, ReportedUncertainty, StatedProbability,
+};
 pub use requirements::{MOST as MOST_MULTIPLE, Needed, Requirement, Requirements, requirements};
 pub use result::{
     AdaptiveRun, Basis, BestEstimate, CharacteristicLimits, Clause8, Conformance, ConformityResult,
@@ -48,3 +51,4 @@ pub use result::{
     SecondOrder, SensitivityIndices, Side, SobolIndex, TrialMoments, Validation, Verdict,
     WhyRandom,
 };
+pub use rows::{RowEvaluation, RowFigures};

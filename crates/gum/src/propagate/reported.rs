@@ -115,7 +115,42 @@ pub enum Reason {
     NotNegative,
 }
 
+/// What is reported of a measurand, as numbers; nothing for what there is not.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Figures {
+    /// y.
+    pub estimate: f64,
+    /// u(y).
+    pub u: Option<f64>,
+    /// ν that gave k.
+    pub dof: Option<f64>,
+    /// k.
+    pub k: Option<f64>,
+    /// U.
+    pub expanded: Option<f64>,
+    /// The coverage interval.
+    pub ends: Option<[f64; 2]>,
+}
+
 impl Reported {
+    /// As numbers.
+    pub fn figures(&self) -> Figures {
+        let expanded = self.expanded();
+        let ends = match (self.uncertainty, expanded) {
+            (ReportedUncertainty::Interval { ends, .. }, _) => Some(ends),
+            (_, Some(expanded)) => Some([self.estimate - expanded, self.estimate + expanded]),
+            _ => None,
+        };
+        Figures {
+            estimate: self.estimate,
+            u: self.u,
+            dof: self.dof,
+            k: self.coverage_factor(),
+            expanded,
+            ends,
+        }
+    }
+
     /// k, where U is a multiple of u.
     pub fn coverage_factor(&self) -> Option<f64> {
         match (self.uncertainty, self.u) {

@@ -6,10 +6,10 @@ use super::validation::numerical_tolerance;
 use crate::budget::Budget;
 
 /// Doubles that lose so little of a value lose little of its derivatives.
-const HARMLESS: f64 = 1e-12;
+pub(super) const HARMLESS: f64 = 1e-12;
 
 /// Estimates are nudged by some units in the last place, relative.
-const NUDGE: f64 = 16.0 * f64::EPSILON;
+pub(super) const NUDGE: f64 = 16.0 * f64::EPSILON;
 
 /// The first measurand whose estimate is known to fewer digits than are printed: its place, and how far the estimate
 /// may be off.

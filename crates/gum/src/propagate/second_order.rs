@@ -27,6 +27,7 @@ mod sparse;
 mod spread;
 mod sums;
 
+pub(super) use direction::moments;
 use direction::{Direction, directions, movers};
 use spread::Spread;
 use sums::{Plan, Sums, unit};

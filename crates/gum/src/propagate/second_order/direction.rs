@@ -6,7 +6,7 @@ use gumption_core::distribution::Distribution;
 
 /// Third and fourth standardised moment of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Moments {
+pub(in crate::propagate) struct Moments {
     pub third: f64,
     pub fourth: f64,
 }
@@ -77,7 +77,7 @@ pub(super) fn directions(
 }
 
 /// The moments with which a component enters.
-pub(super) fn moments(distribution: &Distribution) -> Moments {
+pub(in crate::propagate) fn moments(distribution: &Distribution) -> Moments {
     if matches!(distribution, Distribution::StudentT(_)) {
         return NORMAL;
     }

@@ -1,0 +1,355 @@
+//! Numbers of twice the precision, and what is known of a value that arithmetic has made of them: one by one, and in
+//! blocks.
+//!
+//! Algorithms of Dekker (1971), Knuth and Hida, Li & Bailey (2001); products by fused multiply-add. What one operation
+//! loses is exact to 31 digits; errors are carried on by the slopes (first-order running error analysis: Higham, Accuracy
+//! and Stability of Numerical Algorithms, 2002, 3.3).
+
+use fearless_simd::{Level, dispatch};
+
+use crate::{Block, LANES};
+
+/// The unevaluated sum of two numbers, the first of which is the nearest double.
+pub type Twice = [f64; 2];
+
+/// a + b without error: the rounded sum, and what rounding took away.
+#[inline(always)]
+pub fn two_sum(a: f64, b: f64) -> Twice {
+    let high = a + b;
+    let part = high - a;
+    [high, (a - (high - part)) + (b - part)]
+}
+
+/// The same for |a| ≥ |b|.
+#[inline(always)]
+pub fn quick_two_sum(a: f64, b: f64) -> Twice {
+    let high = a + b;
+    [high, b - (high - a)]
+}
+
+/// a·b without error.
+#[inline(always)]
+pub fn two_prod(a: f64, b: f64) -> Twice {
+    let high = a * b;
+    [high, a.mul_add(b, -high)]
+}
+
+/// a + b.
+#[inline(always)]
+pub fn add(a: Twice, b: Twice) -> Twice {
+    let sum = two_sum(a[0], b[0]);
+    let rest = two_sum(a[1], b[1]);
+    let sum = quick_two_sum(sum[0], sum[1] + rest[0]);
+    quick_two_sum(sum[0], sum[1] + rest[1])
+}
+
+/// −a.
+#[inline(always)]
+pub fn neg(a: Twice) -> Twice {
+    [-a[0], -a[1]]
+}
+
+/// a·b.
+#[inline(always)]
+pub fn mul(a: Twice, b: Twice) -> Twice {
+    let product = two_prod(a[0], b[0]);
+    let low = a[0].mul_add(b[1], a[1] * b[0]) + product[1];
+    quick_two_sum(product[0], low)
+}
+
+/// a/b.
+#[inline(always)]
+pub fn div(a: Twice, b: Twice) -> Twice {
+    let first = a[0] / b[0];
+    let rest = add(a, neg(mul(b, [first, 0.0])));
+    let second = rest[0] / b[0];
+    let rest = add(rest, neg(mul(b, [second, 0.0])));
+    let third = rest[0] / b[0];
+    let quotient = add(quick_two_sum(first, second), [third, 0.0]);
+    let usable = first.is_finite() && b[0].is_finite();
+    [
+        if usable { quotient[0] } else { first },
+        if usable { quotient[1] } else { 0.0 },
+    ]
+}
+
+/// Half a unit in the last place of a double, relative.
+pub const ROUNDING: f64 = f64::EPSILON / 2.0;
+
+/// What the four operations lose in twice the precision, relative.
+pub const ROUNDING_TWICE: f64 = ROUNDING * ROUNDING * 16.0;
+
+/// A value on its way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Known {
+    /// By twice the precision.
+    pub value: Twice,
+    /// How far that may be off.
+    pub error: f64,
+    /// How far the value by doubles may be off.
+    pub doubles: f64,
+}
+
+/// The error of an operand, carried on; none where there is none, whatever the slope.
+#[inline(always)]
+fn carried(error: f64, slope: f64) -> f64 {
+    if error == 0.0 {
+        0.0
+    } else {
+        error * slope.abs()
+    }
+}
+
+#[inline(always)]
+fn of_four_operations(value: Twice, [a, b]: [(Known, f64); 2]) -> Known {
+    let size = value[0].abs();
+    let error = carried(a.0.error, a.1) + carried(b.0.error, b.1);
+    let doubles = carried(a.0.doubles, a.1) + carried(b.0.doubles, b.1);
+    Known {
+        value,
+        error: error + ROUNDING_TWICE * size,
+        doubles: doubles + ROUNDING * size,
+    }
+}
+
+/// a + b.
+#[inline(always)]
+pub fn sum(a: Known, b: Known) -> Known {
+    of_four_operations(add(a.value, b.value), [(a, 1.0), (b, 1.0)])
+}
+
+/// a − b.
+#[inline(always)]
+pub fn difference(a: Known, b: Known) -> Known {
+    of_four_operations(add(a.value, neg(b.value)), [(a, 1.0), (b, -1.0)])
+}
+
+/// a·b.
+#[inline(always)]
+pub fn product(a: Known, b: Known) -> Known {
+    let slopes = [(a, b.value[0]), (b, a.value[0])];
+    of_four_operations(mul(a.value, b.value), slopes)
+}
+
+/// a/b.
+#[inline(always)]
+pub fn quotient(a: Known, b: Known) -> Known {
+    let (x, y) = (a.value[0], b.value[0]);
+    let slopes = [(a, 1.0 / y), (b, -(x / y) / y)];
+    of_four_operations(div(a.value, b.value), slopes)
+}
+
+/// What is known of 256 values.
+#[derive(Debug, Clone)]
+pub struct KnownBlock {
+    /// The values by twice the precision.
+    pub value: [Block; 2],
+    /// How far they may be off.
+    pub error: Block,
+    /// How far those by doubles may be off.
+    pub doubles: Block,
+}
+
+impl KnownBlock {
+    /// Zero, without error.
+    pub const ZERO: KnownBlock = KnownBlock {
+        value: [Block::ZERO; 2],
+        error: Block::ZERO,
+        doubles: Block::ZERO,
+    };
+
+    /// One of them.
+    #[inline(always)]
+    pub fn at(&self, lane: usize) -> Known {
+        Known {
+            value: [self.value[0].0[lane], self.value[1].0[lane]],
+            error: self.error.0[lane],
+            doubles: self.doubles.0[lane],
+        }
+    }
+
+    /// Replaces one of them.
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, known: Known) {
+        [self.value[0].0[lane], self.value[1].0[lane]] = known.value;
+        self.error.0[lane] = known.error;
+        self.doubles.0[lane] = known.doubles;
+    }
+}
+
+/// `name(level, a, b, out)`, vectorised.
+macro_rules! blocks {
+    ($($(#[$doc:meta])+ $name:ident = $one:ident;)+) => {$(
+        $(#[$doc])+
+        pub fn $name(level: Level, a: &KnownBlock, b: &KnownBlock, out: &mut KnownBlock) {
+            dispatch!(level, _ => for lane in 0..LANES {
+                out.set(lane, $one(a.at(lane), b.at(lane)));
+            })
+        }
+    )+};
+}
+
+blocks! {
+    /// a + b.
+    sum_blocks = sum;
+    /// a − b.
+    difference_blocks = difference;
+    /// a·b.
+    product_blocks = product;
+    /// a/b.
+    quotient_blocks = quotient;
+}
+
+/// 10⁰ to 10²², which are doubles.
+pub const TENS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+    1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
+];
+
+/// As many digits as every double keeps.
+const FIFTEEN_DIGITS: f64 = 1e15;
+
+/// The whole number of `1/ten` that a decimal with a fraction is, if it is one of at most 15 digits: then it is the only one of
+/// so many digits that is read as x, since up to 10²² powers of ten are doubles, and the quotient is what the decimal is
+/// read as.
+#[inline(always)]
+fn digits_of(x: f64, ten: f64) -> Option<f64> {
+    let scaled = x * ten;
+    let digits = scaled.round();
+    (scaled.abs() < FIFTEEN_DIGITS && digits / ten == x).then_some(digits)
+}
+
+/// The part of a decimal, so many digits over a power of ten, that the double next to it lacks.
+#[inline(always)]
+fn rest_of(x: f64, digits: f64, ten: f64) -> f64 {
+    add(div([digits, 0.0], [ten, 0.0]), [-x, -0.0])[0]
+}
+
+/// The decimal from which x was read, where that has a fraction and at most 15 digits; found without being written.
+pub fn short_decimal(x: f64) -> Option<Twice> {
+    if x.fract() == 0.0 {
+        return None;
+    }
+    let mut tens = TENS.iter().skip(1);
+    let found = tens.find_map(|ten| Some((digits_of(x, *ten)?, *ten)));
+    found.map(|(digits, ten)| [x, rest_of(x, digits, ten)])
+}
+
+/// What is known of the decimals from which numbers were read, as far as they are whole or [`short_decimal`]s; the error
+/// of all others is NaN. Tells whether there are such.
+pub fn decimals(level: Level, x: &Block, out: &mut KnownBlock) -> bool {
+    /// Lanes that are looked at together.
+    const WIDTH: usize = 8;
+    let mut tens = Block::ZERO;
+    dispatch!(level, _ => {
+        let chunks = x.0.as_chunks::<WIDTH>().0.iter().zip(tens.0.as_chunks_mut::<WIDTH>().0);
+        for (x, found) in chunks {
+            for lane in 0..WIDTH {
+                let whole = x[lane].fract() == 0.0 && x[lane].abs() < 1.0 / f64::EPSILON;
+                found[lane] = if whole { 1.0 } else { 0.0 };
+            }
+            for ten in &TENS[1..] {
+                let mut open = 0;
+                for lane in 0..WIDTH {
+                    let scaled = x[lane] * ten;
+                    let hit = scaled.round() / ten == x[lane] && scaled.abs() < FIFTEEN_DIGITS;
+                    let unknown = found[lane] == 0.0;
+                    found[lane] = if unknown && hit { *ten } else { found[lane] };
+                    open += u32::from(unknown && !hit && scaled.abs() < FIFTEEN_DIGITS);
+                }
+                if open == 0 {
+                    break;
+                }
+            }
+        }
+    });
+    let mut missed = 0;
+    dispatch!(level, _ => for lane in 0..LANES {
+        let (x, ten) = (x.0[lane], tens.0[lane]);
+        let low = rest_of(x, (x * ten).round(), ten);
+        let whole = ten == 1.0;
+        let unknown = ten == 0.0;
+        out.value[0].0[lane] = x;
+        out.value[1].0[lane] = if whole { 0.0 } else { low };
+        out.error.0[lane] = if unknown { f64::NAN } else { 0.0 };
+        out.doubles.0[lane] = if whole { 0.0 } else { ROUNDING * x.abs() };
+        missed += u32::from(unknown);
+    });
+    missed > 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::levels;
+
+    /// Numbers of all sizes: whole, with a few decimals, with many.
+    fn numbers(shift: usize) -> Block {
+        let mut block = Block::ZERO;
+        for (lane, x) in block.0.iter_mut().enumerate() {
+            let k = (lane * 7 + shift) as f64;
+            *x = match (lane + shift) % 5 {
+                0 => k - 600.0,
+                1 => (k * 1234.5).round() / 1e3,
+                2 => (k + 1.0) / 7.0,
+                3 => ((k - 500.0) * 1e7).round() / 1e12,
+                _ => -(k + 0.3) * 1e-30,
+            };
+        }
+        block
+    }
+
+    fn bits(known: Known) -> [u64; 4] {
+        // What is not a number has any sign.
+        let bits = |x: f64| if x.is_nan() { f64::NAN } else { x }.to_bits();
+        [known.value[0], known.value[1], known.error, known.doubles].map(bits)
+    }
+
+    #[test]
+    fn blocks_are_what_their_lanes_are_on_every_instruction_set() {
+        type Both = (
+            fn(Known, Known) -> Known,
+            fn(Level, &KnownBlock, &KnownBlock, &mut KnownBlock),
+        );
+        let operations: [Both; 4] = [
+            (sum, sum_blocks),
+            (difference, difference_blocks),
+            (product, product_blocks),
+            (quotient, quotient_blocks),
+        ];
+        for level in levels() {
+            let [mut a, mut b, mut out] = [KnownBlock::ZERO, KnownBlock::ZERO, KnownBlock::ZERO];
+            decimals(level, &numbers(1), &mut a);
+            decimals(level, &numbers(3), &mut b);
+            for block in [&mut a, &mut b] {
+                for error in &mut block.error.0 {
+                    *error = if error.is_nan() { 1e-17 } else { *error };
+                }
+            }
+            for (one, many) in operations {
+                many(level, &a, &b, &mut out);
+                for lane in 0..LANES {
+                    assert_eq!(bits(out.at(lane)), bits(one(a.at(lane), b.at(lane))));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn decimals_are_found_as_one_by_one() {
+        let x = numbers(0);
+        for level in levels() {
+            let mut out = KnownBlock::ZERO;
+            assert!(decimals(level, &x, &mut out));
+            for (lane, &x) in x.0.iter().enumerate() {
+                let known = out.at(lane);
+                let whole = x.fract() == 0.0;
+                match short_decimal(x) {
+                    _ if whole => assert_eq!((known.value, known.doubles), ([x, 0.0], 0.0)),
+                    Some(value) => assert_eq!((known.value, known.error), (value, 0.0)),
+                    None => assert!(known.error.is_nan(), "{x}"),
+                }
+            }
+        }
+    }
+}

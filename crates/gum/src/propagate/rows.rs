@@ -298,7 +298,8 @@ impl RowEvaluation {
             if !(known.error <= limit && known.doubles <= limit) {
                 doubt.0[lane] = 1.0;
             }
-            if !(known.doubles * SPARE <= HARMLESS * known.value[0].abs()) && doubt.0[lane] == 0.0 {
+            let harmless = known.doubles * SPARE <= HARMLESS * known.value[0].abs();
+            if !harmless && doubt.0[lane] == 0.0 {
                 lossy.0[lane] = 1.0;
                 any = true;
             }
@@ -323,7 +324,8 @@ impl RowEvaluation {
                 let moved =
                     gradients.map(|((moved, c), u)| (moved.0[lane] - c.0[lane]).abs() * u.0[lane]);
                 let moved: f64 = moved.sum();
-                if !(moved <= tolerated * u.0[lane]) {
+                let stays = moved <= tolerated * u.0[lane];
+                if !stays {
                     doubt.0[lane] = 1.0;
                 }
             }
@@ -350,15 +352,14 @@ impl RowEvaluation {
             .iter()
             .map(reference)
             .all(|one| one <= expanded);
-        (covered && estimate.is_finite() && expanded > 0.0 && expanded.is_finite()).then(|| {
-            Figures {
-                estimate,
-                u: Some(u),
-                dof,
-                k: Some(k),
-                expanded: Some(expanded),
-                ends: Some([estimate - expanded, estimate + expanded]),
-            }
+        let whole = estimate.is_finite() && expanded > 0.0 && expanded.is_finite();
+        (covered && whole).then_some(Figures {
+            estimate,
+            u: Some(u),
+            dof,
+            k: Some(k),
+            expanded: Some(expanded),
+            ends: Some([estimate - expanded, estimate + expanded]),
         })
     }
 

@@ -25,7 +25,14 @@ pub struct Arcsine {
 impl Univariate for Arcsine {
     const KIND: Kind = Kind {
         key: "arcsine",
-        aliases: &["u-shape", "u-shaped", "arc-sine", "arcsin", "反正弦", "反正弦分布"],
+        aliases: &[
+            "u-shape",
+            "u-shaped",
+            "arc-sine",
+            "arcsin",
+            "反正弦",
+            "反正弦分布",
+        ],
         name_en: "arc sine (U-shaped)",
         name_zh: "反正弦分布",
         parameters: "U(a, b)",

@@ -26,7 +26,15 @@ pub struct Uniform {
 impl Univariate for Uniform {
     const KIND: Kind = Kind {
         key: "uniform",
-        aliases: &["rectangular", "rectangle", "rect", "矩形", "均匀", "矩形分布", "均匀分布"],
+        aliases: &[
+            "rectangular",
+            "rectangle",
+            "rect",
+            "矩形",
+            "均匀",
+            "矩形分布",
+            "均匀分布",
+        ],
         name_en: "rectangular",
         name_zh: "矩形分布(均匀分布)",
         parameters: "R(a, b), limits a < b",

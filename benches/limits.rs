@@ -10,6 +10,7 @@ mod common;
 use common::{median_of, words};
 use gumption_lanes::moments::PowerSums;
 use gumption_lanes::sampler::normal_block;
+use gumption_lanes::triangle::Triangle;
 use gumption_lanes::{Block, Generator, LANES, Level, Sampler, level, ops};
 
 const BLOCKS: usize = 4000;
@@ -31,9 +32,10 @@ fn main() {
         squares(level, generators, x, y, 0.9);
     });
     bench.line("gauge", [838.0, 0.03125], gauge);
-    let factor = equal_correlation(20, 0.5);
+    let rows = equal_correlation(20, 0.5);
+    let factor = Triangle::new(&rows);
     bench.line("twenty", [20.0, 0.125], |level, generators, x, y| {
-        correlated(level, generators, x, y, &factor);
+        correlated(level, generators, x, y, (rows.len(), &factor));
     });
     bench.line("thousand", [1000.0, 1.0], thousand);
 }
@@ -198,16 +200,16 @@ fn correlated(
     generators: &mut [Generator],
     x: &mut [Block],
     y: &mut Block,
-    rows: &[Vec<f64>],
+    (count, factor): (usize, &Triangle),
 ) {
-    let (normals, rest) = x.split_at_mut(rows.len());
+    let (normals, rest) = x.split_at_mut(count);
     for (generator, z) in generators.iter_mut().zip(normals.iter_mut()) {
         normal_block(level, generator, z);
     }
-    let [a, b, c, ..] = rest else { return };
+    let [b, c, ..] = rest else { return };
+    factor.apply(level, normals);
     ops::fill(level, 0.0, c);
-    for row in rows {
-        ops::combine(level, row, normals, a);
+    for a in normals {
         ops::affine(level, a, 0.01, 1.0, b);
         ops::mul_add(level, b, b, c, y);
         ops::copy(level, y, c);

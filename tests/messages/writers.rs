@@ -310,7 +310,7 @@ fn a_program_killed_while_it_writes_leaves_the_old_file_and_the_next_one_clears_
         );
         assert_eq!(
             leftovers(&place.all()),
-            [&PathBuf::new(); 0],
+            Vec::<&PathBuf>::new(),
             "{}",
             writer.arguments
         );
@@ -350,7 +350,7 @@ fn two_writers_at_once_leave_one_whole_file() {
         assert!(same, "{}", writer.arguments);
         assert_eq!(
             leftovers(&place.all()),
-            [&PathBuf::new(); 0],
+            Vec::<&PathBuf>::new(),
             "{}",
             writer.arguments
         );

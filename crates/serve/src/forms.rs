@@ -274,49 +274,6 @@ fn is_local(places: &Places<'_>, formula: &[Step], name: &str) -> bool {
         })
 }
 
-// ---- what if ----------------------------------------------------------------------------------------------------
-
-/// Numbers of a budget that are moved in the text itself: correlation coefficients and degrees of freedom, each with its path
-/// and what it is called.
-pub(crate) fn movable(text: &str) -> Vec<Value> {
-    let Some(places) = Places::of(text) else {
-        return Vec::new();
-    };
-    let scalars = places.scalars();
-    let said = |path: &[Step]| {
-        let (_, span) = scalars.iter().find(|(at, _)| at == path)?;
-        StringMap::new(text, span.clone()).map(|map| map.text().to_owned())
-    };
-    let entry = |(path, span): &(Vec<Step>, Range<usize>)| {
-        let number: f64 = text[span.clone()].parse().ok()?;
-        let [Step::Key(table), .., Step::Key(key)] = path.as_slice() else {
-            return None;
-        };
-        let parent = &path[..path.len() - 1];
-        let name = match (table.as_str(), key.as_str()) {
-            ("correlation", "r") => {
-                let between = |at| {
-                    let list = [Step::Key("between".into()), Step::Index(at)];
-                    said(&[parent, &list].concat())
-                };
-                format!("r({}, {})", between(0)?, between(1)?)
-            }
-            ("input", "dof") => {
-                let steps = parent[1..].iter().filter_map(|step| match step {
-                    Step::Key(key) if ["components", "certificate"].contains(&key.as_str()) => None,
-                    Step::Key(key) => Some(key.clone()),
-                    Step::Index(at) => Some((at + 1).to_string()),
-                });
-                format!("ν({})", steps.collect::<Vec<_>>().join(", "))
-            }
-            _ => return None,
-        };
-        let shown = json!({ "path": path, "name": name, "key": key, "value": number });
-        number.is_finite().then_some(shown)
-    };
-    scalars.iter().filter_map(entry).collect()
-}
-
 // ---- what is shown ---------------------------------------------------------------------------------------------
 
 /// What a text states.
@@ -773,25 +730,6 @@ mod tests {
         assert_eq!(
             typed("recording = 'r.csv'\n", "columns.x.unit", "V"),
             "recording = 'r.csv'\n\n[columns.x]\nunit = \"V\"\n"
-        );
-    }
-
-    #[test]
-    fn coefficients_and_degrees_of_freedom_are_movable() {
-        let text = "[[correlation]]\nbetween = [\"a\", \"b\"]\nr = 0.3\n[input.a]\ndof = 4\n[input]\n\
-            b.components = [{ u = 1 }, { u = 2, dof = 9 }]\nc.dof = inf\nd = { certificate = { dof = 7 } }\n";
-        let found = movable(text).into_iter();
-        let found: Vec<Value> = found
-            .map(|one| json!([one["name"], one["value"], one["path"]]))
-            .collect();
-        assert_eq!(
-            found,
-            [
-                json!(["r(a, b)", 0.3, ["correlation", 0, "r"]]),
-                json!(["ν(a)", 4.0, ["input", "a", "dof"]]),
-                json!(["ν(b, 2)", 9.0, ["input", "b", "components", 1, "dof"]]),
-                json!(["ν(d)", 7.0, ["input", "d", "certificate", "dof"]]),
-            ]
         );
     }
 

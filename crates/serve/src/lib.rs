@@ -15,6 +15,7 @@
 //! | `lessons` | samples that a class watches, and what they show |
 //! | `exercises` | budgets and recordings in which something is concealed, handed out and graded |
 //! | `forms` | the form beside the text: its entries, and edits of one of them |
+//! | `movable` | what if: the numbers of a text that the page moves |
 //! | `vocabulary` | what an editor completes |
 //! | `page` | the files of the page |
 
@@ -23,6 +24,7 @@ mod exchange;
 mod exercises;
 mod forms;
 mod lessons;
+mod movable;
 mod page;
 mod pages;
 mod routes;

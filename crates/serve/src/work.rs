@@ -28,11 +28,15 @@ use super::exchange::Contents;
 use super::exercises::{self, Practice, Shown};
 use super::forms::{self, Edit, is_experiment};
 use super::lessons;
+use super::movable;
 use super::pages::Job;
 use super::shelf::Shelf;
 
 /// Most trials of a budget that is evaluated while somebody waits: some seconds.
 const MOST_TRIALS: u64 = 100_000_000;
+
+/// Readings that a page may ask "what if" of: far beyond what anybody takes by hand, and quick.
+const MOST_READINGS: usize = 10_000;
 
 /// Residuals that the page draws; of more the largest.
 const MOST_RESIDUALS: usize = 2000;
@@ -110,6 +114,8 @@ pub(crate) enum Change {
     },
     /// An entry of the text.
     Entry { path: Vec<Step>, typed: String },
+    /// How many readings there are.
+    Readings { readings: Vec<Step>, n: usize },
 }
 
 /// A wish for U.
@@ -201,21 +207,27 @@ pub(crate) fn done(
 
 /// The text as it would be; nothing where all its entries stay.
 fn otherwise(wish: &Wish, contents: &Contents) -> Result<Option<String>, Said> {
-    let edits = wish.changes.iter().filter_map(|change| match change {
-        Change::Entry { path, typed } => Some(Edit::Set {
-            path: path.clone(),
-            typed: typed.clone(),
-        }),
-        Change::Input { .. } => None,
-    });
-    let edits: Vec<Edit> = edits.collect();
-    if edits.is_empty() {
-        return Ok(None);
-    }
     let own = contents.iter().find(|(path, _)| *path == wish.path);
     let text = own.map_or(Cow::Borrowed(""), |(_, content)| {
         String::from_utf8_lossy(content)
     });
+    let edits = wish.changes.iter().filter_map(|change| match change {
+        Change::Input { .. } => None,
+        Change::Entry { path, typed } => Some((path, typed.clone())),
+        Change::Readings { readings, n } => {
+            let n = (*n).min(MOST_READINGS);
+            movable::as_many(&text, readings, n).map(|typed| (readings, typed))
+        }
+    });
+    let edits: Vec<Edit> = edits
+        .map(|(path, typed)| Edit::Set {
+            path: path.clone(),
+            typed,
+        })
+        .collect();
+    if edits.is_empty() {
+        return Ok(None);
+    }
     forms::edited(&text, &edits).map(Some)
 }
 
@@ -252,7 +264,7 @@ impl Asked<'_> {
         let reports: Vec<Report<'_>> = rows.iter().map(|row| self.report(row)).collect();
         let mut first = reports.first().map_or(Value::Null, beside);
         let text = self.files.read(self.path).unwrap_or_default();
-        first["entries"] = json!(forms::movable(&String::from_utf8_lossy(&text)));
+        first["entries"] = json!(movable::movable(&String::from_utf8_lossy(&text)));
         let document = report::evaluations(&reports, 1);
         let document = document.ok_or_else(|| self.nothing(&say!("the file has no rows")))?;
         Ok(Found::Document(Box::new(document), first))

@@ -265,6 +265,54 @@ fn what_if_is_seen_beside_what_is() {
     browser.presses("Tab", 0);
 }
 
+/// More readings of the same scatter, moved by the slider.
+#[test]
+fn the_number_of_readings_is_moved() {
+    let stated = BUDGET.replace("u = 0.1", "readings = [1.9, 2.1]");
+    let files = [("a.toml", stated.as_str())];
+    let Some((served, mut browser)) = opened("browser-readings", &files, "en") else {
+        return;
+    };
+    browser.until(&format!("{DOCUMENT}.includes('Statement')"));
+    browser.value("document.getElementById('what-if').open = true");
+    let slider = "document.querySelector('#sliders input[aria-label=\"n(a)\"]')";
+    browser.until(&format!("{slider}?.value === '2'"));
+    browser.value(&format!(
+        "{slider}.value = 50, {slider}.dispatchEvent(new Event('input'))"
+    ));
+    // s = 0.2/√2 of n = 50 readings: u = 0.02.
+    browser.until("Math.abs(state.beside.inputs[0].u - 0.02) < 1e-12");
+    browser.until("document.querySelector('#ghosts .now')");
+    assert_eq!(served.text("a.toml"), stated);
+}
+
+/// A lesson goes on by itself to its last picture, is stopped by a hand at the slider, and begins anew.
+#[test]
+fn a_lesson_is_played() {
+    let Some((_served, mut browser)) = opened("browser-lesson", &[("a.toml", BUDGET)], "en") else {
+        return;
+    };
+    browser.until(&format!("{DOCUMENT}.includes('Statement')"));
+    browser.value("(box => { box.value = box.options[1].value; box.dispatchEvent(new Event('change')); })(document.getElementById('lesson'))");
+    browser.until("!document.getElementById('size').hidden");
+    let moved = |n: u32| {
+        format!(
+            "(n => {{ n.value = {n}; n.dispatchEvent(new Event('input')); }})(document.getElementById('n'))"
+        )
+    };
+    browser.value(&moved(28));
+    browser.value("document.getElementById('play').click()");
+    browser.until("document.getElementById('n-shown').value === '30' && document.getElementById('play').textContent === 'Play'");
+    browser.value("document.getElementById('play').click()");
+    browser.until("document.getElementById('n-shown').value === '3' && document.getElementById('play').textContent === 'Pause'");
+    browser.value(&moved(12));
+    assert_eq!(
+        browser.value("document.getElementById('play').textContent"),
+        "Play"
+    );
+    browser.until("document.getElementById('n-shown').value === '12'");
+}
+
 /// An exercise is handed out without its truth, answered in the form, graded at once; the teacher's sheet is asked for.
 #[test]
 fn a_budget_with_a_slip_is_answered() {

@@ -188,6 +188,16 @@ fn the_page_shows_what_the_command_line_prints() {
     let said = served.told("work", see.clone(), &[("a.toml", &said)]);
     assert_eq!(moved["beside"], said["beside"]);
     assert_eq!(said["beside"]["entries"][0]["name"], "ν(b)");
+    // Twice as many readings of the same scatter.
+    let stated = BUDGET.replace("value = 3, u = 0.01", "readings = [2.99, 3.01]");
+    let mut moved = see.clone();
+    moved["changes"] = json!([{ "readings": ["input", "b", "readings"], "n": 4 }]);
+    let moved = served.told("work", moved, &[("a.toml", &stated)]);
+    let b = |told: &Value| told["beside"]["inputs"][1]["u"].as_f64().expect("u");
+    // s = 0.02/√2, u = s/√4.
+    assert!((b(&moved) - 0.01 / f64::sqrt(2.0)).abs() < 1e-15, "{moved}");
+    assert_eq!(moved["beside"]["entries"][0]["name"], "n(b)");
+    assert_eq!(moved["beside"]["entries"][0]["value"], 4.0);
     let mut beyond = see.clone();
     beyond["changes"] = json!([{ "path": ["correlation", 0, "r"], "typed": "2" }]);
     let beyond = served.told("work", beyond, &[("a.toml", &stated)]);

@@ -16,6 +16,7 @@ const state = {
   formats: [],
   lessons: [],
   seed: 1, // of the samples of a lesson
+  playing: null, // the play of the slider of a lesson, while it goes on
 };
 
 // ---- languages -------------------------------------------------------------------------------------------------
@@ -196,7 +197,7 @@ function soon() {
 }
 
 function changes() {
-  return [...state.changes].map(([input, change]) => change.path ? change : { input, ...change });
+  return [...state.changes].map(([input, change]) => change.path || change.readings ? change : { input, ...change });
 }
 
 /// What travels with every question: the text as it is now, and what was dropped.
@@ -350,19 +351,19 @@ function sliders(input) {
   return row;
 }
 
-/// A slider of a correlation coefficient, or of degrees of freedom.
+/// A slider of a correlation coefficient, of degrees of freedom, or of how many readings there are.
 function entrySlider(entry) {
   const row = document.createElement("tr"), name = document.createElement("th"), cell = document.createElement("td");
   name.scope = "row";
   name.textContent = entry.name;
   const range = document.createElement("input"), out = document.createElement("output"), key = JSON.stringify(entry.path);
-  const [min, max, step] = entry.key === "r" ? [-1, 1, 0.05] : [1, Math.max(100, entry.value), 1];
+  const [min, max, step] = { r: [-1, 1, 0.05], dof: [1, Math.max(100, entry.value), 1], readings: [2, Math.max(100, entry.value), 1] }[entry.key];
   Object.assign(range, { type: "range", min, max, step, value: entry.value });
   range.setAttribute("aria-label", entry.name);
   const typed = () => entry.key === "r" ? Number(range.value).toFixed(2) : range.value;
   range.addEventListener("input", () => {
     out.textContent = typed();
-    state.changes.set(key, { path: entry.path, typed: typed() });
+    state.changes.set(key, entry.key === "readings" ? { readings: entry.path, n: Number(range.value) } : { path: entry.path, typed: typed() });
     soon();
   });
   out.textContent = String(entry.value);
@@ -410,7 +411,7 @@ function fillLessons(chosen) {
 function teaching(isLesson) {
   $("class").hidden = !isLesson;
   document.body.classList.toggle("lesson", isLesson);
-  if (!isLesson) $("lesson").value = "";
+  if (!isLesson) { pause(); $("lesson").value = ""; }
 }
 
 /// Draws the samples of a lesson; of none, what was there before.
@@ -419,7 +420,27 @@ function teach() {
   const chosen = state.lessons.find(([name]) => name === $("lesson").value);
   $("size").hidden = !(chosen && chosen[2]);
   $("n-shown").textContent = $("n").value;
-  run($("lesson").value ? "lesson" : "see");
+  return run($("lesson").value ? "lesson" : "see");
+}
+
+const PLAYED = 400; // ms that a picture stands at least before the next one
+
+/// Moves the slider on by itself, from the beginning where it stands at the end, until it is there or is stopped.
+async function play() {
+  if (state.playing) { pause(); return; }
+  const own = state.playing = {}, n = $("n");
+  $("play").textContent = word("pause");
+  if (n.value === n.max) n.value = n.min;
+  while (state.playing === own) {
+    await Promise.all([teach(), new Promise(resolve => setTimeout(resolve, PLAYED))]);
+    if (state.playing !== own) return;
+    if (n.value === n.max) pause(); else n.stepUp();
+  }
+}
+
+function pause() {
+  state.playing = null;
+  $("play").textContent = word("play");
 }
 
 async function refresh() {
@@ -560,13 +581,15 @@ text.addEventListener("scroll", scrolled);
 $("file").addEventListener("change", choose);
 $("format").addEventListener("change", download);
 $("language").addEventListener("change", () => {
+  pause();
   speak($("language").value);
   $("sliders").dataset.names = "";
   if (practice.open) practice.wanted = "task";
   run(practice.open ? "exercise" : state.shown);
 });
-$("lesson").addEventListener("change", () => { $("n").value = $("n").defaultValue; teach(); });
-$("n").addEventListener("input", teach);
+$("lesson").addEventListener("change", () => { pause(); $("n").value = $("n").defaultValue; teach(); });
+$("n").addEventListener("input", () => { pause(); teach(); });
+$("play").addEventListener("click", play);
 $("again").addEventListener("click", () => { state.seed += 1; teach(); });
 $("leave").addEventListener("click", () => run("see"));
 $("new").addEventListener("click", create);

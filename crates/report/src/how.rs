@@ -56,12 +56,31 @@ const WORDS: &[(&str, &str)] = &[
     ("sd = ", "标准差 = "),
 ];
 
-/// The words in the language of the report.
+/// The words in the language of the report, powers of ten as everywhere in it.
 pub(super) fn how(text: &str, language: Language) -> String {
+    let text = with_powers(text);
     match language {
-        Language::English => text.to_string(),
-        Language::Chinese => chinese(text),
+        Language::English => text,
+        Language::Chinese => chinese(&text),
     }
+}
+
+/// `4×10^-5` for `4e-5`.
+fn with_powers(text: &str) -> String {
+    let mut written = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find('e') {
+        let (before, after) = (&rest[..at], &rest[at + 1..]);
+        let digits = after.strip_prefix('-').unwrap_or(after);
+        let name = before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.');
+        let is_power = before.len() > name.len()
+            && !name.ends_with(|c: char| c.is_alphanumeric() || c == '_')
+            && digits.starts_with(|c: char| c.is_ascii_digit());
+        written.push_str(before);
+        written.push_str(if is_power { "×10^" } else { "e" });
+        rest = after;
+    }
+    written + rest
 }
 
 fn chinese(text: &str) -> String {
@@ -114,6 +133,14 @@ mod tests {
             zh("√(a²/3 + d²/9), a = 1, d = 0.1 (GUM: u as stated)"),
             "√(a²/3 + d²/9), a = 1, d = 0.1 (GUM 法：按给出的 u)"
         );
+    }
+
+    #[test]
+    fn powers_of_ten_are_written_as_such() {
+        let en = |text: &str| how(text, Language::English);
+        assert_eq!(en("U/k = 4e-5/2"), "U/k = 4×10^-5/2");
+        assert_eq!(en("s = 1.9e12, n = 5"), "s = 1.9×10^12, n = 5");
+        assert_eq!(en("about the fit x1e5, s = 1"), "about the fit x1e5, s = 1");
     }
 
     #[test]

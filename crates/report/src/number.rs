@@ -102,7 +102,7 @@ pub(super) fn freedom(dof: f64) -> String {
 }
 
 /// A whole number in groups of three: `1 000 000`.
-pub(super) fn grouped(n: u64) -> String {
+pub fn grouped(n: u64) -> String {
     let digits = n.to_string();
     let mut text = String::with_capacity(digits.len() * 4 / 3);
     for (i, c) in digits.chars().enumerate() {

@@ -91,7 +91,7 @@ impl Routes {
                 list["formats"] = json!(formats.collect::<Vec<_>>());
                 let lessons = LESSONS
                     .iter()
-                    .map(|lesson| (lesson.name, lesson.title, lesson.counts));
+                    .map(|lesson| (lesson.name, lesson.title, lesson.counts.is_some()));
                 list["lessons"] = json!(lessons.collect::<Vec<_>>());
                 Reply::json(&list)
             }

@@ -394,7 +394,11 @@ impl Asked<'_> {
         });
         let document = document
             .ok_or_else(|| self.nothing(&Said::pair("there is no such lesson", "没有这一课")))?;
-        Ok(Found::Document(Box::new(document), Value::Null))
+        let count = drawing.and_then(|drawing| lessons::counted(&drawing.name, drawing.n));
+        Ok(Found::Document(
+            Box::new(document),
+            json!({ "count": count }),
+        ))
     }
 
     fn exercise(&self) -> Result<Found, Found> {

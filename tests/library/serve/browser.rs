@@ -283,6 +283,7 @@ fn the_number_of_readings_is_moved() {
     // s = 0.2/√2 of n = 50 readings: u = 0.02.
     browser.until("Math.abs(state.beside.inputs[0].u - 0.02) < 1e-12");
     browser.until("document.querySelector('#ghosts .now')");
+    browser.picture("what-if");
     assert_eq!(served.text("a.toml"), stated);
 }
 
@@ -302,15 +303,16 @@ fn a_lesson_is_played() {
     };
     browser.value(&moved(28));
     browser.value("document.getElementById('play').click()");
-    browser.until("document.getElementById('n-shown').value === '30' && document.getElementById('play').textContent === 'Play'");
+    browser.until("document.getElementById('n-shown').value === 'M = 10 000' && document.getElementById('play').textContent === 'Play'");
+    browser.picture("lesson");
     browser.value("document.getElementById('play').click()");
-    browser.until("document.getElementById('n-shown').value === '3' && document.getElementById('play').textContent === 'Pause'");
+    browser.until("document.getElementById('n-shown').value === 'M = 3' && document.getElementById('play').textContent === 'Pause'");
     browser.value(&moved(12));
     assert_eq!(
         browser.value("document.getElementById('play').textContent"),
         "Play"
     );
-    browser.until("document.getElementById('n-shown').value === '12'");
+    browser.until("document.getElementById('n-shown').value === 'M = 40'");
 }
 
 /// An exercise is handed out without its truth, answered in the form, graded at once; the teacher's sheet is asked for.

@@ -9,6 +9,7 @@ use gumption_format::files::Files;
 use gumption_format::machine::{Machine, Number, record};
 use gumption_gum::budget::{self, MonteCarloSettings};
 use gumption_gum::propagate::{self, MonteCarloChoice, Options, Progress};
+use gumption_report::grouped;
 
 /// Experiments of a lesson: rates of 95 % are then known to 0.2 % (one standard uncertainty).
 const EXPERIMENTS: u64 = 10_000;
@@ -32,60 +33,73 @@ pub(crate) struct Lesson {
     pub name: &'static str,
     /// What it is called, in English and in Chinese.
     pub title: [&'static str; 2],
-    /// Whether it has a number of readings, or of terms.
-    pub counts: bool,
+    /// What its slider counts, where it has one.
+    pub counts: Option<Count>,
     /// Its document, from the number of readings and samples of a budget.
     draw: fn(&Class<'_>) -> Drawn,
 }
+
+/// What a slider counts: its symbol, and how many there are at a step of it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Count {
+    symbol: &'static str,
+    at: fn(usize) -> usize,
+}
+
+/// Readings, or terms.
+const READINGS: Count = Count {
+    symbol: "n",
+    at: |n| n,
+};
 
 /// All lessons, in the order of a course.
 pub(crate) const LESSONS: [Lesson; 8] = [
     Lesson {
         name: "histogram",
         title: ["Trial by trial", "逐次抽样"],
-        counts: true,
+        counts: Some(models::TRIALS),
         draw: models::histogram,
     },
     Lesson {
         name: "divisor",
         title: ["Why n − 1", "为什么除以 n − 1"],
-        counts: true,
+        counts: Some(READINGS),
         draw: readings::divisor,
     },
     Lesson {
         name: "coverage",
         title: ["What an interval covers", "区间包含什么"],
-        counts: true,
+        counts: Some(READINGS),
         draw: readings::coverage,
     },
     Lesson {
         name: "rectangles",
         title: ["Sums of rectangles", "均匀分布之和"],
-        counts: true,
+        counts: Some(READINGS),
         draw: readings::rectangles,
     },
     Lesson {
         name: "box",
         title: ["A box of resistors", "电阻箱"],
-        counts: true,
+        counts: Some(READINGS),
         draw: models::resistors,
     },
     Lesson {
         name: "shared",
         title: ["One standard for two", "共用一个标准"],
-        counts: false,
+        counts: None,
         draw: readings::shared,
     },
     Lesson {
         name: "square",
         title: ["A square at zero", "零点处的平方"],
-        counts: true,
+        counts: Some(READINGS),
         draw: models::square,
     },
     Lesson {
         name: "tumble",
         title: ["Four positions and a level error", "四位置与水平误差"],
-        counts: true,
+        counts: Some(READINGS),
         draw: models::tumble,
     },
 ];
@@ -123,6 +137,14 @@ record! {
 impl Machine for LessonJson {
     const KIND: &'static str = "lesson";
     const VERSION: u32 = 1;
+}
+
+/// How many there are at a step of the slider of a lesson, as `n = 7`; nothing where it has none.
+pub(crate) fn counted(name: &str, step: usize) -> Option<String> {
+    let lesson = LESSONS.iter().find(|lesson| lesson.name == name)?;
+    let Count { symbol, at } = lesson.counts?;
+    let count = at(step.clamp(2, MOST_READINGS));
+    Some(format!("{symbol} = {}", grouped(count as u64)))
 }
 
 /// The document of a lesson with n readings; nothing of one that there is not.

@@ -3,11 +3,21 @@
 use gumption_core::special::{normal_pdf, normal_two_sided_quantile};
 use gumption_format::document::{Axis, ColumnKind, Marks, Panel, Table, Tone};
 use gumption_format::machine::Number;
+use gumption_report::grouped;
 
-use super::{Class, Drawn, P, SEEN, curve, ends, layer, moments, outline};
+use super::{
+    Class, Count, Drawn, EXPERIMENTS, MOST_READINGS, P, SEEN, curve, ends, layer, moments, outline,
+};
 
-/// Equal steps of the slider multiply the trials alike: the last of them, STEP³⁰, is all 10 000.
-const STEP: f64 = 1.359_356_39;
+/// Equal steps of the slider multiply the trials alike: from one to all with the last of them.
+pub(super) const TRIALS: Count = Count {
+    symbol: "M",
+    at: |step| {
+        (EXPERIMENTS as f64)
+            .powf(step as f64 / MOST_READINGS as f64)
+            .round() as usize
+    },
+};
 
 /// The first trials of a product; the slider adds to those that are there, from two to all.
 pub(super) fn histogram(class: &Class<'_>) -> Drawn {
@@ -16,8 +26,8 @@ pub(super) fn histogram(class: &Class<'_>) -> Drawn {
          [input]\na = { value = 1, u = 0.2 }\nb = { value = 1, half_width = 0.2 }\n",
     );
     let all = samples.into_iter().next().unwrap_or_default();
-    let trials = STEP.powi(class.n as i32).round() as usize;
-    let drawn = &all[..trials.min(all.len())];
+    let drawn = &all[..(TRIALS.at)(class.n).min(all.len())];
+    let trials = grouped(drawn.len() as u64);
     // u² = u²(a) + u²(b): at the estimates both coefficients are 1.
     let u = 0.2 * (4.0_f64 / 3.0).sqrt();
     let reach = [1.0 - 4.0 * u, 1.0 + 4.0 * u];
@@ -33,10 +43,11 @@ pub(super) fn histogram(class: &Class<'_>) -> Drawn {
             ColumnKind::Numbers,
         ),
     ]);
-    for samples in [drawn, &all] {
+    let beside = (drawn.len() < all.len()).then_some(all.as_slice());
+    for samples in [Some(drawn), beside].into_iter().flatten() {
         let ([centre, s], [low, high]) = (moments(samples), ends(samples));
         table.push(vec![
-            samples.len().to_string().into(),
+            grouped(samples.len() as u64).into(),
             format!("{centre:.3}").into(),
             format!("{s:.3}").into(),
             format!("[{low:.3}, {high:.3}]").into(),
@@ -64,7 +75,7 @@ pub(super) fn histogram(class: &Class<'_>) -> Drawn {
                 ),
             ],
         },
-        figures: vec![Number(trials as f64), Number(centre), Number(s)],
+        figures: vec![Number(drawn.len() as f64), Number(centre), Number(s)],
     }
 }
 

@@ -276,7 +276,7 @@ function received(found, ms, task) {
     show(found.html);
     if (task === "exercise") { $("what-if").hidden = $("experiment").hidden = $("residuals").hidden = true; exerciseReceived(found); return; }
     if (task === "see") moved(found.beside || {});
-    if (task === "lesson") { $("what-if").hidden = $("residuals").hidden = true; say(word("drawn", state.seed)); return; }
+    if (task === "lesson") { $("what-if").hidden = $("residuals").hidden = true; $("n-shown").textContent = found.beside.count || ""; say(word("drawn", state.seed)); return; }
     const ofText = task === "audit" ? "" : isSaved() ? word("saved") : word("unsaved");
     say(`${state.changes.size ? word("changed") : ""} ${ofText} ${word("ready", ms)}`.trim());
   } else if (faults.length || found.others) {
@@ -419,7 +419,6 @@ function teach() {
   if (practice.kind === "budget") leaveExercise();
   const chosen = state.lessons.find(([name]) => name === $("lesson").value);
   $("size").hidden = !(chosen && chosen[2]);
-  $("n-shown").textContent = $("n").value;
   return run($("lesson").value ? "lesson" : "see");
 }
 

@@ -1,17 +1,21 @@
-//! What U would need: the uncertainty that each input would have to have, alone.
+//! What U would need: the uncertainty that each input would have to have, alone, and of all together at the least cost.
 
 use gumption_format::document::{Block, Cell, ColumnKind, Document, Table};
 use gumption_format::machine::{Machine, Number, record};
-use gumption_gum::propagate::{MOST_MULTIPLE, Needed, Requirement, Requirements};
+use gumption_gum::propagate::{
+    Improvement, MOST_MULTIPLE, Needed, Requirement, Requirements, Together,
+};
 
 use crate::language::{Language, Word};
 use crate::number::{NONE, TABLE_DIGITS, significant};
 use crate::{Report, difference_symbol};
 
-/// The document of what U would need of every input.
-pub fn requirements(report: &Report<'_>, found: &Requirements) -> Document {
-    let blocks = blocks(report, found);
-    Document::new(&form(report, found), report.language, blocks)
+/// The document of what U would need of every input alone, and of all together.
+pub fn requirements(report: &Report<'_>, found: &Requirements, together: &Together) -> Document {
+    let mut blocks = alone(report, found);
+    blocks.extend(at_least_cost(report, together));
+    let form = form(report, found, together);
+    Document::new(&form, report.language, blocks)
 }
 
 record! {
@@ -27,6 +31,10 @@ record! {
         wished: Number,
         /// Inputs that contribute, the largest contribution first.
         inputs: Vec<RequirementJson<'a>>,
+        /// What becomes better where all do together, the largest cost first.
+        together: Vec<ImprovementJson<'a>>,
+        /// What is left of U where everything that may become better is known exactly and U is still above what is wished for.
+        together_floor: Option<Number>,
     }
 
     /// What U would need of one input alone.
@@ -42,6 +50,20 @@ record! {
         /// What is left of U where the input is known exactly and U is still above what is wished for.
         floor: Option<Number>,
     }
+
+    /// What an input would have to be where all become better together.
+    ImprovementJson<'a> {
+        /// The input.
+        input: &'a str,
+        /// Unit of its uncertainty.
+        unit: String,
+        /// Its standard uncertainty.
+        u: Number,
+        /// What it would have to be.
+        needed: Number,
+        /// What that costs, in the unit of the costs of halving.
+        cost: Number,
+    }
 }
 
 impl Machine for RequirementsJson<'_> {
@@ -49,7 +71,11 @@ impl Machine for RequirementsJson<'_> {
     const VERSION: u32 = 1;
 }
 
-fn form<'a>(report: &Report<'a>, found: &Requirements) -> RequirementsJson<'a> {
+fn form<'a>(
+    report: &Report<'a>,
+    found: &Requirements,
+    together: &Together,
+) -> RequirementsJson<'a> {
     let (name, unit) = report.measurand(found.measurand);
     let inputs = found.inputs.iter().map(|one| {
         let input = &report.budget.inputs[one.input];
@@ -72,10 +98,83 @@ fn form<'a>(report: &Report<'a>, found: &Requirements) -> RequirementsJson<'a> {
         expanded: Number(found.expanded),
         wished: Number(found.wished),
         inputs: inputs.collect(),
+        together: improvements(together)
+            .iter()
+            .map(|one| {
+                let input = &report.budget.inputs[one.input];
+                ImprovementJson {
+                    input: &input.name,
+                    unit: difference_symbol(&input.unit),
+                    u: Number(one.u),
+                    needed: Number(one.needed),
+                    cost: Number(one.cost),
+                }
+            })
+            .collect(),
+        together_floor: match together {
+            Together::Floor(floor) => Some(Number(*floor)),
+            _ => None,
+        },
     }
 }
 
-fn blocks(report: &Report<'_>, found: &Requirements) -> Vec<Block> {
+fn improvements(together: &Together) -> &[Improvement] {
+    match together {
+        Together::Improved(improved) => improved,
+        _ => &[],
+    }
+}
+
+/// The cheapest way, or that there is none; nothing where none is needed.
+fn at_least_cost(report: &Report<'_>, together: &Together) -> Vec<Block> {
+    let l = report.language;
+    let title = Block::Section(
+        l.pick("Together, at the least cost", "共同改进，代价最小")
+            .to_owned(),
+    );
+    let improved = match together {
+        Together::Reached => return Vec::new(),
+        Together::Floor(floor) => {
+            let floor = significant(*floor, TABLE_DIGITS);
+            return vec![
+                title,
+                Block::Paragraph(l.pick(
+                    format!("Impossible: U = {floor} is left where everything that may become better is known exactly."),
+                    format!("不可能：即使所有可改进的输入量都准确已知，U 仍为 {floor}。"),
+                )),
+            ];
+        }
+        Together::Improved(improved) => improved,
+    };
+    let mut table = Table::new([
+        (Word::Quantity.of(l), ColumnKind::Names),
+        (Word::Unit.of(l), ColumnKind::Words),
+        ("u", ColumnKind::Numbers),
+        (l.pick("needed u", "所需 u"), ColumnKind::Numbers),
+        (l.pick("cost", "代价"), ColumnKind::Numbers),
+    ]);
+    for one in improved {
+        let input = &report.budget.inputs[one.input];
+        table.push(vec![
+            input.name.as_str().into(),
+            difference_symbol(&input.unit).into(),
+            significant(one.u, TABLE_DIGITS).into(),
+            significant(one.needed, TABLE_DIGITS).into(),
+            significant(one.cost, TABLE_DIGITS).into(),
+        ]);
+    }
+    let cost = significant(improved.iter().map(|one| one.cost).sum(), TABLE_DIGITS);
+    vec![
+        title,
+        Block::Paragraph(l.pick(
+            format!("Every u may become smaller; to halve it costs what is written beside it (1 where nothing else is), to halve it again twice as much. Altogether this costs {cost}; what is not listed stays as it is."),
+            format!("各 u 都可减小；减半的代价按其旁所写（未写时为 1），再减半为其两倍。总代价为 {cost}；未列出的保持不变。"),
+        )),
+        Block::Table(table),
+    ]
+}
+
+fn alone(report: &Report<'_>, found: &Requirements) -> Vec<Block> {
     let l = report.language;
     let (name, unit) = report.measurand(found.measurand);
     let unit = difference_symbol(unit);

@@ -1,6 +1,7 @@
 //! Evaluations, audits, calibrations, diagnoses: a document, or what is wrong.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::path::Path;
 
 use serde::Deserialize;
@@ -123,7 +124,13 @@ pub(crate) enum Change {
 pub(crate) struct Target {
     measurand: String,
     expanded: f64,
+    /// What it costs to halve the uncertainty of inputs; null for one that stays as it is.
+    #[serde(default)]
+    costs: HashMap<String, Option<f64>>,
 }
+
+/// Cost of halving an uncertainty where none is said: all alike.
+const COST: f64 = 1.0;
 
 /// A lesson with how it is drawn.
 #[derive(Debug, Clone, Deserialize)]
@@ -350,10 +357,19 @@ impl Asked<'_> {
             Some((target, row, measurand))
         });
         let (target, row, measurand) = asked.ok_or_else(|| self.no_target())?;
-        let found = propagate::requirements(&row.budget, measurand, target.expanded)
-            .map_err(|error| Found::Nothing(report::failure(&error, self.language)))?;
-        let found = found.ok_or_else(|| self.no_target())?;
-        let document = report::requirements(&self.report(row), &found);
+        let inputs = row.budget.inputs.iter();
+        let costs: Vec<f64> = inputs
+            .map(|input| match target.costs.get(&input.name) {
+                Some(cost) => cost.unwrap_or(f64::INFINITY),
+                None => COST,
+            })
+            .collect();
+        let alone = propagate::requirements(&row.budget, measurand, target.expanded);
+        let together = propagate::cheapest(&row.budget, measurand, target.expanded, &costs);
+        let failed = |error| Found::Nothing(report::failure(&error, self.language));
+        let found = alone.map_err(failed)?.zip(together.map_err(failed)?);
+        let (alone, together) = found.ok_or_else(|| self.no_target())?;
+        let document = report::requirements(&self.report(row), &alone, &together);
         Ok(Found::Document(Box::new(document), Value::Null))
     }
 

@@ -262,6 +262,7 @@ fn what_if_is_seen_beside_what_is() {
     browser.until("document.getElementById('saved').textContent.includes('已保存')");
     browser.value("document.getElementById('wished').value = '0.3', document.getElementById('target').requestSubmit()");
     browser.until(&format!("{DOCUMENT}.includes('不可能')"));
+    browser.until(&format!("{DOCUMENT}.includes('代价最小')"));
     browser.presses("Tab", 0);
 }
 

@@ -447,6 +447,22 @@ fn a_wish_for_u_is_answered() {
         "{found}"
     );
     assert_eq!(wish(-1.0).0, 422);
+    // Y = a b with a = 2 V, u = 0.1 V, and b = 3, u = 0.01: where b stays, a has all the cost.
+    let target = json!({ "measurand": "Y", "expanded": 0.3, "costs": { "a": 10, "b": null } });
+    let head = json!({ "task": "require", "path": "a.toml", "target": target, "format": "json" });
+    let (_, body) = served.ask("work", head, &[]);
+    let found: Value = serde_json::from_slice(&body).expect("JSON");
+    let [only] = found["together"].as_array().expect("a list").as_slice() else {
+        panic!("{found}")
+    };
+    let needed = only["needed"].as_f64().expect("u");
+    let alone = found["inputs"][0]["needed"].as_f64().expect("u");
+    let cost = only["cost"].as_f64().expect("a cost");
+    assert!((needed / alone - 1.0).abs() < 1e-8, "{found}");
+    assert!(
+        (cost / (10.0 * (0.1 / needed - 1.0)) - 1.0).abs() < 1e-8,
+        "{found}"
+    );
 }
 
 /// What is handed out says nothing of what is concealed; answers that are none, and exercises that there are not, are told.

@@ -2,6 +2,7 @@
 //!
 //! [`evaluate`] gives one [`Evaluation`], from which every report draws.
 
+mod cheapest;
 mod claims;
 mod covariance;
 mod coverage;
@@ -32,6 +33,7 @@ mod tests;
 mod tolerance;
 mod validation;
 
+pub use cheapest::{Improvement, Together, cheapest};
 pub use claims::{Comparison, Method, compare_claims};
 pub use error::EvaluationError;
 pub use evaluate::{evaluate, samples};

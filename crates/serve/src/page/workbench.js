@@ -15,6 +15,7 @@ const state = {
   audited: null, // name of the sheet that is audited
   formats: [],
   lessons: [],
+  costs: new Map(), // of halving the uncertainty of an input, by name
   seed: 1, // of the samples of a lesson
   playing: null, // the play of the slider of a lesson, while it goes on
 };
@@ -216,7 +217,7 @@ function wish(task) {
   const path = task === "audit" ? state.audited : state.path;
   const head = { task, path, changes: changes() };
   if (task === "versions") head.before = state.disk;
-  if (task === "require") head.target = { measurand: $("measurand").value, expanded: $("wished").valueAsNumber };
+  if (task === "require") head.target = { measurand: $("measurand").value, expanded: $("wished").valueAsNumber, costs: Object.fromEntries(state.costs) };
   const sent = task === "audit" ? [[path, state.added.get(path)]] : files();
   return [head, sent];
 }
@@ -347,8 +348,22 @@ function sliders(input) {
     name,
     slider(word("value"), -40, 40, 0, at => `${value(at).toFixed(digits)} ${input.unit}`, at => ({ value: value(at) })),
     slider(word("factor"), -9, 8, 0, at => `× ${Number(factor(at).toPrecision(2))}`, at => ({ factor: factor(at) })),
+    costOf(input.name),
   );
   return row;
+}
+
+/// What it costs to halve the uncertainty of an input; empty where it stays as it is.
+function costOf(input) {
+  const cell = document.createElement("td"), field = document.createElement("input");
+  Object.assign(field, { type: "number", min: 0, step: "any", value: state.costs.has(input) ? state.costs.get(input) ?? "" : 1 });
+  field.setAttribute("aria-label", `${input}: ${word("cost")}`);
+  field.addEventListener("input", () => {
+    const cost = field.valueAsNumber;
+    state.costs.set(input, cost > 0 ? cost : null);
+  });
+  cell.append(field);
+  return cell;
 }
 
 /// A slider of a correlation coefficient, of degrees of freedom, or of how many readings there are.
@@ -460,6 +475,7 @@ async function open(path, mayRestore = true) {
   const { text: disk, draft } = await response.json();
   Object.assign(state, { path, disk, saved: null, beside: null, shown: "see" });
   state.changes.clear();
+  state.costs.clear();
   $("sliders").dataset.names = "";
   $("wished").value = "";
   $("file").value = path;

@@ -1,45 +1,74 @@
-//! `gumption new`: a commented budget file to start from.
+//! `gumption new`: a commented file to start from; of a recording, the experiment that it may be of.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::language::spoken;
 use super::{Outcome, output};
-use gumption::budget;
+use gumption::experiment::procedure::PROCEDURES;
+use gumption::experiment::{self, procedure::Procedure};
 use gumption::fault::harmless;
 use gumption::fault::{Said, say};
 use gumption::files::write::{self, Output, Replacing, Why};
-use gumption::report;
+use gumption::recording::text_of;
+use gumption::{Files, budget, report};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// File to write; it must not exist yet. `-` prints the template
-    #[arg(value_name = "PATH", default_value = "budget.toml")]
-    path: PathBuf,
+    /// File to write; it must not exist yet. `-` prints it [default: budget.toml, certificate.toml or experiment.toml]
+    #[arg(value_name = "PATH")]
+    path: Option<PathBuf>,
     /// Write the data of a certificate to fill in (`gumption eval --certificate`) in place of a budget
-    #[arg(long)]
+    #[arg(long, conflicts_with = "recording")]
     certificate: bool,
+    /// Write an experiment with this recording (CSV): columns recognised, roles and an equation proposed, to be looked over
+    #[arg(long, value_name = "CSV")]
+    recording: Option<PathBuf>,
+    /// The experiment follows this procedure of the library
+    #[arg(long, value_name = "NAME", requires = "recording", value_parser = procedure)]
+    procedure: Option<&'static Procedure>,
+}
+
+fn procedure(name: &str) -> Result<&'static Procedure, String> {
+    let known = || PROCEDURES.iter().map(|procedure| procedure.name);
+    experiment::procedure::procedure_named(name).ok_or_else(|| {
+        let known = known().collect::<Vec<_>>().join(", ");
+        say!("the procedures are {known}").in_language(spoken())
+    })
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
-    let template = match args.certificate {
-        true => report::certificate_template(),
-        false => budget::template(),
+    let default = match (&args.recording, args.certificate) {
+        (Some(_), _) => "experiment.toml",
+        (None, true) => "certificate.toml",
+        (None, false) => "budget.toml",
     };
-    if args.path.as_os_str() == "-" {
-        return output::print(&*template);
+    let path = args.path.clone().unwrap_or_else(|| default.into());
+    let text = match (&args.recording, args.certificate) {
+        (Some(recording), _) => match proposed(recording, &path, args.procedure) {
+            Ok(text) => text,
+            Err(outcome) => return outcome,
+        },
+        (None, true) => report::certificate_template(),
+        (None, false) => budget::template(),
+    };
+    if path.as_os_str() == "-" {
+        return output::print(&*text);
     }
     let output = Output {
-        path: args.path.clone(),
-        content: template.into_bytes(),
+        path: path.clone(),
+        content: text.into_bytes(),
     };
     match write::write(&[output], Replacing::Nothing) {
         Ok(()) => {
-            let path = args.path.display();
-            let next = match args.certificate {
-                true => say!(
+            let path = path.display();
+            let next = match (&args.recording, args.certificate) {
+                (Some(_), _) => say!(
+                    "Wrote {path}. Look it over, then run `gumption calibrate {path}` or `gumption diagnose {path}`."
+                ),
+                (None, true) => say!(
                     "Wrote {path}. Edit it, then run `gumption eval budget.toml --certificate {path} -o certificate.xml`."
                 ),
-                false => say!("Wrote {path}. Edit it, then run `gumption eval {path}`."),
+                (None, false) => say!("Wrote {path}. Edit it, then run `gumption eval {path}`."),
             };
             let next = next.in_language(spoken()) + "\n";
             output::print(&*harmless(&next))
@@ -52,4 +81,29 @@ pub(super) fn run(args: &Args) -> Outcome {
             output::complain(say!("{}{print}", unwritten.words(spoken())))
         }
     }
+}
+
+/// The experiment of a recording, for a file at `path`.
+fn proposed(
+    recording: &Path,
+    path: &Path,
+    procedure: Option<&Procedure>,
+) -> Result<String, Outcome> {
+    let shown = recording.display().to_string();
+    text_of(Files::Disk, recording, &shown)
+        .and_then(|text| experiment::proposal(&named_from(path, recording), &text, procedure))
+        .map_err(|rejection| output::refused(&rejection, spoken()))
+}
+
+/// How a file names another one: from its own folder.
+fn named_from(path: &Path, other: &Path) -> String {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let is_here = folder.as_os_str().is_empty() || folder == Path::new(".");
+    let below = other.strip_prefix(folder);
+    let named = match (is_here || other.is_absolute(), below) {
+        (true, _) => other.to_owned(),
+        (false, Ok(below)) => below.to_owned(),
+        (false, Err(_)) => std::fs::canonicalize(other).unwrap_or_else(|_| other.to_owned()),
+    };
+    named.display().to_string()
 }

@@ -10,6 +10,7 @@ mod common;
 
 mod gyros;
 mod library;
+mod proposals;
 mod refusals;
 mod reports;
 mod rest;

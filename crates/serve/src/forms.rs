@@ -12,7 +12,7 @@ use gumption_fault::{Said, say};
 use gumption_format::toml::writing::{self, quoted};
 use gumption_format::toml::{Content, Form, Places, Step, StringMap, Unedited, Written, spliced};
 use gumption_gum::budget;
-use gumption_lab::experiment;
+use gumption_lab::experiment::{self, Kind, kind_of};
 
 /// An edit of one entry.
 #[derive(Debug, Clone, Deserialize)]
@@ -62,11 +62,9 @@ fn one_edited(text: &str, edit: &Edit) -> Result<String, Said> {
     found.map_err(|Unedited| say!("this cannot be changed in the form; change it in the text"))
 }
 
-/// Whether a text is an experiment: one that has no measurand, and says where readings come from.
+/// Whether a text is an experiment.
 pub(crate) fn is_experiment(text: &str) -> bool {
-    let words = ["recording", "[recording", "equations", "procedure"];
-    let says = |line: &str| words.iter().any(|word| line.starts_with(word));
-    !text.contains("[measurand") && text.lines().any(says)
+    matches!(kind_of(text), Kind::Schedule | Kind::Experiment)
 }
 
 /// The schema of a text.

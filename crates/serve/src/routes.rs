@@ -1,7 +1,7 @@
 //! Which address does what.
 
 use std::io::ErrorKind;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -13,7 +13,11 @@ use serde_json::json;
 use gumption_export::{FORMATS, Page};
 use gumption_fault::language::Language;
 use gumption_fault::{Said, say};
+use gumption_format::files::Files;
 use gumption_gum::budget;
+use gumption_lab::experiment::procedure::{PROCEDURES, procedure_named};
+use gumption_lab::experiment::proposal;
+use gumption_lab::recording::text_of;
 
 use super::exchange::{Contents, Reply, opened};
 use super::exercises::Shown;
@@ -54,6 +58,8 @@ struct About {
     /// Edits that a form makes.
     #[serde(default)]
     edits: Vec<Edit>,
+    /// The procedure that an experiment is to follow.
+    procedure: Option<String>,
 }
 
 impl Routes {
@@ -93,11 +99,14 @@ impl Routes {
                     .iter()
                     .map(|lesson| (lesson.name, lesson.title, lesson.counts.is_some()));
                 list["lessons"] = json!(lessons.collect::<Vec<_>>());
+                let procedures = PROCEDURES.iter().map(|procedure| procedure.name);
+                list["procedures"] = json!(procedures.collect::<Vec<_>>());
                 Reply::json(&list)
             }
             "vocabulary" => Reply::json(&vocabulary(about.language.into())),
             "open" => self.open(&about),
             "form" => form(&about, &contents),
+            "propose" => propose(&about, &contents),
             "template" => Reply::json(&json!({ "text": budget::template() })),
             "save" => self.save(&about, &contents),
             "forget" => {
@@ -198,7 +207,7 @@ impl Routes {
         let (handed_over, page) = (wish.format.is_some(), wish.page.clone());
         let most = match wish.task {
             Task::See | Task::Require | Task::Versions | Task::Lesson | Task::Exercise => PATIENCE,
-            Task::Diagnose | Task::Audit => LONGEST,
+            Task::Diagnose | Task::Plan | Task::Audit => LONGEST,
         };
         let (shelf, shown) = (Arc::clone(&self.shelf), Arc::clone(&self.shown));
         let work = move |job: &Job| {
@@ -241,6 +250,33 @@ impl Routes {
             if let (true, Ok(text)) = (is_text, std::str::from_utf8(bytes)) {
                 self.shelf.keep(path, text);
             }
+        }
+    }
+}
+
+/// The experiment that the recording may be of.
+fn propose(about: &About, contents: &Contents) -> Reply {
+    let language: Language = about.language.into();
+    let Some((name, bytes)) = contents.first() else {
+        return Reply::status(StatusCode::BAD_REQUEST);
+    };
+    let files: &[(&str, &[u8])] = &[(name, bytes)];
+    let procedure = about.procedure.as_deref().and_then(procedure_named);
+    let proposed = text_of(Files::Library(files), Path::new(name), name)
+        .and_then(|text| proposal(name, &text, procedure));
+    match proposed {
+        Ok(text) => Reply::json(&json!({ "text": text })),
+        Err(rejection) => {
+            let why = rejection
+                .faults
+                .into_iter()
+                .next()
+                .map(|fault| fault.message);
+            Reply::because(
+                StatusCode::UNPROCESSABLE_ENTITY,
+                &why.unwrap_or_default(),
+                language,
+            )
         }
     }
 }

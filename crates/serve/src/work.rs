@@ -22,7 +22,7 @@ use gumption_gum::propagate::{self, Evaluation, MonteCarloChoice, Options};
 use gumption_gum::versions::versions;
 use gumption_lab::calibrate::{self, Calibration, Campaign, PointNames, Reading, Residual};
 use gumption_lab::diagnose::{self, case};
-use gumption_lab::experiment::Purpose;
+use gumption_lab::experiment::{Kind, Purpose, kind_of};
 use gumption_report::{self as report, Report};
 
 use super::exchange::Contents;
@@ -54,6 +54,8 @@ pub(crate) enum Task {
     Versions,
     /// A recording is held against its model.
     Diagnose,
+    /// What an experiment would find, or tell apart.
+    Plan,
     /// A claimed budget is recomputed.
     Audit,
     /// Samples are drawn for a class.
@@ -195,6 +197,7 @@ pub(crate) fn done(
     let found = match wish.task {
         Task::Audit => asked.audit(),
         Task::Diagnose => asked.diagnose(),
+        Task::Plan => asked.plan(),
         Task::See if asked.is_experiment() => asked.calibrate(),
         Task::See => asked.evaluate(),
         Task::Require => asked.require(),
@@ -451,6 +454,29 @@ impl Asked<'_> {
             Box::new(document),
             json!({ "experiment": true }),
         ))
+    }
+
+    fn plan(&self) -> Result<Found, Found> {
+        let bytes = self.files.read(self.path).unwrap_or_default();
+        let document = match kind_of(&String::from_utf8_lossy(&bytes)) {
+            Kind::Schedule => {
+                let campaign = calibrate::load_from(self.files, self.path, Purpose::Plan)?;
+                let plan = calibrate::plan(&campaign).map_err(|trouble| {
+                    Found::Nothing(report::calibration_trouble(&trouble, self.language))
+                })?;
+                report::plan(&campaign, &plan, self.language)
+            }
+            _ => {
+                let case = case::Case::load_from(self.files, self.path, case::Purpose::Plan)?;
+                let plan = diagnose::plan(&case, &|share| self.job.at(share));
+                let plan = plan.map_err(|failure| {
+                    Found::Nothing(report::diagnosis_failure(&case, &failure, self.language))
+                })?;
+                report::outlook(&case, &plan, self.language)
+            }
+        };
+        let beside = json!({ "experiment": true });
+        Ok(Found::Document(Box::new(document), beside))
     }
 
     fn audit(&self) -> Result<Found, Found> {

@@ -288,6 +288,27 @@ fn the_number_of_readings_is_moved() {
     assert_eq!(served.text("a.toml"), stated);
 }
 
+/// A recording that is dropped becomes an experiment of its own, with its plan.
+#[test]
+fn a_recording_is_dropped() {
+    let files = [("a.toml", BUDGET)];
+    let Some((served, mut browser)) = opened("browser-propose", &files, "en") else {
+        return;
+    };
+    browser.until(&format!("{DOCUMENT}.includes('Statement')"));
+    browser.value("void drop([new File(['x [V],y [mV]\\n1,1.01\\n2,2.02\\n1,1.02\\n2,2.01\\n3,3.01\\n3,3.03\\n'], 'run.csv')])");
+    browser.until("document.getElementById('ask').open && document.getElementById('question').textContent.includes('run.csv')");
+    browser.value("document.getElementById('yes').click()");
+    browser.until("document.getElementById('ask').open && document.getElementById('option').options.length > 10");
+    browser.value("document.getElementById('yes').click()");
+    browser.until("text.value.includes('y = a + b*x')");
+    browser.until(&format!("{DOCUMENT}.includes('b')"));
+    assert!(served.text("run.toml").contains("recording = \"run.csv\""));
+    browser.until("!document.getElementById('experiment').hidden");
+    browser.value("document.getElementById('plan').click()");
+    browser.until("state.shown === 'plan'");
+}
+
 /// A lesson goes on by itself to its last picture, is stopped by a hand at the slider, and begins anew.
 #[test]
 fn a_lesson_is_played() {

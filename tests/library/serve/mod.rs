@@ -427,6 +427,40 @@ fn lessons_draw_their_samples() {
     assert_ne!(draw(1), draw(2));
 }
 
+/// From a recording to an experiment, and its plan.
+#[test]
+fn a_recording_becomes_an_experiment() {
+    let served = Served::new("serve-propose", &[("a.toml", BUDGET)]);
+    let run = "omega [deg/s],U [mV]\n-10,-20.1\n0,0.2\n10,20.3\n-10,-20.2\n0,0.3\n10,20.2\n";
+    let proposed = served.told("propose", json!({}), &[("run.csv", run)]);
+    let text = proposed["text"].as_str().expect("a text").to_owned();
+    assert!(text.contains("U = a + b*omega"), "{text}");
+    let files = [("run.toml", text.as_str()), ("run.csv", run)];
+    let see = json!({ "task": "see", "path": "run.toml" });
+    assert_eq!(
+        served.told("work", see, &files)["beside"]["experiment"],
+        true
+    );
+    let plan = json!({ "task": "plan", "path": "run.toml" });
+    let plan = served.told("work", plan, &files);
+    assert!(
+        plan["html"]
+            .as_str()
+            .is_some_and(|html| html.contains("<h1>")),
+        "{plan}"
+    );
+    let by = json!({ "procedure": "gyro-scale-factor" });
+    let by = served.told("propose", by, &[("run.csv", run)]);
+    assert!(
+        by["text"]
+            .as_str()
+            .is_some_and(|text| text.contains("procedure = ")),
+        "{by}"
+    );
+    let torn = json!({ "path": "", "page": "test", "language": "en" });
+    assert_eq!(served.ask("propose", torn, &[("run.csv", "U\n")]).0, 422);
+}
+
 #[test]
 fn a_wish_for_u_is_answered() {
     let served = Served::new("serve-require", &[("a.toml", BUDGET)]);

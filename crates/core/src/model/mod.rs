@@ -52,7 +52,7 @@ use std::sync::{Arc, OnceLock};
 use nalgebra::DMatrix;
 
 pub use block::BlockRunner;
-pub use catalogue::{FunctionInfo, functions};
+pub use catalogue::{FunctionInfo, functions, is_reserved};
 pub use check::compile;
 pub use compiler::Compiler;
 pub use cut::Cut;

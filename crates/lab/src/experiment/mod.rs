@@ -5,6 +5,7 @@
 //! | [`tables`], [`entries`] | every table of the file: its keys, its reader, its schema, its reference |
 //! | `hints` | what writers of experiments mistake, also wordings of former versions |
 //! | [`procedure`] | the procedures of the library: experiments themselves |
+//! | `proposal` | from a recording to a file to look over |
 //! | `source` | the tables of a file over those of its procedure |
 //! | `checker`, `purpose` | what all checks share; what a file is read for |
 //! | `names`, `inferred`, `labels`, `columns` | what the names of the equations are; columns of the recording |
@@ -33,6 +34,7 @@ pub(crate) mod noise;
 mod parameters;
 pub(crate) mod positions;
 pub mod procedure;
+mod proposal;
 mod purpose;
 mod quantities;
 pub(crate) mod source;
@@ -43,6 +45,7 @@ pub(crate) mod words;
 pub use at_rest::RestReadings;
 pub use checked::{Experiment, Heading, Observed, Parameter};
 pub use doubt::{Act, Doubt, Input, Prior, Scope, Target};
+pub use proposal::proposal;
 pub use purpose::Purpose;
 pub use words::Words;
 

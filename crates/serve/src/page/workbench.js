@@ -15,6 +15,7 @@ const state = {
   audited: null, // name of the sheet that is audited
   formats: [],
   lessons: [],
+  procedures: [],
   costs: new Map(), // of halving the uncertainty of an input, by name
   seed: 1, // of the samples of a lesson
   playing: null, // the play of the slider of a lesson, while it goes on
@@ -462,6 +463,7 @@ async function refresh() {
   const found = await response.json();
   state.formats = found.formats;
   state.lessons = found.lessons;
+  state.procedures = found.procedures;
   fillFormats();
   fillLessons($("lesson").value);
   fill($("file"), found.files.map(name => [name, name]), state.path);
@@ -511,7 +513,7 @@ async function save() {
 }
 
 /// Asks in a dialog; the value of the button that was pressed.
-function question(words, { yes, other = null, name = null }) {
+function question(words, { yes, other = null, name = null, options = null }) {
   const dialog = $("ask");
   $("question").textContent = words;
   $("yes").textContent = yes;
@@ -519,6 +521,8 @@ function question(words, { yes, other = null, name = null }) {
   $("other").textContent = other || "";
   $("name-label").hidden = name === null;
   $("name").value = name || "";
+  $("option-label").hidden = options === null;
+  fill($("option"), options || [], "");
   dialog.returnValue = "";
   dialog.showModal();
   if (name !== null) $("name").select();
@@ -528,15 +532,20 @@ function question(words, { yes, other = null, name = null }) {
 async function create() {
   const answer = await question(word("newName"), { yes: word("create"), other: word("emptyForm"), name: "budget.toml" });
   if (answer === "") return;
-  let path = $("name").value.trim();
-  if (!path.endsWith(".toml")) path += ".toml";
   const isEmpty = answer === "other";
   const template = isEmpty ? { text: "" } : await (await ask("template")).json();
-  const response = await ask("save", { path, new: true }, [["text", template.text]]);
-  if (!response.ok) { say(await told(response)); return; }
+  const isThere = await created($("name").value.trim(), template.text);
+  if (isThere && isEmpty) { form.focus = keyOf(["title"]); showView(true); }
+}
+
+/// Writes a new file and opens it; says why where it cannot.
+async function created(name, text) {
+  const path = name.endsWith(".toml") ? name : name + ".toml";
+  const response = await ask("save", { path, new: true }, [["text", text]]);
+  if (!response.ok) { say(await told(response)); return false; }
   await refresh();
   await open(path);
-  if (isEmpty) { form.focus = keyOf(["title"]); showView(true); }
+  return true;
 }
 
 /// Whether the text may be left for another one.
@@ -584,9 +593,25 @@ async function drop(dropped) {
     state.added.set(file.name, content);
     const named = state.path !== null && text.value.includes(file.name);
     if (named) { say(word("held", file.name)); await run("see"); continue; }
+    const kind = TABLES.test(file.name) ? await question(word("whatIsIt", file.name), { yes: word("aRecording"), other: word("aSheet") }) : "other";
+    if (kind === "yes") { await propose(file.name, content); continue; }
+    if (kind !== "other") continue;
     state.audited = file.name;
     await run("audit");
   }
+}
+
+const TABLES = /\.(csv|tsv|txt|dat)$/i; // what may be a recording as well as a sheet
+
+/// An experiment of a recording that was dropped, as a file of its own: by a procedure, or a line to start from.
+async function propose(name, content) {
+  if (!(await mayLeave())) return;
+  const procedures = [["", word("ownEquations")], ...state.procedures.map(one => [one, one])];
+  const answer = await question(word("newExperiment"), { yes: word("propose"), name: name.replace(/\.[^.]*$/, "") + ".toml", options: procedures });
+  if (answer === "") return;
+  const response = await ask("propose", { procedure: $("option").value || null }, [[name, content]]);
+  if (!response.ok) { note(await told(response)); return; }
+  await created($("name").value.trim(), (await response.json()).text);
 }
 
 // ---- hands -----------------------------------------------------------------------------------------------------
@@ -612,6 +637,7 @@ $("save").addEventListener("click", save);
 $("reset").addEventListener("click", reset);
 $("stop").addEventListener("click", () => ask("stop"));
 $("calibrate").addEventListener("click", () => run("see"));
+$("plan").addEventListener("click", () => run("plan"));
 $("diagnose").addEventListener("click", () => run("diagnose"));
 $("compare").addEventListener("click", () => run("versions"));
 $("back").addEventListener("click", () => run("see"));

@@ -1,0 +1,545 @@
+//! A proposal: the experiment that a recording may be of, for somebody to look over.
+//!
+//! Names and units come from the first line. Roles are told by how the numbers behave, which decides nothing: the file says of each column what is in
+//! it, and that its role is a guess. Without a procedure the equation is a straight line, the least that has a coefficient to calibrate.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use gumption_core::model::{is_reserved, names};
+use gumption_core::quantity::{UnitTable, show};
+use gumption_fault::Rejection;
+use gumption_format::csv::{Column, Data, Labels, Recording};
+use gumption_format::toml::writing::{key, quoted};
+
+use super::entries::RoleWord;
+use super::procedure::Procedure;
+
+/// Rows from which on a recording has to say whether they are samples or averages.
+const MANY: usize = 100;
+
+/// Rows that a stretch of equal labels or values has on average where it is a dwell.
+const DWELL: usize = 10;
+
+/// The text of an experiment with this recording.
+///
+/// # Errors
+/// The recording is no table that can be read.
+pub fn proposal(
+    file: &str,
+    recording: &str,
+    procedure: Option<&Procedure>,
+) -> Result<String, Rejection> {
+    let table = Recording::read_all(file, recording, &UnitTable::default())?;
+    let columns = guessed(&table);
+    let body = match procedure {
+        Some(procedure) => by_procedure(procedure, &columns),
+        None => by_line(&columns),
+    };
+    let title = Path::new(file).file_stem().map_or_else(
+        || "Experiment".into(),
+        |stem| stem.to_string_lossy().into_owned(),
+    );
+    Ok(format!(
+        "# Proposed from {} rows. Roles and equations are guesses: look them over, then run `gumption calibrate` or `gumption diagnose`.\n\
+         title = {}\nrecording = {}\n{body}\n{KNOWN}",
+        table.rows(),
+        quoted(&title),
+        source(file, &columns, table.rows()),
+    ))
+}
+
+/// What nobody can guess.
+const KNOWN: &str = "\
+# What is known of the readings and of the references, stated as in a budget:
+# [noise]
+# u = 0.01                     # standard uncertainty of one reading, if it is known; else the residuals tell it
+# [input.e]                    # an error that all rows share; write it into an equation
+# half_width = 0.001
+";
+
+/// A column with what it may be.
+struct Guess<'r> {
+    /// As equations can call it.
+    name: String,
+    column: &'r Column,
+    role: RoleWord,
+}
+
+// ---- roles -----------------------------------------------------------------------------------------------------
+
+fn guessed(table: &Recording) -> Vec<Guess<'_>> {
+    let mut taken = BTreeSet::new();
+    let roles = roles(&table.columns);
+    let guesses = table.columns.iter().zip(roles);
+    guesses
+        .map(|(column, role)| Guess {
+            name: identifier(&column.role, &mut taken),
+            column,
+            role,
+        })
+        .collect()
+}
+
+fn roles(columns: &[Column]) -> Vec<RoleWord> {
+    let mut roles: Vec<Option<RoleWord>> = columns.iter().map(by_itself).collect();
+    let open: Vec<usize> = (0..columns.len())
+        .filter(|at| roles[*at].is_none())
+        .collect();
+    // What is set takes few values, what is read many; of several that are read the last that is no condition is the output, and with it
+    // those that differ by their axis.
+    let last = |is: &dyn Fn(&Column) -> bool| open.iter().rev().find(|at| is(&columns[**at]));
+    let output = last(&|column| !is_set(column) && !is_condition(column))
+        .or_else(|| last(&|column| !is_condition(column)))
+        .or(open.last())
+        .copied();
+    for at in &open {
+        if output.is_some_and(|output| *at == output || is_kin(&columns[*at], &columns[output])) {
+            roles[*at] = Some(RoleWord::Output);
+        }
+    }
+    let rest: Vec<usize> = open.into_iter().filter(|at| roles[*at].is_none()).collect();
+    let are_conditions = rest.iter().all(|at| is_condition(&columns[*at]));
+    for at in rest {
+        let is_stimulus = are_conditions || !is_condition(&columns[at]);
+        roles[at] = Some(match is_stimulus {
+            true => RoleWord::Stimulus,
+            false => RoleWord::Covariate,
+        });
+    }
+    // Of times one is the time.
+    let mut times = 0;
+    let roles = roles.into_iter().map(|role| match role {
+        Some(RoleWord::Time) if times > 0 => RoleWord::Covariate,
+        Some(RoleWord::Time) => {
+            times += 1;
+            RoleWord::Time
+        }
+        role => role.unwrap_or(RoleWord::Ignore),
+    });
+    roles.collect()
+}
+
+/// The role of a column that shows it without the others.
+fn by_itself(column: &Column) -> Option<RoleWord> {
+    let numbers = match &column.data {
+        Data::Labels(labels) => return Some(of_labels(column, labels)),
+        Data::Numbers(numbers) => numbers,
+    };
+    let known: Vec<f64> = numbers.iter().copied().filter(|x| x.is_finite()).collect();
+    if known.is_empty() {
+        return Some(RoleWord::Ignore);
+    }
+    if is_clock(column) {
+        // Of several runs one after the other it is told by none.
+        return Some(match known.is_sorted() {
+            true => RoleWord::Time,
+            false => RoleWord::Ignore,
+        });
+    }
+    if let Some(role) = by_name(column).filter(|_| known.iter().all(|x| x.fract() == 0.0)) {
+        return Some(role);
+    }
+    let name = column.name.to_lowercase();
+    if ["sd", "std", "stdev", "s_", "u_"]
+        .iter()
+        .any(|start| name.starts_with(start))
+    {
+        return Some(RoleWord::Ignore);
+    }
+    let is_constant = known.iter().all(|x| *x == known[0]);
+    (is_constant && known.len() > 1).then_some(RoleWord::Covariate)
+}
+
+/// What is numbered or labelled, by its name.
+fn by_name(column: &Column) -> Option<RoleWord> {
+    let name = column.name.to_lowercase();
+    let known = match name.as_str() {
+        "position" | "pos" | "pose" | "point" | "位置" => RoleWord::Position,
+        "direction" | "dir" | "方向" | "行程" => RoleWord::Direction,
+        "axis" | "轴" => RoleWord::Axis,
+        "run" | "series" | "mount" | "cycle" | "序列" => RoleWord::Run,
+        "unit" | "instrument" | "operator" | "device" | "lot" | "lab" | "probe" | "仪器"
+        | "人员" => RoleWord::Factor,
+        "n" | "no" | "no." | "nr" | "index" | "row" | "n_samples" | "samples" | "序号" => {
+            RoleWord::Ignore
+        }
+        _ => return None,
+    };
+    Some(known)
+}
+
+fn of_labels(column: &Column, labels: &Labels) -> RoleWord {
+    if labels.levels.len() == labels.of_row.len() {
+        return RoleWord::Ignore;
+    }
+    if let Some(role) = by_name(column) {
+        return role;
+    }
+    // What was repeated as a whole comes once each.
+    match stretches(&labels.of_row) == labels.levels.len() {
+        true => RoleWord::Run,
+        false => RoleWord::Factor,
+    }
+}
+
+/// Whether it says when, by its name and by its unit where it has one: a period is in seconds, too.
+fn is_clock(column: &Column) -> bool {
+    let name = column.name.to_lowercase();
+    let is_named = name == "t"
+        || ["t_", "time", "时间"]
+            .iter()
+            .any(|start| name.starts_with(start));
+    let second = UnitTable::default().parse("s");
+    let (Some(unit), Ok(second)) = (&column.unit, second) else {
+        return is_named;
+    };
+    is_named && unit.conversion_to(&second).is_some()
+}
+
+/// Whether its numbers come back: each at least twice, on average.
+fn is_set(column: &Column) -> bool {
+    let Data::Numbers(numbers) = &column.data else {
+        return false;
+    };
+    let different: BTreeSet<u64> = numbers.iter().map(|x| x.to_bits()).collect();
+    2 * different.len() <= numbers.len()
+}
+
+/// Whether it is a condition by its unit or name: a temperature, a pressure, a humidity.
+fn is_condition(column: &Column) -> bool {
+    const WORDS: [&str; 8] = [
+        "temp", "press", "humid", "supply", "温度", "气压", "压力", "湿度",
+    ];
+    let units = UnitTable::default();
+    let name = column.name.to_lowercase();
+    let is_temperature = || {
+        let kelvin = units.parse("K").ok()?;
+        column.unit.as_ref()?.difference().conversion_to(&kelvin)
+    };
+    WORDS.iter().any(|word| name.contains(word)) || is_temperature().is_some()
+}
+
+/// Whether two columns are the same but for their axis, as `ax` and `ay`.
+fn is_kin(one: &Column, other: &Column) -> bool {
+    let stem = |column: &Column| -> String {
+        let is_axis = |c: char| matches!(c, 'x' | 'y' | 'z' | 'X' | 'Y' | 'Z') || c.is_numeric();
+        column.name.chars().filter(|c| !is_axis(*c)).collect()
+    };
+    one.unit == other.unit && !stem(one).is_empty() && stem(one) == stem(other)
+}
+
+/// How many stretches of equal values there are.
+fn stretches<T: PartialEq>(values: &[T]) -> usize {
+    let changes = values
+        .iter()
+        .zip(values.iter().skip(1))
+        .filter(|(a, b)| a != b);
+    changes.count() + usize::from(!values.is_empty())
+}
+
+// ---- the text --------------------------------------------------------------------------------------------------
+
+/// A name that equations can write, and none of those that are taken.
+fn identifier(name: &str, taken: &mut BTreeSet<String>) -> String {
+    let letter = |c: char| {
+        if c.is_alphanumeric() || c == '_' {
+            c
+        } else {
+            '_'
+        }
+    };
+    let letters: String = name.chars().map(letter).collect();
+    let letters = letters.trim_matches('_').to_owned();
+    let is_name = |name: &str| {
+        let found = names(name);
+        let [(found, _)] = found.as_slice() else {
+            return false;
+        };
+        found == name && !is_reserved(name)
+    };
+    let candidates = [
+        letters.clone(),
+        format!("{letters}_"),
+        format!("c_{letters}"),
+    ];
+    let first = candidates.into_iter().find(|name| is_name(name));
+    let first = first.unwrap_or_else(|| "column".to_owned());
+    let numbered = (2..).map(|number| format!("{first}_{number}"));
+    let found = std::iter::once(first.clone()).chain(numbered);
+    let name = found
+        .into_iter()
+        .find(|name| !taken.contains(name))
+        .unwrap_or(first);
+    taken.insert(name.clone());
+    name
+}
+
+/// The recording: samples in dwells where values or labels stay, else rows that count by themselves.
+fn source(file: &str, columns: &[Guess<'_>], rows: usize) -> String {
+    let file = quoted(file);
+    let is_dwell = |count: usize| count > 1 && rows / count >= DWELL;
+    let labelled = columns.iter().find(|guess| match &guess.column.data {
+        Data::Labels(labels) => {
+            guess.role != RoleWord::Ignore && is_dwell(stretches(&labels.of_row))
+        }
+        Data::Numbers(_) => false,
+    });
+    let stepped = columns.iter().find(|guess| match &guess.column.data {
+        Data::Numbers(numbers) => guess.role == RoleWord::Stimulus && is_dwell(stretches(numbers)),
+        Data::Labels(_) => false,
+    });
+    match (rows > MANY, stepped, labelled) {
+        (true, Some(guess), _) => format!("{{ file = {file}, steps = {} }}", quoted(&guess.name)),
+        (true, None, Some(guess)) => {
+            format!("{{ file = {file}, dwells = [{}] }}", quoted(&guess.name))
+        }
+        (true, None, None) => format!("{{ file = {file}, average = \"none\" }}"),
+        _ => file,
+    }
+}
+
+/// A straight line for each output.
+fn by_line(columns: &[Guess<'_>]) -> String {
+    let of = |role| columns.iter().filter(move |guess| guess.role == role);
+    let along = of(RoleWord::Stimulus).chain(of(RoleWord::Time)).next();
+    let outputs: Vec<&Guess<'_>> = of(RoleWord::Output).collect();
+    let mut taken: BTreeSet<String> = columns.iter().map(|guess| guess.name.clone()).collect();
+    // Numbered: a name that is nearly that of a column would be taken for a slip of the pen.
+    let equations = outputs.iter().zip(1..).map(|(output, number)| {
+        let number = match outputs.len() {
+            1 => String::new(),
+            _ => number.to_string(),
+        };
+        let mut coefficient = |letter: &str| identifier(&format!("{letter}{number}"), &mut taken);
+        let constant = coefficient("a");
+        match along {
+            Some(along) => {
+                let slope = coefficient("b");
+                format!("{} = {constant} + {slope}*{}", output.name, along.name)
+            }
+            None => format!("{} = {constant}", output.name),
+        }
+    });
+    let equations: Vec<String> = equations.map(|equation| quoted(&equation)).collect();
+    let equations = match equations.as_slice() {
+        [] => "# equations = \"y = a + b*x\"   # no column looks like an output".to_owned(),
+        [one] => format!("equations = {one}"),
+        several => format!("equations = [\n    {},\n]", several.join(",\n    ")),
+    };
+    let columns: String = columns.iter().map(declared).collect();
+    format!("{equations}\n\n[columns]\n{columns}")
+}
+
+fn declared(guess: &Guess<'_>) -> String {
+    let (role, name) = (quoted(guess.role.word()), key(&guess.name));
+    let value = match guess.name == guess.column.name {
+        true => role,
+        false => format!(
+            "{{ role = {role}, column = {} }}",
+            quoted(&guess.column.header)
+        ),
+    };
+    format!("{name} = {value}   # {}\n", within(guess.column))
+}
+
+/// What is in a column, in one line.
+fn within(column: &Column) -> String {
+    match &column.data {
+        Data::Labels(labels) => {
+            let shown: Vec<String> = labels
+                .levels
+                .iter()
+                .take(3)
+                .map(|label| quoted(label))
+                .collect();
+            let more = if labels.levels.len() > 3 { ", …" } else { "" };
+            format!("{} labels: {}{more}", labels.levels.len(), shown.join(", "))
+        }
+        Data::Numbers(numbers) => {
+            let known = || numbers.iter().filter(|x| x.is_finite());
+            let low = known().copied().fold(f64::INFINITY, f64::min);
+            let high = known().copied().fold(f64::NEG_INFINITY, f64::max);
+            let unit = column.unit.as_ref().map_or_else(
+                || "; no unit in the first line".to_owned(),
+                |unit| format!(" {}", unit.typeset()),
+            );
+            match known().next() {
+                Some(_) if low < high => format!("{} to {}{unit}", show(low), show(high)),
+                Some(_) => format!("{}{unit} throughout", show(low)),
+                None => "no number".to_owned(),
+            }
+        }
+    }
+}
+
+/// The columns that a procedure needs, with those of the recording that may be meant, and what it must be told.
+fn by_procedure(procedure: &Procedure, columns: &[Guess<'_>]) -> String {
+    let base: toml::Table = procedure.text.parse().unwrap_or_default();
+    let entries = |table: &str| {
+        let entries = base
+            .get(table)
+            .and_then(toml::Value::as_table)
+            .into_iter()
+            .flatten();
+        let entries =
+            entries.filter_map(|(name, entry)| Some((name.clone(), entry.as_table()?.clone())));
+        entries.collect::<Vec<(String, toml::Table)>>()
+    };
+    let said = |entry: &toml::Table, key: &str| {
+        entry
+            .get(key)
+            .and_then(toml::Value::as_str)
+            .unwrap_or_default()
+            .to_owned()
+    };
+    let mut text = format!("procedure = {}\n\n[columns]\n", quoted(procedure.name));
+    for (name, entry) in entries("columns") {
+        let what = said(&entry, "description");
+        let same = columns
+            .iter()
+            .find(|guess| guess.column.name.to_lowercase() == name.to_lowercase());
+        let found = same.or_else(|| only(columns, &entry));
+        text += &match found {
+            Some(guess) if guess.column.name == name => format!("# {name}: {what}\n"),
+            Some(guess) => {
+                format!(
+                    "{} = {{ column = {} }}   # {what}\n",
+                    key(&name),
+                    quoted(&guess.column.header)
+                )
+            }
+            None => format!(
+                "# {} = {{ column = \"…\" }}   # which column is it? {what}\n",
+                key(&name)
+            ),
+        };
+    }
+    for (name, entry) in entries("input") {
+        if entry.get("required").and_then(toml::Value::as_bool) == Some(true) {
+            text += &format!(
+                "\n# [input.{name}]   # has to be stated: {}\n# value = …\n# unit = {}\n",
+                said(&entry, "description"),
+                quoted(&said(&entry, "unit")),
+            );
+        }
+    }
+    text
+}
+
+/// The only column of the dimension that an entry of a procedure must have, or the only one of labels.
+fn only<'g, 'r>(columns: &'g [Guess<'r>], entry: &toml::Table) -> Option<&'g Guess<'r>> {
+    let word = |key: &str| entry.get(key).and_then(toml::Value::as_str);
+    let like = word("like").and_then(|unit| UnitTable::default().parse(unit).ok());
+    let fits = |guess: &&Guess<'_>| match (&guess.column.data, &like) {
+        (Data::Labels(_), _) => word("holds") == Some("labels"),
+        (Data::Numbers(_), Some(like)) => {
+            let unit = guess.column.unit.as_ref();
+            unit.is_some_and(|unit| unit.conversion_to(like).is_some())
+        }
+        (Data::Numbers(_), None) => word("holds").is_none() && guess.role == RoleWord::Output,
+    };
+    let mut fitting = columns.iter().filter(fits);
+    let first = fitting.next();
+    first.filter(|_| fitting.next().is_none())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::procedure::procedure_named;
+
+    fn of(recording: &str) -> toml::Table {
+        let text = proposal("run.csv", recording, None).expect("a table");
+        text.parse()
+            .unwrap_or_else(|error| panic!("{error}\n{text}"))
+    }
+
+    fn role(table: &toml::Table, name: &str) -> String {
+        match &table["columns"][name] {
+            toml::Value::String(role) => role.clone(),
+            entry => entry["role"].as_str().expect("a role").to_owned(),
+        }
+    }
+
+    #[test]
+    fn what_is_set_is_a_stimulus_and_what_is_read_an_output() {
+        let table = of("t [s],load [N],day,T_room [degC],deflection [mm]\n\
+            0,0,mon,20.1,0.01\n1,10,mon,20.2,1.02\n2,20,mon,20.2,2.01\n\
+            3,0,tue,20.1,0.02\n4,10,tue,20.4,1.01\n5,20,tue,20.3,2.02\n");
+        let roles = ["t", "load", "day", "T_room", "deflection"].map(|name| role(&table, name));
+        assert_eq!(roles, ["time", "stimulus", "run", "covariate", "output"]);
+        assert_eq!(table["equations"].as_str(), Some("deflection = a + b*load"));
+        assert_eq!(table["recording"].as_str(), Some("run.csv"));
+    }
+
+    /// A reference that is read as well comes before the output; names that equations cannot write get others.
+    #[test]
+    fn names_are_such_as_equations_can_write() {
+        let table = of("a,sin [mV],U out (mV)\n1.01,7,0.1\n2.02,8,0.2\n3.03,9,0.3\n");
+        assert_eq!(role(&table, "sin_"), "stimulus");
+        assert_eq!(
+            table["columns"]["U_out"]["column"].as_str(),
+            Some("U out (mV)")
+        );
+        assert_eq!(table["equations"].as_str(), Some("U_out = a_2 + b*a"));
+    }
+
+    #[test]
+    fn axes_are_outputs_together() {
+        let table = of(
+            "position,ax [m/s^2],ay [m/s^2]\nup,9.81,0.02\nup,9.82,0.01\ndown,-9.79,0.03\ndown,-9.78,0.04\n",
+        );
+        let equations = table["equations"].as_array().expect("a list");
+        assert_eq!(
+            (equations.len(), role(&table, "position").as_str()),
+            (2, "position")
+        );
+        assert_eq!(equations[0].as_str(), Some("ax = a1"));
+    }
+
+    #[test]
+    fn many_rows_say_what_they_are() {
+        let rows: String = (0..200)
+            .map(|i| format!("{},{}\n", i / 20, 0.5 * f64::from(i)))
+            .collect();
+        assert_eq!(
+            of(&format!("x,y\n{rows}"))["recording"]["steps"].as_str(),
+            Some("x")
+        );
+        let rows: String = (0..200)
+            .map(|i| format!("{},{}\n", i % 7, 0.5 * f64::from(i)))
+            .collect();
+        assert_eq!(
+            of(&format!("x,y\n{rows}"))["recording"]["average"].as_str(),
+            Some("none")
+        );
+    }
+
+    #[test]
+    fn a_procedure_is_told_its_columns() {
+        let procedure = procedure_named("accelerometer-tumble-4");
+        let text = proposal(
+            "run.csv",
+            "angle [deg],reading [V]\n0,0.1\n90,5\n180,0.2\n270,-5\n",
+            procedure,
+        )
+        .expect("a table");
+        assert!(text.contains("E = { column = \"reading [V]\" }"), "{text}");
+        assert!(
+            text.contains("theta = { column = \"angle [deg]\" }"),
+            "{text}"
+        );
+        assert!(
+            text.contains("# [input.R]   # has to be stated: Resistor"),
+            "{text}"
+        );
+        text.parse::<toml::Table>().expect("well-formed");
+    }
+
+    #[test]
+    fn what_is_no_table_is_refused() {
+        assert!(proposal("run.csv", "", None).is_err());
+        assert!(proposal("run.csv", "a,b\n1\n", None).is_err());
+    }
+}

@@ -38,7 +38,7 @@ pub(super) fn run(args: &Args) -> Outcome {
             "{} is a budget, which has no design to plan; evaluate it with `gumption eval`",
             args.file.display()
         )),
-        Kind::Unknown => output::complain(say!(
+        Kind::Certificate | Kind::Unknown => output::complain(say!(
             "{} is no experiment: it would have `equations` or a `procedure`",
             args.file.display()
         )),

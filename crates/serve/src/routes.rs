@@ -18,6 +18,7 @@ use gumption_gum::budget;
 use gumption_lab::experiment::procedure::{PROCEDURES, procedure_named};
 use gumption_lab::experiment::proposal;
 use gumption_lab::recording::text_of;
+use gumption_report::certificate_template;
 
 use super::exchange::{Contents, Reply, opened};
 use super::exercises::Shown;
@@ -107,7 +108,9 @@ impl Routes {
             "open" => self.open(&about),
             "form" => form(&about, &contents),
             "propose" => propose(&about, &contents),
-            "template" => Reply::json(&json!({ "text": budget::template() })),
+            "template" => Reply::json(&json!({
+                "budget": budget::template(), "certificate": certificate_template(),
+            })),
             "save" => self.save(&about, &contents),
             "forget" => {
                 self.shelf.forget(&about.path);

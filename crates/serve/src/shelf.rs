@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 
 use gumption_format::files::write::{Output, Replacing, Unwritten, Why, write};
 use gumption_format::files::{Files, Folder};
+use gumption_lab::experiment::{Kind, kind_of};
 
 /// Files that a reader finds in a list.
 const MOST_FILES: usize = 2000;
@@ -60,13 +61,18 @@ impl Shelf {
         }
     }
 
-    /// The budgets and the experiments, and what may be one.
+    /// The budgets and the experiments, and what may be one; the data of certificates among them.
     pub fn list(&self) -> Value {
         let mut files = Vec::new();
         self.collect(Path::new(""), 0, &mut files);
         files.sort();
+        let is_certificate = |file: &&String| {
+            let text = std::fs::read_to_string(self.root.join(file)).unwrap_or_default();
+            kind_of(&text) == Kind::Certificate
+        };
+        let certificates: Vec<&String> = files.iter().filter(is_certificate).collect();
         let folder = self.root.file_name().unwrap_or(self.root.as_os_str());
-        json!({ "folder": folder.to_string_lossy(), "files": files })
+        json!({ "folder": folder.to_string_lossy(), "files": files, "certificates": certificates })
     }
 
     fn collect(&self, folder: &Path, depth: usize, files: &mut Vec<String>) {

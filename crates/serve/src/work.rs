@@ -14,7 +14,7 @@ use gumption_core::quantity::Unit;
 use gumption_export::{Format, Page};
 use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection, Said, say};
-use gumption_format::document::Document;
+use gumption_format::document::{Attachment, Document};
 use gumption_format::files::{Files, Folder};
 use gumption_format::toml::Step;
 use gumption_gum::budget::{self, Budget, Row};
@@ -27,7 +27,7 @@ use gumption_report::{self as report, Report};
 
 use super::exchange::Contents;
 use super::exercises::{self, Practice, Shown};
-use super::forms::{self, Edit, is_experiment};
+use super::forms::{self, Edit};
 use super::lessons;
 use super::movable;
 use super::pages::Job;
@@ -82,6 +82,8 @@ pub(crate) struct Wish {
     pub before: Option<String>,
     /// Lesson that is drawn.
     pub lesson: Option<Drawing>,
+    /// File with the data of the certificate that the result is to be.
+    pub certificate: Option<String>,
     /// Exercise that is handed out or graded.
     pub exercise: Option<Practice>,
 }
@@ -198,6 +200,7 @@ pub(crate) fn done(
         Task::Audit => asked.audit(),
         Task::Diagnose => asked.diagnose(),
         Task::Plan => asked.plan(),
+        Task::See if asked.kind() == Kind::Certificate => asked.certificate(),
         Task::See if asked.is_experiment() => asked.calibrate(),
         Task::See => asked.evaluate(),
         Task::Require => asked.require(),
@@ -264,9 +267,41 @@ impl Asked<'_> {
         Found::Nothing(why.in_language(self.language))
     }
 
-    fn is_experiment(&self) -> bool {
+    fn kind(&self) -> Kind {
         let bytes = self.files.read(self.path).unwrap_or_default();
-        is_experiment(&String::from_utf8_lossy(&bytes))
+        kind_of(&String::from_utf8_lossy(&bytes))
+    }
+
+    fn is_experiment(&self) -> bool {
+        matches!(self.kind(), Kind::Schedule | Kind::Experiment)
+    }
+
+    /// What is wrong with the data of a certificate, or where they are used.
+    fn certificate(&self) -> Result<Found, Found> {
+        report::administration(self.files, self.path)?;
+        Err(self.nothing(&say!(
+            "the data of the certificate are complete: choose this file under \"Certificate\" beside a budget"
+        )))
+    }
+
+    /// The document as that of the certificate whose data are chosen, with the budget in it.
+    fn certified(&self, document: Document) -> Result<Document, Found> {
+        let Some(file) = &self.wish.certificate else {
+            return Ok(document);
+        };
+        // Its places are not those of the text that is edited.
+        let given = report::administration(self.files, Path::new(file)).map_err(|rejection| {
+            let why = rejection.faults.into_iter().next();
+            let why = why.map_or(Said::default(), |fault| fault.message);
+            self.nothing(&say!("{file}: {why}"))
+        })?;
+        let name = self.path.file_name().unwrap_or_default().to_string_lossy();
+        let budget = Attachment {
+            name: name.into_owned(),
+            media_type: "application/toml",
+            content: self.files.read(self.path).unwrap_or_default(),
+        };
+        Ok(report::certified(document, &given, vec![budget]))
     }
 
     fn evaluate(&self) -> Result<Found, Found> {
@@ -277,6 +312,7 @@ impl Asked<'_> {
         first["entries"] = json!(movable::movable(&String::from_utf8_lossy(&text)));
         let document = report::evaluations(&reports, 1);
         let document = document.ok_or_else(|| self.nothing(&say!("the file has no rows")))?;
+        let document = self.certified(document)?;
         Ok(Found::Document(Box::new(document), first))
     }
 
@@ -457,8 +493,7 @@ impl Asked<'_> {
     }
 
     fn plan(&self) -> Result<Found, Found> {
-        let bytes = self.files.read(self.path).unwrap_or_default();
-        let document = match kind_of(&String::from_utf8_lossy(&bytes)) {
+        let document = match self.kind() {
             Kind::Schedule => {
                 let campaign = calibrate::load_from(self.files, self.path, Purpose::Plan)?;
                 let plan = calibrate::plan(&campaign).map_err(|trouble| {

@@ -190,6 +190,14 @@ fn set(browser: &mut Browser, field: &str, value: &str) {
     assert_eq!(done, value, "{field}");
 }
 
+/// Sets a field of the page, which may answer by setting it otherwise.
+fn set_silently(browser: &mut Browser, field: &str, value: &str) {
+    let (field, value) = (json!(field), json!(value));
+    browser.value(&format!(
+        "(field => {{ field.value = {value}; field.dispatchEvent(new Event('change', {{ bubbles: true }})); }})(document.querySelector({field}))"
+    ));
+}
+
 impl Drop for Browser {
     fn drop(&mut self) {
         let _ = self.program.kill();
@@ -307,6 +315,46 @@ fn a_recording_is_dropped() {
     browser.until("!document.getElementById('experiment').hidden");
     browser.value("document.getElementById('plan').click()");
     browser.until("state.shown === 'plan'");
+}
+
+/// A sheet that is dropped is audited; the certificate of a budget is downloaded, with the data that the page wrote to fill in.
+#[test]
+fn a_sheet_is_audited_and_a_certificate_downloaded() {
+    let Some((served, mut browser)) = opened("browser-download", &[("a.toml", BUDGET)], "en")
+    else {
+        return;
+    };
+    browser.until(&format!("{DOCUMENT}.includes('Statement')"));
+    let sheet = json!(
+        std::fs::read_to_string(root().join("docs/examples/claimed-budget.csv")).expect("a text")
+    );
+    browser.value(&format!("void drop([new File([{sheet}], 'sheet.csv')])"));
+    browser.until("document.getElementById('ask').open");
+    browser.value("document.getElementById('other').click()");
+    browser.until(&format!("{DOCUMENT}.includes('not divided by its k')"));
+    browser.value("document.getElementById('back').click()");
+    browser.until(&format!("{DOCUMENT}.includes('Statement')"));
+    set_silently(&mut browser, "#certificate", "new");
+    browser.until("document.getElementById('ask').open");
+    browser.value("document.getElementById('yes').click()");
+    browser.until("text.value.includes('[laboratory]')");
+    browser.until(&format!("{DOCUMENT}.includes('complete')"));
+    assert!(served.text("laboratory.toml").contains("[customer]"));
+    set_silently(&mut browser, "#file", "a.toml");
+    browser.until(&format!("{DOCUMENT}.includes('Statement')"));
+    set_silently(&mut browser, "#certificate", "laboratory.toml");
+    browser.until(&format!("{DOCUMENT}.includes('2026-0001')"));
+    // What a hand would find in its folder of downloads.
+    browser.value("HTMLAnchorElement.prototype.click = function () { window.name = this.download; }; URL.createObjectURL = blob => { blob.text().then(text => { window.got = text; }); return ''; }");
+    set_silently(&mut browser, "#format", "dcc");
+    browser.until("window.got");
+    let got = browser.value("window.got");
+    let text = got.as_str().expect("a text");
+    assert_eq!(browser.value("window.name"), "a.xml");
+    assert!(
+        text.contains("digitalCalibrationCertificate") && text.contains("2026-0001"),
+        "{text}"
+    );
 }
 
 /// A lesson goes on by itself to its last picture, is stopped by a hand at the slider, and begins anew.

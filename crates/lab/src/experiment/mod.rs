@@ -100,6 +100,8 @@ pub enum Kind {
     Experiment,
     /// A budget: measurands or inputs.
     Budget,
+    /// The data of a certificate: the laboratory and its customer.
+    Certificate,
     /// None of them.
     Unknown,
 }
@@ -118,6 +120,8 @@ pub fn kind_of(text: &str) -> Kind {
         Kind::Experiment
     } else if has(&["model"]) {
         Kind::Budget
+    } else if has(&["laboratory", "customer"]) {
+        Kind::Certificate
     } else {
         Kind::Unknown
     }

@@ -2,7 +2,8 @@
 // What the page itself says; results and faults come from the program in the reader's language.
 const WORDS = {
   en: {
-    toText: "To the text", file: "File", new: "New…", save: "Save", drop: "Audit a sheet, add a recording…",
+    toText: "To the text", certificate: "Certificate", noCertificate: "without", newCertificate: "New data…",
+    certificateName: "Number, dates, laboratory, customer, item and who signs, to fill in. What shall the file be called?", file: "File", new: "New…", save: "Save", drop: "Audit a sheet, add a recording…",
     download: "Download", language: "Language", text: "Budget file", result: "Result", stop: "Stop",
     recording: "Recording", calibrate: "Calibrate", plan: "Plan", diagnose: "Diagnose", whatIf: "What if", input: "Input",
     value: "Estimate", factor: "u times", cost: "Cost of half u", reset: "As in the text", require: "What would that need?", back: "Back to the result",
@@ -39,7 +40,8 @@ const WORDS = {
     trials: n => `${n} trials`, stopped: "Stopped.", nothing: "Nothing to show.", tooLarge: "That is too large.",
   },
   zh: {
-    toText: "转到文本", file: "文件", new: "新建…", save: "保存", drop: "审核表格、加入记录…",
+    toText: "转到文本", certificate: "证书", noCertificate: "不加数据", newCertificate: "新建数据…",
+    certificateName: "证书编号、日期、实验室、委托方、样品与签字人，待填写。文件叫什么名字？", file: "文件", new: "新建…", save: "保存", drop: "审核表格、加入记录…",
     download: "下载", language: "语言", text: "评定文件", result: "结果", stop: "停止",
     recording: "记录", calibrate: "校准", plan: "方案", diagnose: "诊断", whatIf: "如果……", input: "输入量",
     value: "估计值", factor: "u 的倍数", cost: "u 减半的代价", reset: "恢复为文本所述", require: "需要什么条件？", back: "返回结果",

@@ -16,6 +16,8 @@ const state = {
   formats: [],
   lessons: [],
   procedures: [],
+  certificates: [],
+  certificate: "", // the file with the data of the certificate that is chosen
   costs: new Map(), // of halving the uncertainty of an input, by name
   seed: 1, // of the samples of a lesson
   playing: null, // the play of the slider of a lesson, while it goes on
@@ -37,6 +39,7 @@ function speak(code) {
   for (const element of document.querySelectorAll("[data-label]")) element.setAttribute("aria-label", word(element.dataset.label));
   $("document").title = word("result");
   fillFormats();
+  fillCertificates();
   fillLessons($("lesson").value);
   fillExercises($("exercise-kind").value);
   formStale();
@@ -217,6 +220,7 @@ function wish(task) {
   }
   const path = task === "audit" ? state.audited : state.path;
   const head = { task, path, changes: changes() };
+  if (state.certificate && !APART.includes(task)) head.certificate = state.certificate;
   if (task === "versions") head.before = state.disk;
   if (task === "require") head.target = { measurand: $("measurand").value, expanded: $("wished").valueAsNumber, costs: Object.fromEntries(state.costs) };
   const sent = task === "audit" ? [[path, state.added.get(path)]] : files();
@@ -418,6 +422,25 @@ function fillFormats() {
   fill($("format"), [["", word("choose")], ...state.formats.map(([name, ending]) => [name, `.${ending}`])], "");
 }
 
+function fillCertificates() {
+  if (!state.certificates.includes(state.certificate)) state.certificate = "";
+  const files = state.certificates.map(name => [name, name]);
+  fill($("certificate"), [["", word("noCertificate")], ...files, [NEW, word("newCertificate")]], state.certificate);
+}
+
+const NEW = "new"; // no file has this name: it has no ending
+
+/// The data of the certificate that the report is to be; new ones are written and opened, to be filled in.
+async function certify() {
+  if ($("certificate").value !== NEW) { state.certificate = $("certificate").value; await run("see"); return; }
+  fillCertificates();
+  if (!(await mayLeave())) return;
+  const answer = await question(word("certificateName"), { yes: word("create"), name: "laboratory.toml" });
+  if (answer === "") return;
+  const template = await (await ask("template")).json();
+  await created($("name").value.trim(), template.certificate);
+}
+
 function fillLessons(chosen) {
   const at = language === "zh" ? 1 : 0;
   fill($("lesson"), [["", word("chooseLesson")], ...state.lessons.map(([name, titles]) => [name, titles[at]])], chosen);
@@ -464,7 +487,9 @@ async function refresh() {
   state.formats = found.formats;
   state.lessons = found.lessons;
   state.procedures = found.procedures;
+  state.certificates = found.certificates;
   fillFormats();
+  fillCertificates();
   fillLessons($("lesson").value);
   fill($("file"), found.files.map(name => [name, name]), state.path);
   document.title = `${found.folder} – gumption`;
@@ -533,8 +558,8 @@ async function create() {
   const answer = await question(word("newName"), { yes: word("create"), other: word("emptyForm"), name: "budget.toml" });
   if (answer === "") return;
   const isEmpty = answer === "other";
-  const template = isEmpty ? { text: "" } : await (await ask("template")).json();
-  const isThere = await created($("name").value.trim(), template.text);
+  const text = isEmpty ? "" : (await (await ask("template")).json()).budget;
+  const isThere = await created($("name").value.trim(), text);
   if (isThere && isEmpty) { form.focus = keyOf(["title"]); showView(true); }
 }
 
@@ -620,6 +645,7 @@ text.addEventListener("input", () => { mark([]); formStale(true); soon(); });
 text.addEventListener("scroll", scrolled);
 $("file").addEventListener("change", choose);
 $("format").addEventListener("change", download);
+$("certificate").addEventListener("change", certify);
 $("language").addEventListener("change", () => {
   pause();
   speak($("language").value);

@@ -73,6 +73,17 @@ pub(crate) fn factor(from: &str, to: &str) -> Option<f64> {
     Some(conversion.apply(1.0) - conversion.apply(0.0))
 }
 
+/// The power of ten that stands where a unit would, in a head or behind a figure: 10⁻⁶ for `×10⁻⁶`.
+pub(crate) fn power_of_ten(text: &str) -> Option<f64> {
+    let text = crate::printed::clean(text);
+    let power = text.trim().trim_start_matches(['×', 'x', '*', ' ']);
+    let exponent = power.strip_prefix("10^")?;
+    let exponent: i32 = exponent.trim_matches(['(', ')', '{', '}']).parse().ok()?;
+    (-15..=15)
+        .contains(&exponent)
+        .then(|| libm::exp10(f64::from(exponent)))
+}
+
 /// The fraction that a unit of ratios stands for: 0.01 for percent.
 pub(crate) fn fraction(unit: &str) -> Option<f64> {
     match unit.trim() {
@@ -87,6 +98,14 @@ pub(crate) fn fraction(unit: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_power_of_ten_may_stand_for_a_unit() {
+        for text in ["×10⁻⁶", "x10^-6", "10^-6", "×10^(-6)"] {
+            assert_eq!(power_of_ten(text), Some(1e-6), "{text}");
+        }
+        assert!(power_of_ten("10").is_none() && power_of_ten("m^-6").is_none());
+    }
 
     #[test]
     fn powers_need_no_sign() {

@@ -1,6 +1,7 @@
 //! What is known, computed once: the right calculation of a claim.
 
 use crate::claim::{Claimed, Coverage, Row, Stated};
+use crate::printed::Printed;
 use crate::units;
 
 use super::calculation::{Calculation, Combined, Factor, Freedom, Line, Report};
@@ -39,6 +40,7 @@ impl<'a> Case<'a> {
             Ok(None) => (None, None, None),
             Err(trouble) => (None, None, Some(trouble)),
         };
+        let derivatives = derivatives.map(|slopes| in_unit_of_result(claimed, slopes));
         let lines = claimed
             .rows
             .iter()
@@ -61,6 +63,24 @@ impl<'a> Case<'a> {
             y,
             trouble,
         }
+    }
+}
+
+/// Derivatives of a ratio whose contributions are in percent: with the hundred in them where most coefficients of the
+/// sheet have it.
+fn in_unit_of_result(claimed: &Claimed, slopes: Vec<f64>) -> Vec<f64> {
+    let Some(fraction) = units::fraction(&claimed.unit) else {
+        return slopes;
+    };
+    let rows = claimed.rows.iter().zip(&slopes);
+    let stated: Vec<(f64, f64)> = rows
+        .filter_map(|(row, slope)| Some((row.c.as_ref()?.value, *slope)))
+        .filter(|(c, slope)| *c != 0.0 && *slope != 0.0)
+        .collect();
+    let scaled = |(c, slope): &&(f64, f64)| far(*c, slope / fraction) < far(*c, *slope);
+    match 2 * stated.iter().filter(scaled).count() > stated.len() {
+        true => slopes.into_iter().map(|slope| slope / fraction).collect(),
+        false => slopes,
     }
 }
 
@@ -202,7 +222,15 @@ fn to_y(claimed: &Claimed, row: &Row, from_model: bool) -> f64 {
                 conversion.apply(1.0) - conversion.apply(0.0)
             })
         }
-        None => units::factor(&row.unit, y_unit).unwrap_or(1.0),
+        None => {
+            let factor = units::factor(&row.unit, y_unit).unwrap_or(1.0);
+            // `1000` between mm and µm: the coefficient is the conversion.
+            let converts = |c: &Printed| c.is_met_by(factor.copysign(c.value));
+            match row.c.as_ref().is_some_and(converts) {
+                true => 1.0,
+                false => factor,
+            }
+        }
     }
 }
 

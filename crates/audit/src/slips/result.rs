@@ -167,10 +167,16 @@ fn of_estimates(case: &Case<'_>) -> Option<Vec<Sum>> {
     (added.len() <= MOST).then(|| (0..1 << added.len()).map(with).collect())
 }
 
-/// U in a unit to which no contribution can be converted: rows whose coefficient is printed as 1 are in that of the result.
+/// U in a unit to which no contribution can be converted: rows whose coefficient is printed as 1 are in that of the
+/// result, unless u_c or the contributions say that it has a unit.
 pub(crate) fn of_unit(case: &Case<'_>) -> Option<Act> {
     let unit = &case.claimed.footer.expanded.as_ref()?.unit;
     if units::parse(unit).is_none() || units::fraction(unit).is_some() {
+        return None;
+    }
+    let contributions = case.claimed.rows.iter().map(|row| &row.contribution);
+    let mut made = contributions.chain([&case.claimed.footer.u_c]).flatten();
+    if made.any(|figure| units::factor(&figure.unit, unit).is_some()) {
         return None;
     }
     let rows = case.claimed.rows.iter();

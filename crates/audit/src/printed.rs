@@ -127,8 +127,9 @@ impl Printed {
         match crate::units::power_of_ten(&self.unit) {
             Some(power) => {
                 let own = clean(&self.text).contains("10^");
-                let (figure, unit) = (self.scaled(if own { 1.0 } else { power }), String::new());
-                Printed { unit, ..figure }
+                // Behind the power the zeros of a whole number are none any more.
+                let (half, unit) = (self.half_of_digits(), String::new());
+                Printed { half, unit, ..self }.scaled(if own { 1.0 } else { power })
             }
             None => self,
         }

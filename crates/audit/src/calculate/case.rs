@@ -1,5 +1,7 @@
 //! What is known, computed once: the right calculation of a claim.
 
+use gumption_core::quantity::Unit;
+
 use crate::claim::{Claimed, Coverage, Row, Stated};
 use crate::printed::Printed;
 use crate::units;
@@ -136,6 +138,10 @@ fn line(claimed: &Claimed, row: &Row, derivative: Option<f64>) -> Line {
         c = derivative * to_y;
         rest = 1.0;
     }
+    // A coefficient with a unit of its own is the derivative in that unit.
+    if let Some((derivative, own)) = derivative.zip(by_unit_of_c(claimed, row)) {
+        (c, rest) = (derivative * to_y / own, own);
+    }
     if row.stated == Stated::Nothing && c * rest != 0.0 {
         // The contribution has the coefficient in it.
         u /= (c * rest).abs();
@@ -205,33 +211,35 @@ fn to_y(claimed: &Claimed, row: &Row, from_model: bool) -> f64 {
     if row.unit.is_empty() || y_unit.is_empty() {
         return 1.0;
     }
-    let c_unit = row.c.as_ref().map_or("", |c| c.unit.as_str());
-    let product = if c_unit.is_empty() || c_unit == "1" {
-        None
-    } else {
-        units::parse(c_unit).zip(units::parse(&row.unit))
-    };
-    match product {
-        Some((c, u)) => {
-            let target = units::parse(y_unit);
-            let conversion = target.and_then(|target| {
-                c.product(&u.difference())
-                    .conversion_to(&target.difference())
-            });
-            conversion.map_or(1.0, |conversion| {
-                conversion.apply(1.0) - conversion.apply(0.0)
-            })
-        }
-        None => {
-            let factor = units::factor(&row.unit, y_unit).unwrap_or(1.0);
-            // `1000` between mm and µm: the coefficient is the conversion.
-            let converts = |c: &Printed| c.is_met_by(factor.copysign(c.value));
-            match row.c.as_ref().is_some_and(converts) {
-                true => 1.0,
-                false => factor,
-            }
-        }
+    if unit_of_c(row).is_some() && units::parse(&row.unit).is_some() {
+        return by_unit_of_c(claimed, row).unwrap_or(1.0);
     }
+    let factor = units::factor(&row.unit, y_unit).unwrap_or(1.0);
+    // `1000` between mm and µm: the coefficient is the conversion.
+    let converts = |c: &Printed| c.is_met_by(factor.copysign(c.value));
+    match row.c.as_ref().is_some_and(converts) {
+        true => 1.0,
+        false => factor,
+    }
+}
+
+/// The unit that is written behind the coefficient of a row.
+fn unit_of_c(row: &Row) -> Option<Unit> {
+    let unit = &row.c.as_ref()?.unit;
+    units::parse(unit).filter(|_| unit != "1")
+}
+
+/// From the unit of c·u to that of the result, where c has one and they agree.
+fn by_unit_of_c(claimed: &Claimed, row: &Row) -> Option<f64> {
+    // An estimate without a unit is a number, and so is its uncertainty.
+    let u = match row.unit.as_str() {
+        "" => Unit::one(),
+        unit => units::parse(unit)?,
+    };
+    let target = units::parse(&claimed.unit)?;
+    let product = unit_of_c(row)?.product(&u.difference());
+    let conversion = product.conversion_to(&target.difference())?;
+    Some(conversion.apply(1.0) - conversion.apply(0.0))
 }
 
 /// How far two figures are apart, as a ratio.

@@ -115,6 +115,44 @@ fn heads_have_strange_units() {
     is_sound("sheet.csv", &current("1.0"));
 }
 
+/// The zeros of a whole number are none behind the power of ten of its column.
+#[test]
+fn powers_of_ten_keep_the_digits() {
+    let sheet =
+        "Uncertainty source,Type,Standard uncertainty (x 10^-6),Sensitivity,Contribution (x 10^-6)
+Tank volume,B,60,1,60
+        Temperature,B,25,1,25
+Pressure,B,22,1,22
+Density,B,35,1,35
+Repeatability,A,40,1,40
+        Combined standard uncertainty,,,,87
+Expanded uncertainty (k = 2),,,,170
+";
+    is_sound("sheet.csv", sheet);
+}
+
+/// A coefficient of 100 Ω, where contributions are in mΩ.
+#[test]
+fn coefficients_have_units_of_their_own() {
+    let sheet = |u: &str, u_c: &str, expanded: &str| {
+        format!(
+            "标准电阻校准\n测量模型：R_x = R_s · r\n输入量,估计值,不确定度来源,U 或 a,k,u(x_i),c_i,u_i(y)/mΩ\n\
+             R_s,100.0012 Ω,\"证书 U=3.0 mΩ, k=2\",3.0 mΩ,{u},1.00,{}\n\
+             r,1.000021,电桥 MPE ±8×10⁻⁶,8×10⁻⁶,√3,4.6×10⁻⁶,100 Ω,0.46\n\
+             合成标准不确定度 u_c = {u_c} mΩ\n\"扩展不确定度 U = {expanded} mΩ，k = 2\"\n",
+            u.rsplit(',')
+                .next()
+                .unwrap_or_default()
+                .trim_end_matches(" mΩ")
+        )
+    };
+    is_sound("sheet.csv", &sheet("2,1.50 mΩ", "1.57", "3.1"));
+    assert_eq!(
+        first("sheet.csv", &sheet("1,3.00 mΩ", "3.04", "6.1")),
+        "cert-undivided@R_s"
+    );
+}
+
 /// No table and no list: the sentences of a summary.
 #[test]
 fn running_text_is_read() {

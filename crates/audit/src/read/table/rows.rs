@@ -52,6 +52,18 @@ pub fn rows(grid: &Grid, sheet: usize, located: &Located) -> Vec<Raw> {
                 .collect(),
         );
     }
+    for Raw { row, .. } in &mut rows {
+        let figures = [
+            &mut row.value,
+            &mut row.used,
+            &mut row.u,
+            &mut row.c,
+            &mut row.contribution,
+        ];
+        for figure in figures {
+            *figure = figure.take().map(Printed::without_power);
+        }
+    }
     parts_are_not_counted(&mut rows);
     rows
 }
@@ -119,8 +131,8 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
         if figure.unit.is_empty() && matches!(role, Role::Value | Role::Used | Role::U) {
             figure.unit = unit_beside(column.index).to_string();
         }
-        let mut figure = figure.without_power();
-        if units::parse(&figure.unit).is_none() && !matches!(role, Role::C) {
+        let is_power = units::power_of_ten(&figure.unit).is_some();
+        if units::parse(&figure.unit).is_none() && !is_power && !matches!(role, Role::C) {
             figure.unit.clear();
         }
         Some(figure)

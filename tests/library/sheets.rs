@@ -653,29 +653,30 @@ impl Named {
     }
 }
 
+/// Each slip of each budget in one layout, in turn.
 #[test]
 fn slips_in_published_budgets_are_found() {
     let (mut first, mut all) = (0, 0);
     let mut missed = String::new();
     for (name, sheet) in sheets() {
-        for layout in LAYOUTS {
-            let right = sheet.text(layout);
-            for (id, spoilt) in sheet.spoilt() {
-                let text = spoilt.text(layout);
-                // What changes no printed figure cannot be seen, and one digit is met by anything.
-                if text == right || !spoilt.is_told() {
-                    continue;
-                }
-                let (named, verdict) =
-                    audited(&text, |audit| (Named::of(audit, &id), audit.verdict));
-                all += 1;
-                first += usize::from(named == Named::First);
-                if named == Named::Not {
-                    let _ = writeln!(missed, "{name} {layout:?} {id}: {verdict:?}");
-                }
+        for (n, (id, spoilt)) in sheet.spoilt().into_iter().enumerate() {
+            let layout = LAYOUTS[n % LAYOUTS.len()];
+            let text = spoilt.text(layout);
+            // What changes no printed figure cannot be seen, and one digit is met by anything.
+            if text == sheet.text(layout) || !spoilt.is_told() {
+                continue;
+            }
+            let (named, verdict) = audited(&text, |audit| (Named::of(audit, &id), audit.verdict));
+            all += 1;
+            first += usize::from(named == Named::First);
+            if named == Named::Not {
+                let _ = writeln!(missed, "{name} {layout:?} {id}: {verdict:?}");
             }
         }
     }
     assert!(missed.is_empty(), "{missed}");
-    assert!(all > 2000 && 100 * first >= 90 * all, "{first} of {all}");
+    assert!(
+        all > 700 && 100 * first >= 90 * all,
+        "{first} of {all} first"
+    );
 }

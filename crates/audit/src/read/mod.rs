@@ -381,12 +381,30 @@ fn unit_of_result(claimed: &Claimed) -> String {
     let footer = &claimed.footer;
     let contributions = claimed.rows.iter().map(|row| &row.contribution);
     let figures = [&footer.u_c].into_iter().chain(contributions);
-    let unit = figures
-        .chain([&footer.y, &footer.expanded])
-        .flatten()
-        .map(|figure: &Printed| figure.unit.clone())
-        .find(|unit| !unit.is_empty());
-    unit.unwrap_or_default()
+    let unit_of = |figure: &Printed| Some(figure.unit.clone()).filter(|unit| !unit.is_empty());
+    let mut stated = figures.chain([&footer.y]).flatten();
+    let unit = stated
+        .find_map(unit_of)
+        .or_else(|| unit_of_plain_rows(claimed));
+    unit.or_else(|| unit_of(footer.expanded.as_ref()?))
+        .unwrap_or_default()
+}
+
+/// The unit of rows whose contribution is printed with the figure of u, by a coefficient of 1: U may be in another one.
+fn unit_of_plain_rows(claimed: &Claimed) -> Option<String> {
+    let plain = |row: &Row| {
+        let c = row.c.as_ref()?;
+        let worked = row.used.as_ref().zip(row.divisor.as_ref());
+        let worked = worked.map(|(used, divisor)| (used.value / divisor.value, &used.unit));
+        let (u, unit) = row.u.as_ref().map(|u| (u.value, &u.unit)).or(worked)?;
+        let made = row.contribution.as_ref()?.value.abs();
+        let same = c.value.abs() == 1.0 && c.unit.is_empty() && (made - u).abs() <= 0.01 * u;
+        let unit = if unit.is_empty() { &row.unit } else { unit };
+        (same && !unit.is_empty()).then(|| unit.clone())
+    };
+    let units: Vec<String> = claimed.rows.iter().filter_map(plain).collect();
+    let first = units.first()?;
+    (units.len() >= 2 && units.iter().all(|unit| unit == first)).then(|| first.clone())
 }
 
 fn find_model(all: &[&Line], claimed: &mut Claimed, mapping: &Mapping) {

@@ -131,6 +131,20 @@ Expanded uncertainty (k = 2),,,,170
     is_sound("sheet.csv", sheet);
 }
 
+/// No head says in which unit contributions are: that of their rows is it, and U may be in another.
+#[test]
+fn the_unit_of_rows_is_that_of_their_contributions() {
+    let sheet = |expanded: &str| {
+        format!(
+            "Symbol,Source,± a,Unit,Distribution,Divisor,c_i,u_i(y)\nV_S,\"certificate: U = 0.0030 V, k = 2\",0.0030,V,normal,2,1,0.00150\n\
+             dV_t,limits ±0.0025 V,0.0025,V,rectangular,√3,1,0.00144\ndV_d,limits ±0.0042 V,0.0042,V,rectangular,√3,-1,0.00242\n\
+             u_c,Combined standard uncertainty,,,,,,0.00319\nU,Expanded uncertainty,,,k = 2,,,{expanded}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("6.4 mV"));
+    assert_eq!(first("sheet.csv", &sheet("0.0064 mV")), "U-unit");
+}
+
 /// A coefficient of 100 Ω, where contributions are in mΩ.
 #[test]
 fn coefficients_have_units_of_their_own() {

@@ -2,6 +2,7 @@
 
 use crate::calculate::{Case, unit_of_y};
 use crate::claim::Row;
+use crate::printed::Printed;
 use crate::units;
 
 use super::slip::{Act, Change, Reporting, Slip, Weight::*};
@@ -75,6 +76,18 @@ pub(crate) fn other_result(case: &Case<'_>) -> Option<f64> {
     let half = y.half_of_digits();
     let is_met = right.any(|right: f64| y.is_met_within(right, half));
     (!is_met).then_some(sum.total)
+}
+
+/// Whether nothing says what the claimed result should be: no model gives it, nor do the estimates with any signs.
+pub(crate) fn is_open(case: &Case<'_>) -> bool {
+    let is_met = |y: &Printed| {
+        let half = y.half_of_digits();
+        let sums = sums(case).unwrap_or_default();
+        // One sum alone is what the result is held against.
+        sums.len() == 1 || sums.iter().any(|sum| y.is_met_within(sum.total, half))
+    };
+    let y = case.claimed.footer.y.as_ref();
+    y.is_some_and(|y| !is_met(y)) && of_result(case).is_none()
 }
 
 /// What a result may be: a sum, and what rows add to it.

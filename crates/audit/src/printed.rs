@@ -121,20 +121,6 @@ impl Printed {
         self
     }
 
-    /// The same where a power of ten stands in the place of its unit, unless the figure has one of its own.
-    #[must_use]
-    pub fn without_power(self) -> Printed {
-        match crate::units::power_of_ten(&self.unit) {
-            Some(power) => {
-                let own = clean(&self.text).contains("10^");
-                // Behind the power the zeros of a whole number are none any more.
-                let (half, unit) = (self.half_of_digits(), String::new());
-                Printed { half, unit, ..self }.scaled(if own { 1.0 } else { power })
-            }
-            None => self,
-        }
-    }
-
     /// Whether `x`, rounded to nearest, may be printed like this.
     pub fn is_met_by(&self, x: f64) -> bool {
         self.is_met_within(x, self.half)

@@ -4,6 +4,8 @@ use std::sync::LazyLock;
 
 use gumption_core::quantity::{Unit, UnitTable};
 
+use crate::printed::Printed;
+
 static TABLE: LazyLock<UnitTable> = LazyLock::new(UnitTable::default);
 
 /// A unit as a sheet writes it; `None` for what is none.
@@ -82,6 +84,22 @@ pub(crate) fn power_of_ten(text: &str) -> Option<f64> {
     (-15..=15)
         .contains(&exponent)
         .then(|| libm::exp10(f64::from(exponent)))
+}
+
+/// A figure with the power of ten that stands in the place of its unit, unless it has one of its own.
+pub(crate) fn with_power(figure: Printed) -> Printed {
+    let Some(power) = power_of_ten(&figure.unit) else {
+        return figure;
+    };
+    let own = crate::printed::clean(&figure.text).contains("10^");
+    // Behind the power the zeros of a whole number are none any more.
+    let (half, unit) = (figure.half_of_digits(), String::new());
+    let figure = Printed {
+        half,
+        unit,
+        ..figure
+    };
+    figure.scaled(if own { 1.0 } else { power })
 }
 
 /// The fraction that a unit of ratios stands for: 0.01 for percent.

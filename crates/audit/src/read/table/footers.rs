@@ -152,7 +152,7 @@ fn footer_row(
                 .unwrap_or_default()
                 .to_string();
         }
-        let figure = figure.without_power();
+        let figure = units::with_power(figure);
         let figure = if whole == Whole::Y {
             figure
         } else {

@@ -61,7 +61,7 @@ pub fn rows(grid: &Grid, sheet: usize, located: &Located) -> Vec<Raw> {
             &mut row.contribution,
         ];
         for figure in figures {
-            *figure = figure.take().map(Printed::without_power);
+            *figure = figure.take().map(units::with_power);
         }
     }
     parts_are_not_counted(&mut rows);

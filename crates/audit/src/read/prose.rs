@@ -164,7 +164,7 @@ pub fn sentences(line: &str) -> impl Iterator<Item = &str> {
 /// `limits ±0.02 °C, u(t) = 0.02/√3 = 0.0115 °C`. U of a certificate in small letters has its k behind it.
 fn concluded(text: &str) -> Option<(&str, Printed)> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let names = text.match_indices('u').filter_map(|(at, _)| {
+    let mut names = text.match_indices('u').filter_map(|(at, _)| {
         let length = text[at..].find(|c| !is_part(c))?;
         let name = &text[at..at + length];
         let free = !text[..at].chars().next_back().is_some_and(is_part);
@@ -175,7 +175,7 @@ fn concluded(text: &str) -> Option<(&str, Printed)> {
         let of_the_whole = footer::label(name, "").is_some() && name != "u" || index == "95";
         (free && is_index && !of_the_whole).then_some((at, name))
     });
-    let (at, name) = names.last()?;
+    let (at, name) = names.next_back()?;
     let behind = &text[at..];
     let has_factor = ["k=", "k ="].iter().any(|k| behind.contains(k));
     let figure = footer::assigned(behind, name).filter(|_| !has_factor)?;

@@ -39,7 +39,7 @@ fn percent(probability: f64) -> String {
 }
 
 /// How many combinations were tried, and whether what gives the figures may be chance: no chance is left where the
-/// columns of the sheet themselves show the slip.
+/// printed figures themselves show the slip.
 fn chance(tried: usize, accident: f64, language: Language) -> String {
     let combinations = match (language, tried) {
         (Language::English, 1) => "1 combination was tried".to_string(),
@@ -48,10 +48,10 @@ fn chance(tried: usize, accident: f64, language: Language) -> String {
     };
     match (language, accident == 0.0) {
         (Language::English, true) => {
-            format!("{combinations}; the figures of the row itself show the slip: no chance match.")
+            format!("{combinations}; the printed figures themselves show what happened: no chance match.")
         }
         (Language::Chinese, true) => {
-            format!("{combinations}；差错由该行自身的数值显示，并非偶然相符。")
+            format!("{combinations}；所列数值本身已显示差错，并非偶然相符。")
         }
         (Language::English, false) => format!(
             "{combinations}; figures as coarse as these that have nothing to do with slips would be matched with a probability of {} %.",

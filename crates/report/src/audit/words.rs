@@ -48,7 +48,9 @@ fn chance(tried: usize, accident: f64, language: Language) -> String {
     };
     match (language, accident == 0.0) {
         (Language::English, true) => {
-            format!("{combinations}; the printed figures themselves show what happened: no chance match.")
+            format!(
+                "{combinations}; the printed figures themselves show what happened: no chance match."
+            )
         }
         (Language::Chinese, true) => {
             format!("{combinations}；所列数值本身已显示差错，并非偶然相符。")

@@ -28,5 +28,6 @@ mod peers;
 mod published;
 mod references;
 mod serve;
+mod sheets;
 mod strd;
 mod workbooks;

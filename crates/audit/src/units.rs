@@ -4,6 +4,8 @@ use std::sync::LazyLock;
 
 use gumption_core::quantity::{Unit, UnitTable};
 
+use crate::printed::Printed;
+
 static TABLE: LazyLock<UnitTable> = LazyLock::new(UnitTable::default);
 
 /// A unit as a sheet writes it; `None` for what is none.
@@ -73,6 +75,33 @@ pub(crate) fn factor(from: &str, to: &str) -> Option<f64> {
     Some(conversion.apply(1.0) - conversion.apply(0.0))
 }
 
+/// The power of ten that stands where a unit would, in a head or behind a figure: 10⁻⁶ for `×10⁻⁶`.
+pub(crate) fn power_of_ten(text: &str) -> Option<f64> {
+    let text = crate::printed::clean(text);
+    let power = text.trim().trim_start_matches(['×', 'x', '*', ' ']);
+    let exponent = power.strip_prefix("10^")?;
+    let exponent: i32 = exponent.trim_matches(['(', ')', '{', '}']).parse().ok()?;
+    (-15..=15)
+        .contains(&exponent)
+        .then(|| libm::exp10(f64::from(exponent)))
+}
+
+/// A figure with the power of ten that stands in the place of its unit, unless it has one of its own.
+pub(crate) fn with_power(figure: Printed) -> Printed {
+    let Some(power) = power_of_ten(&figure.unit) else {
+        return figure;
+    };
+    let own = crate::printed::clean(&figure.text).contains("10^");
+    // Behind the power the zeros of a whole number are none any more.
+    let (half, unit) = (figure.half_of_digits(), String::new());
+    let figure = Printed {
+        half,
+        unit,
+        ..figure
+    };
+    figure.scaled(if own { 1.0 } else { power })
+}
+
 /// The fraction that a unit of ratios stands for: 0.01 for percent.
 pub(crate) fn fraction(unit: &str) -> Option<f64> {
     match unit.trim() {
@@ -87,6 +116,14 @@ pub(crate) fn fraction(unit: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_power_of_ten_may_stand_for_a_unit() {
+        for text in ["×10⁻⁶", "x10^-6", "10^-6", "×10^(-6)"] {
+            assert_eq!(power_of_ten(text), Some(1e-6), "{text}");
+        }
+        assert!(power_of_ten("10").is_none() && power_of_ten("m^-6").is_none());
+    }
 
     #[test]
     fn powers_need_no_sign() {

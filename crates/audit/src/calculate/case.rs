@@ -1,6 +1,9 @@
 //! What is known, computed once: the right calculation of a claim.
 
+use gumption_core::quantity::Unit;
+
 use crate::claim::{Claimed, Coverage, Row, Stated};
+use crate::printed::Printed;
 use crate::units;
 
 use super::calculation::{Calculation, Combined, Factor, Freedom, Line, Report};
@@ -39,6 +42,7 @@ impl<'a> Case<'a> {
             Ok(None) => (None, None, None),
             Err(trouble) => (None, None, Some(trouble)),
         };
+        let derivatives = derivatives.map(|slopes| in_unit_of_result(claimed, slopes));
         let lines = claimed
             .rows
             .iter()
@@ -61,6 +65,24 @@ impl<'a> Case<'a> {
             y,
             trouble,
         }
+    }
+}
+
+/// Derivatives of a ratio whose contributions are in percent: with the hundred in them where most coefficients of the
+/// sheet have it.
+fn in_unit_of_result(claimed: &Claimed, slopes: Vec<f64>) -> Vec<f64> {
+    let Some(fraction) = units::fraction(&claimed.unit) else {
+        return slopes;
+    };
+    let rows = claimed.rows.iter().zip(&slopes);
+    let stated: Vec<(f64, f64)> = rows
+        .filter_map(|(row, slope)| Some((row.c.as_ref()?.value, *slope)))
+        .filter(|(c, slope)| *c != 0.0 && *slope != 0.0)
+        .collect();
+    let scaled = |(c, slope): &&(f64, f64)| far(*c, slope / fraction) < far(*c, *slope);
+    match 2 * stated.iter().filter(scaled).count() > stated.len() {
+        true => slopes.into_iter().map(|slope| slope / fraction).collect(),
+        false => slopes,
     }
 }
 
@@ -115,6 +137,10 @@ fn line(claimed: &Claimed, row: &Row, derivative: Option<f64>) -> Line {
     {
         c = derivative * to_y;
         rest = 1.0;
+    }
+    // A coefficient with a unit of its own is the derivative in that unit.
+    if let Some((derivative, own)) = derivative.zip(by_unit_of_c(claimed, row)) {
+        (c, rest) = (derivative * to_y / own, own);
     }
     if row.stated == Stated::Nothing && c * rest != 0.0 {
         // The contribution has the coefficient in it.
@@ -185,25 +211,35 @@ fn to_y(claimed: &Claimed, row: &Row, from_model: bool) -> f64 {
     if row.unit.is_empty() || y_unit.is_empty() {
         return 1.0;
     }
-    let c_unit = row.c.as_ref().map_or("", |c| c.unit.as_str());
-    let product = if c_unit.is_empty() || c_unit == "1" {
-        None
-    } else {
-        units::parse(c_unit).zip(units::parse(&row.unit))
-    };
-    match product {
-        Some((c, u)) => {
-            let target = units::parse(y_unit);
-            let conversion = target.and_then(|target| {
-                c.product(&u.difference())
-                    .conversion_to(&target.difference())
-            });
-            conversion.map_or(1.0, |conversion| {
-                conversion.apply(1.0) - conversion.apply(0.0)
-            })
-        }
-        None => units::factor(&row.unit, y_unit).unwrap_or(1.0),
+    if unit_of_c(row).is_some() && units::parse(&row.unit).is_some() {
+        return by_unit_of_c(claimed, row).unwrap_or(1.0);
     }
+    let factor = units::factor(&row.unit, y_unit).unwrap_or(1.0);
+    // `1000` between mm and µm: the coefficient is the conversion.
+    let converts = |c: &Printed| c.is_met_by(factor.copysign(c.value));
+    match row.c.as_ref().is_some_and(converts) {
+        true => 1.0,
+        false => factor,
+    }
+}
+
+/// The unit that is written behind the coefficient of a row.
+fn unit_of_c(row: &Row) -> Option<Unit> {
+    let unit = &row.c.as_ref()?.unit;
+    units::parse(unit).filter(|_| unit != "1")
+}
+
+/// From the unit of c·u to that of the result, where c has one and they agree.
+fn by_unit_of_c(claimed: &Claimed, row: &Row) -> Option<f64> {
+    // An estimate without a unit is a number, and so is its uncertainty.
+    let u = match row.unit.as_str() {
+        "" => Unit::one(),
+        unit => units::parse(unit)?,
+    };
+    let target = units::parse(&claimed.unit)?;
+    let product = unit_of_c(row)?.product(&u.difference());
+    let conversion = product.conversion_to(&target.difference())?;
+    Some(conversion.apply(1.0) - conversion.apply(0.0))
 }
 
 /// How far two figures are apart, as a ratio.

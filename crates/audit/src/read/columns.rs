@@ -129,7 +129,8 @@ const WORDS: &[(Role, How, &[&str])] = &[
     (Role::Remark, How::Has, &["bemerkung", "remarque", "remark", "note", "comment", "备注", "说明", "information", "依据", "howknown", "basis", "evidence", "whatisknown", "已知", "信息", "statement", "注", "details", "data", "justification", "reference"]),
     (Role::Used, How::Has, &["±", "variationsbreite", "variabilitätsintervall", "spannweite", "halbbreite", "halbweite", "demi-étendue", "demi-largeur", "demi-intervalle", "half-width", "halfwidth", "半宽", "limit", "误差限", "expanded", "扩展不确定度", "a(half", "tolerance", "允差", "interval", "区间", "uncertaintyvalue", "不确定度值", "valueofuncertainty", "spread", "stated", "极限", "given", "最大允许", "+/-"]),
     (Role::Used, How::Is, &["uncertainty", "unsicherheit", "incertitude", "a", "ai", "不确定度", "unc.", "unc", "accuracy", "error", "δ", "figure", "known", "数值", "magnitude", "a/u/s", "a,u,s", "size", "amount", "a或u", "u或a", "a/u", "u/a", "a,u", "半宽a或u", "aoru", "uora", "limit/u", "极限值/u"]),
-    (Role::Unit, How::Is, &["unit", "units", "einheit", "unité", "单位", "[unit]", "unitofx", "unitofxi", "计量单位"]),
+    (Role::Unit, How::Is, &["unit", "units", "einheit", "unité", "单位", "[unit]", "计量单位"]),
+    (Role::Unit, How::Begins, &["unitof"]),
     (Role::Symbol, How::Has, &["symbol", "符号", "variable", "代号"]),
     (Role::Value, How::Has, &["estimate", "schätzwert", "valeurestimée", "估计值", "nominal", "标称", "measuredvalue", "量值", "bestvalue", "最佳", "meanvalue", "输入量的值", "输入量值", "inputvalue", "测得值", "取值"]),
     (Role::Value, How::Is, &["value", "valuex", "valuexi", "wert", "valeur", "estimation", "x", "xi", "值", "mean", "level", "reading", "平均值", "示值"]),
@@ -182,9 +183,14 @@ fn of(head: &str) -> Option<Role> {
     entry.map(|(role, ..)| *role)
 }
 
-/// What stands in front of a bracket with a short word in it, where a blank or a Chinese character parts the two.
+/// What stands in front of a short word in a bracket, or behind a slash, where a blank or a Chinese character parts the
+/// two.
 fn without_bracket(name: &str) -> Option<&str> {
-    let (front, inner) = name.strip_suffix(')')?.rsplit_once('(')?;
+    let bracket = name
+        .strip_suffix(')')
+        .and_then(|name| name.rsplit_once('('));
+    let (front, inner) = bracket.or_else(|| name.rsplit_once('/'))?;
+    let inner = inner.trim_start();
     let parted = front.ends_with(|c: char| c == ' ' || ('\u{4e00}'..='\u{9fff}').contains(&c));
     let letters = (2..=6).contains(&inner.len()) && inner.chars().all(|c| c.is_ascii_alphabetic());
     (parted && letters).then(|| front.trim())
@@ -250,7 +256,7 @@ pub fn is_unit(text: &str) -> bool {
         && text != "k"
         && text != "a"
         && text != "%/100"
-        && crate::units::parse(text).is_some()
+        && (crate::units::parse(text).is_some() || crate::units::power_of_ten(text).is_some())
 }
 
 #[cfg(test)]
@@ -333,5 +339,10 @@ mod tests {
         );
         assert_eq!(role("标准不确定度/mV").unwrap(), (Role::U, "mV".into()));
         assert_eq!(role("Value ±").unwrap(), (Role::Used, String::new()));
+        assert_eq!(role("u / HRC").unwrap().0, Role::U);
+        assert_eq!(
+            role("标准不确定度(×10⁻⁶)").unwrap(),
+            (Role::U, "×10⁻⁶".into())
+        );
     }
 }

@@ -235,7 +235,7 @@ const NAMES: &[(Whole, &[&str])] = &[
 ];
 
 /// The figure behind `name =`.
-fn assigned(text: &str, name: &str) -> Option<Printed> {
+pub fn assigned(text: &str, name: &str) -> Option<Printed> {
     let mut from = 0;
     while let Some(at) = super::words::symbol_at(text, name, from) {
         from = at + name.len();
@@ -255,7 +255,8 @@ fn assigned(text: &str, name: &str) -> Option<Printed> {
         {
             let right = right.trim_start();
             if let Some((figure, behind)) = leading(right)
-                && !behind.trim_start().starts_with(['*', '·', '×'])
+                && !super::words::starts_product(behind.trim_start())
+                && !super::words::starts_quotient(behind.trim_start())
             {
                 // `U = 11.6 µm ≈ 12 µm`: what it is rounded to.
                 if let Some((between, _)) = behind.split_once('≈')
@@ -369,5 +370,12 @@ mod tests {
             &mut footer,
         );
         assert_eq!(value(&footer.expanded), 0.054);
+        let mut footer = Footer::default();
+        let text = "Expanded uncertainty: U = k x u(e) = 2 x 0.00121 MPa = 0.0024 MPa";
+        sentence(text, "", Place::default(), &mut footer);
+        assert_eq!(value(&footer.expanded), 0.0024);
+        let text = "Relative combined standard uncertainty w = 0.35 %";
+        sentence(text, "", Place::default(), &mut footer);
+        assert_eq!(value(&footer.u_c), 0.35);
     }
 }

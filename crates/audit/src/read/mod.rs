@@ -70,7 +70,8 @@ pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
     let without = |sheet: &usize| evaluated.iter().all(|one| one.sheet != *sheet);
     let common: Vec<Line> = (0..grids.len()).filter(without).flat_map(outside).collect();
     if evaluated.is_empty() {
-        return prose(&common, mapping).into_iter().collect();
+        let told = prose(&common, mapping).or_else(|| running(&common, mapping));
+        return told.into_iter().collect();
     }
     let tables = evaluated.iter().enumerate().map(|(i, one)| {
         let grid = &grids[one.sheet];
@@ -140,6 +141,27 @@ fn prose(all: &[Line], mapping: &Mapping) -> Option<Claimed> {
     if rows.len() < 2 {
         return None;
     }
+    Some(told(all, rows, mapping))
+}
+
+/// A budget that is told in running text: what its sentences state, and u_c or U of it.
+fn running(all: &[Line], mapping: &Mapping) -> Option<Claimed> {
+    let sentences = all.iter().flat_map(|line| {
+        prose::sentences(&line.text).map(|text| Line {
+            text: text.into(),
+            at: line.at,
+        })
+    });
+    let sentences: Vec<Line> = sentences.collect();
+    let row = |(i, line): (usize, &Line)| Some((i, prose::sentence(&line.text, line.at)?));
+    let rows: Vec<(usize, Row)> = sentences.iter().enumerate().filter_map(row).collect();
+    let claimed = (rows.len() >= 2).then(|| told(&sentences, rows, mapping))?;
+    let footer = &claimed.footer;
+    (footer.u_c.is_some() || footer.expanded.is_some()).then_some(claimed)
+}
+
+/// The budget of these rows, which some of the lines are.
+fn told(all: &[Line], rows: Vec<(usize, Row)>, mapping: &Mapping) -> Claimed {
     let others: Vec<&Line> = (0..all.len())
         .filter(|i| rows.iter().all(|(row, _)| row != i))
         .map(|i| &all[i])
@@ -160,7 +182,7 @@ fn prose(all: &[Line], mapping: &Mapping) -> Option<Claimed> {
     symbols_of_model(&mut raw, &mut claimed);
     place_lines(&others, &mut claimed);
     table::interpret(&raw, false, &mut claimed);
-    Some(claimed)
+    claimed
 }
 
 /// Where the text between two tables passes from one to the other: at the widest gap, the last of equal ones, or half a
@@ -239,6 +261,9 @@ fn budget(
     let below = located.head + 1..bounds.end;
     table::footers(grid, sheet, &mut located, below, of_inputs, &mut claimed);
     claimed.typed = typed(grid, sheet, &claimed);
+    if located.has_bare_u_behind_c() {
+        u_by_sum(&mut claimed);
+    }
     let own = own(&located);
     let all: Vec<&Line> = own.iter().chain(common).collect();
     place_lines(&all, &mut claimed);
@@ -255,6 +280,32 @@ fn budget(
     table::interpret(&raw, full, &mut claimed);
     claimed.rows.extend(missing);
     claimed
+}
+
+/// Figures behind the coefficients, of which the head says no more than `u_i`, are u where u_c is the sum of their squares
+/// with the coefficients, and not without.
+fn u_by_sum(claimed: &mut Claimed) {
+    let footer = &claimed.footer;
+    let half = footer.expanded.as_ref().zip(footer.k.as_ref());
+    let of_expanded = half.map(|(expanded, k)| (expanded.value / k.value, expanded.half / k.value));
+    let stated = footer.u_c.as_ref().map(|u_c| (u_c.value, u_c.half));
+    let Some((u_c, half)) = stated.or(of_expanded) else {
+        return;
+    };
+    let sum = |with_c: bool| {
+        let square = |row: &Row| {
+            let c = row.c.as_ref().filter(|_| with_c).map_or(1.0, |c| c.value);
+            let part = row.contribution.as_ref().map_or(0.0, |u| c * u.value);
+            part * part
+        };
+        libm::sqrt(claimed.rows.iter().map(square).sum())
+    };
+    let near = |sum: f64| (sum - u_c).abs() <= half + 0.01 * u_c;
+    if near(sum(true)) && !near(sum(false)) {
+        for row in &mut claimed.rows {
+            row.u = row.contribution.take();
+        }
+    }
 }
 
 /// Whether u_c stands as a number where U and the computed cells of the rows are formulas.
@@ -330,12 +381,30 @@ fn unit_of_result(claimed: &Claimed) -> String {
     let footer = &claimed.footer;
     let contributions = claimed.rows.iter().map(|row| &row.contribution);
     let figures = [&footer.u_c].into_iter().chain(contributions);
-    let unit = figures
-        .chain([&footer.y, &footer.expanded])
-        .flatten()
-        .map(|figure: &Printed| figure.unit.clone())
-        .find(|unit| !unit.is_empty());
-    unit.unwrap_or_default()
+    let unit_of = |figure: &Printed| Some(figure.unit.clone()).filter(|unit| !unit.is_empty());
+    let mut stated = figures.chain([&footer.y]).flatten();
+    let unit = stated
+        .find_map(unit_of)
+        .or_else(|| unit_of_plain_rows(claimed));
+    unit.or_else(|| unit_of(footer.expanded.as_ref()?))
+        .unwrap_or_default()
+}
+
+/// The unit of rows whose contribution is printed with the figure of u, by a coefficient of 1: U may be in another one.
+fn unit_of_plain_rows(claimed: &Claimed) -> Option<String> {
+    let plain = |row: &Row| {
+        let c = row.c.as_ref()?;
+        let worked = row.used.as_ref().zip(row.divisor.as_ref());
+        let worked = worked.map(|(used, divisor)| (used.value / divisor.value, &used.unit));
+        let (u, unit) = row.u.as_ref().map(|u| (u.value, &u.unit)).or(worked)?;
+        let made = row.contribution.as_ref()?.value.abs();
+        let same = c.value.abs() == 1.0 && c.unit.is_empty() && (made - u).abs() <= 0.01 * u;
+        let unit = if unit.is_empty() { &row.unit } else { unit };
+        (same && !unit.is_empty()).then(|| unit.clone())
+    };
+    let units: Vec<String> = claimed.rows.iter().filter_map(plain).collect();
+    let first = units.first()?;
+    (units.len() >= 2 && units.iter().all(|unit| unit == first)).then(|| first.clone())
 }
 
 fn find_model(all: &[&Line], claimed: &mut Claimed, mapping: &Mapping) {

@@ -1,42 +1,48 @@
-//! Budgets without a table: one line for each quantity, `m_S = 100 g: certificate, U = 0.05 g, k = 2`.
+//! Budgets without a table: one line for each quantity, `m_S = 100 g: certificate, U = 0.05 g, k = 2`, or a sentence.
 
 use crate::claim::{Row, Stated};
 use crate::printed::{Place, Printed, leading};
 
 use super::footer;
 use super::kind::{self, Evidence};
-use super::words::has;
+use super::words::{figure_after, has};
+
+/// Heads of lines that are about the whole.
+const OF_THE_WHOLE: [&str; 12] = [
+    "cmc",
+    "correlat",
+    "相关",
+    "model",
+    "equation",
+    "模型",
+    "coverage",
+    "包含因子",
+    "修约",
+    "round",
+    "note",
+    "注",
+];
+
+/// The longest head of a line.
+const HEAD: usize = 48;
 
 /// A line that says what is known of a quantity, as a row.
 pub fn row(text: &str, at: Place) -> Option<Row> {
     let text = unnumbered(text);
-    let end = [text.find([':', '=', ';']), text.find(" - ")]
-        .into_iter()
-        .flatten()
-        .min()?;
+    let (text, u) = match (result_of(text), concluded(text)) {
+        ((_, None), Some((words, u))) if !begins_with_symbol(words) => {
+            return of_conclusion(words, u.at(at), at);
+        }
+        ((_, None), Some((words, u))) => (words, Some(u)),
+        (of_arrow, _) => of_arrow,
+    };
+    let u = u.map(|u| u.at(at));
+    let end = end_of_head(text)?;
     let head = text[..end].trim();
     let mut rest = text[end..]
         .trim_start_matches([':', '=', ';', ' ', '-'])
         .trim_start();
-    let of_the_whole = [
-        "cmc",
-        "correlat",
-        "相关",
-        "model",
-        "equation",
-        "模型",
-        "coverage",
-        "包含因子",
-        "修约",
-        "round",
-        "note",
-        "注",
-    ];
-    if has(&head.to_lowercase(), &of_the_whole) {
-        return None;
-    }
-    let long = head.chars().count() > 48;
-    if head.is_empty() || long || footer::label(head, "").is_some() {
+    if !is_name(head) {
         return None;
     }
     let mut value = None;
@@ -51,10 +57,8 @@ pub fn row(text: &str, at: Place) -> Option<Row> {
         let unit = unit.to_string();
         value = Some(crate::printed::Printed { unit, ..figure }.at(at));
     }
-    let is_symbol = !head.contains(' ') && head.chars().count() <= 12;
+    let is_symbol = is_symbol(head);
     let (symbol, name) = if is_symbol { (head, "") } else { ("", head) };
-    let (rest, u) = result_of(rest);
-    let u = u.map(|u| u.at(at));
     let words = if is_symbol {
         rest.to_string()
     } else {
@@ -76,6 +80,107 @@ pub fn row(text: &str, at: Place) -> Option<Row> {
         words,
         ..Row::default()
     })
+}
+
+/// Where the head of a line ends.
+fn end_of_head(text: &str) -> Option<usize> {
+    let ends = [text.find([':', '=', ';']), text.find(" - ")];
+    ends.into_iter().flatten().min()
+}
+
+fn is_symbol(head: &str) -> bool {
+    !head.contains(' ') && head.chars().count() <= 12
+}
+
+fn begins_with_symbol(text: &str) -> bool {
+    end_of_head(text).is_some_and(|end| is_symbol(text[..end].trim()))
+}
+
+/// Whether what a line begins with may be the name of a quantity.
+fn is_name(head: &str) -> bool {
+    let long = head.chars().count() > HEAD;
+    let of_the_whole = has(&head.to_lowercase(), &OF_THE_WHOLE);
+    !head.is_empty() && !long && !of_the_whole && footer::label(head, "").is_none()
+}
+
+/// A line that ends in the standard uncertainty which it comes to, as a row.
+fn of_conclusion(words: &str, u: Printed, at: Place) -> Option<Row> {
+    let ends = |c: char| ":,;=±(".contains(c) || c.is_ascii_digit();
+    let name = words[..words.find(ends).unwrap_or(words.len())].trim();
+    let row = Row {
+        name: name.into(),
+        at,
+        c: coefficient(words).map(|c| c.at(at)),
+        words: words.into(),
+        u: Some(u),
+        ..Row::default()
+    };
+    is_name(name).then_some(row)
+}
+
+/// A sentence that says what is known of a quantity, as a row: it has a figure, and what the figure is.
+pub fn sentence(text: &str, at: Place) -> Option<Row> {
+    const LEADS: [&str; 9] = [
+        " is ", " are ", " was ", " has ", " have ", " may ", " of ", "为", "的",
+    ];
+    let lower = text.to_lowercase();
+    let marked = lower.contains(['=', '±']) || has(&lower, &["resolution", "分辨力", "within"]);
+    let whole = ["combined", "合成", "result", "结果"];
+    if !marked || has(&lower, &whole) || figure_after(text, &["expanded uncertainty is"]).is_some()
+    {
+        return None;
+    }
+    let evidence = Evidence {
+        words: text,
+        ..Evidence::default()
+    };
+    let (stated, _) = kind::stated(&evidence);
+    let end = LEADS.iter().filter_map(|lead| text.find(lead)).min()?;
+    let name = text[..end].trim_start_matches("The ").trim();
+    let known = !matches!(stated, Stated::Nothing) && is_name(name);
+    known.then(|| Row {
+        name: name.into(),
+        at,
+        words: text.into(),
+        ..Row::default()
+    })
+}
+
+/// The sentences of a line.
+pub fn sentences(line: &str) -> impl Iterator<Item = &str> {
+    let parts = line.split_inclusive(['。']).flat_map(|part| {
+        let mut rest = Some(part);
+        std::iter::from_fn(move || {
+            let text = rest?;
+            let end = text.match_indices(". ").map(|(at, _)| at + 1).next();
+            rest = end.map(|end| text[end..].trim_start());
+            Some(&text[..end.unwrap_or(text.len())])
+        })
+    });
+    parts.map(str::trim).filter(|text| !text.is_empty())
+}
+
+/// What leads to a standard uncertainty in the last clause, and the uncertainty:
+/// `limits ±0.02 °C, u(t) = 0.02/√3 = 0.0115 °C`. U of a certificate in small letters has its k behind it.
+fn concluded(text: &str) -> Option<(&str, Printed)> {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let mut names = text.match_indices('u').filter_map(|(at, _)| {
+        let length = text[at..].find(|c| !is_part(c))?;
+        let name = &text[at..at + length];
+        let free = !text[..at].chars().next_back().is_some_and(is_part);
+        let index = name[1..].trim_start_matches('_');
+        let is_index = index.len() < name.len() - 1 && index.len() <= 4
+            || index.bytes().all(|b| b.is_ascii_digit())
+            || index.len() == 1 && index.bytes().all(|b| b.is_ascii_uppercase());
+        let of_the_whole = footer::label(name, "").is_some() && name != "u" || index == "95";
+        (free && is_index && !of_the_whole).then_some((at, name))
+    });
+    let (at, name) = names.next_back()?;
+    let behind = &text[at..];
+    let has_factor = ["k=", "k ="].iter().any(|k| behind.contains(k));
+    let figure = footer::assigned(behind, name).filter(|_| !has_factor)?;
+    let leads = |c: char| ",;:. (则故得".contains(c);
+    Some((text[..at].trim_end_matches(leads), figure))
 }
 
 /// The sensitivity coefficient, where a clause states one.
@@ -118,6 +223,13 @@ fn result_of(text: &str) -> (&str, Option<Printed>) {
 /// A line without the mark or the number of a list.
 fn unnumbered(text: &str) -> &str {
     let text = text.trim_start_matches(['-', '*', '•', ' ']);
+    let bracketed = text
+        .strip_prefix('(')
+        .and_then(|rest| rest.split_once(')'))
+        .filter(|(number, _)| (1..=2).contains(&number.len()));
+    if let Some((_, behind)) = bracketed {
+        return behind.trim_start();
+    }
     let digits = text.bytes().take_while(u8::is_ascii_digit).count();
     let behind = &text[digits..];
     let numbered =
@@ -145,5 +257,33 @@ mod tests {
         assert!(read("2. dT: limits ±0.3 K").is_some());
         assert!(read("u_c = 0.05 g").is_none() && read("Model: m = m_S + dT").is_none());
         assert!(read("Coverage factor: k = 2").is_none() && read("A budget").is_none());
+    }
+
+    #[test]
+    fn lines_may_end_in_their_standard_uncertainty() {
+        let read = |text: &str| row(text, Place::default()).unwrap();
+        let bath = read("(3) 恒温槽均匀性 ±0.02 °C,按均匀分布,u = 0.02/√3 = 0.0115 °C;");
+        assert_eq!(bath.u.as_ref().unwrap().value, 0.0115);
+        assert_eq!(bath.words, "恒温槽均匀性 ±0.02 °C,按均匀分布");
+        let standard =
+            read("(2) Standard: certificate, U = 0.012 °C, k = 2, u(t_s) = 0.012/2 = 0.006 °C");
+        assert_eq!(
+            (standard.label(), standard.u.as_ref().unwrap().value),
+            ("Standard", 0.006)
+        );
+        let certificate = read("t_s: certificate, u = 0.012 °C (k = 2)");
+        assert!(certificate.u.is_none());
+    }
+
+    #[test]
+    fn sentences_are_rows() {
+        let read = |text: &str| sentence(text, Place::default());
+        let standard = read("The standard weight has U = 0.75 mg (k = 2) on its certificate.");
+        assert_eq!(standard.unwrap().name, "standard weight");
+        assert!(read("Buoyancy is within limits of ±0.15 mg.").is_some());
+        assert!(read("The budget of a 500 g weight.").is_none());
+        assert!(read("The combined standard uncertainty is u = 0.4 mg.").is_none());
+        let parts: Vec<&str> = sentences("One is ±0.5 mg. Two is 3 mg.").collect();
+        assert_eq!(parts, ["One is ±0.5 mg.", "Two is 3 mg."]);
     }
 }

@@ -72,7 +72,7 @@ pub fn figure_after(text: &str, keys: &[&str]) -> Option<Printed> {
 }
 
 fn led(rest: &str, whole: &str) -> Option<Printed> {
-    const LEADS: [&str; 48] = [
+    const LEADS: [&str; 49] = [
         "indication",
         "display",
         "instrument",
@@ -108,6 +108,7 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
         "值",
         "u",
         "u95",
+        "w",
         "a",
         "s",
         "q",
@@ -127,14 +128,14 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
         if let Some((figure, behind)) = leading(rest).filter(|_| !rest.starts_with("inf")) {
             let text = behind.trim_start();
             // `U = 2 × 17.4 kPa = 35 kPa`, `U = 0.5 + 5 L µm = 1.0 µm`: what it comes to.
-            if text.starts_with(['×', '*', '·', '+'])
+            if (starts_product(text) || text.starts_with('+'))
                 && let Some((_, result)) = text.split_once('=')
             {
                 rest = result.trim_start();
                 continue;
             }
             // `U = 2·u_c`: a factor of what is not said.
-            if text.starts_with(['×', '*', '·']) {
+            if starts_product(text) {
                 return None;
             }
             let counted = starts_counted(text);
@@ -163,6 +164,19 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
         rest = rest[lead.len()..].trim_start();
     }
     None
+}
+
+/// Whether a text begins with a sign of multiplication; an `x` is one between blanks.
+pub fn starts_product(text: &str) -> bool {
+    text.starts_with(['×', '*', '·']) || text.starts_with("x ") || text.starts_with("X ")
+}
+
+/// Whether a text begins with a sign of division by a number: `/√3`, and not `/m`.
+pub fn starts_quotient(text: &str) -> bool {
+    text.strip_prefix('/').is_some_and(|by| {
+        by.trim_start()
+            .starts_with(|c: char| c.is_ascii_digit() || "√(".contains(c))
+    })
 }
 
 /// Whether a text begins with several of something, which a number in front of it counts: `5 connections`.

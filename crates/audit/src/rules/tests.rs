@@ -559,6 +559,9 @@ fn against() -> Vec<(u8, Sheet)> {
                 sheet.y = "0.003 g";
             }),
         ),
+        (29, noted("One outlier was removed from the 11 readings")),
+        (72, noted("CMC of the laboratory: 0.050 g (k = 3)")),
+        (84, noted("Comparison of 2025: E_n = 1.4")),
         (
             80,
             with(|sheet| {
@@ -620,6 +623,23 @@ fn difference(stated: f64, used: Option<f64>) -> Sheet {
         });
         sheet.r = used.map(|r| (0, 3, r));
     })
+}
+
+/// A right sheet with a line more.
+fn noted(note: &'static str) -> Sheet {
+    with(|sheet| sheet.notes.push(note))
+}
+
+#[test]
+fn what_notes_say_may_be_right() {
+    for note in [
+        "One outlier was removed by the test of Grubbs, record 17",
+        "CMC of the laboratory: 0.050 g (k = 2)",
+        "Comparison of 2025: E_n = -0.4",
+        "Calibrated by EN ISO 376",
+    ] {
+        assert_eq!(noted(note).rules(), Vec::<u8>::new(), "{note}");
+    }
 }
 
 #[test]

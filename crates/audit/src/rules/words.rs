@@ -190,6 +190,74 @@ pub(super) fn fit_without_covariance(seen: &Seen<'_>) -> Vec<Hit> {
     )]
 }
 
+/// A reading that was left out, without a test for outliers or a reason.
+pub(super) fn left_out(seen: &Seen<'_>) -> Vec<Hit> {
+    const LEFT_OUT: [&str; 8] = [
+        "outlier removed",
+        "outlier was removed",
+        "outlier rejected",
+        "reading was left out",
+        "reading was discarded",
+        "reading discarded",
+        "剔除",
+        "舍弃",
+    ];
+    const REASONS: [&str; 12] = [
+        "because",
+        "reason",
+        "cause",
+        "record",
+        "grubbs",
+        "dixon",
+        "criterion",
+        "原因",
+        "记录",
+        "准则",
+        "格拉布斯",
+        "狄克逊",
+    ];
+    let rows = seen
+        .claimed
+        .rows
+        .iter()
+        .flat_map(|row| row.words.split(';'));
+    let said = seen.claimed.words.lines().chain(rows);
+    let has = |text: &str, keys: &[&str]| {
+        let lower = text.to_lowercase();
+        keys.iter().any(|key| lower.contains(key))
+    };
+    let mut said = said.filter(|text| has(text, &LEFT_OUT) && !has(text, &REASONS));
+    let hit = said.next().map(|text| Hit::of(None, text.trim().into()));
+    hit.into_iter().collect()
+}
+
+/// The CMC with a coverage factor that is not that of about 95 %.
+pub(super) fn cmc_level(seen: &Seen<'_>) -> Vec<Hit> {
+    let cmc = seen.claimed.cmc.as_ref().map(|cmc| cmc.at);
+    let line = seen
+        .claimed
+        .understood
+        .iter()
+        .find(|line| Some(line.at) == cmc);
+    let k = line.and_then(|line| crate::read::figure_after(&line.text, &["k =", "k="]));
+    // Two decimals of a factor of t at 95 %: from 1.96 to what ten degrees of freedom give.
+    let usual = 1.96..=2.23;
+    let other = k.filter(|k| !usual.contains(&k.value));
+    let hit = other.map(|k| Hit::of(None, format!("k = {}", k.text)));
+    hit.into_iter().collect()
+}
+
+/// |E_n| above one that the sheet itself states.
+pub(super) fn comparison(seen: &Seen<'_>) -> Vec<Hit> {
+    const NAMES: [&str; 4] = ["e_n =", "e_n=", "en =", "en="];
+    let lines = seen.claimed.words.lines();
+    let stated = lines.filter_map(|line| crate::read::figure_after(line, &NAMES));
+    let failed = stated.filter(|ratio| ratio.value.abs() > 1.0);
+    failed
+        .map(|ratio| Hit::of(None, format!("E_n = {}", ratio.text)))
+        .collect()
+}
+
 pub(super) fn expired(seen: &Seen<'_>) -> Vec<Hit> {
     let measured = dates(
         &seen.claimed.words,

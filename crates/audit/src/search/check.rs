@@ -106,7 +106,11 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
     let mut of = vec![exact];
     if any_printed {
         of.push(calculation.figures(printed, cmc));
-    } else if let Some(coefficients) = with_claimed_coefficients(case, calculation) {
+    }
+    let mut rows = case.claimed.rows.iter();
+    if (!any_printed || rows.all(|row| row.contribution.is_none()))
+        && let Some(coefficients) = with_claimed_coefficients(case, calculation)
+    {
         of.push(coefficients.figures(&[], cmc));
     }
     let footer = &case.claimed.footer;

@@ -387,6 +387,11 @@ impl Found<'_> {
         slips::other_result(&self.case)
     }
 
+    /// Whether a result is claimed that nothing on the sheet gives: it is taken as it stands.
+    pub fn takes_result(&self) -> bool {
+        slips::is_open(&self.case)
+    }
+
     /// Whether the result would be printed differently if everything in an explanation were corrected.
     pub fn has_effect(&self, best: &Explanation) -> bool {
         let made = reported(&self.case, &best.calculation, &[]);

@@ -96,13 +96,16 @@ pub fn options(case: &Case<'_>, i: usize, acts: &[Act]) -> Options {
             // The column of coefficients says what they are, not that they were used.
             || broken.is_none() && row.contribution.is_none() && act.group() == Group::C
     });
-    // Where the sheet has no coefficients, and the model none but 1, u is what was summed.
+    // Where the sheet has no contributions, u is what was summed, times the coefficient that it states.
     let summed = || {
-        let plain = row.c.is_none() && (right.c * right.to_y).abs() == 1.0;
-        row.u.as_ref().filter(|_| plain)
+        let c = row.c.as_ref().map_or(right.c, |c| c.value);
+        let follows = (c.abs() - right.c.abs()).abs() <= 0.01 * right.c.abs();
+        let stated = row.c.is_some() || (right.c * right.to_y).abs() == 1.0;
+        let u = row.u.as_ref().filter(|_| stated && follows)?;
+        Some((c * right.to_y * u.value).abs())
     };
-    let contribution = row.contribution.as_ref().or_else(summed);
-    let contribution = contribution.map(|c| c.value.abs());
+    let contribution = row.contribution.as_ref().map(|c| c.value.abs());
+    let contribution = contribution.or_else(summed);
     let explained = sets.first().is_some_and(|set| !set.is_empty());
     let accident = if explained {
         accident(row, right, &own)

@@ -12,7 +12,7 @@ mod rows;
 mod slip;
 mod whole;
 
-pub(crate) use result::{of_result, of_unit, other_result};
+pub(crate) use result::{is_open, of_result, of_unit, other_result};
 pub(crate) use whole::{exchanged_digits, rounded};
 
 pub use slip::{Act, Change, Group, Reporting, Slip, Weight};

@@ -2,6 +2,7 @@
 
 use crate::calculate::{Case, unit_of_y};
 use crate::claim::Row;
+use crate::printed::Printed;
 use crate::units;
 
 use super::slip::{Act, Change, Reporting, Slip, Weight::*};
@@ -75,6 +76,18 @@ pub(crate) fn other_result(case: &Case<'_>) -> Option<f64> {
     let half = y.half_of_digits();
     let is_met = right.any(|right: f64| y.is_met_within(right, half));
     (!is_met).then_some(sum.total)
+}
+
+/// Whether nothing says what the claimed result should be: no model gives it, nor do the estimates with any signs.
+pub(crate) fn is_open(case: &Case<'_>) -> bool {
+    let is_met = |y: &Printed| {
+        let half = y.half_of_digits();
+        let sums = sums(case).unwrap_or_default();
+        // One sum alone is what the result is held against.
+        sums.len() == 1 || sums.iter().any(|sum| y.is_met_within(sum.total, half))
+    };
+    let y = case.claimed.footer.y.as_ref();
+    y.is_some_and(|y| !is_met(y)) && of_result(case).is_none()
 }
 
 /// What a result may be: a sum, and what rows add to it.
@@ -167,10 +180,16 @@ fn of_estimates(case: &Case<'_>) -> Option<Vec<Sum>> {
     (added.len() <= MOST).then(|| (0..1 << added.len()).map(with).collect())
 }
 
-/// U in a unit to which no contribution can be converted: rows whose coefficient is printed as 1 are in that of the result.
+/// U in a unit to which no contribution can be converted: rows whose coefficient is printed as 1 are in that of the
+/// result, unless u_c or the contributions say that it has a unit.
 pub(crate) fn of_unit(case: &Case<'_>) -> Option<Act> {
     let unit = &case.claimed.footer.expanded.as_ref()?.unit;
     if units::parse(unit).is_none() || units::fraction(unit).is_some() {
+        return None;
+    }
+    let contributions = case.claimed.rows.iter().map(|row| &row.contribution);
+    let mut made = contributions.chain([&case.claimed.footer.u_c]).flatten();
+    if made.any(|figure| units::factor(&figure.unit, unit).is_some()) {
         return None;
     }
     let rows = case.claimed.rows.iter();

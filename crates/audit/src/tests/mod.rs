@@ -4,6 +4,7 @@ mod digits;
 mod hands;
 mod others;
 mod statements;
+mod strangers;
 
 use crate::read::Mapping;
 use crate::{Audit, Verdict, audit, read, sheet};

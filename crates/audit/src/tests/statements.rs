@@ -170,3 +170,20 @@ fn what_digits_do_not_tell_is_listed() {
         "{ids:?}"
     );
 }
+
+/// A result that neither a model nor estimates give is taken as it stands, and that is known.
+#[test]
+fn a_result_that_nothing_gives_is_taken() {
+    let taken = |estimates: &str, y: &str| {
+        let text = format!(
+            "Symbol,Source,Estimate,c,u_i(y) / mm\nl_S,\"certificate, U = 0.0006 mm, k = 2\",{estimates},1,0.0003\n\
+             d,\"standard uncertainty 0.0004 mm\",0.0021 mm,1,0.0004\nu_c,,,,0.0005\nU (k = 2),,,,0.0010\nResult,{y}\n"
+        );
+        let grids = sheet::grids("sheet.csv", text.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        assert!(claims[0].footer.y.is_some(), "{text}");
+        crate::audit(&claims[0]).found.takes_result()
+    };
+    assert!(taken("", "50.0123 mm"));
+    assert!(!taken("50.0012 mm", "50.0033 mm"));
+}

@@ -93,6 +93,12 @@ fn one(file: &str, audit: &Audit<'_>, language: Language) -> Vec<Block> {
             pick("The model was not used", "未使用模型")
         )));
     }
+    if audit.found.takes_result() {
+        blocks.push(Block::Paragraph(pick(
+            "The result itself was taken as it stands: the sheet states no model, and no estimates, that would give it.",
+            "测量结果本身未作核对：表中没有能给出该结果的测量模型或估计值。",
+        )));
+    }
     blocks.push(Block::Section(pick(
         "How the sheet was understood",
         "对表格的理解",

@@ -30,6 +30,42 @@ pub(super) fn place(row: &Row, i: usize, language: Language) -> String {
     }
 }
 
+/// A probability in percent with two digits; one that is next to nothing is below what is worth a digit.
+fn percent(probability: f64) -> String {
+    match 100.0 * probability {
+        percent if percent < 0.01 => "<0.01".to_string(),
+        percent => significant(percent, 2),
+    }
+}
+
+/// How many combinations were tried, and whether what gives the figures may be chance: no chance is left where the
+/// printed figures themselves show the slip.
+fn chance(tried: usize, accident: f64, language: Language) -> String {
+    let combinations = match (language, tried) {
+        (Language::English, 1) => "1 combination was tried".to_string(),
+        (Language::English, tried) => format!("{tried} combinations were tried"),
+        (Language::Chinese, tried) => format!("共试 {tried} 种组合"),
+    };
+    match (language, accident == 0.0) {
+        (Language::English, true) => {
+            format!(
+                "{combinations}; the printed figures themselves show what happened: no chance match."
+            )
+        }
+        (Language::Chinese, true) => {
+            format!("{combinations}；所列数值本身已显示差错，并非偶然相符。")
+        }
+        (Language::English, false) => format!(
+            "{combinations}; figures as coarse as these that have nothing to do with slips would be matched with a probability of {} %.",
+            percent(accident)
+        ),
+        (Language::Chinese, false) => format!(
+            "{combinations}；与差错无关、位数相同的数值偶然相符的概率为 {} %。",
+            percent(accident)
+        ),
+    }
+}
+
 /// The sentences that all comes down to.
 pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
     let found = &audit.found;
@@ -75,23 +111,7 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
         (Language::Chinese, 1) => format!("有一处差错能给出全部声称值：{}。", slips()),
         (Language::Chinese, n) => format!("{n} 处差错合在一起能给出全部声称值：{}。", slips()),
     };
-    let chance = || match language {
-        Language::English => {
-            let tried = match found.tried {
-                1 => "1 combination was tried".to_string(),
-                tried => format!("{tried} combinations were tried"),
-            };
-            let accident = significant(100.0 * found.accident, 2);
-            format!(
-                "{tried}; figures as coarse as these that have nothing to do with slips would be matched with a probability of {accident} %."
-            )
-        }
-        Language::Chinese => format!(
-            "共试 {} 种组合；与差错无关、位数相同的数值偶然相符的概率为 {} %。",
-            found.tried,
-            significant(100.0 * found.accident, 2)
-        ),
-    };
+    let chance = || chance(found.tried, found.accident, language);
     match audit.verdict {
         Verdict::Sound => {
             let mut sentences = sound(audit, language);
@@ -126,8 +146,8 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
                     n => format!("{n} combinations of slips match"),
                 };
                 sentences.push(match language {
-                    Language::English => format!("{matches}, but figures as coarse as these would be matched by accident with a probability of {} %: none is named.", significant(100.0 * found.accident, 2)),
-                    Language::Chinese => format!("有 {} 种差错组合相符，但位数如此之少的数值偶然相符的概率为 {} %，故不作判定。", found.withheld, significant(100.0 * found.accident, 2)),
+                    Language::English => format!("{matches}, but figures as coarse as these would be matched by accident with a probability of {} %: none is named.", percent(found.accident)),
+                    Language::Chinese => format!("有 {} 种差错组合相符，但位数如此之少的数值偶然相符的概率为 {} %，故不作判定。", found.withheld, percent(found.accident)),
                 });
             }
             sentences

@@ -54,7 +54,7 @@ impl Evidence<'_> {
     /// Whether the standard uncertainty is the figure that was used, undivided.
     pub(super) fn u_is_used(&self) -> bool {
         let same = |(u, used): (&Printed, &Printed)| u.unit == used.unit && u.value == used.value;
-        self.u.zip(self.used).is_some_and(same)
+        self.u.zip(self.used).is_some_and(same) || self.used.is_some() && self.divisor == Some(1.0)
     }
 }
 

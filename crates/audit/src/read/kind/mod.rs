@@ -123,8 +123,9 @@ fn by_columns(e: &Evidence<'_>, columns: &str) -> Option<Stated> {
     if has(columns, NORMAL) {
         let k = figure_after(columns, &["k"]).map(|k| k.value);
         let k_stated = k.is_some();
-        // A divisor of 1 under a normal distribution is a standard uncertainty.
-        let k = k.or(e.divisor).unwrap_or(2.0);
+        // What is not divided, or by 1, under a normal distribution is a standard uncertainty.
+        let undivided = e.u_is_used().then_some(1.0);
+        let k = k.or(e.divisor).or(undivided).unwrap_or(2.0);
         return Some(match k {
             1.0 => Stated::Standard { u: used, dof: None },
             k => Stated::Certificate {

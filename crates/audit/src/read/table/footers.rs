@@ -139,7 +139,7 @@ fn footer_row(
             let next = cells
                 .get(position + 1)
                 .map(|(_, t)| t.as_str())
-                .filter(|t| units::parse(t).is_some() && Printed::parse(t).is_none());
+                .filter(|t| columns::is_unit(t) && Printed::parse(t).is_none());
             let head = by_column
                 .filter(|role| matches!(role, Role::Contribution | Role::U))
                 .map(|role| located.unit(role));
@@ -152,6 +152,7 @@ fn footer_row(
                 .unwrap_or_default()
                 .to_string();
         }
+        let figure = units::with_power(figure);
         let figure = if whole == Whole::Y {
             figure
         } else {

@@ -29,7 +29,7 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
             mean_of,
         };
         (row.stated, row.relative) = kind::stated(&evidence);
-        row.not_counted = not_counted(&row.words);
+        row.not_counted = row.not_counted.take().or_else(|| not_counted(&row.words));
         row.convert_to_one_unit(&y_unit);
     }
     add_absent(claimed);

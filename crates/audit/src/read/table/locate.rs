@@ -8,6 +8,7 @@ use crate::read::footer;
 use crate::read::mapping::Mapping;
 use crate::read::words::has;
 use crate::sheet::Grid;
+use crate::units;
 
 use super::content::{by_content, nameless_figures};
 use super::footers::labels_across;
@@ -36,7 +37,9 @@ pub fn locate(grid: &Grid, mapping: &Mapping) -> Vec<Located> {
                 by_content(grid, &mut located);
                 nameless_figures(grid, &mut located);
                 if !located.rows.is_empty() {
-                    located.unit = located.unit(Role::Contribution).to_string();
+                    let unit = located.unit(Role::Contribution);
+                    let is_power = units::power_of_ten(unit).is_some();
+                    located.unit = if is_power { "" } else { unit }.to_string();
                     found.push(located);
                 }
             }

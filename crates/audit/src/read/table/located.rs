@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::claim::Understood;
 use crate::printed::Place;
-use crate::read::columns::Role;
+use crate::read::columns::{self, Role};
 use crate::sheet::Grid;
 
 /// A table that was found.
@@ -34,6 +34,15 @@ pub struct Column {
 }
 
 impl Located {
+    /// Whether figures of which the head says no more than `u_i` stand where contributions would, and nothing else tells
+    /// what they were made of.
+    pub fn has_bare_u_behind_c(&self) -> bool {
+        let is_bare = self
+            .column(Role::Contribution)
+            .is_some_and(|c| columns::is_bare_u(&c.head));
+        is_bare && self.has(Role::C) && !self.has(Role::U) && !self.has(Role::Divisor)
+    }
+
     /// Rows that are no text beside the table.
     pub fn is_used(&self, row: usize) -> bool {
         self.used.contains(&row)

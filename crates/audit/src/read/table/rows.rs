@@ -18,6 +18,8 @@ pub struct Raw {
     pub(super) columns_text: String,
     pub(super) used_head: String,
     pub(super) readings: Option<f64>,
+    /// Its number in the list, as the sheet has it.
+    number: String,
     /// The ± column stands in a table of what is known, apart from the evaluation.
     pub(super) stated_apart: bool,
 }
@@ -50,7 +52,46 @@ pub fn rows(grid: &Grid, sheet: usize, located: &Located) -> Vec<Raw> {
                 .collect(),
         );
     }
+    for Raw { row, .. } in &mut rows {
+        let figures = [
+            &mut row.value,
+            &mut row.used,
+            &mut row.u,
+            &mut row.c,
+            &mut row.contribution,
+        ];
+        for figure in figures {
+            *figure = figure.take().map(units::with_power);
+        }
+    }
+    parts_are_not_counted(&mut rows);
     rows
+}
+
+/// Rows 1.1 and 1.2, or u_11 and u_12, below a row 1 that is the root of the sum of their squares, or the larger of them,
+/// are in it already.
+fn parts_are_not_counted(rows: &mut [Raw]) {
+    for whole in 0..rows.len() {
+        let parts: Vec<usize> = (whole + 1..rows.len())
+            .filter(|part| rows[*part].is_part_of(&rows[whole]))
+            .collect();
+        let u = |i: usize| rows[i].row.u.as_ref().map(|u| (u.value, u.half));
+        let (Some((own, half)), Some(of_parts)) = (
+            u(whole),
+            parts.iter().map(|i| u(*i)).collect::<Option<Vec<_>>>(),
+        ) else {
+            continue;
+        };
+        let root = libm::sqrt(of_parts.iter().map(|(u, _)| u * u).sum());
+        let largest = of_parts.iter().map(|(u, _)| *u).fold(0.0, f64::max);
+        let open = half + of_parts.iter().map(|(_, half)| *half).fold(0.0, f64::max);
+        if parts.len() >= 2 && [root, largest].iter().any(|u| (u - own).abs() <= open) {
+            let why = format!("in row {}", rows[whole].row.label());
+            for part in parts {
+                rows[part].row.not_counted = Some(why.clone());
+            }
+        }
+    }
 }
 
 /// The zeros of `100` are digits as far as the other figures of its column show some.
@@ -75,7 +116,7 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
         let cells: Vec<&str> = cells.filter(|text| !text.is_empty()).collect();
         cells.join("; ")
     };
-    let unit_cell = text(Role::Unit);
+    let unit_beside = |index: usize| unit_beside(grid, row, located, index);
     let figure = |role: Role| -> Option<Printed> {
         let column = located.column(role)?;
         let cell = grid.cell(row, column.index);
@@ -88,14 +129,10 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
             figure.unit.clone_from(&column.unit);
         }
         if figure.unit.is_empty() && matches!(role, Role::Value | Role::Used | Role::U) {
-            figure.unit = unit_cell
-                .split(';')
-                .next()
-                .unwrap_or_default()
-                .trim()
-                .to_string();
+            figure.unit = unit_beside(column.index).to_string();
         }
-        if units::parse(&figure.unit).is_none() && !matches!(role, Role::C) {
+        let is_power = units::power_of_ten(&figure.unit).is_some();
+        if units::parse(&figure.unit).is_none() && !is_power && !matches!(role, Role::C) {
             figure.unit.clear();
         }
         Some(figure)
@@ -112,9 +149,11 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
     if name.is_empty() && symbol.is_empty() {
         name = above.to_string();
     }
-    // `Mass of the standard m_S` in a column of quantities is a name.
-    let (symbol, name) = if name.is_empty() && (symbol.contains(' ') || symbol.chars().count() > 12)
-    {
+    // `Mass of the standard m_S` in a column of quantities is a name, `d_acquisition` is not.
+    let is_identifier =
+        symbol.contains('_') && symbol.chars().all(|c| c.is_alphanumeric() || c == '_');
+    let long = symbol.contains(' ') || symbol.chars().count() > 12 && !is_identifier;
+    let (symbol, name) = if name.is_empty() && long {
         (String::new(), symbol)
     } else {
         (symbol, name)
@@ -135,12 +174,7 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
     let used = figure(Role::Used).or_else(|| {
         let column = located.column(Role::Used)?.index;
         let (figure, _) = bracketed.clone()?;
-        let unit = unit_cell
-            .split(';')
-            .next()
-            .unwrap_or_default()
-            .trim()
-            .to_string();
+        let unit = unit_beside(column).to_string();
         Some(Printed { unit, ..figure }.at(Place { sheet, row, column }))
     });
     let words = [name.as_str(), &text(Role::Remark), remark_of_used]
@@ -161,6 +195,7 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
             .map(|c| c.head.clone())
             .unwrap_or_default(),
         readings: figure(Role::Readings).map(|n| n.value),
+        number: text(Role::Number),
         stated_apart: false,
         row: Row {
             at: Place {
@@ -175,7 +210,7 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
             c: figure(Role::C),
             contribution: figure(Role::Contribution),
             dof: figure(Role::Dof).map(as_infinite),
-            unit: unit_cell,
+            unit: unit_beside(0).to_string(),
             is_hidden: grid.hidden_rows.contains(&row),
             distribution: text(Role::Distribution),
             share: share(grid, row, located),
@@ -192,6 +227,17 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
             ..Row::default()
         },
     }
+}
+
+/// The unit that the columns of units have for a figure: of several the one behind it, else the last in front of it.
+fn unit_beside<'g>(grid: &'g Grid, row: usize, located: &Located, index: usize) -> &'g str {
+    let units = located.columns.iter().filter(|c| c.role == Role::Unit);
+    let mut units: Vec<usize> = units.map(|c| c.index).collect();
+    units.sort_unstable();
+    let behind = units.iter().find(|unit| **unit == index + 1);
+    let in_front = || units.iter().rev().find(|unit| **unit < index);
+    let unit = behind.or_else(in_front).or(units.first());
+    unit.map_or("", |unit| grid.cell(row, *unit).text.trim())
 }
 
 /// The share of a row in the variance, where a column has it.
@@ -231,8 +277,28 @@ impl Raw {
             columns_text: String::new(),
             used_head: String::new(),
             readings: None,
+            number: String::new(),
             stated_apart: true,
         }
+    }
+
+    /// Whether the number of a row, or the index of its symbol, is one below that of another.
+    fn is_part_of(&self, whole: &Raw) -> bool {
+        let index = |raw: &Raw| {
+            let index = raw.row.symbol.strip_prefix('u')?.trim_start_matches('_');
+            let is_index = !index.is_empty() && index.bytes().all(|b| b.is_ascii_digit());
+            is_index.then(|| index.to_string())
+        };
+        let numbered = |part: &str, whole: &str| {
+            let below = part.strip_prefix(whole).unwrap_or_default();
+            !whole.is_empty() && below.strip_prefix('.').is_some_and(|n| !n.is_empty())
+        };
+        let indexed =
+            |part: String, whole: String| part.len() == whole.len() + 1 && part.starts_with(&whole);
+        numbered(&self.number, &whole.number)
+            || index(self)
+                .zip(index(whole))
+                .is_some_and(|(part, whole)| indexed(part, whole))
     }
 
     /// Whether both are about one quantity.

@@ -1,0 +1,207 @@
+//! Sheets in the words and columns of laboratories that had not been read before, and what they had in common.
+
+use super::{answer, first};
+use crate::Verdict;
+
+fn is_sound(name: &str, sheet: &str) {
+    assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
+}
+
+/// `U = k x u(e) = 2 x 0.00121 MPa = 0.0024 MPa`: an x between blanks multiplies.
+#[test]
+fn an_x_multiplies() {
+    let sheet = |u: &str| {
+        format!(
+            "quantity;estimate;standard uncertainty;probability distribution;sensitivity coefficient;uncertainty contribution\n\
+             Xi;xi;u(xi);;ci;ui(y)\npS;10,0012 MPa;0,00045 MPa;normal;-1;-0,00045 MPa\npI;10,003 MPa;0,00058 MPa;normal;1;0,00058 MPa\n\
+             dpR;0 MPa;0,00029 MPa;rectangular;1;0,00029 MPa\ndpH;0 MPa;0,00087 MPa;rectangular;1;0,00087 MPa\n\
+             dpZ;0 MPa;0,0003 MPa;rectangular;1;0,0003 MPa\ne;0,0018 MPa;;;;0,00121 MPa\n\
+             Expanded uncertainty: U = k x u(e) = 2 x 0,00121 MPa = {u} MPa\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0,0024"));
+    assert_eq!(first("sheet.csv", &sheet("0,0042")), "digits-transposed");
+}
+
+/// A Chinese report tells its components one by one, each with the calculation of its u.
+#[test]
+fn components_end_in_their_standard_uncertainties() {
+    let report = |standard: &str, u_c: &str, expanded: &str| {
+        format!(
+            "不确定度评定报告\n被校对象：数字温度计，校准点 100 ℃\n测量模型：Δt = t − t_s\n\
+             A类评定：对被校温度计在100 ℃点独立重复测量10次，单次测量标准偏差 s = 0.032 ℃，实际校准取2次测量的平均值，则 u(t) = 0.032/√2 = 0.023 ℃。\n\
+             B类评定：\n(1) 被校温度计分辨力 0.01 ℃，u = 0.29×0.01 = 0.0029 ℃；\n\
+             (2) 标准铂电阻温度计校准证书给出 U = 0.012 ℃，k = 2，u = {standard} ℃；\n\
+             (3) 恒温槽均匀性 ±0.02 ℃，按均匀分布，u = 0.02/√3 = 0.0115 ℃；\n\
+             (4) 恒温槽波动度 ±0.01 ℃，反正弦分布，u = 0.01/√2 = 0.0071 ℃。\n\
+             合成标准不确定度：u_c = {u_c} ℃\n扩展不确定度：U = {expanded} ℃ (k=2)\n"
+        )
+    };
+    is_sound("report.txt", &report("0.006", "0.0272", "0.054"));
+    let undivided = first("report.txt", &report("0.012", "0.0291", "0.058"));
+    assert!(undivided.starts_with("cert-undivided@"), "{undivided}");
+}
+
+/// Rows 1.1 and 1.2 are what row 1 is made of; so are u_11 and u_12 of u_1.
+#[test]
+fn parts_of_a_row_are_not_counted_beside_it() {
+    let sheet = |names: [&str; 4]| {
+        let [whole, first, second, other] = names;
+        format!(
+            "序号,标准不确定度分量,不确定度来源,标准不确定度值 u(x_i),c_i = ∂f/∂x_i,c_i·u(x_i),自由度\n\
+             {whole},示值,0.38 mg,1,0.38 mg,\n{first},重复性,0.24 mg,,,9\n{second},分辨力,0.29 mg,,,∞\n\
+             {other},标准砝码,0.29 mg,-1,0.29 mg,∞\nu_c = 0.48 mg\n\"U = 0.96 mg，k=2\"\n"
+        )
+    };
+    is_sound(
+        "sheet.csv",
+        &sheet(["1,u(m)", "1.1,u(m_1)", "1.2,u(m_2)", "2,u(m_s)"]),
+    );
+    is_sound("sheet.csv", &sheet([",u_1", ",u_11", ",u_12", ",u_2"]));
+}
+
+/// What is neither divided nor said to be expanded, is a standard uncertainty.
+#[test]
+fn an_undivided_figure_of_no_certificate_is_one() {
+    let sheet = "Torque wrench at 100 N·m\nContribution,Symbol,Half-interval / %,Distribution,Standard uncertainty w / %\n\
+        Reference standard,W_md/2,0.25,normal,0.25\nResolution,w_r,0.05,rectangular,0.029\nRepeatability,w_re,0.21,normal,0.21\n\
+        Reproducibility,w_rep,0.15,rectangular,0.087\n\
+        Relative combined standard uncertainty w = 0.34 %\nRelative expanded uncertainty W = 0.68 % (k = 2)\n";
+    is_sound("sheet.csv", sheet);
+    let mean = "Symbol,Source,Value ± (µV/V),Probability distribution,Divisor,ci,ui(y) (µV/V),vi\n\
+        Vcal,Calibration of standard (k=2),3.0,Normal,2.0,1,1.5,∞\nVdrift,Drift,4.0,Rectangular,1.732,1,2.31,∞\n\
+        Vrep,\"Repeatability (10 readings, mean)\",1.2,Normal,1,1,1.2,9\n\
+        uc,Combined standard uncertainty,,,,,3.00,\nU,Expanded uncertainty,,Normal (k=2),,,6.0,\n";
+    is_sound("sheet.csv", mean);
+}
+
+/// The estimate and the ± each have a column of units behind them.
+#[test]
+fn a_unit_belongs_to_the_figure_in_front_of_it() {
+    let sheet = "Xi,xi,unit,U or a,unit of a,dist,k,u(xi),ci,ci.u(xi) [mOhm]\nR_S,1000.004,Ohm,5,mOhm,N,2,2.5,1,2.5\n\
+        dR_D,0,Ohm,8,mOhm,R,1.73,4.62,1,4.62\ndR_T,0,K,0.5,K,R,1.73,0.289,5,1.45\nR_X,1000.004,Ohm,,,,,,,5.45\nU,,,,,,2,,,11\n";
+    is_sound("sheet.csv", sheet);
+}
+
+/// Coefficients, standard uncertainties as they are printed, and no contributions.
+#[test]
+fn coefficients_multiply_what_is_printed() {
+    let sheet = |head: &str| {
+        format!(
+            "Symbol,Source,c,{head}\nm_S,\"certificate, U = 0.040 mg, k = 2\",1,0.020\n\
+             dm,\"s = 0.020 mg of 10 readings, mean of 5 reported\",2,0.0089\ndT,limits ±0.030 mg,-3,0.0173\nu_c,,,0.0584\nU,k = 2,,0.12\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("u(x_i) / mg"));
+    // A bare u behind the coefficient is what u_c says of it.
+    is_sound("sheet.csv", &sheet("u_i / mg"));
+}
+
+/// The unit of a hardness stands behind a slash; a power of ten in the place of one.
+#[test]
+fn heads_have_strange_units() {
+    let hardness = "Rockwell hardness\nItem,Calculation,u / HRC,ν\nCRM certificate U = 0.30 HRC (k=2),0.30/2,0.15,∞\n\
+        Repeatability 5 readings s = 0.22 HRC,0.22/√5,0.098,4\nDrift of CRM ±0.1 HRC,0.1/√3,0.058,∞\n\
+        Resolution 0.1 HRC,0.1/(2√3),0.029,∞\nCombined,,0.191,\nEffective degrees of freedom,,56,\nk (95.45 %),,2.04,\nU,,0.39,\n";
+    is_sound("sheet.csv", hardness);
+    let current = |u: &str| {
+        format!(
+            "直流电流源校准\n不确定度分量,来源,类型,数值,分布,除数,标准不确定度(×10⁻⁶),灵敏系数\n\
+             u1,标准电阻检定证书 U_rel=2×10⁻⁶ k=2,B,2×10⁻⁶,正态,2,{u},1\n\
+             u2,数字多用表误差限 8×10⁻⁶,B,8×10⁻⁶,均匀,√3,4.6,1\nu3,重复性,A,1.5×10⁻⁶,正态,1,1.5,1\n\
+             合成标准相对不确定度 u_crel=4.9×10⁻⁶\n相对扩展不确定度 U_rel=1.5×10⁻⁵ (k=3)\n"
+        )
+    };
+    is_sound("sheet.csv", &current("1.0"));
+}
+
+/// The zeros of a whole number are none behind the power of ten of its column.
+#[test]
+fn powers_of_ten_keep_the_digits() {
+    let sheet =
+        "Uncertainty source,Type,Standard uncertainty (x 10^-6),Sensitivity,Contribution (x 10^-6)
+Tank volume,B,60,1,60
+        Temperature,B,25,1,25
+Pressure,B,22,1,22
+Density,B,35,1,35
+Repeatability,A,40,1,40
+        Combined standard uncertainty,,,,87
+Expanded uncertainty (k = 2),,,,170
+";
+    is_sound("sheet.csv", sheet);
+}
+
+/// No head says in which unit contributions are: that of their rows is it, and U may be in another.
+#[test]
+fn the_unit_of_rows_is_that_of_their_contributions() {
+    let sheet = |expanded: &str| {
+        format!(
+            "Symbol,Source,± a,Unit,Distribution,Divisor,c_i,u_i(y)\nV_S,\"certificate: U = 0.0030 V, k = 2\",0.0030,V,normal,2,1,0.00150\n\
+             dV_t,limits ±0.0025 V,0.0025,V,rectangular,√3,1,0.00144\ndV_d,limits ±0.0042 V,0.0042,V,rectangular,√3,-1,0.00242\n\
+             u_c,Combined standard uncertainty,,,,,,0.00319\nU,Expanded uncertainty,,,k = 2,,,{expanded}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("6.4 mV"));
+    assert_eq!(first("sheet.csv", &sheet("0.0064 mV")), "U-unit");
+}
+
+/// A coefficient of 100 Ω, where contributions are in mΩ.
+#[test]
+fn coefficients_have_units_of_their_own() {
+    let sheet = |u: &str, u_c: &str, expanded: &str| {
+        format!(
+            "标准电阻校准\n测量模型：R_x = R_s · r\n输入量,估计值,不确定度来源,U 或 a,k,u(x_i),c_i,u_i(y)/mΩ\n\
+             R_s,100.0012 Ω,\"证书 U=3.0 mΩ, k=2\",3.0 mΩ,{u},1.00,{}\n\
+             r,1.000021,电桥 MPE ±8×10⁻⁶,8×10⁻⁶,√3,4.6×10⁻⁶,100 Ω,0.46\n\
+             合成标准不确定度 u_c = {u_c} mΩ\n\"扩展不确定度 U = {expanded} mΩ，k = 2\"\n",
+            u.rsplit(',')
+                .next()
+                .unwrap_or_default()
+                .trim_end_matches(" mΩ")
+        )
+    };
+    is_sound("sheet.csv", &sheet("2,1.50 mΩ", "1.57", "3.1"));
+    assert_eq!(
+        first("sheet.csv", &sheet("1,3.00 mΩ", "3.04", "6.1")),
+        "cert-undivided@R_s"
+    );
+}
+
+/// No table and no list: the sentences of a summary.
+#[test]
+fn running_text_is_read() {
+    let text = |u_c: &str, expanded: &str| {
+        format!(
+            "Summary of the uncertainty of the calibration of a 500 g weight.\n\n\
+             The standard weight has U = 0.75 mg (k = 2) on its certificate. Drift of the standard is within ±0.20 mg.\n\
+             The comparator scatter is s = 0.30 mg from 6 readings, and the mean of 3 is reported.\n\
+             Buoyancy is within limits of ±0.15 mg.\n\
+             The combined standard uncertainty is {u_c} mg and the expanded uncertainty is {expanded} mg (k = 2).\n"
+        )
+    };
+    is_sound("told.txt", &text("0.438", "0.88"));
+    let single = first("told.txt", &text("0.5015", "1.0"));
+    assert!(single.starts_with("s-not-mean@"), "{single}");
+}
+
+/// Contributions in percent of a ratio: the hundred is in the coefficients.
+#[test]
+fn coefficients_may_have_the_hundred_of_percent() {
+    let sheet = "Model: Y = X1*X2*X3\nQuantity,Estimate,u(x_i),c_i,u_i(y) / %\nX1,1,0.0025,100,0.250\nX2,1,0.0057,100,0.570\n\
+        X3,1,0.0082,100,0.820\nu_c,,,,1.029\nU (k = 2),,,,2.1\n";
+    is_sound("sheet.csv", sheet);
+}
+
+/// A coefficient that is the conversion between the units of a row, and one whose unit is not written.
+#[test]
+fn coefficients_may_convert() {
+    let micrometres = "Symbol,Source,± a,Unit,Distribution,Divisor,u,c_i,u_i(y) / µm\n\
+        L_0,\"certificate: U = 0.00045 mm, k = 2\",0.00045,mm,normal,2,0.000225,-1000,0.225\n\
+        L_r,limits ±0.00050 mm,0.00050,mm,rectangular,√3,0.000289,1000,0.289\n\
+        f,limits ±0.10 µm,0.10,µm,rectangular,√3,0.0577,1,0.0577\nu_c,,,,,,,,0.371\nU (k = 2),,,,,,,,0.74\n";
+    is_sound("sheet.csv", micrometres);
+    let volts = "Symbol,Source,± a,Unit,Distribution,Divisor,u,c_i,u_i(y) / (mA/g)\n\
+        E_1,limits ±0.011 V,0.011,V,rectangular,√3,0.00635,1,0.00635\nE_2,limits ±0.011 V,0.011,V,rectangular,√3,0.00635,-1,0.00635\n\
+        R,limits ±60 Ω,60,Ω,rectangular,√3,34.6,-0.0004,0.01386\nu_c,0.0165,mA/g\nU (k = 2),0.033,mA/g\n";
+    is_sound("sheet.csv", volts);
+}

@@ -68,8 +68,9 @@ impl Free {
 pub struct Addition {
     /// Name of the parameter.
     pub parameter: String,
-    /// Name of the column that holds the modifier, the first if there are several.
-    pub column: String,
+    /// Name of the column that holds the modifier, the first if there are several; `None` where the size stands by
+    /// itself.
+    pub column: Option<String>,
     /// The modifier as a formula.
     pub text: String,
     /// The unit of the modifier.
@@ -95,8 +96,8 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
         coefficients.map(move |coefficient| (effect, *coefficient))
     });
     for term in effects.iter().flat_map(|free| &free.variation.terms) {
-        let column = free(&case, "effect", columns.len() + 1);
         let written = term.written();
+        let column = (!stands_alone(term)).then(|| free(&case, "effect", columns.len() + 1));
         let shared = additions.last().filter(|_| term.tied);
         let parameter = match shared {
             Some(addition) => addition.parameter.clone(),
@@ -105,10 +106,13 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
         let is_new = shared.is_none();
         for (response, equation) in equations.iter_mut().enumerate() {
             if term.response.is_none_or(|only| only == response) {
-                equation.insert(fitted, term, &format!("{parameter}*{column}"));
+                let product = column
+                    .iter()
+                    .fold(parameter.clone(), |p, column| p + "*" + column);
+                equation.insert(fitted, term, &product);
             }
         }
-        columns.push(Column {
+        columns.extend(column.iter().map(|column| Column {
             name: column.clone(),
             header: column.clone(),
             role: Role::Covariate,
@@ -119,7 +123,7 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
             full_scale: None,
             resolution: None,
             as_difference: false,
-        });
+        }));
         if is_new {
             case.parameters.push(Parameter {
                 name: parameter.clone(),
@@ -153,6 +157,11 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
         additions,
         effects,
     })
+}
+
+/// Whether the modifier of a term is one, in every row.
+pub(super) fn stands_alone(term: &Term) -> bool {
+    term.written().values.iter().all(|value| *value == 1.0)
 }
 
 /// Takes the coefficients of some effects as scattered about zero, with the scatter that was found.

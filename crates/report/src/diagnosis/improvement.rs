@@ -44,7 +44,10 @@ fn improved_model(adopted: &Adopted) -> Vec<String> {
     let additions = adopted.extended.additions.iter();
     let lines = model.flat_map(|model| model.lines().map(str::to_owned));
     lines
-        .chain(additions.map(|addition| format!("{} = {}", addition.column, addition.text)))
+        .chain(additions.filter_map(|addition| {
+            let column = addition.column.as_ref()?;
+            Some(format!("{column} = {}", addition.text))
+        }))
         .collect()
 }
 

@@ -264,11 +264,11 @@ impl Extending {
         let mut last = format!("{} = {right}", self.left);
         if !self.gains.is_empty() {
             let parameters = &fitted.case().parameters;
-            let constants = fitted.constant_terms(response);
-            let minus = constants
-                .iter()
-                .map(|p| format!(" - {}", parameters[*p].name));
-            let signal = format!("({right}{})", minus.collect::<String>());
+            let constants = fitted.constant_terms(response).into_iter();
+            let signal = constants.fold(right.clone(), |signal, constant| {
+                less(&signal, &parameters[constant].name)
+            });
+            let signal = format!("({signal})");
             last += &match self.gains.as_slice() {
                 [one] => format!(" + {one}*{signal}"),
                 several => format!(" + ({})*{signal}", several.join(" + ")),
@@ -280,6 +280,15 @@ impl Extending {
         let lines = self.before.iter().map(String::as_str);
         lines.chain([last.as_str()]).collect::<Vec<_>>().join("\n")
     }
+}
+
+/// A formula less a name: without it where it is its first or last term.
+fn less(formula: &str, name: &str) -> String {
+    let is_sum = !formula.contains(['<', '>', '=']) && !formula.contains("if");
+    let first = || formula.strip_prefix(&format!("{name} + "));
+    let last = || formula.strip_suffix(&format!(" + {name}"));
+    let rest = is_sum.then(|| first().or_else(last)).flatten();
+    rest.map_or_else(|| format!("{formula} - {name}"), str::to_owned)
 }
 
 /// A formula with a name replaced, outside of quoted units.
@@ -341,7 +350,16 @@ fn compiled(case: &Case, texts: &[String]) -> Option<Equations> {
 
 #[cfg(test)]
 mod tests {
-    use super::replaced;
+    use super::{less, replaced};
+
+    #[test]
+    fn a_first_or_last_term_is_left_out() {
+        assert_eq!(less("U0 + S * M", "U0"), "S * M");
+        assert_eq!(less("S * M^2 + U0", "U0"), "S * M^2");
+        assert_eq!(less("S * (M + U0)", "U0"), "S * (M + U0) - U0");
+        assert_eq!(less("S * M + k * U0", "U0"), "S * M + k * U0 - U0");
+        assert_eq!(less("U00 + S", "U0"), "U00 + S - U0");
+    }
 
     #[test]
     fn names_are_replaced_as_a_whole() {

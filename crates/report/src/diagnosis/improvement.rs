@@ -65,7 +65,11 @@ fn coefficients(adopted: &Adopted, l: Language) -> Table {
     for (estimated, addition) in adopted.coefficients.iter().zip(&adopted.extended.additions) {
         table.push(vec![
             estimated.name.as_str().into(),
-            addition.text.as_str().into(),
+            addition
+                .column
+                .as_ref()
+                .map_or("–", |_| addition.text.as_str())
+                .into(),
             aligned(estimated.value, estimated.u, 2).into(),
             significant(estimated.u, 2).into(),
             estimated.unit.as_str().into(),

@@ -227,6 +227,57 @@ fn inner_friction_needs_no_column_of_directions() {
     assert_eq!(first_names(&found)[0], "hysteresis", "{found}");
 }
 
+/// Two cycles of a sensor whose element sticks: one play, as wide as no step of the grid.
+#[test]
+fn the_width_of_a_play_lies_between_those_of_the_grid() {
+    let mut noise = Noise(39);
+    let mut rows = "t [min],RH [%],U [%]\n".to_owned();
+    let cycle = up_and_down(8, 10.0);
+    let mut behind = 10.0_f64;
+    for (row, x) in cycle.iter().cycle().take(2 * cycle.len()).enumerate() {
+        let x = 10.0 + x;
+        behind = behind.clamp(x - 14.0, x + 14.0);
+        let reading = 1.2 + 0.985 * x - 0.09 * (x - behind) + 0.12 * noise.normal();
+        let _ = writeln!(rows, "{},{x},{reading:.2}", 30 * row);
+    }
+    let case = "equations = \"U = a + b*RH\"\n[columns]\nt = \"time\"\nRH = \"stimulus\"\nU = \"output\"\n[noise]\nu = \"0.12 %\"\n";
+    let found = diagnosed("humidity", &rows, case);
+    assert_eq!(first_names(&found), ["hysteresis"], "{found}");
+    let label = variant(&found, 0);
+    let share = label.trim_start_matches("width ").split(' ').next();
+    let share: f64 = share.and_then(|share| share.parse().ok()).expect(label);
+    // 28 % RH of a range of 80 % RH.
+    assert!((share - 35.0).abs() < 4.0, "{label}");
+}
+
+/// Series of a limiting amplifier without a time: what repeats from series to series is no wave along the rows.
+#[test]
+fn rows_of_series_have_no_order() {
+    let mut noise = Noise(40);
+    let mut rows = "run,P [mW],V [V]\n".to_owned();
+    for run in 1..=3 {
+        for power in [
+            0.1, 0.2, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0_f64,
+        ] {
+            let volts = libm::pow(
+                libm::pow(0.52 * power, -8.0) + libm::pow(2.35, -8.0),
+                -0.125,
+            );
+            let _ = writeln!(rows, "{run},{power},{:.3}", volts + 0.004 * noise.normal());
+        }
+    }
+    let case = "equations = \"V = V0 + S*P\"\n[columns]\nrun = \"run\"\nP = \"stimulus\"\nV = \"output\"\n[noise]\nu = \"4 mV\"\n";
+    let found = diagnosed("amplifier", &rows, case);
+    let along = found["effects"].as_array().into_iter().flatten();
+    let named = along.flat_map(|effect| effect["named"].as_array().cloned().unwrap_or_default());
+    let along: Vec<String> = named.map(|one| one["along"].to_string()).collect();
+    assert!(!along.is_empty(), "{found}");
+    assert!(
+        along.iter().all(|along| !along.contains("row")),
+        "{along:?}"
+    );
+}
+
 #[test]
 fn the_order_of_rows_alone_says_nothing_of_delays() {
     let mut noise = Noise(38);

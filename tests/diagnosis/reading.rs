@@ -48,6 +48,23 @@ fn units_follow_from_the_columns_of_the_model_alone() {
     assert_eq!(units(&found), ["Ω", "1/K", "1/K²"], "{found:#}");
 }
 
+/// An equation that leaves the unit of its parameter open takes the one that the start is written in.
+#[test]
+fn a_start_with_a_unit_says_the_unit_of_its_parameter() {
+    let mut noise = Noise(4);
+    let mut rows = "L [m],T [s]\n".to_owned();
+    for row in 0..24 {
+        let length = 0.3 + 0.05 * f64::from(row);
+        let period = 2.0 * PI * (length / 9.81).sqrt() + 5e-4 * noise.normal();
+        let _ = writeln!(rows, "{length:.2},{period:.4}");
+    }
+    let case = "equations = \"T = 2*pi*sqrt(L/g)\"\n[columns]\nT = \"output\"\nL = \"stimulus\"\n[parameter]\ng = { start = \"980 cm/s^2\" }\n";
+    let found = diagnosed_with("pendulum", &rows, case);
+    let (name, unit, value) = &parameters(&found)[0];
+    assert_eq!((name.as_str(), unit.as_str()), ("g", "cm/s²"), "{found:#}");
+    assert!((value - 981.0).abs() < 1.0, "{value}");
+}
+
 #[test]
 fn the_first_error_asks_for_the_units_that_are_open() {
     let folder = folder("open-units");

@@ -68,8 +68,9 @@ impl Free {
 pub struct Addition {
     /// Name of the parameter.
     pub parameter: String,
-    /// Name of the column that holds the modifier, the first if there are several.
-    pub column: String,
+    /// Name of the column that holds the modifier, the first if there are several; `None` where the size stands by
+    /// itself.
+    pub column: Option<String>,
     /// The modifier as a formula.
     pub text: String,
     /// The unit of the modifier.
@@ -95,8 +96,8 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
         coefficients.map(move |coefficient| (effect, *coefficient))
     });
     for term in effects.iter().flat_map(|free| &free.variation.terms) {
-        let column = free(&case, "effect", columns.len() + 1);
         let written = term.written();
+        let column = (!stands_alone(term)).then(|| free(&case, "effect", columns.len() + 1));
         let shared = additions.last().filter(|_| term.tied);
         let parameter = match shared {
             Some(addition) => addition.parameter.clone(),
@@ -105,10 +106,13 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
         let is_new = shared.is_none();
         for (response, equation) in equations.iter_mut().enumerate() {
             if term.response.is_none_or(|only| only == response) {
-                equation.insert(fitted, term, &format!("{parameter}*{column}"));
+                let product = column
+                    .iter()
+                    .fold(parameter.clone(), |p, column| p + "*" + column);
+                equation.insert(fitted, term, &product);
             }
         }
-        columns.push(Column {
+        columns.extend(column.iter().map(|column| Column {
             name: column.clone(),
             header: column.clone(),
             role: Role::Covariate,
@@ -119,7 +123,7 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
             full_scale: None,
             resolution: None,
             as_difference: false,
-        });
+        }));
         if is_new {
             case.parameters.push(Parameter {
                 name: parameter.clone(),
@@ -153,6 +157,11 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
         additions,
         effects,
     })
+}
+
+/// Whether the modifier of a term is one, in every row.
+pub(super) fn stands_alone(term: &Term) -> bool {
+    term.written().values.iter().all(|value| *value == 1.0)
 }
 
 /// Takes the coefficients of some effects as scattered about zero, with the scatter that was found.
@@ -255,11 +264,11 @@ impl Extending {
         let mut last = format!("{} = {right}", self.left);
         if !self.gains.is_empty() {
             let parameters = &fitted.case().parameters;
-            let constants = fitted.constant_terms(response);
-            let minus = constants
-                .iter()
-                .map(|p| format!(" - {}", parameters[*p].name));
-            let signal = format!("({right}{})", minus.collect::<String>());
+            let constants = fitted.constant_terms(response).into_iter();
+            let signal = constants.fold(right.clone(), |signal, constant| {
+                less(&signal, &parameters[constant].name)
+            });
+            let signal = format!("({signal})");
             last += &match self.gains.as_slice() {
                 [one] => format!(" + {one}*{signal}"),
                 several => format!(" + ({})*{signal}", several.join(" + ")),
@@ -271,6 +280,15 @@ impl Extending {
         let lines = self.before.iter().map(String::as_str);
         lines.chain([last.as_str()]).collect::<Vec<_>>().join("\n")
     }
+}
+
+/// A formula less a name: without it where it is its first or last term.
+fn less(formula: &str, name: &str) -> String {
+    let is_sum = !formula.contains(['<', '>', '=']) && !formula.contains("if");
+    let first = || formula.strip_prefix(&format!("{name} + "));
+    let last = || formula.strip_suffix(&format!(" + {name}"));
+    let rest = is_sum.then(|| first().or_else(last)).flatten();
+    rest.map_or_else(|| format!("{formula} - {name}"), str::to_owned)
 }
 
 /// A formula with a name replaced, outside of quoted units.
@@ -332,7 +350,16 @@ fn compiled(case: &Case, texts: &[String]) -> Option<Equations> {
 
 #[cfg(test)]
 mod tests {
-    use super::replaced;
+    use super::{less, replaced};
+
+    #[test]
+    fn a_first_or_last_term_is_left_out() {
+        assert_eq!(less("U0 + S * M", "U0"), "S * M");
+        assert_eq!(less("S * M^2 + U0", "U0"), "S * M^2");
+        assert_eq!(less("S * (M + U0)", "U0"), "S * (M + U0) - U0");
+        assert_eq!(less("S * M + k * U0", "U0"), "S * M + k * U0 - U0");
+        assert_eq!(less("U00 + S", "U0"), "U00 + S - U0");
+    }
 
     #[test]
     fn names_are_replaced_as_a_whole() {

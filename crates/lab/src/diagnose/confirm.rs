@@ -164,7 +164,7 @@ pub(super) fn covariance(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> D
     // By orthogonal directions: a normal matrix has lost what hardly differs from another unknown.
     if let Ok(baseline) = baseline(design, fit, &claimed.uncorrelated()) {
         return match &claimed.correlated {
-            Some(correlated) => baseline.covariance_with(correlated.correlation.matrix()),
+            Some(correlated) => baseline.covariance_with(&correlated.expected()),
             None => baseline.covariance(),
         };
     }

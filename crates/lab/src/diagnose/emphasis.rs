@@ -9,7 +9,6 @@ use super::parts::Confirmation;
 use super::plan::{Outlook, Promise};
 use super::run::Diagnosis;
 use super::separation::Separating;
-use gumption_core::special::chi_squared_sf;
 
 /// What is smaller than this part of a parameter's u does not change it.
 const MATTERS: f64 = 0.1;
@@ -96,10 +95,8 @@ impl Diagnosis {
 
     /// The probability of so bad a prediction of the held-out recording, where it is worse than the noise allows.
     pub fn badly_predicted(&self, case: &Case) -> Option<f64> {
-        let held = self.held_out.as_ref()?;
-        let best = held.after.as_ref().unwrap_or(&held.before);
-        let p = chi_squared_sf(best.chi_squared, held.observations as f64);
-        (!self.noise.is_estimated() && p < case.settings.alpha).then_some(p)
+        let p = self.held_out.as_ref()?.best().p?;
+        (p < case.settings.alpha).then_some(p)
     }
 
     /// Whether the first of rivals stands alone all the same: one that looks like it needs more sizes for that.

@@ -1,8 +1,10 @@
 //! The prediction of a recording that the fit has not seen: by the declared model, and by the one with the
 //! adopted physics in it.
 
-use nalgebra::{DMatrix, DVector};
+use gumption_core::special::{chi_squared_sf, f_sf};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
+use super::adopt::stands_alone;
 use super::adopted::Adopted;
 use super::case::Data;
 use super::catalogue::{self, Cell, FittedModel, Pattern, Term, modifiers};
@@ -34,8 +36,30 @@ pub struct HeldOutQuality {
 pub struct Prediction {
     /// Root mean square of the errors, for each response.
     pub rms: Vec<f64>,
-    /// Sum of the squares of the errors over their variances: of the noise and of the parameters.
+    /// The square of the errors over their covariance: of the noise, and of the parameters, whose errors all rows share.
     pub chi_squared: f64,
+    /// Probability of errors that large by chance; `None` where successive rows are correlated, of which the law of
+    /// the held-out rows is not known.
+    pub p: Option<f64>,
+}
+
+impl HeldOutQuality {
+    /// The prediction by the best model there is.
+    pub fn best(&self) -> &Prediction {
+        self.after.as_ref().unwrap_or(&self.before)
+    }
+
+    /// Whether what was adopted does not show here: the errors are larger than chance allows at the level `alpha`, and no
+    /// smaller than without it.
+    pub(super) fn contradicts(&self, alpha: f64) -> bool {
+        let squares = |prediction: &Prediction| -> f64 {
+            let scaled = prediction.rms.iter().zip(&self.expected);
+            scaled.map(|(rms, u)| (rms / u) * (rms / u)).sum()
+        };
+        self.after.as_ref().is_some_and(|after| {
+            after.p.is_some_and(|p| p < alpha) && squares(after) >= squares(&self.before)
+        })
+    }
 }
 
 /// Predicts the held-out recording of a case, if there is one.
@@ -55,6 +79,7 @@ pub(super) fn held_out(
         names: known.design.unknowns.iter().map(|u| &u.name).collect(),
         values: unknowns,
         covariance: &covariance,
+        noise: Scatter::of(known.claimed, confirm::degrees(known.design)),
     };
     let fit = model.at(&design);
     let claimed = noise_of(known, &design, &fit, 0);
@@ -73,6 +98,7 @@ struct Model<'m> {
     names: Vec<&'m String>,
     values: &'m [Estimated],
     covariance: &'m DMatrix<f64>,
+    noise: Scatter,
 }
 
 impl Model<'_> {
@@ -111,14 +137,76 @@ impl Model<'_> {
         };
         let count = places.len();
         let covariance = DMatrix::from_fn(count, count, covariance);
-        let of_model = &fit.jacobian * covariance;
-        let squared = |at: usize| {
-            let model = of_model.row(at).dot(&fit.jacobian.row(at)).max(0.0);
-            fit.residuals[at].powi(2) / (claimed.u[at].powi(2) + model)
-        };
+        let mut slopes = fit.jacobian.clone();
+        for (mut row, u) in slopes.row_iter_mut().zip(&claimed.u) {
+            row /= *u;
+        }
+        let errors = fit.residuals.component_div(&claimed.u);
+        let chi_squared = chi_squared(&errors, slopes, &covariance);
         Prediction {
             rms: design.root_mean_squares(&fit.residuals),
-            chi_squared: (0..design.observations()).map(squared).sum(),
+            chi_squared,
+            p: self.chance(chi_squared, design.observations() as f64),
+        }
+    }
+
+    /// Probability of a χ² of so many observations by chance; with noise that was estimated it is Fisher's.
+    fn chance(&self, chi_squared: f64, observations: f64) -> Option<f64> {
+        match self.noise {
+            Scatter::Known => Some(chi_squared_sf(chi_squared, observations)),
+            Scatter::Estimated(dof) => Some(f_sf(chi_squared / observations, observations, dof)),
+            Scatter::Correlated => None,
+        }
+    }
+}
+
+/// The square of errors over their covariance, which is 1 and what parameters of this covariance do to the rows with these
+/// slopes; all over the noise.
+fn chi_squared(errors: &DVector<f64>, mut slopes: DMatrix<f64>, covariance: &DMatrix<f64>) -> f64 {
+    let count = covariance.nrows();
+    let u = covariance
+        .diagonal()
+        .map(|variance| variance.max(0.0).sqrt());
+    let scale = u.map(|u| if u > 0.0 { 1.0 / u } else { 0.0 });
+    for (mut column, u) in slopes.column_iter_mut().zip(&u) {
+        column *= *u;
+    }
+    let correlation = DMatrix::from_fn(count, count, |a, b| {
+        covariance[(a, b)] * scale[a] * scale[b]
+    });
+    let axes = SymmetricEigen::new(correlation);
+    let lengths = axes.eigenvalues.map(|variance| variance.max(0.0).sqrt());
+    let shared = slopes * axes.eigenvectors * DMatrix::from_diagonal(&lengths);
+    // (1 + AAᵀ)⁻¹ = 1 − A (1 + AᵀA)⁻¹ Aᵀ
+    let along = shared.tr_mul(errors);
+    let inner = DMatrix::identity(count, count) + shared.tr_mul(&shared);
+    let taken = (inner.cholesky()).map_or(0.0, |inner| along.dot(&inner.solve(&along)));
+    (errors.norm_squared() - taken).max(0.0)
+}
+
+/// What is known of the noise of single rows.
+#[derive(Clone, Copy)]
+enum Scatter {
+    Known,
+    /// From so many degrees of freedom.
+    Estimated(f64),
+    Correlated,
+}
+
+impl Scatter {
+    /// Of a recording of which a fit leaves so many degrees of freedom.
+    fn of(claimed: &Claimed, left: f64) -> Scatter {
+        if claimed.correlated.is_some() {
+            return Scatter::Correlated;
+        }
+        let dof = if claimed.is_estimated() {
+            left
+        } else {
+            claimed.dof
+        };
+        match dof.is_finite() {
+            true => Scatter::Estimated(dof.max(1.0)),
+            false => Scatter::Known,
         }
     }
 }
@@ -153,11 +241,16 @@ fn improved(
         if is_jump && !follows(&wide, known.case.rows) {
             return None;
         }
-        // Each harmonic of an angle is a cell of its own.
+        // Each harmonic of an angle is a cell of its own. Both recordings together may have other effects than the first:
+        // the same course by another name is the same course.
         let alike = |other: &&Cell| other.effect.id == cell.effect.id && other.words == cell.words;
         let alike: Vec<&Cell> = others.iter().filter(alike).collect();
-        for term in &free.variation.terms {
-            let modifier = continued(term, &alike, [fitted.design, &seen])?;
+        let all: Vec<&Cell> = others.iter().collect();
+        let designs = [fitted.design, &seen];
+        let terms = free.variation.terms.iter();
+        for term in terms.filter(|term| !stands_alone(term)) {
+            let modifier = continued(term, &alike, designs, LIKE)
+                .or_else(|| continued(term, &all, designs, SAME))?;
             rows.data.push(Data::Numbers(modifier));
         }
     }
@@ -180,6 +273,7 @@ fn improved(
         names: fitted.unknowns.iter().map(|u| &u.name).collect(),
         values: &values,
         covariance: &covariance,
+        noise: Scatter::of(known.claimed, confirm::degrees(&fitted)),
     };
     let case = extended.with(&rows);
     let design = Design::new(&case);
@@ -198,12 +292,20 @@ fn follows(both: &FittedModel<'_>, rows: usize) -> bool {
     modifiers::range(own).1 <= modifiers::range(rest).0
 }
 
+/// What another variant of an effect may leave of a modifier, as a share of its variance.
+const LIKE: f64 = 0.05;
+/// What a modifier leaves of another that has the same course, as a share of its variance: rounding.
+const SAME: f64 = 1e-9;
+
 /// The course of a modifier in the rows that follow its own in the design of both recordings: of the term of the same effect that
 /// is, but for its origin and its unit, the same in the first rows. Origins and units (the mean of a column,
 /// the start of the recording) belong to the recording in which the effect was found.
-fn continued(term: &Term, cells: &[&Cell], [own, both]: [&Design<'_>; 2]) -> Option<Vec<f64>> {
-    /// What is left of the modifier by another one, as a share of its variance, at most.
-    const LEFT: f64 = 0.05;
+fn continued(
+    term: &Term,
+    cells: &[&Cell],
+    [own, both]: [&Design<'_>; 2],
+    most: f64,
+) -> Option<Vec<f64>> {
     let variants = cells.iter().flat_map(|cell| &cell.variants);
     let terms = variants.flat_map(|variation| &variation.terms);
     let like = terms.filter(|other| other.node == term.node && other.response == term.response);
@@ -216,7 +318,7 @@ fn continued(term: &Term, cells: &[&Cell], [own, both]: [&Design<'_>; 2]) -> Opt
     let (other, factor, offset, left) = fits.min_by(|a, b| a.3.total_cmp(&b.3))?;
     let course = both.spread(&other.written().values);
     let rest = course.get(sought.len()..)?;
-    (left < LEFT).then(|| rest.iter().map(|x| factor * x + offset).collect())
+    (left < most).then(|| rest.iter().map(|x| factor * x + offset).collect())
 }
 
 /// The straight line from `x` to `y`, and what it leaves of the variance of `y`; a `y` without variance is
@@ -240,7 +342,31 @@ fn line_through(x: &[f64], y: &[f64]) -> (f64, f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::line_through;
+    use nalgebra::{DMatrix, DVector};
+
+    use super::{chi_squared, line_through};
+
+    #[test]
+    fn rows_share_the_errors_of_parameters() {
+        // An offset that is known to 3 only, beside a slope in another unit: an error of all rows alike is one error.
+        let slopes = DMatrix::from_columns(&[
+            DVector::from_element(50, 1.0),
+            DVector::from_fn(50, |row, _| 1e9 * (row as f64 - 24.5)),
+        ]);
+        let covariance = DMatrix::from_diagonal(&DVector::from_vec(vec![9.0, 1e-20]));
+        let alike = DVector::from_element(50, 3.0);
+        let found = chi_squared(&alike, slopes.clone(), &covariance);
+        // 50·9/(1 + 50·9), by hand.
+        assert!((found - 450.0 / 451.0).abs() < 1e-9, "{found}");
+        let turns = DVector::from_fn(50, |row, _| if row % 2 == 0 { 1.0 } else { -1.0 });
+        let direct = {
+            let shared = &slopes * &covariance * slopes.transpose();
+            let whole = DMatrix::identity(50, 50) + shared;
+            turns.dot(&whole.lu().solve(&turns).unwrap())
+        };
+        let found = chi_squared(&turns, slopes, &covariance);
+        assert!((found - direct).abs() < 1e-9 * direct, "{found} {direct}");
+    }
 
     #[test]
     fn origin_and_unit_of_a_modifier_are_found() {

@@ -56,7 +56,7 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
             .extended
             .additions
             .iter()
-            .find(|addition| addition.column == column.name);
+            .find(|addition| addition.column.as_ref() == Some(&column.name));
         let remark = addition.map_or(String::new(), |addition| format!("  # {}", addition.text));
         text += &format!(
             "{} = {}{remark}\n",

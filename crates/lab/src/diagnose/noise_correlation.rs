@@ -47,6 +47,22 @@ pub struct Correlated {
     pub log_prior: f64,
 }
 
+impl Correlated {
+    /// The mean of the matrices that the recording allows. Variances of estimates are linear in the matrix, so that theirs
+    /// are the means of what each law gives.
+    pub(super) fn expected(&self) -> DMatrix<f64> {
+        match self.draws.split_first() {
+            None => self.correlation.matrix().clone(),
+            Some((first, others)) => {
+                let sum = others
+                    .iter()
+                    .fold(first.matrix().clone(), |sum, one| sum + one.matrix());
+                sum / self.draws.len() as f64
+            }
+        }
+    }
+}
+
 /// A law of correlation; times are those of the clock of the case, or rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Memory {

@@ -8,7 +8,7 @@ use super::accidents;
 use super::adopted::{Adopted, adopt_named};
 use super::candidates::{Candidates, baseline, settings};
 use super::case::Case;
-use super::catalogue::{Cell, Finer, FittedModel, generics};
+use super::catalogue::{Cell, Finer, FittedModel, Pattern, generics};
 use super::coarse::Coarse;
 use super::confirm::{self, Estimated, Quality, estimates};
 use super::design::Design;
@@ -231,6 +231,16 @@ pub fn diagnose(
         &unknowns,
         adopted.as_ref(),
     );
+    let recurs = |adopted: &Adopted| {
+        let mut patterns = (adopted.atoms.iter()).map(|atom| cells[places[*atom].0].effect.pattern);
+        patterns.all(|pattern| pattern.is_none_or(Pattern::recurs))
+    };
+    if adopted.as_ref().is_some_and(recurs)
+        && (held_out.as_ref()).is_some_and(|held| held.contradicts(settings.alpha))
+    {
+        let all: Vec<usize> = (0..examination.slots.len()).collect();
+        examination.demote(&all);
+    }
     unsettled.extend((adopted.iter()).filter_map(|adopted| adopted.unsettled.clone()));
     let improved = adopted
         .as_ref()

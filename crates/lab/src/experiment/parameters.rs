@@ -137,10 +137,26 @@ impl Checker<'_> {
                 units[*place] = units[*place].take().or(found);
             }
         }
-        for (outline, response) in &outlines {
-            units = outline.completed_units(names, units, known, &response.unit, &self.units);
+        let completed = |mut units| {
+            for (outline, response) in &outlines {
+                units = outline.completed_units(names, units, known, &response.unit, &self.units);
+            }
+            units
+        };
+        units = completed(units);
+        if units.iter().any(Option::is_none) {
+            for (unit, (_, entry)) in units.iter_mut().zip(entries(&table.parameter)) {
+                *unit = unit.take().or_else(|| self.written_unit(&entry.value));
+            }
+            units = completed(units);
         }
         searched(self, names, units, &outlines, known, constants, responses)
+    }
+
+    /// The unit that the start or the value of a parameter is written in.
+    fn written_unit(&self, table: &ParameterTable) -> Option<Unit> {
+        let amount = table.start.as_ref().or(table.value.as_ref())?;
+        self.units.parse(&amount.value.unit.as_ref()?.0).ok()
     }
 
     /// A unit as a formula of quantities: that of `U/omega`.

@@ -281,8 +281,8 @@ form! {
     AdditionForm<'a> of (addition: &'a Addition) {
         /// Its size.
         parameter: &'a str = &addition.parameter,
-        /// Column that holds what the size multiplies.
-        column: &'a str = &addition.column,
+        /// Column that holds what the size multiplies; none where the size stands by itself.
+        column: Option<&'a str> = addition.column.as_deref(),
         /// The same as a formula.
         modifier: &'a str = &addition.text,
         /// Unit of it.

@@ -44,7 +44,10 @@ fn improved_model(adopted: &Adopted) -> Vec<String> {
     let additions = adopted.extended.additions.iter();
     let lines = model.flat_map(|model| model.lines().map(str::to_owned));
     lines
-        .chain(additions.map(|addition| format!("{} = {}", addition.column, addition.text)))
+        .chain(additions.filter_map(|addition| {
+            let column = addition.column.as_ref()?;
+            Some(format!("{column} = {}", addition.text))
+        }))
         .collect()
 }
 
@@ -62,7 +65,11 @@ fn coefficients(adopted: &Adopted, l: Language) -> Table {
     for (estimated, addition) in adopted.coefficients.iter().zip(&adopted.extended.additions) {
         table.push(vec![
             estimated.name.as_str().into(),
-            addition.text.as_str().into(),
+            addition
+                .column
+                .as_ref()
+                .map_or("–", |_| addition.text.as_str())
+                .into(),
             aligned(estimated.value, estimated.u, 2).into(),
             significant(estimated.u, 2).into(),
             estimated.unit.as_str().into(),

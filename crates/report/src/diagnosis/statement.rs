@@ -18,6 +18,12 @@ pub(super) fn verdict(diagnosis: &Diagnosis, l: Language) -> String {
     let at =
         |places: &[&Alternative]| joined(places.iter().map(|one| names.plain(one.candidate)), l);
     match diagnosis.conclusion() {
+        Conclusion::Agreement if diagnosis.noise.is_estimated() => l
+            .pick(
+                "Model and recording agree: nothing is left out that this recording can show. No noise is claimed that its scatter could be held against.",
+                "模型与记录一致：记录未显示模型有遗漏。未声明噪声，故其分散大小无从比较。",
+            )
+            .to_owned(),
         Conclusion::Agreement => l
             .pick(
                 "Model and recording agree within what is claimed: nothing is left out that this recording can show.",
@@ -129,6 +135,20 @@ fn slot_name(diagnosis: &Diagnosis, slot: &Slot, names: Names<'_>) -> String {
                 format!("{first}（{p} %；不能排除：{others}）"),
             )
         }
-        _ => names.l.either(&list),
+        _ => names.l.either(&shortened(list, names.l)),
     }
+}
+
+/// A list that can be read in a sentence: what is further down stands below it, by its probability.
+fn shortened(mut list: Vec<String>, l: Language) -> Vec<String> {
+    /// Names in a sentence.
+    const MOST: usize = 5;
+    if list.len() > MOST {
+        let others = list.split_off(MOST - 1).len();
+        list.push(l.pick(
+            format!("one of {others} others, listed below"),
+            format!("下列其余 {others} 种之一"),
+        ));
+    }
+    list
 }

@@ -89,6 +89,13 @@ pub enum Pattern {
     Wave,
 }
 
+impl Pattern {
+    /// Whether another recording has it as well: what happens once, and what runs draw anew, it need not have.
+    pub fn recurs(self) -> bool {
+        self == Pattern::Wave
+    }
+}
+
 /// The upper end of the sizes that are usual.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -328,17 +328,22 @@ impl<'f> FittedModel<'f> {
         }
     }
 
-    /// Whether the order of the rows says something that no stimulus says: it was recorded, or the rows are
-    /// not sorted by a stimulus.
+    /// Whether the order of the rows says something that no column says: it was recorded, or the rows are neither
+    /// sorted by a column nor those of runs and factors, which may stand in any order.
     pub fn is_ordered(&self) -> bool {
         let sorted = |column: &usize| {
             let numbers = self.design.reduced(self.numbers(*column));
             numbers.windows(2).all(|pair| pair[0] <= pair[1])
                 || numbers.windows(2).all(|pair| pair[0] >= pair[1])
         };
-        let applied = |column: &usize| self.case().columns[*column].role == Role::Stimulus;
-        let mut stimuli = self.numeric().into_iter().filter(applied);
-        self.clock.column.is_some() || !stimuli.any(|column| sorted(&column))
+        let is_label = |role: Role| matches!(role, Role::Run | Role::Factor);
+        let labelled = || {
+            self.case()
+                .columns
+                .iter()
+                .any(|column| is_label(column.role))
+        };
+        self.clock.column.is_some() || !(labelled() || self.numeric().iter().any(sorted))
     }
 
     /// Seconds in a unit of the clock, where it is a time.

@@ -125,37 +125,36 @@ fn plays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     const WIDTHS: [f64; 5] = [0.05, 0.15, 0.3, 0.5, 0.75];
     let (x, label) = (fitted.numbers(column), fitted.label(column));
     let (least, most) = range(x);
-    let width = |part: f64| five_digits(part * (most - least));
-    let behind = |part: f64| {
-        let modifier = map2(
-            x,
-            &play(&fitted.clock.values, x, width(part)),
-            |x, played| x - played,
-        );
-        let shown = fitted.figure(column, width(part));
+    let unit = fitted.case().columns[column].unit.typeset();
+    let widths = WIDTHS.map(|part| five_digits(part * (most - least)));
+    let behind = |width: f64| {
+        let played = play(&fitted.clock.values, x, width);
+        let modifier = map2(x, &played, |x, played| x - played);
+        let shown = fitted.figure(column, width);
         let text = format!("({label} - play({label}, {shown}))");
         Modifier::new(modifier, text, fitted.step_unit(column))
     };
-    let single = WIDTHS.map(|part| {
-        let width = format!("width {} % of the range", 100.0 * part);
-        Variation::one(width, on_output(behind(part)))
+    let single = fitted.finer.times(widths.into()).into_iter().map(|width| {
+        let share = figure(100.0 * width / (most - least));
+        let label = format!("width {share} % of the range");
+        Variation::one(label, on_output(behind(width))).shaped("w", width, &unit)
     });
     let mut sum = vec![0.0; x.len()];
-    for part in WIDTHS {
-        sum = map2(&sum, &behind(part).values, |sum, one| sum + one);
+    for width in widths {
+        sum = map2(&sum, &behind(width).values, |sum, one| sum + one);
     }
-    let mean = map(&sum, |sum| sum / WIDTHS.len() as f64);
-    let all = WIDTHS.map(|part| fitted.figure(column, width(part)));
+    let mean = map(&sum, |sum| sum / widths.len() as f64);
+    let all = widths.map(|width| fitted.figure(column, width));
     let text = format!(
         "mean of ({label} - play({label}, w)) over w = {}",
         all.join(", ")
     );
     let mean = Modifier::new(mean, text, fitted.step_unit(column));
     let even = Variation::one("several widths", on_output(mean));
-    let apart = WIDTHS.iter().skip(1).step_by(2);
-    let apart = apart.map(|part| on_output(behind(*part)));
+    let apart = widths.into_iter().skip(1).step_by(2);
+    let apart = apart.map(|width| on_output(behind(width)));
     let uneven = Variation::of("two widths", apart.collect());
-    single.into_iter().chain([even, uneven]).collect()
+    single.chain([even, uneven]).collect()
 }
 
 /// Whether a course goes both ways, more than by returning to where a series begins.

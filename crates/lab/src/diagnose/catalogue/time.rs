@@ -6,7 +6,6 @@ use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, grid, map, range};
 use super::sharp::{self, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variants};
-use crate::diagnose::case::Role;
 use gumption_core::quantity::Unit;
 
 /// More steps than that are not scanned.
@@ -23,13 +22,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let (start, _) = range(t);
     let since = map(t, |t| t - start);
     let began = fitted.time_less(start);
-    // Rows of factors without a time may stand in any order.
-    let factors = fitted
-        .case()
-        .columns
-        .iter()
-        .any(|column| matches!(column.role, Role::Run | Role::Factor));
-    if (factors && fitted.clock.column.is_none()) || !fitted.is_ordered() {
+    if !fitted.is_ordered() {
         return Vec::new();
     }
     let nodes = if fitted.has_signal() {
@@ -188,21 +181,11 @@ fn steps(fitted: &FittedModel<'_>, along: &str) -> Variants {
             )],
         )
     };
-    let begins = |block: &usize| begins(fitted, blocks[*block][0]);
     let first = stride.max(2);
     let scanned = (first..blocks.len().saturating_sub(1)).step_by(stride);
-    let mut variants: Variants = scanned.filter(|block| !begins(block)).map(at).collect();
+    let mut variants: Variants = scanned.map(at).collect();
     variants.extend(between(fitted, along, stride));
     variants
-}
-
-/// Whether a run begins with a row: a shift there has the name of the run.
-fn begins(fitted: &FittedModel<'_>, row: usize) -> bool {
-    let labels = fitted.case().columns.iter().filter_map(|c| c.labels());
-    let blocks = fitted.design.blocks.len();
-    labels
-        .filter(|labels| labels.levels.len() * 3 < 2 * blocks)
-        .any(|labels| row > 0 && labels.of_row[row] != labels.of_row[row - 1])
 }
 
 /// The best row for a step, where blocks are skipped or hold several rows; nothing where the others have it.
@@ -227,12 +210,6 @@ fn between(
     let best = sharp::best(fitted, &mut starts.iter().map(|row| term(*row)))?;
     let near = starts[best.saturating_sub(1)]..starts[(best + 1).min(starts.len() - 1)];
     let row = near.start + sharp::best(fitted, &mut near.map(term))?;
-    // Next to the beginning of a run it is the run that differs.
-    let reach = stride * blocks[0].len();
-    let around = row.saturating_sub(reach)..(row + reach + 1).min(fitted.rows());
-    if { around }.any(|row| begins(fitted, row)) {
-        return None;
-    }
     let number = fitted.design.recorded(row).start + 1;
     let label = match fitted.clock.column {
         Some(_) => format!(

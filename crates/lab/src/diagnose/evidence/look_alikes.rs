@@ -23,6 +23,8 @@ const TOLD_APART: f64 = 8.0;
 const KIN: f64 = 2.0;
 /// … and no more than this share of the effect (squared).
 const KIN_SHARE: f64 = 0.04;
+/// What is left (squared) of an effect by an explanation that has it as a part: rounding.
+const HELD: f64 = 1e-8;
 /// Variants that have less than this in common with an effect (cosine squared) are no part of it.
 const PART: f64 = 0.25;
 /// Variants of a candidate that are tried in pairs.
@@ -67,20 +69,46 @@ pub(super) fn listed(
     for (candidate, mut variants) in shares {
         variants.sort_by(|a, b| b.0.total_cmp(&a.0));
         let (best, block) = variants[0];
-        // A candidate at the same place with more coefficients is the same, more general; one with many
-        // more, such as a value of its own for each level, holds anything.
+        // A candidate at the same place with more coefficients that has a variant as a part is the same, more general;
+        // one with many more, such as a value of its own for each level, holds anything.
         let (more, few) = (space.blocks[block].basis.ncols(), own.basis.ncols());
-        let same = question.candidates[candidate].place == *place;
-        let general = (same && more > few) || more > few + 1;
         let left = (1.0 - best).max(0.0) * whole;
         let near = left < (TOLD_APART * estimate.sigma).powi(2);
-        let alias = best > ALIAS && near && !general;
+        let general = || {
+            let same = more > few && question.candidates[candidate].place == *place;
+            more > few + 1 || (same && has_as_part(space, &beside, rest, block, own.candidate))
+        };
+        let alias = best > ALIAS && near && !general();
         let mixes = !question.candidates[candidate].repeats && variants.len() > 1;
         if alias || (mixes && kin(space, rest, &variants, estimate)) {
             found.push(candidate);
         }
     }
     found
+}
+
+/// Whether a block explains all of some variant of a candidate: a square with a line has the line as a part.
+fn has_as_part(
+    space: &Space,
+    beside: &Remainders<'_>,
+    rest: &Frame,
+    block: usize,
+    candidate: usize,
+) -> bool {
+    let Some(general) = beside.rests.iter().find(|rest| rest.block == block) else {
+        return false;
+    };
+    let variants = space.blocks.iter().filter(|own| own.candidate == candidate);
+    let single = variants.filter(|own| own.basis.ncols() == 1);
+    single
+        .map(|own| without(&own.determined(), &rest.basis))
+        .any(|column| {
+            let column = column.column(0).into_owned();
+            let whole = column.norm_squared();
+            let along = space.directions.tr_mul(&column);
+            let held = beside.components(general, &along).norm_squared();
+            whole > 0.0 && whole - held < HELD * whole
+        })
 }
 
 /// Whether a rival, given by the columns of its variants, stays on the list of an effect of `own` coefficients

@@ -6,7 +6,7 @@ use gumption_gum::propagate::{MOST_MULTIPLE, Needed, Requirement, Requirements};
 
 use crate::language::{Language, Word};
 use crate::number::{NONE, TABLE_DIGITS, significant};
-use crate::{Report, difference_symbol};
+use crate::{Report, symbol};
 
 /// The document of what U would need of every input.
 pub fn requirements(report: &Report<'_>, found: &Requirements) -> Document {
@@ -60,7 +60,7 @@ fn form<'a>(report: &Report<'a>, found: &Requirements) -> RequirementsJson<'a> {
         };
         RequirementJson {
             input: &input.name,
-            unit: difference_symbol(&input.unit),
+            unit: symbol(&input.unit),
             u: Number(one.u),
             needed,
             floor,
@@ -68,7 +68,7 @@ fn form<'a>(report: &Report<'a>, found: &Requirements) -> RequirementsJson<'a> {
     });
     RequirementsJson {
         measurand: name,
-        unit: difference_symbol(unit),
+        unit: symbol(unit),
         expanded: Number(found.expanded),
         wished: Number(found.wished),
         inputs: inputs.collect(),
@@ -78,7 +78,7 @@ fn form<'a>(report: &Report<'a>, found: &Requirements) -> RequirementsJson<'a> {
 fn blocks(report: &Report<'_>, found: &Requirements) -> Vec<Block> {
     let l = report.language;
     let (name, unit) = report.measurand(found.measurand);
-    let unit = difference_symbol(unit);
+    let unit = symbol(unit);
     let with_unit = |x: f64| {
         format!("{} {unit}", significant(x, TABLE_DIGITS))
             .trim()
@@ -151,7 +151,7 @@ fn row(report: &Report<'_>, one: &Requirement, with_unit: &dyn Fn(f64) -> String
     };
     vec![
         input.name.as_str().into(),
-        difference_symbol(&input.unit).into(),
+        symbol(&input.unit).into(),
         significant(one.u, TABLE_DIGITS).into(),
         needed.into(),
         words.into(),

@@ -1,6 +1,5 @@
 //! Making a sealed case from a seed.
 
-use std::path::Path;
 use std::str::FromStr;
 
 use nalgebra::DVector;
@@ -104,20 +103,6 @@ pub struct SealedCase {
     pub signatures: Vec<DVector<f64>>,
     /// Mean time from one reading of the recording to the next, hours.
     pub dwell: f64,
-}
-
-impl SealedCase {
-    /// Writes what is handed out into a folder.
-    ///
-    /// # Errors
-    /// When a file cannot be written.
-    pub fn hand_out(&self, folder: &Path) -> std::io::Result<()> {
-        std::fs::create_dir_all(folder)?;
-        for file in &self.files {
-            std::fs::write(folder.join(file.name), &file.text)?;
-        }
-        Ok(())
-    }
 }
 
 /// A case before it is sealed.

@@ -7,7 +7,7 @@ use super::language::{Language, Word};
 use super::number::{
     NONE, TABLE_DIGITS, aligned, at_place, exact, freedom, in_unit, print, significant,
 };
-use super::{Report, difference_symbol, symbol};
+use super::{Report, symbol};
 use gumption_format::document::Block;
 use gumption_format::document::{Cell, ColumnKind, Row, Table};
 
@@ -207,7 +207,7 @@ fn one_way(analysis: &Analysis, found: &Anova, l: Language) -> Vec<Block> {
     );
     push(&mut table, between, &found.table.between, Some(tests));
     push(&mut table, within, &found.table.within, None);
-    let unit = difference_symbol(&analysis.unit);
+    let unit = symbol(&analysis.unit);
     let amount = |s: f64| amount(s, &unit);
     let fields = vec![
         (
@@ -258,7 +258,7 @@ fn nested(analysis: &Analysis, found: &NestedAnova, l: Language) -> Vec<Block> {
     );
     let within = l.pick("within subgroups", "子组内");
     push(&mut table, within, &found.table.within, None);
-    let unit = difference_symbol(&analysis.unit);
+    let unit = symbol(&analysis.unit);
     let [s_top, s_middle, s_within] = found.standard_deviations();
     let fields = [(groups, s_top), (subgroups, s_middle), (within, s_within)]
         .map(|(name, s)| {

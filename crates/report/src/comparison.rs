@@ -13,7 +13,7 @@ use super::number::{
 };
 use super::quasi;
 use super::remarks::tolerance;
-use super::{Report, difference_symbol, symbol};
+use super::{Report, symbol};
 use gumption_format::document::Block;
 use gumption_format::document::{Cell, ColumnKind, Table};
 
@@ -119,7 +119,7 @@ impl SideBySide<'_> {
             estimate,
         );
         self.row(
-            in_unit(Word::StandardUncertainty.of(l), &difference_symbol(unit)),
+            in_unit(Word::StandardUncertainty.of(l), &symbol(unit)),
             three(gum.u),
             mc.map(|mc| optional(mc.u, three)),
         );
@@ -262,7 +262,7 @@ fn trials(run: &Run, measurand: usize, language: Language) -> String {
 
 /// One line of JCGM 101 clause 8.
 fn verdict(report: &Report<'_>, measurand: usize, v: &Validation) -> String {
-    let unit = difference_symbol(report.measurand(measurand).1);
+    let unit = symbol(report.measurand(measurand).1);
     let unit = if unit.is_empty() {
         unit
     } else {

@@ -1,11 +1,11 @@
 //! The reported figures of one measurand as they are printed: rounded here, and nowhere else.
 
-use gumption_core::quantity::{Rounded, Unit, space_before};
+use gumption_core::quantity::{Decimal, Rounded, Rounding, Unit, space_before};
 use gumption_gum::budget::CoverageRule;
 use gumption_gum::propagate::{Reason, Reported, ReportedUncertainty};
 
 use super::number::{STYLE, at_place, exact, freedom, print, significant};
-use super::{Report, difference_symbol, symbol};
+use super::{Report, symbol};
 use crate::language::Language;
 
 /// The reported figures of one measurand.
@@ -67,7 +67,14 @@ impl<'a> Figures<'a> {
     pub fn u(&self) -> Option<String> {
         let u = self.reported.u?;
         Some(match (&self.pair, self.reported.uncertainty) {
-            (Some(pair), ReportedUncertainty::Interval { .. }) => print(&pair.uncertainty),
+            (Some(pair), ReportedUncertainty::Interval { .. }) => beside(pair, &pair.uncertainty),
+            (Some(pair), _) => {
+                let two = Decimal::from_f64(u).round_to_significant(2, Rounding::HalfEven);
+                match two.place() {
+                    Some(place) if place <= 0 => beside(pair, &two),
+                    _ => significant(u, 2),
+                }
+            }
             _ => significant(u, 2),
         })
     }
@@ -75,7 +82,8 @@ impl<'a> Figures<'a> {
     /// U without its unit.
     pub fn expanded(&self) -> Option<String> {
         self.reported.expanded()?;
-        self.pair.as_ref().map(|pair| print(&pair.uncertainty))
+        let pair = self.pair.as_ref()?;
+        Some(beside(pair, &pair.uncertainty))
     }
 
     /// k, where U is a multiple of u.
@@ -107,7 +115,7 @@ impl<'a> Figures<'a> {
 
     /// A number of the measurand's differences with its unit.
     pub fn amount(&self, number: &str) -> String {
-        with_unit(number, &difference_symbol(self.unit))
+        with_unit(number, &symbol(self.unit))
     }
 
     /// A number of the measurand with its unit.
@@ -135,16 +143,16 @@ impl<'a> Figures<'a> {
                 "报告采用 GUM 法的结果：其区间未通过验证，但蒙特卡洛法证实了 y 和 u，k 按规范取值。",
             ),
             Reason::FewReadings => (
-                "Reported is the GUM result: Monte Carlo confirms y and u once means of few readings have the standard uncertainty s/√n, as the profile has it.",
-                "报告采用 GUM 法的结果：少量重复测量的均值按规范取标准不确定度 s/√n 时，蒙特卡洛法证实 y 和 u。",
+                "Reported is the GUM result: Monte Carlo confirms y and u once what has few degrees of freedom is given u itself as its standard deviation, as the profile has it.",
+                "报告采用 GUM 法的结果：自由度小的分量按规范以 u 本身为标准差时，蒙特卡洛法证实 y 和 u。",
             ),
             Reason::NotValidated => (
                 "Reported is the Monte Carlo result, because it does not validate that of the GUM.",
                 "GUM 法的结果未通过验证，报告采用蒙特卡洛法的结果。",
             ),
             Reason::NotValidatedFewReadings => (
-                "Reported are y and u of a Monte Carlo run in which means of few readings have the standard uncertainty s/√n, as the profile has it: the model is too nonlinear for the GUM result.",
-                "报告的 y 和 u 取自少量重复测量的均值按规范取标准不确定度 s/√n 时的蒙特卡洛法：模型的非线性使 GUM 法的结果不适用。",
+                "Reported are y and u of a Monte Carlo run in which what has few degrees of freedom has u itself as its standard deviation, as the profile has it: the model is too nonlinear for the GUM result.",
+                "报告的 y 和 u 取自蒙特卡洛法，其中自由度小的分量按规范以 u 本身为标准差：模型的非线性使 GUM 法的结果不适用。",
             ),
             Reason::NotNegative => (
                 "Reported are y, u and the coverage interval of ISO 11929 for a measurand that is not negative.",
@@ -152,6 +160,14 @@ impl<'a> Figures<'a> {
             ),
         };
         l.pick(en, zh)
+    }
+}
+
+/// An uncertainty as it is written beside y ± U: one sentence holds no figure in two forms, 0.000037 and 3.7×10^-5.
+fn beside(pair: &Rounded, uncertainty: &Decimal) -> String {
+    match pair.is_plain() {
+        true => uncertainty.print_plain(STYLE),
+        false => print(uncertainty),
     }
 }
 

@@ -9,7 +9,7 @@ use super::number::{
     STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, in_unit, print, significant,
 };
 use super::statement::coefficient;
-use super::{Report, difference_symbol, joint, symbol};
+use super::{Report, joint, symbol};
 use gumption_format::document::Block;
 use gumption_format::document::{Cell, Column, ColumnKind, Table};
 
@@ -179,7 +179,7 @@ fn quality(l: Language, fit: &Fit) -> Vec<(String, String)> {
             ),
         ));
     } else if let Some(s) = fit.residual_sd {
-        let unit = difference_symbol(&fit.response().unit);
+        let unit = symbol(&fit.response().unit);
         let gap = if unit.is_empty() { "" } else { " " };
         fields.push((
             l.pick("residual standard deviation", "残差标准差")

@@ -109,16 +109,12 @@ impl<'a> Report<'a> {
     }
 }
 
-/// The unit as printed after a number (`Ω` for `ohm`); nothing for the unit one.
+/// The unit as printed after a number (`Ω` for `ohm`); nothing for the unit one. Uncertainties and other differences of a
+/// Celsius temperature are in °C as well, as certificates have it: the number in kelvin is the same (SI Brochure, 2.3.1).
 fn symbol(unit: &Unit) -> String {
     if unit.is_one() {
         String::new()
     } else {
         unit.typeset()
     }
-}
-
-/// The unit of a difference, in which uncertainties are: kelvin for a Celsius temperature.
-fn difference_symbol(unit: &Unit) -> String {
-    symbol(&unit.difference())
 }

@@ -199,8 +199,8 @@ fn what_follows(
             "证书用语采用蒙特卡洛法的结果。".to_string(),
         ),
         (Reason::NotNegative, _) => l.pick(
-            "The statement takes the interval of ISO 11929, which rests on u = s/√n (GUM 4.2.3).".to_string(),
-            "证书用语采用 ISO 11929 的区间，其 u = s/√n（GUM 4.2.3）。".to_string(),
+            "The statement takes the interval of ISO 11929, which rests on u itself (GUM 4.2.3).".to_string(),
+            "证书用语采用 ISO 11929 的区间，该区间由 u 本身（GUM 4.2.3）得到。".to_string(),
         ),
         (_, CoverageBasis::StudentT { .. }) => l.pick(
             "The statement takes the GUM result, whose k from the t-distribution allows for the few degrees of freedom.".to_string(),
@@ -225,20 +225,29 @@ fn what_follows(
 pub(super) fn few_degrees(report: &Report<'_>, measurand: Option<usize>, dof: f64) -> String {
     let l = report.language;
     let of_u = percent(relative_scatter_of_s(dof));
-    let nu = freedom(dof);
+    let rule = report.budget.conventions.degrees_of_freedom;
+    let (nu, entered) = (freedom(dof), rule.entered(dof));
     let degrees = if dof == 1.0 { "degree" } else { "degrees" };
+    // What stands beside k is the ν that gave it.
+    let (cut_en, cut_zh) = match freedom(entered) {
+        same if same == nu => (String::new(), String::new()),
+        cut => (
+            format!(" (for k they are cut to {cut}, GUM G.4.1)"),
+            format!("（求 k 时舍去小数取 {cut}，GUM G.4.1）"),
+        ),
+    };
     let first = l.pick(
         format!(
-            "Only {nu} effective {degrees} of freedom: u itself is uncertain by about {of_u} %"
+            "Only {nu} effective {degrees} of freedom{cut_en}: u itself is uncertain by about {of_u} %"
         ),
-        format!("有效自由度仅为 {nu}：标准不确定度本身的相对不确定度约为 {of_u} %"),
+        format!("有效自由度仅为 {nu}{cut_zh}：标准不确定度本身的相对不确定度约为 {of_u} %"),
     );
     let Some(result) = measurand.and_then(|m| report.evaluation.results.get(m)) else {
         return first;
     };
     let coverage = &result.gum.coverage;
     let p = report.coverage_probability();
-    let of_t = significant(student_t_two_sided_quantile(p, dof), 3);
+    let of_t = significant(student_t_two_sided_quantile(p, entered), 3);
     let p = probability(p);
     match (&coverage.basis, report.budget.conventions.coverage_factor) {
         (CoverageBasis::StudentT { .. }, _) => l.pick(

@@ -363,7 +363,7 @@ fn not_validated_in_english(report: &Report<'_>, measurand: Option<usize>) -> St
             "{differs}, because Monte Carlo gives what has few degrees of freedom a wider distribution. {take}"
         ),
         Reason::NotValidatedFewReadings => format!(
-            "{differs}, and y and u differ also with s/√n for the standard uncertainty of means of few readings, because the model is nonlinear. The statement takes y and u of that Monte Carlo run, and the k of the profile. {take}"
+            "{differs}, and y and u differ also where what has few degrees of freedom has u itself as its standard deviation, because the model is nonlinear. The statement takes y and u of that Monte Carlo run, and the k of the profile. {take}"
         ),
         Reason::MomentsAgree => format!(
             "{differs}, but estimate and standard uncertainty agree within δ. The statement claims these and the k of the profile; it therefore uses the GUM result. {take}"
@@ -388,7 +388,7 @@ fn not_validated_in_chinese(report: &Report<'_>, measurand: Option<usize>) -> St
             format!("{differs}，原因是蒙特卡洛法对自由度小的分量取更宽的分布。{take}")
         }
         Reason::NotValidatedFewReadings => format!(
-            "{differs}，并且由于模型非线性，少量重复测量的均值的标准不确定度取 s/√n 时 y 和 u 仍不一致。证书用语采用该次蒙特卡洛法的 y 和 u 以及规范的 k。{take}"
+            "{differs}，并且由于模型非线性，自由度小的分量以 u 本身为标准差时 y 和 u 仍不一致。证书用语采用该次蒙特卡洛法的 y 和 u 以及规范的 k。{take}"
         ),
         Reason::MomentsAgree => format!(
             "{differs}，但估计值和标准不确定度之差均不超过 δ。证书用语只给出估计值、标准不确定度和规范的 k，因此仍采用 GUM 法的结果。{take}"
@@ -405,7 +405,7 @@ fn not_validated_in_chinese(report: &Report<'_>, measurand: Option<usize>) -> St
 /// An amount in the unit of the measurand's differences.
 fn amount(report: &Report<'_>, measurand: Option<usize>, number: String) -> String {
     let unit = measurand
-        .map(|m| super::difference_symbol(report.measurand(m).1))
+        .map(|m| super::symbol(report.measurand(m).1))
         .unwrap_or_default();
     if unit.is_empty() {
         number

@@ -8,7 +8,7 @@ use gumption_gum::propagate::{
 
 use crate::language::{Language, Word};
 use crate::number::{NONE, TABLE_DIGITS, significant};
-use crate::{Report, difference_symbol};
+use crate::{Report, symbol};
 
 /// The document of what U would need of every input alone, and of all together.
 pub fn requirements(report: &Report<'_>, found: &Requirements, together: &Together) -> Document {
@@ -86,7 +86,7 @@ fn form<'a>(
         };
         RequirementJson {
             input: &input.name,
-            unit: difference_symbol(&input.unit),
+            unit: symbol(&input.unit),
             u: Number(one.u),
             needed,
             floor,
@@ -94,7 +94,7 @@ fn form<'a>(
     });
     RequirementsJson {
         measurand: name,
-        unit: difference_symbol(unit),
+        unit: symbol(unit),
         expanded: Number(found.expanded),
         wished: Number(found.wished),
         inputs: inputs.collect(),
@@ -177,7 +177,7 @@ fn at_least_cost(report: &Report<'_>, together: &Together) -> Vec<Block> {
 fn alone(report: &Report<'_>, found: &Requirements) -> Vec<Block> {
     let l = report.language;
     let (name, unit) = report.measurand(found.measurand);
-    let unit = difference_symbol(unit);
+    let unit = symbol(unit);
     let with_unit = |x: f64| {
         format!("{} {unit}", significant(x, TABLE_DIGITS))
             .trim()
@@ -250,7 +250,7 @@ fn row(report: &Report<'_>, one: &Requirement, with_unit: &dyn Fn(f64) -> String
     };
     vec![
         input.name.as_str().into(),
-        difference_symbol(&input.unit).into(),
+        symbol(&input.unit).into(),
         significant(one.u, TABLE_DIGITS).into(),
         needed.into(),
         words.into(),

@@ -294,7 +294,7 @@ impl Subject<'_> {
         match self.language {
             Language::English => {
                 let found = match few {
-                    true => "found by the Monte Carlo method (JCGM 101) with s/√n for the standard uncertainty of means of few readings".to_string(),
+                    true => "found by the Monte Carlo method (JCGM 101) with the standard uncertainties of the inputs as their standard deviations".to_string(),
                     false => format!("found by the Monte Carlo method (JCGM 101, {trials} trials)"),
                 };
                 format!(
@@ -303,8 +303,9 @@ impl Subject<'_> {
             }
             Language::Chinese => {
                 let found = match few {
-                    true => "蒙特卡洛法（JJF 1059.2，少量重复测量的均值取标准不确定度 s/√n）"
-                        .to_string(),
+                    true => {
+                        "蒙特卡洛法（JJF 1059.2，各输入量以其标准不确定度为标准差）".to_string()
+                    }
                     false => format!("蒙特卡洛法（JJF 1059.2，{trials} 次试验）"),
                 };
                 format!(

@@ -204,19 +204,19 @@ fn over(dof: f64, less: f64) -> f64 {
     }
 }
 
-/// The t quantile function T(z) of the normal score: T′ = φ(z)/f(T), f the density of t, by Runge and
-/// Kutta's method of fourth order. Much quicker than to invert the distribution function at every node.
-///
-/// What a step does wrong stays as an error of the probability, so that the way leads from the far tail to
-/// the middle and not back.
+/// The t quantile function T(z) of the normal score: T′ = φ(z)/f(T), f the density of t. From node to node a step of Runge
+/// and Kutta's method of fourth order predicts, and one of Newton's for F(T) = Φ(z) corrects, so that no error is
+/// carried on: what the step does wrong, relatively to T, is squared. Much quicker than to invert F at every node.
 fn standard(dof: f64) -> Curve {
-    /// From node to node; with one, the standard deviation for ν = 3 is wrong by 10⁻⁵ of itself, with four by less than the
-    /// cubics between the nodes make it.
-    const STEPS: usize = 4;
     let constant = libm::log(normal_pdf(0.0) / student_t_pdf(0.0, dof));
     let slope = |z: f64, t: f64| {
         let logarithm = 0.5 * (dof + 1.0) * libm::log1p(t * t / dof) - 0.5 * z * z;
         libm::exp(constant + logarithm)
+    };
+    // dT = dΦ/f(T), and 1/f(T) = T′/φ(z).
+    let corrected = |z: f64, t: f64| {
+        let short = normal_cdf(z) - student_t_cdf(t, dof);
+        t + short * slope(z, t) / normal_pdf(z)
     };
     let half = (Curve::NODES - 1) / 2;
     let h = -SCORES[0] / half as f64;
@@ -224,15 +224,12 @@ fn standard(dof: f64) -> Curve {
     let mut lower = Vec::with_capacity(half);
     for node in 0..half {
         let z = SCORES[0] + node as f64 * h;
-        lower.push([t, slope(z, t)]);
-        for step in 0..STEPS {
-            let (z, h) = (z + step as f64 * h / STEPS as f64, h / STEPS as f64);
-            let k1 = slope(z, t);
-            let k2 = slope(z + 0.5 * h, t + 0.5 * h * k1);
-            let k3 = slope(z + 0.5 * h, t + 0.5 * h * k2);
-            let k4 = slope(z + h, t + h * k3);
-            t += h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
-        }
+        let k1 = slope(z, t);
+        lower.push([t, k1]);
+        let k2 = slope(z + 0.5 * h, t + 0.5 * h * k1);
+        let k3 = slope(z + 0.5 * h, t + 0.5 * h * k2);
+        let k4 = slope(z + h, t + h * k3);
+        t = corrected(z + h, t + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4));
     }
     let upper = lower.iter().rev().map(|[t, slope]| [-t, *slope]);
     let middle = [0.0, slope(0.0, 0.0)];

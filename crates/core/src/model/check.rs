@@ -22,8 +22,6 @@ pub struct Outcome {
     /// One operation, or one per element of a vector.
     pub ids: Vec<Id>,
     pub vector: bool,
-    /// See [`Output`](super::Output).
-    pub scaled_twice: Option<f64>,
     pub unit: Unit,
     /// The statement that gives it.
     pub statement: usize,
@@ -406,7 +404,6 @@ impl<'r> Check<'r> {
                     },
                     source: index,
                     unit: outcome.unit.clone(),
-                    scaled_twice: outcome.scaled_twice,
                     equation: equation.clone(),
                 });
             }

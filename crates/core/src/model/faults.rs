@@ -115,6 +115,9 @@ codes! {
     REVOLUTIONS = "M0409", "revolutions would be converted with a hidden 2π", "转数的换算隐含因子 2π",
         "In `r/min`, `rpm` and `°/s` a revolution is an angle, 2π; in `Hz`, `1/min` and seconds it is counted. Say which is meant.\n\n    [measurand.f] model = \"n\", unit = \"Hz\"               wrong, when n is in r/min\n    [measurand.f] model = \"n / (1 'r')\", unit = \"Hz\"     right: revolutions per second\n    [measurand.w] model = \"n\", unit = \"rad/s\"            right: angular velocity";
 
+    SCALED_TWICE = "M0410", "a number of the formula converts to the unit, which is done without it", "公式中的数重复了单位换算",
+        "Units are converted without a factor in the formula: a ratio is shown in %, a mass over a volume in mg/L. A number that is the very factor of that conversion would be applied twice.\n\n    model = \"100 * (a - b) / b\", unit = \"%\"      wrong\n    model = \"(a - b) / b\", unit = \"%\"            right\n    model = \"dilution * m / V\"                     right: a factor with a name, stated in [constant]";
+
     TOO_LARGE = "M0501", "the model is too large", "模型规模过大",
         "Written out element by element the model has too many operations. Shorten the vectors or the functions that call one another.\n\n    g(x) = f(f(f(x))) …      each level multiplies the work";
     UNKNOWN_OF_SOLVE = "M0502", "the unknown of `solve` is not fit", "`solve` 的未知量不合适",

@@ -40,6 +40,12 @@ fn collect_irregularities(graph: &Graph, x: &[f64], found: &mut Vec<Notice>) {
     let values = graph.evaluate(&inputs);
     let at = |id: Id| values[id as usize].value();
     let (active, moving) = (active(graph, &values), moving(graph));
+    let mut told: Vec<Corner> = Vec::new();
+    let mut is_new = |corner: Corner| {
+        let new = !told.contains(&corner);
+        told.push(corner);
+        new
+    };
     let mut note = |notice: Notice| {
         if !found.contains(&notice) {
             found.push(notice);
@@ -68,11 +74,15 @@ fn collect_irregularities(graph: &Graph, x: &[f64], found: &mut Vec<Notice>) {
         note(match *op {
             Op::Unary(row, _) if row.smoothness == Smoothness::Steps => Notice::Steps { call },
             Op::Unary(row, a) if row.smoothness == Smoothness::Corner && at(a) == 0.0 => {
-                Notice::Kink { call, argument }
+                match is_new(Corner::zero_of(graph, a)) {
+                    true => Notice::Kink { call, argument },
+                    false => continue,
+                }
             }
             Op::Binary(row, a, b) if row.smoothness == Smoothness::Corner && at(a) == at(b) => {
                 match row.name {
-                    "min" | "max" => Notice::Tie { call },
+                    "min" | "max" if is_new(Corner::between(a, b)) => Notice::Tie { call },
+                    "min" | "max" => continue,
                     _ => Notice::Condition { call },
                 }
             }
@@ -270,12 +280,15 @@ pub fn near_corners(graph: &Graph, x: &[f64], u: &[f64], reach: f64) -> Vec<Noti
     let at = |id: Id| spread.values[id as usize].value();
     let (active, moving) = (active(graph, &spread.values), moving(graph));
     let mut found: Vec<Notice> = Vec::new();
-    let mut note = |call: &str, away: f64, u: f64| {
+    let mut told: Vec<Corner> = Vec::new();
+    let mut note = |call: &str, corner: Corner, away: f64, u: f64| {
         let distance = away.abs() / u;
         let known = |notice: &Notice| matches!(notice, Notice::Corner { call: c, .. } if c == call);
-        if distance > 0.0 && distance <= reach && !found.iter().any(known) {
+        let known = found.iter().any(known) || told.contains(&corner);
+        if distance > 0.0 && distance <= reach && !known {
             let call = call.to_string();
             found.push(Notice::Corner { call, distance });
+            told.push(corner);
         }
     };
     for (i, op) in graph.ops.iter().enumerate() {
@@ -285,16 +298,19 @@ pub fn near_corners(graph: &Graph, x: &[f64], u: &[f64], reach: f64) -> Vec<Noti
         };
         match *op {
             Op::Unary(row, a) if row.smoothness == Smoothness::Corner => {
-                note(&label.call, at(a), spread.u(a));
+                note(&label.call, Corner::zero_of(graph, a), at(a), spread.u(a));
             }
             Op::Unary(row, a) if row.smoothness == Smoothness::Steps => {
                 // Steps lie at whole numbers, or half-way between them for `round`.
                 let shift = if row.name == "round" { 0.5 } else { 0.0 };
                 let from = at(a) - shift;
-                note(&label.call, from - from.round(), spread.u(a));
+                let step = from.round();
+                let corner = Corner::at(a, step + shift);
+                note(&label.call, corner, from - step, spread.u(a));
             }
             Op::Binary(row, a, b) if row.smoothness == Smoothness::Corner => {
-                note(&label.call, at(a) - at(b), spread.u_of_difference(a, b));
+                let u = spread.u_of_difference(a, b);
+                note(&label.call, Corner::between(a, b), at(a) - at(b), u);
             }
             _ => {}
         }
@@ -306,10 +322,38 @@ pub fn near_corners(graph: &Graph, x: &[f64], u: &[f64], reach: f64) -> Vec<Noti
     {
         let inner = &table.knots[1..table.knots.len() - 1];
         for knot in inner.iter().filter(|_| moving[table.x as usize]) {
-            note(&table.call, at(table.x) - knot, spread.u(table.x));
+            let corner = Corner::at(table.x, *knot);
+            note(&table.call, corner, at(table.x) - knot, spread.u(table.x));
         }
     }
     found
+}
+
+/// Where functions have a corner, jump or step: one for all that share it, as max(a, b) and min(a, b) do.
+#[derive(PartialEq, Eq)]
+enum Corner {
+    /// Two quantities are equal.
+    Between(Id, Id),
+    /// A quantity has a value, in bits.
+    At(Id, u64),
+}
+
+impl Corner {
+    fn between(a: Id, b: Id) -> Corner {
+        Corner::Between(a.min(b), a.max(b))
+    }
+
+    /// Where a quantity is zero: a difference, where its parts are equal.
+    fn zero_of(graph: &Graph, id: Id) -> Corner {
+        match graph.ops[id as usize] {
+            Op::Binary(row, a, b) if row.name == "-" => Corner::between(a, b),
+            _ => Corner::at(id, 0.0),
+        }
+    }
+
+    fn at(id: Id, value: f64) -> Corner {
+        Corner::At(id, value.to_bits())
+    }
 }
 
 fn distance(notice: &Notice) -> f64 {

@@ -344,6 +344,7 @@ impl<'a> Lexer<'a> {
             '|' => say!("the absolute value is `abs(x)`; logic is written in words: `or`"),
             '&' | '!' => say!("write `and`, `or`, `not`"),
             '.' => say!("write the decimal point between digits, as in `0.5`"),
+            '\\' => say!("formulas are written as `a / b`, `sqrt(x)` and `x^2`, not in LaTeX"),
             _ => say!("remove it"),
         };
         self.faults.push(

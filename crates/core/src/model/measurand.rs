@@ -8,7 +8,7 @@ use super::faults::{self, Wording};
 use super::graph::Id;
 use super::lower::{Binding, Kind, Value};
 use super::printer;
-use super::syntax::{Expr, Infix, Node, Statement};
+use super::syntax::{Expr, Statement};
 use super::units::in_words;
 use super::{MeasurandSource, Place};
 use crate::quantity::{Dimension, Unit, hint_for_clash, revolutions_as_angle, unit_of_angle};
@@ -112,10 +112,10 @@ impl Check<'_> {
     ) -> Option<Outcome> {
         let (value, expr) = self.statement_value(statement)?;
         let (ids, unit) = self.result(index, measurand, &value, &expr, place)?;
+        self.l.scaled_once(measurand.name, &value, &expr, &unit)?;
         Some(Outcome {
             ids,
             vector: value.vector,
-            scaled_twice: self.l.scaled_twice(&value, &expr, &unit),
             unit,
             statement,
             own,
@@ -254,6 +254,13 @@ impl Check<'_> {
     }
 
     fn result_help(&self, expr: &Expr, found: &Unit, wanted: &Unit) -> Said {
+        if found.is_one() && wanted.is_point() {
+            let (symbol, step) = (&wanted.symbol, wanted.difference().symbol);
+            let text = printer::expression(expr);
+            return say!(
+                "if the formula gives the number of {symbol}, write `0 '{symbol}' + 1 '{step}' * ({text})`"
+            );
+        }
         if let Some(hint) = hint_for_clash(wanted, found) {
             return hint;
         }
@@ -262,27 +269,21 @@ impl Check<'_> {
             unit: whose,
             ..
         } = faults::OF_BUDGETS;
-        let forgotten = expr
-            .names()
-            .into_iter()
-            .find(|n| self.l.symbol(n).is_some_and(|s| s.unit.is_one()));
-        match forgotten {
+        if let Some((name, unit)) = self.l.forgotten(expr, found, wanted) {
+            return say!(
+                "`{name}` has no unit; if it was forgotten, state it (`unit = \"{}\"` would fit), or correct {whose}",
+                unit.symbol
+            );
+        }
+        let names = expr.names();
+        match names.iter().find(|name| self.l.has_no_unit(name)) {
             Some(name) => {
-                let missing = wanted.quotient(found);
-                match side(expr, name) {
-                    Some(Side::Factor) => say!(
-                        "`{name}` has no unit; if it was forgotten, state it (`unit = \"{}\"` would fit), or correct {whose}",
-                        missing.symbol
-                    ),
-                    Some(Side::Divisor) => say!(
-                        "`{name}` has no unit; if it was forgotten, state it (`unit = \"{}\"` would fit), or correct {whose}",
-                        Unit::one().quotient(&missing).symbol
-                    ),
-                    None => say!(
-                        "`{name}` has no unit; if it was forgotten, state it, or correct {whose}"
-                    ),
-                }
+                say!("`{name}` has no unit; if it was forgotten, state it, or correct {whose}")
             }
+            None if found.is_one() => say!(
+                "correct the formula, or write `unit = \"1\"` for {whom}; a formula of numbers, as of `value_in`, is multiplied by `1 '{}'`",
+                wanted.symbol
+            ),
             None => say!(
                 "correct the formula, or write `unit = \"{}\"` for {whom}",
                 found.symbol
@@ -318,41 +319,5 @@ impl Check<'_> {
                 wanted.symbol
             )),
         );
-    }
-}
-
-/// How a quantity takes part in a product.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Factor,
-    Divisor,
-}
-
-/// Whether the whole expression is proportional to a name, or inversely so, as far as is plain to see.
-fn side(expr: &Expr, name: &str) -> Option<Side> {
-    match &expr.node {
-        Node::Name(own) if own == name => Some(Side::Factor),
-        Node::Minus(inner) => side(inner, name),
-        Node::Chain { first, rest } => {
-            let occurs = |e: &Expr| e.names().contains(&name);
-            let mut factors = std::iter::once((Infix::Mul, &**first))
-                .chain(rest.iter().map(|(infix, e)| (*infix, e)));
-            if !factors
-                .clone()
-                .all(|(infix, _)| matches!(infix, Infix::Mul | Infix::Div))
-            {
-                return None;
-            }
-            let (infix, only) = factors.find(|(_, e)| occurs(e))?;
-            if factors.any(|(_, e)| occurs(e)) {
-                return None;
-            }
-            match (infix, side(only, name)?) {
-                (Infix::Mul, side) => Some(side),
-                (_, Side::Factor) => Some(Side::Divisor),
-                (_, Side::Divisor) => Some(Side::Factor),
-            }
-        }
-        _ => None,
     }
 }

@@ -169,9 +169,6 @@ pub struct Output {
     pub source: usize,
     /// Unit of its value.
     pub unit: Unit,
-    /// The number of the formula that converts its value to this unit (%, mg/L …), which is done without it as well:
-    /// 100 of `100 * (a - b) / b` with the unit %.
-    pub scaled_twice: Option<f64>,
     /// The defining statements in printed form, one per line (`R = V / I * cos(phi)`).
     pub equation: String,
 }

@@ -6,7 +6,7 @@ use super::printer;
 use super::syntax::{Expr, Infix, Node};
 use super::units::{Joined, Operand};
 use crate::quantity::Unit;
-use gumption_fault::{Fault, say};
+use gumption_fault::{Fault, Said, say};
 
 impl Lowering<'_> {
     /// Sum or difference with the arithmetic of temperature scales: point - point is a difference,
@@ -15,18 +15,14 @@ impl Lowering<'_> {
         let a = self.quantity(left.value, left.expr);
         let b = self.quantity(right.value, right.expr);
         let (a, b) = (a?, b?);
+        let what = match infix {
+            Infix::Add => say!("added"),
+            _ => say!("subtracted"),
+        };
         match (a.is_point(), infix, b.is_point()) {
-            (false, _, false) => self.join(
-                left,
-                right,
-                &if infix == Infix::Add {
-                    say!("added")
-                } else {
-                    say!("subtracted")
-                },
-            ),
+            (false, _, false) => self.join(left, right, &what),
             (true, Infix::Sub, true) => {
-                let joined = self.join(left, right, &say!("subtracted"))?;
+                let joined = self.join(left, right, &what)?;
                 Some(Joined {
                     unit: a.difference(),
                     ..joined
@@ -42,7 +38,7 @@ impl Lowering<'_> {
                         ..left
                     },
                     right,
-                    &say!("added"),
+                    &what,
                 )?;
                 Some(Joined {
                     left: left.value.clone(),
@@ -61,7 +57,7 @@ impl Lowering<'_> {
                         ..right
                     },
                     left,
-                    &say!("added"),
+                    &what,
                 )?;
                 Some(Joined {
                     left: joined.right,
@@ -150,15 +146,27 @@ impl Lowering<'_> {
         step: Operand<'_>,
         unit: &Unit,
     ) -> Option<()> {
-        let bare = step.value.literal && !step.value.zero && step.value.unit()?.is_one();
-        let Node::Number { text: number, .. } = &step.expr.node else {
-            return Some(());
-        };
-        if !bare {
+        if step.value.zero || !step.value.unit()?.is_one() {
             return Some(());
         }
         let text = printer::expression(point.expr);
         let (symbol, difference) = (&unit.symbol, unit.difference().symbol);
+        let number = match &step.expr.node {
+            Node::Number { text, .. } if step.value.literal => text,
+            Node::Name(name) if self.has_no_unit(name) => {
+                let help = match infix {
+                    Infix::Sub => say!(
+                        "state it: `unit = \"{symbol}\"` for a temperature, `unit = \"{difference}\"` for a difference of temperatures"
+                    ),
+                    _ => {
+                        say!("state it: `unit = \"{difference}\"` for a difference of temperatures")
+                    }
+                };
+                self.bare_beside_point(step.expr, point.expr, symbol, help);
+                return None;
+            }
+            _ => return Some(()),
+        };
         let help = match infix {
             Infix::Sub => say!(
                 "the difference from {number} {symbol} is `{text} - {number} '{symbol}'`, a temperature {number} {difference} lower `{text} - {number} '{difference}'`"
@@ -167,19 +175,25 @@ impl Lowering<'_> {
                 "a temperature {number} {difference} higher is `{text} + {number} '{difference}'`"
             ),
         };
+        let help = say!(
+            "{help}; a formula for the number of `{text}` in {symbol} takes `value_in({text}, '{symbol}')`"
+        );
+        self.bare_beside_point(step.expr, point.expr, symbol, help);
+        None
+    }
+
+    fn bare_beside_point(&mut self, bare: &Expr, point: &Expr, symbol: &str, help: Said) {
+        let (bare_text, text) = (printer::expression(bare), printer::expression(point));
         self.report(
             Fault::new(
                 faults::CLASH,
-                step.expr.span.clone(),
-                say!("`{number}` has no unit, but meets `{text}`, a temperature in {symbol}"),
+                bare.span.clone(),
+                say!("`{bare_text}` has no unit, but meets `{text}`, a temperature in {symbol}"),
             )
             .label(say!("a number without unit"))
-            .related(point.expr.span.clone(), say!("in {symbol}"))
-            .help(say!(
-                "{help}; a formula for the number of `{text}` in {symbol} takes `value_in({text}, '{symbol}')`"
-            )),
+            .related(point.span.clone(), say!("in {symbol}"))
+            .help(help),
         );
-        None
     }
 
     /// The fault of a point temperature in a product, function or sum of points.

@@ -13,9 +13,41 @@ use gumption_fault::{Fault, say};
 const NEAR: f64 = 1e-3;
 
 impl Lowering<'_> {
-    /// The number by which a formula converts its value to the wanted unit, although units are converted without it: a
-    /// factor of a hundred for percent, of a thousand from mL to L, of 180/π for degrees.
-    pub fn scaled_twice(&mut self, value: &Value, expr: &Expr, wanted: &Unit) -> Option<f64> {
+    /// Refuses a formula that converts its value to the wanted unit by a number, although units are converted without it:
+    /// a factor of a hundred for percent, of a thousand from mL to L, of 180/π for degrees.
+    pub fn scaled_once(
+        &mut self,
+        name: &str,
+        value: &Value,
+        expr: &Expr,
+        wanted: &Unit,
+    ) -> Option<()> {
+        let Some((term, number)) = self.scaled_by_hand(value, expr, wanted) else {
+            return Some(());
+        };
+        let (text, symbol) = (printer::expression(term), &wanted.symbol);
+        let own = value.unit()?.symbol.clone();
+        self.report(
+            Fault::new(
+                faults::SCALED_TWICE,
+                term.span.clone(),
+                say!("the factor {number} would convert `{name}` to {symbol} a second time: units are converted without it"),
+            )
+            .label(say!("the factor from {own} to {symbol}"))
+            .help(say!(
+                "leave {number} out of `{text}`; if it belongs to the measurement, as a dilution does, state it by name in [constant], or write `{number} '1'`"
+            )),
+        );
+        None
+    }
+
+    /// The term and its number.
+    fn scaled_by_hand<'e>(
+        &mut self,
+        value: &Value,
+        expr: &'e Expr,
+        wanted: &Unit,
+    ) -> Option<(&'e Expr, f64)> {
         let factor = value.unit()?.conversion_to(wanted)?.factor;
         if factor == 1.0 {
             return None;
@@ -37,7 +69,7 @@ impl Lowering<'_> {
                 _ => None,
             };
             if let Some(number) = number.filter(|number| is_it(*number)) {
-                return Some(number);
+                return Some((e, number));
             }
             open.extend(e.children());
         }
@@ -60,9 +92,10 @@ impl Lowering<'_> {
         others.then_some(number)
     }
 
-    /// The value of a number, or of a name that stands for one without unit.
+    /// The value of a number of the formula that has no name and no unit, which would say that it is meant.
     fn constant(&mut self, factor: &Expr) -> Option<f64> {
-        if !is_simple(factor) {
+        let named = |name: &&str| self.symbol(name).is_some();
+        if !is_simple(factor) || has_unit(factor) || factor.names().iter().any(named) {
             return None;
         }
         let value = self.value(factor)?;
@@ -183,4 +216,9 @@ fn is_simple(e: &Expr) -> bool {
         Node::Number { .. } | Node::Name(_) | Node::Minus(_) | Node::Chain { .. }
     );
     operators && e.children().into_iter().all(is_simple)
+}
+
+/// Whether a number of the expression has a unit.
+fn has_unit(e: &Expr) -> bool {
+    matches!(e.node, Node::Number { unit: Some(_), .. }) || e.children().into_iter().any(has_unit)
 }

@@ -4,7 +4,7 @@ use super::faults;
 use super::graph::Id;
 use super::lower::{Kind, Lowering, Value};
 use super::printer;
-use super::syntax::{Expr, Node, Span};
+use super::syntax::{Expr, Infix, Node, Span};
 use crate::quantity::{Dimension, Factor, Unit, hint_for_clash, revolutions_as_angle};
 use gumption_fault::{Fault, Said, say};
 
@@ -212,26 +212,31 @@ impl Lowering<'_> {
     }
 
     fn clash_help(&self, left: Operand<'_>, right: Operand<'_>, a: &Unit, b: &Unit) -> Said {
-        for (operand, other) in [(right, a), (left, b)] {
-            if let (true, Node::Number { text, .. }) = (operand.value.literal, &operand.expr.node) {
-                return say!("give the number a unit: `{text} '{}'`", other.symbol);
+        let sides = [(left, a, right, b), (right, b, left, a)];
+        for (number, _, other, unit) in sides {
+            let Node::Number { text, value, .. } = &number.expr.node else {
+                continue;
+            };
+            if !number.value.literal {
+                continue;
             }
+            if *value != 1.0 {
+                return say!("give the number a unit: `{text} '{}'`", unit.symbol);
+            }
+            return match self.forgotten(other.expr, unit, &Unit::one()) {
+                Some((name, unit)) => if_forgotten(name, &unit),
+                None => say!(
+                    "what stands beside 1 is a plain number: the units of `{}` must cancel; correct that of one of its quantities",
+                    printer::expression(other.expr)
+                ),
+            };
         }
         if let Some(hint) = hint_for_clash(a, b) {
             return hint;
         }
-        let suspects = left
-            .expr
-            .names()
-            .into_iter()
-            .map(|n| (n, b))
-            .chain(right.expr.names().into_iter().map(|n| (n, a)));
-        for (name, other) in suspects {
-            if self.has_no_unit(name) {
-                return say!(
-                    "if `{name}` has a unit, state it: `unit = \"{}\"`",
-                    other.symbol
-                );
+        for (suspect, own, _, wanted) in sides {
+            if let Some((name, unit)) = self.forgotten(suspect.expr, own, wanted) {
+                return if_forgotten(name, &unit);
             }
         }
         say!(
@@ -360,8 +365,71 @@ impl Lowering<'_> {
     }
 
     /// Whether a name is a quantity without a unit, which may simply have been forgotten.
-    fn has_no_unit(&self, name: &str) -> bool {
+    /// The quantity of an expression that states no unit, with the one by which the expression would be in the wanted unit.
+    pub fn forgotten<'e>(
+        &self,
+        expr: &'e Expr,
+        own: &Unit,
+        wanted: &Unit,
+    ) -> Option<(&'e str, Unit)> {
+        let names = expr.names().into_iter();
+        let mut silent = names.filter(|name| self.has_no_unit(name));
+        silent.find_map(|name| {
+            let unit = match side(expr, name)? {
+                Side::Factor => wanted.quotient(own),
+                Side::Divisor => own.quotient(wanted),
+            };
+            Some((name, unit))
+        })
+    }
+
+    /// Whether this is a quantity that was stated without a unit.
+    pub fn has_no_unit(&self, name: &str) -> bool {
         self.symbol(name).is_some_and(|s| s.unit.is_one())
+    }
+}
+
+/// What to write if a unit was forgotten.
+fn if_forgotten(name: &str, unit: &Unit) -> Said {
+    say!(
+        "if `{name}` has a unit, state it: `unit = \"{}\"`",
+        unit.symbol
+    )
+}
+
+/// How a quantity takes part in a product.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Factor,
+    Divisor,
+}
+
+/// Whether the whole expression is proportional to a name, or inversely so, as far as is plain to see.
+fn side(expr: &Expr, name: &str) -> Option<Side> {
+    match &expr.node {
+        Node::Name(own) if own == name => Some(Side::Factor),
+        Node::Minus(inner) => side(inner, name),
+        Node::Chain { first, rest } => {
+            let occurs = |e: &Expr| e.names().contains(&name);
+            let mut factors = std::iter::once((Infix::Mul, &**first))
+                .chain(rest.iter().map(|(infix, e)| (*infix, e)));
+            if !factors
+                .clone()
+                .all(|(infix, _)| matches!(infix, Infix::Mul | Infix::Div))
+            {
+                return None;
+            }
+            let (infix, only) = factors.find(|(_, e)| occurs(e))?;
+            if factors.any(|(_, e)| occurs(e)) {
+                return None;
+            }
+            match (infix, side(only, name)?) {
+                (Infix::Mul, side) => Some(side),
+                (_, Side::Factor) => Some(Side::Divisor),
+                (_, Side::Divisor) => Some(Side::Factor),
+            }
+        }
+        _ => None,
     }
 }
 

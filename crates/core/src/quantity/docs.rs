@@ -84,8 +84,8 @@ A name that is a unit as a whole is never split: `min` is the minute, `cd` the c
 
 ## Temperatures
 
-`°C` and `°F` are scales with a zero of their own. The difference of two temperatures in °C is in K, and
-uncertainties of temperatures are in K. In a compound unit °C means a difference: `ppm/°C` is `ppm/K`.
+`°C` and `°F` are scales with a zero of their own. The difference of two temperatures in °C is in K;
+uncertainties are shown in °C, where the number is the same. In a compound unit °C means a difference: `ppm/°C` is `ppm/K`.
 Products and ratios of temperatures in °C have no meaning:
 
 | the formula takes | write |

@@ -113,6 +113,11 @@ impl Rounded {
         }
     }
 
+    /// Whether both parts are written without a power of ten.
+    pub fn is_plain(&self) -> bool {
+        self.power().is_none()
+    }
+
     /// `100.021 47(35)`, `1.234(12)×10⁻⁵`. The bracket shows the decimal marker where the uncertainty
     /// spans it, `12.3(4.5)`, because `12.3(45)` is read in two ways.
     pub fn bracket(&self, style: Style) -> String {

@@ -426,8 +426,17 @@ impl Parser<'_> {
             "" => say!("a unit is missing at the end"),
             found => say!("a unit is missing before `{found}`"),
         };
-        UnitError::new(MALFORMED_UNIT, span, message)
-            .help(say!("write a unit as in `m/s^2` or `1/K`"))
+        let reciprocal = self.text.trim();
+        let help = match reciprocal.strip_prefix('/').map(str::trim_start) {
+            Some(below)
+                if span.start == self.text.len() - self.text.trim_start().len()
+                    && !below.is_empty() =>
+            {
+                say!("a reciprocal is written `1/{below}`")
+            }
+            _ => say!("write a unit as in `m/s^2` or `1/K`"),
+        };
+        UnitError::new(MALFORMED_UNIT, span, message).help(help)
     }
 
     fn too_large(&self, span: Range<usize>) -> UnitError {

@@ -64,7 +64,15 @@ pub fn decoded(bytes: Vec<u8>, path: &Path) -> Result<String, Rejection> {
             say!("{name} is not UTF-8 text from byte {} on", at + 1),
         )
         .label(say!("the readable part ends here"))
-        .help(say!("save the file as UTF-8"));
+        .help(match error.as_bytes() {
+            [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => {
+                say!("the file is UTF-16; save it as UTF-8")
+            }
+            [b'P', b'K', 3, 4, ..] => say!(
+                "the file is a workbook or another archive; workbooks of somebody's budget are read by `gumption audit`"
+            ),
+            _ => say!("save the file as UTF-8"),
+        });
         Rejection::new(&name, shown, vec![fault])
     })?;
     match text.trim().is_empty() || is_toml(&text) {

@@ -4,6 +4,7 @@ mod edit;
 pub mod faults;
 mod file;
 mod places;
+mod spelled;
 mod strings;
 mod syntax;
 mod table;

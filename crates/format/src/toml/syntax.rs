@@ -6,6 +6,7 @@ use gumption_fault::libraries::of_toml;
 use gumption_fault::{Code, Fault, Said, say};
 
 use super::faults::TOML_SYNTAX;
+use super::spelled::spelled;
 
 /// After so many syntax errors the rest of the file is hardly what was meant.
 const MAX_SYNTAX_FAULTS: usize = 8;
@@ -139,23 +140,30 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
     let marked = text.get(span.clone()).unwrap_or_default();
     let unquoted = says("string values must be quoted") || says("invalid float");
     let fault = |message: Said| Fault::new(TOML_SYNTAX, span.clone(), message);
-    let half_width = half_width_number(marked);
     if says("duplicate key") {
+        let line = text[line_of(span.start, text)].trim();
+        let help = match line.starts_with('[') {
+            true => say!("a table has one header: put these keys below the first {line}"),
+            false => {
+                say!("a key can be stated once in a table; several components stand in a list")
+            }
+        };
         fault(say!("`{marked}` is stated a second time"))
             .label(say!("stated before"))
-            .help(say!(
-                "a key can be stated once in a table; several components stand in a list"
-            ))
+            .help(help)
     } else if says("string values must be quoted") && marked.is_empty() {
         fault(say!("there is nothing behind the `=`"))
             .label(say!("expected a value"))
             .help(say!(
                 "write a number, or a text in quotes; remove the line if there is nothing to say"
             ))
-    } else if let (true, Some(number)) = (unquoted, &half_width) {
-        fault(say!("`{marked}` is written in full-width characters"))
+    } else if let (true, Some((number, unit))) = (unquoted, spelled(marked)) {
+        fault(say!("`{marked}` is not how a number is written in TOML"))
             .label(say!("expected a number"))
-            .help(say!("write {number}"))
+            .help(match unit.as_str() {
+                "" => say!("write {number}"),
+                unit => quoted(&number, unit),
+            })
     } else if let (true, Some(number)) = (unquoted, concise(marked)) {
         fault(say!("`{marked}` is a value with its uncertainty"))
             .label(say!("expected a number"))
@@ -172,9 +180,16 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
         fault(say!("`{marked}` is a calculation, and a value is a number"))
             .label(say!("expected a number"))
             .help(help)
-    } else if says("string values must be quoted")
-        && let Some((number, unit)) = amount(marked)
-    {
+    } else if let (true, Some((value, remark))) = (unquoted, marked.split_once("//")) {
+        let (value, remark) = (value.trim(), remark.trim());
+        let value = match value.starts_with('.') {
+            true => format!("0{value}"),
+            false => value.to_owned(),
+        };
+        fault(say!("`//` begins no remark in TOML"))
+            .label(say!("expected `#`"))
+            .help(say!("write {value}  # {remark}"))
+    } else if unquoted && let Some((number, unit)) = amount(marked) {
         fault(say!("`{marked}` needs quotes"))
             .label(say!("an amount with a unit is a text"))
             .help(quoted(number, unit))
@@ -215,7 +230,17 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
             "a number needs digits before and behind its decimal point"
         ))
         .label(say!("a digit is missing"))
-        .help(say!("write for example 0.5 or 5.0"))
+        .help(match text[calculation_at(&span, text)].trim() {
+            number if number.starts_with('.') => say!("write 0{number}"),
+            number if number.ends_with('.') => say!("write {number}0"),
+            _ => say!("write for example 0.5 or 5.0"),
+        })
+    } else if says("escape") || says("unicode") {
+        fault(say!("a backslash in a text between double quotes begins an escape"))
+            .label(say!("no escape"))
+            .help(say!(
+                "put the text between single quotes, '…', which take a backslash as it is; paths may have `/` as well"
+            ))
     } else {
         let message = of_toml(message);
         fault(say!("not well-formed TOML: {message}")).label(say!("not understood here"))
@@ -232,18 +257,6 @@ fn quoted(number: &str, unit: &str) -> Said {
         ),
         None => say!("write \"{number} {unit}\""),
     }
-}
-
-/// The number that full-width digits and signs of a Chinese or Japanese keyboard stand for.
-fn half_width_number(text: &str) -> Option<String> {
-    let narrow = |c: char| match c {
-        '\u{ff01}'..='\u{ff5e}' => char::from_u32(c as u32 - 0xfee0).unwrap_or(c),
-        '。' => '.',
-        '−' => '-',
-        c => c,
-    };
-    let number: String = text.trim().chars().map(narrow).collect();
-    (number != text.trim() && number.parse::<f64>().is_ok()).then_some(number)
 }
 
 /// Whether a value without quotes is numbers with operators between them.

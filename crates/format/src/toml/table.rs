@@ -55,6 +55,8 @@ pub struct Hints {
     pub unknown_key: fn(key: &str, table: &str, known: &[&'static str]) -> Option<Said>,
     /// What to write in place of a value that stands where a table of this title is expected.
     pub no_table: fn(title: &str, found: &DeValue<'_>) -> Option<Said>,
+    /// What to write for a value of the wrong type, as it stands in the file, at this key.
+    pub wrong_type: fn(key: &str, found: &str) -> Option<Said>,
     /// What to say of a list where an amount stands.
     pub list_of_amounts: Said,
 }
@@ -105,6 +107,19 @@ impl<'f> Reader<'f> {
             fault.help = help;
         }
         refused
+    }
+
+    /// Gives the faults since this one the mend that the key has for a value of the wrong type.
+    pub fn mend_of_key(&mut self, before: usize, key: &str, value: &Raw<'_>) {
+        let place = value.span();
+        let wrong = |fault: &&mut Fault| fault.code == WRONG_TYPE && fault.span == place;
+        let Some(fault) = self.faults.iter_mut().skip(before).find(wrong) else {
+            return;
+        };
+        let found = self.file.get(place.clone()).unwrap_or_default();
+        if let Some(help) = (self.hints.wrong_type)(key, found) {
+            fault.help = Some(help);
+        }
     }
 
     /// Reports a value that stands in the place of a table of this title.
@@ -216,12 +231,45 @@ pub fn read_table<T: Table>(table: &DeTable<'_>, name: &'static str, reader: &mu
     let mut result = T::default();
     for (key, value) in in_order(table) {
         if !result.accept(key, value, reader) {
-            reader.unknown_key(key, name, &T::keys());
+            match keys_too_deep(key, value, &T::keys()) {
+                Some(fault) => reader.faults.push(fault),
+                None => reader.unknown_key(key, name, &T::keys()),
+            }
             // What an unknown key was meant to state is not asked for a second time.
             result.refuse();
         }
     }
     result
+}
+
+/// A table that the file does not have around keys that belong where it stands: `[input.V.uncertainty]`, `u = …`.
+fn keys_too_deep(key: &Key<'_>, value: &Raw<'_>, known: &[&'static str]) -> Option<Fault> {
+    let DeValue::Table(inner) = value.get_ref() else {
+        return None;
+    };
+    // The path of a column of a series stands in one place.
+    let behind = key.span().end;
+    let own = |key: &Key<'_>| known.contains(&key.get_ref().as_ref()) && key.span().start >= behind;
+    if inner.is_empty() || !inner.keys().all(own) {
+        return None;
+    }
+    let name = key.get_ref();
+    let keys: Vec<String> = in_order(inner)
+        .iter()
+        .map(|(key, _)| format!("`{}`", key.get_ref()))
+        .collect();
+    let keys = keys.join(", ");
+    Some(
+        Fault::new(
+            UNKNOWN_KEY,
+            key.span(),
+            say!("there is no table `{name}` here"),
+        )
+        .label(say!("unknown key"))
+        .help(say!(
+            "write {keys} directly in the table around it, without `{name}`"
+        )),
+    )
 }
 
 /// The entries of a table in the order of the file (the parser sorts them by name).
@@ -303,6 +351,7 @@ macro_rules! table {
                         self.present.push(($crate::table!(@spelling $key $( $spelling )?), key.span()));
                         self.$key = <$kind as FromToml>::read(value, reader)
                             .map(|read| Stated { value: read, span: value.span(), key: key.span() });
+                        reader.mend_of_key(before, name, value);
                         self.refused |= self.$key.is_none() || reader.faults.len() > before;
                         return true;
                     }

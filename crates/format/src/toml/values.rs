@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use toml::de::{DeFloat, DeInteger, DeValue};
 
 use super::faults::{AMOUNT, NOT_FINITE, NOT_WHOLE, QUOTED_NUMBER, WRONG_TYPE};
+use super::spelled::spelled;
 use super::strings::StringMap;
 use super::syntax::{of_concise, of_plus_minus, without_comma};
 use super::table::{FromToml, KeyRow, Raw, Reader, Stated, in_order, inner};
@@ -94,6 +95,10 @@ impl FromToml for f64 {
             (None, DeValue::String(text)) if quoted_percent(value, text).is_some() => {
                 reader.faults.extend(quoted_percent(value, text));
                 None
+            }
+            (None, DeValue::String(text)) if number_and_remark(text).is_some() => {
+                let help = number_and_remark(text).map(|number| say!("write {number} alone"));
+                reader.wrong_type_with(value, say!("a number"), help)
             }
             (None, DeValue::String(text)) if split_amount(text).is_some() => {
                 let help = split_amount(text).map(|(number, unit)| {
@@ -236,13 +241,35 @@ impl FromToml for Date {
         if Day::read(&text).is_some() {
             Some(Date(text))
         } else {
-            reader.wrong_type(WRONG_TYPE, value, Self::expected())
+            let help = day_first(&text).map(|day| say!("write {day}"));
+            reader.wrong_type_with(value, Self::expected(), help)
         }
     }
 
     fn schema() -> Value {
         json!({ "type": "string", "pattern": "^\\d{4}-\\d{2}-\\d{2}" })
     }
+}
+
+/// Year, month and day of `2027/3/1`, `2027年3月1日` and `1.3.2027`; with slashes the first of two small numbers may be
+/// either, and nothing is said.
+fn day_first(text: &str) -> Option<String> {
+    let mut parts = text
+        .split(['.', '/', '-', '年', '月', '日', ' '])
+        .filter(|part| !part.is_empty());
+    let parts = [parts.next()?, parts.next()?, parts.next()?];
+    let [a, b, c] = [
+        parts[0].parse::<u16>().ok()?,
+        parts[1].parse().ok()?,
+        parts[2].parse().ok()?,
+    ];
+    let (year, month, day) = match (a > 31, c > 31, text.contains('/')) {
+        (true, false, _) => (a, b, c),
+        (false, true, false) => (c, b, a),
+        _ => return None,
+    };
+    let day = format!("{year:04}-{month:02}-{day:02}");
+    Day::read(&day).map(|_| day)
 }
 
 /// A number in the unit of its surroundings, or with a unit of its own (`"25 µV"`).
@@ -309,8 +336,20 @@ fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
     let rest = body[end..].trim_start();
     let divided = rest.strip_prefix('/').map(str::trim_start);
     let goes_on = rest.starts_with([',', '，', '±', '('])
+        || rest.starts_with(|c: char| c.is_ascii_digit() || "xX×·⋅*'".contains(c))
+            && spelled(body).is_some()
         || divided.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
     (number.is_finite() && !unit.is_empty() && !goes_on).then_some((number, unit))
+}
+
+/// The number of `2 (95 %)` or `2, p = 95 %`.
+fn number_and_remark(text: &str) -> Option<&str> {
+    let (number, remark) = text.split_once(['(', '（', ',', '，', ';'])?;
+    let number = number.trim();
+    let is_remark = remark.contains(|c: char| !c.is_ascii_digit() && c != '.');
+    // 12.50(3) is a value with its uncertainty.
+    let is_concise = remark.trim_end_matches(')').parse::<f64>().is_ok();
+    (is_remark && !is_concise && number.parse::<f64>().is_ok()).then_some(number)
 }
 
 /// A value that is neither a number nor a text.
@@ -333,7 +372,12 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
     )
     .label(say!("expected a number, then a unit"));
     let bare = text.replace(',', "");
-    if text.contains(',') && split_amount(&bare).is_some() {
+    if let Some((number, unit)) = spelled(text) {
+        fault.help(match unit.as_str() {
+            "" => say!("write {number}"),
+            unit => say!("write \"{number} {unit}\""),
+        })
+    } else if text.contains(',') && split_amount(&bare).is_some() {
         fault.help(without_comma(text.trim(), "\""))
     } else if text.contains(',') && bare.trim().parse::<f64>().is_ok() {
         fault.help(without_comma(text.trim(), ""))
@@ -404,7 +448,14 @@ pub fn as_a_list(value: &Raw<'_>, file: &str) -> Option<Said> {
             let separated = text.split([',', ';', '，', '、', ' ']);
             let members: Vec<&str> = separated.map(str::trim).filter(|m| !m.is_empty()).collect();
             let numbers = members.len() > 1 && members.iter().all(|m| m.parse::<f64>().is_ok());
-            numbers.then(|| say!("write [{}]", excerpt(&members)))
+            match numbers {
+                true => Some(say!("write [{}]", excerpt(&members))),
+                false => {
+                    let texts: Vec<String> = members.iter().map(|m| format!("\"{m}\"")).collect();
+                    let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+                    Some(say!("write [{}]", excerpt(&texts)))
+                }
+            }
         }
         _ => file
             .get(value.span())

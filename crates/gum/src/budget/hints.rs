@@ -12,13 +12,14 @@ pub static HINTS: Hints = Hints {
     top: FileTable::keys,
     unknown_key,
     no_table,
+    wrong_type,
     list_of_amounts: say!(
         "readings of one quantity are `readings = […]`, the elements of a vector `values = […]`"
     ),
 };
 
 /// Words that people try, and the keys and words that they mean.
-pub const SYNONYMS: [(&str, &str); 96] = [
+pub const SYNONYMS: [(&str, &str); 100] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),
@@ -74,6 +75,10 @@ pub const SYNONYMS: [(&str, &str); 96] = [
     ("day", "run"),
     ("simple_acceptance", "simple"),
     ("shared_risk", "simple"),
+    ("简单接受", "simple"),
+    ("简单验收", "simple"),
+    ("保护接受", "guarded-acceptance"),
+    ("保护带", "guarded-acceptance"),
     ("guarded", "guarded-acceptance"),
     ("guard_band", "guarded-acceptance"),
     ("jjf1094", "JJF 1094"),
@@ -241,6 +246,18 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
         ) if has("conventions") => Some(say!(
             "what holds for all results stands below [conventions]: coverage_probability = 0.95, or coverage_factor = 2"
         )),
+        (_, "procedure" | "recording" | "equations" | "columns" | "noise" | "positions")
+            if has("conventions") =>
+        {
+            Some(say!(
+                "`{key}` belongs to an experiment, which `gumption calibrate`, `plan`, `simulate` and `diagnose` read"
+            ))
+        }
+        (_, "certificate" | "laboratory" | "customer" | "item") if has("conventions") => {
+            Some(say!(
+                "data of a certificate stand in a file of their own: --certificate FILE; the U and k of a reference stand with its input, certificate = {{ U = …, k = 2 }}"
+            ))
+        }
         _ => None,
     };
     if elsewhere.is_some() {
@@ -249,6 +266,57 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
     let beside = ["specification", "certificate"].contains(&table)
         && ["p", "k", "dof", "distribution", "name"].contains(&key);
     beside.then(|| say!("`{key}` stands beside `{table}`, not in it"))
+}
+
+/// What to write for a value of the wrong type at this key.
+pub fn wrong_type(key: &str, found: &str) -> Option<Said> {
+    let number = found.trim_matches(['"', '\'']);
+    match (key, number.starts_with('[')) {
+        ("input" | "measurand" | "constant" | "source" | "fit", true) => {
+            return Some(say!(
+                "single brackets, and its name behind a dot: [{key}.NAME] is the header of each"
+            ));
+        }
+        ("measurand", false) => {
+            let is_name = |c: char| c.is_alphanumeric() || c == '_';
+            let name = number.split('=').next().unwrap_or_default().trim();
+            let name = match name.chars().all(is_name) {
+                true => name,
+                false => "NAME",
+            };
+            return Some(say!(
+                "its name stands in the header, its formula is the model: [measurand.{name}], model = \"…\""
+            ));
+        }
+        ("between", _) if !number.contains(',') => {
+            return Some(say!(
+                "two names are wanted: between = [\"{number}\", \"…\"]"
+            ));
+        }
+        _ => {}
+    }
+    let begins = number.starts_with(|c: char| c.is_ascii_digit() || "+-.±".contains(c));
+    if !begins || number.contains([',', ';', '，', '、']) {
+        return None;
+    }
+    let number = number.trim_start_matches(['±', '+', '-']);
+    let signed = |sign: &str| match found.starts_with(['"', '\'']) {
+        true => format!("\"{sign}{number}\""),
+        false => format!("{sign}{number}"),
+    };
+    let (width, below) = (signed(""), signed("-"));
+    match key {
+        "limits" => Some(say!(
+            "two limits are limits = [lower, upper]; a distance from the value, the same on both sides, is half_width = {width}"
+        )),
+        "range" => Some(say!(
+            "a range has two ends: range = [0, {width}] or range = [{below}, {width}]"
+        )),
+        "readings" => Some(say!(
+            "one reading is value = {found}, with its uncertainty beside it; readings = […] are two or more"
+        )),
+        _ => None,
+    }
 }
 
 /// What to write in place of a value that stands where a table is expected.

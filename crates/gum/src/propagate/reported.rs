@@ -5,7 +5,7 @@
 //! | Monte Carlo not run, or clause 8 validates or leaves open | the GUM result |
 //! | clause 8 refutes the interval, and a probability is claimed | the Monte Carlo result |
 //! | likewise, but y and k·u are all that the guide claims ([`Confirmation::Moments`]), and y and u agree within δ | the GUM result |
-//! | likewise, and they agree once means of few readings have the standard deviation s/√n | the GUM result |
+//! | likewise, and they agree once what has few degrees of freedom has its u as standard deviation | the GUM result |
 //! | likewise, and they do not agree | y and u of Monte Carlo, with the k of the guide where it is fixed |
 //! | a measurand that is not negative (ISO 11929) | y and u of the GUM, the interval of the standard |
 
@@ -105,7 +105,7 @@ pub enum Reason {
     Undecided,
     /// Clause 8 refutes the interval of the GUM, but y and u agree, which is all that is claimed.
     MomentsAgree,
-    /// As [`Reason::MomentsAgree`], once means of few readings have the standard deviation s/√n.
+    /// As [`Reason::MomentsAgree`], once what has few degrees of freedom has its u as standard deviation.
     FewReadings,
     /// Clause 8 refutes the GUM.
     NotValidated,
@@ -266,7 +266,7 @@ impl MeasurandResult {
         }
     }
 
-    /// y and k·u of trials in which means of few readings have the standard deviation s/√n.
+    /// y and k·u of trials in which what has few degrees of freedom has its u as standard deviation.
     fn by_moments(
         &self,
         moments: TrialMoments,

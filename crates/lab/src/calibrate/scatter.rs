@@ -59,15 +59,25 @@ pub struct ScatterTest {
 }
 
 impl ScatterTest {
-    fn new(expected: f64, chi_squared: f64, dof: f64, way: Scatter, sampled: bool) -> ScatterTest {
+    /// None where residuals tell the scatter and no samples do: stated errors are a part of it then, and only residuals that
+    /// are smaller say something of them.
+    fn of(
+        expected: f64,
+        chi_squared: f64,
+        dof: f64,
+        way: Scatter,
+        sampled: bool,
+    ) -> Option<ScatterTest> {
         let p_value = chi_squared_sf(chi_squared, dof);
-        ScatterTest {
+        let misfit = Misfit::of(p_value, way, sampled);
+        let partial = way == Scatter::Residuals && !sampled;
+        (misfit.is_some() || !partial).then_some(ScatterTest {
             expected,
             chi_squared,
             dof,
             p_value,
-            misfit: Misfit::of(p_value, way, sampled),
-        }
+            misfit,
+        })
     }
 
     /// χ²/ν, 1 where the residuals are as large as expected.
@@ -253,11 +263,11 @@ impl Scatters {
                 own: (own / dof).sqrt(),
                 // The difference has the variance of the whole sum.
                 own_dof: dof * (own / total).powi(2),
-                test: (complete && dof > 0.0).then(|| {
+                test: (complete && dof > 0.0).then_some(()).and_then(|()| {
                     let chi_squared = sum(&expected);
                     let expected: f64 = rows.iter().map(|row| expected[*row].powi(2)).sum();
                     let expected = (expected / rows.len() as f64).sqrt();
-                    ScatterTest::new(expected, chi_squared, dof, way, sampled)
+                    ScatterTest::of(expected, chi_squared, dof, way, sampled)
                 }),
             });
         }

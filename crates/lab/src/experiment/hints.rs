@@ -13,6 +13,7 @@ pub static HINTS: Hints = Hints {
     top: ExperimentTable::keys,
     unknown_key,
     no_table: |_, _| -> Option<Said> { None },
+    wrong_type: budget::wrong_type,
     list_of_amounts: say!("quantities that differ from row to row are columns of the recording"),
 };
 

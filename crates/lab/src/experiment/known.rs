@@ -16,10 +16,11 @@ pub(crate) struct Known<'t> {
 }
 
 impl Known<'_> {
-    /// Readings and inputs may have the same name; among quantities they may not.
+    /// Readings and inputs may have the same name; among quantities they may not. A reading has that of its table in the file,
+    /// which is the same in every language.
     pub fn own_name(&self) -> String {
         match self.is_reading {
-            true => format!("{} (reading)", self.name),
+            true => format!("reading.{}", self.name),
             false => self.name.to_owned(),
         }
     }

@@ -7,7 +7,7 @@ mod common;
 
 use crate::language::{Language, Word};
 use crate::number::{NONE, TABLE_DIGITS, aligned, freedom, percent, significant};
-use crate::{Report, difference_symbol, symbol};
+use crate::{Report, symbol};
 use gumption_format::document::Block;
 use gumption_format::document::{Cell, ColumnKind, Row, Table};
 use gumption_gum::budget::{Component, Input, Owner, Term};
@@ -191,7 +191,7 @@ fn component_row(
     table.push(vec![
         Cell::Part(part.clone()),
         Cell::Empty,
-        difference_symbol(&input.unit).into(),
+        symbol(&input.unit).into(),
         significant(u, TABLE_DIGITS).into(),
         distribution(component, report.language).into(),
         freedom(component.dof).into(),

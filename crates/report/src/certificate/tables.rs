@@ -151,6 +151,7 @@ pub(super) static HINTS: Hints = Hints {
     top: CertificateFile::keys,
     unknown_key: |_, _, _| -> Option<Said> { None },
     no_table: |_, _| -> Option<Said> { None },
+    wrong_type: |_, _| None,
     list_of_amounts: say!("one number with its unit stands here"),
 };
 

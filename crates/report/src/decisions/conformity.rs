@@ -4,7 +4,7 @@ use super::words::{Rows, chance};
 use crate::figures::{Figures, with_unit};
 use crate::language::Language;
 use crate::number::{NONE, TABLE_DIGITS, aligned, exact, significant};
-use crate::{Report, difference_symbol, symbol};
+use crate::{Report, symbol};
 use gumption_core::quantity::Unit;
 use gumption_format::document::Block;
 use gumption_gum::budget::{Conformity, DecisionRule, Interval};
@@ -188,6 +188,6 @@ impl Assessment<'_> {
 
     /// Unit of a difference.
     pub fn deviations(&self) -> String {
-        difference_symbol(self.unit)
+        symbol(self.unit)
     }
 }

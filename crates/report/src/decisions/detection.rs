@@ -4,7 +4,7 @@ use super::words::Rows;
 use crate::figures::{Figures, with_unit};
 use crate::language::Language;
 use crate::number::{TABLE_DIGITS, aligned, at_place, exact, print, probability, significant};
-use crate::{Report, difference_symbol, symbol};
+use crate::{Report, symbol};
 use gumption_core::quantity::Unit;
 use gumption_format::document::Block;
 use gumption_gum::budget::Detection;
@@ -108,7 +108,7 @@ impl Limits<'_> {
                 "ŷ = {}{}u(ŷ) = {}",
                 self.beside(best.value, best.u),
                 l.pick(", ", "，"),
-                with_unit(&u, &difference_symbol(self.unit))
+                with_unit(&u, &symbol(self.unit))
             ),
         );
         let interval = |ends: [f64; 2]| {

@@ -7,7 +7,7 @@ use crate::decisions::{self, Decided};
 use crate::figures::Figures;
 use crate::language::{Language, Word};
 use crate::number::{in_unit, probability};
-use crate::{Report, difference_symbol, statement, symbol};
+use crate::{Report, statement, symbol};
 
 /// The section; none where no row states a result.
 pub(super) fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
@@ -97,10 +97,7 @@ impl<'a> Points<'a> {
         let mut table = Table::new([
             (Word::Row.of(l), ColumnKind::Names),
             (&in_unit(name, &symbol(unit)), ColumnKind::Numbers),
-            (
-                &in_unit(&expanded, &difference_symbol(unit)),
-                ColumnKind::Numbers,
-            ),
+            (&in_unit(&expanded, &symbol(unit)), ColumnKind::Numbers),
             ("k", ColumnKind::Numbers),
             ("ν_eff", ColumnKind::Numbers),
             ("p", ColumnKind::Numbers),

@@ -6,7 +6,7 @@ use gumption_gum::budget::Fit;
 use gumption_gum::propagate::{Gum, MonteCarlo};
 
 use crate::figures::Figures;
-use crate::{Report, difference_symbol, symbol};
+use crate::{Report, symbol};
 
 /// Measurands that have pictures of their own.
 const MOST_MEASURANDS: usize = 6;
@@ -98,7 +98,7 @@ fn contributions(report: &Report<'_>, m: usize) -> Panel {
             format!("Contributions to u({name})"),
             format!("各输入量对 u({name}) 的贡献"),
         ),
-        x: Axis::linear("|c·u|", difference_symbol(unit)),
+        x: Axis::linear("|c·u|", symbol(unit)),
         y: Axis::linear("", ""),
         layers: vec![layer("|c·u|", Tone::Main, Marks::Bars(bars))],
     }

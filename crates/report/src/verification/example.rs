@@ -9,7 +9,7 @@ use super::words;
 use crate::claim::{self, last_place};
 use crate::language::{Language, Word};
 use crate::number::{NONE, at_place, exact, grouped, print, significant};
-use crate::{Report, difference_symbol, remarks, symbol};
+use crate::{Report, remarks, symbol};
 use gumption_format::document::Block;
 use gumption_format::document::{Cell, ColumnKind, Table};
 
@@ -200,16 +200,14 @@ pub(super) fn unit(report: &Report<'_>, comparison: &Comparison) -> String {
     let of_input = |unit: Option<&Unit>, part: Part| match (unit, part) {
         (_, Part::DegreesOfFreedom) | (None, _) => String::new(),
         (Some(unit), Part::Estimate) => symbol(unit),
-        (Some(unit), Part::StandardUncertainty) => difference_symbol(unit),
-        (Some(_), Part::Contribution) => difference_symbol(&output.unit),
-        (Some(unit), Part::Sensitivity) => {
-            match (difference_symbol(&output.unit), difference_symbol(unit)) {
-                (above, below) if below.is_empty() => above,
-                (above, below) if above.is_empty() => format!("1/{below}"),
-                (above, below) if above == below => String::new(),
-                (above, below) => format!("{above}/{below}"),
-            }
-        }
+        (Some(unit), Part::StandardUncertainty) => symbol(unit),
+        (Some(_), Part::Contribution) => symbol(&output.unit),
+        (Some(unit), Part::Sensitivity) => match (symbol(&output.unit), symbol(unit)) {
+            (above, below) if below.is_empty() => above,
+            (above, below) if above.is_empty() => format!("1/{below}"),
+            (above, below) if above == below => String::new(),
+            (above, below) => format!("{above}/{below}"),
+        },
     };
     match &comparison.claimed.what {
         Figure::Estimate
@@ -220,7 +218,7 @@ pub(super) fn unit(report: &Report<'_>, comparison: &Comparison) -> String {
         | Figure::AtLeast
         | Figure::AtMost => symbol(&output.unit),
         Figure::StandardUncertainty | Figure::ExpandedUncertainty | Figure::Shift => {
-            difference_symbol(&output.unit)
+            symbol(&output.unit)
         }
         Figure::Input(index, part) => {
             of_input(report.budget.inputs.get(*index).map(|i| &i.unit), *part)
@@ -233,7 +231,7 @@ pub(super) fn unit(report: &Report<'_>, comparison: &Comparison) -> String {
             let figure = figures.find(|figure| figure.name == *name);
             figure.map_or(String::new(), |figure| symbol(&figure.unit))
         }
-        Figure::Variance => match difference_symbol(&output.unit) {
+        Figure::Variance => match symbol(&output.unit) {
             unit if unit.is_empty() => unit,
             unit => format!("({unit})²"),
         },

@@ -2,7 +2,7 @@
 
 use gumption_format::document::{Entry, Held, Sheet};
 
-use crate::{Report, difference_symbol};
+use crate::{Report, symbol};
 
 /// A sheet while it is written.
 pub(super) struct Writer<'a> {
@@ -62,7 +62,7 @@ impl<'a> Writer<'a> {
 
     /// Unit of u(y).
     pub(super) fn unit_of_u(&self) -> String {
-        difference_symbol(self.report.measurand(self.measurand).1)
+        symbol(self.report.measurand(self.measurand).1)
     }
 }
 

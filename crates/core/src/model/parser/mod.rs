@@ -30,7 +30,12 @@ pub fn parse(text: &str, is_unit: &dyn Fn(&str) -> bool, faults: &mut Vec<Fault>
         faults.push(too_long(text));
         return Reading::default();
     }
-    let tokens = tokens(text, faults);
+    let mut found = Vec::new();
+    let tokens = tokens(text, &mut found);
+    let (mut unread, others): (Vec<Fault>, _) = found
+        .into_iter()
+        .partition(|fault| is_left_out(fault, text));
+    faults.extend(others);
     let mut parser = Parser {
         text,
         tokens,
@@ -48,17 +53,30 @@ pub fn parse(text: &str, is_unit: &dyn Fn(&str) -> bool, faults: &mut Vec<Fault>
             continue;
         }
         let start = parser.tokens[parser.at].kind.clone();
-        match parser.statement() {
+        let mut read = parser.statement();
+        if read.is_err() {
+            parser.recover();
+        }
+        // What a character without meaning leaves behind is not judged: the first of a statement is its fault.
+        let end = parser.tokens[parser.at].span.start;
+        let in_it = unread
+            .iter()
+            .take_while(|fault| fault.span.start < end)
+            .count();
+        if let Some(first) = unread.drain(..in_it).next() {
+            read = Err(Box::new(first));
+        }
+        match read {
             Ok(statement) => reading.statements.push(statement),
             Err(fault) => {
                 faults.push(*fault);
                 if let (true, Kind::Name(name)) = (parser.assigned, start) {
                     reading.faulty.push(name);
                 }
-                parser.recover();
             }
         }
     }
+    faults.extend(unread.into_iter().next());
     reading
 }
 
@@ -88,6 +106,13 @@ fn too_long(text: &str) -> Fault {
 
 fn fault(code: Code, span: Span, message: impl Into<Said>) -> Box<Fault> {
     Box::new(Fault::new(code, span, message))
+}
+
+/// Whether a character was left out, so that what is left of its statement is not what was written; a name with a dot is
+/// read all the same.
+fn is_left_out(fault: &Fault, text: &str) -> bool {
+    let marked = text.get(fault.span.clone()).unwrap_or_default();
+    fault.code == faults::CHARACTER && marked.chars().count() == 1
 }
 
 /// Builder methods through the box.

@@ -136,7 +136,12 @@ impl Parser<'_> {
                 .rsplit([' ', '+', '-', '*', '/', ',', '('])
                 .next()
                 .unwrap_or(before);
-            say!("write `{shown} * {after}` for a product")
+            match (self.is_unit)(after) {
+                true => say!(
+                    "write `{shown} * {after}` for a product; a unit stands beside a formula, `unit = \"{after}\"`, or in quotes behind a number"
+                ),
+                false => say!("write `{shown} * {after}` for a product"),
+            }
         };
         fault(
             faults::MISSING_OPERATOR,

@@ -300,12 +300,24 @@ fn hints_name_kinks_steps_and_poles() {
         words(m.irregularities(&[2.0, 2.0])),
         [
             "abs(x - a) has a kink where x - a is 0, which is just here",
-            "min(x, a) has a kink where two arguments are equal, which is just here",
+            // min(x, a) has its kink there too.
             "round(x) is a step function: its derivative is 0 although it jumps",
             "the condition x > a changes just here",
         ]
     );
     assert_eq!(m.irregularities(&[2.0, 3.0]).len(), 1);
+    let m = model(
+        "a b c",
+        "max(a, b) - min(b, a) + abs(b - a) + max(a, c)",
+        "",
+    );
+    assert_eq!(
+        words(m.near_corners(&[1.0, 1.1, 1.2], &[0.1; 3], 4.0)),
+        [
+            "max(a, b) has a kink or jump 0.7 u from the estimates",
+            "max(a, c) has a kink or jump 1.4 u from the estimates"
+        ]
+    );
     let m = model(
         "x1 x2",
         "x1 / x2 + ln(x1 - 1) + sqrt(x1) + quantize(x1, 0.1)",

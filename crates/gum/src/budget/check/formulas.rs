@@ -11,9 +11,7 @@ use crate::budget::faults::{NO_MEASURAND, UNUSED};
 use crate::budget::tables::{FileTable, MeasurandTable};
 use crate::budget::{Constant, Measurand};
 use gumption_core::model::faults::{NO_MODEL, UNKNOWN_FUNCTION, UNKNOWN_NAME};
-use gumption_core::model::{
-    MeasurandSource, Model, ModelFault, Output, Place, Request, Role, Symbol,
-};
+use gumption_core::model::{MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
@@ -110,7 +108,6 @@ impl Checker<'_> {
                     self.unused(file, &model, constants.len(), register);
                     self.unused_fits(file, &model, constants.len(), register);
                 }
-                self.scaled_twice(&model);
                 self.plain_angles(&model, register);
                 self.no_inputs(&model, register);
                 self.undefined(&model, file, constants.len(), register);
@@ -228,23 +225,6 @@ impl Checker<'_> {
             .entries
             .get(index - constants)
             .map_or(0..0, |entry| entry.place.clone())
-    }
-
-    /// Remarks on formulas that bring their value to its unit by a factor, which the program does again.
-    fn scaled_twice(&mut self, model: &Model) {
-        let scaled = |output: &Output| {
-            Some((
-                output.name.clone(),
-                output.scaled_twice?,
-                output.unit.symbol.clone(),
-            ))
-        };
-        for (name, factor, unit) in model.outputs().iter().filter_map(scaled) {
-            self.remark(
-                format!("The formula of {name} holds the number {factor}, and units are converted without it: the value, with that number, is converted to {unit} by the same factor once more. If the number is meant to make it {unit}, remove it."),
-                format!("{name} 的公式中含有数 {factor}，而单位由程序自动换算：带有该数的值又以同一因子换算为 {unit}。如果该数是为了换算成 {unit}，请将其去掉。"),
-            );
-        }
     }
 
     /// Remarks on numbers without a unit that are angles of more than a turn: degrees, most likely.

@@ -168,6 +168,11 @@ impl Checker<'_> {
                 );
             }
         }
+        // What stood in the place of the value, as in `1.0 ± 0.1`, or of the joint statement may have stated it.
+        let meant = table.refused || register.by_refused.iter().any(|joint| joint == name);
+        if bare && meant {
+            return None;
+        }
         // The list itself was refused; what is in it is unknown.
         if bare && table.refused && table.present.iter().any(|(key, _)| *key == "components") {
             return None;

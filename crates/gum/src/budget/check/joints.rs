@@ -21,20 +21,16 @@ use gumption_format::toml::Stated;
 pub(super) type Matrix = Stated<Vec<Stated<Vec<Stated<f64>>>>>;
 
 impl Checker<'_> {
-    /// Notes the inputs whose uncertainty a covariance matrix states, before they are read.
+    /// Notes the inputs whose uncertainty a joint statement states, before they are read.
     pub(super) fn joint_estimates(&mut self, file: &FileTable, register: &mut Register) {
-        for stated in joints(file)
-            .iter()
-            .filter(|stated| stated.value.covariance.is_some())
-        {
-            let names = stated
-                .value
-                .inputs
-                .as_ref()
-                .map_or(&[][..], |inputs| &inputs.value);
-            register
-                .by_matrix
-                .extend(names.iter().map(|name| name.value.clone()));
+        for stated in joints(file) {
+            let inputs = stated.value.inputs.iter().flat_map(|inputs| &inputs.value);
+            let names = inputs.map(|name| name.value.clone());
+            if stated.value.covariance.is_some() {
+                register.by_matrix.extend(names);
+            } else if stated.value.refused {
+                register.by_refused.extend(names);
+            }
         }
     }
 

@@ -56,6 +56,8 @@ pub(super) struct Register {
     pub scatter: Vec<(usize, usize)>,
     /// Inputs whose uncertainty a covariance matrix states.
     pub by_matrix: Vec<String>,
+    /// Inputs of a joint statement that was refused, which may have been meant to state their uncertainty.
+    pub by_refused: Vec<String>,
     /// Components whose effect follows the estimate of an input.
     pub following: Vec<Following>,
     /// Whether something was refused, so that correlations of it cannot be checked.

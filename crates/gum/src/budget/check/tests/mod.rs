@@ -143,18 +143,24 @@ fn the_schema_knows_every_key() {
 
 /// mL to L is converted without the 1000 that the formula holds for it.
 #[test]
-fn a_conversion_that_is_made_twice_is_remarked_on() {
-    let remarks = |model: &str| {
-        let text = format!(
+fn a_conversion_that_is_made_twice_is_refused() {
+    let text = |model: &str| {
+        format!(
             "[measurand.c]\nmodel = \"{model}\"\nunit = \"mg/L\"\n[input.m]\nvalue = 100\nu = 0.1\nunit = \"mg\"\n\
              [input.V]\nvalue = 100\nu = 0.1\nunit = \"mL\"\n"
-        );
-        budget(&text).remarks
+        )
     };
+    let dilution = "[constant]\ndilution = 1000\n";
     for twice in ["1000 * m / V", "m / (V / 1000)", "m / (V * 0.001)"] {
-        assert!(remarks(twice)[0].en.contains("holds the number"), "{twice}");
+        let found = faults(&text(twice));
+        let codes: Vec<&str> = found.iter().map(|(code, _)| *code).collect();
+        assert_eq!(codes, ["M0410"], "{twice}");
     }
-    assert_eq!(remarks("m / V"), []);
+    for meant in ["m / V", "1000 '1' * m / V"] {
+        assert_eq!(budget(&text(meant)).remarks, [], "{meant}");
+    }
+    let named = format!("{}{dilution}", text("dilution * m / V"));
+    assert_eq!(budget(&named).remarks, []);
 }
 
 /// 30 without a unit is hardly an angle in radians; 0.5 may be, and what has a unit is.

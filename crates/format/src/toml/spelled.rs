@@ -1,0 +1,166 @@
+//! Numbers as they are written elsewhere: with full-width digits, a power of ten, groups of digits, no digit before the point.
+
+/// A number, as TOML writes it, and what stands behind it, of a text that writes the number in another way.
+pub(super) fn spelled(text: &str) -> Option<(String, String)> {
+    let narrow: String = text
+        .trim()
+        .trim_end_matches([';', '；'])
+        .chars()
+        .map(narrow)
+        .collect();
+    let (mantissa, rest) = mantissa(narrow.trim());
+    let (exponent, rest) = match power_of_ten(rest).or_else(|| exponent(rest)) {
+        Some((exponent, rest)) => (format!("e{exponent}"), rest),
+        None => (String::new(), rest),
+    };
+    let number = format!("{mantissa}{exponent}");
+    let rest = rest.trim();
+    let finite = number.parse::<f64>().is_ok_and(f64::is_finite);
+    // What begins with a further number or sign of a calculation is no unit.
+    let is_unit = !rest.starts_with(|c: char| c.is_ascii_digit() || ".,+-*/^±(=".contains(c));
+    let head = narrow
+        .trim_end()
+        .strip_suffix(rest)
+        .unwrap_or_default()
+        .trim();
+    let text = text.trim();
+    let ended = text.ends_with([';', '；']);
+    let as_it_is = head.parse::<f64>().is_ok() && text.starts_with(head) && !ended;
+    (finite && is_unit && !as_it_is).then(|| (number, rest.to_owned()))
+}
+
+/// The digits and signs of another keyboard.
+fn narrow(c: char) -> char {
+    match c {
+        '\u{ff01}'..='\u{ff5e}' => char::from_u32(c as u32 - 0xfee0).unwrap_or(c),
+        '。' => '.',
+        '−' | '–' => '-',
+        '\u{a0}' | '\u{2009}' | '\u{202f}' | '\u{3000}' => ' ',
+        c => c,
+    }
+}
+
+/// The number at the beginning, without spaces between groups of three digits and with digits on both sides of its point.
+fn mantissa(text: &str) -> (String, &str) {
+    let body = text.trim_start_matches(['+', '-']);
+    let sign = &text[..text.len() - body.len()];
+    let (mut whole, mut rest) = digits(body);
+    let mut joined = whole.to_owned();
+    while whole.len() <= 3 && !whole.is_empty() {
+        let (group, behind) = digits(rest.strip_prefix([' ', '\'']).unwrap_or(""));
+        if group.len() != 3 {
+            break;
+        }
+        joined.push_str(group);
+        (whole, rest) = (group, behind);
+    }
+    let (fraction, rest) = match rest.strip_prefix('.') {
+        Some(behind) => digits(behind),
+        None => return (format!("{sign}{joined}"), rest),
+    };
+    let or_zero = |digits: &str| if digits.is_empty() { "0" } else { digits }.to_owned();
+    match joined.is_empty() && fraction.is_empty() {
+        true => (String::new(), text),
+        false => (
+            format!("{sign}{}.{}", or_zero(&joined), or_zero(fraction)),
+            rest,
+        ),
+    }
+}
+
+/// The exponent of `x10^-4`, `×10⁻⁴`, `· 10**-4`, and what stands behind it.
+fn power_of_ten(text: &str) -> Option<(String, &str)> {
+    let behind = text
+        .trim_start()
+        .strip_prefix(['x', 'X', '×', '·', '⋅', '*'])?;
+    let behind = behind.trim_start().strip_prefix("10")?;
+    const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+    let raised: String = behind
+        .chars()
+        .map_while(|c| match c {
+            '⁻' => Some('-'),
+            c => RAISED
+                .chars()
+                .position(|r| r == c)
+                .and_then(|d| char::from_digit(d as u32, 10)),
+        })
+        .collect();
+    if !raised.is_empty() {
+        let rest = behind.trim_start_matches(|c| c == '⁻' || RAISED.contains(c));
+        return Some((raised, rest));
+    }
+    let behind = behind
+        .trim_start()
+        .strip_prefix("**")
+        .or_else(|| behind.trim_start().strip_prefix('^'))?;
+    let behind = behind.trim_start_matches(['{', '(']);
+    let body = behind.strip_prefix(['+', '-']).unwrap_or(behind);
+    let (exponent, rest) = digits(body);
+    let sign = if behind.starts_with('-') { "-" } else { "" };
+    let closed = rest.trim_start_matches(['}', ')']);
+    (!exponent.is_empty()).then(|| (format!("{sign}{exponent}"), closed))
+}
+
+/// The exponent of `e-4`, and what stands behind it.
+fn exponent(text: &str) -> Option<(String, &str)> {
+    let behind = text.strip_prefix(['e', 'E'])?;
+    let (exponent, rest) = digits(behind.strip_prefix(['+', '-']).unwrap_or(behind));
+    let sign = if behind.starts_with('-') { "-" } else { "" };
+    (!exponent.is_empty()).then(|| (format!("{sign}{exponent}"), rest))
+}
+
+/// The digits at the beginning, and what stands behind them.
+fn digits(text: &str) -> (&str, &str) {
+    let end = text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    text.split_at(end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn other_spellings_are_understood() {
+        for (text, number, unit) in [
+            ("１.０００１", "1.0001", ""),
+            ("０.５％", "0.5", "%"),
+            ("−0.0003", "-0.0003", ""),
+            ("3x10^-4", "3e-4", ""),
+            ("3×10^-4 V", "3e-4", "V"),
+            ("2.5·10⁻⁶ m", "2.5e-6", "m"),
+            ("1.2 * 10**{3}", "1.2e3", ""),
+            ("10 000.02", "10000.02", ""),
+            ("1'000'000", "1000000", ""),
+            ("0.0003;", "0.0003", ""),
+        ] {
+            let found = spelled(text);
+            assert_eq!(found, Some((number.to_owned(), unit.to_owned())), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_other_spelling_of_a_number_is_left() {
+        for text in [
+            "3.9e-3 1/K",
+            "2e6V",
+            "0.8%",
+            ".5 V",
+            "5.",
+            "1.5 ％",
+            "1.5",
+            "1.5 V",
+            "1.5V",
+            "V",
+            "",
+            "1 2",
+            "10 0000",
+            "x10",
+            "3*4",
+            "1/3",
+            "1,5",
+            "5 ± 1",
+        ] {
+            assert_eq!(spelled(text), None, "{text}");
+        }
+    }
+}

@@ -6,8 +6,11 @@
 
 use std::io::Read;
 use std::ops::ControlFlow;
+use std::sync::{Mutex, PoisonError};
 
-use crate::budget::{Batch, BatchFile, Budget, MonteCarloSettings, RowReader, Rows, Wanted};
+use crate::budget::{
+    Batch, BatchFile, Budget, MonteCarloSettings, Numbers, Pattern, RowReader, Wanted,
+};
 use crate::propagate::{
     self, Evaluation, EvaluationError, MonteCarloChoice, Options, Progress, RowEvaluation,
     RowFigures, parallel_map,
@@ -45,13 +48,27 @@ pub struct Evaluated<'a> {
     pub found: Result<(&'a Budget, Found<'a>), &'a Failed>,
 }
 
+impl<'a> Evaluated<'a> {
+    fn at(
+        (number, line, label): (u64, usize, Option<&'a str>),
+        found: Result<(&'a Budget, Found<'a>), &'a Failed>,
+    ) -> Self {
+        Evaluated {
+            number,
+            line,
+            label,
+            found,
+        }
+    }
+}
+
 /// What was found of a row.
 #[derive(Debug, Clone, Copy)]
 pub enum Found<'a> {
     /// Everything.
     Evaluation(&'a Evaluation),
     /// What is reported, where there is no more to be said.
-    Figures(&'a RowFigures),
+    Figures(RowFigures<'a>),
 }
 
 /// Why a row has no result.
@@ -92,28 +109,36 @@ pub fn run<T: Default + Send>(
     let head = Sheet::new(&first.text)
         .map_err(|fault| Rejection::new(table, &first.text, vec![*fault]))?;
     let batch = file.batch(&head, table)?;
+    let mut known = None;
+    let mut spare = Vec::new();
     let mut number = 0;
     let mut work = |sheet: &Sheet<'_>, read: u64| {
-        let rows: Vec<Result<csv::Row, Fault>> = sheet.rows().collect();
+        let rows: Vec<Result<csv::Row<'_>, Fault>> = sheet.rows().collect();
         if number == 0 {
             hopeless(&batch, sheet, &rows)?;
         }
-        let mut rest = rows.into_iter().peekable();
-        let mut blocks = Vec::new();
-        while rest.peek().is_some() {
-            let rows: Vec<_> = rest.by_ref().take(BLOCK).collect();
-            let begin = number;
-            number += rows.len() as u64;
-            blocks.push((begin, rows));
-        }
-        let block = |worker: &mut Worker<'_>, (begin, rows): (u64, Vec<_>)| {
-            let mut block = T::default();
-            worker.evaluate(sheet, (begin, rows), plan, |row| add(&mut block, row));
-            block
+        known = (known.take()).or_else(|| batch.pattern(rows.iter().flatten(), sheet));
+        let pattern = known.as_ref().and_then(Option::as_ref);
+        let parts = rows.chunks(BLOCK).zip((number..).step_by(BLOCK));
+        let part = |worker: &mut Worker<'_>, (rows, begin): (&[_], u64)| {
+            let mut part = T::default();
+            worker.evaluate(sheet, (begin, rows), plan, |row| add(&mut part, row));
+            part
         };
-        let worker = || Worker::new(&batch);
-        let (done, _) = parallel_map(blocks, plan.threads, worker, block, drop);
-        let mut done = done.into_iter().map(|block| take(block, read));
+        // Whose room is left from the piece before takes it again.
+        let rooms = Mutex::new(std::mem::take(&mut spare));
+        let worker = || {
+            let room = rooms.lock().unwrap_or_else(PoisonError::into_inner).pop();
+            Worker {
+                reader: batch.reader(),
+                room: room.or_else(|| Some(Room::of(pattern?, plan))),
+            }
+        };
+        let rest = |worker: Worker<'_>| worker.room;
+        let (done, rooms) = parallel_map(parts.collect(), plan.threads, worker, part, rest);
+        spare = rooms.into_iter().flatten().collect();
+        number += rows.len() as u64;
+        let mut done = done.into_iter().map(|part| take(part, read));
         let ended = plan.progress.is_stopped() || done.any(|flow| flow.is_break());
         Ok::<bool, Rejection>(!ended)
     };
@@ -131,11 +156,11 @@ pub fn run<T: Default + Send>(
 fn hopeless(
     batch: &Batch<'_>,
     sheet: &Sheet<'_>,
-    rows: &[Result<csv::Row, Fault>],
+    rows: &[Result<csv::Row<'_>, Fault>],
 ) -> Result<(), Rejection> {
     /// Rows that are tried.
     const FEW: usize = 16;
-    let mut reader = batch.reader();
+    let reader = batch.reader();
     let Err(mut own) = reader.alone() else {
         return Ok(());
     };
@@ -156,137 +181,107 @@ fn hopeless(
 /// Evaluates rows on one thread.
 struct Worker<'b> {
     reader: RowReader<'b>,
-    /// As soon as rows are numbers: blocks of them, where they can be evaluated so.
-    blocks: Option<Option<(RowEvaluation, Rows)>>,
+    /// Where rows are numbers.
+    room: Option<Room>,
 }
 
-impl<'b> Worker<'b> {
-    fn new(batch: &'b Batch<'b>) -> Self {
-        Worker {
-            reader: batch.reader(),
-            blocks: None,
+/// Rows that are numbers, and what evaluates them.
+struct Room {
+    pattern: Pattern,
+    numbers: Numbers,
+    /// All of them at once, where they can be evaluated so.
+    block: Option<RowEvaluation>,
+    /// The budget of one of them.
+    budget: Budget,
+}
+
+impl Room {
+    fn of(pattern: &Pattern, plan: &Plan) -> Room {
+        let alone = plan.monte_carlo.is_some();
+        let block = (!alone).then(|| RowEvaluation::new(pattern.budget()));
+        Room {
+            numbers: pattern.numbers(),
+            block: block.flatten(),
+            budget: pattern.budget().clone(),
+            pattern: pattern.clone(),
         }
     }
 
+    /// Takes rows, and finds what is reported of those that need no more.
+    fn take(&mut self, rows: &[Result<csv::Row<'_>, Fault>]) {
+        let good = rows.iter().map(|row| row.as_ref().ok());
+        self.pattern.take(good, &mut self.numbers);
+        if let Some(block) = &mut self.block {
+            block.evaluate(self.numbers.rows(), rows.len());
+        }
+    }
+
+    fn figures(&self, lane: usize) -> Option<RowFigures<'_>> {
+        let block = self.block.as_ref().filter(|_| self.numbers.takes(lane))?;
+        block.row(self.numbers.rows(), lane)
+    }
+
+    /// Evaluates a row by itself; why it has no value is told by the reader of the file.
+    fn evaluation(&mut self, lane: usize, plan: &Plan) -> Option<(&Budget, Evaluation)> {
+        let taken = self.numbers.takes(lane)
+            && self.pattern.write(lane, &self.numbers, &mut self.budget);
+        let found = taken.then(|| result(&self.budget, plan).ok()).flatten()?;
+        Some((&self.budget, found))
+    }
+}
+
+impl Worker<'_> {
     /// Evaluates rows of a table, which begin behind so many others, and hands each on, in their order.
     fn evaluate(
         &mut self,
         sheet: &Sheet<'_>,
-        (begin, rows): (u64, Vec<Result<csv::Row, Fault>>),
+        (begin, rows): (u64, &[Result<csv::Row<'_>, Fault>]),
         plan: &Plan,
         mut hand_on: impl FnMut(&Evaluated<'_>),
     ) {
-        let mut rest = rows.into_iter().zip(begin + 1..);
-        while !self.is_ready(plan) {
-            let Some((row, number)) = rest.next() else {
-                return;
+        if let Some(room) = &mut self.room {
+            room.take(rows);
+        }
+        for ((lane, row), number) in rows.iter().enumerate().zip(begin + 1..) {
+            let row = match row {
+                Ok(row) => row,
+                Err(fault) => {
+                    let failed = Failed::Row(Box::new(fault.clone()));
+                    hand_on(&Evaluated::at((number, 0, None), Err(&failed)));
+                    continue;
+                }
             };
-            self.one(sheet, row, number, plan, &mut hand_on);
-        }
-        let rest: Vec<_> = rest.collect();
-        let figures = self.figures(sheet, &rest);
-        for ((row, number), figures) in rest.into_iter().zip(figures) {
-            let known = self.blocks.as_ref().and_then(Option::as_ref);
-            let (Ok(row), Some(((evaluation, _), figures))) = (&row, known.zip(figures.as_ref()))
-            else {
-                self.one(sheet, row, number, plan, &mut hand_on);
-                continue;
-            };
-            hand_on(&Evaluated {
-                number,
-                line: row.line,
-                label: self.reader.label(row),
-                found: Ok((evaluation.budget(), Found::Figures(figures))),
-            });
-        }
-    }
-
-    /// Whether it is known how rows are to be evaluated.
-    fn is_ready(&mut self, plan: &Plan) -> bool {
-        if self.blocks.is_none() && self.reader.takes_numbers() {
-            let budget = self.reader.numbers().filter(|_| plan.monte_carlo.is_none());
-            let evaluation = |budget| Some((RowEvaluation::new(budget)?, Rows::of(budget)));
-            self.blocks = Some(budget.and_then(evaluation));
-        }
-        self.blocks.is_some()
-    }
-
-    /// What is reported of those rows of a block that are numbers and need no more.
-    fn figures(
-        &mut self,
-        sheet: &Sheet<'_>,
-        rows: &[(Result<csv::Row, Fault>, u64)],
-    ) -> Vec<Option<RowFigures>> {
-        let Some(Some((evaluation, columns))) = &mut self.blocks else {
-            return vec![None; rows.len()];
-        };
-        let mut taken = Vec::with_capacity(rows.len());
-        for (lane, (row, _)) in rows.iter().enumerate() {
-            let numbers = row.as_ref().is_ok_and(|row| self.reader.takes(row, sheet));
-            if numbers {
-                self.reader.write(lane, columns);
+            let place = (number, row.line, self.reader.label(row));
+            if let Some(room) = &mut self.room {
+                if let Some(figures) = room.figures(lane) {
+                    let found = (room.pattern.budget(), Found::Figures(figures));
+                    hand_on(&Evaluated::at(place, Ok(found)));
+                    continue;
+                }
+                if let Some((budget, evaluation)) = room.evaluation(lane, plan) {
+                    let found = (budget, Found::Evaluation(&evaluation));
+                    hand_on(&Evaluated::at(place, Ok(found)));
+                    continue;
+                }
             }
-            taken.push(numbers);
+            let read = self.read(row, sheet, plan);
+            let found = read.as_ref();
+            let found = found.map(|(budget, found)| (budget, Found::Evaluation(found)));
+            hand_on(&Evaluated::at(place, found));
         }
-        let mut found = evaluation.evaluate(columns, rows.len());
-        for (found, taken) in found.iter_mut().zip(taken) {
-            *found = found.take().filter(|_| taken);
-        }
-        found
     }
 
-    /// Evaluates a row by itself and hands it on.
-    fn one(
-        &mut self,
+    /// Evaluates a row with which the file is read.
+    fn read(
+        &self,
+        row: &csv::Row<'_>,
         sheet: &Sheet<'_>,
-        row: Result<csv::Row, Fault>,
-        number: u64,
         plan: &Plan,
-        hand_on: impl FnOnce(&Evaluated<'_>),
-    ) {
-        let row = match row {
-            Ok(row) => row,
-            Err(fault) => {
-                return hand_on(&Evaluated {
-                    number,
-                    line: 0,
-                    label: None,
-                    found: Err(&Failed::Row(Box::new(fault))),
-                });
-            }
-        };
-        let reader = &mut self.reader;
-        let (line, label) = (row.line, reader.label(&row));
-        // Why a row has no value is told by the reader of the file.
-        let taken = reader
-            .takes(&row, sheet)
-            .then(|| reader.numbers())
-            .flatten();
-        let taken = taken.and_then(|budget| Some((budget, result(budget, plan).ok()?)));
-        if let Some((budget, evaluation)) = &taken {
-            return hand_on(&Evaluated {
-                number,
-                line,
-                label,
-                found: Ok((budget, Found::Evaluation(evaluation))),
-            });
-        }
-        let read = reader.row(&row, sheet);
-        let read = read.map_err(|rejection| Failed::Refused(Box::new(rejection)));
-        let found = read.and_then(|row| {
-            let evaluation = result(&row.budget, plan).map_err(Failed::NoResult)?;
-            Ok((row.budget, evaluation))
-        });
-        let found = match &found {
-            Ok((budget, evaluation)) => Ok((budget, Found::Evaluation(evaluation))),
-            Err(failed) => Err(failed),
-        };
-        hand_on(&Evaluated {
-            number,
-            line,
-            label,
-            found,
-        });
+    ) -> Result<(Budget, Evaluation), Failed> {
+        let read = self.reader.row(row, sheet);
+        let read = read.map_err(|rejection| Failed::Refused(Box::new(rejection)))?;
+        let evaluation = result(&read.budget, plan).map_err(Failed::NoResult)?;
+        Ok((read.budget, evaluation))
     }
 }
 

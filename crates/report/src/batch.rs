@@ -1,7 +1,5 @@
 //! The results of a batch as lines of a table, row by row.
 
-use std::io::Write;
-
 use super::rows::Cell;
 use super::{Report, failure, remarks, rows};
 use gumption_core::model::Output;
@@ -9,7 +7,7 @@ use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection};
 use gumption_gum::batch::{Evaluated, Failed, Found};
 use gumption_gum::budget::{BatchFile, Budget};
-use gumption_gum::propagate::{Figures, FindingKind, RowFigures, Verdict};
+use gumption_gum::propagate::Verdict;
 
 /// What the lines hold beside what is reported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,16 +25,18 @@ pub struct Columns {
 pub struct Lines {
     /// The names of the columns, where a row has told them.
     heads: Option<Vec<String>>,
-    /// The text of those that have results.
+    /// The lines of those that have results, the labels of the others.
     text: Vec<u8>,
     lines: Vec<Line>,
 }
 
 #[derive(Debug)]
 struct Line {
-    label: String,
-    /// Where the text of its results ends, and how many cells they are; or why there are none.
-    cells: Result<(usize, usize), String>,
+    /// Where its label ends in the text, and where the line does.
+    label: usize,
+    end: usize,
+    /// How many cells it has; or why there are none.
+    cells: Result<usize, String>,
     rejected: bool,
 }
 
@@ -44,38 +44,30 @@ impl Columns {
     /// Adds the line of a row: label or number, then as [`super::rows`], the shares, the seed of the trials, the findings,
     /// and the error of a row that has no result.
     pub fn add(self, lines: &mut Lines, row: &Evaluated<'_>) {
-        let label = row
-            .label
-            .map_or_else(|| row.number.to_string(), str::to_owned);
-        let (cells, rejected) = match &row.found {
+        let text = &mut lines.text;
+        match row.label {
+            Some(label) => push_field(text, label),
+            None => Cell::Seed(Some(row.number)).push(text),
+        }
+        let label = text.len();
+        let mut rejected = false;
+        let cells = match &row.found {
             Ok((budget, found)) => {
                 lines.heads.get_or_insert_with(|| self.heads(budget));
-                push_field(&mut lines.text, &label);
-                let (cells, rejected) = match found {
-                    Found::Figures(figures) => {
-                        let cells = self.figures(budget, figures, &mut lines.text);
-                        (cells, false)
-                    }
-                    Found::Evaluation(evaluation) => {
-                        let report = Report {
-                            budget,
-                            evaluation,
-                            label: None,
-                            language: self.language,
-                        };
-                        let refuses = |verdict| verdict == Some(Verdict::NotConforming);
-                        let mut conformity = evaluation.conformity.iter();
-                        let rejected = conformity.any(|found| refuses(found.verdict));
-                        (self.cells(&report, &mut lines.text), rejected)
-                    }
-                };
-                lines.text.push(b'\n');
-                (Ok((lines.text.len(), cells)), rejected)
+                let mut cells = 1;
+                rejected = self.cells(budget, found, |cell| {
+                    cells += 1;
+                    text.push(b',');
+                    cell.push(text);
+                });
+                text.push(b'\n');
+                Ok(cells)
             }
-            Err(failed) => (Err(why(failed, self.language)), false),
+            Err(failed) => Err(why(failed, self.language)),
         };
         lines.lines.push(Line {
             label,
+            end: text.len(),
             cells,
             rejected,
         });
@@ -97,61 +89,53 @@ impl Columns {
         heads
     }
 
-    /// As [`Columns::cells`], of a row with nothing but figures.
-    fn figures(self, budget: &Budget, row: &RowFigures, text: &mut Vec<u8>) -> usize {
-        let mut count = 1;
-        let mut add = |cell: &dyn std::fmt::Display| {
-            count += 1;
-            // Writing to memory does not fail.
-            let _ = write!(text, ",{cell}");
-        };
-        let measurands = &row.measurands;
-        for (figures, _) in measurands {
-            rows::figures(figures, |cell| add(&cell));
-        }
-        if self.shares {
-            let shares = row.shares.iter().flatten();
-            shares.for_each(|share| add(&Cell::Number(Some(*share))));
-        }
-        if self.seeds {
-            add(&"");
-        }
-        let few = |(measurand, (_, few)): (usize, &(Figures, Option<FindingKind>))| {
-            let code = remarks::code(few.as_ref()?);
-            Some(match measurands.len() {
-                1 => code.to_string(),
-                _ => format!("{code}({})", budget.model.outputs()[measurand].name),
-            })
-        };
-        let codes: Vec<String> = measurands.iter().enumerate().filter_map(few).collect();
-        add(&codes.join(" "));
-        add(&"");
-        count
-    }
-
-    /// Writes the cells behind the label; tells how many the line has with it.
-    fn cells(self, report: &Report<'_>, text: &mut Vec<u8>) -> usize {
-        let mut count = 1;
-        let mut add = |cell: &dyn std::fmt::Display| {
-            count += 1;
-            // Writing to memory does not fail.
-            let _ = write!(text, ",{cell}");
-        };
-        rows::cells(report, |cell| add(&cell));
-        if self.shares {
-            let lines = report.evaluation.results.iter();
-            let lines = lines.flat_map(|result| &result.gum.inputs);
-            lines.for_each(|line| add(&Cell::Number(Some(line.share))));
-        }
-        if self.seeds {
-            match &report.evaluation.run {
-                Some(run) => add(&run.seed),
-                None => add(&""),
+    /// Gives the cells behind the label; tells whether an item does not conform.
+    fn cells(self, budget: &Budget, found: &Found<'_>, mut give: impl FnMut(Cell<'_>)) -> bool {
+        let share = |share: f64| Cell::Number(Some(share));
+        match found {
+            Found::Figures(row) => {
+                let measurands = 0..budget.model.outputs().len();
+                for measurand in measurands.clone() {
+                    rows::figures(&row.figures(measurand), &mut give);
+                }
+                if self.shares {
+                    let shares = measurands.clone().flat_map(|one| row.shares(one));
+                    shares.for_each(|one| give(share(one)));
+                }
+                if self.seeds {
+                    give(Cell::Seed(None));
+                }
+                let few = |one| Some((remarks::code(&row.few_degrees(one)?), Some(one)));
+                let few = measurands.filter_map(few);
+                give(Cell::Codes(&codes(budget, few)));
+                give(Cell::Codes(""));
+                false
+            }
+            Found::Evaluation(evaluation) => {
+                let report = Report {
+                    budget,
+                    evaluation,
+                    label: None,
+                    language: self.language,
+                };
+                rows::cells(&report, &mut give);
+                if self.shares {
+                    let lines = evaluation.results.iter();
+                    let lines = lines.flat_map(|result| &result.gum.inputs);
+                    lines.for_each(|line| give(share(line.share)));
+                }
+                if self.seeds {
+                    give(Cell::Seed(evaluation.run.as_ref().map(|run| run.seed)));
+                }
+                let findings = evaluation.findings.iter();
+                let findings = findings.map(|one| (remarks::code(&one.kind), one.measurand));
+                give(Cell::Codes(&codes(budget, findings)));
+                give(Cell::Codes(""));
+                let refuses = |verdict| verdict == Some(Verdict::NotConforming);
+                let mut conformity = evaluation.conformity.iter();
+                conformity.any(|found| refuses(found.verdict))
             }
         }
-        add(&findings(report));
-        add(&"");
-        count
     }
 }
 
@@ -176,18 +160,21 @@ fn push_line<'f>(text: &mut Vec<u8>, fields: impl IntoIterator<Item = &'f str>) 
     text.push(b'\n');
 }
 
-/// The codes of the findings; behind each the measurand that it is about, where there are several.
-fn findings(report: &Report<'_>) -> String {
-    let several = report.evaluation.results.len() > 1;
-    let code = |found: &gumption_gum::propagate::Finding| {
-        let code = remarks::code(&found.kind);
-        match found.measurand.filter(|_| several) {
-            Some(measurand) => format!("{code}({})", report.measurand(measurand).0),
-            None => code.to_string(),
+/// The codes of findings; behind each the measurand that it is about, where there are several.
+fn codes<'c>(
+    budget: &Budget,
+    findings: impl Iterator<Item = (&'c str, Option<usize>)>,
+) -> String {
+    let outputs = budget.model.outputs();
+    let mut codes = String::new();
+    for (code, measurand) in findings {
+        let space = if codes.is_empty() { "" } else { " " };
+        codes.extend([space, code]);
+        if let Some(measurand) = measurand.filter(|_| outputs.len() > 1) {
+            codes.extend(["(", &outputs[measurand].name, ")"]);
         }
-    };
-    let codes: Vec<String> = report.evaluation.findings.iter().map(code).collect();
-    codes.join(" ")
+    }
+    codes
 }
 
 fn why(failed: &Failed, language: Language) -> String {
@@ -219,7 +206,7 @@ pub struct Table {
     /// Whether they are written.
     headed: bool,
     /// Rows without a result, as long as no row has told what the columns are.
-    waiting: Vec<Line>,
+    waiting: Vec<Lines>,
     count: Count,
 }
 
@@ -245,10 +232,10 @@ impl Table {
     }
 
     /// The bytes that these lines add, as comma-separated values.
-    pub fn add(&mut self, lines: Lines) -> Vec<u8> {
-        self.heads = self.heads.take().or(lines.heads);
+    pub fn add(&mut self, mut lines: Lines) -> Vec<u8> {
+        self.heads = self.heads.take().or(lines.heads.take());
         let Some(heads) = &self.heads else {
-            self.waiting.extend(lines.lines);
+            self.waiting.push(lines);
             return Vec::new();
         };
         let mut text = Vec::with_capacity(lines.text.len());
@@ -256,28 +243,31 @@ impl Table {
             push_line(&mut text, heads.iter().map(String::as_str));
             self.headed = true;
         }
-        let mut start = 0;
-        let waiting = std::mem::take(&mut self.waiting).into_iter();
-        for line in waiting.chain(lines.lines) {
-            self.count.rows += 1;
-            self.count.rejected += u64::from(line.rejected);
-            let why = match line.cells {
-                Ok((end, cells)) => {
-                    let found = lines.text.get(start..end).unwrap_or_default();
-                    start = end;
-                    if cells == heads.len() {
-                        text.extend(found);
+        let waiting = std::mem::take(&mut self.waiting);
+        for lines in waiting.into_iter().chain([lines]) {
+            let mut start = 0;
+            for line in lines.lines {
+                let (label, whole) = (&lines.text[start..line.label], &lines.text[start..line.end]);
+                start = line.end;
+                self.count.rows += 1;
+                self.count.rejected += u64::from(line.rejected);
+                let why = match line.cells {
+                    Ok(cells) if cells == heads.len() => {
+                        text.extend_from_slice(whole);
                         continue;
                     }
                     // A vector of another length, or an assessment more.
-                    format!("{cells} figures where the first row has {}", heads.len())
-                }
-                Err(why) => why,
-            };
-            self.count.failed += 1;
-            let empty = std::iter::repeat_n("", heads.len().saturating_sub(2));
-            let fields = std::iter::once(line.label.as_str()).chain(empty);
-            push_line(&mut text, fields.chain([why.as_str()]));
+                    Ok(cells) => {
+                        format!("{cells} figures where the first row has {}", heads.len())
+                    }
+                    Err(why) => why,
+                };
+                self.count.failed += 1;
+                text.extend_from_slice(label);
+                text.extend(std::iter::repeat_n(b',', heads.len().saturating_sub(1)));
+                push_field(&mut text, &why);
+                text.push(b'\n');
+            }
         }
         text
     }

@@ -1,6 +1,6 @@
 //! Results as rows of numbers, for spreadsheets and scripts.
 
-use std::fmt;
+use std::io::Write;
 
 use super::{Report, decisions};
 use gumption_core::model::Output;
@@ -19,9 +19,14 @@ pub fn rows(rows: &[Report<'_>]) -> Result<Vec<u8>, csv::Error> {
         writer.write_record(heads(first.budget))?;
     }
     for row in rows {
-        let mut fields = vec![row.label.unwrap_or_default().to_string()];
-        cells(row, |cell| fields.push(cell.to_string()));
-        writer.write_record(fields)?;
+        let mut record = csv::ByteRecord::from(vec![row.label.unwrap_or_default()]);
+        let mut text = Vec::new();
+        cells(row, |cell| {
+            text.clear();
+            cell.push(&mut text);
+            record.push_field(&text);
+        });
+        writer.write_byte_record(&record)?;
     }
     writer
         .into_inner()
@@ -52,30 +57,48 @@ pub(super) fn heads(budget: &Budget) -> Vec<String> {
 }
 
 /// What stands in a column behind the label.
-pub(super) enum Cell {
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Cell<'a> {
     /// Exact; nothing for what there is not.
     Number(Option<f64>),
-    Code(&'static str),
+    /// A seed; nothing where there were no trials.
+    Seed(Option<u64>),
+    /// Codes.
+    Codes(&'a str),
 }
 
-impl fmt::Display for Cell {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Cell<'_> {
+    /// Adds it to a text.
+    pub fn push(self, text: &mut Vec<u8>) {
         match self {
-            Cell::Number(Some(x)) => write!(f, "{x:?}"),
-            Cell::Number(None) => Ok(()),
-            Cell::Code(code) => f.write_str(code),
+            Cell::Number(Some(x)) => push_number(text, x),
+            // Writing to memory does not fail.
+            Cell::Seed(Some(seed)) => drop(write!(text, "{seed}")),
+            Cell::Number(None) | Cell::Seed(None) => {}
+            Cell::Codes(codes) => text.extend_from_slice(codes.as_bytes()),
         }
     }
 }
 
+/// Adds a number as `{:?}` has it: the shortest decimal that is read as the same double.
+fn push_number(text: &mut Vec<u8>, x: f64) {
+    let size = x.abs();
+    // In these both write it alike: without an exponent, or with a negative one.
+    match size < 1e-5 || (1e-4..1e16).contains(&size) {
+        true => text.extend_from_slice(zmij::Buffer::new().format_finite(x).as_bytes()),
+        // Writing to memory does not fail.
+        false => drop(write!(text, "{x:?}")),
+    }
+}
+
 /// Gives the cells of the columns behind the label, in their order.
-pub(super) fn cells(report: &Report<'_>, mut give: impl FnMut(Cell)) {
+pub(super) fn cells(report: &Report<'_>, mut give: impl FnMut(Cell<'_>)) {
     for result in &report.evaluation.results {
         let found = result.reported(&report.budget.conventions);
         figures(&found.figures(), &mut give);
     }
     for found in &report.evaluation.conformity {
-        give(Cell::Code(
+        give(Cell::Codes(
             found.verdict.map_or("", decisions::verdict_code),
         ));
         let known = found.conformance.as_ref();
@@ -84,7 +107,7 @@ pub(super) fn cells(report: &Report<'_>, mut give: impl FnMut(Cell)) {
 }
 
 /// Gives the cells of what is reported of a measurand.
-pub(super) fn figures(found: &Figures, mut give: impl FnMut(Cell)) {
+pub(super) fn figures(found: &Figures, mut give: impl FnMut(Cell<'_>)) {
     let numbers = [
         Some(found.estimate),
         found.u,
@@ -95,4 +118,32 @@ pub(super) fn figures(found: &Figures, mut give: impl FnMut(Cell)) {
         found.ends.map(|ends| ends[1]),
     ];
     numbers.into_iter().for_each(|x| give(Cell::Number(x)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_as_the_standard_library_has_them() {
+        let same = |x: f64| {
+            let mut text = Vec::new();
+            push_number(&mut text, x);
+            assert_eq!(String::from_utf8_lossy(&text), format!("{x:?}"));
+        };
+        let edges = [0.0, 1e-5, 1e-4, 1e15, 1e16, 123456.0, f64::MIN_POSITIVE, f64::MAX, 5e-324];
+        for x in edges.into_iter().chain([f64::INFINITY, f64::NAN]) {
+            [x, -x, x * 1.1, x * 0.9].into_iter().for_each(same);
+        }
+        // SplitMix64: all doubles, and such as results are.
+        let mut state = 1u64;
+        for _ in 0..200_000 {
+            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            let z = z ^ (z >> 31);
+            same(f64::from_bits(z));
+            same((z % 1_000_000_007) as f64 * 10f64.powi((z >> 40) as i32 % 40 - 24));
+        }
+    }
 }

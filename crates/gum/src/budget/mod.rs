@@ -38,6 +38,7 @@ pub mod variants;
 
 pub use analysis::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
 pub use batch::{Batch, BatchFile, RowReader};
+pub(crate) use pattern::{Numbers, Pattern};
 pub use checked::{Budget, Constant, Heading, Loaded, Measurand, Row};
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
 pub use components::{Certificate, Component, Evaluation, Group, Input, Law, Owner, Term};

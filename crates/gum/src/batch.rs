@@ -4,8 +4,9 @@
 //! reading: not their faults, not the random numbers, and no result depends on how the table is cut, on other rows or on the
 //! number of threads.
 
+use std::borrow::Cow;
 use std::io::Read;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::sync::{Mutex, PoisonError};
 
 use crate::budget::{
@@ -18,11 +19,14 @@ use crate::propagate::{
 use gumption_fault::say;
 use gumption_fault::{Fault, Rejection};
 use gumption_format::csv::faults::NO_HEADER;
-use gumption_format::csv::{self, Pieces, Sheet};
+use gumption_format::csv::{self, Columns, Pieces, Sheet};
 use gumption_lanes::LANES;
 
 /// Rows that a thread takes at a time: as many as are evaluated together.
 const BLOCK: usize = LANES;
+
+/// Rows of a table in memory after which what was found is taken: some blocks for each thread, and little memory.
+const STRETCH: usize = 64 * BLOCK;
 
 /// How the rows of a table are evaluated.
 #[derive(Debug, Clone)]
@@ -40,8 +44,6 @@ pub struct Plan {
 pub struct Evaluated<'a> {
     /// Its number, the first being 1.
     pub number: u64,
-    /// Its line in the table.
-    pub line: usize,
     /// Its label, where the table has such a column.
     pub label: Option<&'a str>,
     /// Its budget, of which the numbers hold and not the words, and what was found; or why nothing was.
@@ -50,12 +52,11 @@ pub struct Evaluated<'a> {
 
 impl<'a> Evaluated<'a> {
     fn at(
-        (number, line, label): (u64, usize, Option<&'a str>),
+        (number, label): (u64, Option<&'a str>),
         found: Result<(&'a Budget, Found<'a>), &'a Failed>,
     ) -> Self {
         Evaluated {
             number,
-            line,
             label,
             found,
         }
@@ -109,38 +110,12 @@ pub fn run<T: Default + Send>(
     let head = Sheet::new(&first.text)
         .map_err(|fault| Rejection::new(table, &first.text, vec![*fault]))?;
     let batch = file.batch(&head, table)?;
-    let mut known = None;
-    let mut spare = Vec::new();
-    let mut number = 0;
+    let mut run = Run::new(&batch, plan);
     let mut work = |sheet: &Sheet<'_>, read: u64| {
-        let rows: Vec<Result<csv::Row<'_>, Fault>> = sheet.rows().collect();
-        if number == 0 {
-            hopeless(&batch, sheet, &rows)?;
-        }
-        known = (known.take()).or_else(|| batch.pattern(rows.iter().flatten(), sheet));
-        let pattern = known.as_ref().and_then(Option::as_ref);
-        let parts = rows.chunks(BLOCK).zip((number..).step_by(BLOCK));
-        let part = |worker: &mut Worker<'_>, (rows, begin): (&[_], u64)| {
-            let mut part = T::default();
-            worker.evaluate(sheet, (begin, rows), plan, |row| add(&mut part, row));
-            part
-        };
-        // Whose room is left from the piece before takes it again.
-        let rooms = Mutex::new(std::mem::take(&mut spare));
-        let worker = || {
-            let room = rooms.lock().unwrap_or_else(PoisonError::into_inner).pop();
-            Worker {
-                reader: batch.reader(),
-                room: room.or_else(|| Some(Room::of(pattern?, plan))),
-            }
-        };
-        let rest = |worker: Worker<'_>| worker.room;
-        let (done, rooms) = parallel_map(parts.collect(), plan.threads, worker, part, rest);
-        spare = rooms.into_iter().flatten().collect();
-        number += rows.len() as u64;
-        let mut done = done.into_iter().map(|part| take(part, read));
-        let ended = plan.progress.is_stopped() || done.any(|flow| flow.is_break());
-        Ok::<bool, Rejection>(!ended)
+        let rows: Vec<_> = sheet.rows().collect();
+        run.learn(sheet, &rows)?;
+        let parts = rows.chunks(BLOCK).map(Part::Lines).collect();
+        Ok::<bool, Rejection>(run.evaluate(sheet, parts, &add, |part| take(part, read)))
     };
     let mut more = work(&head, pieces.bytes_read())?;
     while more {
@@ -150,6 +125,148 @@ pub fn run<T: Default + Send>(
         more = work(&head.below(&piece.text, piece.line), read)?;
     }
     Ok(())
+}
+
+/// As [`run`], of a table in memory; `take` gets the number of rows that were evaluated.
+///
+/// # Errors
+/// As of [`run`].
+pub fn run_columns<T: Default + Send>(
+    file: &BatchFile<'_>,
+    (columns, table): (&Columns<'_>, &str),
+    plan: &Plan,
+    add: impl Fn(&mut T, &Evaluated<'_>) + Sync,
+    mut take: impl FnMut(T, u64) -> ControlFlow<()>,
+) -> Result<(), Rejection> {
+    let head = columns.head();
+    let sheet =
+        Sheet::new(&head).map_err(|fault| Rejection::new(table, &head, vec![*fault]))?;
+    let batch = file.batch(&sheet, table)?;
+    let mut run = Run::new(&batch, plan);
+    for begin in (0..columns.rows()).step_by(STRETCH) {
+        let rows = begin..columns.rows().min(begin + STRETCH);
+        if run.is_to_learn() {
+            let few = rows.clone().take(BLOCK);
+            let few: Vec<_> = few.map(|row| Ok(columns.row(row))).collect();
+            run.learn(&sheet, &few)?;
+        }
+        let parts = rows.clone().step_by(BLOCK);
+        let part = |begin| Part::Columns(columns, begin..rows.end.min(begin + BLOCK));
+        let done = rows.end as u64;
+        if !run.evaluate(&sheet, parts.map(part).collect(), &add, |part| take(part, done)) {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// Some rows of a table.
+enum Part<'t> {
+    Lines(&'t [Result<csv::Row<'t>, Fault>]),
+    Columns(&'t Columns<'t>, Range<usize>),
+}
+
+impl Part<'_> {
+    fn len(&self) -> usize {
+        match self {
+            Part::Lines(rows) => rows.len(),
+            Part::Columns(_, rows) => rows.len(),
+        }
+    }
+
+    fn row(&self, lane: usize) -> Result<Cow<'_, csv::Row<'_>>, &Fault> {
+        match self {
+            Part::Lines(rows) => rows[lane].as_ref().map(Cow::Borrowed),
+            Part::Columns(columns, rows) => Ok(Cow::Owned(columns.row(rows.start + lane))),
+        }
+    }
+
+    /// The label of a row as the table writes it, where it has such a column: 007 is no number.
+    fn label(&self, lane: usize, column: Option<usize>) -> Option<Cow<'_, str>> {
+        let label = match self {
+            Part::Lines(rows) => Cow::Borrowed(rows[lane].as_ref().ok()?.field(column?)),
+            Part::Columns(columns, rows) => columns.cells(column?).text(rows.start + lane),
+        };
+        Some(label).filter(|label| !label.is_empty())
+    }
+}
+
+/// Rows of a table that are evaluated one stretch after another.
+struct Run<'b> {
+    batch: &'b Batch<'b>,
+    plan: &'b Plan,
+    /// The pattern of rows that are numbers, as soon as it is known whether there is one.
+    known: Option<Option<Pattern>>,
+    /// What threads leave to those of the next stretch.
+    spare: Vec<Room>,
+    /// Rows that were evaluated.
+    number: u64,
+}
+
+impl<'b> Run<'b> {
+    fn new(batch: &'b Batch<'b>, plan: &'b Plan) -> Run<'b> {
+        Run {
+            batch,
+            plan,
+            known: None,
+            spare: Vec::new(),
+            number: 0,
+        }
+    }
+
+    fn is_to_learn(&self) -> bool {
+        self.known.is_none()
+    }
+
+    /// Looks what the rows that follow have in common.
+    fn learn(
+        &mut self,
+        sheet: &Sheet<'_>,
+        rows: &[Result<csv::Row<'_>, Fault>],
+    ) -> Result<(), Rejection> {
+        if self.number == 0 {
+            hopeless(self.batch, sheet, rows)?;
+        }
+        if self.is_to_learn() {
+            self.known = self.batch.pattern(rows.iter().flatten(), sheet);
+        }
+        Ok(())
+    }
+
+    /// Evaluates the parts of a stretch on all threads; tells whether the work goes on.
+    fn evaluate<T: Default + Send>(
+        &mut self,
+        sheet: &Sheet<'_>,
+        parts: Vec<Part<'_>>,
+        add: &(impl Fn(&mut T, &Evaluated<'_>) + Sync),
+        take: impl FnMut(T) -> ControlFlow<()>,
+    ) -> bool {
+        let Run { batch, plan, .. } = *self;
+        let pattern = self.known.as_ref().and_then(Option::as_ref);
+        let first = self.number;
+        self.number += parts.iter().map(|part| part.len() as u64).sum::<u64>();
+        let parts = parts.into_iter().zip((first..).step_by(BLOCK));
+        let part = |worker: &mut Worker<'_>, (part, begin): (Part<'_>, u64)| {
+            let mut found = T::default();
+            worker.evaluate(sheet, &part, begin, plan, |row| add(&mut found, row));
+            found
+        };
+        // Whose room is left from the stretch before takes it again.
+        let rooms = Mutex::new(std::mem::take(&mut self.spare));
+        let worker = || {
+            let room = rooms.lock().unwrap_or_else(PoisonError::into_inner).pop();
+            Worker {
+                reader: batch.reader(),
+                label: batch.label(),
+                room: room.or_else(|| Some(Room::of(pattern?, plan))),
+            }
+        };
+        let room = |worker: Worker<'_>| worker.room;
+        let (done, rooms) = parallel_map(parts.collect(), plan.threads, worker, part, room);
+        self.spare = rooms.into_iter().flatten().collect();
+        let ended = plan.progress.is_stopped();
+        !ended && done.into_iter().map(take).all(|flow| flow.is_continue())
+    }
 }
 
 /// Whether the budget has faults that are there without any row and with each of the first.
@@ -181,6 +298,8 @@ fn hopeless(
 /// Evaluates rows on one thread.
 struct Worker<'b> {
     reader: RowReader<'b>,
+    /// The column of labels.
+    label: Option<usize>,
     /// Where rows are numbers.
     room: Option<Room>,
 }
@@ -208,11 +327,19 @@ impl Room {
     }
 
     /// Takes rows, and finds what is reported of those that need no more.
-    fn take(&mut self, rows: &[Result<csv::Row<'_>, Fault>]) {
-        let good = rows.iter().map(|row| row.as_ref().ok());
-        self.pattern.take(good, &mut self.numbers);
+    fn take(&mut self, part: &Part<'_>) {
+        let numbers = &mut self.numbers;
+        match part {
+            Part::Lines(rows) => {
+                let good = rows.iter().map(|row| row.as_ref().ok());
+                self.pattern.take(good, numbers);
+            }
+            Part::Columns(columns, rows) => {
+                self.pattern.take_columns(columns, rows.clone(), numbers);
+            }
+        }
         if let Some(block) = &mut self.block {
-            block.evaluate(self.numbers.rows(), rows.len());
+            block.evaluate(self.numbers.rows(), part.len());
         }
     }
 
@@ -235,23 +362,17 @@ impl Worker<'_> {
     fn evaluate(
         &mut self,
         sheet: &Sheet<'_>,
-        (begin, rows): (u64, &[Result<csv::Row<'_>, Fault>]),
+        part: &Part<'_>,
+        begin: u64,
         plan: &Plan,
         mut hand_on: impl FnMut(&Evaluated<'_>),
     ) {
         if let Some(room) = &mut self.room {
-            room.take(rows);
+            room.take(part);
         }
-        for ((lane, row), number) in rows.iter().enumerate().zip(begin + 1..) {
-            let row = match row {
-                Ok(row) => row,
-                Err(fault) => {
-                    let failed = Failed::Row(Box::new(fault.clone()));
-                    hand_on(&Evaluated::at((number, 0, None), Err(&failed)));
-                    continue;
-                }
-            };
-            let place = (number, row.line, self.reader.label(row));
+        for (lane, number) in (0..part.len()).zip(begin + 1..) {
+            let label = part.label(lane, self.label);
+            let place = (number, label.as_deref());
             if let Some(room) = &mut self.room {
                 if let Some(figures) = room.figures(lane) {
                     let found = (room.pattern.budget(), Found::Figures(figures));
@@ -264,7 +385,10 @@ impl Worker<'_> {
                     continue;
                 }
             }
-            let read = self.read(row, sheet, plan);
+            let read = match part.row(lane) {
+                Ok(row) => self.read(&row, sheet, plan),
+                Err(fault) => Err(Failed::Row(Box::new(fault.clone()))),
+            };
             let found = read.as_ref();
             let found = found.map(|(budget, found)| (budget, Found::Evaluation(found)));
             hand_on(&Evaluated::at(place, found));

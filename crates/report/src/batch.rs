@@ -1,6 +1,6 @@
-//! The results of a batch as lines of a table, row by row.
+//! The results of a batch, row by row, as lines of a table or as columns.
 
-use super::rows::Cell;
+use super::rows::{Cell, Head};
 use super::{Report, failure, remarks, rows};
 use gumption_core::model::Output;
 use gumption_fault::language::Language;
@@ -24,7 +24,7 @@ pub struct Columns {
 #[derive(Debug, Default)]
 pub struct Lines {
     /// The names of the columns, where a row has told them.
-    heads: Option<Vec<String>>,
+    heads: Option<Vec<Head>>,
     /// The lines of those that have results, the labels of the others.
     text: Vec<u8>,
     lines: Vec<Line>,
@@ -73,19 +73,46 @@ impl Columns {
         });
     }
 
-    /// The names of the columns that rows of this budget have.
-    fn heads(self, budget: &Budget) -> Vec<String> {
+    /// Adds the values of a row: as [`Columns::add`], but for the label of a row that has none.
+    pub fn add_values(self, values: &mut Values, row: &Evaluated<'_>) {
+        let cells = &mut values.cells;
+        let mut rejected = false;
+        let begin = cells.len();
+        let found = match &row.found {
+            Ok((budget, found)) => {
+                values.heads.get_or_insert_with(|| self.heads(budget));
+                rejected = self.cells(budget, found, |cell| {
+                    cells.push(match cell {
+                        Cell::Number(x) => Value::Number(x.unwrap_or(f64::NAN)),
+                        // A seed is at most 2^53.
+                        Cell::Seed(seed) => Value::Number(seed.map_or(f64::NAN, |x| x as f64)),
+                        Cell::Codes(codes) => Value::Text(codes.to_owned()),
+                    });
+                });
+                Ok(cells.len() - begin)
+            }
+            Err(failed) => Err(why(failed, self.language)),
+        };
+        values.rows.push(RowOfValues {
+            label: row.label.map(str::to_owned),
+            found,
+            rejected,
+        });
+    }
+
+    /// The heads of the columns that rows of this budget have.
+    fn heads(self, budget: &Budget) -> Vec<Head> {
         let mut heads = rows::heads(budget);
         if self.shares {
             let share = |output: &Output| {
                 let name = output.name.clone();
                 let inputs = budget.inputs.iter();
-                inputs.map(move |input| format!("share({name}, {})", input.name))
+                inputs.map(move |input| Head::numbers(format!("share({name}, {})", input.name)))
             };
             heads.extend(budget.model.outputs().iter().flat_map(share));
         }
-        heads.extend(self.seeds.then(|| "seed".into()));
-        heads.extend(["findings".into(), "error".into()]);
+        heads.extend(self.seeds.then(|| Head::numbers("seed".into())));
+        heads.extend(["findings", "error"].map(Head::texts));
         heads
     }
 
@@ -202,7 +229,7 @@ fn described(fault: &Fault, language: Language) -> String {
 /// The table of a batch, which grows by lines; nothing of it is kept but what the first line needs.
 #[derive(Debug, Default)]
 pub struct Table {
-    heads: Option<Vec<String>>,
+    heads: Option<Vec<Head>>,
     /// Whether they are written.
     headed: bool,
     /// Rows without a result, as long as no row has told what the columns are.
@@ -240,7 +267,7 @@ impl Table {
         };
         let mut text = Vec::with_capacity(lines.text.len());
         if !self.headed {
-            push_line(&mut text, heads.iter().map(String::as_str));
+            push_line(&mut text, heads.iter().map(|head| head.name.as_str()));
             self.headed = true;
         }
         let waiting = std::mem::take(&mut self.waiting);
@@ -257,9 +284,7 @@ impl Table {
                         continue;
                     }
                     // A vector of another length, or an assessment more.
-                    Ok(cells) => {
-                        format!("{cells} figures where the first row has {}", heads.len())
-                    }
+                    Ok(cells) => of_another_length(cells, heads),
                     Err(why) => why,
                 };
                 self.count.failed += 1;
@@ -277,10 +302,157 @@ impl Table {
         if self.headed {
             return (Vec::new(), self.count);
         }
-        let nothing = Lines {
-            heads: Some(vec!["label".into(), "error".into()]),
+        let head = Lines {
+            heads: Some(nothing()),
             ..Lines::default()
         };
-        (self.add(nothing), self.count)
+        (self.add(head), self.count)
+    }
+}
+
+/// The heads of a table in which no row has a result.
+fn nothing() -> Vec<Head> {
+    ["label", "error"].map(Head::texts).to_vec()
+}
+
+fn of_another_length(cells: usize, heads: &[Head]) -> String {
+    format!("{cells} figures where the first row has {}", heads.len())
+}
+
+/// Values of some rows, made by whoever evaluated them.
+#[derive(Debug, Default)]
+pub struct Values {
+    /// As of [`Lines`].
+    heads: Option<Vec<Head>>,
+    /// The cells behind the labels of those that have results.
+    cells: Vec<Value>,
+    rows: Vec<RowOfValues>,
+}
+
+#[derive(Debug)]
+struct RowOfValues {
+    label: Option<String>,
+    /// How many cells it has; or why there are none.
+    found: Result<usize, String>,
+    rejected: bool,
+}
+
+#[derive(Debug)]
+enum Value {
+    Number(f64),
+    Text(String),
+}
+
+/// A column of results.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ResultColumn {
+    /// Numbers; none where one is not a number.
+    Numbers(Vec<f64>),
+    /// Texts; nothing where all of them are empty.
+    Texts(Option<Vec<String>>),
+}
+
+/// The results of a batch as columns, which grow by rows.
+#[derive(Debug, Default)]
+pub struct Results {
+    heads: Option<Vec<Head>>,
+    columns: Vec<ResultColumn>,
+    waiting: Vec<Values>,
+    count: Count,
+}
+
+impl Results {
+    /// Nothing is in them yet. Columns are as of [`Table::of`].
+    pub fn of(columns: Columns, file: &BatchFile<'_>) -> Results {
+        Results {
+            heads: file.alone().map(|budget| columns.heads(&budget)),
+            ..Results::default()
+        }
+    }
+
+    /// Adds rows.
+    pub fn add(&mut self, mut values: Values) {
+        self.heads = self.heads.take().or(values.heads.take());
+        self.waiting.push(values);
+        let Some(heads) = &self.heads else { return };
+        if self.columns.is_empty() {
+            let empty = |head: &Head| match head.numbers {
+                true => ResultColumn::Numbers(Vec::new()),
+                false => ResultColumn::Texts(None),
+            };
+            self.columns = heads.iter().map(empty).collect();
+        }
+        for values in std::mem::take(&mut self.waiting) {
+            let mut cells = values.cells.into_iter();
+            for row in values.rows {
+                let at = self.count.rows as usize;
+                self.count.rows += 1;
+                self.count.rejected += u64::from(row.rejected);
+                let why = match row.found {
+                    Ok(count) if count + 1 == heads.len() => {
+                        for (column, cell) in self.columns[1..].iter_mut().zip(cells.by_ref()) {
+                            column.set(at, cell);
+                        }
+                        None
+                    }
+                    Ok(count) => {
+                        cells.by_ref().take(count).for_each(drop);
+                        Some(of_another_length(count + 1, heads))
+                    }
+                    Err(why) => Some(why),
+                };
+                if let [labels, .., errors] = self.columns.as_mut_slice() {
+                    labels.set(at, Value::Text(row.label.unwrap_or_default()));
+                    if let Some(why) = why {
+                        self.count.failed += 1;
+                        errors.set(at, Value::Text(why));
+                    }
+                }
+            }
+        }
+    }
+
+    /// The columns with their heads, and how the rows have ended.
+    pub fn end(mut self) -> (Vec<(String, ResultColumn)>, Count) {
+        if self.heads.is_none() {
+            self.add(Values {
+                heads: Some(nothing()),
+                ..Values::default()
+            });
+        }
+        let rows = self.count.rows as usize;
+        self.columns.iter_mut().for_each(|column| column.fill(rows));
+        let heads = self.heads.unwrap_or_default().into_iter();
+        let names = heads.map(|head| head.name);
+        (names.zip(self.columns).collect(), self.count)
+    }
+}
+
+impl ResultColumn {
+    /// Makes it so long.
+    fn fill(&mut self, rows: usize) {
+        match self {
+            ResultColumn::Numbers(numbers) => numbers.resize(rows, f64::NAN),
+            ResultColumn::Texts(Some(texts)) => texts.resize(rows, String::new()),
+            ResultColumn::Texts(None) => {}
+        }
+    }
+
+    /// Sets the cell of a row behind those that are there.
+    fn set(&mut self, row: usize, value: Value) {
+        match (self, value) {
+            (column @ ResultColumn::Numbers(_), Value::Number(x)) => {
+                column.fill(row);
+                if let ResultColumn::Numbers(numbers) = column {
+                    numbers.push(x);
+                }
+            }
+            (ResultColumn::Texts(texts), Value::Text(text)) if !text.is_empty() => {
+                let texts = texts.get_or_insert_default();
+                texts.resize(row, String::new());
+                texts.push(text);
+            }
+            _ => {}
+        }
     }
 }

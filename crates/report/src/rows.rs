@@ -16,7 +16,8 @@ use gumption_gum::propagate::Figures;
 pub fn rows(rows: &[Report<'_>]) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     if let Some(first) = rows.first() {
-        writer.write_record(heads(first.budget))?;
+        let heads = heads(first.budget).into_iter().map(|head| head.name);
+        writer.write_record(heads)?;
     }
     for row in rows {
         let mut record = csv::ByteRecord::from(vec![row.label.unwrap_or_default()]);
@@ -33,25 +34,49 @@ pub fn rows(rows: &[Report<'_>]) -> Result<Vec<u8>, csv::Error> {
         .map_err(|error| error.into_error().into())
 }
 
-pub(super) fn heads(budget: &Budget) -> Vec<String> {
+/// The head of a column.
+#[derive(Debug, Clone)]
+pub(super) struct Head {
+    pub name: String,
+    /// Whether there are numbers below it, and not texts.
+    pub numbers: bool,
+}
+
+impl Head {
+    pub fn numbers(name: String) -> Head {
+        Head {
+            name,
+            numbers: true,
+        }
+    }
+
+    pub fn texts(name: impl Into<String>) -> Head {
+        Head {
+            name: name.into(),
+            numbers: false,
+        }
+    }
+}
+
+pub(super) fn heads(budget: &Budget) -> Vec<Head> {
     let in_unit = |head: String, unit: &Unit| match unit.is_one() {
-        true => head,
-        false => format!("{head} [{}]", unit.symbol),
+        true => Head::numbers(head),
+        false => Head::numbers(format!("{head} [{}]", unit.symbol)),
     };
-    let mut heads = vec!["label".to_string()];
+    let mut heads = vec![Head::texts("label")];
     for Output { name, unit, .. } in budget.model.outputs() {
         let deviation = unit.difference();
         heads.push(in_unit(name.clone(), unit));
         heads.push(in_unit(format!("u({name})"), &deviation));
-        heads.push(format!("nu({name})"));
-        heads.push(format!("k({name})"));
+        heads.push(Head::numbers(format!("nu({name})")));
+        heads.push(Head::numbers(format!("k({name})")));
         heads.push(in_unit(format!("U({name})"), &deviation));
         heads.push(in_unit(format!("lower({name})"), unit));
         heads.push(in_unit(format!("upper({name})"), unit));
     }
     for assessment in &budget.conformity {
-        heads.push(format!("verdict({})", assessment.name));
-        heads.push(format!("p_c({})", assessment.name));
+        heads.push(Head::texts(format!("verdict({})", assessment.name)));
+        heads.push(Head::numbers(format!("p_c({})", assessment.name)));
     }
     heads
 }

@@ -1,6 +1,7 @@
 //! The text of a CSV file as rows of fields, with the place of every field. This is the crate's plain
 //! reading of CSV: it knows columns by their number and nothing of what they mean.
 
+use std::borrow::Cow;
 use std::io::Cursor;
 use std::ops::Range;
 
@@ -39,7 +40,7 @@ pub struct Row<'a> {
 enum Fields<'a> {
     /// A line without quotes, and what separates them in it.
     Line(&'a str, u8),
-    /// Of a row with quotes.
+    /// Of a row with quotes, or of no text at all.
     Quoted(StringRecord),
 }
 
@@ -218,6 +219,16 @@ impl<'a> Sheet<'a> {
 }
 
 impl Row<'_> {
+    /// Of fields that are at hand.
+    pub(super) fn of(fields: &[Cow<'_, str>], line: usize) -> Row<'static> {
+        Row {
+            fields: Fields::Quoted(fields.iter().collect()),
+            len: fields.len(),
+            start: 0,
+            line,
+        }
+    }
+
     /// Number of fields.
     pub fn len(&self) -> usize {
         self.len
@@ -235,12 +246,30 @@ impl Row<'_> {
 
     /// All fields.
     pub fn fields(&self) -> impl Iterator<Item = &str> {
-        let (line, quoted) = match &self.fields {
-            Fields::Line(line, separator) => (Some(line.split(char::from(*separator))), None),
+        let (mut line, quoted) = match &self.fields {
+            Fields::Line(line, separator) => (Some((*line, *separator)), None),
             Fields::Quoted(fields) => (None, Some(fields)),
         };
-        let line = line.into_iter().flatten().map(str::trim);
-        line.chain(quoted.into_iter().flatten())
+        let mut quoted = quoted.into_iter().flatten();
+        std::iter::from_fn(move || {
+            let Some((rest, separator)) = line else {
+                return quoted.next();
+            };
+            // Fields are too short for a search by words to pay.
+            let end = rest.bytes().position(|byte| byte == separator);
+            line = end.map(|end| (&rest[end + 1..], separator));
+            Some(trimmed(&rest[..end.unwrap_or(rest.len())]))
+        })
+    }
+}
+
+/// Without white space around it, which most fields do not have.
+#[inline]
+fn trimmed(field: &str) -> &str {
+    let bare = |byte: Option<&u8>| byte.is_none_or(|byte| (b'!'..=b'~').contains(byte));
+    match bare(field.as_bytes().first()) && bare(field.as_bytes().last()) {
+        true => field,
+        false => field.trim(),
     }
 }
 

@@ -161,6 +161,12 @@ impl Batch<'_> {
         Some(Some(pattern).filter(|pattern| pattern.gives(&read.budget, row)))
     }
 
+    /// The column of labels, where there is one.
+    pub(crate) fn label(&self) -> Option<usize> {
+        let is_label = |target: &Option<Column>| matches!(target, Some(Column::Label));
+        self.targets.iter().position(is_label)
+    }
+
     /// Whether all cells of a row but its label are numbers, and none is zero.
     fn numbers(&self, row: &csv::Row<'_>) -> bool {
         let is_number = |(target, field): (&Option<Column>, &str)| {
@@ -173,13 +179,6 @@ impl Batch<'_> {
 }
 
 impl RowReader<'_> {
-    /// The label of a row as the table writes it, where it has such a column: 007 is no number.
-    pub fn label<'r>(&self, row: &'r csv::Row<'_>) -> Option<&'r str> {
-        let is_label = |target: &Option<Column>| matches!(target, Some(Column::Label));
-        let at = self.batch.targets.iter().position(is_label)?;
-        Some(row.field(at)).filter(|field| !field.is_empty())
-    }
-
     /// The budget with the values of a row, read from the file.
     ///
     /// # Errors

@@ -8,16 +8,18 @@
 //!
 //! Rows are taken 256 at a time, as columns of numbers.
 
+use std::ops::Range;
+
 use super::Budget;
 use super::check::Plain;
 use super::components::{Component, Owner};
-use super::points::plain_number;
+use super::points::{is_settled, plain_number};
 use super::rows::Rows;
 use super::series::Column;
 use super::tables::{ComponentTable, FileTable, InputTable};
 use gumption_core::distribution::Distribution;
 use gumption_core::quantity::{Conversion, Unit, UnitTable};
-use gumption_format::csv::Row;
+use gumption_format::csv::{Cells, Columns, Row};
 use gumption_format::toml::{Amount, Stated};
 use gumption_lanes::{Block, LANES};
 
@@ -183,6 +185,33 @@ impl Pattern {
             count += 1;
         }
         self.restate(count, numbers);
+    }
+
+    /// Takes rows of a table in memory, from this one on.
+    pub fn take_columns(&self, table: &Columns<'_>, rows: Range<usize>, numbers: &mut Numbers) {
+        let taken = &mut numbers.taken[..rows.len()];
+        taken.fill(true);
+        let columns = numbers.cells.iter_mut().zip(&self.numeric).enumerate();
+        for (at, (cells, _)) in columns.filter(|(_, (_, numeric))| **numeric) {
+            match table.cells(at) {
+                Cells::Numbers(all) => {
+                    let all = &all[rows.clone()];
+                    cells.0[..all.len()].copy_from_slice(all);
+                    for (taken, number) in taken.iter_mut().zip(all) {
+                        *taken &= is_settled(*number);
+                    }
+                }
+                Cells::Texts(all) => {
+                    let all = all[rows.clone()].iter().zip(&mut cells.0);
+                    for ((text, cell), taken) in all.zip(taken.iter_mut()) {
+                        let number = plain_number(text.trim());
+                        *taken &= number.is_some();
+                        *cell = number.unwrap_or(f64::NAN);
+                    }
+                }
+            }
+        }
+        self.restate(rows.len(), numbers);
     }
 
     /// What the cells make of the budget.

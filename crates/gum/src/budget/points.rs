@@ -211,8 +211,12 @@ pub(super) fn plain_number(field: &str) -> Option<f64> {
         return None;
     }
     let number = decimal.exact().or_else(|| field.parse().ok())?;
-    let settled = number.is_finite() && (number != 0.0 || number.is_sign_positive());
-    settled.then_some(number)
+    Some(number).filter(|number| is_settled(*number))
+}
+
+/// Whether there is no doubt what a number puts into a budget.
+pub(super) fn is_settled(number: f64) -> bool {
+    number.is_finite() && (number != 0.0 || number.is_sign_positive())
 }
 
 /// Whether TOML is sure to read a text as the decimal number that it is.

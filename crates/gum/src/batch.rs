@@ -139,8 +139,7 @@ pub fn run_columns<T: Default + Send>(
     mut take: impl FnMut(T, u64) -> ControlFlow<()>,
 ) -> Result<(), Rejection> {
     let head = columns.head();
-    let sheet =
-        Sheet::new(&head).map_err(|fault| Rejection::new(table, &head, vec![*fault]))?;
+    let sheet = Sheet::new(&head).map_err(|fault| Rejection::new(table, &head, vec![*fault]))?;
     let batch = file.batch(&sheet, table)?;
     let mut run = Run::new(&batch, plan);
     for begin in (0..columns.rows()).step_by(STRETCH) {
@@ -153,7 +152,9 @@ pub fn run_columns<T: Default + Send>(
         let parts = rows.clone().step_by(BLOCK);
         let part = |begin| Part::Columns(columns, begin..rows.end.min(begin + BLOCK));
         let done = rows.end as u64;
-        if !run.evaluate(&sheet, parts.map(part).collect(), &add, |part| take(part, done)) {
+        if !run.evaluate(&sheet, parts.map(part).collect(), &add, |part| {
+            take(part, done)
+        }) {
             break;
         }
     }
@@ -350,8 +351,8 @@ impl Room {
 
     /// Evaluates a row by itself; why it has no value is told by the reader of the file.
     fn evaluation(&mut self, lane: usize, plan: &Plan) -> Option<(&Budget, Evaluation)> {
-        let taken = self.numbers.takes(lane)
-            && self.pattern.write(lane, &self.numbers, &mut self.budget);
+        let taken =
+            self.numbers.takes(lane) && self.pattern.write(lane, &self.numbers, &mut self.budget);
         let found = taken.then(|| result(&self.budget, plan).ok()).flatten()?;
         Some((&self.budget, found))
     }

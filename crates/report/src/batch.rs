@@ -14,6 +14,8 @@ use gumption_gum::propagate::Verdict;
 pub struct Columns {
     /// The share of each input in u²(y).
     pub shares: bool,
+    /// c·u of each component: products of those that rows share are their covariance.
+    pub contributions: bool,
     /// The seeds of the trials.
     pub seeds: bool,
     /// The language in which errors are told.
@@ -41,8 +43,8 @@ struct Line {
 }
 
 impl Columns {
-    /// Adds the line of a row: label or number, then as [`super::rows`], the shares, the seed of the trials, the findings,
-    /// and the error of a row that has no result.
+    /// Adds the line of a row: label or number, then as [`super::rows`], the shares, the contributions, the seed of the trials,
+    /// the findings, and the error of a row that has no result.
     pub fn add(self, lines: &mut Lines, row: &Evaluated<'_>) {
         let text = &mut lines.text;
         match row.label {
@@ -111,6 +113,17 @@ impl Columns {
             };
             heads.extend(budget.model.outputs().iter().flat_map(share));
         }
+        if self.contributions {
+            let contribution = |output: &Output| {
+                let (name, unit) = (output.name.clone(), output.unit.difference());
+                let components = budget.components.iter();
+                components.map(move |one| {
+                    let head = format!("contribution({name}, {})", one.name);
+                    Head::numbers(rows::in_unit(head, &unit))
+                })
+            };
+            heads.extend(budget.model.outputs().iter().flat_map(contribution));
+        }
         heads.extend(self.seeds.then(|| Head::numbers("seed".into())));
         heads.extend(["findings", "error"].map(Head::texts));
         heads
@@ -118,7 +131,7 @@ impl Columns {
 
     /// Gives the cells behind the label; tells whether an item does not conform.
     fn cells(self, budget: &Budget, found: &Found<'_>, mut give: impl FnMut(Cell<'_>)) -> bool {
-        let share = |share: f64| Cell::Number(Some(share));
+        let number = |x: f64| Cell::Number(Some(x));
         match found {
             Found::Figures(row) => {
                 let measurands = 0..budget.model.outputs().len();
@@ -127,7 +140,11 @@ impl Columns {
                 }
                 if self.shares {
                     let shares = measurands.clone().flat_map(|one| row.shares(one));
-                    shares.for_each(|one| give(share(one)));
+                    shares.for_each(|one| give(number(one)));
+                }
+                if self.contributions {
+                    let all = measurands.clone().flat_map(|one| row.contributions(one));
+                    all.for_each(|one| give(number(one)));
                 }
                 if self.seeds {
                     give(Cell::Seed(None));
@@ -149,7 +166,12 @@ impl Columns {
                 if self.shares {
                     let lines = evaluation.results.iter();
                     let lines = lines.flat_map(|result| &result.gum.inputs);
-                    lines.for_each(|line| give(share(line.share)));
+                    lines.for_each(|line| give(number(line.share)));
+                }
+                if self.contributions {
+                    let lines = evaluation.results.iter();
+                    let lines = lines.flat_map(|result| &result.gum.components);
+                    lines.for_each(|line| give(number(line.contribution)));
                 }
                 if self.seeds {
                     give(Cell::Seed(evaluation.run.as_ref().map(|run| run.seed)));
@@ -188,10 +210,7 @@ fn push_line<'f>(text: &mut Vec<u8>, fields: impl IntoIterator<Item = &'f str>) 
 }
 
 /// The codes of findings; behind each the measurand that it is about, where there are several.
-fn codes<'c>(
-    budget: &Budget,
-    findings: impl Iterator<Item = (&'c str, Option<usize>)>,
-) -> String {
+fn codes<'c>(budget: &Budget, findings: impl Iterator<Item = (&'c str, Option<usize>)>) -> String {
     let outputs = budget.model.outputs();
     let mut codes = String::new();
     for (code, measurand) in findings {
@@ -414,12 +433,11 @@ impl Results {
 
     /// The columns with their heads, and how the rows have ended.
     pub fn end(mut self) -> (Vec<(String, ResultColumn)>, Count) {
-        if self.heads.is_none() {
-            self.add(Values {
-                heads: Some(nothing()),
-                ..Values::default()
-            });
-        }
+        // A table without rows has columns, too.
+        self.add(Values {
+            heads: Some(nothing()),
+            ..Values::default()
+        });
         let rows = self.count.rows as usize;
         self.columns.iter_mut().for_each(|column| column.fill(rows));
         let heads = self.heads.unwrap_or_default().into_iter();

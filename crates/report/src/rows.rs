@@ -59,10 +59,7 @@ impl Head {
 }
 
 pub(super) fn heads(budget: &Budget) -> Vec<Head> {
-    let in_unit = |head: String, unit: &Unit| match unit.is_one() {
-        true => Head::numbers(head),
-        false => Head::numbers(format!("{head} [{}]", unit.symbol)),
-    };
+    let in_unit = |head: String, unit: &Unit| Head::numbers(in_unit(head, unit));
     let mut heads = vec![Head::texts("label")];
     for Output { name, unit, .. } in budget.model.outputs() {
         let deviation = unit.difference();
@@ -79,6 +76,14 @@ pub(super) fn heads(budget: &Budget) -> Vec<Head> {
         heads.push(Head::numbers(format!("p_c({})", assessment.name)));
     }
     heads
+}
+
+/// A head with its unit.
+pub(super) fn in_unit(head: String, unit: &Unit) -> String {
+    match unit.is_one() {
+        true => head,
+        false => format!("{head} [{}]", unit.symbol),
+    }
 }
 
 /// What stands in a column behind the label.
@@ -156,7 +161,17 @@ mod tests {
             push_number(&mut text, x);
             assert_eq!(String::from_utf8_lossy(&text), format!("{x:?}"));
         };
-        let edges = [0.0, 1e-5, 1e-4, 1e15, 1e16, 123456.0, f64::MIN_POSITIVE, f64::MAX, 5e-324];
+        let edges = [
+            0.0,
+            1e-5,
+            1e-4,
+            1e15,
+            1e16,
+            123456.0,
+            f64::MIN_POSITIVE,
+            f64::MAX,
+            5e-324,
+        ];
         for x in edges.into_iter().chain([f64::INFINITY, f64::NAN]) {
             [x, -x, x * 1.1, x * 0.9].into_iter().for_each(same);
         }

@@ -438,6 +438,46 @@ mod tests {
         assert_eq!(rows("a\n1\n").len(), 1);
     }
 
+    /// Lines without quotes are split here, rows with quotes by the crate `csv`: both as that crate does it alone.
+    #[test]
+    fn rows_are_those_of_the_reader_of_csv() {
+        let fields = [
+            "1",
+            " 2.5 ",
+            "\"a, b\"",
+            "\"two\nlines\"",
+            "5\" pipe",
+            "\u{3000}x",
+            "",
+            "\"\"\"q\"\"\"",
+            "#",
+        ];
+        let ends = ["\n", "\r\n", "\n\n", "\n# \"comment\n", "\r"];
+        let mut text = String::from("a,b,c\n");
+        for row in 0..400 {
+            let field = |k: usize| fields[(row * (k + 1) + row / 7 + k) % fields.len()];
+            // A row that begins with # is none.
+            let first = if field(0).starts_with('#') {
+                "1"
+            } else {
+                field(0)
+            };
+            text += &[first, field(1), field(2)].join(",");
+            text += ends[row % ends.len()];
+        }
+        let mut reader = ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .comment(Some(b'#'))
+            .trim(Trim::All)
+            .from_reader(text.as_bytes());
+        let expected: Vec<StringRecord> = reader.records().map(Result::unwrap).collect();
+        let found: Vec<StringRecord> = Rows::new(&text, b',', 1)
+            .map(|row| row.expect("a row").fields().collect())
+            .collect();
+        assert_eq!(found, expected);
+    }
+
     #[test]
     fn places_of_fields() {
         let text = "a,b,c\n1,\"x, \"\"y\"\"\nz\", 3 \n4,5,6";

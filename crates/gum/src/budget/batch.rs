@@ -152,7 +152,9 @@ impl Batch<'_> {
         // A row with more than numbers tells nothing of the others.
         let numbers = rows.filter(|row| self.numbers(row));
         let mut numbers = numbers.take(FEW);
-        let first = numbers.by_ref().find_map(|row| reader.pattern(row, sheet))?;
+        let first = numbers
+            .by_ref()
+            .find_map(|row| reader.pattern(row, sheet))?;
         let Some(pattern) = first else {
             return Some(None);
         };
@@ -175,7 +177,6 @@ impl Batch<'_> {
         };
         self.targets.iter().zip(row.fields()).all(is_number)
     }
-
 }
 
 impl RowReader<'_> {

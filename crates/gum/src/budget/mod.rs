@@ -38,7 +38,6 @@ pub mod variants;
 
 pub use analysis::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
 pub use batch::{Batch, BatchFile, RowReader};
-pub(crate) use pattern::{Numbers, Pattern};
 pub use checked::{Budget, Constant, Heading, Loaded, Measurand, Row};
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
 pub use components::{Certificate, Component, Evaluation, Group, Input, Law, Owner, Term};
@@ -54,6 +53,7 @@ pub use fit::{
     Fit, FitColumn, FitDoubt, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict,
 };
 pub use gumption_format::toml::KeyRow;
+pub(crate) use pattern::{Numbers, Pattern};
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{keys, load, load_from, load_under, read, schema, template};
 pub use remark::Remark;

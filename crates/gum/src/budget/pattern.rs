@@ -162,11 +162,7 @@ impl Pattern {
     }
 
     /// Takes rows, those of which every cell is a number for which the reader of the file is not needed.
-    pub fn take<'r>(
-        &self,
-        rows: impl Iterator<Item = Option<&'r Row<'r>>>,
-        numbers: &mut Numbers,
-    ) {
+    pub fn take<'r>(&self, rows: impl Iterator<Item = Option<&'r Row<'r>>>, numbers: &mut Numbers) {
         let mut count = 0;
         for row in rows {
             numbers.taken[count] = row.is_some_and(|row| {
@@ -465,7 +461,10 @@ step = 0.1
                     let of = |one: &super::Component| (one.u, one.dof, one.distribution.clone());
                     budget.components.iter().map(of).collect::<Vec<_>>()
                 };
-                assert_eq!(format!("{:?}", written.inputs), format!("{:?}", read.inputs));
+                assert_eq!(
+                    format!("{:?}", written.inputs),
+                    format!("{:?}", read.inputs)
+                );
                 assert_eq!(numbers_of(&written), numbers_of(&read));
                 let rows = numbers.rows();
                 for (at, one) in read.components.iter().enumerate() {

@@ -294,7 +294,9 @@ fn digits(text: &[u8], before: u64) -> Option<(u64, &[u8])> {
     let mut number = before;
     let mut rest = text;
     while let [digit @ b'0'..=b'9', more @ ..] = rest {
-        number = number.wrapping_mul(10).wrapping_add(u64::from(digit - b'0'));
+        number = number
+            .wrapping_mul(10)
+            .wrapping_add(u64::from(digit - b'0'));
         rest = more;
     }
     (rest.len() < text.len()).then_some((number, rest))
@@ -307,17 +309,56 @@ mod tests {
     #[test]
     fn plain_numbers_are_read_as_by_the_standard_library() {
         let plain = [
-            "0", "1", "-1.5", "0.1", "123456789012345", "1.7976931348623157e308", "4.9e-324", "1e22", "1e23", "1e-22",
-            "9007199254740993.0", "9007199254740992.0", "12345678901234567890.5", "0.30000000000000004", "1E+5", "6.02e0023",
-            "123456789012345678901234567890.0", "0.000000000000000000000000000001", "1e-400",
+            "0",
+            "1",
+            "-1.5",
+            "0.1",
+            "123456789012345",
+            "1.7976931348623157e308",
+            "4.9e-324",
+            "1e22",
+            "1e23",
+            "1e-22",
+            "9007199254740993.0",
+            "9007199254740992.0",
+            "12345678901234567890.5",
+            "0.30000000000000004",
+            "1E+5",
+            "6.02e0023",
+            "123456789012345678901234567890.0",
+            "0.000000000000000000000000000001",
+            "1e-400",
         ];
         for text in plain {
             let expected: f64 = text.parse().expect("a number");
-            assert_eq!(plain_number(text).map(f64::to_bits), Some(expected.to_bits()), "{text}");
+            assert_eq!(
+                plain_number(text).map(f64::to_bits),
+                Some(expected.to_bits()),
+                "{text}"
+            );
         }
         let others = [
-            "", "-", "-0", "-0.0", "+1", ".5", "5.", "01", "1e", "1e+", "1_000", "1,5", " 1", "1.5e3x", "inf", "nan", "0x1",
-            "1234567890123456", "1e400", "1e99999999999999999999", "1.5.2",
+            "",
+            "-",
+            "-0",
+            "-0.0",
+            "+1",
+            ".5",
+            "5.",
+            "01",
+            "1e",
+            "1e+",
+            "1_000",
+            "1,5",
+            " 1",
+            "1.5e3x",
+            "inf",
+            "nan",
+            "0x1",
+            "1234567890123456",
+            "1e400",
+            "1e99999999999999999999",
+            "1.5.2",
         ];
         for text in others {
             assert_eq!(plain_number(text), None, "{text}");

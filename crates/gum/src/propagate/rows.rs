@@ -443,6 +443,16 @@ impl RowFigures<'_> {
         findings::few_degrees(self.of.measurands[measurand].dof.0[self.lane])
     }
 
+    /// c·u of each component, with sign.
+    pub fn contributions(&self, measurand: usize) -> Vec<f64> {
+        let mut contributions = vec![0.0; self.rows.u.len()];
+        let weights = &self.of.measurands[measurand].weights;
+        for (entry, weight) in self.of.entries.iter().zip(weights) {
+            contributions[entry.component] = weight.0[self.lane];
+        }
+        contributions
+    }
+
     /// The share of each input in u²(y), as [`Linear::input_lines`](super::gum::Linear::input_lines).
     pub fn shares(&self, measurand: usize) -> Vec<f64> {
         let (of, lane) = (&self.of.measurands[measurand], self.lane);
@@ -594,6 +604,9 @@ mod tests {
                     let shares: Vec<f64> =
                         result.gum.inputs.iter().map(|line| line.share).collect();
                     assert_eq!(found.shares(0), shares, "{place}");
+                    let components = result.gum.components.iter();
+                    let contributions: Vec<f64> = components.map(|one| one.contribution).collect();
+                    assert_eq!(found.contributions(0), contributions, "{place}");
                 }
             }
             // Else the bounds are worth nothing.

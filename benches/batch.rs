@@ -110,7 +110,9 @@ fn table() -> (Vec<String>, Vec<Vec<f64>>) {
         let x = low + (high - low) * state as f64 / 2_147_483_647.0;
         (x * 1e6).round() / 1e6
     };
-    let heads = NAMES.iter().flat_map(|name| [(*name).into(), format!("{name}.u")]);
+    let heads = NAMES
+        .iter()
+        .flat_map(|name| [(*name).into(), format!("{name}.u")]);
     let heads: Vec<String> = heads.collect();
     let column = |at: usize| match at % 2 {
         0 => (0..ROWS).map(|_| between(1.0, 10.0)).collect(),

@@ -146,7 +146,7 @@ pub fn run_columns<T: Default + Send>(
         let rows = begin..columns.rows().min(begin + STRETCH);
         if run.is_to_learn() {
             let few = rows.clone().take(BLOCK);
-            let few: Vec<_> = few.map(|row| Ok(columns.row(row))).collect();
+            let few: Vec<_> = few.map(|row| columns.row(row)).map(Ok).collect();
             run.learn(&sheet, &few)?;
         }
         let parts = rows.clone().step_by(BLOCK);

@@ -89,9 +89,15 @@ def _nanoarrow() -> Any:
 def _columns(rows: Any) -> list[tuple[str, Any]]:
     """The columns of a record batch or a table, as the engine takes them."""
     nanoarrow = _nanoarrow()
+    array = nanoarrow.Array(rows)
     missing = nanoarrow.nulls_as_sentinel()
-    names, columns = nanoarrow.Array(rows).to_columns_pysequence(handle_nulls=missing)
-    return [(name, cells(column)) for name, column in zip(names, columns)]
+
+    def column(field: Any, child: Any) -> Any:
+        doubles = field.type == nanoarrow.Type.DOUBLE
+        return child.to_pysequence(handle_nulls=missing) if doubles else list(child.iter_py())
+
+    children = zip(array.schema.fields, array.iter_children())
+    return [(field.name, cells(column(field, child))) for field, child in children]
 
 
 def _record_batch(found: dict[str, Any], length: int) -> RecordBatch:

@@ -113,8 +113,12 @@ impl Cell<'_> {
 /// Adds a number as `{:?}` has it: the shortest decimal that is read as the same double.
 fn push_number(text: &mut Vec<u8>, x: f64) {
     let size = x.abs();
-    // In these both write it alike: without an exponent, or with a negative one.
-    match size < 1e-5 || (1e-4..1e16).contains(&size) {
+    // Elsewhere they write exponents otherwise.
+    let alike = size < 1e-5 || (1e-4..1e16).contains(&size);
+    // Of two shortest decimals that are equally near each takes another. A double is half-way between decimals of d digits behind
+    // the point only if it is a multiple of 2^-(d + 1), and needs so many digits only if d is less than 26.
+    let between = (x * 67_108_864.0).fract() == 0.0 && x != 0.0;
+    match alike && !between {
         true => text.extend_from_slice(zmij::Buffer::new().format_finite(x).as_bytes()),
         // Writing to memory does not fail.
         false => drop(write!(text, "{x:?}")),

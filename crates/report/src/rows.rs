@@ -179,6 +179,11 @@ mod tests {
         for x in edges.into_iter().chain([f64::INFINITY, f64::NAN]) {
             [x, -x, x * 1.1, x * 0.9].into_iter().for_each(same);
         }
+        // Half-way between two decimals.
+        for k in 0..5000 {
+            same(f64::from(2 * k + 1) / 131_072.0 + 1.0);
+            same(f64::from(2 * k + 1) / 33_554_432.0);
+        }
         // SplitMix64: all doubles, and such as results are.
         let mut state = 1u64;
         for _ in 0..200_000 {

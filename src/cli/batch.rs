@@ -43,6 +43,10 @@ pub(super) struct Args {
     /// Give the share of each input in u²(y), too
     #[arg(long)]
     shares: bool,
+    /// Give c·u of each component, with sign, too: summed over the components that rows share, products of them are the
+    /// covariance of two rows
+    #[arg(long)]
+    contributions: bool,
     /// Worker threads; results do not depend on it [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -79,6 +83,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     };
     let columns = Columns {
         shares: args.shares,
+        contributions: args.contributions,
         seeds: args.monte_carlo,
         language: args.lang,
     };

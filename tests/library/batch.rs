@@ -6,10 +6,10 @@ use std::path::Path;
 use gumption::Files;
 use gumption::batch::{self, Plan};
 use gumption::budget::{BatchFile, Budget, Trials, Wanted};
-use gumption::csv::Sheet;
+use gumption::csv::{Cells, Sheet};
 use gumption::fault::Rejection;
 use gumption::propagate::{self, MonteCarloChoice, Options, Progress};
-use gumption::report::batch::{Columns, Count, Table};
+use gumption::report::batch::{Columns, Count, ResultColumn, Results, Table};
 use gumption::report::{self, Language, Report};
 
 /// A budget with what a row replaces in place.
@@ -121,6 +121,7 @@ fn run(budget: &str, table: &str, plan: &Plan) -> Result<(String, Count), Reject
     let file = BatchFile::open(Files::Library(&files), Path::new("budget.toml"), None)?;
     let columns = Columns {
         shares: true,
+        contributions: true,
         seeds: plan.monte_carlo.is_some(),
         language: Language::English,
     };
@@ -296,6 +297,137 @@ fn a_long_table_is_the_same_on_any_number_of_threads() {
     }
 }
 
+/// Two devices measured with one reference are two measurands of one budget: products of the contributions of what they
+/// share are their covariance.
+#[test]
+fn contributions_are_a_factor_of_the_covariance_of_rows() {
+    let inputs = "[input.R]\nvalue = 100\nunit = \"ohm\"\ncomponents = [{ name = \"cal\", certificate = { U = 0.4, k = 2 } }, { name = \"drift\", half_width = 0.3 }]\n";
+    let device = |name: &str, x: f64, u: f64| {
+        format!("[input.{name}]\nvalue = {x:?}\nunit = \"V\"\nu = {u:?}\n")
+    };
+    let budget = format!(
+        "[measurand.I]\nmodel = \"V / R\"\nunit = \"mA\"\n{inputs}{}",
+        device("V", 1.0, 0.1)
+    );
+    let rows = [(1.5, 0.002), (2.25, 0.003), (0.75, 0.001)];
+    let lines: String = rows.iter().map(|(x, u)| format!("{x},{u}\n")).collect();
+    let (found, _) = run(&budget, &format!("V,V.u\n{lines}"), &plan(None, 1)).expect("a batch");
+    let found = cells(&found);
+    let factor = |row: usize, component: &str| -> f64 {
+        let head = format!("contribution(I, {component}) [mA]");
+        cell(&found, &found.1[row], &head)
+            .parse()
+            .expect("a number")
+    };
+    let together = rows
+        .iter()
+        .enumerate()
+        .fold(inputs.to_owned(), |text, (at, (x, u))| {
+            let measurand = format!("[measurand.I{at}]\nmodel = \"V{at} / R\"\nunit = \"mA\"\n");
+            text + &measurand + &device(&format!("V{at}"), *x, *u)
+        });
+    let budget: Budget = gumption::budget(&together).expect("a budget");
+    let options = Options {
+        monte_carlo: MonteCarloChoice::Off,
+        ..Options::default()
+    };
+    let joint = propagate::evaluate(&budget, &options)
+        .expect("a value")
+        .joint
+        .expect("three measurands");
+    for a in 0..rows.len() {
+        for b in 0..rows.len() {
+            let shared = ["R.cal", "R.drift"].map(|one| factor(a, one) * factor(b, one));
+            let own = if a == b { factor(a, "V").powi(2) } else { 0.0 };
+            let covariance = shared.iter().sum::<f64>() + own;
+            assert!(
+                (covariance / joint.covariance[(a, b)] - 1.0).abs() < 1e-12,
+                "{a}, {b}"
+            );
+        }
+    }
+}
+
+/// Tables in memory give the results of files, wherever they are cut: rows that are numbers, rows that the file is read with,
+/// faulty ones.
+#[test]
+fn columns_in_memory_give_what_a_file_gives() {
+    let budget = "[measurand.y]\nmodel = \"x / z\"\n[input.x]\nvalue = 1\nu = 0.1\ndof = 7\n[input.z]\nvalue = 2\nhalf_width = 0.1\n";
+    let rows = 40_000;
+    let number = |at: usize, k: usize| ((at * 7919 + k * 104_729) % 9973) as f64 / 1e3 + 0.5;
+    let mut x: Vec<f64> = (0..rows).map(|at| number(at, 0)).collect();
+    let mut u: Vec<f64> = (0..rows).map(|at| number(at, 1) / 97.0).collect();
+    for at in (100..rows).step_by(997) {
+        x[at] = [f64::NAN, f64::INFINITY, 0.0, -0.0][at % 4];
+        u[at + 1] = [-1.0, 0.0, 1e-300, f64::NAN][at % 4];
+    }
+    let widths: Vec<String> = (0..rows)
+        .map(|at| format!("{:?}", number(at, 2) / 100.0))
+        .collect();
+    let labels: Vec<String> = (0..rows).map(|at| format!("No {at}, \"x\"")).collect();
+    let written = |x: f64| {
+        if x.is_nan() {
+            String::new()
+        } else {
+            format!("{x:?}")
+        }
+    };
+    let mut table = String::from("label,x,x.u,z.half_width\n");
+    for at in 0..rows {
+        let label = labels[at].replace('"', "\"\"");
+        table += &format!(
+            "\"{label}\",{},{},{}\n",
+            written(x[at]),
+            written(u[at]),
+            widths[at]
+        );
+    }
+    let (text, count) = run(budget, &table, &plan(None, 2)).expect("a batch");
+    let expected = cells(&text);
+
+    let files = [("budget.toml", budget.as_bytes())];
+    let file = BatchFile::open(Files::Library(&files), Path::new("budget.toml"), None);
+    let file = file.expect("a budget");
+    let columns = gumption::csv::Columns::new(vec![
+        ("label".into(), Cells::Texts(labels)),
+        ("x".into(), Cells::Numbers(&x)),
+        ("x.u".into(), Cells::Numbers(&u)),
+        ("z.half_width".into(), Cells::Texts(widths)),
+    ]);
+    let wanted = Columns {
+        shares: true,
+        contributions: true,
+        seeds: false,
+        language: Language::English,
+    };
+    let mut results = Results::of(wanted, &file);
+    batch::run_columns(
+        &file,
+        (&columns.expect("equal lengths"), "table"),
+        &plan(None, 3),
+        |values, row| wanted.add_values(values, row),
+        |values, _| {
+            results.add(values);
+            ControlFlow::Continue(())
+        },
+    )
+    .expect("a batch");
+    let (found, counted) = results.end();
+    assert_eq!(counted, count);
+    assert!(count.failed > 30 && count.rows == rows as u64, "{count:?}");
+    let heads: Vec<&str> = found.iter().map(|(head, _)| head.as_str()).collect();
+    assert_eq!(heads, expected.0);
+    for (at, (head, column)) in found.iter().enumerate() {
+        for (row, line) in expected.1.iter().enumerate() {
+            let cell = match column {
+                ResultColumn::Numbers(numbers) => written(numbers[row]),
+                ResultColumn::Texts(texts) => texts.as_ref().map_or("", |all| &all[row]).to_owned(),
+            };
+            assert_eq!(cell, line[at], "{head}, row {row}");
+        }
+    }
+}
+
 #[test]
 fn what_no_row_can_mend_is_refused() {
     let budget = "[measurand.y]\nmodel = \"x\"\n[input.x]\nvalue = 1\nu = 0.1\n";
@@ -397,6 +529,7 @@ fn rows_of_a_table_are_as_if_each_were_alone_over_the_library() {
         };
         let columns = Columns {
             shares: true,
+            contributions: true,
             seeds: false,
             language: Language::English,
         };

@@ -4,10 +4,14 @@
 //! reading: not their faults, not the random numbers, and no result depends on how the table is cut, on other rows or on the
 //! number of threads.
 
+use std::borrow::Cow;
 use std::io::Read;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
+use std::sync::{Mutex, PoisonError};
 
-use crate::budget::{Batch, BatchFile, Budget, MonteCarloSettings, RowReader, Rows, Wanted};
+use crate::budget::{
+    Batch, BatchFile, Budget, MonteCarloSettings, Numbers, Pattern, RowReader, Wanted,
+};
 use crate::propagate::{
     self, Evaluation, EvaluationError, MonteCarloChoice, Options, Progress, RowEvaluation,
     RowFigures, parallel_map,
@@ -15,11 +19,14 @@ use crate::propagate::{
 use gumption_fault::say;
 use gumption_fault::{Fault, Rejection};
 use gumption_format::csv::faults::NO_HEADER;
-use gumption_format::csv::{self, Pieces, Sheet};
+use gumption_format::csv::{self, Columns, Pieces, Sheet};
 use gumption_lanes::LANES;
 
 /// Rows that a thread takes at a time: as many as are evaluated together.
 const BLOCK: usize = LANES;
+
+/// Rows of a table in memory after which what was found is taken: some blocks for each thread, and little memory.
+const STRETCH: usize = 64 * BLOCK;
 
 /// How the rows of a table are evaluated.
 #[derive(Debug, Clone)]
@@ -37,12 +44,23 @@ pub struct Plan {
 pub struct Evaluated<'a> {
     /// Its number, the first being 1.
     pub number: u64,
-    /// Its line in the table.
-    pub line: usize,
     /// Its label, where the table has such a column.
     pub label: Option<&'a str>,
     /// Its budget, of which the numbers hold and not the words, and what was found; or why nothing was.
     pub found: Result<(&'a Budget, Found<'a>), &'a Failed>,
+}
+
+impl<'a> Evaluated<'a> {
+    fn at(
+        (number, label): (u64, Option<&'a str>),
+        found: Result<(&'a Budget, Found<'a>), &'a Failed>,
+    ) -> Self {
+        Evaluated {
+            number,
+            label,
+            found,
+        }
+    }
 }
 
 /// What was found of a row.
@@ -51,7 +69,7 @@ pub enum Found<'a> {
     /// Everything.
     Evaluation(&'a Evaluation),
     /// What is reported, where there is no more to be said.
-    Figures(&'a RowFigures),
+    Figures(RowFigures<'a>),
 }
 
 /// Why a row has no result.
@@ -92,30 +110,12 @@ pub fn run<T: Default + Send>(
     let head = Sheet::new(&first.text)
         .map_err(|fault| Rejection::new(table, &first.text, vec![*fault]))?;
     let batch = file.batch(&head, table)?;
-    let mut number = 0;
+    let mut run = Run::new(&batch, plan);
     let mut work = |sheet: &Sheet<'_>, read: u64| {
-        let rows: Vec<Result<csv::Row, Fault>> = sheet.rows().collect();
-        if number == 0 {
-            hopeless(&batch, sheet, &rows)?;
-        }
-        let mut rest = rows.into_iter().peekable();
-        let mut blocks = Vec::new();
-        while rest.peek().is_some() {
-            let rows: Vec<_> = rest.by_ref().take(BLOCK).collect();
-            let begin = number;
-            number += rows.len() as u64;
-            blocks.push((begin, rows));
-        }
-        let block = |worker: &mut Worker<'_>, (begin, rows): (u64, Vec<_>)| {
-            let mut block = T::default();
-            worker.evaluate(sheet, (begin, rows), plan, |row| add(&mut block, row));
-            block
-        };
-        let worker = || Worker::new(&batch);
-        let (done, _) = parallel_map(blocks, plan.threads, worker, block, drop);
-        let mut done = done.into_iter().map(|block| take(block, read));
-        let ended = plan.progress.is_stopped() || done.any(|flow| flow.is_break());
-        Ok::<bool, Rejection>(!ended)
+        let rows: Vec<_> = sheet.rows().collect();
+        run.learn(sheet, &rows)?;
+        let parts = rows.chunks(BLOCK).map(Part::Lines).collect();
+        Ok::<bool, Rejection>(run.evaluate(sheet, parts, &add, |part| take(part, read)))
     };
     let mut more = work(&head, pieces.bytes_read())?;
     while more {
@@ -127,15 +127,158 @@ pub fn run<T: Default + Send>(
     Ok(())
 }
 
+/// As [`run`], of a table in memory; `take` gets the number of rows that were evaluated.
+///
+/// # Errors
+/// As of [`run`].
+pub fn run_columns<T: Default + Send>(
+    file: &BatchFile<'_>,
+    (columns, table): (&Columns<'_>, &str),
+    plan: &Plan,
+    add: impl Fn(&mut T, &Evaluated<'_>) + Sync,
+    mut take: impl FnMut(T, u64) -> ControlFlow<()>,
+) -> Result<(), Rejection> {
+    let head = columns.head();
+    let sheet = Sheet::new(&head).map_err(|fault| Rejection::new(table, &head, vec![*fault]))?;
+    let batch = file.batch(&sheet, table)?;
+    let mut run = Run::new(&batch, plan);
+    for begin in (0..columns.rows()).step_by(STRETCH) {
+        let rows = begin..columns.rows().min(begin + STRETCH);
+        if run.is_to_learn() {
+            let few = rows.clone().take(BLOCK);
+            let few: Vec<_> = few.map(|row| columns.row(row)).map(Ok).collect();
+            run.learn(&sheet, &few)?;
+        }
+        let parts = rows.clone().step_by(BLOCK);
+        let part = |begin| Part::Columns(columns, begin..rows.end.min(begin + BLOCK));
+        let done = rows.end as u64;
+        if !run.evaluate(&sheet, parts.map(part).collect(), &add, |part| {
+            take(part, done)
+        }) {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// Some rows of a table.
+enum Part<'t> {
+    Lines(&'t [Result<csv::Row<'t>, Fault>]),
+    Columns(&'t Columns<'t>, Range<usize>),
+}
+
+impl Part<'_> {
+    fn len(&self) -> usize {
+        match self {
+            Part::Lines(rows) => rows.len(),
+            Part::Columns(_, rows) => rows.len(),
+        }
+    }
+
+    fn row(&self, lane: usize) -> Result<Cow<'_, csv::Row<'_>>, &Fault> {
+        match self {
+            Part::Lines(rows) => rows[lane].as_ref().map(Cow::Borrowed),
+            Part::Columns(columns, rows) => Ok(Cow::Owned(columns.row(rows.start + lane))),
+        }
+    }
+
+    /// The label of a row as the table writes it, where it has such a column: 007 is no number.
+    fn label(&self, lane: usize, column: Option<usize>) -> Option<Cow<'_, str>> {
+        let label = match self {
+            Part::Lines(rows) => Cow::Borrowed(rows[lane].as_ref().ok()?.field(column?)),
+            Part::Columns(columns, rows) => columns.cells(column?).text(rows.start + lane),
+        };
+        Some(label).filter(|label| !label.is_empty())
+    }
+}
+
+/// Rows of a table that are evaluated one stretch after another.
+struct Run<'b> {
+    batch: &'b Batch<'b>,
+    plan: &'b Plan,
+    /// The pattern of rows that are numbers, as soon as it is known whether there is one.
+    known: Option<Option<Pattern>>,
+    /// What threads leave to those of the next stretch.
+    spare: Vec<Room>,
+    /// Rows that were evaluated.
+    number: u64,
+}
+
+impl<'b> Run<'b> {
+    fn new(batch: &'b Batch<'b>, plan: &'b Plan) -> Run<'b> {
+        Run {
+            batch,
+            plan,
+            known: None,
+            spare: Vec::new(),
+            number: 0,
+        }
+    }
+
+    fn is_to_learn(&self) -> bool {
+        self.known.is_none()
+    }
+
+    /// Looks what the rows that follow have in common.
+    fn learn(
+        &mut self,
+        sheet: &Sheet<'_>,
+        rows: &[Result<csv::Row<'_>, Fault>],
+    ) -> Result<(), Rejection> {
+        if self.number == 0 {
+            hopeless(self.batch, sheet, rows)?;
+        }
+        if self.is_to_learn() {
+            self.known = self.batch.pattern(rows.iter().flatten(), sheet);
+        }
+        Ok(())
+    }
+
+    /// Evaluates the parts of a stretch on all threads; tells whether the work goes on.
+    fn evaluate<T: Default + Send>(
+        &mut self,
+        sheet: &Sheet<'_>,
+        parts: Vec<Part<'_>>,
+        add: &(impl Fn(&mut T, &Evaluated<'_>) + Sync),
+        take: impl FnMut(T) -> ControlFlow<()>,
+    ) -> bool {
+        let Run { batch, plan, .. } = *self;
+        let pattern = self.known.as_ref().and_then(Option::as_ref);
+        let first = self.number;
+        self.number += parts.iter().map(|part| part.len() as u64).sum::<u64>();
+        let parts = parts.into_iter().zip((first..).step_by(BLOCK));
+        let part = |worker: &mut Worker<'_>, (part, begin): (Part<'_>, u64)| {
+            let mut found = T::default();
+            worker.evaluate(sheet, &part, begin, plan, |row| add(&mut found, row));
+            found
+        };
+        // Whose room is left from the stretch before takes it again.
+        let rooms = Mutex::new(std::mem::take(&mut self.spare));
+        let worker = || {
+            let room = rooms.lock().unwrap_or_else(PoisonError::into_inner).pop();
+            Worker {
+                reader: batch.reader(),
+                label: batch.label(),
+                room: room.or_else(|| Some(Room::of(pattern?, plan))),
+            }
+        };
+        let room = |worker: Worker<'_>| worker.room;
+        let (done, rooms) = parallel_map(parts.collect(), plan.threads, worker, part, room);
+        self.spare = rooms.into_iter().flatten().collect();
+        let ended = plan.progress.is_stopped();
+        !ended && done.into_iter().map(take).all(|flow| flow.is_continue())
+    }
+}
+
 /// Whether the budget has faults that are there without any row and with each of the first.
 fn hopeless(
     batch: &Batch<'_>,
     sheet: &Sheet<'_>,
-    rows: &[Result<csv::Row, Fault>],
+    rows: &[Result<csv::Row<'_>, Fault>],
 ) -> Result<(), Rejection> {
     /// Rows that are tried.
     const FEW: usize = 16;
-    let mut reader = batch.reader();
+    let reader = batch.reader();
     let Err(mut own) = reader.alone() else {
         return Ok(());
     };
@@ -156,137 +299,114 @@ fn hopeless(
 /// Evaluates rows on one thread.
 struct Worker<'b> {
     reader: RowReader<'b>,
-    /// As soon as rows are numbers: blocks of them, where they can be evaluated so.
-    blocks: Option<Option<(RowEvaluation, Rows)>>,
+    /// The column of labels.
+    label: Option<usize>,
+    /// Where rows are numbers.
+    room: Option<Room>,
 }
 
-impl<'b> Worker<'b> {
-    fn new(batch: &'b Batch<'b>) -> Self {
-        Worker {
-            reader: batch.reader(),
-            blocks: None,
+/// Rows that are numbers, and what evaluates them.
+struct Room {
+    pattern: Pattern,
+    numbers: Numbers,
+    /// All of them at once, where they can be evaluated so.
+    block: Option<RowEvaluation>,
+    /// The budget of one of them.
+    budget: Budget,
+}
+
+impl Room {
+    fn of(pattern: &Pattern, plan: &Plan) -> Room {
+        let alone = plan.monte_carlo.is_some();
+        let block = (!alone).then(|| RowEvaluation::new(pattern.budget()));
+        Room {
+            numbers: pattern.numbers(),
+            block: block.flatten(),
+            budget: pattern.budget().clone(),
+            pattern: pattern.clone(),
         }
     }
 
+    /// Takes rows, and finds what is reported of those that need no more.
+    fn take(&mut self, part: &Part<'_>) {
+        let numbers = &mut self.numbers;
+        match part {
+            Part::Lines(rows) => {
+                let good = rows.iter().map(|row| row.as_ref().ok());
+                self.pattern.take(good, numbers);
+            }
+            Part::Columns(columns, rows) => {
+                self.pattern.take_columns(columns, rows.clone(), numbers);
+            }
+        }
+        if let Some(block) = &mut self.block {
+            block.evaluate(self.numbers.rows(), part.len());
+        }
+    }
+
+    fn figures(&self, lane: usize) -> Option<RowFigures<'_>> {
+        let block = self.block.as_ref().filter(|_| self.numbers.takes(lane))?;
+        block.row(self.numbers.rows(), lane)
+    }
+
+    /// Evaluates a row by itself; why it has no value is told by the reader of the file.
+    fn evaluation(&mut self, lane: usize, plan: &Plan) -> Option<(&Budget, Evaluation)> {
+        let taken =
+            self.numbers.takes(lane) && self.pattern.write(lane, &self.numbers, &mut self.budget);
+        let found = taken.then(|| result(&self.budget, plan).ok()).flatten()?;
+        Some((&self.budget, found))
+    }
+}
+
+impl Worker<'_> {
     /// Evaluates rows of a table, which begin behind so many others, and hands each on, in their order.
     fn evaluate(
         &mut self,
         sheet: &Sheet<'_>,
-        (begin, rows): (u64, Vec<Result<csv::Row, Fault>>),
+        part: &Part<'_>,
+        begin: u64,
         plan: &Plan,
         mut hand_on: impl FnMut(&Evaluated<'_>),
     ) {
-        let mut rest = rows.into_iter().zip(begin + 1..);
-        while !self.is_ready(plan) {
-            let Some((row, number)) = rest.next() else {
-                return;
-            };
-            self.one(sheet, row, number, plan, &mut hand_on);
+        if let Some(room) = &mut self.room {
+            room.take(part);
         }
-        let rest: Vec<_> = rest.collect();
-        let figures = self.figures(sheet, &rest);
-        for ((row, number), figures) in rest.into_iter().zip(figures) {
-            let known = self.blocks.as_ref().and_then(Option::as_ref);
-            let (Ok(row), Some(((evaluation, _), figures))) = (&row, known.zip(figures.as_ref()))
-            else {
-                self.one(sheet, row, number, plan, &mut hand_on);
-                continue;
-            };
-            hand_on(&Evaluated {
-                number,
-                line: row.line,
-                label: self.reader.label(row),
-                found: Ok((evaluation.budget(), Found::Figures(figures))),
-            });
-        }
-    }
-
-    /// Whether it is known how rows are to be evaluated.
-    fn is_ready(&mut self, plan: &Plan) -> bool {
-        if self.blocks.is_none() && self.reader.takes_numbers() {
-            let budget = self.reader.numbers().filter(|_| plan.monte_carlo.is_none());
-            let evaluation = |budget| Some((RowEvaluation::new(budget)?, Rows::of(budget)));
-            self.blocks = Some(budget.and_then(evaluation));
-        }
-        self.blocks.is_some()
-    }
-
-    /// What is reported of those rows of a block that are numbers and need no more.
-    fn figures(
-        &mut self,
-        sheet: &Sheet<'_>,
-        rows: &[(Result<csv::Row, Fault>, u64)],
-    ) -> Vec<Option<RowFigures>> {
-        let Some(Some((evaluation, columns))) = &mut self.blocks else {
-            return vec![None; rows.len()];
-        };
-        let mut taken = Vec::with_capacity(rows.len());
-        for (lane, (row, _)) in rows.iter().enumerate() {
-            let numbers = row.as_ref().is_ok_and(|row| self.reader.takes(row, sheet));
-            if numbers {
-                self.reader.write(lane, columns);
+        for (lane, number) in (0..part.len()).zip(begin + 1..) {
+            let label = part.label(lane, self.label);
+            let place = (number, label.as_deref());
+            if let Some(room) = &mut self.room {
+                if let Some(figures) = room.figures(lane) {
+                    let found = (room.pattern.budget(), Found::Figures(figures));
+                    hand_on(&Evaluated::at(place, Ok(found)));
+                    continue;
+                }
+                if let Some((budget, evaluation)) = room.evaluation(lane, plan) {
+                    let found = (budget, Found::Evaluation(&evaluation));
+                    hand_on(&Evaluated::at(place, Ok(found)));
+                    continue;
+                }
             }
-            taken.push(numbers);
+            let read = match part.row(lane) {
+                Ok(row) => self.read(&row, sheet, plan),
+                Err(fault) => Err(Failed::Row(Box::new(fault.clone()))),
+            };
+            let found = read.as_ref();
+            let found = found.map(|(budget, found)| (budget, Found::Evaluation(found)));
+            hand_on(&Evaluated::at(place, found));
         }
-        let mut found = evaluation.evaluate(columns, rows.len());
-        for (found, taken) in found.iter_mut().zip(taken) {
-            *found = found.take().filter(|_| taken);
-        }
-        found
     }
 
-    /// Evaluates a row by itself and hands it on.
-    fn one(
-        &mut self,
+    /// Evaluates a row with which the file is read.
+    fn read(
+        &self,
+        row: &csv::Row<'_>,
         sheet: &Sheet<'_>,
-        row: Result<csv::Row, Fault>,
-        number: u64,
         plan: &Plan,
-        hand_on: impl FnOnce(&Evaluated<'_>),
-    ) {
-        let row = match row {
-            Ok(row) => row,
-            Err(fault) => {
-                return hand_on(&Evaluated {
-                    number,
-                    line: 0,
-                    label: None,
-                    found: Err(&Failed::Row(Box::new(fault))),
-                });
-            }
-        };
-        let reader = &mut self.reader;
-        let (line, label) = (row.line, reader.label(&row));
-        // Why a row has no value is told by the reader of the file.
-        let taken = reader
-            .takes(&row, sheet)
-            .then(|| reader.numbers())
-            .flatten();
-        let taken = taken.and_then(|budget| Some((budget, result(budget, plan).ok()?)));
-        if let Some((budget, evaluation)) = &taken {
-            return hand_on(&Evaluated {
-                number,
-                line,
-                label,
-                found: Ok((budget, Found::Evaluation(evaluation))),
-            });
-        }
-        let read = reader.row(&row, sheet);
-        let read = read.map_err(|rejection| Failed::Refused(Box::new(rejection)));
-        let found = read.and_then(|row| {
-            let evaluation = result(&row.budget, plan).map_err(Failed::NoResult)?;
-            Ok((row.budget, evaluation))
-        });
-        let found = match &found {
-            Ok((budget, evaluation)) => Ok((budget, Found::Evaluation(evaluation))),
-            Err(failed) => Err(failed),
-        };
-        hand_on(&Evaluated {
-            number,
-            line,
-            label,
-            found,
-        });
+    ) -> Result<(Budget, Evaluation), Failed> {
+        let read = self.reader.row(row, sheet);
+        let read = read.map_err(|rejection| Failed::Refused(Box::new(rejection)))?;
+        let evaluation = result(&read.budget, plan).map_err(Failed::NoResult)?;
+        Ok((read.budget, evaluation))
     }
 }
 

@@ -249,16 +249,29 @@ pub fn decimals(level: Level, x: &Block, out: &mut KnownBlock) -> bool {
                 found[lane] = if whole { 1.0 } else { 0.0 };
             }
             for ten in &TENS[1..] {
-                let mut open = 0;
+                // As wide as the numbers, and without branches: so it is vectorised.
+                let (mut near, mut open) = (0u64, 0u64);
                 for lane in 0..WIDTH {
                     let scaled = x[lane] * ten;
-                    let hit = scaled.round() / ten == x[lane] && scaled.abs() < FIFTEEN_DIGITS;
-                    let unknown = found[lane] == 0.0;
-                    found[lane] = if unknown && hit { *ten } else { found[lane] };
-                    open += u32::from(unknown && !hit && scaled.abs() < FIFTEEN_DIGITS);
+                    let off = (scaled - scaled.round_ties_even()).abs();
+                    let unknown = (found[lane] == 0.0) & (scaled.abs() < FIFTEEN_DIGITS);
+                    near |= u64::from(unknown & (off <= 2.0 * f64::EPSILON * scaled.abs()));
+                    open |= u64::from(unknown);
                 }
                 if open == 0 {
                     break;
+                }
+                // Where the quotient of a number is x, the product is off by no more than two roundings: elsewhere there is
+                // nothing to divide.
+                if near == 0 {
+                    continue;
+                }
+                for lane in 0..WIDTH {
+                    let scaled = x[lane] * ten;
+                    let hit = (scaled.round_ties_even() / ten == x[lane])
+                        & (scaled.abs() < FIFTEEN_DIGITS)
+                        & (found[lane] == 0.0);
+                    found[lane] = if hit { *ten } else { found[lane] };
                 }
             }
         }

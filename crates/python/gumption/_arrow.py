@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
-from ._batch import batch, is_text
-from ._given import Given
+from ._batch import cells, evaluated
+from ._commands import settings
+from ._given import Contents, Given
+from ._result import Language
 
 
 class RecordBatch:
@@ -33,7 +35,21 @@ class RecordBatch:
         return len(self._array)
 
 
-def arrow_batch(budget: Given, rows: Any, **settings: Any) -> RecordBatch:
+def arrow_batch(
+    budget: Given,
+    rows: Any,
+    *,
+    files: Contents | None = None,
+    profile: str | None = None,
+    monte_carlo: bool = False,
+    trials: int | Literal["adaptive"] | None = None,
+    seed: int | None = None,
+    quasi_random: bool = False,
+    shares: bool = False,
+    contributions: bool = False,
+    threads: int = 1,
+    language: Language = "en",
+) -> RecordBatch:
     """Evaluates a budget for every row of a record batch, or of a table, of Arrow; gives a record batch with as many rows in
     the same order.
 
@@ -43,15 +59,23 @@ def arrow_batch(budget: Given, rows: Any, **settings: Any) -> RecordBatch:
     nothing. There is a ``label`` where the rows have one. The columns do not depend on the rows: those of an empty batch are
     the schema.
 
-    ``settings`` are those of ``batch``; ``threads`` is 1 unless stated, as engines have workers of their own. Needs the
-    package ``nanoarrow``.
+    Columns of doubles are taken as they lie in memory. What may be stated is that of ``batch``; ``threads`` is 1 unless stated,
+    as engines have workers of their own. Needs the package ``nanoarrow``.
     """
     columns = _columns(rows)
-    found = batch(budget, columns, **{"threads": 1, **settings})
-    if "label" not in columns:
+    found, count, _ = evaluated(
+        budget,
+        columns,
+        source_files=files,
+        wanted=settings(profile, monte_carlo, trials, seed, quasi_random, False, threads),
+        more=(shares, contributions),
+        language=language,
+    )
+    assert found is not None
+    if all(name != "label" for name, _ in columns):
         # The number of a row in its batch means nothing outside of it.
         del found["label"]
-    return _record_batch(found)
+    return _record_batch(found, count)
 
 
 def _nanoarrow() -> Any:
@@ -62,29 +86,45 @@ def _nanoarrow() -> Any:
     return nanoarrow
 
 
-def _columns(rows: Any) -> dict[str, Any]:
-    """The columns of a record batch or a table by their names, ``None`` where a field is null."""
-    array = _nanoarrow().Array(rows)
-    names = [field.name for field in array.schema.fields]
-    return {name: list(column.iter_py()) for name, column in zip(names, array.iter_children())}
+def _columns(rows: Any) -> list[tuple[str, Any]]:
+    """The columns of a record batch or a table, as the engine takes them."""
+    nanoarrow = _nanoarrow()
+    array = nanoarrow.Array(rows)
+    missing = nanoarrow.nulls_as_sentinel()
+
+    def column(field: Any, child: Any) -> Any:
+        doubles = field.type == nanoarrow.Type.DOUBLE
+        return child.to_pysequence(handle_nulls=missing) if doubles else list(child.iter_py())
+
+    children = zip(array.schema.fields, array.iter_children())
+    return [(field.name, cells(column(field, child))) for field, child in children]
 
 
-def _record_batch(found: dict[str, Any]) -> RecordBatch:
+def _record_batch(found: dict[str, Any], length: int) -> RecordBatch:
     nanoarrow = _nanoarrow()
     fields, arrays = {}, []
-    length = max((len(column) for column in found.values()), default=0)
     for name, column in found.items():
-        if is_text(name):
-            kind = nanoarrow.string()
-            values = [one or None for one in column]
-        elif name == "seed":
-            kind = nanoarrow.int64()
-            values = [None if np.isnan(one) else int(one) for one in column]
-        else:
+        if name == "seed":
+            kind, column = nanoarrow.int64(), [None if np.isnan(one) else int(one) for one in column]
+            array = nanoarrow.c_array(column, kind)
+        elif isinstance(column, np.ndarray):
             kind = nanoarrow.float64()
-            values = [None if np.isnan(one) else float(one) for one in column]
+            array = nanoarrow.c_array_from_buffers(kind, length, [_known(~np.isnan(column)), column])
+        else:
+            kind = nanoarrow.string()
+            if column is None:
+                nothing = np.zeros(length, bool)
+                buffers = [_known(nothing), np.zeros(length + 1, np.int32), b""]
+                array = nanoarrow.c_array_from_buffers(kind, length, buffers)
+            else:
+                array = nanoarrow.c_array([one or None for one in column], kind)
         # SQL does not tell U(y) from u(y).
         fields[f"expanded{name[1:]}" if name.startswith("U(") else name] = kind
-        arrays.append(nanoarrow.c_array(values, kind))
+        arrays.append(array)
     schema = nanoarrow.struct(fields)
     return RecordBatch(nanoarrow.c_array_from_buffers(schema, length, [None], children=arrays))
+
+
+def _known(known: np.ndarray) -> np.ndarray | None:
+    """The bitmap that tells which fields of a column are there; none where all are."""
+    return None if known.all() else np.packbits(known, bitorder="little")

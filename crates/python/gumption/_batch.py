@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -34,6 +32,7 @@ def batch(
     seed: int | None = None,
     quasi_random: bool = False,
     shares: bool = False,
+    contributions: bool = False,
     threads: int | None = None,
     progress: Progress = None,
     language: Language = "en",
@@ -43,7 +42,9 @@ def batch(
     A column is called like an input (``R``, ``R [kohm]``) or like the key that it sets (``R.u``, ``R.readings``,
     ``R.calibration.certificate.U``, ``r(R, V)``); ``label`` names the row. A row is evaluated as the budget would be with
     the row written into it; a faulty row has an ``error`` and stops nothing. With ``monte_carlo`` each row has a seed of its
-    own, which follows from ``seed`` and its values.
+    own, which follows from ``seed`` and its values. ``shares`` and ``contributions`` give the share of each input in u²(y), and
+    c·u of each component, with sign: summed over the components that rows share, products of contributions are the
+    covariance of two rows.
 
     Gives the results as columns: of a frame a frame, else a ``dict`` of arrays and lists. With ``output`` they go into that
     file as they come, however long the table is, and what is given is the number of rows and of those without a result.
@@ -51,16 +52,22 @@ def batch(
 
     Raises ``Refused`` where the budget has faults that no row mends, or a column is no place of it.
     """
-    wanted = settings(profile, monte_carlo, trials, seed, quasi_random, False, threads)
-    given = sheet(table, "table.csv") if isinstance(table, (str, os.PathLike)) else sheet(_written(table), "table.csv")
-    place = None if output is None else (Path(output), replace)
-    with typed():
-        text, rows, failed = _engine.batch_of(
-            source(budget, files), given, place, wanted, shares, progress, language
-        )
-    if text is None:
+    columns, rows, failed = evaluated(
+        budget,
+        sheet(table, "table.csv") if isinstance(table, (str, os.PathLike)) else _given(table),
+        None if output is None else (Path(output), replace),
+        source_files=files,
+        wanted=settings(profile, monte_carlo, trials, seed, quasi_random, False, threads),
+        more=(shares, contributions),
+        progress=progress,
+        language=language,
+    )
+    if columns is None:
         return {"rows": rows, "failed": failed}
-    columns = _columns(text.decode())
+    for name, column in columns.items():
+        if column is None:
+            columns[name] = [""] * rows
+    columns["label"] = [label or str(at) for at, label in enumerate(columns["label"], 1)]
     kind = type(table).__module__.partition(".")[0]
     if kind in ("pandas", "polars") and not isinstance(table, Mapping):
         import importlib
@@ -69,18 +76,39 @@ def batch(
     return columns
 
 
-def _written(table: Any) -> bytes:
-    """A frame or columns as CSV, every number with all of its digits."""
+def evaluated(
+    budget: Given,
+    table: Any,
+    place: tuple[Path, bool] | None = None,
+    *,
+    source_files: Contents | None = None,
+    wanted: dict[str, Any],
+    more: tuple[bool, bool] = (False, False),
+    progress: Progress = None,
+    language: Language = "en",
+) -> tuple[dict[str, Any] | None, int, int]:
+    """The columns of results by their names, ``None`` for one whose texts are all empty, or ``None`` where they go into a
+    file; how many rows there were, and how many of them have no result."""
+    with typed():
+        found, rows, failed = _engine.batch_of(
+            source(budget, source_files), table, place, wanted, more, progress, language
+        )
+    return (None if found is None else dict(found)), rows, failed
+
+
+def _given(table: Any) -> list[tuple[str, Any]]:
+    """A frame or columns by their names, as the engine takes them."""
     names = list(table.keys() if isinstance(table, Mapping) else table.columns)
-    columns = [list(table[name]) for name in names]
-    if len({len(column) for column in columns}) > 1:
-        raise ValueError("the columns have different lengths")
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(names)
-    for row in zip(*columns):
-        writer.writerow([_field(one) for one in row])
-    return text.getvalue().encode()
+    return [(name, cells(table[name])) for name in names]
+
+
+def cells(column: Any) -> Any:
+    """A column as the engine takes it: numbers where it is an array of doubles, else texts, every number with all of its
+    digits."""
+    array = column.to_numpy() if hasattr(column, "to_numpy") else column
+    if isinstance(array, np.ndarray) and array.dtype == np.float64 and array.ndim == 1:
+        return np.ascontiguousarray(array)
+    return [_field(one) for one in column]
 
 
 def _field(value: Any) -> str:
@@ -91,19 +119,3 @@ def _field(value: Any) -> str:
     if isinstance(value, (list, tuple, np.ndarray)) or hasattr(value, "to_list"):
         return "[" + ", ".join(repr(float(one)) for one in value) + "]"
     return str(value)
-
-
-def _columns(text: str) -> dict[str, Any]:
-    """The columns of results: numbers as arrays, NaN where there is none."""
-    names, *rows = csv.reader(io.StringIO(text))
-    columns = {name: [row[at] for row in rows] for at, name in enumerate(names)}
-    return {name: column if is_text(name) else _numbers(column) for name, column in columns.items()}
-
-
-def is_text(name: str) -> bool:
-    """Whether a column of results is no number."""
-    return name in ("label", "findings", "error") or name.startswith("verdict(")
-
-
-def _numbers(column: list[str]) -> np.ndarray:
-    return np.array([float(field) if field else np.nan for field in column])

@@ -1,19 +1,19 @@
 //! A budget for every row of a table.
 
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use gumption_fault::Rejection;
-use gumption_fault::language::Language;
-use gumption_format::csv;
+use gumption_format::csv::{self, Cells};
 use gumption_format::files::write::Replacing;
 use gumption_format::files::{Files, Growing};
-use gumption_gum::batch::{self, Plan};
+use gumption_gum::batch::{self, Evaluated, Plan};
 use gumption_gum::budget::BatchFile;
 use gumption_gum::propagate::Progress;
-use gumption_report::batch::{Columns, Table};
-use pyo3::exceptions::{PyOSError, PyRuntimeError};
+use gumption_report::batch::{Columns, Lines, ResultColumn, Results, Table, Values};
+use numpy::{IntoPyArray, PyReadonlyArray1};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::compute::Settings;
@@ -22,16 +22,17 @@ use crate::refusal::Unmade;
 use crate::source::Source;
 use crate::watch::{Underway, watched};
 
-/// Bytes of the table that were read; the evaluations stop where the work is to end.
+/// How much of the table was read; the evaluations stop where the work is to end.
 struct Reading<'a> {
-    bytes: &'a AtomicU64,
+    /// Bytes, or rows.
+    read: &'a AtomicU64,
     length: f64,
     evaluations: Progress,
 }
 
 impl Underway for Reading<'_> {
     fn done(&self) -> f64 {
-        (self.bytes.load(Ordering::Relaxed) as f64 / self.length).min(1.0)
+        (self.read.load(Ordering::Relaxed) as f64 / self.length).min(1.0)
     }
 
     fn stop(&self) {
@@ -39,108 +40,170 @@ impl Underway for Reading<'_> {
     }
 }
 
-/// Where the table of results goes.
-enum Sink {
-    Memory(Vec<u8>),
-    File(Box<Growing>),
+/// A table: a file, or columns.
+#[derive(FromPyObject)]
+pub(crate) enum Given<'py> {
+    #[pyo3(transparent)]
+    File(Source),
+    #[pyo3(transparent)]
+    Columns(Vec<(String, GivenCells<'py>)>),
 }
 
-impl Sink {
-    fn add(&mut self, bytes: &[u8], language: Language) -> Result<(), String> {
+/// What a column holds.
+#[derive(FromPyObject)]
+pub(crate) enum GivenCells<'py> {
+    #[pyo3(transparent)]
+    Numbers(PyReadonlyArray1<'py, f64>),
+    #[pyo3(transparent)]
+    Texts(Vec<String>),
+}
+
+/// A table that is evaluated without the interpreter.
+enum Rows<'t> {
+    File(&'t Source),
+    Columns(csv::Columns<'t>),
+}
+
+impl<'t> Rows<'t> {
+    fn of(given: &'t Given<'_>) -> PyResult<Rows<'t>> {
+        let columns = match given {
+            Given::File(source) => return Ok(Rows::File(source)),
+            Given::Columns(columns) => columns,
+        };
+        let cells = |(name, cells): &'t (String, GivenCells<'_>)| {
+            let cells = match cells {
+                GivenCells::Numbers(numbers) => Cells::Numbers(numbers.as_slice()?),
+                GivenCells::Texts(texts) => Cells::Texts(texts.clone()),
+            };
+            Ok((name.clone(), cells))
+        };
+        let columns = columns.iter().map(cells).collect::<PyResult<_>>()?;
+        let columns = csv::Columns::new(columns);
+        let columns = columns.map(Rows::Columns);
+        columns.ok_or_else(|| PyValueError::new_err("the columns have different lengths"))
+    }
+
+    /// Bytes of the file, or rows.
+    fn length(&self) -> u64 {
         match self {
-            Sink::Memory(kept) => kept.extend_from_slice(bytes),
-            Sink::File(file) => file.add(bytes).map_err(|why| why.words(language))?,
+            Rows::File(source) => source.with(|files, path| files.length(path)).unwrap_or(1),
+            Rows::Columns(columns) => columns.rows() as u64,
         }
-        Ok(())
+    }
+
+    fn evaluate<T: Default + Send>(
+        &self,
+        file: &BatchFile<'_>,
+        plan: &Plan,
+        add: impl Fn(&mut T, &Evaluated<'_>) + Sync,
+        take: impl FnMut(T, u64) -> ControlFlow<()>,
+    ) -> Result<(), Rejection> {
+        match self {
+            Rows::File(source) => source.with(|files, path| {
+                let name = path.display().to_string();
+                let open = csv::open(files, path, &name)?;
+                batch::run(file, (open, &name), plan, add, take)
+            }),
+            Rows::Columns(columns) => batch::run_columns(file, (columns, "table"), plan, add, take),
+        }
     }
 }
 
-/// Evaluates a budget for every row of a table, a file or a text; gives the table of results, or nothing where it goes into a
-/// file; and how many rows there were, and how many of them have no result.
+/// Columns of results: arrays, or lists of texts; nothing for texts that are all empty.
+type Found = Vec<(String, Option<Py<PyAny>>)>;
+
+/// Evaluates a budget for every row of a table; gives the columns of results, or nothing where these go into a file; and how
+/// many rows there were, and how many of them have no result.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn batch_of(
     py: Python<'_>,
     source: Source,
-    table: Source,
+    table: Given<'_>,
     output: Option<(PathBuf, bool)>,
     settings: Settings,
-    shares: bool,
+    more: (bool, bool),
     progress: Option<Py<PyAny>>,
     language: &str,
-) -> PyResult<(Option<Vec<u8>>, u64, u64)> {
+) -> PyResult<(Option<Found>, u64, u64)> {
     let language = spoken(language)?;
     let profile = settings.profile()?;
-    let bytes = AtomicU64::new(0);
+    let read = AtomicU64::new(0);
     let plan = Plan {
         monte_carlo: settings.monte_carlo().then(|| settings.wanted()),
         threads: settings.threads(),
         progress: Progress::default(),
     };
-    let name = table.path().display().to_string();
-    let length = table.with(|files, path| files.length(path));
+    let rows = Rows::of(&table)?;
     let reading = Reading {
-        bytes: &bytes,
-        length: length.unwrap_or(1).max(1) as f64,
+        read: &read,
+        length: rows.length().max(1) as f64,
         evaluations: plan.progress.clone(),
     };
-    let mut sink = match output {
-        None => Sink::Memory(Vec::new()),
-        Some((path, replace)) => {
-            let replacing = match replace {
-                true => Replacing::Anything,
-                false => Replacing::Own,
-            };
-            let begun = Growing::begin(&path, replacing);
-            Sink::File(Box::new(begun.map_err(|why| unwritten(why, language))?))
-        }
-    };
-    let mut trouble = None;
+    let (shares, contributions) = more;
     let columns = Columns {
         shares,
+        contributions,
         seeds: plan.monte_carlo.is_some(),
         language,
     };
-    let ended = watched(py, progress.as_ref(), &reading, || {
-        source.with(|files, path| {
+    let refused = |rejection: Rejection| Unmade::from(rejection).raised(py, language);
+    let Some((path, replace)) = output else {
+        let work = |files: Files<'_>, path: &Path| {
             let file = BatchFile::open(files, path, profile)?;
-            let mut results = Table::of(columns, &file);
-            table.with(|tables: Files<'_>, path| {
-                let open = csv::open(tables, path, &name)?;
-                batch::run(
-                    &file,
-                    (open, &name),
-                    &plan,
-                    |lines, row| columns.add(lines, row),
-                    |lines, read| {
-                        bytes.store(read, Ordering::Relaxed);
-                        match sink.add(&results.add(lines), language) {
-                            Ok(()) => ControlFlow::Continue(()),
-                            Err(why) => {
-                                trouble = Some(why);
-                                ControlFlow::Break(())
-                            }
-                        }
-                    },
-                )
+            let mut results = Results::of(columns, &file);
+            let add = |values: &mut Values, row: &Evaluated<'_>| columns.add_values(values, row);
+            rows.evaluate(&file, &plan, add, |values, done| {
+                read.store(done, Ordering::Relaxed);
+                results.add(values);
+                ControlFlow::Continue(())
             })?;
             Ok(results)
-        })
-    })?;
-    let results =
-        ended.map_err(|rejection: Rejection| Unmade::from(rejection).raised(py, language))?;
-    if let Some(why) = trouble {
-        return Err(PyOSError::new_err(why));
-    }
-    let failed = |why: String| PyRuntimeError::new_err(why);
-    let (left, count) = results.end();
-    sink.add(&left, language).map_err(failed)?;
-    let kept = match sink {
-        Sink::Memory(kept) => Some(kept),
-        Sink::File(file) => {
-            file.finish().map_err(|why| unwritten(why, language))?;
-            None
-        }
+        };
+        let results = watched(py, progress.as_ref(), &reading, || source.with(work))?;
+        let (found, count) = results.map_err(refused)?.end();
+        let column = |(name, column)| {
+            let column = match column {
+                ResultColumn::Numbers(numbers) => {
+                    Some(numbers.into_pyarray(py).into_any().unbind())
+                }
+                ResultColumn::Texts(None) => None,
+                ResultColumn::Texts(Some(texts)) => Some(texts.into_pyobject(py)?.unbind()),
+            };
+            Ok((name, column))
+        };
+        let found = found.into_iter().map(column).collect::<PyResult<_>>()?;
+        return Ok((Some(found), count.rows, count.failed));
     };
-    Ok((kept, count.rows, count.failed))
+    let replacing = match replace {
+        true => Replacing::Anything,
+        false => Replacing::Own,
+    };
+    let sink = Growing::begin(&path, replacing);
+    let mut sink = sink.map_err(|why| unwritten(why, language))?;
+    let mut trouble = None;
+    let work = |files: Files<'_>, path: &Path| {
+        let file = BatchFile::open(files, path, profile)?;
+        let mut results = Table::of(columns, &file);
+        let add = |lines: &mut Lines, row: &Evaluated<'_>| columns.add(lines, row);
+        rows.evaluate(&file, &plan, add, |lines, done| {
+            read.store(done, Ordering::Relaxed);
+            match sink.add(&results.add(lines)) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(why) => {
+                    trouble = Some(why);
+                    ControlFlow::Break(())
+                }
+            }
+        })?;
+        Ok(results)
+    };
+    let results = watched(py, progress.as_ref(), &reading, || source.with(work))?;
+    let (left, count) = results.map_err(refused)?.end();
+    let written = match trouble {
+        Some(why) => Err(why),
+        None => sink.add(&left).and_then(|()| sink.finish()),
+    };
+    written.map_err(|why| unwritten(why, language))?;
+    Ok((None, count.rows, count.failed))
 }

@@ -1,21 +1,21 @@
-//! The results of a batch as lines of a table, row by row.
+//! The results of a batch, row by row, as lines of a table or as columns.
 
-use std::io::Write;
-
-use super::rows::Cell;
+use super::rows::{Cell, Head};
 use super::{Report, failure, remarks, rows};
 use gumption_core::model::Output;
 use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection};
 use gumption_gum::batch::{Evaluated, Failed, Found};
 use gumption_gum::budget::{BatchFile, Budget};
-use gumption_gum::propagate::{Figures, FindingKind, RowFigures, Verdict};
+use gumption_gum::propagate::Verdict;
 
 /// What the lines hold beside what is reported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Columns {
     /// The share of each input in u²(y).
     pub shares: bool,
+    /// c·u of each component: products of those that rows share are their covariance.
+    pub contributions: bool,
     /// The seeds of the trials.
     pub seeds: bool,
     /// The language in which errors are told.
@@ -26,132 +26,165 @@ pub struct Columns {
 #[derive(Debug, Default)]
 pub struct Lines {
     /// The names of the columns, where a row has told them.
-    heads: Option<Vec<String>>,
-    /// The text of those that have results.
+    heads: Option<Vec<Head>>,
+    /// The lines of those that have results, the labels of the others.
     text: Vec<u8>,
     lines: Vec<Line>,
 }
 
 #[derive(Debug)]
 struct Line {
-    label: String,
-    /// Where the text of its results ends, and how many cells they are; or why there are none.
-    cells: Result<(usize, usize), String>,
+    /// Where its label ends in the text, and where the line does.
+    label: usize,
+    end: usize,
+    /// How many cells it has; or why there are none.
+    cells: Result<usize, String>,
     rejected: bool,
 }
 
 impl Columns {
-    /// Adds the line of a row: label or number, then as [`super::rows`], the shares, the seed of the trials, the findings,
-    /// and the error of a row that has no result.
+    /// Adds the line of a row: label or number, then as [`super::rows`], the shares, the contributions, the seed of the trials,
+    /// the findings, and the error of a row that has no result.
     pub fn add(self, lines: &mut Lines, row: &Evaluated<'_>) {
-        let label = row
-            .label
-            .map_or_else(|| row.number.to_string(), str::to_owned);
-        let (cells, rejected) = match &row.found {
+        let text = &mut lines.text;
+        match row.label {
+            Some(label) => push_field(text, label),
+            None => Cell::Seed(Some(row.number)).push(text),
+        }
+        let label = text.len();
+        let mut rejected = false;
+        let cells = match &row.found {
             Ok((budget, found)) => {
                 lines.heads.get_or_insert_with(|| self.heads(budget));
-                push_field(&mut lines.text, &label);
-                let (cells, rejected) = match found {
-                    Found::Figures(figures) => {
-                        let cells = self.figures(budget, figures, &mut lines.text);
-                        (cells, false)
-                    }
-                    Found::Evaluation(evaluation) => {
-                        let report = Report {
-                            budget,
-                            evaluation,
-                            label: None,
-                            language: self.language,
-                        };
-                        let refuses = |verdict| verdict == Some(Verdict::NotConforming);
-                        let mut conformity = evaluation.conformity.iter();
-                        let rejected = conformity.any(|found| refuses(found.verdict));
-                        (self.cells(&report, &mut lines.text), rejected)
-                    }
-                };
-                lines.text.push(b'\n');
-                (Ok((lines.text.len(), cells)), rejected)
+                let mut cells = 1;
+                rejected = self.cells(budget, found, |cell| {
+                    cells += 1;
+                    text.push(b',');
+                    cell.push(text);
+                });
+                text.push(b'\n');
+                Ok(cells)
             }
-            Err(failed) => (Err(why(failed, self.language)), false),
+            Err(failed) => Err(why(failed, self.language)),
         };
         lines.lines.push(Line {
             label,
+            end: text.len(),
             cells,
             rejected,
         });
     }
 
-    /// The names of the columns that rows of this budget have.
-    fn heads(self, budget: &Budget) -> Vec<String> {
+    /// Adds the values of a row: as [`Columns::add`], but for the label of a row that has none.
+    pub fn add_values(self, values: &mut Values, row: &Evaluated<'_>) {
+        let cells = &mut values.cells;
+        let mut rejected = false;
+        let begin = cells.len();
+        let found = match &row.found {
+            Ok((budget, found)) => {
+                values.heads.get_or_insert_with(|| self.heads(budget));
+                rejected = self.cells(budget, found, |cell| {
+                    cells.push(match cell {
+                        Cell::Number(x) => Value::Number(x.unwrap_or(f64::NAN)),
+                        // A seed is at most 2^53.
+                        Cell::Seed(seed) => Value::Number(seed.map_or(f64::NAN, |x| x as f64)),
+                        Cell::Codes(codes) => Value::Text(codes.to_owned()),
+                    });
+                });
+                Ok(cells.len() - begin)
+            }
+            Err(failed) => Err(why(failed, self.language)),
+        };
+        values.rows.push(RowOfValues {
+            label: row.label.map(str::to_owned),
+            found,
+            rejected,
+        });
+    }
+
+    /// The heads of the columns that rows of this budget have.
+    fn heads(self, budget: &Budget) -> Vec<Head> {
         let mut heads = rows::heads(budget);
         if self.shares {
             let share = |output: &Output| {
                 let name = output.name.clone();
                 let inputs = budget.inputs.iter();
-                inputs.map(move |input| format!("share({name}, {})", input.name))
+                inputs.map(move |input| Head::numbers(format!("share({name}, {})", input.name)))
             };
             heads.extend(budget.model.outputs().iter().flat_map(share));
         }
-        heads.extend(self.seeds.then(|| "seed".into()));
-        heads.extend(["findings".into(), "error".into()]);
+        if self.contributions {
+            let contribution = |output: &Output| {
+                let (name, unit) = (output.name.clone(), output.unit.difference());
+                let components = budget.components.iter();
+                components.map(move |one| {
+                    let head = format!("contribution({name}, {})", one.name);
+                    Head::numbers(rows::in_unit(head, &unit))
+                })
+            };
+            heads.extend(budget.model.outputs().iter().flat_map(contribution));
+        }
+        heads.extend(self.seeds.then(|| Head::numbers("seed".into())));
+        heads.extend(["findings", "error"].map(Head::texts));
         heads
     }
 
-    /// As [`Columns::cells`], of a row with nothing but figures.
-    fn figures(self, budget: &Budget, row: &RowFigures, text: &mut Vec<u8>) -> usize {
-        let mut count = 1;
-        let mut add = |cell: &dyn std::fmt::Display| {
-            count += 1;
-            // Writing to memory does not fail.
-            let _ = write!(text, ",{cell}");
-        };
-        let measurands = &row.measurands;
-        for (figures, _) in measurands {
-            rows::figures(figures, |cell| add(&cell));
-        }
-        if self.shares {
-            let shares = row.shares.iter().flatten();
-            shares.for_each(|share| add(&Cell::Number(Some(*share))));
-        }
-        if self.seeds {
-            add(&"");
-        }
-        let few = |(measurand, (_, few)): (usize, &(Figures, Option<FindingKind>))| {
-            let code = remarks::code(few.as_ref()?);
-            Some(match measurands.len() {
-                1 => code.to_string(),
-                _ => format!("{code}({})", budget.model.outputs()[measurand].name),
-            })
-        };
-        let codes: Vec<String> = measurands.iter().enumerate().filter_map(few).collect();
-        add(&codes.join(" "));
-        add(&"");
-        count
-    }
-
-    /// Writes the cells behind the label; tells how many the line has with it.
-    fn cells(self, report: &Report<'_>, text: &mut Vec<u8>) -> usize {
-        let mut count = 1;
-        let mut add = |cell: &dyn std::fmt::Display| {
-            count += 1;
-            // Writing to memory does not fail.
-            let _ = write!(text, ",{cell}");
-        };
-        rows::cells(report, |cell| add(&cell));
-        if self.shares {
-            let lines = report.evaluation.results.iter();
-            let lines = lines.flat_map(|result| &result.gum.inputs);
-            lines.for_each(|line| add(&Cell::Number(Some(line.share))));
-        }
-        if self.seeds {
-            match &report.evaluation.run {
-                Some(run) => add(&run.seed),
-                None => add(&""),
+    /// Gives the cells behind the label; tells whether an item does not conform.
+    fn cells(self, budget: &Budget, found: &Found<'_>, mut give: impl FnMut(Cell<'_>)) -> bool {
+        let number = |x: f64| Cell::Number(Some(x));
+        match found {
+            Found::Figures(row) => {
+                let measurands = 0..budget.model.outputs().len();
+                for measurand in measurands.clone() {
+                    rows::figures(&row.figures(measurand), &mut give);
+                }
+                if self.shares {
+                    let shares = measurands.clone().flat_map(|one| row.shares(one));
+                    shares.for_each(|one| give(number(one)));
+                }
+                if self.contributions {
+                    let all = measurands.clone().flat_map(|one| row.contributions(one));
+                    all.for_each(|one| give(number(one)));
+                }
+                if self.seeds {
+                    give(Cell::Seed(None));
+                }
+                let few = |one| Some((remarks::code(&row.few_degrees(one)?), Some(one)));
+                let few = measurands.filter_map(few);
+                give(Cell::Codes(&codes(budget, few)));
+                give(Cell::Codes(""));
+                false
+            }
+            Found::Evaluation(evaluation) => {
+                let report = Report {
+                    budget,
+                    evaluation,
+                    label: None,
+                    language: self.language,
+                };
+                rows::cells(&report, &mut give);
+                if self.shares {
+                    let lines = evaluation.results.iter();
+                    let lines = lines.flat_map(|result| &result.gum.inputs);
+                    lines.for_each(|line| give(number(line.share)));
+                }
+                if self.contributions {
+                    let lines = evaluation.results.iter();
+                    let lines = lines.flat_map(|result| &result.gum.components);
+                    lines.for_each(|line| give(number(line.contribution)));
+                }
+                if self.seeds {
+                    give(Cell::Seed(evaluation.run.as_ref().map(|run| run.seed)));
+                }
+                let findings = evaluation.findings.iter();
+                let findings = findings.map(|one| (remarks::code(&one.kind), one.measurand));
+                give(Cell::Codes(&codes(budget, findings)));
+                give(Cell::Codes(""));
+                let refuses = |verdict| verdict == Some(Verdict::NotConforming);
+                let mut conformity = evaluation.conformity.iter();
+                conformity.any(|found| refuses(found.verdict))
             }
         }
-        add(&findings(report));
-        add(&"");
-        count
     }
 }
 
@@ -176,18 +209,18 @@ fn push_line<'f>(text: &mut Vec<u8>, fields: impl IntoIterator<Item = &'f str>) 
     text.push(b'\n');
 }
 
-/// The codes of the findings; behind each the measurand that it is about, where there are several.
-fn findings(report: &Report<'_>) -> String {
-    let several = report.evaluation.results.len() > 1;
-    let code = |found: &gumption_gum::propagate::Finding| {
-        let code = remarks::code(&found.kind);
-        match found.measurand.filter(|_| several) {
-            Some(measurand) => format!("{code}({})", report.measurand(measurand).0),
-            None => code.to_string(),
+/// The codes of findings; behind each the measurand that it is about, where there are several.
+fn codes<'c>(budget: &Budget, findings: impl Iterator<Item = (&'c str, Option<usize>)>) -> String {
+    let outputs = budget.model.outputs();
+    let mut codes = String::new();
+    for (code, measurand) in findings {
+        let space = if codes.is_empty() { "" } else { " " };
+        codes.extend([space, code]);
+        if let Some(measurand) = measurand.filter(|_| outputs.len() > 1) {
+            codes.extend(["(", &outputs[measurand].name, ")"]);
         }
-    };
-    let codes: Vec<String> = report.evaluation.findings.iter().map(code).collect();
-    codes.join(" ")
+    }
+    codes
 }
 
 fn why(failed: &Failed, language: Language) -> String {
@@ -215,11 +248,11 @@ fn described(fault: &Fault, language: Language) -> String {
 /// The table of a batch, which grows by lines; nothing of it is kept but what the first line needs.
 #[derive(Debug, Default)]
 pub struct Table {
-    heads: Option<Vec<String>>,
+    heads: Option<Vec<Head>>,
     /// Whether they are written.
     headed: bool,
     /// Rows without a result, as long as no row has told what the columns are.
-    waiting: Vec<Line>,
+    waiting: Vec<Lines>,
     count: Count,
 }
 
@@ -245,39 +278,40 @@ impl Table {
     }
 
     /// The bytes that these lines add, as comma-separated values.
-    pub fn add(&mut self, lines: Lines) -> Vec<u8> {
-        self.heads = self.heads.take().or(lines.heads);
+    pub fn add(&mut self, mut lines: Lines) -> Vec<u8> {
+        self.heads = self.heads.take().or(lines.heads.take());
         let Some(heads) = &self.heads else {
-            self.waiting.extend(lines.lines);
+            self.waiting.push(lines);
             return Vec::new();
         };
         let mut text = Vec::with_capacity(lines.text.len());
         if !self.headed {
-            push_line(&mut text, heads.iter().map(String::as_str));
+            push_line(&mut text, heads.iter().map(|head| head.name.as_str()));
             self.headed = true;
         }
-        let mut start = 0;
-        let waiting = std::mem::take(&mut self.waiting).into_iter();
-        for line in waiting.chain(lines.lines) {
-            self.count.rows += 1;
-            self.count.rejected += u64::from(line.rejected);
-            let why = match line.cells {
-                Ok((end, cells)) => {
-                    let found = lines.text.get(start..end).unwrap_or_default();
-                    start = end;
-                    if cells == heads.len() {
-                        text.extend(found);
+        let waiting = std::mem::take(&mut self.waiting);
+        for lines in waiting.into_iter().chain([lines]) {
+            let mut start = 0;
+            for line in lines.lines {
+                let (label, whole) = (&lines.text[start..line.label], &lines.text[start..line.end]);
+                start = line.end;
+                self.count.rows += 1;
+                self.count.rejected += u64::from(line.rejected);
+                let why = match line.cells {
+                    Ok(cells) if cells == heads.len() => {
+                        text.extend_from_slice(whole);
                         continue;
                     }
                     // A vector of another length, or an assessment more.
-                    format!("{cells} figures where the first row has {}", heads.len())
-                }
-                Err(why) => why,
-            };
-            self.count.failed += 1;
-            let empty = std::iter::repeat_n("", heads.len().saturating_sub(2));
-            let fields = std::iter::once(line.label.as_str()).chain(empty);
-            push_line(&mut text, fields.chain([why.as_str()]));
+                    Ok(cells) => of_another_length(cells, heads),
+                    Err(why) => why,
+                };
+                self.count.failed += 1;
+                text.extend_from_slice(label);
+                text.extend(std::iter::repeat_n(b',', heads.len().saturating_sub(1)));
+                push_field(&mut text, &why);
+                text.push(b'\n');
+            }
         }
         text
     }
@@ -287,10 +321,156 @@ impl Table {
         if self.headed {
             return (Vec::new(), self.count);
         }
-        let nothing = Lines {
-            heads: Some(vec!["label".into(), "error".into()]),
+        let head = Lines {
+            heads: Some(nothing()),
             ..Lines::default()
         };
-        (self.add(nothing), self.count)
+        (self.add(head), self.count)
+    }
+}
+
+/// The heads of a table in which no row has a result.
+fn nothing() -> Vec<Head> {
+    ["label", "error"].map(Head::texts).to_vec()
+}
+
+fn of_another_length(cells: usize, heads: &[Head]) -> String {
+    format!("{cells} figures where the first row has {}", heads.len())
+}
+
+/// Values of some rows, made by whoever evaluated them.
+#[derive(Debug, Default)]
+pub struct Values {
+    /// As of [`Lines`].
+    heads: Option<Vec<Head>>,
+    /// The cells behind the labels of those that have results.
+    cells: Vec<Value>,
+    rows: Vec<RowOfValues>,
+}
+
+#[derive(Debug)]
+struct RowOfValues {
+    label: Option<String>,
+    /// How many cells it has; or why there are none.
+    found: Result<usize, String>,
+    rejected: bool,
+}
+
+#[derive(Debug)]
+enum Value {
+    Number(f64),
+    Text(String),
+}
+
+/// A column of results.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ResultColumn {
+    /// Numbers; none where one is not a number.
+    Numbers(Vec<f64>),
+    /// Texts; nothing where all of them are empty.
+    Texts(Option<Vec<String>>),
+}
+
+/// The results of a batch as columns, which grow by rows.
+#[derive(Debug, Default)]
+pub struct Results {
+    heads: Option<Vec<Head>>,
+    columns: Vec<ResultColumn>,
+    waiting: Vec<Values>,
+    count: Count,
+}
+
+impl Results {
+    /// Nothing is in them yet. Columns are as of [`Table::of`].
+    pub fn of(columns: Columns, file: &BatchFile<'_>) -> Results {
+        Results {
+            heads: file.alone().map(|budget| columns.heads(&budget)),
+            ..Results::default()
+        }
+    }
+
+    /// Adds rows.
+    pub fn add(&mut self, mut values: Values) {
+        self.heads = self.heads.take().or(values.heads.take());
+        self.waiting.push(values);
+        let Some(heads) = &self.heads else { return };
+        if self.columns.is_empty() {
+            let empty = |head: &Head| match head.numbers {
+                true => ResultColumn::Numbers(Vec::new()),
+                false => ResultColumn::Texts(None),
+            };
+            self.columns = heads.iter().map(empty).collect();
+        }
+        for values in std::mem::take(&mut self.waiting) {
+            let mut cells = values.cells.into_iter();
+            for row in values.rows {
+                let at = self.count.rows as usize;
+                self.count.rows += 1;
+                self.count.rejected += u64::from(row.rejected);
+                let why = match row.found {
+                    Ok(count) if count + 1 == heads.len() => {
+                        for (column, cell) in self.columns[1..].iter_mut().zip(cells.by_ref()) {
+                            column.set(at, cell);
+                        }
+                        None
+                    }
+                    Ok(count) => {
+                        cells.by_ref().take(count).for_each(drop);
+                        Some(of_another_length(count + 1, heads))
+                    }
+                    Err(why) => Some(why),
+                };
+                if let [labels, .., errors] = self.columns.as_mut_slice() {
+                    labels.set(at, Value::Text(row.label.unwrap_or_default()));
+                    if let Some(why) = why {
+                        self.count.failed += 1;
+                        errors.set(at, Value::Text(why));
+                    }
+                }
+            }
+        }
+    }
+
+    /// The columns with their heads, and how the rows have ended.
+    pub fn end(mut self) -> (Vec<(String, ResultColumn)>, Count) {
+        // A table without rows has columns, too.
+        self.add(Values {
+            heads: Some(nothing()),
+            ..Values::default()
+        });
+        let rows = self.count.rows as usize;
+        self.columns.iter_mut().for_each(|column| column.fill(rows));
+        let heads = self.heads.unwrap_or_default().into_iter();
+        let names = heads.map(|head| head.name);
+        (names.zip(self.columns).collect(), self.count)
+    }
+}
+
+impl ResultColumn {
+    /// Makes it so long.
+    fn fill(&mut self, rows: usize) {
+        match self {
+            ResultColumn::Numbers(numbers) => numbers.resize(rows, f64::NAN),
+            ResultColumn::Texts(Some(texts)) => texts.resize(rows, String::new()),
+            ResultColumn::Texts(None) => {}
+        }
+    }
+
+    /// Sets the cell of a row behind those that are there.
+    fn set(&mut self, row: usize, value: Value) {
+        match (self, value) {
+            (column @ ResultColumn::Numbers(_), Value::Number(x)) => {
+                column.fill(row);
+                if let ResultColumn::Numbers(numbers) = column {
+                    numbers.push(x);
+                }
+            }
+            (ResultColumn::Texts(texts), Value::Text(text)) if !text.is_empty() => {
+                let texts = texts.get_or_insert_default();
+                texts.resize(row, String::new());
+                texts.push(text);
+            }
+            _ => {}
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Results as rows of numbers, for spreadsheets and scripts.
 
-use std::fmt;
+use std::io::Write;
 
 use super::{Report, decisions};
 use gumption_core::model::Output;
@@ -16,66 +16,123 @@ use gumption_gum::propagate::Figures;
 pub fn rows(rows: &[Report<'_>]) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     if let Some(first) = rows.first() {
-        writer.write_record(heads(first.budget))?;
+        let heads = heads(first.budget).into_iter().map(|head| head.name);
+        writer.write_record(heads)?;
     }
     for row in rows {
-        let mut fields = vec![row.label.unwrap_or_default().to_string()];
-        cells(row, |cell| fields.push(cell.to_string()));
-        writer.write_record(fields)?;
+        let mut record = csv::ByteRecord::from(vec![row.label.unwrap_or_default()]);
+        let mut text = Vec::new();
+        cells(row, |cell| {
+            text.clear();
+            cell.push(&mut text);
+            record.push_field(&text);
+        });
+        writer.write_byte_record(&record)?;
     }
     writer
         .into_inner()
         .map_err(|error| error.into_error().into())
 }
 
-pub(super) fn heads(budget: &Budget) -> Vec<String> {
-    let in_unit = |head: String, unit: &Unit| match unit.is_one() {
-        true => head,
-        false => format!("{head} [{}]", unit.symbol),
-    };
-    let mut heads = vec!["label".to_string()];
+/// The head of a column.
+#[derive(Debug, Clone)]
+pub(super) struct Head {
+    pub name: String,
+    /// Whether there are numbers below it, and not texts.
+    pub numbers: bool,
+}
+
+impl Head {
+    pub fn numbers(name: String) -> Head {
+        Head {
+            name,
+            numbers: true,
+        }
+    }
+
+    pub fn texts(name: impl Into<String>) -> Head {
+        Head {
+            name: name.into(),
+            numbers: false,
+        }
+    }
+}
+
+pub(super) fn heads(budget: &Budget) -> Vec<Head> {
+    let in_unit = |head: String, unit: &Unit| Head::numbers(in_unit(head, unit));
+    let mut heads = vec![Head::texts("label")];
     for Output { name, unit, .. } in budget.model.outputs() {
         let deviation = unit.difference();
         heads.push(in_unit(name.clone(), unit));
         heads.push(in_unit(format!("u({name})"), &deviation));
-        heads.push(format!("nu({name})"));
-        heads.push(format!("k({name})"));
+        heads.push(Head::numbers(format!("nu({name})")));
+        heads.push(Head::numbers(format!("k({name})")));
         heads.push(in_unit(format!("U({name})"), &deviation));
         heads.push(in_unit(format!("lower({name})"), unit));
         heads.push(in_unit(format!("upper({name})"), unit));
     }
     for assessment in &budget.conformity {
-        heads.push(format!("verdict({})", assessment.name));
-        heads.push(format!("p_c({})", assessment.name));
+        heads.push(Head::texts(format!("verdict({})", assessment.name)));
+        heads.push(Head::numbers(format!("p_c({})", assessment.name)));
     }
     heads
 }
 
-/// What stands in a column behind the label.
-pub(super) enum Cell {
-    /// Exact; nothing for what there is not.
-    Number(Option<f64>),
-    Code(&'static str),
+/// A head with its unit.
+pub(super) fn in_unit(head: String, unit: &Unit) -> String {
+    match unit.is_one() {
+        true => head,
+        false => format!("{head} [{}]", unit.symbol),
+    }
 }
 
-impl fmt::Display for Cell {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+/// What stands in a column behind the label.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Cell<'a> {
+    /// Exact; nothing for what there is not.
+    Number(Option<f64>),
+    /// A seed; nothing where there were no trials.
+    Seed(Option<u64>),
+    /// Codes.
+    Codes(&'a str),
+}
+
+impl Cell<'_> {
+    /// Adds it to a text.
+    pub fn push(self, text: &mut Vec<u8>) {
         match self {
-            Cell::Number(Some(x)) => write!(f, "{x:?}"),
-            Cell::Number(None) => Ok(()),
-            Cell::Code(code) => f.write_str(code),
+            Cell::Number(Some(x)) => push_number(text, x),
+            // Writing to memory does not fail.
+            Cell::Seed(Some(seed)) => drop(write!(text, "{seed}")),
+            Cell::Number(None) | Cell::Seed(None) => {}
+            Cell::Codes(codes) => text.extend_from_slice(codes.as_bytes()),
         }
     }
 }
 
+/// Adds a number as `{:?}` has it: the shortest decimal that is read as the same double.
+fn push_number(text: &mut Vec<u8>, x: f64) {
+    let size = x.abs();
+    // Elsewhere they write exponents otherwise.
+    let alike = size < 1e-5 || (1e-4..1e16).contains(&size);
+    // Of two shortest decimals that are equally near each takes another. A double is half-way between decimals of d digits behind
+    // the point only if it is a multiple of 2^-(d + 1), and needs so many digits only if d is less than 26.
+    let between = (x * 67_108_864.0).fract() == 0.0 && x != 0.0;
+    match alike && !between {
+        true => text.extend_from_slice(zmij::Buffer::new().format_finite(x).as_bytes()),
+        // Writing to memory does not fail.
+        false => drop(write!(text, "{x:?}")),
+    }
+}
+
 /// Gives the cells of the columns behind the label, in their order.
-pub(super) fn cells(report: &Report<'_>, mut give: impl FnMut(Cell)) {
+pub(super) fn cells(report: &Report<'_>, mut give: impl FnMut(Cell<'_>)) {
     for result in &report.evaluation.results {
         let found = result.reported(&report.budget.conventions);
         figures(&found.figures(), &mut give);
     }
     for found in &report.evaluation.conformity {
-        give(Cell::Code(
+        give(Cell::Codes(
             found.verdict.map_or("", decisions::verdict_code),
         ));
         let known = found.conformance.as_ref();
@@ -84,7 +141,7 @@ pub(super) fn cells(report: &Report<'_>, mut give: impl FnMut(Cell)) {
 }
 
 /// Gives the cells of what is reported of a measurand.
-pub(super) fn figures(found: &Figures, mut give: impl FnMut(Cell)) {
+pub(super) fn figures(found: &Figures, mut give: impl FnMut(Cell<'_>)) {
     let numbers = [
         Some(found.estimate),
         found.u,
@@ -95,4 +152,47 @@ pub(super) fn figures(found: &Figures, mut give: impl FnMut(Cell)) {
         found.ends.map(|ends| ends[1]),
     ];
     numbers.into_iter().for_each(|x| give(Cell::Number(x)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_as_the_standard_library_has_them() {
+        let same = |x: f64| {
+            let mut text = Vec::new();
+            push_number(&mut text, x);
+            assert_eq!(String::from_utf8_lossy(&text), format!("{x:?}"));
+        };
+        let edges = [
+            0.0,
+            1e-5,
+            1e-4,
+            1e15,
+            1e16,
+            123456.0,
+            f64::MIN_POSITIVE,
+            f64::MAX,
+            5e-324,
+        ];
+        for x in edges.into_iter().chain([f64::INFINITY, f64::NAN]) {
+            [x, -x, x * 1.1, x * 0.9].into_iter().for_each(same);
+        }
+        // Half-way between two decimals.
+        for k in 0..5000 {
+            same(f64::from(2 * k + 1) / 131_072.0 + 1.0);
+            same(f64::from(2 * k + 1) / 33_554_432.0);
+        }
+        // SplitMix64: all doubles, and such as results are.
+        let mut state = 1u64;
+        for _ in 0..200_000 {
+            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            let z = z ^ (z >> 31);
+            same(f64::from_bits(z));
+            same((z % 1_000_000_007) as f64 * 10f64.powi((z >> 40) as i32 % 40 - 24));
+        }
+    }
 }

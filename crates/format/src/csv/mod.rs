@@ -5,6 +5,8 @@
 //! | [`faults`] | codes of what is refused |
 //! | `encoding` | bytes as text: UTF-8, UTF-16, GBK |
 //! | `sheet` | text as rows of fields, with their places |
+//! | `pieces` | a long file, some rows at a time |
+//! | `columns` | a table that is in memory already |
 //! | `heading` | names and units in the first line |
 //! | `field` | numbers and times in the rows below |
 //! | `reader`, `column_unit` | the columns that somebody asks for; their units |
@@ -30,6 +32,7 @@
 //! ```
 
 mod column_unit;
+mod columns;
 mod encoding;
 pub mod faults;
 mod field;
@@ -39,6 +42,7 @@ mod reader;
 mod request;
 mod sheet;
 
+pub use columns::{Cells, Columns};
 pub use encoding::{Decoded, Encoding, Undecodable, decode};
 pub use heading::Heading;
 pub use pieces::{Piece, Pieces};

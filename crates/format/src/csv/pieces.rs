@@ -3,6 +3,7 @@
 use std::io::Read;
 
 use ::csv::{ByteRecord, ReaderBuilder};
+use memchr::{memchr, memchr_iter, memrchr};
 
 use super::encoding::{Encoding, decode, gbk};
 use super::faults::{NOT_UTF8, ROW_LENGTH, UNREADABLE};
@@ -10,7 +11,7 @@ use super::sheet::separator_of;
 use gumption_fault::{Fault, say};
 
 /// Bytes of a piece: far more than a row, and little beside the memory of a computer.
-const PIECE: usize = 1 << 18;
+const PIECE: usize = 1 << 20;
 
 /// Bytes of the longest row.
 const LONGEST_ROW: usize = 1 << 24;
@@ -79,10 +80,7 @@ impl<R: Read> Pieces<R> {
         }
         let text = self.text(end)?;
         let line = self.line;
-        self.line += self.rest[..end]
-            .iter()
-            .filter(|byte| **byte == b'\n')
-            .count();
+        self.line += memchr_iter(b'\n', &self.rest[..end]).count();
         self.rest.drain(..end);
         Ok(Some(Piece { text, line }))
     }
@@ -105,6 +103,11 @@ impl<R: Read> Pieces<R> {
     fn whole_rows(&mut self) -> usize {
         if self.ended {
             return self.rest.len();
+        }
+        // Without quotes every line is a row.
+        let last = memrchr(b'\n', &self.rest).filter(|_| memchr(b'"', &self.rest).is_none());
+        if let Some(last) = last {
+            return last + 1;
         }
         let first = || separator_of(&String::from_utf8_lossy(&self.rest));
         let separator = *self.separator.get_or_insert_with(first);

@@ -1,9 +1,12 @@
 //! The text of a CSV file as rows of fields, with the place of every field. This is the crate's plain
 //! reading of CSV: it knows columns by their number and nothing of what they mean.
 
+use std::borrow::Cow;
+use std::io::Cursor;
 use std::ops::Range;
 
-use ::csv::{ReaderBuilder, StringRecord, Trim};
+use ::csv::{Position, Reader, ReaderBuilder, StringRecord, Trim};
+use memchr::{memchr_iter, memchr3};
 
 use super::faults::{NO_HEADER, NO_ROWS, ROW_LENGTH};
 use gumption_fault::{Fault, Said, say};
@@ -19,16 +22,26 @@ pub struct Sheet<'a> {
     line: usize,
     skipped: usize,
     separator: u8,
-    header: Row,
+    header: Row<'a>,
 }
 
 /// A row that was read.
 #[derive(Debug, Clone)]
-pub struct Row {
-    fields: StringRecord,
+pub struct Row<'a> {
+    fields: Fields<'a>,
+    len: usize,
     start: usize,
     /// Its line in the text, the first being 1.
     pub line: usize,
+}
+
+/// The fields of a row.
+#[derive(Debug, Clone)]
+enum Fields<'a> {
+    /// A line without quotes, and what separates them in it.
+    Line(&'a str, u8),
+    /// Of a row with quotes, or of no text at all.
+    Quoted(StringRecord),
 }
 
 /// Longer lists of faults of one kind are cut, with their number.
@@ -74,7 +87,10 @@ impl<'a> Sheet<'a> {
     }
 
     /// Further rows of the same table, from this line on.
-    pub fn below<'b>(&self, text: &'b str, line: usize) -> Sheet<'b> {
+    pub fn below<'b>(&self, text: &'b str, line: usize) -> Sheet<'b>
+    where
+        'a: 'b,
+    {
         Sheet {
             text,
             line,
@@ -90,7 +106,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// The first line.
-    pub fn header(&self) -> &Row {
+    pub fn header(&self) -> &Row<'a> {
         &self.header
     }
 
@@ -101,7 +117,7 @@ impl<'a> Sheet<'a> {
 
     /// The place of a field of a row in the text, without white space around it; the end of the row
     /// for a field that it lacks.
-    pub fn place(&self, row: &Row, column: usize) -> Range<usize> {
+    pub fn place(&self, row: &Row<'_>, column: usize) -> Range<usize> {
         let mut quoted = false;
         let mut at = row.start;
         let mut number = 0;
@@ -133,7 +149,7 @@ impl<'a> Sheet<'a> {
     /// # Errors
     /// Rows of another length than the first line (a few, with the number of all), or no rows. The
     /// visitor sees the good rows in any case, so that their faults can be told as well.
-    pub fn visit(&self, mut visitor: impl FnMut(&Row)) -> Result<usize, Vec<Fault>> {
+    pub fn visit(&self, mut visitor: impl FnMut(&Row<'_>)) -> Result<usize, Vec<Fault>> {
         let mut faults = Vec::new();
         let (mut good, mut bad) = (0, 0);
         for row in self.rows() {
@@ -168,7 +184,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// The rows below the first line; a fault in place of one that has another length than the first line.
-    pub fn rows(&self) -> impl Iterator<Item = Result<Row, Fault>> + '_ {
+    pub fn rows(&self) -> impl Iterator<Item = Result<Row<'a>, Fault>> + '_ {
         let mut broken = false;
         let rows = Rows::new(self.text, self.separator, self.line).skip(self.skipped);
         rows.map_while(move |row| match row {
@@ -183,7 +199,7 @@ impl<'a> Sheet<'a> {
         })
     }
 
-    fn wrong_length(&self, row: &Row) -> Fault {
+    fn wrong_length(&self, row: &Row<'_>) -> Fault {
         let (found, expected) = (row.len(), self.header.len());
         let plural = if found == 1 { "" } else { "s" };
         let message = say!(
@@ -202,74 +218,140 @@ impl<'a> Sheet<'a> {
     }
 }
 
-impl Row {
+impl Row<'_> {
+    /// Of fields that are at hand.
+    pub(super) fn of(fields: &[Cow<'_, str>], line: usize) -> Row<'static> {
+        Row {
+            fields: Fields::Quoted(fields.iter().collect()),
+            len: fields.len(),
+            start: 0,
+            line,
+        }
+    }
+
     /// Number of fields.
     pub fn len(&self) -> usize {
-        self.fields.len()
+        self.len
     }
 
     /// Whether it has no field.
     pub fn is_empty(&self) -> bool {
-        self.fields.is_empty()
+        self.len == 0
     }
 
     /// A field without white space around it; empty for a field that the row lacks.
     pub fn field(&self, column: usize) -> &str {
-        self.fields.get(column).unwrap_or_default()
+        self.fields().nth(column).unwrap_or_default()
     }
 
     /// All fields.
     pub fn fields(&self) -> impl Iterator<Item = &str> {
-        self.fields.iter()
+        let (mut line, quoted) = match &self.fields {
+            Fields::Line(line, separator) => (Some((*line, *separator)), None),
+            Fields::Quoted(fields) => (None, Some(fields)),
+        };
+        let mut quoted = quoted.into_iter().flatten();
+        std::iter::from_fn(move || {
+            let Some((rest, separator)) = line else {
+                return quoted.next();
+            };
+            // Fields are too short for a search by words to pay.
+            let end = rest.bytes().position(|byte| byte == separator);
+            line = end.map(|end| (&rest[end + 1..], separator));
+            Some(trimmed(&rest[..end.unwrap_or(rest.len())]))
+        })
+    }
+}
+
+/// Without white space around it, which most fields do not have.
+#[inline]
+fn trimmed(field: &str) -> &str {
+    let bare = |byte: Option<&u8>| byte.is_none_or(|byte| (b'!'..=b'~').contains(byte));
+    match bare(field.as_bytes().first()) && bare(field.as_bytes().last()) {
+        true => field,
+        false => field.trim(),
     }
 }
 
 /// The rows of a text, that of the names first.
 struct Rows<'a> {
     text: &'a str,
-    reader: ::csv::Reader<&'a [u8]>,
-    offset: usize,
+    separator: u8,
+    /// Where the next row is looked for.
+    from: usize,
     /// How far lines were counted: byte and line.
     counted: (usize, usize),
+    /// Reads rows with quotes.
+    reader: Option<Reader<Cursor<&'a [u8]>>>,
 }
 
 impl<'a> Rows<'a> {
     fn new(text: &'a str, separator: u8, line: usize) -> Rows<'a> {
-        let offset = start_of_record(text, 0);
         Rows {
             text,
-            reader: ReaderBuilder::new()
+            separator,
+            from: 0,
+            counted: (0, line),
+            reader: None,
+        }
+    }
+
+    /// The fields of the row that begins here, in which there are quotes, and where it ends.
+    fn quoted(&mut self, start: usize) -> Result<(StringRecord, usize), ::csv::Error> {
+        let (text, separator) = (self.text, self.separator);
+        let reader = self.reader.get_or_insert_with(|| {
+            ReaderBuilder::new()
                 .has_headers(false)
                 .flexible(true)
                 .comment(Some(b'#'))
                 .delimiter(separator)
                 .trim(Trim::All)
-                .from_reader(&text.as_bytes()[offset..]),
-            offset,
-            counted: (0, line),
-        }
+                .from_reader(Cursor::new(text.as_bytes()))
+        });
+        // Nothing happens where it stands there already.
+        let mut position = Position::new();
+        position.set_byte(start as u64);
+        reader.seek(position)?;
+        let mut fields = StringRecord::new();
+        reader.read_record(&mut fields)?;
+        Ok((fields, reader.position().byte() as usize))
     }
 }
 
-impl Iterator for Rows<'_> {
-    type Item = Result<Row, String>;
+impl<'a> Iterator for Rows<'a> {
+    type Item = Result<Row<'a>, String>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let from = self.offset + self.reader.position().byte() as usize;
-        let start = start_of_record(self.text, from);
-        let passed = &self.text.as_bytes()[self.counted.0..start];
-        let lines = passed.iter().filter(|byte| **byte == b'\n').count();
-        self.counted = (start, self.counted.1 + lines);
-        let mut fields = StringRecord::new();
-        match self.reader.read_record(&mut fields) {
-            Ok(true) => Some(Ok(Row {
-                fields,
-                start,
-                line: self.counted.1,
-            })),
-            Ok(false) => None,
-            Err(error) => Some(Err(error.to_string())),
+        let start = start_of_record(self.text, self.from);
+        let bytes = self.text.as_bytes();
+        let passed = memchr_iter(b'\n', &bytes[self.counted.0..start]).count();
+        self.counted = (start, self.counted.1 + passed);
+        let rest = &bytes[start..];
+        let stop = memchr3(b'\n', b'\r', b'"', rest).unwrap_or(rest.len());
+        if rest.is_empty() {
+            return None;
         }
+        let (fields, len) = if rest.get(stop) == Some(&b'"') {
+            match self.quoted(start) {
+                Ok((fields, end)) => {
+                    self.from = end;
+                    let len = fields.len();
+                    (Fields::Quoted(fields), len)
+                }
+                Err(error) => return Some(Err(error.to_string())),
+            }
+        } else {
+            self.from = start + stop;
+            let line = &self.text[start..self.from];
+            let separators = memchr_iter(self.separator, line.as_bytes()).count();
+            (Fields::Line(line, self.separator), separators + 1)
+        };
+        Some(Ok(Row {
+            fields,
+            len,
+            start,
+            line: self.counted.1,
+        }))
     }
 }
 
@@ -354,6 +436,46 @@ mod tests {
         assert_eq!(rows("a;b,c\n1;2")[0].1, ["1", "2"]);
         assert_eq!(rows("a\tb\n1\t\n")[0].1, ["1", ""]);
         assert_eq!(rows("a\n1\n").len(), 1);
+    }
+
+    /// Lines without quotes are split here, rows with quotes by the crate `csv`: both as that crate does it alone.
+    #[test]
+    fn rows_are_those_of_the_reader_of_csv() {
+        let fields = [
+            "1",
+            " 2.5 ",
+            "\"a, b\"",
+            "\"two\nlines\"",
+            "5\" pipe",
+            "\u{3000}x",
+            "",
+            "\"\"\"q\"\"\"",
+            "#",
+        ];
+        let ends = ["\n", "\r\n", "\n\n", "\n# \"comment\n", "\r"];
+        let mut text = String::from("a,b,c\n");
+        for row in 0..400 {
+            let field = |k: usize| fields[(row * (k + 1) + row / 7 + k) % fields.len()];
+            // A row that begins with # is none.
+            let first = if field(0).starts_with('#') {
+                "1"
+            } else {
+                field(0)
+            };
+            text += &[first, field(1), field(2)].join(",");
+            text += ends[row % ends.len()];
+        }
+        let mut reader = ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .comment(Some(b'#'))
+            .trim(Trim::All)
+            .from_reader(text.as_bytes());
+        let expected: Vec<StringRecord> = reader.records().map(Result::unwrap).collect();
+        let found: Vec<StringRecord> = Rows::new(&text, b',', 1)
+            .map(|row| row.expect("a row").fields().collect())
+            .collect();
+        assert_eq!(found, expected);
     }
 
     #[test]

@@ -12,7 +12,6 @@ use super::open_files::OpenFiles;
 use super::pattern::Pattern;
 use super::points::{Columns, plain_number};
 use super::reader::{checked, open_files, read_under, tables, text_of};
-use super::rows::Rows;
 use super::series::{self, Column};
 use super::{Budget, Files, Profile, Row, hints::HINTS};
 use gumption_fault::{Fault, Rejection, say};
@@ -129,20 +128,6 @@ pub struct Batch<'a> {
 pub struct RowReader<'a> {
     batch: &'a Batch<'a>,
     open: OpenFiles<'a>,
-    rest: Rest,
-}
-
-/// What is known of the rows that follow.
-#[derive(Debug)]
-enum Rest {
-    /// Nothing yet.
-    Unknown,
-    /// Whether this pattern gives the next row, too, is to be seen.
-    Likely(Box<Pattern>),
-    /// They are numbers in this pattern.
-    Numbers(Box<Pattern>),
-    /// The file has to be read with each of them.
-    Read,
 }
 
 impl Batch<'_> {
@@ -151,14 +136,43 @@ impl Batch<'_> {
         RowReader {
             batch: self,
             open: open_files(self.of.files),
-            rest: Rest::Unknown,
         }
     }
 
+    /// The pattern into which rows that are numbers are written, as the first of them show it; `Some(None)` where the file has to
+    /// be read with every row, nothing where too few rows tell.
+    pub(crate) fn pattern<'r>(
+        &self,
+        rows: impl Iterator<Item = &'r csv::Row<'r>>,
+        sheet: &Sheet<'_>,
+    ) -> Option<Option<Pattern>> {
+        /// Rows that are tried: some of them may be refused.
+        const FEW: usize = 16;
+        let reader = self.reader();
+        // A row with more than numbers tells nothing of the others.
+        let numbers = rows.filter(|row| self.numbers(row));
+        let mut numbers = numbers.take(FEW);
+        let first = numbers
+            .by_ref()
+            .find_map(|row| reader.pattern(row, sheet))?;
+        let Some(pattern) = first else {
+            return Some(None);
+        };
+        let second = numbers.find_map(|row| Some((row, reader.row(row, sheet).ok()?)));
+        let (row, read) = second?;
+        Some(Some(pattern).filter(|pattern| pattern.gives(&read.budget, row)))
+    }
+
+    /// The column of labels, where there is one.
+    pub(crate) fn label(&self) -> Option<usize> {
+        let is_label = |target: &Option<Column>| matches!(target, Some(Column::Label));
+        self.targets.iter().position(is_label)
+    }
+
     /// Whether all cells of a row but its label are numbers, and none is zero.
-    fn numbers(&self, row: &csv::Row, sheet: &Sheet<'_>) -> bool {
+    fn numbers(&self, row: &csv::Row<'_>) -> bool {
         let is_number = |(target, field): (&Option<Column>, &str)| {
-            let number = || plain_number(field, sheet);
+            let number = || plain_number(field);
             matches!(target, Some(Column::Label)) || number().is_some_and(|number| number != 0.0)
         };
         self.targets.iter().zip(row.fields()).all(is_number)
@@ -166,39 +180,33 @@ impl Batch<'_> {
 }
 
 impl RowReader<'_> {
-    /// Whether the row gives a budget without the file being read with it: [`RowReader::numbers`].
-    pub fn takes(&mut self, row: &csv::Row, sheet: &Sheet<'_>) -> bool {
-        match &mut self.rest {
-            Rest::Numbers(pattern) => pattern.take(row, sheet),
-            Rest::Unknown | Rest::Likely(_) | Rest::Read => false,
-        }
-    }
-
-    /// Whether it is settled that the numbers of rows are written into a budget.
-    pub fn takes_numbers(&self) -> bool {
-        matches!(self.rest, Rest::Numbers(_))
-    }
-
-    /// Writes the numbers of the row that was taken last into a row of a block.
-    pub(crate) fn write(&self, lane: usize, rows: &mut Rows) {
-        if let Rest::Numbers(pattern) = &self.rest {
-            pattern.write(lane, rows);
-        }
-    }
-
-    /// The budget of the row that was taken last; its words (how u was obtained, remarks) are those of another row.
-    pub fn numbers(&self) -> Option<&Budget> {
-        match &self.rest {
-            Rest::Numbers(pattern) => Some(pattern.budget()),
-            Rest::Unknown | Rest::Likely(_) | Rest::Read => None,
-        }
-    }
-
     /// The budget with the values of a row, read from the file.
     ///
     /// # Errors
     /// All faults; those of the row have no place in the budget.
-    pub fn row(&mut self, row: &csv::Row, sheet: &Sheet<'_>) -> Result<Row, Rejection> {
+    pub fn row(&self, row: &csv::Row<'_>, sheet: &Sheet<'_>) -> Result<Row, Rejection> {
+        self.with(row, sheet, |table, text, label, faults| {
+            self.read(table, text, label, faults)
+        })
+    }
+
+    /// The pattern of a row, if it has one; nothing of a row that is refused.
+    fn pattern(&self, row: &csv::Row<'_>, sheet: &Sheet<'_>) -> Option<Option<Pattern>> {
+        self.with(row, sheet, |table, text, label, faults| {
+            let found = self.read(table, text, label, faults).ok()?;
+            let tables = tables(table, None, &mut Reader::new(text, &HINTS));
+            let targets = &self.batch.targets;
+            Some(Pattern::of(&found.budget, &tables, targets, row))
+        })
+    }
+
+    /// What is made of the file with the values of a row: its table, its text, the label of the row, and faults.
+    fn with<R>(
+        &self,
+        row: &csv::Row<'_>,
+        sheet: &Sheet<'_>,
+        make: impl FnOnce(&DeTable<'_>, &str, Option<String>, Vec<Fault>) -> R,
+    ) -> R {
         let Batch {
             file,
             columns,
@@ -218,29 +226,7 @@ impl RowReader<'_> {
         let mut faults = Vec::new();
         let names = &columns.names;
         let variant = series::variant(file, names, targets, &cells, &mut faults);
-        let found = self.read(&variant.table, &text, variant.label, faults)?;
-        self.rest = match std::mem::replace(&mut self.rest, Rest::Read) {
-            // A row with more than numbers tells nothing of the others.
-            rest @ (Rest::Unknown | Rest::Likely(_)) if !self.batch.numbers(row, sheet) => rest,
-            Rest::Unknown => {
-                let tables = tables(&variant.table, None, &mut Reader::new(&text, &HINTS));
-                let pattern = Pattern::of(&found.budget, &tables, targets, (row, sheet));
-                pattern.map_or(Rest::Read, |pattern| Rest::Likely(Box::new(pattern)))
-            }
-            Rest::Likely(mut pattern) => match pattern.gives(&found.budget, row, sheet) {
-                true => Rest::Numbers(pattern),
-                false => Rest::Read,
-            },
-            settled => settled,
-        };
-        Ok(found)
-    }
-
-    /// The label of a row as the table writes it, where it has such a column: 007 is no number.
-    pub fn label<'r>(&self, row: &'r csv::Row) -> Option<&'r str> {
-        let is_label = |target: &Option<Column>| matches!(target, Some(Column::Label));
-        let at = self.batch.targets.iter().position(is_label)?;
-        row.fields().nth(at).filter(|field| !field.is_empty())
+        make(&variant.table, &text, variant.label, faults)
     }
 
     /// The budget as it stands, without a row.

@@ -53,6 +53,7 @@ pub use fit::{
     Fit, FitColumn, FitDoubt, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict,
 };
 pub use gumption_format::toml::KeyRow;
+pub(crate) use pattern::{Numbers, Pattern};
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{keys, load, load_from, load_under, read, schema, template};
 pub use remark::Remark;

@@ -12,6 +12,7 @@ use gumption_core::quantity::UnitTable;
 use gumption_fault::{Fault, Rejection, say};
 use gumption_format::csv::{Heading, Row, Sheet, text_of};
 use gumption_format::toml::{Raw, Stated};
+use gumption_lanes::twice::TENS;
 
 /// The columns of a table whose rows replace values of a budget.
 #[derive(Debug)]
@@ -202,41 +203,173 @@ fn written(field: &str, unit: Option<&str>, sheet: &Sheet) -> Written {
 
 /// The number that a field puts into a budget, where there is no doubt what it is: decimal digits, perhaps with a fraction
 /// and an exponent, neither minus zero nor a whole number beyond what doubles count.
-pub(super) fn plain_number(field: &str, sheet: &Sheet<'_>) -> Option<f64> {
+pub(super) fn plain_number(field: &str) -> Option<f64> {
     /// Digits that every double and every whole number of TOML keeps.
     const DIGITS: usize = 15;
-    let short = field.len() <= DIGITS || field.contains(['.', 'e', 'E']);
-    let comma = sheet.has_decimal_commas() && field.contains(',');
-    if comma || !short || !is_toml_number(field) {
+    let decimal = Decimal::read(field.as_bytes())?;
+    if decimal.is_whole && field.len() > DIGITS {
         return None;
     }
-    let number: f64 = field.parse().ok()?;
-    let settled = number.is_finite() && (number != 0.0 || number.is_sign_positive());
-    settled.then_some(number)
+    let number = decimal.exact().or_else(|| field.parse().ok())?;
+    Some(number).filter(|number| is_settled(*number))
 }
 
-/// Whether TOML is sure to read a text as the decimal number that it is: digits, then perhaps a fraction and an exponent.
+/// Whether there is no doubt what a number puts into a budget.
+pub(super) fn is_settled(number: f64) -> bool {
+    number.is_finite() && (number != 0.0 || number.is_sign_positive())
+}
+
+/// Whether TOML is sure to read a text as the decimal number that it is.
 fn is_toml_number(text: &str) -> bool {
-    /// Without leading digits, of which there must be some.
-    fn digits(text: &[u8]) -> Option<&[u8]> {
-        let count = text.iter().take_while(|byte| byte.is_ascii_digit()).count();
-        text.get(count..).filter(|_| count > 0)
-    }
-    fn rest(text: &[u8]) -> Option<&[u8]> {
+    Decimal::read(text.as_bytes()).is_some()
+}
+
+/// A decimal number as TOML writes it: digits, then perhaps a fraction and an exponent.
+struct Decimal {
+    negative: bool,
+    /// Its digits as a whole number, which wraps where they are too many, and how many there are.
+    digits: u64,
+    count: usize,
+    /// The power of ten that goes with it.
+    exponent: i64,
+    /// Whether it has neither fraction nor exponent.
+    is_whole: bool,
+}
+
+impl Decimal {
+    fn read(text: &[u8]) -> Option<Decimal> {
         let unsigned = text.strip_prefix(b"-").unwrap_or(text);
         if let [b'0', b'0'..=b'9', ..] = unsigned {
             return None;
         }
-        let text = match digits(unsigned)? {
-            [b'.', fraction @ ..] => digits(fraction)?,
-            text => text,
+        let (digits, rest) = digits(unsigned, 0)?;
+        let mut decimal = Decimal {
+            negative: unsigned.len() < text.len(),
+            digits,
+            count: unsigned.len() - rest.len(),
+            exponent: 0,
+            is_whole: rest.is_empty(),
         };
-        match text {
-            [b'e' | b'E', b'-' | b'+', exponent @ ..] | [b'e' | b'E', exponent @ ..] => {
-                digits(exponent)
+        let rest = match rest {
+            [b'.', fraction @ ..] => {
+                let (digits, rest) = self::digits(fraction, digits)?;
+                let count = fraction.len() - rest.len();
+                decimal.digits = digits;
+                decimal.count += count;
+                decimal.exponent = -(count as i64);
+                rest
             }
-            text => Some(text),
+            rest => rest,
+        };
+        let (sign, exponent) = match rest {
+            [] => return Some(decimal),
+            [b'e' | b'E', b'-', exponent @ ..] => (-1, exponent),
+            [b'e' | b'E', b'+', exponent @ ..] | [b'e' | b'E', exponent @ ..] => (1, exponent),
+            _ => return None,
+        };
+        let (power, rest) = self::digits(exponent, 0)?;
+        // What is this long is out of the range of doubles.
+        let power = i64::from(u16::try_from(power).unwrap_or(u16::MAX));
+        decimal.exponent += sign * power;
+        rest.is_empty().then_some(decimal)
+    }
+
+    /// The nearest double, where digits and power of ten are doubles themselves, so that one rounding gives it (Clinger 1990).
+    fn exact(&self) -> Option<f64> {
+        /// Digits that 64 bits hold.
+        const HELD: usize = 19;
+        let fits = self.count <= HELD && self.digits < 1 << f64::MANTISSA_DIGITS;
+        let digits = fits.then_some(self.digits as f64)?;
+        let power = TENS.get(self.exponent.unsigned_abs() as usize)?;
+        let size = match self.exponent < 0 {
+            true => digits / power,
+            false => digits * power,
+        };
+        Some(if self.negative { -size } else { size })
+    }
+}
+
+/// The whole number that goes on with the digits at the beginning of a text, of which there must be some; the rest.
+fn digits(text: &[u8], before: u64) -> Option<(u64, &[u8])> {
+    let mut number = before;
+    let mut rest = text;
+    while let [digit @ b'0'..=b'9', more @ ..] = rest {
+        number = number
+            .wrapping_mul(10)
+            .wrapping_add(u64::from(digit - b'0'));
+        rest = more;
+    }
+    (rest.len() < text.len()).then_some((number, rest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plain_numbers_are_read_as_by_the_standard_library() {
+        let plain = [
+            "0",
+            "1",
+            "-1.5",
+            "0.1",
+            "123456789012345",
+            "1.7976931348623157e308",
+            "4.9e-324",
+            "1e22",
+            "1e23",
+            "1e-22",
+            "9007199254740993.0",
+            "9007199254740992.0",
+            "12345678901234567890.5",
+            "0.30000000000000004",
+            "1E+5",
+            "6.02e0023",
+            "123456789012345678901234567890.0",
+            "0.000000000000000000000000000001",
+            "1e-400",
+        ];
+        for text in plain {
+            let expected: f64 = text.parse().expect("a number");
+            assert_eq!(
+                plain_number(text).map(f64::to_bits),
+                Some(expected.to_bits()),
+                "{text}"
+            );
+        }
+        let others = [
+            "",
+            "-",
+            "-0",
+            "-0.0",
+            "+1",
+            ".5",
+            "5.",
+            "01",
+            "1e",
+            "1e+",
+            "1_000",
+            "1,5",
+            " 1",
+            "1.5e3x",
+            "inf",
+            "nan",
+            "0x1",
+            "1234567890123456",
+            "1e400",
+            "1e99999999999999999999",
+            "1.5.2",
+        ];
+        for text in others {
+            assert_eq!(plain_number(text), None, "{text}");
+        }
+        // Every length of digits, and every power.
+        for length in 1..25 {
+            for power in -30..30 {
+                let digits = &"1928374650918273645019283"[..length];
+                let text = format!("{digits}.5e{power}");
+                assert_eq!(plain_number(&text), text.parse().ok(), "{text}");
+            }
         }
     }
-    rest(text.as_bytes()).is_some_and(<[u8]>::is_empty)
 }

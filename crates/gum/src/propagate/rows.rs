@@ -5,8 +5,6 @@
 //! coefficients that vanish, figures that the arithmetic does not resolve) bounds show that there is nothing to be found;
 //! where they do not show it, the row is left to the general evaluation.
 
-use std::collections::HashMap;
-
 use gumption_core::distribution::Distribution;
 use gumption_core::model::RowRunner;
 use gumption_lanes::{Block, LANES};
@@ -24,14 +22,16 @@ use crate::budget::{Budget, CoverageRule, Rows, Term};
 /// Bounds are computed with errors of some 1e-14, and fulfilled with more to spare.
 const SPARE: f64 = 1.01;
 
-/// A row of a block.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RowFigures {
-    /// What is reported of each measurand, and that its degrees of freedom are few, where they are: there are no other
-    /// findings.
-    pub measurands: Vec<(Figures, Option<FindingKind>)>,
-    /// Of each measurand the share of each input in u²(y).
-    pub shares: Vec<Vec<f64>>,
+/// k of so many ν is kept: as many as tables of t have; real degrees of freedom are all different.
+const KEPT: usize = 4096;
+
+/// A row of a block that was evaluated: what is reported of each measurand, and that its degrees of freedom are few, where
+/// they are: there are no other findings.
+#[derive(Debug, Clone, Copy)]
+pub struct RowFigures<'a> {
+    of: &'a RowEvaluation,
+    rows: &'a Rows,
+    lane: usize,
 }
 
 /// A component as it enters the measurands.
@@ -40,6 +40,18 @@ struct Entry {
     component: usize,
     input: usize,
     coefficient: f64,
+}
+
+/// What is found of a measurand.
+#[derive(Debug)]
+struct Measurand {
+    gradient: Vec<Block>,
+    /// Of the entries, u times derivative.
+    weights: Vec<Block>,
+    estimate: Block,
+    u: Block,
+    dof: Block,
+    k: Block,
 }
 
 /// Evaluates rows of a budget.
@@ -53,11 +65,12 @@ pub struct RowEvaluation {
     references: Vec<(usize, f64)>,
     /// The largest standardised moments of the components: |μ3|, μ4.
     moments: [f64; 2],
-    /// k by the bits of ν.
-    factors: HashMap<u64, f64>,
+    /// ν and its k, by the whole part of ν.
+    factors: Vec<[f64; 2]>,
     u: Vec<Block>,
-    gradient: Vec<Block>,
-    weights: Vec<Block>,
+    measurands: Vec<Measurand>,
+    /// Marks the rows that the general evaluation must see.
+    doubt: Block,
     nudged: Vec<Block>,
     moved: Vec<Block>,
 }
@@ -99,37 +112,44 @@ impl RowEvaluation {
             ];
         }
         let (inputs, count) = (budget.inputs.len(), entries.len());
+        let measurand = |_| Measurand {
+            gradient: vec![Block::ZERO; inputs],
+            weights: vec![Block::ZERO; count],
+            estimate: Block::ZERO,
+            u: Block::ZERO,
+            dof: Block::ZERO,
+            k: Block::ZERO,
+        };
         Some(RowEvaluation {
             references: references(budget, &entries),
             budget: budget.clone(),
             runner: RowRunner::new(&budget.model)?,
             entries,
             moments: largest,
-            factors: HashMap::new(),
+            factors: vec![[f64::NAN; 2]; KEPT],
             u: vec![Block::ZERO; inputs],
-            gradient: vec![Block::ZERO; inputs],
-            weights: vec![Block::ZERO; count],
+            measurands: budget.model.outputs().iter().map(measurand).collect(),
+            doubt: Block::ZERO,
             nudged: vec![Block::ZERO; inputs],
             moved: vec![Block::ZERO; inputs],
         })
     }
 
-    /// Evaluates the first `count` rows; nothing for those that the general evaluation must see.
-    pub fn evaluate(&mut self, rows: &Rows, count: usize) -> Vec<Option<RowFigures>> {
+    /// Evaluates the first `count` rows.
+    pub fn evaluate(&mut self, rows: &Rows, count: usize) {
         self.input_uncertainties(rows);
         self.runner.evaluate(&rows.estimates);
         self.runner.look_around(&self.u, REACH);
-        let sure = |lane: usize| self.runner.doubt().0[lane] == 0.0;
-        let empty = || RowFigures {
-            measurands: Vec::with_capacity(self.budget.model.outputs().len()),
-            shares: Vec::new(),
-        };
-        let mut found: Vec<Option<RowFigures>> =
-            (0..count).map(|lane| sure(lane).then(empty)).collect();
-        for measurand in 0..self.budget.model.outputs().len() {
-            self.measurand(measurand, rows, &mut found);
+        self.doubt = *self.runner.doubt();
+        for at in 0..self.measurands.len() {
+            self.measurand(at, rows, count);
         }
-        found
+    }
+
+    /// What was found of a row; nothing where the general evaluation must see it.
+    pub fn row<'a>(&'a self, rows: &'a Rows, lane: usize) -> Option<RowFigures<'a>> {
+        let of = self;
+        (self.doubt.0[lane] == 0.0).then_some(RowFigures { of, rows, lane })
     }
 
     /// As [`Covariance::uncertainty`](super::covariance::Covariance::uncertainty) of each input.
@@ -160,36 +180,32 @@ impl RowEvaluation {
         }
     }
 
-    fn measurand(&mut self, measurand: usize, rows: &Rows, found: &mut [Option<RowFigures>]) {
-        self.runner.gradient(measurand, &mut self.gradient);
-        let (u, dof) = self.first_order(rows);
-        let values = *self.runner.values(measurand);
-        let mut doubt = self.beyond_first_order(measurand, rows, &u);
-        self.arithmetic(measurand, rows, &u, &mut doubt);
-        for (lane, row) in found.iter_mut().enumerate() {
-            let known = self.runner.known(measurand).at(lane);
-            let mut value = values.0[lane];
-            let sure = doubt.0[lane] == 0.0 && row.is_some() && value.is_finite();
-            settle(&mut value, known.value[0], known.error);
-            let figures = match sure {
-                true => self.figures(value, u.0[lane], dof.0[lane], lane),
-                false => None,
-            };
-            let Some((one, figures)) = row.as_mut().zip(figures) else {
-                *row = None;
+    fn measurand(&mut self, at: usize, rows: &Rows, count: usize) {
+        self.runner.gradient(at, &mut self.measurands[at].gradient);
+        self.first_order(at, rows);
+        self.measurands[at].estimate = *self.runner.values(at);
+        self.beyond_first_order(at, rows);
+        self.arithmetic(at, rows);
+        for lane in 0..count {
+            if self.doubt.0[lane] != 0.0 {
                 continue;
-            };
-            one.measurands
-                .push((figures, findings::few_degrees(dof.0[lane])));
-            one.shares.push(self.shares(rows, u.0[lane], lane));
+            }
+            let known = self.runner.known(at).at(lane);
+            let value = &mut self.measurands[at].estimate.0[lane];
+            let sure = value.is_finite();
+            settle(value, known.value[0], known.error);
+            if !(sure && self.covers(at, lane)) {
+                self.doubt.0[lane] = 1.0;
+            }
         }
     }
 
     /// The weights of the components, u(y) as [`norm`](super::covariance::norm) has it, and ν by Welch and Satterthwaite.
-    fn first_order(&mut self, rows: &Rows) -> (Block, Block) {
+    fn first_order(&mut self, at: usize, rows: &Rows) {
+        let of = &mut self.measurands[at];
         let mut largest = Block::ZERO;
-        for (entry, weight) in self.entries.iter().zip(&mut self.weights) {
-            let (c, u) = (&self.gradient[entry.input], &rows.u[entry.component]);
+        for (entry, weight) in self.entries.iter().zip(&mut of.weights) {
+            let (c, u) = (&of.gradient[entry.input], &rows.u[entry.component]);
             for lane in 0..LANES {
                 let one = (c.0[lane] * entry.coefficient) * u.0[lane];
                 weight.0[lane] = one;
@@ -202,7 +218,7 @@ impl RowEvaluation {
             }
         }
         let [mut u, mut sum] = [Block::ZERO; 2];
-        for weight in &self.weights {
+        for weight in &of.weights {
             for lane in 0..LANES {
                 let part = weight.0[lane] / largest.0[lane];
                 u.0[lane] += part * part;
@@ -211,7 +227,7 @@ impl RowEvaluation {
         for (u, largest) in u.0.iter_mut().zip(&largest.0) {
             *u = largest * u.sqrt();
         }
-        for (entry, weight) in self.entries.iter().zip(&self.weights) {
+        for (entry, weight) in self.entries.iter().zip(&of.weights) {
             let dof = &rows.dof[entry.component];
             for lane in 0..LANES {
                 let part = weight.0[lane].abs() / u.0[lane];
@@ -220,13 +236,14 @@ impl RowEvaluation {
             }
         }
         sum.0.iter_mut().for_each(|sum| *sum = 1.0 / *sum);
-        (u, sum)
+        (of.u, of.dof) = (u, sum);
     }
 
     /// Marks the rows in which there may be something beyond first order: second-order terms that matter, a coefficient
     /// that vanishes, an input that is by far too large, references that are not covered.
-    fn beyond_first_order(&self, measurand: usize, rows: &Rows, u: &Block) -> Block {
-        let mut doubt = Block::ZERO;
+    fn beyond_first_order(&mut self, measurand: usize, rows: &Rows) {
+        let Measurand { gradient, u, .. } = &self.measurands[measurand];
+        let doubt = &mut self.doubt;
         let bounds = self.runner.bounds(measurand);
         let [third, fourth] = self.moments.map(|moment| moment * SPARE);
         let (curved, drifting) = ((0.25 * (fourth - 1.0)).max(0.5), (fourth / 3.0).max(1.0));
@@ -241,7 +258,9 @@ impl RowEvaluation {
                 && added <= 2.0 * TOLERATED / SPARE
                 && u > 0.0
                 && u < f64::MAX;
-            doubt.0[lane] = f64::from(u8::from(!nothing));
+            if !nothing {
+                doubt.0[lane] = 1.0;
+            }
         }
         let mut bends = vec![Block::ZERO; self.u.len()];
         for (inputs, factor, second) in self.runner.bends(measurand) {
@@ -254,7 +273,7 @@ impl RowEvaluation {
         let [mut largest, mut others, mut exceeds] = [Block::ZERO; 3];
         for (input, bend) in bends.iter().enumerate() {
             for lane in 0..LANES {
-                let (c, own) = (self.gradient[input].0[lane], self.u[input].0[lane]);
+                let (c, own) = (gradient[input].0[lane], self.u[input].0[lane]);
                 let x = rows.estimates[input].0[lane].abs();
                 let (part, bend) = ((c * own).abs() / u.0[lane], bend.0[lane] / u.0[lane]);
                 let seen = part > RESIDUE * SPARE
@@ -281,11 +300,12 @@ impl RowEvaluation {
                 doubt.0[lane] = 1.0;
             }
         }
-        doubt
     }
 
     /// Marks the rows whose figures the arithmetic may not resolve.
-    fn arithmetic(&mut self, measurand: usize, rows: &Rows, u: &Block, doubt: &mut Block) {
+    fn arithmetic(&mut self, measurand: usize, rows: &Rows) {
+        let Measurand { gradient, u, .. } = &self.measurands[measurand];
+        let doubt = &mut self.doubt;
         // δ is at least this part of u.
         let digits = i32::from(self.budget.conventions.digits.max(1));
         let tolerated = 0.5 * 10f64.powi(-digits) / SPARE;
@@ -320,7 +340,7 @@ impl RowEvaluation {
             self.runner.evaluate(&self.nudged);
             self.runner.gradient(measurand, &mut self.moved);
             for lane in (0..LANES).filter(|lane| lossy.0[*lane] != 0.0) {
-                let gradients = self.moved.iter().zip(&self.gradient).zip(&self.u);
+                let gradients = self.moved.iter().zip(gradient).zip(&self.u);
                 let moved =
                     gradients.map(|((moved, c), u)| (moved.0[lane] - c.0[lane]).abs() * u.0[lane]);
                 let moved: f64 = moved.sum();
@@ -333,34 +353,29 @@ impl RowEvaluation {
         self.runner.evaluate(&rows.estimates);
     }
 
-    /// What is reported, where k follows from a t-distribution or is fixed and no reference is known worse than the result.
-    fn figures(&mut self, estimate: f64, u: f64, dof: f64, lane: usize) -> Option<Figures> {
+    /// Finds k, where it follows from a t-distribution or is fixed and no reference is known worse than the result; false
+    /// where that is not so.
+    fn covers(&mut self, at: usize, lane: usize) -> bool {
         let conventions = &self.budget.conventions;
-        let entered = conventions.degrees_of_freedom.entered(dof);
-        let (k, dof) = match conventions.coverage_factor {
-            CoverageRule::Fixed(k) => (k, None),
-            CoverageRule::Normal => (self.factor(f64::INFINITY), Some(f64::INFINITY)),
-            CoverageRule::Output if dof >= coverage::MANY && self.dominates(u, lane) => {
-                return None;
+        let of = &self.measurands[at];
+        let (u, dof) = (of.u.0[lane], of.dof.0[lane]);
+        let k = match conventions.coverage_factor {
+            CoverageRule::Fixed(k) => k,
+            CoverageRule::Normal => self.factor(f64::INFINITY),
+            CoverageRule::Output if dof >= coverage::MANY && self.dominates(at, lane) => {
+                return false;
             }
-            CoverageRule::Output | CoverageRule::StudentT => (self.factor(entered), Some(entered)),
+            CoverageRule::Output | CoverageRule::StudentT => {
+                self.factor(conventions.degrees_of_freedom.entered(dof))
+            }
         };
+        let of = &mut self.measurands[at];
+        of.k.0[lane] = k;
         let expanded = k * u;
-        let reference = |(entry, k): &(usize, f64)| k * self.weights[*entry].0[lane].abs();
-        let covered = self
-            .references
-            .iter()
-            .map(reference)
-            .all(|one| one <= expanded);
-        let whole = estimate.is_finite() && expanded > 0.0 && expanded.is_finite();
-        (covered && whole).then_some(Figures {
-            estimate,
-            u: Some(u),
-            dof,
-            k: Some(k),
-            expanded: Some(expanded),
-            ends: Some([estimate - expanded, estimate + expanded]),
-        })
+        let reference = |(entry, k): &(usize, f64)| k * of.weights[*entry].0[lane].abs();
+        let mut references = self.references.iter().map(reference);
+        let covered = references.all(|one| one <= expanded);
+        covered && of.estimate.0[lane].is_finite() && expanded > 0.0 && expanded.is_finite()
     }
 
     /// The budget, of which the words hold and not the numbers.
@@ -369,21 +384,20 @@ impl RowEvaluation {
     }
 
     fn factor(&mut self, dof: f64) -> f64 {
-        /// As many as tables of t have; real degrees of freedom are all different.
-        const KEPT: usize = 4096;
         let p = self.budget.conventions.coverage_probability;
-        if self.factors.len() > KEPT {
-            self.factors.clear();
+        let [known, k] = &mut self.factors[dof.min(KEPT as f64 - 1.0) as usize];
+        if *known != dof {
+            [*known, *k] = [dof, Shape::student_t(dof).half_width(p)];
         }
-        let factor = self.factors.entry(dof.to_bits());
-        *factor.or_insert_with(|| Shape::student_t(dof).half_width(p))
+        *k
     }
 
     /// Whether one component that is not normal, or two rectangles, may dominate.
-    fn dominates(&self, u: f64, lane: usize) -> bool {
+    fn dominates(&self, at: usize, lane: usize) -> bool {
+        let Measurand { weights, u, .. } = &self.measurands[at];
         let mut rectangles = [0.0_f64; 2];
-        for (entry, weight) in self.entries.iter().zip(&self.weights) {
-            let part = weight.0[lane].abs() / u;
+        for (entry, weight) in self.entries.iter().zip(weights) {
+            let part = weight.0[lane].abs() / u.0[lane];
             match self.budget.components[entry.component].distribution {
                 Distribution::Normal(_) | Distribution::StudentT(_) => continue,
                 Distribution::Uniform(_) if part > rectangles[0] => {
@@ -399,15 +413,56 @@ impl RowEvaluation {
         let [first, second] = rectangles.map(|part| part * SPARE);
         second > 0.0 && coverage::is_dominated_by_pair(first, second)
     }
+}
 
-    /// As [`Linear::input_lines`](super::gum::Linear::input_lines).
-    fn shares(&self, rows: &Rows, u: f64, lane: usize) -> Vec<f64> {
+impl RowFigures<'_> {
+    /// What is reported of a measurand.
+    pub fn figures(&self, measurand: usize) -> Figures {
+        let (of, lane) = (&self.of.measurands[measurand], self.lane);
+        let [estimate, u, k] = [&of.estimate, &of.u, &of.k].map(|block| block.0[lane]);
+        let conventions = &self.of.budget.conventions;
+        let expanded = k * u;
+        Figures {
+            estimate,
+            u: Some(u),
+            dof: match conventions.coverage_factor {
+                CoverageRule::Fixed(_) => None,
+                CoverageRule::Normal => Some(f64::INFINITY),
+                CoverageRule::Output | CoverageRule::StudentT => {
+                    Some(conventions.degrees_of_freedom.entered(of.dof.0[lane]))
+                }
+            },
+            k: Some(k),
+            expanded: Some(expanded),
+            ends: Some([estimate - expanded, estimate + expanded]),
+        }
+    }
+
+    /// That its degrees of freedom are few.
+    pub fn few_degrees(&self, measurand: usize) -> Option<FindingKind> {
+        findings::few_degrees(self.of.measurands[measurand].dof.0[self.lane])
+    }
+
+    /// c·u of each component, with sign.
+    pub fn contributions(&self, measurand: usize) -> Vec<f64> {
+        let mut contributions = vec![0.0; self.rows.u.len()];
+        let weights = &self.of.measurands[measurand].weights;
+        for (entry, weight) in self.of.entries.iter().zip(weights) {
+            contributions[entry.component] = weight.0[self.lane];
+        }
+        contributions
+    }
+
+    /// The share of each input in u²(y), as [`Linear::input_lines`](super::gum::Linear::input_lines).
+    pub fn shares(&self, measurand: usize) -> Vec<f64> {
+        let (of, lane) = (&self.of.measurands[measurand], self.lane);
+        let u = of.u.0[lane];
         // The sum of no shares is zero, not −0.
-        let mut shares = vec![0.0; self.u.len()];
-        for (entry, standard) in self.entries.iter().zip(&self.weights) {
-            let own = entry.coefficient * rows.u[entry.component].0[lane];
-            let weight = self.gradient[entry.input].0[lane] * own;
-            if weight != 0.0 && self.u[entry.input].0[lane] > 0.0 {
+        let mut shares = vec![0.0; self.of.u.len()];
+        for (entry, standard) in self.of.entries.iter().zip(&of.weights) {
+            let own = entry.coefficient * self.rows.u[entry.component].0[lane];
+            let weight = of.gradient[entry.input].0[lane] * own;
+            if weight != 0.0 && self.of.u[entry.input].0[lane] > 0.0 {
                 shares[entry.input] += (weight / u) * (standard.0[lane] / u);
             }
         }
@@ -530,22 +585,28 @@ mod tests {
             let (mut taken, mut all) = (0, 0);
             for _ in 0..4 {
                 let rows = rows(&budget, &mut numbers);
-                for (lane, found) in rows_of.evaluate(&rows, LANES).into_iter().enumerate() {
+                rows_of.evaluate(&rows, LANES);
+                for lane in 0..LANES {
                     all += 1;
-                    let Some(found) = found else { continue };
+                    let Some(found) = rows_of.row(&rows, lane) else {
+                        continue;
+                    };
                     taken += 1;
                     let budget = written(&budget, &rows, lane);
                     let expected = evaluate(&budget, &options).expect("a value");
                     let result = &expected.results[0];
                     let reported = result.reported(&budget.conventions).figures();
                     let place = format!("{model}, lane {lane}");
-                    assert_eq!(found.measurands[0].0, reported, "{place}");
+                    assert_eq!(found.figures(0), reported, "{place}");
                     let kinds: Vec<_> = expected.findings.into_iter().map(|one| one.kind).collect();
-                    let only: Vec<_> = found.measurands[0].1.iter().cloned().collect();
+                    let only: Vec<_> = found.few_degrees(0).into_iter().collect();
                     assert_eq!(kinds, only, "{place}");
                     let shares: Vec<f64> =
                         result.gum.inputs.iter().map(|line| line.share).collect();
-                    assert_eq!(found.shares[0], shares, "{place}");
+                    assert_eq!(found.shares(0), shares, "{place}");
+                    let components = result.gum.components.iter();
+                    let contributions: Vec<f64> = components.map(|one| one.contribution).collect();
+                    assert_eq!(found.contributions(0), contributions, "{place}");
                 }
             }
             // Else the bounds are worth nothing.

@@ -158,8 +158,16 @@ impl<'a, 'env, S: Source> Collector<'a, 'env, S> {
     pub(super) fn commit(&mut self, chunks: Range<u64>, values: Vec<Vec<Vec<f64>>>) {
         match &mut self.held {
             Held::Columns(columns) => {
+                let mut values = values.into_iter();
+                // Most runs that are kept have one chunk.
+                if columns.iter().all(Vec::is_empty)
+                    && let Some(first) = values.next()
+                {
+                    *columns = first;
+                }
                 for (output, column) in columns.iter_mut().enumerate() {
-                    column.reserve(values.iter().map(|chunk| chunk[output].len()).sum());
+                    let more = values.as_slice().iter().map(|chunk| chunk[output].len());
+                    column.reserve(more.sum());
                 }
                 for chunk in values {
                     for (column, part) in columns.iter_mut().zip(chunk) {

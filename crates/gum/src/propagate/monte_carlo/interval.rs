@@ -62,8 +62,13 @@ impl Ordered {
         let [low_end, high_start] = cuts.tails;
         let [from, to] = cuts.middle;
         let stretches = [[f64::MIN, low_end], [from, to], [high_start, f64::MAX]];
-        let mut held = values.to_vec();
-        keep_inside(level(), &mut held, 0, &stretches);
+        let mut held = Vec::new();
+        // Part by part, so that what is left out takes no memory.
+        for part in values.chunks(PILOT) {
+            let begin = held.len();
+            held.extend_from_slice(part);
+            keep_inside(level(), &mut held, begin, &stretches);
+        }
         // The three may overlap where many values are the same.
         let [mut low, mut middle, mut high] = stretches.map(|stretch| {
             let mut part = held.clone();

@@ -1,0 +1,75 @@
+//! A table that is in memory already, column by column.
+
+use std::borrow::Cow;
+
+use super::sheet::Row;
+
+/// Columns of equal length.
+#[derive(Debug)]
+pub struct Columns<'t> {
+    columns: Vec<(String, Cells<'t>)>,
+    rows: usize,
+}
+
+/// What a column holds.
+#[derive(Debug)]
+pub enum Cells<'t> {
+    /// Numbers; none where one is not a number.
+    Numbers(&'t [f64]),
+    /// Texts, as a file has them.
+    Texts(Vec<String>),
+}
+
+impl<'t> Columns<'t> {
+    /// Of columns with their heads; `None` where they have different lengths.
+    pub fn new(columns: Vec<(String, Cells<'t>)>) -> Option<Columns<'t>> {
+        let rows = columns.first().map_or(0, |(_, cells)| cells.len());
+        let equal = columns.iter().all(|(_, cells)| cells.len() == rows);
+        equal.then_some(Columns { columns, rows })
+    }
+
+    /// How many rows there are.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// What a column holds.
+    pub fn cells(&self, column: usize) -> &Cells<'t> {
+        &self.columns[column].1
+    }
+
+    /// The line of names of a file with these columns.
+    pub fn head(&self) -> String {
+        let quoted = |name: &str| match name.contains([',', ';', '\t', '"', '\n', '\r', '#']) {
+            true => format!("\"{}\"", name.replace('"', "\"\"")),
+            false => name.to_owned(),
+        };
+        let names = self.columns.iter().map(|(name, _)| quoted(name));
+        names.collect::<Vec<_>>().join(",") + "\n"
+    }
+
+    /// A row, as if it were read from such a file.
+    pub fn row(&self, at: usize) -> Row<'static> {
+        let cells = self.columns.iter().map(|(_, cells)| cells.text(at));
+        // The first line has the names.
+        Row::of(&cells.collect::<Vec<_>>(), at + 2)
+    }
+}
+
+impl Cells<'_> {
+    fn len(&self) -> usize {
+        match self {
+            Cells::Numbers(numbers) => numbers.len(),
+            Cells::Texts(texts) => texts.len(),
+        }
+    }
+
+    /// The cell of a row, as a file has it.
+    pub fn text(&self, at: usize) -> Cow<'_, str> {
+        match self {
+            Cells::Numbers(numbers) if numbers[at].is_nan() => Cow::Borrowed(""),
+            Cells::Numbers(numbers) => Cow::Owned(format!("{:?}", numbers[at])),
+            Cells::Texts(texts) => Cow::Borrowed(texts[at].trim()),
+        }
+    }
+}

@@ -104,7 +104,7 @@ fn form<'a>(
                 let input = &report.budget.inputs[one.input];
                 ImprovementJson {
                     input: &input.name,
-                    unit: difference_symbol(&input.unit),
+                    unit: symbol(&input.unit),
                     u: Number(one.u),
                     needed: Number(one.needed),
                     cost: Number(one.cost),
@@ -157,7 +157,7 @@ fn at_least_cost(report: &Report<'_>, together: &Together) -> Vec<Block> {
         let input = &report.budget.inputs[one.input];
         table.push(vec![
             input.name.as_str().into(),
-            difference_symbol(&input.unit).into(),
+            symbol(&input.unit).into(),
             significant(one.u, TABLE_DIGITS).into(),
             significant(one.needed, TABLE_DIGITS).into(),
             significant(one.cost, TABLE_DIGITS).into(),

@@ -121,7 +121,7 @@ unit = "V"
     near(k1.value, (99.9047 + 99.9304) / 2.0 / 500.0, 1e-6);
     // The voltmeter's error of 11 µV, stated in V for a column in mV.
     let voltmeter = found.figures.causes.iter().find(
-        |cause| matches!(&cause.origin, Origin::Stated { name, .. } if name.starts_with("E")),
+        |cause| matches!(&cause.origin, Origin::Stated { name, .. } if name.starts_with("reading.E")),
     );
     let expected = 0.011 / 3.0_f64.sqrt() / 2.0_f64.sqrt() / 500.0;
     near(

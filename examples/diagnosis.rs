@@ -24,7 +24,7 @@ use gumption::challenge::study::{
     Ablation, Advice, CASES, Decision, FIRST_SEED, Record, Request, Sequel, Trial, Twin, decision,
     read, report, request, trials, write,
 };
-use gumption::challenge::{ALIAS, Accepted, SealedCase, TrueEffect};
+use gumption::challenge::{ALIAS, Accepted, CaseFile, SealedCase, TrueEffect};
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{Pick, StandIn, diagnose, stand_ins};
 use gumption::report::{self, Language, diagnosis_failure};
@@ -262,7 +262,10 @@ struct Said {
 
 /// The case as it is read from its files.
 fn handed_out(trial: &Trial, sealed: &SealedCase, folder: &Path) -> Result<Case, String> {
-    sealed.hand_out(folder).map_err(|error| error.to_string())?;
+    let written = |file: &CaseFile| std::fs::write(folder.join(file.name), &file.text);
+    let written =
+        std::fs::create_dir_all(folder).and_then(|()| sealed.files.iter().try_for_each(written));
+    written.map_err(|error| error.to_string())?;
     let mut case = Case::load(&folder.join("CASE.toml"), Purpose::Diagnosis)
         .map_err(|rejection| rejection.render(false))?;
     case.settings.seed = trial.seed;

@@ -66,9 +66,12 @@ impl Shelf {
         let mut files = Vec::new();
         self.collect(Path::new(""), 0, &mut files);
         files.sort();
+        let inside = self.folder(&[]);
         let is_certificate = |file: &&String| {
-            let text = std::fs::read_to_string(self.root.join(file)).unwrap_or_default();
-            kind_of(&text) == Kind::Certificate
+            let text = Files::Folder(&inside)
+                .read(Path::new(file))
+                .unwrap_or_default();
+            kind_of(&String::from_utf8_lossy(&text)) == Kind::Certificate
         };
         let certificates: Vec<&String> = files.iter().filter(is_certificate).collect();
         let folder = self.root.file_name().unwrap_or(self.root.as_os_str());

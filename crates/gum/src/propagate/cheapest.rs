@@ -63,7 +63,7 @@ pub fn cheapest(
     let payable = |input: usize| {
         let (cost, share) = (costs.get(input).copied()?, gum.inputs[input].share);
         let may = cost > 0.0 && cost.is_finite() && share > 0.0;
-        may.then(|| (input, cost, (cost / share).cbrt()))
+        may.then(|| (input, cost, libm::cbrt(cost / share)))
     };
     let payable: Vec<(usize, f64, f64)> = (0..gum.inputs.len()).filter_map(payable).collect();
     let expanded = |t: f64| {
@@ -132,11 +132,11 @@ mod tests {
     #[test]
     fn equal_costs_bring_contributions_together() {
         let budget = budget(THREE);
-        let t = ((3.5_f64.powi(2) - 1.0) / (9_f64.cbrt() + 16_f64.cbrt())).sqrt();
+        let t = ((3.5_f64.powi(2) - 1.0) / (libm::cbrt(9.0) + libm::cbrt(16.0))).sqrt();
         let found = needs(&budget, 7.0, &[1.0, 1.0, 0.0]);
-        for ([input, needed, cost], (index, u)) in found.iter().zip([(0.0, 3.0_f64), (1.0, 4.0)]) {
+        for ([input, needed, cost], (index, u)) in found.iter().zip([(0.0, 3.0), (1.0, 4.0)]) {
             assert_eq!(*input, index);
-            assert!((needed - t * u.cbrt()).abs() < 1e-7, "{found:?}");
+            assert!((needed - t * libm::cbrt(u)).abs() < 1e-7, "{found:?}");
             assert!((cost - (u / needed - 1.0)).abs() < 1e-9, "{found:?}");
         }
         assert_eq!(found.len(), 2);

@@ -5,18 +5,15 @@ use gumption_format::document::{Axis, ColumnKind, Marks, Panel, Table, Tone};
 use gumption_format::machine::Number;
 use gumption_report::grouped;
 
-use super::{
-    Class, Count, Drawn, EXPERIMENTS, MOST_READINGS, P, SEEN, curve, ends, layer, moments, outline,
-};
+use super::{Class, Count, Drawn, P, SEEN, curve, ends, layer, moments, outline};
 
-/// Equal steps of the slider multiply the trials alike: from one to all with the last of them.
+/// Equal steps of the slider multiply the trials alike: the last of them, STEP³⁰, is all 10 000.
+const STEP: f64 = 1.359_356_39;
+
+/// Trials at a step of the slider.
 pub(super) const TRIALS: Count = Count {
     symbol: "M",
-    at: |step| {
-        (EXPERIMENTS as f64)
-            .powf(step as f64 / MOST_READINGS as f64)
-            .round() as usize
-    },
+    at: |step| STEP.powi(step as i32).round() as usize,
 };
 
 /// The first trials of a product; the slider adds to those that are there, from two to all.

@@ -4,11 +4,11 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::adopt::{self, Free};
-use super::case::Case;
-use super::catalogue::{self, Cell, Finer, FittedModel, Node, Variation};
+use super::case::{Case, Observed};
+use super::catalogue::{self, Cell, Finer, FittedModel, Node, Term, Variation};
 use super::design::Design;
 use super::evidence::{
     self, Atom, Baseline, Candidate, Examination, Fitted, Question, Refusal, Shape, TRACE,
@@ -65,13 +65,64 @@ impl<'f> Candidates<'f> {
                 settings: settings.clone(),
             };
             let examination = evidence::examine(&question, progress)?;
-            let missized = missized(&self.fitted, &self.cells, &self.places, &examination);
+            let mut missized = missized(&self.fitted, &self.cells, &self.places, &examination);
+            if missized.is_empty() {
+                missized = self.shrinking(&examination, claimed);
+            }
             if missized.is_empty() {
                 return Ok((baseline, examination));
             }
             self.atoms
                 .retain(|atom| !missized.contains(&atom.candidate));
             self.places.retain(|(cell, _)| !missized.contains(cell));
+        }
+    }
+
+    /// Candidates that make the residuals of a constant smaller by making the constant smaller. Residuals of a constant that the model
+    /// should give, such as a norm, are in units of what is left of it: in these they have to become smaller, or nothing is explained.
+    fn shrinking(&self, examination: &Examination, claimed: &Claimed) -> Vec<usize> {
+        let fitted = &self.fitted;
+        let [response] = fitted.case().responses.as_slice() else {
+            return Vec::new();
+        };
+        let Observed::Constant(constant) = response.observed else {
+            return Vec::new();
+        };
+        let named: Vec<_> = (examination.slots.iter())
+            .filter_map(|slot| slot.named.first())
+            .filter_map(|named| {
+                let (cell, variation) = self.places[named.variants.first()?.atom];
+                let variation = &self.cells[cell].variants[variation];
+                let acts = |term: &Term| matches!(term.node, Node::Output | Node::Gain);
+                variation
+                    .terms
+                    .iter()
+                    .all(acts)
+                    .then_some((named, variation))
+            })
+            .collect();
+        if named.is_empty() {
+            return Vec::new();
+        }
+        let adopted = adopted_fit(fitted, &self.cells, &self.places, examination, claimed);
+        let Ok(Some((_, after))) = adopted else {
+            return Vec::new();
+        };
+        let before = &fitted.fit.residuals;
+        let mut left = DVector::from_element(before.len().min(after.residuals.len()), constant);
+        for (named, variation) in &named {
+            let columns = variation.columns(fitted);
+            if columns.ncols() == named.estimate.len() && columns.nrows() <= left.len() {
+                let change = columns * &named.estimate;
+                let mut rows = left.rows_mut(0, change.len());
+                rows -= change;
+            }
+        }
+        let scaled = |row: usize| after.residuals[row] * constant / left[row];
+        let squares: f64 = (0..left.len()).map(|row| scaled(row).powi(2)).sum();
+        match squares < before.rows(0, left.len()).norm_squared() {
+            true => Vec::new(),
+            false => named.iter().map(|(named, _)| named.candidate).collect(),
         }
     }
 
@@ -426,7 +477,7 @@ fn takes_all(variation: &Variation, sizes: &[f64], rows: usize) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::catalogue::{Modifier, Term};
+    use super::super::catalogue::Modifier;
     use super::*;
 
     #[test]

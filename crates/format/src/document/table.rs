@@ -31,6 +31,8 @@ pub enum ColumnKind {
     Wrapped,
     /// A bar for a share; narrowed first, then dropped.
     Bar,
+    /// A sign beside rows that are to be seen.
+    Marks,
 }
 
 /// A line of a table.

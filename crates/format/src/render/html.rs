@@ -277,6 +277,9 @@ fn class(kind: ColumnKind) -> &'static str {
 
 fn draw_cell(cell: &Cell, kind: ColumnKind) -> String {
     match cell {
+        Cell::Text(text) if kind == ColumnKind::Marks && !text.is_empty() => {
+            format!("<td class=\"mark\">{}</td>", inline(text))
+        }
         Cell::Text(text) => format!("<td{}>{}</td>", class(kind), inline(text)),
         Cell::Part(text) => format!("<td class=\"part\">{}</td>", inline(text)),
         Cell::Share(share) => {

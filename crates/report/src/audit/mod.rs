@@ -245,7 +245,7 @@ fn rows(audit: &Audit<'_>, language: Language) -> Table {
         ("c·u", ColumnKind::Numbers),
         (language.pick("claimed", "声称"), ColumnKind::Numbers),
         ("ν", ColumnKind::Numbers),
-        ("", ColumnKind::Names),
+        ("", ColumnKind::Marks),
     ]);
     for (i, (row, line)) in case.claimed.rows.iter().zip(&case.right.lines).enumerate() {
         let mark = if is_marked(audit, i) { "◀" } else { "" };

@@ -208,6 +208,7 @@ fn floor(table: &Table, body: &[usize]) -> Vec<usize> {
         ColumnKind::Bar => 0,
         ColumnKind::Names if i == 0 && !is_matrix(table) => head,
         ColumnKind::Names => (pieces[i] + 4).min(body[i]).max(head),
+        ColumnKind::Marks => body[i].max(head),
         ColumnKind::Words | ColumnKind::Wrapped => pieces[i].max(head),
     });
     floor.collect()

@@ -453,7 +453,7 @@ impl RowFigures<'_> {
         contributions
     }
 
-    /// The share of each input in u²(y), as [`Linear::input_lines`](super::gum::Linear::input_lines).
+    /// The share of each input in u²(y), as the lines of the inputs of one budget have it.
     pub fn shares(&self, measurand: usize) -> Vec<f64> {
         let (of, lane) = (&self.of.measurands[measurand], self.lane);
         let u = of.u.0[lane];

@@ -364,8 +364,7 @@ impl Lowering<'_> {
         );
     }
 
-    /// Whether a name is a quantity without a unit, which may simply have been forgotten.
-    /// The quantity of an expression that states no unit, with the one by which the expression would be in the wanted unit.
+    /// The quantity of an expression that states no unit, which may simply have been forgotten, with the one by which the expression would be in the wanted unit.
     pub fn forgotten<'e>(
         &self,
         expr: &'e Expr,

@@ -636,7 +636,7 @@ async function propose(name, content) {
   if (answer === "") return;
   const response = await ask("propose", { procedure: $("option").value || null }, [[name, content]]);
   if (!response.ok) { note(await told(response)); return; }
-  await created($("name").value.trim(), (await response.json()).text);
+  if (await created($("name").value.trim(), (await response.json()).text)) say(word("held", name));
 }
 
 // ---- hands -----------------------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
+use gumption_core::special::f_sf;
 use nalgebra::{DMatrix, DVector};
 
 use super::adopt::{self, Free};
@@ -67,7 +68,7 @@ impl<'f> Candidates<'f> {
             let examination = evidence::examine(&question, progress)?;
             let mut missized = missized(&self.fitted, &self.cells, &self.places, &examination);
             if missized.is_empty() {
-                missized = self.shrinking(&examination, claimed);
+                missized = self.shrinking(&examination, claimed, settings.alpha);
             }
             if missized.is_empty() {
                 return Ok((baseline, examination));
@@ -80,7 +81,7 @@ impl<'f> Candidates<'f> {
 
     /// Candidates that make the residuals of a constant smaller by making the constant smaller. Residuals of a constant that the model
     /// should give, such as a norm, are in units of what is left of it: in these they have to become smaller, or nothing is explained.
-    fn shrinking(&self, examination: &Examination, claimed: &Claimed) -> Vec<usize> {
+    fn shrinking(&self, examination: &Examination, claimed: &Claimed, alpha: f64) -> Vec<usize> {
         let fitted = &self.fitted;
         let [response] = fitted.case().responses.as_slice() else {
             return Vec::new();
@@ -88,42 +89,31 @@ impl<'f> Candidates<'f> {
         let Observed::Constant(constant) = response.observed else {
             return Vec::new();
         };
-        let named: Vec<_> = (examination.slots.iter())
-            .filter_map(|slot| slot.named.first())
-            .filter_map(|named| {
-                let (cell, variation) = self.places[named.variants.first()?.atom];
-                let variation = &self.cells[cell].variants[variation];
-                let acts = |term: &Term| matches!(term.node, Node::Output | Node::Gain);
-                variation
-                    .terms
-                    .iter()
-                    .all(acts)
-                    .then_some((named, variation))
-            })
-            .collect();
-        if named.is_empty() {
+        let acts = |term: &Term| matches!(term.node, Node::Output | Node::Gain);
+        let named = examination.slots.iter().filter_map(|slot| {
+            let named = slot.named.first()?;
+            let (cell, variation) = self.places[named.variants.first()?.atom];
+            let variation = &self.cells[cell].variants[variation];
+            let acts = variation.terms.iter().all(acts);
+            acts.then(|| (named.candidate, variation.columns(fitted)))
+        });
+        let (named, columns): (Vec<usize>, Vec<DMatrix<f64>>) = named.unzip();
+        let columns: Vec<_> = columns.iter().flat_map(|own| own.column_iter()).collect();
+        if columns.is_empty() {
             return Vec::new();
         }
-        let adopted = adopted_fit(fitted, &self.cells, &self.places, examination, claimed);
-        let Ok(Some((_, after))) = adopted else {
-            return Vec::new();
-        };
-        let before = &fitted.fit.residuals;
-        let mut left = DVector::from_element(before.len().min(after.residuals.len()), constant);
-        for (named, variation) in &named {
-            let columns = variation.columns(fitted);
-            if columns.ncols() == named.estimate.len() && columns.nrows() <= left.len() {
-                let change = columns * &named.estimate;
-                let mut rows = left.rows_mut(0, change.len());
-                rows -= change;
-            }
-        }
-        let scaled = |row: usize| after.residuals[row] * constant / left[row];
-        let squares: f64 = (0..left.len()).map(|row| scaled(row).powi(2)).sum();
-        match squares < before.rows(0, left.len()).norm_squared() {
-            true => Vec::new(),
-            false => named.iter().map(|(named, _)| named.candidate).collect(),
-        }
+        let columns = DMatrix::from_columns(&columns);
+        let rows = columns.nrows();
+        let model = fitted.fit.jacobian.rows(0, rows).into_owned();
+        let (residuals, u) = (fitted.fit.residuals.rows(0, rows), claimed.u.rows(0, rows));
+        let explains = is_explained(
+            &residuals.into_owned(),
+            &u.into_owned(),
+            [&model, &columns],
+            constant,
+            alpha,
+        );
+        if explains { Vec::new() } else { named }
     }
 
     /// The noise that is left when the named effects are in the model.
@@ -453,6 +443,35 @@ fn missized(
     wrong.map(|named| named.candidate).collect()
 }
 
+/// Whether effects on a constant explain residuals: whether these, in units of what the effects leave of the constant, become smaller than by
+/// chance. `model` and `effects` are derivatives.
+fn is_explained(
+    residuals: &DVector<f64>,
+    u: &DVector<f64>,
+    [model, effects]: [&DMatrix<f64>; 2],
+    constant: f64,
+    alpha: f64,
+) -> bool {
+    let before = residuals.component_div(u).norm_squared();
+    let (parameters, sizes) = (model.ncols(), effects.ncols());
+    let mut all = model.clone().resize_horizontally(parameters + sizes, 0.0);
+    all.columns_mut(parameters, sizes).copy_from(effects);
+    let over_noise = DMatrix::from_fn(all.nrows(), all.ncols(), |row, at| all[(row, at)] / u[row]);
+    let found = over_noise
+        .svd(true, true)
+        .solve(&residuals.component_div(u), 1e-12);
+    let Ok(found) = found else {
+        return true;
+    };
+    let left = effects * found.rows(parameters, sizes);
+    let rest = residuals - &all * &found;
+    let in_units = |row: usize| rest[row] / u[row] * constant / (constant - left[row]);
+    let after: f64 = (0..rest.len()).map(|row| in_units(row).powi(2)).sum();
+    let free = rest.len().saturating_sub(all.ncols()).max(1) as f64;
+    let gain = (before - after) / sizes as f64 / (after / free);
+    f_sf(gain.max(0.0), sizes as f64, free) < alpha
+}
+
 /// Whether sizes leave nothing of a response in some row: a relative change of its scale of −1 or beyond.
 fn takes_all(variation: &Variation, sizes: &[f64], rows: usize) -> bool {
     let mut changes = BTreeMap::new();
@@ -479,6 +498,25 @@ fn takes_all(variation: &Variation, sizes: &[f64], rows: usize) -> bool {
 mod tests {
     use super::super::catalogue::Modifier;
     use super::*;
+
+    /// The norm of a magnetometer with a scale that is free: a step from row 4 on goes with the scale, and both take the residuals with them. A
+    /// step in the middle is seen.
+    #[test]
+    fn what_only_makes_a_constant_smaller_explains_nothing() {
+        let noise = |row: usize| 0.1 * libm::sin(7.3 * row as f64);
+        let judged = |from: usize, size: f64| {
+            let step = DMatrix::from_fn(60, 1, |row, _| if row >= from { 1.0 } else { 0.0 });
+            let signal = DVector::from_fn(60, |row, _| 1.0 + noise(row) + size * step[row]);
+            let scale = signal.dot(&DVector::from_element(60, 1.0)) / signal.norm_squared();
+            let residuals = signal.map(|x| 1.0 - scale * x);
+            let model = DMatrix::from_columns(&[signal]);
+            let u = DVector::from_element(60, 0.1);
+            is_explained(&residuals, &u, [&model, &step], 1.0, 0.01)
+        };
+        assert!(!judged(3, 0.0));
+        assert!(!judged(30, 0.0));
+        assert!(judged(30, 0.3));
+    }
 
     #[test]
     fn a_scale_that_is_taken_away_is_no_effect() {

@@ -56,7 +56,7 @@ pub use diagnosis::{
 };
 pub use evaluation::{evaluation, evaluation_schema, evaluations};
 pub use language::Language;
-pub use number::grouped;
+pub use number::{grouped, significant};
 pub use remarks::failure;
 pub use requirements::requirements;
 pub use rows::rows;

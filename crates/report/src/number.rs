@@ -27,7 +27,7 @@ pub(super) fn print(number: &Decimal) -> String {
 
 /// `x` with this many significant digits. Zeros that would only fill up to the decimal marker are
 /// written as a power of ten, so that no digit is shown that is not known.
-pub(super) fn significant(x: f64, digits: u8) -> String {
+pub fn significant(x: f64, digits: u8) -> String {
     let rounded = Decimal::from_f64(x).round_to_significant(digits, Rounding::HalfEven);
     match (rounded.leading_place(), rounded.place()) {
         (Some(leading), Some(place)) if place > 0 => {

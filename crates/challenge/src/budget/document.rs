@@ -2,7 +2,7 @@
 
 use gumption_format::document::{Block, ColumnKind, Document, Table};
 use gumption_format::machine::{self, Machine, record};
-use gumption_report::Language;
+use gumption_report::{Language, significant};
 use serde_json::Value;
 
 use super::case::SheetTruth;
@@ -140,7 +140,8 @@ fn figures(one: &GradedSheet, language: Language) -> String {
         (true, true) => language.pick(", as answered", "，与回答一致"),
         (true, false) => language.pick(", not as answered", "，与回答不一致"),
     };
-    format!("{u_c:.3e}; {expanded:.3e}{answered}")
+    let [u_c, expanded] = [*u_c, *expanded].map(|figure| significant(figure, 4));
+    format!("{u_c}; {expanded}{answered}")
 }
 
 fn words(one: &GradedSheet, language: Language) -> String {

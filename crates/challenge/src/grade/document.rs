@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::score::{FAINT, Finding, Graded, GradedEffect};
 use crate::truth::TrueEffect;
 use gumption_core::special::normal_two_sided_quantile;
-use gumption_report::Language;
+use gumption_report::{Language, significant};
 
 /// The document of a graded diagnosis.
 pub fn document(graded: &Graded, language: Language) -> Document {
@@ -135,7 +135,7 @@ fn blocks(graded: &Graded, language: Language) -> Vec<Block> {
         (pick("concealed", "隐藏情形"), graded.scenario.clone()),
         (
             pick("verdict of the diagnosis", "诊断结论"),
-            graded.verdict.clone(),
+            verdict(graded, language),
         ),
     ])];
     if !graded.effects.is_empty() {
@@ -186,13 +186,28 @@ fn blocks(graded: &Graded, language: Language) -> Vec<Block> {
     if !sentences.is_empty() {
         blocks.push(Block::List(sentences));
     }
-    blocks.push(Block::Closing(vec![format!(
-        "{}: {:.2} / {:.2}",
-        pick("points", "得分"),
-        graded.points,
-        graded.attainable
-    )]));
+    let (points, attainable) = (graded.points, graded.attainable);
+    blocks.push(Block::Closing(vec![match attainable > 0.0 {
+        true => language.pick(
+            format!("points: {points:.2} of {attainable:.2}"),
+            format!("得分：{points:.2}，满分 {attainable:.2}"),
+        ),
+        false => language.pick(
+            format!("points: {points:.2}; where nothing is concealed there are none to be won"),
+            format!("得分：{points:.2}；没有隐藏效应时无分可得"),
+        ),
+    }]));
     blocks
+}
+
+/// What was said of the recording as a whole.
+fn verdict(graded: &Graded, language: Language) -> String {
+    match graded.verdict.as_str() {
+        "agrees" | "none" => language.pick("recording and model agree", "记录与模型相符"),
+        "departs" => language.pick("something is left out", "有遗漏"),
+        other => other,
+    }
+    .to_owned()
 }
 
 fn effects(graded: &Graded, language: Language) -> Table {
@@ -221,9 +236,11 @@ fn size(effect: &GradedEffect, language: Language) -> Option<String> {
     let (answered, truth) = (effect.answered_size?, &effect.truth);
     let half_width = normal_two_sided_quantile(0.95) * truth.in_residuals / truth.lambda_beside;
     let (name, right) = (&truth.physics, truth.in_residuals);
+    let [answered, right] = [answered, right].map(|size| significant(size, 4));
+    let half_width = significant(half_width, 2);
     Some(language.pick(
-        format!("size of {name} in the residuals: {answered:.3e} answered, {right:.3e} in truth; the recording tells it to ± {half_width:.1e} (95 %)"),
-        format!("{name} 在残差中的大小：回答 {answered:.3e}，真值 {right:.3e}；该记录可将其确定到 ± {half_width:.1e}（95 %）"),
+        format!("size of {name} in the residuals: {answered} answered, {right} in truth; the recording tells it to ± {half_width} (95 %)"),
+        format!("{name} 在残差中的大小：回答 {answered}，真值 {right}；该记录可将其确定到 ± {half_width}（95 %）"),
     ))
 }
 

@@ -66,8 +66,10 @@ impl Recording {
             let mut texts = vec![false; drafts.len()];
             // The faults of rows come with the second reading.
             let _ = sheet.visit(|row| {
+                let fields: Vec<&str> = row.fields().collect();
                 for i in &undecided {
-                    match Field::read(row.field(drafts[*i].place), &sheet).and_then(Field::number) {
+                    let field = fields.get(drafts[*i].place).copied();
+                    match Field::read(field.unwrap_or_default(), &sheet).and_then(Field::number) {
                         Some(value) => numeric[*i] |= !value.is_nan(),
                         None => texts[*i] = true,
                     }
@@ -86,8 +88,11 @@ impl Recording {
         let mut lines = Vec::new();
         let visited = sheet.visit(|row| {
             lines.push(row.line);
+            // A row is walked through once: it finds a field by counting those in front of it.
+            let fields: Vec<&str> = row.fields().collect();
             for draft in &mut drafts {
-                draft.take(&sheet, row);
+                let field = fields.get(draft.place).copied();
+                draft.take(&sheet, row, field.unwrap_or_default());
             }
         });
         faults.extend(visited.err().unwrap_or_default());
@@ -296,8 +301,7 @@ impl<'a> Draft<'a> {
         }
     }
 
-    fn take(&mut self, sheet: &Sheet, row: &Row) {
-        let field = row.field(self.place);
+    fn take(&mut self, sheet: &Sheet, row: &Row, field: &str) {
         if self.content == Content::Labels {
             let levels = &mut self.labels.levels;
             let next = levels.len() as u32;

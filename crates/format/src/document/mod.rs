@@ -110,10 +110,19 @@ impl Document {
 
     /// Words that a format adds, in the languages of the blocks.
     pub fn words(&self, english: &str, chinese: &str) -> String {
-        let own = self.language.pick(english, chinese);
-        match self.other.map(|other| other.pick(english, chinese)) {
-            Some(other) => format!("{own} / {other}"),
-            None => own.to_owned(),
+        self.in_each(|l| l.pick(english, chinese))
+    }
+
+    /// A text in the languages of the blocks; once where it is the same in both.
+    pub fn told(&self, text: &Told) -> String {
+        self.in_each(|l| text.text(l))
+    }
+
+    fn in_each<'a>(&self, text: impl Fn(Language) -> &'a str) -> String {
+        let own = text(self.language);
+        match self.other.map(text) {
+            Some(other) if other != own => format!("{own} / {other}"),
+            _ => own.to_owned(),
         }
     }
 

@@ -1,6 +1,5 @@
 //! What stands at the head of a certificate, in every format.
 
-use gumption_fault::language::Language;
 use gumption_format::document::{Administration, Attachment, Block, Contact, Document, Item};
 
 /// The document of an evaluation as that of a certificate: its number, dates, laboratory, customer and items stand first,
@@ -14,19 +13,9 @@ pub fn certified(
     let Some(certificate) = document.certificate.as_mut() else {
         return document;
     };
-    let languages = certificate.languages.clone();
     certificate.administration = Some(given.clone());
     certificate.attachments = attachments;
-    let mut heads = languages.iter().map(|l| fields(given, *l));
-    let Some(mut head) = heads.next() else {
-        return document;
-    };
-    for other in heads {
-        for ((name, text), (other_name, other_text)) in head.iter_mut().zip(other) {
-            join(name, &other_name);
-            join(text, &other_text);
-        }
-    }
+    let head = fields(given, &document);
     let signature = document.words("Signature", "签字");
     let behind_statement = |block: &Block| matches!(block, Block::Statement(_));
     let behind_statement = document.blocks.iter().position(behind_statement);
@@ -45,29 +34,26 @@ pub fn certified(
 /// Letters that a signature takes.
 const SIGNATURE: usize = 28;
 
-fn join(text: &mut String, other: &str) {
-    if text != other {
-        text.push_str(" / ");
-        text.push_str(other);
-    }
-}
-
-fn fields(given: &Administration, l: Language) -> Vec<(String, String)> {
+fn fields(given: &Administration, document: &Document) -> Vec<(String, String)> {
     let mut fields = Vec::new();
     let mut add = |english: &'static str, chinese: &'static str, text: Option<String>| {
         let text = text.filter(|text| !text.is_empty());
-        fields.extend(text.map(|text| (l.pick(english, chinese).to_owned(), text)));
+        fields.extend(text.map(|text| (document.words(english, chinese), text)));
     };
     add("Certificate", "证书编号", Some(given.number.clone()));
-    let laboratory = contact(&given.laboratory, l);
+    let laboratory = contact(&given.laboratory, document);
     let code = given
         .code
         .as_ref()
         .map(|code| format!("{laboratory} ({code})"));
     add("Laboratory", "实验室", Some(code.unwrap_or(laboratory)));
-    add("Customer", "委托方", Some(contact(&given.customer, l)));
+    add(
+        "Customer",
+        "委托方",
+        Some(contact(&given.customer, document)),
+    );
     for one in &given.items {
-        add("Item", "被校对象", Some(item(one, l)));
+        add("Item", "被校对象", Some(item(one, document)));
     }
     add("Received", "接收日期", given.received.clone());
     let [begin, end] = &given.performed;
@@ -77,21 +63,21 @@ fn fields(given: &Administration, l: Language) -> Vec<(String, String)> {
     };
     add("Measured", "测量日期", Some(days));
     let place = match given.place.as_str() {
-        "laboratory" => l.pick("laboratory", "实验室"),
-        "customer" => l.pick("customer's premises", "委托方现场"),
-        "laboratoryBranch" => l.pick("branch of the laboratory", "实验室分支机构"),
-        "customerBranch" => l.pick("branch of the customer", "委托方分支机构"),
-        _ => l.pick("elsewhere", "其他地点"),
+        "laboratory" => document.words("laboratory", "实验室"),
+        "customer" => document.words("customer's premises", "委托方现场"),
+        "laboratoryBranch" => document.words("branch of the laboratory", "实验室分支机构"),
+        "customerBranch" => document.words("branch of the customer", "委托方分支机构"),
+        _ => document.words("elsewhere", "其他地点"),
     };
-    add("Place", "测量地点", Some(place.to_owned()));
+    add("Place", "测量地点", Some(place));
     for condition in &given.conditions {
-        let text = format!("{}: {}", condition.name.text(l), condition.text);
+        let text = format!("{}: {}", document.told(&condition.name), condition.text);
         add("Condition", "环境条件", Some(text));
     }
     add("Issued", "签发日期", given.issued.clone());
     add("Next calibration", "下次校准日期", given.due.clone());
     for person in &given.persons {
-        let role = person.role.as_ref().map(|role| role.text(l));
+        let role = person.role.as_ref().map(|role| document.told(role));
         let text = role.map_or(person.name.clone(), |role| {
             format!("{}, {role}", person.name)
         });
@@ -100,12 +86,12 @@ fn fields(given: &Administration, l: Language) -> Vec<(String, String)> {
     fields
 }
 
-fn contact(contact: &Contact, l: Language) -> String {
+fn contact(contact: &Contact, document: &Document) -> String {
     let town = [contact.post_code.as_deref(), contact.city.as_deref()];
     let town: Vec<&str> = town.into_iter().flatten().collect();
     let town = (!town.is_empty()).then(|| town.join(" "));
     let parts = [
-        Some(contact.name.text(l).to_owned()),
+        Some(document.told(&contact.name)),
         contact.street.clone(),
         town,
         contact.country.clone(),
@@ -113,13 +99,13 @@ fn contact(contact: &Contact, l: Language) -> String {
     parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
-fn item(item: &Item, l: Language) -> String {
+fn item(item: &Item, document: &Document) -> String {
     let numbered = |english: &str, chinese: &str, number: &Option<String>| {
         let number = number.as_ref()?;
-        Some(l.pick(format!("{english} {number}"), format!("{chinese} {number}")))
+        Some(format!("{} {number}", document.words(english, chinese)))
     };
     let parts = [
-        Some(item.name.text(l).to_owned()),
+        Some(document.told(&item.name)),
         item.manufacturer.clone(),
         item.model.clone(),
         numbered("serial number", "出厂编号", &item.serial),

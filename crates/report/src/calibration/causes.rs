@@ -65,20 +65,22 @@ pub(super) fn budgets(figures: &Figures, l: Language) -> Vec<Block> {
     blocks
 }
 
-/// A contribution with its sign, where it has one.
+/// A contribution c·u with the sign of c, where one error has one: opposite signs tell what a shared error correlates.
 fn shown(one: &Contribution<'_>) -> String {
     significant(one.effect.unwrap_or(one.u), DIGITS)
 }
 
 fn budget(figures: &Figures, index: usize, l: Language) -> Table {
     let one = &figures.coefficients[index];
-    let head = in_unit(&format!("u({})", one.name), &symbol(&one.unit));
+    let unit = symbol(&one.unit);
+    let head = in_unit(&format!("contribution to {}", one.name), &unit);
+    let head_zh = in_unit(&format!("对 {} 的贡献", one.name), &unit);
     let mut table = table(
         l,
         [
             ("cause", "来源", Names),
             ("one error acts on", "作用范围", Words),
-            (&head, &head, Numbers),
+            (&head, &head_zh, Numbers),
             ("ν", "ν", Numbers),
             ("%", "%", Numbers),
             ("", "", Bar),

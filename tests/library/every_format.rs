@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use gumption::audit::read::Mapping;
 use gumption::audit::{audit, claims};
 use gumption::budget::{self, Trials};
-use gumption::document::Document;
+use gumption::document::{Block, Document, Math};
 use gumption::experiment::Purpose;
 use gumption::propagate::{self, MonteCarloChoice, Options};
 use gumption::render::{FORMATS, Page, archive};
@@ -179,7 +179,19 @@ fn same_in_every_format(document: &Document, what: &dyn Fn(&str) -> String) -> F
     within(&stated, &html, &what("statement, not in HTML"));
     let json: serde_json::Value = serde_json::from_slice(&written(document, "json")).expect("JSON");
     assert!(json.is_object() || json.is_array());
+    formulas_are_set(document);
     html
+}
+
+/// Every line of a formula is set as mathematics, none as it is typed.
+#[track_caller]
+fn formulas_are_set(document: &Document) {
+    for block in &document.blocks {
+        if let Block::Formula(lines) = block {
+            let typed: Vec<&String> = lines.iter().filter(|l| Math::of(l).is_none()).collect();
+            assert!(typed.is_empty(), "{typed:?}");
+        }
+    }
 }
 
 /// The words of two languages beside each other.

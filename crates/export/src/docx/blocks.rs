@@ -139,6 +139,11 @@ fn omml(math: &Math) -> Vec<Element> {
         }
         Math::Number(number) => vec![run_of_mathematics(number)],
         Math::Sign(sign) => vec![run_of_mathematics(sign)],
+        Math::Words(words) => {
+            let upright = element("m:rPr").with(element("m:nor"));
+            let words = text("m:t", words).attribute("xml:space", "preserve");
+            vec![element("m:r").with(upright).with(words)]
+        }
         Math::Row(parts) => parts.iter().flat_map(omml).collect(),
         Math::Group(open, inside, close) => {
             let bracket = |name: &'static str, sign: &str| element(name).attribute("m:val", sign);

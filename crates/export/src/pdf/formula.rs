@@ -186,6 +186,7 @@ fn set(flow: &mut Flow<'_>, math: &Math, size: f32) -> Set {
         }
         Math::Number(number) => words(flow, number, size),
         Math::Sign(sign) => words(flow, sign, size),
+        Math::Words(upright) => words(flow, upright, size),
         Math::Row(_) => {
             let mut parts = Vec::new();
             flatten(math, &mut parts);

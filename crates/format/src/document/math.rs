@@ -10,6 +10,8 @@ pub enum Math {
     Number(String),
     /// A sign.
     Sign(&'static str),
+    /// Words that stand upright, with the room about them: a unit, `and`, a comment.
+    Words(String),
     /// Parts side by side.
     Row(Vec<Math>),
     /// A part in brackets: which bracket opens, what stands inside, which closes.
@@ -31,8 +33,15 @@ impl Math {
             at: 0,
             depth: 0,
         };
-        let whole = parser.relation()?;
-        (parser.at == tokens.len() && !tokens.is_empty()).then_some(whole)
+        let formula = parser.condition()?;
+        match &tokens[parser.at..] {
+            [] => Some(formula),
+            [Token::Comment(comment)] => {
+                let comment = Math::Words(format!("{SPACE}{SPACE}{comment}"));
+                Some(row(vec![formula, comment]))
+            }
+            _ => None,
+        }
     }
 }
 
@@ -41,6 +50,10 @@ enum Token {
     Name(String),
     Number(String),
     Sign(&'static str),
+    /// A unit without its quotes.
+    Unit(String),
+    /// The rest of the line behind `#`, and that.
+    Comment(String),
 }
 
 /// Signs as they are written and as they are set; longer ones first.
@@ -72,7 +85,14 @@ fn tokens(line: &str) -> Option<Vec<Token>> {
     let mut tokens = Vec::new();
     let mut rest = line.trim();
     while let Some(first) = rest.chars().next() {
-        if let Some((sign, set)) = SIGNS.iter().find(|(sign, _)| rest.starts_with(sign)) {
+        if let Some(quoted) = rest.strip_prefix('\'') {
+            let (unit, behind) = quoted.split_once('\'')?;
+            tokens.push(Token::Unit(unit.to_owned()));
+            rest = behind;
+        } else if first == '#' {
+            tokens.push(Token::Comment(rest.to_owned()));
+            rest = "";
+        } else if let Some((sign, set)) = SIGNS.iter().find(|(sign, _)| rest.starts_with(sign)) {
             tokens.push(Token::Sign(set));
             rest = &rest[sign.len()..];
         } else if first.is_ascii_digit() || first == '.' {
@@ -91,6 +111,9 @@ fn tokens(line: &str) -> Option<Vec<Token>> {
     }
     Some(tokens)
 }
+
+/// Room that does not end a line.
+const SPACE: char = '\u{a0}';
 
 /// Where a number ends: `1.5e-3`.
 fn number_end(text: &str) -> usize {
@@ -130,6 +153,27 @@ impl Parser<'_> {
         let sign = self.sign().filter(|sign| signs.contains(sign))?;
         self.at += 1;
         Some(sign)
+    }
+
+    /// A word of the language, with room on both sides.
+    fn keyword(&mut self, keywords: &[&str]) -> Option<Math> {
+        match self.tokens.get(self.at)? {
+            Token::Name(name) if keywords.contains(&name.as_str()) => {
+                self.at += 1;
+                Some(Math::Words(format!("{SPACE}{name}{SPACE}")))
+            }
+            _ => None,
+        }
+    }
+
+    /// Relations with `and` and `or` between them.
+    fn condition(&mut self) -> Option<Math> {
+        let mut parts = vec![self.relation()?];
+        while let Some(word) = self.keyword(&["and", "or"]) {
+            parts.push(word);
+            parts.push(self.relation()?);
+        }
+        Some(row(parts))
     }
 
     /// Sums with signs of relation between them.
@@ -201,10 +245,23 @@ impl Parser<'_> {
     }
 
     fn primary(&mut self) -> Option<Math> {
+        if let Some(not) = self.keyword(&["not"]) {
+            return Some(row(vec![not, self.power()?]));
+        }
         let token = self.tokens.get(self.at)?.clone();
         self.at += 1;
         match token {
-            Token::Number(number) => Some(Math::Number(number)),
+            Token::Name(name) if name == "if" && self.sign() != Some("(") => self.choice(),
+            Token::Comment(_) => None,
+            Token::Unit(unit) => Some(Math::Words(unit)),
+            Token::Number(number) => Some(match self.tokens.get(self.at) {
+                Some(Token::Unit(unit)) => {
+                    let unit = Math::Words(format!("{SPACE}{unit}"));
+                    self.at += 1;
+                    row(vec![Math::Number(number), unit])
+                }
+                _ => Math::Number(number),
+            }),
             Token::Sign("(") => self.inside("(", ")"),
             Token::Sign("[") => self.inside("[", "]"),
             Token::Sign(_) => None,
@@ -225,12 +282,29 @@ impl Parser<'_> {
         }
     }
 
+    /// `if c then a else b`, behind its first word.
+    fn choice(&mut self) -> Option<Math> {
+        let condition = self.condition()?;
+        let then = self.keyword(&["then"])?;
+        let holds = self.condition()?;
+        let otherwise = self.keyword(&["else"])?;
+        let first = Math::Words(format!("if{SPACE}"));
+        Some(row(vec![
+            first,
+            condition,
+            then,
+            holds,
+            otherwise,
+            self.condition()?,
+        ]))
+    }
+
     /// What stands between brackets, the first of which is taken already; several parts with commas.
     fn inside(&mut self, open: &'static str, close: &'static str) -> Option<Math> {
         let mut parts = Vec::new();
         if self.take(&[close]).is_none() {
             loop {
-                parts.push(self.relation()?);
+                parts.push(self.condition()?);
                 match self.take(&[",", close])? {
                     "," => parts.push(Math::Sign(",")),
                     _ => break,
@@ -278,6 +352,7 @@ mod tests {
             Math::Name(name, Some(index)) => format!("{name}_{{{index}}}"),
             Math::Number(number) => number.clone(),
             Math::Sign(sign) => (*sign).to_owned(),
+            Math::Words(words) => words.clone(),
             Math::Row(parts) => parts.iter().map(told).collect(),
             Math::Group(open, inside, close) => format!("{open}{}{close}", told(inside)),
             Math::Fraction(above, below) => format!("{{{}|{}}}", told(above), told(below)),
@@ -296,6 +371,13 @@ mod tests {
             ("y = -x^-2 * (a/b)^n", "y=−x^{−2}·({a|b})^{n}"),
             ("f(x, t) = mean(x[1])", "f(x,t)=mean(x[1])"),
             ("长度 = a_1", "长度=a_{1}"),
+            ("y = a * (t - 20 '°C')", "y=a·(t−20\u{a0}°C)"),
+            ("z = value_in(x, 'mm') / 2", "z={value_{in}(x,mm)|2}"),
+            ("y = a + b  # of both", "y=a+b\u{a0}\u{a0}# of both"),
+            (
+                "y = if not (a > 0 and b > 0) then a else 2 * b",
+                "y=if\u{a0}\u{a0}not\u{a0}(a>0\u{a0}and\u{a0}b>0)\u{a0}then\u{a0}a\u{a0}else\u{a0}2·b",
+            ),
         ] {
             assert_eq!(
                 Math::of(line).as_ref().map(told).as_deref(),
@@ -314,6 +396,8 @@ mod tests {
             "(a",
             "a +",
             "y = {x}",
+            "# of nothing",
+            "y = 'mm",
             "\"a\"",
             "a // b",
         ] {

@@ -314,6 +314,7 @@ fn mathml(math: &Math) -> String {
         }
         Math::Number(number) => format!("<mn>{}</mn>", escaped(number)),
         Math::Sign(sign) => format!("<mo>{}</mo>", escaped(sign)),
+        Math::Words(words) => format!("<mtext>{}</mtext>", escaped(words)),
         Math::Row(parts) => {
             let parts: String = parts.iter().map(mathml).collect();
             format!("<mrow>{parts}</mrow>")

@@ -37,6 +37,10 @@ def devices() -> pa.Table:
     return pa.table({"label": names, "R [kohm]": pa.array(missing, pa.float64()), "V.u": u})
 
 
+def parts() -> list[pa.RecordBatch]:
+    return devices().combine_chunks().to_batches(max_chunksize=60)
+
+
 @pytest.fixture
 def page():
     """Names as they are after the beginning of the page; functions travel to workers as those of a notebook do."""
@@ -109,6 +113,20 @@ def test_duckdb(page, expected):
     assert_same(run("DuckDB", page), expected)
 
 
+def until_dead(whole, flag: Path):
+    """`whole`, whose process is killed with the part in the middle, once."""
+
+    def dying(rows):
+        if "device 0150" in rows["label"].to_pylist() and not flag.exists():
+            flag.touch()
+            os.kill(os.getpid(), signal.SIGKILL)
+        return whole(rows)
+
+    # Travels to the workers with all that it needs, as a function of a notebook does.
+    dying.__module__ = "__main__"
+    return dying
+
+
 def test_dask(page, expected, tmp_path):
     distributed = pytest.importorskip("distributed")
     pytest.importorskip("dask.dataframe")
@@ -117,37 +135,35 @@ def test_dask(page, expected, tmp_path):
         distributed.Client(cluster) as client,
     ):
         assert_same(from_pandas(run("Dask", page), expected), expected)
-        # The worker that gets the third part dies with it, once; the engine gives its work to another.
-        flag = str(tmp_path / "died")
-        page |= {"flag": flag}
-        exec(DYING, page)
-        frame = devices().to_pandas()
-        tasks = client.map(page["dying"], [frame.iloc[at : at + 60] for at in range(0, COUNT, 60)])
-        tables = [from_pandas(one, expected) for one in client.gather(tasks)]
-        assert_same(pa.concat_tables(tables), expected)
-    assert Path(flag).exists()
+        # The worker that gets the part in the middle dies with it; the engine gives its work to another.
+        flag = tmp_path / "died"
+        dying = until_dead(page["evaluated"], flag)
+        tables = client.gather(client.map(dying, parts()))
+        assert_same(pa.Table.from_batches(tables), expected)
+    assert flag.exists()
 
 
-DYING = """
-def dying(frame):
-    import os, pathlib, signal
-
-    if frame["label"].iloc[0] == "device 0120" and not pathlib.Path(flag).exists():
-        pathlib.Path(flag).touch()
-        os.kill(os.getpid(), signal.SIGKILL)
-    return part(frame)
-"""
-
-
-def test_ray(page, expected):
+def test_ray(page, expected, tmp_path):
+    """A head and a second node; a worker dies with the part in the middle, once."""
     ray = pytest.importorskip("ray")
     pytest.importorskip("ray.data")
-    ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False)
+    from ray.cluster_utils import Cluster
+
+    cluster = Cluster(initialize_head=True, head_node_args={"num_cpus": 1, "include_dashboard": False})
     try:
+        cluster.add_node(num_cpus=1)
+        ray.init(address=cluster.address, log_to_driver=False)
+        assert len(ray.nodes()) == 2
         tables = ray.get(run("Ray", page).to_arrow_refs())
         assert_same(pa.concat_tables([table.cast(expected.schema) for table in tables]), expected)
+        flag, whole = tmp_path / "died", page["evaluated"]
+        dying = ray.remote(max_retries=2)(until_dead(whole, flag))
+        found = ray.get([dying.remote(one) for one in parts()])
+        assert_same(pa.Table.from_batches(found).cast(expected.schema), expected)
+        assert flag.exists()
     finally:
         ray.shutdown()
+        cluster.shutdown()
 
 
 def test_spark(page, expected, tmp_path):
@@ -162,18 +178,10 @@ def test_spark(page, expected, tmp_path):
         spark = builder.getOrCreate()
     except Exception as why:  # without Java there is no Spark
         pytest.skip(f"Spark does not start: {why}")
-    flag, whole = tmp_path / "died", page["evaluated"]
-
-    def dying(rows):
-        if "device 0150" in rows["label"].to_pylist() and not flag.exists():
-            flag.touch()
-            os.kill(os.getpid(), signal.SIGKILL)
-        return whole(rows)
-
-    dying.__module__ = "__main__"
+    flag = tmp_path / "died"
     try:
         assert_same(run("Spark", page).toArrow().cast(expected.schema), expected)
-        page["evaluated"] = dying
+        page["evaluated"] = until_dead(page["evaluated"], flag)
         assert_same(run("Spark", page).toArrow().cast(expected.schema), expected)
     finally:
         spark.stop()

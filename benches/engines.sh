@@ -10,6 +10,6 @@ home=$(mktemp -d)
 trap 'rm -rf "$home"' EXIT
 
 python3 -m venv "$home"
-"$home/bin/pip" install --quiet './crates/python[arrow]' 'dask[distributed]' numpy pandas psutil pyspark 'ray[default]'
+"$home/bin/pip" install --quiet './crates/python[arrow,engines]' psutil
 "$home/bin/python" benches/engines.py >"$home/engines.md"
 mv "$home/engines.md" reports/engines.md

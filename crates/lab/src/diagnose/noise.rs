@@ -137,6 +137,12 @@ impl Claimed {
         correlated.is_some_and(|one| !matches!(one.memory, Memory::White | Memory::Claimed))
     }
 
+    /// Whether it is left open that successive rows are correlated, though the recording does not show it.
+    pub fn may_be_correlated(&self) -> bool {
+        let correlated = self.correlated.as_ref();
+        correlated.is_some_and(|one| matches!(one.memory, Memory::White) && !one.draws.is_empty())
+    }
+
     /// Whether the size of the noise follows from the residuals alone.
     pub fn is_estimated(&self) -> bool {
         self.dof == 0.0

@@ -9,10 +9,10 @@ use gumption_format::document::{
     ColumnKind::{Bar, Names, Numbers, Words},
     Row, Table,
 };
-use gumption_lab::calibrate::{Cause, Contribution, Figures, Origin};
+use gumption_lab::calibrate::{Campaign, Cause, Contribution, Figures, Origin};
 use gumption_lab::experiment::Scope;
 
-use super::sections::{DIGITS, head_of, shown_u};
+use super::sections::{DIGITS, entered, head_of, shown_u};
 
 /// More coefficients than these share one table of causes.
 const SINGLE_BUDGETS: usize = 6;
@@ -51,7 +51,7 @@ fn cause_scope(cause: &Cause, l: Language) -> String {
 }
 
 /// Budget of every coefficient by cause.
-pub(super) fn budgets(figures: &Figures, l: Language) -> Vec<Block> {
+pub(super) fn budgets(campaign: &Campaign, figures: &Figures, l: Language) -> Vec<Block> {
     if figures.causes.is_empty() {
         return Vec::new();
     }
@@ -60,7 +60,7 @@ pub(super) fn budgets(figures: &Figures, l: Language) -> Vec<Block> {
     if count > SINGLE_BUDGETS {
         blocks.push(Block::Table(all_budgets(figures, l)));
     } else {
-        blocks.extend((0..count).map(|index| Block::Table(budget(figures, index, l))));
+        blocks.extend((0..count).map(|index| Block::Table(budget(campaign, figures, index, l))));
     }
     blocks
 }
@@ -70,11 +70,10 @@ fn shown(one: &Contribution<'_>) -> String {
     significant(one.effect.unwrap_or(one.u), DIGITS)
 }
 
-fn budget(figures: &Figures, index: usize, l: Language) -> Table {
+fn budget(campaign: &Campaign, figures: &Figures, index: usize, l: Language) -> Table {
     let one = &figures.coefficients[index];
-    let unit = symbol(&one.unit);
-    let head = in_unit(&format!("contribution to {}", one.name), &unit);
-    let head_zh = in_unit(&format!("对 {} 的贡献", one.name), &unit);
+    let head = in_unit(&format!("c·u of {}", one.name), &symbol(&one.unit));
+    let head_zh = in_unit(&format!("{} 的 c·u", one.name), &symbol(&one.unit));
     let mut table = table(
         l,
         [
@@ -97,7 +96,7 @@ fn budget(figures: &Figures, index: usize, l: Language) -> Table {
         ]);
     }
     table.rows.push(Row::Rule);
-    let sum = ["".to_owned(), shown_u(one.u), freedom(one.dof)];
+    let sum = ["".to_owned(), shown_u(one.u), entered(campaign, one)];
     table
         .rows
         .push(named_row(Word::CombinedUncertainty.of(l), sum));

@@ -23,7 +23,7 @@ pub fn calibration(campaign: &Campaign, found: &Calibration, language: Language)
         sections::coefficients(campaign, &found.figures, l),
         sections::parts(found, l),
         sections::correlations(&found.figures, l),
-        causes::budgets(&found.figures, l),
+        causes::budgets(campaign, &found.figures, l),
         misfit::residuals(campaign, found, l),
         hidden::identifiability(&found.identifiability, l),
         hidden::aliases(campaign, &found.aliases, Some(&found.figures), l),
@@ -43,7 +43,7 @@ pub fn plan(campaign: &Campaign, plan: &Plan, language: Language) -> Document {
         [
             sections::predictions(figures, l),
             sections::correlations(figures, l),
-            causes::budgets(figures, l),
+            causes::budgets(campaign, figures, l),
         ]
         .concat()
     });

@@ -57,6 +57,12 @@ pub(super) fn equations(campaign: &Campaign, l: Language) -> Vec<Block> {
     ]
 }
 
+/// The degrees of freedom of a coefficient that gave its k.
+pub(super) fn entered(campaign: &Campaign, one: &Coefficient) -> String {
+    let rule = campaign.experiment.conventions.degrees_of_freedom;
+    freedom(rule.entered(one.dof))
+}
+
 pub(super) fn coefficients(campaign: &Campaign, figures: &Figures, l: Language) -> Vec<Block> {
     let conventions = &campaign.experiment.conventions;
     let fixed = matches!(conventions.coverage_factor, CoverageRule::Fixed(_));
@@ -86,7 +92,7 @@ pub(super) fn coefficients(campaign: &Campaign, figures: &Figures, l: Language) 
             aligned(one.value, one.u, DIGITS).into(),
             shown_u(one.u).into(),
             symbol(&one.unit).into(),
-            freedom(conventions.degrees_of_freedom.entered(one.dof)).into(),
+            entered(campaign, one).into(),
             significant(one.k, 3).into(),
             shown_u(one.k * one.u).into(),
             significance(one, l).into(),

@@ -270,12 +270,20 @@ pub(super) fn parameters(diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
             own.unit.as_str().into(),
         ]);
     }
-    vec![
+    let mut blocks = vec![
         section(
             l,
             "What it changes in the result and its uncertainty",
             "对结果及其不确定度的影响",
         ),
         Block::Table(table.without_empty_columns()),
-    ]
+    ];
+    if diagnosis.noise.may_be_correlated() {
+        let allowed = l.pick(
+            "u allows for errors that successive rows may have in common: the recording does not show any, and does not exclude them. `gumption calibrate` takes the errors of rows as independent.",
+            "u 已计入相邻各行误差可能相关：记录未显示相关，但也不能排除。`gumption calibrate` 视各行误差相互独立。",
+        );
+        blocks.push(Block::Paragraph(allowed.to_owned()));
+    }
+    blocks
 }

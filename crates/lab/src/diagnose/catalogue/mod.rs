@@ -276,8 +276,10 @@ impl Variation {
 
     /// A variant with several coefficients.
     pub fn of(label: impl Into<String>, terms: Vec<Term>) -> Variation {
+        let label: String = label.into();
         Variation {
-            label: label.into(),
+            // A figure without unit has nothing behind it.
+            label: label.trim_end().to_owned(),
             terms,
             spectrum: None,
             shape: None,

@@ -28,7 +28,7 @@ mod words;
 
 pub use columns::Role;
 pub use mapping::Mapping;
-pub(crate) use words::{figure_after, figures_with_units, has_symbol, symbol_at};
+pub(crate) use words::{count_before, figure_after, figures_with_units, has_symbol, symbol_at};
 
 use std::ops::Range;
 

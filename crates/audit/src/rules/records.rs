@@ -4,7 +4,7 @@ use gumption_core::special::{chi_squared_upper_quantile, f_quantile};
 
 use crate::claim::Stated;
 use crate::printed::{Printed, leading};
-use crate::read::figure_after;
+use crate::read::{count_before, figure_after};
 use crate::units;
 
 use super::{Hit, Seen, shown};
@@ -164,8 +164,11 @@ pub(super) fn not_validated(seen: &Seen<'_>) -> Vec<Hit> {
     lines.filter_map(hit).take(1).collect()
 }
 
-/// `[9.98, 10.02]`, `9.98 to 10.02 V`, `(0~100) °C`: two figures with a mark or a word for a range between them.
+/// `[9.98, 10.02]`, `9.98 to 10.02 V`, `(0~100) °C`, `200 g to 5 kg`: two figures with a mark or a word for a range between
+/// them, in the unit of the second.
 fn interval(text: &str) -> Option<(Printed, Printed)> {
+    // A comma may have parted cells.
+    const MARKS: [&str; 9] = [",", "; ", "~", "…", "至", "到", "to ", "and ", "- "];
     let starts = text.char_indices().filter(|(at, c)| {
         let before = text[..*at].chars().next_back();
         let free = before.is_none_or(|b| !b.is_ascii_alphanumeric() && !"._-".contains(b));
@@ -174,17 +177,17 @@ fn interval(text: &str) -> Option<(Printed, Printed)> {
     let pair = |(at, _): (usize, char)| {
         let (low, behind) = leading(&text[at..])?;
         let blank = behind.trim_start();
-        let word = blank
-            .split_once(' ')
-            .filter(|(word, _)| units::parse(word).is_some());
-        let rest = word.map_or(blank, |(_, rest)| rest.trim_start());
-        let marks = [",", "~", "…", "至", "到", "to ", "and ", "- "];
-        let rest = marks.iter().find_map(|mark| rest.strip_prefix(mark))?;
+        let word = blank.split_once(' ');
+        let word = word.filter(|(word, _)| units::parse(word).is_some());
+        let (unit, rest) = word.map_or(("", blank), |(unit, rest)| (unit, rest.trim_start()));
+        let rest = MARKS.iter().find_map(|mark| rest.strip_prefix(mark))?;
         let (high, behind) = leading(rest.trim_start())?;
-        let unit = behind.trim_start_matches([')', ']', ' ']);
-        let end = unit.find(|c: char| c.is_whitespace() || ",;)。".contains(c));
-        let unit = unit[..end.unwrap_or(unit.len())].to_string();
-        (low.value < high.value).then_some((low, Printed { unit, ..high }))
+        let end = behind.trim_start_matches([')', ']', ' ']);
+        let stop = end.find(|c: char| c.is_whitespace() || ",;)。".contains(c));
+        let own = end[..stop.unwrap_or(end.len())].to_string();
+        let factor = units::factor(unit, &own).filter(|_| !unit.is_empty());
+        let low = low.scaled(factor.unwrap_or(1.0));
+        (low.value < high.value).then_some((low, Printed { unit: own, ..high }))
     };
     starts.filter_map(pair).next()
 }
@@ -208,7 +211,9 @@ pub(super) fn lack_of_fit(seen: &Seen<'_>) -> Vec<Hit> {
         let ratio = figure_after(text, &NAMES)?.value;
         // With one degree of freedom, where none are stated, the most is left to chance.
         let others = text.replace("/ν", "/n");
-        let dof = figure_after(&others, &FREEDOM).map_or(1.0, |dof| dof.value.max(1.0));
+        let behind = figure_after(&others, &FREEDOM).map(|dof| dof.value);
+        let dof = behind.or_else(|| count_before(&others.to_lowercase(), &["degrees of freedom"]));
+        let dof = dof.unwrap_or(1.0).max(1.0);
         let bound = chi_squared_upper_quantile(0.05, dof) / dof;
         (ratio > bound).then(|| Hit::of(row, format!("χ²/ν = {ratio} > {bound:.2}")))
     };
@@ -373,6 +378,8 @@ mod tests {
         );
         assert_eq!(ends("from 0 °C to 100 °C"), Some((0.0, 100.0, "°C".into())));
         assert_eq!(ends("(10~50) kPa"), Some((10.0, 50.0, "kPa".into())));
+        assert_eq!(ends("[99.98 ; 100.02] g").map(|(a, ..)| a), Some(99.98));
+        assert_eq!(ends("200 g to 5 kg"), Some((0.2, 5.0, "kg".into())));
         assert_eq!(ends("M-12"), None);
         assert_eq!(
             dates("2026-01-31, 2026/2/3 and 2026年3月14日; 17.4.5"),

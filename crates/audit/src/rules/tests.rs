@@ -588,8 +588,26 @@ fn against() -> Vec<(u8, Sheet)> {
         ),
         (62, noted("Fit of the drift: χ²/ν = 2.4 with ν = 12")),
         (
+            62,
+            noted("Drift line: chi^2/dof = 3.1 (6 degrees of freedom)"),
+        ),
+        (
             79,
             noted("Standard: calibrated range 200 g to 2000 g, used at 100 g"),
+        ),
+        (
+            79,
+            row(
+                0,
+                |line| {
+                    line.known =
+                        "certificate M-12: U = 0.0400 g and k = 2; calibrated range 200 g to 5 kg"
+                },
+            ),
+        ),
+        (
+            83,
+            noted("编制日期：2021年3月14日；规程修订日期：2024年6月1日"),
         ),
         (
             83,

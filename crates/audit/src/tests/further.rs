@@ -26,6 +26,11 @@ fn a_merged_head_stands_above_several_columns() {
     is_sound("report.csv", &report("2.9", "4.4", "0.0088"));
     let slip = first("report.csv", &report("5.0", "6.0", "0.012"));
     assert_eq!(slip, "root3-missing@示值估读");
+    // The report calls the figure with its unit, since that of the rows is another.
+    let grids = sheet::grids("report.csv", report("2.9", "4.4", "0.0088").as_bytes()).unwrap();
+    let claims = read::budgets(&grids, &read::Mapping::default());
+    let expanded = claims[0].footer.expanded.as_ref().unwrap();
+    assert_eq!((expanded.as_read(), expanded.value), ("0.0088 MPa", 8.8));
 }
 
 /// Fields that an input method for Chinese has parted, and sentences that it has not.
@@ -200,4 +205,20 @@ fn a_workbook_that_was_not_computed_again() {
     );
     let cells: Vec<String> = claims[0].stale.iter().map(|cell| cell.at.a1()).collect();
     assert_eq!(cells, ["E5"]);
+}
+
+/// Contributions are differences: two points of the Celsius scale have no sum.
+#[test]
+fn contributions_in_degrees_are_imported_as_differences() {
+    let text = "Bath at 0 °C\nSource,Value,Unit,Distribution,Divisor,u(xi),ci,ui(y) / °C\n\
+        Bath uniformity limits ±,0.015,°C,rectangular,1.732,0.00866,1,0.00866\n\
+        Bath stability limits ±,0.012,°C,rectangular,1.732,0.00693,1,0.00693\n\
+        Combined standard uncertainty,,,,,,,0.0111\nExpanded uncertainty k = 2,,,,,,,0.022\n";
+    let files = crate::budget_files("sheet.csv", text.as_bytes(), &read::Mapping::default());
+    let files = files.unwrap();
+    let units: Vec<&str> = files[0]
+        .lines()
+        .filter(|line| line.starts_with("unit"))
+        .collect();
+    assert_eq!(units, ["unit = \"K\""; 3]);
 }

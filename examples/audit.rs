@@ -19,7 +19,7 @@ use gumption::files::write::{Output, Replacing, write};
 use gumption::report::{self, Language};
 
 /// The seed of the published table: drawn once, after everything else was done.
-const SEED: u64 = 2453035;
+const SEED: u64 = 2288877;
 
 struct Options {
     sheets: u64,

@@ -394,13 +394,6 @@ fn rule_text(rule: &audit::rules::Rule, lang: Language) -> String {
     let fine = lang.pick(rule.fine_en, rule.fine_zh);
     text += "\n\n";
     text += &say!("Why it may be right: {fine}.").in_language(lang);
-    if !rule.is_seen() {
-        text += "\n\n";
-        text += &say!(
-            "No sheet shows it: it needs readings, dates or results that a budget does not hold."
-        )
-        .in_language(lang);
-    }
     match lang {
         Language::English => format!("{}\n\n{text}", rule.zh),
         Language::Chinese => text,

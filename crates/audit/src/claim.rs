@@ -33,10 +33,23 @@ pub struct Claimed {
     pub words: String,
     /// Whether u_c is a number where the other computed cells are formulas.
     pub typed: bool,
+    /// Formulas that give another figure than their cells hold.
+    pub stale: Vec<Stale>,
     /// How the columns and cells were understood.
     pub understood: Vec<Understood>,
     /// What could not be placed.
     pub unplaced: Vec<Unplaced>,
+}
+
+/// A formula that gives another figure than its cell holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stale {
+    /// The cell.
+    pub at: Place,
+    /// Its formula, without the equals sign.
+    pub formula: String,
+    /// What it gives.
+    pub gives: f64,
 }
 
 /// Claimed figures of the whole.
@@ -294,6 +307,11 @@ impl Row {
 }
 
 impl Claimed {
+    /// Whether the cell of a figure holds something else than its formula gives.
+    pub fn is_stale(&self, figure: &Printed) -> bool {
+        self.stale.iter().any(|cell| cell.at == figure.at)
+    }
+
     /// Whether nothing of what it states was computed: then there is nothing to hold a calculation against.
     pub fn computes_nothing(&self) -> bool {
         let Footer {

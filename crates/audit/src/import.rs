@@ -26,6 +26,10 @@ pub fn budget_file(case: &Case<'_>) -> String {
         .model
         .as_ref()
         .filter(|model| case.y.is_some() && case.by_units && has_all(claimed, model));
+    let unit = match model {
+        Some(_) => unit,
+        None => of_difference(unit),
+    };
     let _ = write!(text, "\n[measurand.{measurand}]\n");
     match model {
         Some(model) => {
@@ -110,6 +114,12 @@ fn unit_of_result(claimed: &Claimed) -> String {
     } else {
         own.to_string()
     }
+}
+
+/// The unit of contributions, which are differences: two points of the Celsius scale have no sum.
+fn of_difference(unit: String) -> String {
+    let known = units::parse(&unit).filter(gumption_core::quantity::Unit::is_point);
+    known.map_or(unit, |known| known.difference().symbol)
 }
 
 /// Names that the model language takes, one for each row.

@@ -51,12 +51,21 @@ pub enum Combined {
     Linear,
     /// Sum of squares.
     Squares,
-    /// As `Root`, of contributions rounded to one digit.
-    Rounded,
+    /// As `Root`, of contributions rounded to one digit, a five that is last of all in this direction.
+    Rounded(Ties),
     /// As `Root`, the signs lost in the products.
     Unsigned,
     /// A number that was typed in.
     Typed(f64),
+}
+
+/// Where a last five goes: by hand up, or to the even digit; a program whose binary number is below it goes down.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ties {
+    /// Up.
+    Up,
+    /// Down.
+    Down,
 }
 
 /// How ν_eff is found.
@@ -143,6 +152,9 @@ impl Line {
     }
 }
 
+/// How near to a tie a double is one: some units of its last place, which multiplications leave.
+const TIE: f64 = 1e-12;
+
 impl Calculation {
     /// The figures, with these contributions in the place of the computed ones where there are some.
     pub fn figures(&self, printed: &[Option<f64>], cmc: Option<f64>) -> Figures {
@@ -152,9 +164,14 @@ impl Calculation {
                 return 0.0;
             }
             let computed = line.contribution();
-            let one_digit = |x: f64| {
+            let one_digit = |x: f64, ties: Ties| {
                 use gumption_core::quantity::{Decimal, Rounding};
-                Decimal::from_f64(x)
+                // A hair to its side decides a tie, and nothing else.
+                let hair = match ties {
+                    Ties::Up => 1.0 + TIE,
+                    Ties::Down => 1.0 - TIE,
+                };
+                Decimal::from_f64(x * hair)
                     .round_to_significant(1, Rounding::HalfUp)
                     .to_f64()
             };
@@ -163,10 +180,9 @@ impl Calculation {
                 .copied()
                 .flatten()
                 .map_or(computed, |p| p.abs().copysign(computed));
-            if self.combined == Combined::Rounded {
-                one_digit(x)
-            } else {
-                x
+            match self.combined {
+                Combined::Rounded(ties) => one_digit(x, ties),
+                _ => x,
             }
         };
         let parts: Vec<f64> = (0..self.lines.len()).map(contribution).collect();

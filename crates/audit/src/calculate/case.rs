@@ -24,6 +24,8 @@ pub struct Case<'a> {
     pub by_units: bool,
     /// The value of the model at the estimates.
     pub y: Option<f64>,
+    /// The terms of second order in the variance, by that of first order (JCGM 100, 5.1.2, note).
+    pub second_order: Option<f64>,
     /// How the estimates enter the model, text by text: why it was not understood.
     pub trouble: Option<String>,
 }
@@ -33,10 +35,12 @@ impl<'a> Case<'a> {
     pub fn of(claimed: &'a Claimed) -> Case<'a> {
         let mut unknown_slopes = vec![false; claimed.rows.len()];
         let mut by_units = false;
+        let mut second_order = None;
         let (derivatives, y, trouble) = match differentiate(claimed) {
             Ok(Some(known)) => {
                 unknown_slopes = known.unknown;
                 by_units = known.by_units;
+                second_order = known.second_order;
                 (Some(known.slopes), known.y, None)
             }
             Ok(None) => (None, None, None),
@@ -63,6 +67,7 @@ impl<'a> Case<'a> {
             unknown_slopes,
             by_units,
             y,
+            second_order,
             trouble,
         }
     }
@@ -214,6 +219,9 @@ fn to_y(claimed: &Claimed, row: &Row, from_model: bool) -> f64 {
     if unit_of_c(row).is_some() && units::parse(&row.unit).is_some() {
         return by_unit_of_c(claimed, row).unwrap_or(1.0);
     }
+    if let Some(factor) = by_named_length(claimed, row) {
+        return factor;
+    }
     let factor = units::factor(&row.unit, y_unit).unwrap_or(1.0);
     // `1000` between mm and µm: the coefficient is the conversion.
     let converts = |c: &Printed| c.is_met_by(factor.copysign(c.value));
@@ -240,6 +248,26 @@ fn by_unit_of_c(claimed: &Claimed, row: &Row) -> Option<f64> {
     let product = unit_of_c(row)?.product(&u.difference());
     let conversion = product.conversion_to(&target.difference())?;
     Some(conversion.apply(1.0) - conversion.apply(0.0))
+}
+
+/// From the unit of c·u to that of the result, where u is in ppm, the result is not, and the coefficient is a bare number
+/// which the sheet names with its unit somewhere else: `1000` beside `laser interferometer, 1000 mm`.
+fn by_named_length(claimed: &Claimed, row: &Row) -> Option<f64> {
+    let fraction = units::fraction(&row.unit)?;
+    let c = row
+        .c
+        .as_ref()
+        .filter(|c| c.unit.is_empty() && c.value != 0.0)?;
+    let value = row.value.iter().cloned();
+    let texts = [&claimed.title, &claimed.words]
+        .into_iter()
+        .chain([&row.words]);
+    let mut named = value.chain(texts.flat_map(|text| crate::read::figures_with_units(text)));
+    named.find_map(|figure| {
+        let is_it = (figure.value.abs() / c.value.abs() - 1.0).abs() < 1e-9;
+        let factor = units::factor(&figure.unit, &claimed.unit).filter(|_| is_it);
+        factor.map(|factor| fraction * factor)
+    })
 }
 
 /// How far two figures are apart, as a ratio.

@@ -1,6 +1,7 @@
 //! Standard uncertainties from what is known.
 
 use crate::claim::{Relative, Row, Shape, Stated};
+use crate::units;
 
 /// C(n) of the range method for n = 2 … 9 and the degrees of freedom (JJF 1059.1-2012, table 1).
 pub const RANGE: [(f64, f64); 8] = [
@@ -52,10 +53,13 @@ impl Stated {
 }
 
 impl Row {
-    /// What a stated relative figure is multiplied by.
+    /// What a stated relative figure is multiplied by to be in the unit of the row.
     pub fn relative_factor(&self) -> f64 {
         match (self.relative, &self.value) {
-            (Relative::OfValue(fraction), Some(value)) => fraction * value.value.abs(),
+            (Relative::OfValue(fraction), Some(value)) => {
+                let to_unit = units::factor(&value.unit, &self.unit);
+                fraction * value.value.abs() * to_unit.unwrap_or(1.0)
+            }
             (Relative::OfFullScale(fraction, scale), _) => fraction * scale,
             _ => 1.0,
         }

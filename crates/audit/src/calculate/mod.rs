@@ -13,7 +13,8 @@ mod known;
 mod model;
 
 pub use calculation::{
-    Calculation, Combined, Factor, Figures, Freedom, Line, Printout, Report, dominates, t, welch,
+    Calculation, Combined, Factor, Figures, Freedom, Line, Printout, Report, Ties, dominates, t,
+    welch,
 };
 pub use case::{Case, factors};
 pub use known::{RANGE, range_factor, shape_of};

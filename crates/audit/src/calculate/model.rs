@@ -29,6 +29,8 @@ pub(super) struct Differentiated {
     pub(super) y: Option<f64>,
     /// Whether the model holds with the units of its estimates.
     pub(super) by_units: bool,
+    /// The terms of second order in the variance, by that of first order; none where estimates are not stated.
+    pub(super) second_order: Option<f64>,
 }
 
 /// Value and derivatives of the model at the estimates. `None` without a model.
@@ -120,12 +122,69 @@ pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>,
     if (0..rows.len()).all(|i| !used[i] || unknown[i]) {
         return Err("the model names inputs whose estimates the sheet does not state".into());
     }
+    // All reasons to doubt an input together.
+    let mut doubt = vec![0.0; rows.len()];
+    for i in (0..rows.len()).filter(|i| used[*i]) {
+        doubt[first(i)] = libm::hypot(doubt[first(i)], doubt_of_estimate(&rows[i]));
+    }
+    let second_order = (!any_missing)
+        .then(|| second_order(&model, &values, &doubt))
+        .flatten();
     Ok(Some(Differentiated {
+        second_order,
         slopes: (0..rows.len()).map(derivative).collect(),
         y: (!any_missing).then(|| model.values(&values)[0]),
         unknown,
         by_units,
     }))
+}
+
+/// The standard uncertainty of an estimate, in the unit of the estimate.
+fn doubt_of_estimate(row: &Row) -> f64 {
+    let u = row
+        .stated
+        .standard()
+        .map_or(0.0, |(u, _)| u * row.relative_factor());
+    let to_estimate = units::factor(&row.unit, unit_of_estimate(row));
+    match row.not_counted {
+        None => u * to_estimate.unwrap_or(1.0),
+        Some(_) => 0.0,
+    }
+}
+
+/// Σ (½ f_ij² + f_i f_ijj) u_i² u_j² by Σ f_i² u_i² (JCGM 100, 5.1.2, note). Derivatives of gradients are taken over a
+/// standard uncertainty either way: on that scale the model is asked for.
+fn second_order(model: &Model, x: &[f64], u: &[f64]) -> Option<f64> {
+    /// Inputs that bend the model; of more, the differences would take seconds.
+    const MOST: usize = 64;
+    let slopes = model.gradients(x);
+    let inputs = slopes.ncols();
+    let bent = model.nonlinear_inputs();
+    let bent: Vec<usize> = (0..inputs)
+        .filter(|j| u[*j] > 0.0 && bent.get(*j).copied().unwrap_or(true))
+        .collect();
+    let square = |x: f64| x * x;
+    let first: f64 = (0..inputs).map(|i| square(slopes[(0, i)] * u[i])).sum();
+    if bent.len() > MOST || first <= 0.0 {
+        return None;
+    }
+    let mut second = 0.0;
+    for j in bent {
+        let at = |step: f64| {
+            let mut moved = x.to_vec();
+            moved[j] += step * u[j];
+            model.gradients(&moved)
+        };
+        let (up, down) = (at(1.0), at(-1.0));
+        for i in (0..inputs).filter(|i| u[*i] > 0.0) {
+            let (a, b, c) = (up[(0, i)], slopes[(0, i)], down[(0, i)]);
+            // With u_j in the steps, f_ij u_j and f_ijj u_j².
+            let (bend, third) = ((a - c) / 2.0, a - 2.0 * b + c);
+            second += (0.5 * square(bend) + b * third) * square(u[i]);
+        }
+    }
+    let share = second / first;
+    share.is_finite().then_some(share)
 }
 
 /// How many of the claimed coefficients, and of y, a model gives to a percent.

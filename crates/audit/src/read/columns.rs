@@ -108,7 +108,7 @@ const WORDS: &[(Role, How, &[&str])] = &[
     (Role::Derived, How::Has, &["ui^2", "u^2", "(y)^2", "^2", "²", "平方", "squared", "variance", "方差"]),
     (Role::Name, How::Has, &["分量名称", "来源名称", "名称及来源"]),
     (Role::Contribution, How::Has, &["unsicherheitsbeitrag", "beitrag", "ciui", "|ci|ui", "|c|ui", "|ciui|", "ui(y)", "uy(", "u(y)", "|ci|u", "|c|u", "ciu(", "|ci|·u", "cu(", "|ci|×u", "contributiontou", "uncertaintycontribution", "contribution", "贡献", "|u(y", "uncertaintyiny"]),
-    (Role::Name, How::Has, &["来源", "source", "influence", "einfluss", "unsicherheitsquelle", "因素", "影响量", "description", "contributor", "origin", "cause"]),
+    (Role::Name, How::Has, &["来源", "source", "influence", "einfluss", "quelle", "因素", "影响量", "description", "contributor", "origin", "cause"]),
     (Role::Contribution, How::Has, &["不确定度分量", "分量值", "componentofu", "uncertaintycomponentu"]),
     (Role::Contribution, How::Is, &["分量", "cu", "uc", "u.c", "c.u", "ci.u", "ciu", "c·u", "ui(y)", "|c|u", "component/y", "curel", "ciurel", "cw", "ciwi"]),
     (Role::Dof, How::Has, &["degreesoffreedom", "degreeoffreedom", "dof", "d.o.f", "自由度", "freiheitsgrad", "degrésdeliberté", "freedom", "νi", "νeff", "veff", "deg.fr", "d.f."]),

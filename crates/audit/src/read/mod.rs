@@ -28,14 +28,14 @@ mod words;
 
 pub use columns::Role;
 pub use mapping::Mapping;
-pub(crate) use words::{figure_after, has_symbol, symbol_at};
+pub(crate) use words::{count_before, figure_after, figures_with_units, has_symbol, symbol_at};
 
 use std::ops::Range;
 
-use crate::claim::{Claimed, Row, Understood};
+use crate::claim::{Claimed, Row, Stale, Understood};
 
 use crate::printed::{Place, Printed};
-use crate::sheet::Grid;
+use crate::sheet::{Cell, Grid};
 
 use table::Located;
 
@@ -261,6 +261,7 @@ fn budget(
     let below = located.head + 1..bounds.end;
     table::footers(grid, sheet, &mut located, below, of_inputs, &mut claimed);
     claimed.typed = typed(grid, sheet, &claimed);
+    claimed.stale = stale(grid, sheet, bounds.clone());
     if located.has_bare_u_behind_c() {
         u_by_sum(&mut claimed);
     }
@@ -306,6 +307,20 @@ fn u_by_sum(claimed: &mut Claimed) {
             row.u = row.contribution.take();
         }
     }
+}
+
+/// Cells of a budget whose formulas give other figures than they hold.
+fn stale(grid: &Grid, sheet: usize, rows: Range<usize>) -> Vec<Stale> {
+    let cells = rows.flat_map(|row| {
+        grid.filled(row)
+            .map(move |(column, cell)| (row, column, cell))
+    });
+    let of = |(row, column, cell): (usize, usize, &Cell)| {
+        let at = Place { sheet, row, column };
+        let formula = cell.formula.clone()?;
+        cell.gives.map(|gives| Stale { at, formula, gives })
+    };
+    cells.filter_map(of).collect()
 }
 
 /// Whether u_c stands as a number where U and the computed cells of the rows are formulas.
@@ -399,12 +414,28 @@ fn unit_of_plain_rows(claimed: &Claimed) -> Option<String> {
         let (u, unit) = row.u.as_ref().map(|u| (u.value, &u.unit)).or(worked)?;
         let made = row.contribution.as_ref()?.value.abs();
         let same = c.value.abs() == 1.0 && c.unit.is_empty() && (made - u).abs() <= 0.01 * u;
-        let unit = if unit.is_empty() { &row.unit } else { unit };
-        (same && !unit.is_empty()).then(|| unit.clone())
+        let known = [unit, &row.unit].into_iter().find(|unit| !unit.is_empty());
+        let unit = known.cloned().or_else(|| unit_in_words(row));
+        unit.filter(|_| same)
     };
     let units: Vec<String> = claimed.rows.iter().filter_map(plain).collect();
     let first = units.first()?;
-    (units.len() >= 2 && units.iter().all(|unit| unit == first)).then(|| first.clone())
+    // A single row is enough to tell a unit from a multiple of it.
+    let expanded = claimed.footer.expanded.as_ref();
+    let is_multiple = expanded.is_some_and(|u| crate::units::factor(&u.unit, first).is_some());
+    let enough = units.len() >= 2 || is_multiple;
+    (enough && units.iter().all(|unit| unit == first)).then(|| first.clone())
+}
+
+/// The unit in which the words of a row state the figure of its ± column, or twice that: `resolution 0.01 mm` beside 0.005.
+fn unit_in_words(row: &Row) -> Option<String> {
+    let used = row.used.as_ref()?.value;
+    let is_it = |figure: &Printed| {
+        let ratio = figure.value / used;
+        [1.0, 2.0].iter().any(|times| (ratio - times).abs() < 1e-9)
+    };
+    let mut figures = words::figures_with_units(&row.words);
+    figures.find(is_it).map(|figure| figure.unit)
 }
 
 fn find_model(all: &[&Line], claimed: &mut Claimed, mapping: &Mapping) {

@@ -72,7 +72,7 @@ pub fn figure_after(text: &str, keys: &[&str]) -> Option<Printed> {
 }
 
 fn led(rest: &str, whole: &str) -> Option<Printed> {
-    const LEADS: [&str; 49] = [
+    const LEADS: [&str; 51] = [
         "indication",
         "display",
         "instrument",
@@ -112,6 +112,8 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
         "a",
         "s",
         "q",
+        "d",
+        "e",
         "mpe",
         "r",
         "s_p",
@@ -134,11 +136,16 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
                 rest = result.trim_start();
                 continue;
             }
+            // `1/5 of a division`: a part of what is not said.
+            if figure.half == 0.5 && starts_quotient(text) && !text.contains('=') {
+                return None;
+            }
             // `U = 2·u_c`: a factor of what is not said.
             if starts_product(text) {
                 return None;
             }
-            let counted = starts_counted(text);
+            // `s of 10: 0.12 µm`: how many, and not how much.
+            let counted = starts_counted(text) || figure.half == 0.5 && text.starts_with(':');
             let level = text.starts_with('%') && (figure.value - 95.0).abs() < 1.0
                 || figure.value == 99.0 && text.starts_with('%');
             if counted || level {
@@ -248,6 +255,11 @@ pub fn of_unit(text: &str, unit: &str) -> String {
         }
     }
     out
+}
+
+/// The figures of a text that stand before a known unit.
+pub fn figures_with_units(text: &str) -> impl Iterator<Item = Printed> {
+    figures(text).into_iter().map(|(_, figure)| figure)
 }
 
 /// The figures of a text that stand before a known unit, each with where its digits are.
@@ -385,7 +397,7 @@ fn starts_counted(text: &str) -> bool {
 fn unit_in(lower: &str, whole: &str) -> String {
     let end = lower.find(|c: char| {
         c.is_whitespace()
-            || ",;)(=。".contains(c)
+            || ",;)(=。、".contains(c)
             || (c.is_alphabetic() && !c.is_ascii() && !"µΩω°".contains(c))
     });
     let unit = lower[..end.unwrap_or(lower.len())].trim_end_matches('.');

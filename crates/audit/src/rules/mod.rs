@@ -4,10 +4,12 @@
 //! | chapter | holds |
 //! |---|---|
 //! | `registry` | the rules, one entry each |
+//! | `records` | what records on the sheet show |
 //! | `rows` | what a row shows |
 //! | `whole` | what the figures of the whole show |
 //! | `words` | what the words of a sheet show |
 
+mod records;
 mod registry;
 mod rows;
 mod whole;
@@ -57,8 +59,6 @@ enum How {
     Slip,
     /// By looking.
     Look(fn(&Seen<'_>) -> Vec<Hit>),
-    /// Not at all: it needs readings, dates or results that no budget holds.
-    Unseen,
 }
 
 impl std::fmt::Debug for How {
@@ -66,7 +66,6 @@ impl std::fmt::Debug for How {
         f.write_str(match self {
             How::Slip => "Slip",
             How::Look(_) => "Look",
-            How::Unseen => "Unseen",
         })
     }
 }
@@ -80,11 +79,6 @@ impl Rule {
             true => self.weight.said(),
             false => question(self.weight),
         }
-    }
-
-    /// Whether a sheet can show it.
-    pub fn is_seen(&self) -> bool {
-        !matches!(self.how, How::Unseen)
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::slips::Weight::{self, Error, Information, Warning};
 
-use super::How::{self, Look, Slip, Unseen};
-use super::{Rule, rows, whole, words};
+use super::How::{self, Look, Slip};
+use super::{Rule, records, rows, whole, words};
 
 /// What is against a rule, where it stands, why it may be right after all; each in English and Chinese.
 struct Texts {
@@ -65,12 +65,12 @@ pub const RULES: &[Rule] = &[
     rule(20, Warning, "cycle-as-rectangle", t("a cycling influence was entered as a rectangle", "周期性影响按均匀分布处理", "JCGM 101, 6.4.6", "readings were taken at random over many cycles", "读数随机取自多个周期"), Slip),
     rule(21, Error, "mean", t("s was not divided by the root of the number of readings behind the reported value", "s 未除以报告值所用测量次数的平方根", "JCGM 100, 4.2.3", "readings of one series are not independent", "同一组读数并不独立"), Slip),
     rule(22, Error, "pooled-freedom", t("a pooled s was given the degrees of freedom of one series", "合并样本标准偏差却用单组的自由度", "JCGM 100, H.3.6; JJF 1059.1, 4.3.2.4", "the series were not pooled after all", "实际并未合并"), Slip),
-    rule(23, Warning, "unequal-variances", t("variances that differ were pooled", "合并了不相等的方差", "JCGM 100, 4.2.4", "differences are within chance (Bartlett, Cochran)", "差异在随机范围内"), Unseen),
+    rule(23, Warning, "unequal-variances", t("variances that differ were pooled", "合并了不相等的方差", "JCGM 100, 4.2.4", "differences are within chance (Bartlett, Cochran)", "差异在随机范围内"), Look(records::unequal_variances)),
     rule(24, Warning, "few-readings", t("s of fewer than ten readings was used with a fixed k", "测量次数少于 10，却取固定的 k", "JCGM 100, E.4.3, table E.1; G.3", "the contribution is small, or s comes from longer experience", "该分量很小，或 s 来自长期经验"), Look(rows::few_readings)),
     rule(25, Warning, "divisor-n", t("s was computed with the divisor n instead of n − 1", "计算 s 时除以 n，而不是 n − 1", "JCGM 100, 4.2.2", "n is so large that it does not matter", "n 很大，差别可忽略"), Slip),
     rule(26, Warning, "range-factor", t("the range factor is not that of the number of readings", "极差系数与测量次数不符", "JJF 1059.1-2012, 4.3.2.3", "another table was used", "采用了其他表"), Slip),
     rule(27, Warning, "no-scatter", t("equal readings were taken for no uncertainty", "读数相同便认为无不确定度", "JCGM 100, F.2.2.1", "the step of the indication is another row", "示值步进另列一行"), Slip),
-    rule(28, Warning, "autocorrelation", t("readings follow one another or drift", "读数自相关或漂移", "JCGM 100, 4.2.7", "they were taken far enough apart", "测量间隔足够长"), Unseen),
+    rule(28, Warning, "autocorrelation", t("readings follow one another or drift", "读数自相关或漂移", "JCGM 100, 4.2.7", "they were taken far enough apart", "测量间隔足够长"), Look(records::autocorrelation)),
     rule(29, Warning, "outlier", t("a reading was left out without a record", "剔除异常值而无记录", "JCGM 100, 4.2; JJF 1059.1, 4.3.2", "a cause is known and recorded elsewhere", "原因已知并另有记录"), Look(words::left_out)),
     rule(30, Warning, "freedom-missing", t("degrees of freedom of readings are missing, or infinite", "A 类自由度缺失或取无穷大", "JCGM 100, G.6.4", "s is that of very many readings", "s 来自大量读数"), Look(rows::freedom_of_readings)),
     rule(31, Warning, "resolution-and-scatter", t("resolution and a repeatability that contains it are both counted", "重复性已含分辨力，又计入分辨力", "JJF 1033-2016, C.2; JCGM 100, H.6, F.2.2.1", "the profile keeps both, or s is below half a step", "所用规范两者都保留，或 s 小于半个步进"), Slip),
@@ -94,8 +94,8 @@ pub const RULES: &[Rule] = &[
     rule(49, Error, "relative-sum", t("relative uncertainties were added in squares although the model is no product of powers", "模型不是幂积，却按相对不确定度合成", "JCGM 100, 5.1.6", "the sum in the model is a small correction", "模型中的和项只是小修正"), Look(whole::relative_sum)),
     rule(50, Warning, "of-full-scale", t("percent of full scale and percent of reading are exchanged", "混淆满量程百分数与读数百分数", "JCGM 100, 4.3", "the reading is full scale", "读数即满量程"), Slip),
     rule(51, Warning, "no-sensitivity", t("a sensitivity is zero at the estimate though the quantity matters", "估计值处灵敏系数为零，但该量有影响", "JCGM 100, 5.1.2, note; F.2.4.4; JCGM 101, 5.6", "the second order is negligible", "二阶项可忽略"), Look(rows::no_sensitivity)),
-    rule(52, Warning, "second-order", t("terms of second order are more than 5 % of u_c²", "二阶项超过 u_c² 的 5 %", "JCGM 100, 5.1.2, note", "a Monte Carlo calculation validates the result", "已用蒙特卡洛法验证"), Unseen),
-    rule(53, Warning, "not-validated", t("the interval of Monte Carlo is another one", "与蒙特卡洛区间不一致", "JCGM 101, 8", "the tolerance δ was chosen too small", "δ 取得过小"), Unseen),
+    rule(52, Warning, "second-order", t("terms of second order are more than 5 % of u_c²", "二阶项超过 u_c² 的 5 %", "JCGM 100, 5.1.2, note", "a Monte Carlo calculation validates the result", "已用蒙特卡洛法验证"), Look(records::second_order)),
+    rule(53, Warning, "not-validated", t("the interval of Monte Carlo is another one", "与蒙特卡洛区间不一致", "JCGM 101, 8", "the tolerance δ was chosen too small", "δ 取得过小"), Look(records::not_validated)),
     rule(54, Warning, "uncertain-divisor", t("a divisor is uncertain by more than a fifth of itself", "除数的相对不确定度超过 20 %", "JCGM 101, 5.11", "the result is not linear in it anyway, and Monte Carlo was used", "已用蒙特卡洛法"), Look(rows::near_singular)),
     rule(55, Warning, "beyond-a-limit", t("y ± U goes beyond a physical limit", "y ± U 超出物理极限", "JCGM 100, F.2.4; JCGM 101, 8.1", "the quantity may be negative, as a difference may", "该量可为负，如差值"), Look(whole::below_zero)),
     rule(56, Warning, "correlation-ignored", t("inputs that share a certificate or an instrument are taken as independent", "共用证书或仪器的输入量按不相关处理", "JCGM 100, 5.2.4", "what they share is negligible in their uncertainties", "共同部分可忽略"), Look(whole::common_certificate)),
@@ -104,7 +104,7 @@ pub const RULES: &[Rule] = &[
     rule(59, Warning, "correlation-of-a-difference", t("a positive correlation in a difference is left out, which makes U too large", "差值中漏计正相关，U 偏大", "JCGM 100, 5.2.2", "it is on the safe side", "偏保守"), Look(whole::left_out_of_a_difference)),
     rule(60, Warning, "not-in-the-model", t("the model has an input that no row has, or the table a row that the model lacks", "模型与表中的输入量不一致", "JCGM 100, 4.1.2", "the row adds a doubt to another input", "该行是另一输入量的影响因素"), Look(whole::not_in_the_model)),
     rule(61, Warning, "fit-without-covariance", t("coefficients of a fit are used without their covariance", "使用拟合系数而未计协方差", "JCGM 100, H.3", "the fit is centred where it is used", "拟合已在使用点处中心化"), Look(words::fit_without_covariance)),
-    rule(62, Warning, "lack-of-fit", t("a fitted model does not describe its data, and has no term for that", "拟合不足而未计入", "JCGM 100, H.3.6", "χ²/ν is near one", "χ²/ν 接近 1"), Unseen),
+    rule(62, Warning, "lack-of-fit", t("a fitted model does not describe its data, and has no term for that", "拟合不足而未计入", "JCGM 100, H.3.6", "χ²/ν is near one", "χ²/ν 接近 1"), Look(records::lack_of_fit)),
     rule(63, Error, "digits", t("U has more than two significant digits", "U 的有效数字多于两位", "JCGM 100, 7.2.6; ILAC-P14, 5.5", "the figure is used in a further calculation", "该数值用于后续计算"), Look(whole::digits)),
     rule(64, Warning, "one-digit", t("U has one digit, and that is 1 or 2", "U 只有一位且首位为 1 或 2", "JJF 1059.1-2012, 5.3.8.1", "other guides allow one digit", "其他规范允许一位"), Look(whole::one_digit)),
     rule(65, Error, "last-places", t("the last places of y and U differ", "y 与 U 的末位未对齐", "JCGM 100, 7.2.6; JJF 1059.1-2012, 5.3.8.3", "U is relative, or y is quoted from elsewhere", "U 为相对值，或 y 引自他处"), Look(whole::last_places)),
@@ -121,11 +121,11 @@ pub const RULES: &[Rule] = &[
     rule(76, Information, "negligible", t("several contributions are each less than 1 % of u_c²", "多个分量各不足 u_c² 的 1 %", "JCGM 100, 3.4.4", "together they may be more than 5 %", "合计可能超过 5 %"), Look(rows::negligible)),
     rule(77, Warning, "below-reference", t("U is smaller than the uncertainty of the reference in it", "U 小于标准器的不确定度", "JCGM 100, 4.3.3; ILAC-P14", "the reference enters with a small coefficient", "标准器的灵敏系数很小"), Look(whole::below_reference)),
     rule(78, Warning, "beyond-belief", t("U relative to y is below 1e-9 or above 100 %", "相对不确定度小于 1e-9 或大于 100 %", "JCGM 100, 7.2", "y is a difference near zero", "y 为接近零的差值"), Look(whole::beyond_belief)),
-    rule(79, Warning, "out-of-range", t("a standard was used outside its calibrated range", "在标准器校准范围之外使用", "ISO/IEC 17025:2017, 6.4", "an extrapolation with its uncertainty is in the budget", "已计入外推的不确定度"), Unseen),
+    rule(79, Warning, "out-of-range", t("a standard was used outside its calibrated range", "在标准器校准范围之外使用", "ISO/IEC 17025:2017, 6.4", "an extrapolation with its uncertainty is in the budget", "已计入外推的不确定度"), Look(records::out_of_range)),
     rule(80, Error, "expired", t("a certificate had expired on the day of measurement", "测量时证书已过期", "ISO/IEC 17025:2017, 6.4.7", "the interval was extended, and that is recorded", "复校间隔已延长并有记录"), Look(words::expired)),
     rule(81, Warning, "other-value", t("a figure is not that of the certificate which it cites", "数值与所引证书不符", "ISO/IEC 17025:2017, 7.5", "it was corrected for conditions", "已按条件修正"), Slip),
     rule(82, Warning, "typed-in", t("a number stands where a formula belongs, or a row is hidden", "应为公式处为固定数值，或行被隐藏", "ISO/IEC 17025:2017, 7.11", "it was frozen on purpose", "有意固定"), Look(rows::hidden)),
-    rule(83, Warning, "old-budget", t("the budget is older than its method or its standards", "评定早于方法修订或标准器复校", "ISO/IEC 17025:2017, 7.6", "nothing in it has changed", "内容未受影响"), Unseen),
+    rule(83, Warning, "old-budget", t("the budget is older than its method or its standards", "评定早于方法修订或标准器复校", "ISO/IEC 17025:2017, 7.6", "nothing in it has changed", "内容未受影响"), Look(records::old_budget)),
     rule(84, Warning, "comparison", t("|E_n| is above one in a comparison with this U", "比对结果 |E_n| 大于 1", "ISO/IEC 17043; ISO 13528", "the transfer standard was unstable", "传递标准不稳定"), Look(words::comparison)),
-    rule(85, Warning, "check-standard", t("the check standard scatters more than twice as much as predicted", "核查标准的标准偏差超过预期两倍", "ISO/IEC 17025:2017, 7.7", "the check standard itself is poor", "核查标准本身较差"), Unseen),
+    rule(85, Warning, "check-standard", t("the check standard scatters more than twice as much as predicted", "核查标准的标准偏差超过预期两倍", "ISO/IEC 17025:2017, 7.7", "the check standard itself is poor", "核查标准本身较差"), Look(records::check_standard)),
 ];

@@ -43,6 +43,38 @@ pub(super) fn contribution(seen: &Seen<'_>) -> Vec<Hit> {
 }
 
 pub(super) fn quotient(seen: &Seen<'_>) -> Vec<Hit> {
+    let divided = rows(seen).any(|(_, row, _)| {
+        let pair = row.used.as_ref().zip(row.u.as_ref());
+        pair.is_some_and(|(used, u)| used.unit == u.unit && u.value < used.value)
+    });
+    let mut hits = of_divisors(seen);
+    if divided {
+        hits.extend(undivided(seen));
+    }
+    hits
+}
+
+/// A ± that is u to every digit, among others which were divided, where nothing says that it is a standard uncertainty.
+fn undivided(seen: &Seen<'_>) -> Vec<Hit> {
+    each(seen, |row, _| {
+        let (used, u) = row.used.as_ref().zip(row.u.as_ref())?;
+        let words = format!("{} {}", row.words, row.distribution).to_lowercase();
+        let is_said = [
+            "standard uncertainty",
+            "标准不确定度",
+            "normal",
+            "正态",
+            "gauss",
+        ]
+        .iter()
+        .any(|word| words.contains(word));
+        let is_copied = used.value == u.value && used.unit == u.unit && used.value > 0.0;
+        let is_open = matches!(row.stated, Stated::Standard { .. }) && row.divisor.is_none();
+        (is_copied && is_open && !is_said).then(|| format!("u = ± = {}", u.as_read()))
+    })
+}
+
+fn of_divisors(seen: &Seen<'_>) -> Vec<Hit> {
     each(seen, |row, _| {
         let (u, used, divisor) = (row.u.as_ref()?, row.used.as_ref()?, row.divisor.as_ref()?);
         let quotient = used.value / divisor.value;
@@ -230,7 +262,12 @@ pub(super) fn no_sensitivity(seen: &Seen<'_>) -> Vec<Hit> {
 
 pub(super) fn hidden(seen: &Seen<'_>) -> Vec<Hit> {
     let rows = seen.claimed.rows.iter().enumerate();
-    rows.filter(|(_, row)| row.is_hidden)
-        .map(|(i, row)| Hit::of(Some(i), row.at.a1()))
-        .collect()
+    let hidden = rows
+        .filter(|(_, row)| row.is_hidden)
+        .map(|(i, row)| Hit::of(Some(i), row.at.a1()));
+    let stale = seen.claimed.stale.iter().map(|cell| {
+        let (at, formula, gives) = (cell.at.a1(), &cell.formula, super::shown(cell.gives));
+        Hit::of(None, format!("{at}: {formula} = {gives}"))
+    });
+    hidden.chain(stale).collect()
 }

@@ -563,6 +563,58 @@ fn against() -> Vec<(u8, Sheet)> {
         (72, noted("CMC of the laboratory: 0.050 g (k = 3)")),
         (84, noted("Comparison of 2025: E_n = 1.4")),
         (
+            23,
+            row(
+                1,
+                |line| line.known = "pooled s from 4 series of 6 readings: 0.0010, 0.0012, 0.0011 and 0.0230; s_p = 0.0120 g; mean of 4 readings",
+            ),
+        ),
+        (
+            28,
+            noted(
+                "Readings: 100.001, 100.003, 100.004, 100.006, 100.007, 100.009, 100.010, 100.012, 100.013, 100.015",
+            ),
+        ),
+        (
+            52,
+            with(|sheet| {
+                sheet.notes[0] = "Model: m = m_S + dm + dr + 40*dd*dd";
+                sheet.lines[3].c = 0.0;
+            }),
+        ),
+        (
+            53,
+            noted("Monte Carlo, 10^6 trials: 95 % interval [99.871, 100.135] g"),
+        ),
+        (62, noted("Fit of the drift: χ²/ν = 2.4 with ν = 12")),
+        (
+            62,
+            noted("Drift line: chi^2/dof = 3.1 (6 degrees of freedom)"),
+        ),
+        (
+            79,
+            noted("Standard: calibrated range 200 g to 2000 g, used at 100 g"),
+        ),
+        (
+            79,
+            row(
+                0,
+                |line| {
+                    line.known =
+                        "certificate M-12: U = 0.0400 g and k = 2; calibrated range 200 g to 5 kg"
+                },
+            ),
+        ),
+        (
+            83,
+            noted("编制日期：2021年3月14日；规程修订日期：2024年6月1日"),
+        ),
+        (
+            83,
+            noted("Budget prepared on 2021-05-01; method revised on 2024年2月1日"),
+        ),
+        (85, noted("Check standard: s = 0.031 g, predicted 0.012 g")),
+        (
             80,
             with(|sheet| {
                 sheet.notes.push("Standard: valid until 2025-01-31");
@@ -637,6 +689,12 @@ fn what_notes_say_may_be_right() {
         "CMC of the laboratory: 0.050 g (k = 2)",
         "Comparison of 2025: E_n = -0.4",
         "Calibrated by EN ISO 376",
+        "Readings: 100.003, 100.001, 100.004, 100.002, 100.005, 100.001, 100.003, 100.002, 100.004, 100.003",
+        "Fit of the drift: χ²/ν = 1.2 with ν = 12",
+        "Monte Carlo, 10^6 trials: 95 % interval [99.948, 100.057] g",
+        "Standard: calibrated range 20 g to 2000 g, used at 100 g",
+        "Method revised on 2020-02-01; budget prepared on 2021-05-01",
+        "Check standard: s = 0.014 g, predicted 0.012 g",
     ] {
         assert_eq!(noted(note).rules(), Vec::<u8>::new(), "{note}");
     }
@@ -659,12 +717,7 @@ fn every_rule_fires() {
         .chain([82])
         .collect();
     for rule in RULES {
-        assert_eq!(
-            rule.is_seen(),
-            tested.contains(&rule.number),
-            "{}",
-            rule.number
-        );
+        assert!(tested.contains(&rule.number), "{}", rule.number);
     }
 }
 

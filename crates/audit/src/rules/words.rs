@@ -281,24 +281,14 @@ pub(super) fn expired(seen: &Seen<'_>) -> Vec<Hit> {
         .collect()
 }
 
-/// Dates `2026-01-31` on lines that hold one of the words.
+/// Dates on lines that hold one of the words.
 fn dates(text: &str, words: &[&str]) -> Vec<String> {
-    let mut found = Vec::new();
-    for line in text.lines() {
+    let is_about = |line: &&str| {
         let lower = line.to_lowercase();
-        if !words.iter().any(|word| lower.contains(word)) {
-            continue;
-        }
-        for part in lower.split(|c: char| !(c.is_ascii_digit() || c == '-')) {
-            let figures: Vec<&str> = part.split('-').collect();
-            if let [year, month, day] = figures.as_slice()
-                && (year.len(), month.len(), day.len()) == (4, 2, 2)
-            {
-                found.push(part.to_string());
-            }
-        }
-    }
-    found
+        words.iter().any(|word| lower.contains(word))
+    };
+    let lines = text.lines().filter(is_about);
+    lines.flat_map(super::records::dates).collect()
 }
 
 /// `U = ±0.2 mm`: a lone uncertainty has no sign (JJF 1059.1).

@@ -13,7 +13,7 @@ use super::check::{Checked, unexchanged};
 
 /// How far about a figure its neighbourhood reaches at most, in logarithms on either side: a figure that has nothing to
 /// do with slips is known to a factor of two, as what it should be is known.
-const WIDEST: f64 = std::f64::consts::LN_2;
+pub const WIDEST: f64 = std::f64::consts::LN_2;
 
 /// Where combinations are many, they are counted no farther than this many of them reach: their density at the figure is
 /// what matters, and so many give it to a fifth.

@@ -101,8 +101,8 @@ impl Act {
 pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]) -> Checked {
     let cmc = case.claimed.cmc.as_ref().map(|cmc| cmc.value);
     let exact = calculation.figures(&[], cmc);
-    let any_printed =
-        printed.iter().any(Option::is_some) && calculation.combined != Combined::Rounded;
+    let any_printed = printed.iter().any(Option::is_some)
+        && !matches!(calculation.combined, Combined::Rounded(_));
     let mut of = vec![exact];
     if any_printed {
         of.push(calculation.figures(printed, cmc));
@@ -135,7 +135,10 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
     };
     // Where u_c is the sum of squares, or made of rounded contributions, ν_eff may have been found from what was there
     // before.
-    let is_after = matches!(calculation.combined, Combined::Squares | Combined::Rounded);
+    let is_after = matches!(
+        calculation.combined,
+        Combined::Squares | Combined::Rounded(_)
+    );
     let before = is_after.then(|| rooted.figures(&[], cmc));
     let nu_eff = footer.nu_eff.as_ref().is_none_or(|figure| {
         let mut all = of.iter().chain(&before);

@@ -183,12 +183,16 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
     let rows_are_sure = options
         .iter()
         .all(|o| is_sure(1, no_accident(1, o.accident)));
-    let of_whole = if search.chance.is_behind() {
-        no_accident_behind(slips - shown, share_behind(&acts), of_whole)
-    } else {
-        no_accident(slips - shown, of_whole)
+    let asked = match slips - shown {
+        2 if is_of_another_unit(&explanations, slips) => 1,
+        asked => asked,
     };
-    let named = broken.is_empty() && rows_are_sure && is_sure(slips - shown, of_whole);
+    let of_whole = if search.chance.is_behind() {
+        no_accident_behind(asked, share_behind(&acts), of_whole)
+    } else {
+        no_accident(asked, of_whole)
+    };
+    let named = broken.is_empty() && rows_are_sure && is_sure(asked, of_whole);
     let withheld = if named { 0 } else { explanations.len() };
     if !named {
         explanations.clear();
@@ -222,6 +226,18 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
         withheld,
         case,
     }
+}
+
+/// Whether no set of so few slips gives U without a unit that its figure does not belong to: a figure that has nothing to
+/// do with slips is known to a factor of two, so that one which is off by a power of ten is no accident. What is left to
+/// ask is the other slip.
+fn is_of_another_unit(explanations: &[Explanation], slips: usize) -> bool {
+    let is_far = |act: &Act| match act.change {
+        Change::Report(Reporting::Scale(factor)) => libm::log(factor).abs() > 2.0 * chance::WIDEST,
+        _ => false,
+    };
+    let mut fewest = explanations.iter().filter(|one| one.acts.len() == slips);
+    fewest.all(|one| one.acts.iter().any(is_far))
 }
 
 /// More places than this are tried one at a time: pairs would take seconds, and match anything.

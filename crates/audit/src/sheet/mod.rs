@@ -6,6 +6,7 @@
 //! | `hidden` | which rows and columns of a workbook in Open XML are hidden |
 //! | `open_document` | the same of a sheet in OpenDocument, and what its numbers show |
 //! | `shown` | numbers by what their cells show |
+//! | `stale` | formulas that give another figure than their cells hold |
 //! | `text` | separated values, Markdown tables, plain text |
 //! | `contained` | libraries that give up by a panic |
 
@@ -13,6 +14,7 @@ mod contained;
 mod hidden;
 mod open_document;
 mod shown;
+mod stale;
 mod text;
 mod workbook;
 
@@ -22,6 +24,8 @@ use gumption_fault::Said;
 
 use crate::printed::Printed;
 
+#[cfg(test)]
+pub(crate) use stale::mark as mark_stale;
 pub(crate) use text::decoded;
 
 /// One sheet.
@@ -46,6 +50,8 @@ pub struct Cell {
     pub formula: Option<String>,
     /// What the cell shows, where it holds a number with more digits than that.
     pub shown: Option<String>,
+    /// What its formula gives, where that is another figure than it holds.
+    pub gives: Option<f64>,
 }
 
 impl Cell {
@@ -53,8 +59,7 @@ impl Cell {
     pub fn new(text: &str) -> Cell {
         Cell {
             text: crate::printed::clean(text).trim().to_string(),
-            formula: None,
-            shown: None,
+            ..Cell::default()
         }
     }
 
@@ -80,6 +85,7 @@ impl Grid {
             text: String::new(),
             formula: None,
             shown: None,
+            gives: None,
         };
         self.rows
             .get(row)

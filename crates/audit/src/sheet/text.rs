@@ -50,10 +50,35 @@ pub(super) fn guessed(text: &str) -> Grid {
             best = (count, Some(separator));
         }
     }
+    if let Some(table) = full_width(text, best.0) {
+        return table;
+    }
     match best.1 {
         Some(separator) => separated(text, separator),
         None => aligned(text),
     }
+}
+
+/// Separated values as an input method for Chinese writes them, with `，` or `；` between the fields and `“”` about them:
+/// most lines that have the mark have five fields or more of one number. Sentences have fewer, and of many numbers.
+fn full_width(text: &str, best: usize) -> Option<Grid> {
+    const FIELDS: usize = 5;
+    let plain = text.replace(['“', '”', '＂'], "\"");
+    let of = |separator: char| {
+        let counts = plain
+            .lines()
+            .filter(|line| line.contains(separator))
+            .map(|line| fields(line, separator).len());
+        let mut counts: Vec<usize> = counts.collect();
+        counts.sort_unstable();
+        let same = counts
+            .chunk_by(|a, b| a == b)
+            .filter(|same| same[0] >= FIELDS);
+        let same = same.map(<[usize]>::len).max().unwrap_or(0);
+        let is_table = same >= 3 && same > best && 2 * same > counts.len();
+        is_table.then(|| separated(&plain, separator))
+    };
+    of('；').or_else(|| of('，'))
 }
 
 /// Whether commas are those of sentences and numbers, and part no fields: some have a blank behind them and some have

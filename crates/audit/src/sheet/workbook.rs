@@ -7,7 +7,7 @@ use calamine::{Data, DataRef, Reader, SheetVisible, Sheets, open_workbook_auto_f
 use gumption_fault::{Said, say};
 
 use super::contained::contained;
-use super::{Cell, Grid, MOST_CELLS, Unreadable, open_document, shown};
+use super::{Cell, Grid, MOST_CELLS, Unreadable, open_document, shown, stale};
 
 /// Every sheet of a workbook. Hidden ones come last: what is hidden is read, but does not stand in front.
 pub(super) fn grids(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
@@ -61,6 +61,7 @@ fn sheets(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
                 cell.formula = Some(formula.trim_start_matches('=').to_string());
             }
         }
+        stale::mark(&mut grid);
         grids.push(grid);
     }
     Ok(grids)

@@ -2,6 +2,7 @@
 
 use crate::calculate::{Case, Combined, RANGE};
 use crate::claim::{Figure, Relative, Row, Shape, Stated};
+use crate::printed::Printed;
 use crate::units;
 
 use super::slip::{Change, Slip, Weight::*};
@@ -215,12 +216,13 @@ pub(super) const SLIPS: &[Slip] = &[
     Slip { id: "prefix", rule: "46", weight: Error,
         en: "a factor of 1000 between units was lost or made twice",
         zh: "单位换算漏乘或多乘了 1000",
-        // In the standard uncertainty, or in a coefficient that is printed with it.
+        // In the standard uncertainty, in a coefficient that is printed with it, or between the two and their product.
         acts: |case| each(case, |i, row| {
             let c = case.right.lines[i].c;
             let has = |factor: &f64| row.c.as_ref().is_some_and(|claimed| ((claimed.value / (factor * c)).abs() - 1.0).abs() < 0.01);
             let of_c = [1e3, 1e-3].into_iter().filter(has).map(|factor| Change::C(factor * c));
-            [Change::Scaled(1e3), Change::Scaled(1e-3)].into_iter().chain(of_c).collect()
+            let of_contribution = behind_u(row, case.right.lines[i]).into_iter().map(Change::Typed);
+            [Change::Scaled(1e3), Change::Scaled(1e-3)].into_iter().chain(of_c).chain(of_contribution).collect()
         }) },
     Slip { id: "c-one", rule: "3/6", weight: Error,
         en: "the sensitivity coefficient was left out (taken as 1)",
@@ -273,10 +275,11 @@ pub(super) const SLIPS: &[Slip] = &[
         zh: "漏计标准器本身的不确定度",
         acts: |case| each(case, |_, row| if row.is_absent { vec![Change::Counted(false)] } else { Vec::new() }) },
     Slip { id: "hard-coded", rule: "82", weight: Warning,
-        en: "a number was typed in where a formula belongs",
-        zh: "应为公式的单元格中填入了固定数值",
+        en: "a number stands where a formula belongs, or its formula was not computed again",
+        zh: "应为公式的单元格中是固定数值，或公式修改后未重新计算",
         acts: |case| {
-            let total = case.claimed.footer.u_c.as_ref().filter(|_| case.claimed.typed).map(|u_c| (None, Change::Combined(Combined::Typed(u_c.value))));
+            let is_old = |u_c: &&Printed| case.claimed.typed || case.claimed.is_stale(u_c);
+            let total = case.claimed.footer.u_c.as_ref().filter(is_old).map(|u_c| (None, Change::Combined(Combined::Typed(u_c.value))));
             each(case, |i, _| typed(case, i)).into_iter().chain(total).collect()
         } },
     Slip { id: "res-and-rep", rule: "31", weight: Warning,
@@ -295,7 +298,21 @@ pub(super) const SLIPS: &[Slip] = &[
         }) },
 ];
 
-/// The computed figures of a row that are numbers, where those of most rows are formulas.
+/// The contribution with a factor of 1000 that u and c, as the row prints them, do not have.
+fn behind_u(row: &Row, line: crate::calculate::Line) -> Vec<f64> {
+    let Some((u, made)) = row.u.as_ref().zip(row.contribution.as_ref()) else {
+        return Vec::new();
+    };
+    let c = row.c.as_ref().map_or(line.c, |c| c.value);
+    let product = (c * u.value * line.to_y).abs();
+    let open = u.relative_half() + made.relative_half();
+    let is_made = |factor: &f64| (made.value.abs() / (factor * product) - 1.0).abs() <= open;
+    let factors = [1e3, 1e-3].into_iter().filter(is_made);
+    factors.map(|factor| factor * line.contribution()).collect()
+}
+
+/// The computed figures of a row that are numbers, where those of most rows are formulas, or other figures than their
+/// formulas give.
 fn typed(case: &Case<'_>, i: usize) -> Vec<Change> {
     let rows = &case.claimed.rows;
     let row = &rows[i];
@@ -304,11 +321,11 @@ fn typed(case: &Case<'_>, i: usize) -> Vec<Change> {
         let others = rows.iter().filter(|row| is_formula(row)).count();
         !is_formula(row) && 2 * others >= rows.len()
     };
-    let u = row.u.as_ref().filter(|_| stands_out(Figure::U));
-    let contribution = row
-        .contribution
-        .as_ref()
-        .filter(|_| stands_out(Figure::Contribution));
+    let is_old = |figure: &&Printed| case.claimed.is_stale(figure);
+    let u = row.u.as_ref();
+    let u = u.filter(|u| stands_out(Figure::U) || is_old(u));
+    let contribution = row.contribution.as_ref();
+    let contribution = contribution.filter(|c| stands_out(Figure::Contribution) || is_old(c));
     let u = u.map(|figure| Change::U(figure.value));
     let contribution = contribution.map(|figure| Change::Typed(figure.value));
     u.into_iter().chain(contribution).collect()
@@ -322,6 +339,6 @@ fn is_resolution(row: &Row) -> bool {
 }
 
 /// The number that the text of a figure shows, in the unit in which it is written.
-fn own(figure: &crate::printed::Printed) -> f64 {
-    crate::printed::Printed::parse(&figure.text).map_or(figure.value, |p| p.value.abs())
+fn own(figure: &Printed) -> f64 {
+    Printed::parse(&figure.text).map_or(figure.value, |p| p.value.abs())
 }

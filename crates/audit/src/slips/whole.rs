@@ -1,6 +1,6 @@
 //! Slips between the rows and the statement.
 
-use crate::calculate::{Case, Combined, Factor, Freedom, Printout, factors};
+use crate::calculate::{Case, Combined, Factor, Freedom, Printout, Ties, factors};
 use crate::claim::Coverage;
 use crate::printed::Printed;
 
@@ -112,7 +112,7 @@ pub(super) const SLIPS: &[Slip] = &[
     Slip { id: ROUNDED, rule: "9", weight: Warning,
         en: "figures were rounded before they were used further: contributions before they were combined, or u_c before it was multiplied by k",
         zh: "中间数值先修约再使用：各分量在合成前，或 u_c 在乘以 k 前",
-        acts: |_| one(Change::Combined(Combined::Rounded)) },
+        acts: |_| [Ties::Up, Ties::Down].map(|ties| (None, Change::Combined(Combined::Rounded(ties)))).into() },
     Slip { id: "sign-lost", rule: "3", weight: Error,
         en: "the signs of the sensitivity coefficients were lost in the correlation term",
         zh: "相关项中丢失了灵敏系数的符号",

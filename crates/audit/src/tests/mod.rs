@@ -1,6 +1,7 @@
 //! Sheets from text to verdict.
 
 mod digits;
+mod further;
 mod hands;
 mod others;
 mod statements;

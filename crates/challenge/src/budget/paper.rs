@@ -103,14 +103,12 @@ fn workbook(pages: &[Page], decimal_comma: bool) -> Result<Vec<u8>, XlsxError> {
                         sheet.write_formula(row, column, formula)?;
                     }
                     Cell::Figure(text, ..) if !decimal_comma && text.parse::<f64>().is_ok() => {
-                        let places = text.split('.').nth(1).map_or(0, str::len);
-                        let format = if text.contains('E') {
-                            "0.00E+00".into()
-                        } else if places == 0 {
-                            "0".into()
-                        } else {
-                            format!("0.{}", "0".repeat(places))
-                        };
+                        let (digits, power) = text
+                            .split_once('E')
+                            .map_or((&**text, ""), |(x, _)| (x, "E+00"));
+                        let places = digits.split('.').nth(1).map_or(0, str::len);
+                        let point = if places == 0 { "" } else { "." };
+                        let format = format!("0{point}{}{power}", "0".repeat(places));
                         let value: f64 = text.parse().unwrap_or(0.0);
                         sheet.write_number_with_format(
                             row,

@@ -97,8 +97,10 @@ pub(super) fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         "digit",
     ];
     if let Some(step) = e.figure(KEYS) {
-        // `resolution ± 0.005` is half of it.
-        let half = step.text.trim_start().starts_with('±')
+        // `resolution ± 0.005` is half of it, and so is `estimated to a fifth of a division (half-width 0.005)`.
+        let named = figure_after(text, &["half-width", "half width", "半宽"]);
+        let half = named.is_some_and(|half| half.value == step.value)
+            || step.text.trim_start().starts_with('±')
             || text.contains(&format!("± {}", step.text))
             || text.contains(&format!("±{}", step.text));
         let shape = (Shape::Rectangular, true);

@@ -160,7 +160,7 @@ pub(super) fn count(text: &str, e: &Evidence<'_>) -> Option<f64> {
     ];
     let mean = MEAN.iter().filter_map(|key| find(text, key, 0)).min();
     let before_mean = mean.map_or(text, |at| &text[..at]);
-    let direct = count_after(text, &["n =", "n=", "n"]);
+    let direct = count_after(text, &["n =", "n="]).or_else(|| bare_count(text));
     let each = || count_after(text, &["series of", "sets of", "每组", "组各"]).filter(|n| *n > 1.0);
     let counted = || {
         count_before(before_mean, READINGS)
@@ -172,6 +172,21 @@ pub(super) fn count(text: &str, e: &Evidence<'_>) -> Option<f64> {
         .or_else(|| after_mean(text, mean))
         .or(e.readings)
         .filter(|n| *n > 1.0)
+}
+
+/// `n 10`, and not `0.13 N (7 groups, …)`: behind a figure it is the newton.
+fn bare_count(text: &str) -> Option<f64> {
+    let mut from = 0;
+    while let Some(at) = find(text, "n", from) {
+        from = at + 1;
+        let is_unit = text[..at]
+            .trim_end()
+            .ends_with(|c: char| c.is_ascii_digit());
+        if let Some(n) = count_after(&text[at..], &["n"]).filter(|_| !is_unit) {
+            return Some(n);
+        }
+    }
+    None
 }
 
 /// `mean of 5 readings; s from 10 readings`: a count behind that of the mean.

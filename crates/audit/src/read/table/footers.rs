@@ -145,12 +145,15 @@ fn footer_row(
                 .map(|role| located.unit(role));
             let of_row = of_row.filter(|unit| units::parse(unit).is_some());
             let said = [open_unit.as_str(), next.unwrap_or(""), of_row.unwrap_or("")];
-            figure.unit = said
-                .into_iter()
-                .chain(head)
-                .find(|u| !u.is_empty())
-                .unwrap_or_default()
-                .to_string();
+            let unit = said.into_iter().chain(head).find(|u| !u.is_empty());
+            let unit = unit.unwrap_or_default().to_string();
+            // A unit in a label, other than that of the contributions, is called with its figure.
+            if unit == open_unit && !unit.is_empty() && unit != located.unit {
+                let called = |text: &str| format!("{text} {unit}");
+                figure.text = called(&figure.text);
+                figure.shown = figure.shown.as_deref().map(called);
+            }
+            figure.unit = unit;
         }
         let figure = units::with_power(figure);
         let figure = if whole == Whole::Y {

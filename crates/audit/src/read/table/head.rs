@@ -270,6 +270,7 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
             .count()
     };
     let gained = evaluated(&together) > evaluated(&located.columns);
+    let below_merged = below_merged(grid, located.head, &filled, mapping);
     if gained && together.len() >= located.columns.len() && units * 2 <= filled.len() {
         located.columns = together;
     } else if units * 2 > filled.len() {
@@ -294,9 +295,38 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
                 located.columns.push(column);
             }
         }
+    } else if let Some(columns) = below_merged {
+        for column in columns {
+            located.columns.retain(|c| c.index != column.index);
+            if !located.has(column.role) {
+                located.columns.push(column);
+            }
+        }
     } else {
         return;
     }
     located.used.insert(row);
     located.end = row + 1;
+}
+
+/// The columns that a merged head stands above, by the words below it: `分布及包含因子` above `分布` and `包含因子 k`. All
+/// words of the line name a column, and one at least stands behind the first column of a head that spans several.
+fn below_merged(
+    grid: &Grid,
+    head: usize,
+    filled: &[(usize, &str)],
+    mapping: &Mapping,
+) -> Option<Vec<Column>> {
+    let row = head + 1;
+    let columns = roles(filled, mapping, &|index| names_below(grid, row, index));
+    let spanned = |index: usize| {
+        let above = |column: usize| !grid.cell(head, column).is_empty();
+        index > 0
+            && !above(index)
+            && (above(index - 1) || filled.iter().any(|(i, _)| i + 1 == index))
+    };
+    let is_head = columns.len() == filled.len() && filled.iter().any(|(i, _)| spanned(*i));
+    // `数值 | 单位` below a head of figures says no more of them than that.
+    let says = |c: &Column| !matches!(c.role, Role::Value | Role::Used | Role::Derived);
+    is_head.then(|| columns.into_iter().filter(says).collect())
 }

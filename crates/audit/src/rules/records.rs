@@ -1,0 +1,389 @@
+//! What records that stand on a sheet show: readings, series, dates, ranges, fits, and checks of other kinds.
+
+use gumption_core::special::{chi_squared_upper_quantile, f_quantile};
+
+use crate::claim::Stated;
+use crate::printed::{Printed, leading};
+use crate::read::{count_before, figure_after};
+use crate::units;
+
+use super::{Hit, Seen, shown};
+
+/// Every line of words: those beside the tables, and those of the rows, each with its row.
+fn texts<'s>(seen: &'s Seen<'_>) -> impl Iterator<Item = (Option<usize>, &'s str)> {
+    let rows = seen.claimed.rows.iter().enumerate();
+    let lines = seen.claimed.words.lines().map(|line| (None, line));
+    lines.chain(rows.map(|(i, row)| (Some(i), row.words.as_str())))
+}
+
+fn has(text: &str, keys: &[&str]) -> bool {
+    let lower = text.to_lowercase();
+    keys.iter().any(|key| lower.contains(key))
+}
+
+/// Numbers behind one another in a text, with nothing but marks, `and` and one unit between them; the longest such run.
+fn listed(text: &str) -> Vec<f64> {
+    let mut longest: Vec<f64> = Vec::new();
+    let mut run: Vec<f64> = Vec::new();
+    let mut rest = text;
+    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let signed = rest[..start].ends_with('-');
+        let start = start - usize::from(signed);
+        let between =
+            rest[..start].trim_matches(|c: char| c.is_whitespace() || ",;、[(".contains(c));
+        let joins = between.is_empty()
+            || matches!(between, "and" | "和" | "及")
+            || units::parse(between.trim_end_matches([',', ';', '、', ' '])).is_some();
+        let Some((figure, behind)) = leading(&rest[start..]) else {
+            break;
+        };
+        if !joins {
+            run.clear();
+        }
+        run.push(figure.value);
+        if run.len() > longest.len() {
+            longest.clone_from(&run);
+        }
+        // A number has at least its first digit.
+        let used = rest.len() - behind.len();
+        rest = &rest[used.max(start + 1)..];
+    }
+    longest
+}
+
+/// Variances that were pooled, of which the largest is an outlier of Cochran's test at 1 % (ISO 5725-2, 7.3.3).
+pub(super) fn unequal_variances(seen: &Seen<'_>) -> Vec<Hit> {
+    let rows = seen.claimed.rows.iter().enumerate();
+    let hit = |(i, row): (usize, &crate::claim::Row)| {
+        let Stated::Deviation {
+            n: Some(n),
+            pooled: Some(_),
+            ..
+        } = row.stated
+        else {
+            return None;
+        };
+        let variances: Vec<f64> = listed(&row.words).iter().map(|s| s * s).collect();
+        let (count, total) = (variances.len() as f64, variances.iter().sum::<f64>());
+        let largest = variances.iter().copied().fold(0.0, f64::max);
+        let share = largest / total;
+        let by_f = f_quantile(1.0 - 0.01 / count, n - 1.0, (n - 1.0) * (count - 1.0));
+        let critical = 1.0 / (1.0 + (count - 1.0) / by_f);
+        let is_out = variances.len() >= 3 && total > 0.0 && share > critical;
+        is_out.then(|| Hit::of(Some(i), format!("C = {share:.3} > {critical:.3}")))
+    };
+    rows.filter_map(hit).collect()
+}
+
+/// Readings that a line lists, or that stand in lines below one another.
+fn series(seen: &Seen<'_>) -> Vec<Vec<f64>> {
+    const READINGS: [&str; 6] = [
+        "reading",
+        "raw data",
+        "observations",
+        "读数",
+        "测得值",
+        "测量值",
+    ];
+    let told = texts(seen).filter(|(_, text)| has(text, &READINGS));
+    let mut all: Vec<Vec<f64>> = told.map(|(_, text)| listed(text)).collect();
+    let (mut below, mut open) = (Vec::new(), false);
+    for line in seen.claimed.words.lines() {
+        let last = line.rsplit(" ; ").next().and_then(Printed::parse);
+        match last.filter(|_| open && line.starts_with(|c: char| c.is_ascii_digit() || c == '-')) {
+            Some(figure) => below.push(figure.value),
+            None => {
+                all.push(std::mem::take(&mut below));
+                open = has(line, &READINGS);
+            }
+        }
+    }
+    all.push(below);
+    all
+}
+
+/// Readings of which each is like the one before: the correlation at lag 1 is beyond two of its standard deviations.
+pub(super) fn autocorrelation(seen: &Seen<'_>) -> Vec<Hit> {
+    /// Of fewer the correlation at lag 1 cannot be so large, or only by a step from one level to another.
+    const FEWEST: usize = 8;
+    let of = |readings: Vec<f64>| {
+        let n = readings.len() as f64;
+        let mean = readings.iter().sum::<f64>() / n;
+        let apart: Vec<f64> = readings.iter().map(|x| x - mean).collect();
+        let square: f64 = apart.iter().map(|x| x * x).sum();
+        let lagged: f64 = apart.windows(2).map(|two| two[0] * two[1]).sum();
+        let (r, bound) = (lagged / square, 2.0 / libm::sqrt(n));
+        let is_like = readings.len() >= FEWEST && square > 0.0 && r > bound;
+        is_like.then(|| Hit::of(None, format!("r₁ = {r:.2} > 2/√{n} = {bound:.2}")))
+    };
+    let all = series(seen).into_iter();
+    all.filter_map(of).take(1).collect()
+}
+
+/// Terms of second order in the model at the estimates, against the variance of first order.
+pub(super) fn second_order(seen: &Seen<'_>) -> Vec<Hit> {
+    /// A twentieth of u_c² is a fortieth of u_c, half a unit in the second of its digits where that is 20.
+    const SHARE: f64 = 0.05;
+    let share = seen.case.second_order.filter(|share| *share > SHARE);
+    let hit = share.map(|share| Hit::of(None, format!("{:.0} % of u_c²", 100.0 * share)));
+    hit.into_iter().collect()
+}
+
+/// The interval of Monte Carlo that the sheet states, beyond the numerical tolerance of two digits of u_c (JCGM 101, 7.9.2
+/// and 8.1.3) from y ± U.
+pub(super) fn not_validated(seen: &Seen<'_>) -> Vec<Hit> {
+    const NAMES: [&str; 5] = ["monte carlo", "monte-carlo", "mcm", "蒙特卡洛", "蒙特卡罗"];
+    let footer = &seen.claimed.footer;
+    let (Some(y), Some(expanded)) = (&footer.y, &footer.expanded) else {
+        return Vec::new();
+    };
+    let u_c = footer
+        .u_c
+        .as_ref()
+        .map_or(seen.case.right.figures(&[], None).u_c, |u| u.value);
+    let to_y = units::factor(&seen.claimed.unit, &y.unit).unwrap_or(1.0);
+    let tolerance = 0.5 * libm::exp10(libm::floor(libm::log10(u_c * to_y)) - 1.0);
+    let ends = [
+        y.value - expanded.value * to_y,
+        y.value + expanded.value * to_y,
+    ];
+    let lines = texts(seen).filter(|(_, text)| has(text, &NAMES));
+    let hit = |(row, text): (Option<usize>, &str)| {
+        let (low, high) = interval(text)?;
+        let apart = (low.value - ends[0])
+            .abs()
+            .max((high.value - ends[1]).abs());
+        // The ends are printed, and so are y and U.
+        let open = tolerance + low.half + y.half + expanded.half * to_y;
+        let numbers = || {
+            let [a, b] = ends.map(shown);
+            format!("[{}, {}] ≠ [{a}, {b}]", low.text, high.text)
+        };
+        (apart > open).then(|| Hit::of(row, numbers()))
+    };
+    lines.filter_map(hit).take(1).collect()
+}
+
+/// `[9.98, 10.02]`, `9.98 to 10.02 V`, `(0~100) °C`, `200 g to 5 kg`: two figures with a mark or a word for a range between
+/// them, in the unit of the second.
+fn interval(text: &str) -> Option<(Printed, Printed)> {
+    // A comma may have parted cells.
+    const MARKS: [&str; 9] = [",", "; ", "~", "…", "至", "到", "to ", "and ", "- "];
+    let starts = text.char_indices().filter(|(at, c)| {
+        let before = text[..*at].chars().next_back();
+        let free = before.is_none_or(|b| !b.is_ascii_alphanumeric() && !"._-".contains(b));
+        free && (c.is_ascii_digit() || *c == '-')
+    });
+    let pair = |(at, _): (usize, char)| {
+        let (low, behind) = leading(&text[at..])?;
+        let blank = behind.trim_start();
+        let word = blank.split_once(' ');
+        let word = word.filter(|(word, _)| units::parse(word).is_some());
+        let (unit, rest) = word.map_or(("", blank), |(unit, rest)| (unit, rest.trim_start()));
+        let rest = MARKS.iter().find_map(|mark| rest.strip_prefix(mark))?;
+        let (high, behind) = leading(rest.trim_start())?;
+        let end = behind.trim_start_matches([')', ']', ' ']);
+        let stop = end.find(|c: char| c.is_whitespace() || ",;)。".contains(c));
+        let own = end[..stop.unwrap_or(end.len())].to_string();
+        let factor = units::factor(unit, &own).filter(|_| !unit.is_empty());
+        let low = low.scaled(factor.unwrap_or(1.0));
+        (low.value < high.value).then_some((low, Printed { unit: own, ..high }))
+    };
+    starts.filter_map(pair).next()
+}
+
+/// χ²/ν that the sheet states of a fit, beyond what chance gives once in twenty.
+pub(super) fn lack_of_fit(seen: &Seen<'_>) -> Vec<Hit> {
+    const NAMES: [&str; 10] = [
+        "χ^2/ν",
+        "χ^2/dof",
+        "χ^2/n",
+        "chi^2/dof",
+        "chi^2/ν",
+        "reduced chi-square",
+        "reduced chi-squared",
+        "reduced χ^2",
+        "chi-squared per degree of freedom",
+        "约化卡方",
+    ];
+    const FREEDOM: [&str; 4] = ["ν =", "ν=", "degrees of freedom", "自由度"];
+    let hit = |(row, text): (Option<usize>, &str)| {
+        let ratio = figure_after(text, &NAMES)?.value;
+        // With one degree of freedom, where none are stated, the most is left to chance.
+        let others = text.replace("/ν", "/n");
+        let behind = figure_after(&others, &FREEDOM).map(|dof| dof.value);
+        let dof = behind.or_else(|| count_before(&others.to_lowercase(), &["degrees of freedom"]));
+        let dof = dof.unwrap_or(1.0).max(1.0);
+        let bound = chi_squared_upper_quantile(0.05, dof) / dof;
+        (ratio > bound).then(|| Hit::of(row, format!("χ²/ν = {ratio} > {bound:.2}")))
+    };
+    texts(seen).filter_map(hit).collect()
+}
+
+/// A standard whose words name the range in which it was calibrated, and another value at which it was used.
+pub(super) fn out_of_range(seen: &Seen<'_>) -> Vec<Hit> {
+    const RANGES: [&str; 10] = [
+        "calibrated from",
+        "calibrated range",
+        "calibration range",
+        "range of calibration",
+        "calibrated in the range",
+        "calibrated between",
+        "校准范围",
+        "检定范围",
+        "校准区间",
+        "证书范围",
+    ];
+    const USED: [&str; 8] = [
+        "used at",
+        "measured at",
+        "applied at",
+        "read at",
+        "使用点",
+        "测量点",
+        "校准点",
+        "使用于",
+    ];
+    let hit = |(row, text): (Option<usize>, &str)| {
+        let lower = text.to_lowercase();
+        let at = RANGES
+            .iter()
+            .find_map(|key| Some(lower.find(key)? + key.len()))?;
+        let (low, high) = interval(lower.get(at..)?)?;
+        let own = row.and_then(|row| seen.claimed.rows[row].value.clone());
+        let used = figure_after(text, &USED).or(own)?;
+        let factor = units::factor(&used.unit, &high.unit);
+        let x = used.value * factor.or(used.unit.is_empty().then_some(1.0))?;
+        let outside = x < low.value || x > high.value;
+        outside.then(|| {
+            Hit::of(
+                row,
+                format!("{} ∉ [{}, {}]", used.text, low.text, high.text),
+            )
+        })
+    };
+    texts(seen).filter_map(hit).collect()
+}
+
+/// A budget that was made before its method was revised, or one of its standards calibrated.
+pub(super) fn old_budget(seen: &Seen<'_>) -> Vec<Hit> {
+    const MADE: [&str; 8] = [
+        "prepared",
+        "budget of",
+        "date of the budget",
+        "evaluated on",
+        "编制",
+        "评定日期",
+        "评定于",
+        "budget date",
+    ];
+    const LATER: [&str; 12] = [
+        "revised",
+        "revision of",
+        "in force",
+        "effective from",
+        "recalibrated",
+        "certificate dated",
+        "certificate of",
+        "修订",
+        "实施",
+        "换版",
+        "复校",
+        "证书日期",
+    ];
+    // `prepared by ; J. Li ; 2026-03-14`: a date belongs to the last that its line has named.
+    let dated_in = |text: &str, keys: &[&str]| -> Vec<String> {
+        let mut about = false;
+        let mut found = Vec::new();
+        for part in text.split([';', ',', '。', '、']) {
+            let named = has(part, &MADE) || has(part, &LATER);
+            about = if named { has(part, keys) } else { about };
+            found.extend(dates(part).into_iter().filter(|_| about));
+        }
+        found
+    };
+    let dated = |keys: &[&str]| -> Vec<String> {
+        let all = texts(seen).flat_map(|(_, text)| dated_in(text, keys));
+        all.collect()
+    };
+    let Some(made) = dated(&MADE).into_iter().max() else {
+        return Vec::new();
+    };
+    let later = dated(&LATER).into_iter().filter(|date| *date > made).max();
+    let hit = later.map(|later| Hit::of(None, format!("{made} < {later}")));
+    hit.into_iter().collect()
+}
+
+/// Dates of a text as `2026-01-31`, also where it writes `2026/1/31` or `2026年1月31日`.
+pub(super) fn dates(text: &str) -> Vec<String> {
+    let plain = text.replace(['年', '月', '/', '.'], "-").replace('日', " ");
+    let words = plain.split(|c: char| !(c.is_ascii_digit() || c == '-'));
+    let date = |word: &str| {
+        let figures: Vec<&str> = word.trim_matches('-').split('-').collect();
+        let [year, month, day] = figures.as_slice() else {
+            return None;
+        };
+        let (month, day): (u32, u32) = (month.parse().ok()?, day.parse().ok()?);
+        let is_date = year.len() == 4 && (1..=12).contains(&month) && (1..=31).contains(&day);
+        is_date.then(|| format!("{year}-{month:02}-{day:02}"))
+    };
+    words.filter_map(date).collect()
+}
+
+/// The standard deviation of a check standard that a line states, beside the one that it predicts.
+pub(super) fn check_standard(seen: &Seen<'_>) -> Vec<Hit> {
+    const STANDARD: [&str; 4] = ["check standard", "control chart", "核查标准", "控制图"];
+    const SCATTER: [&str; 6] = [
+        "s =",
+        "s=",
+        "standard deviation",
+        "scatter",
+        "标准偏差",
+        "标准差",
+    ];
+    const PREDICTED: [&str; 5] = ["predicted", "expected", "prediction", "预期", "预计"];
+    let hit = |(row, text): (Option<usize>, &str)| {
+        if !has(text, &STANDARD) {
+            return None;
+        }
+        let s = figure_after(text, &SCATTER)?;
+        let predicted = figure_after(text, &PREDICTED)?;
+        let factor = units::factor(&predicted.unit, &s.unit).unwrap_or(1.0);
+        let ratio = s.value / (predicted.value * factor);
+        (ratio > 2.0).then(|| {
+            Hit::of(
+                row,
+                format!("s = {}, {} × {}", s.text, shown(ratio), predicted.text),
+            )
+        })
+    };
+    texts(seen).filter_map(hit).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_intervals_and_dates_are_read() {
+        assert_eq!(
+            listed("5 series: 0.10, 0.12 and 0.45 mV"),
+            [0.10, 0.12, 0.45]
+        );
+        assert_eq!(listed("s of 10 readings, mean of 4"), [10.0]);
+        let ends = |text: &str| interval(text).map(|(a, b)| (a.value, b.value, b.unit));
+        assert_eq!(
+            ends("[99.98, 100.02]"),
+            Some((99.98, 100.02, String::new()))
+        );
+        assert_eq!(ends("from 0 °C to 100 °C"), Some((0.0, 100.0, "°C".into())));
+        assert_eq!(ends("(10~50) kPa"), Some((10.0, 50.0, "kPa".into())));
+        assert_eq!(ends("[99.98 ; 100.02] g").map(|(a, ..)| a), Some(99.98));
+        assert_eq!(ends("200 g to 5 kg"), Some((0.2, 5.0, "kg".into())));
+        assert_eq!(ends("M-12"), None);
+        assert_eq!(
+            dates("2026-01-31, 2026/2/3 and 2026年3月14日; 17.4.5"),
+            ["2026-01-31", "2026-02-03", "2026-03-14"]
+        );
+    }
+}

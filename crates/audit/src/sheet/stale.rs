@@ -1,0 +1,274 @@
+//! Formulas of a workbook held against the values that it keeps of them: a sheet that was changed and not computed again,
+//! or of which a value was pasted over, says something else than it shows.
+
+use crate::printed::Printed;
+
+use super::Grid;
+
+/// Notes in every cell that its formula gives another figure than it holds.
+pub(crate) fn mark(grid: &mut Grid) {
+    let stale = |row: usize, column: usize| {
+        let cell = grid.cell(row, column);
+        let formula = cell.formula.as_ref()?;
+        let held = cell.figure().filter(|held| held.unit.is_empty())?;
+        let Value { x, open } = value(grid, formula)?;
+        let is_met = held.is_met_within(x, held.half + open * x.abs());
+        (!is_met).then_some((row, column, x))
+    };
+    let rows = 0..grid.rows.len();
+    let places = rows.flat_map(|row| (0..grid.rows[row].len()).map(move |column| (row, column)));
+    let found: Vec<(usize, usize, f64)> = places
+        .filter_map(|(row, column)| stale(row, column))
+        .collect();
+    for (row, column, gives) in found {
+        grid.rows[row][column].gives = Some(gives);
+    }
+}
+
+/// What a formula gives, and how far, relatively, the digits of the cells that it names leave that open: other programs
+/// than spreadsheets write cells rounded, and beside them results that are not.
+#[derive(Debug, Clone, Copy)]
+struct Value {
+    x: f64,
+    open: f64,
+}
+
+impl Value {
+    fn exact(x: f64) -> Value {
+        Value { x, open: 0.0 }
+    }
+
+    fn with(self, other: Value, x: f64) -> Value {
+        let open = self.open + other.open;
+        Value { x, open }
+    }
+}
+
+/// The value of a formula of numbers, cells of its own sheet, `+ - * / ^`, roots, sums and sums of squares; of others none.
+fn value(grid: &Grid, formula: &str) -> Option<Value> {
+    let text: String = formula
+        .chars()
+        .filter(|c| !c.is_whitespace() && *c != '$')
+        .collect();
+    let mut reader = Reader {
+        grid,
+        rest: &text,
+        depth: 0,
+    };
+    let value = reader.sum()?;
+    (reader.rest.is_empty() && value.x.is_finite()).then_some(value)
+}
+
+/// Cells of one sum: a budget has some hundred rows, and a file may name millions in each of a million formulas.
+const MOST_SUMMED: usize = 1 << 12;
+
+struct Reader<'t> {
+    grid: &'t Grid,
+    rest: &'t str,
+    depth: usize,
+}
+
+impl<'t> Reader<'t> {
+    fn takes(&mut self, mark: char) -> bool {
+        let rest = self.rest.strip_prefix(mark);
+        self.rest = rest.unwrap_or(self.rest);
+        rest.is_some()
+    }
+
+    fn sum(&mut self) -> Option<Value> {
+        /// Brackets inside one another: deeper ones are no formula of a budget.
+        const DEEPEST: usize = 32;
+        self.depth += 1;
+        if self.depth > DEEPEST {
+            return None;
+        }
+        let mut sum = self.product()?;
+        loop {
+            let sign = match () {
+                () if self.takes('+') => 1.0,
+                () if self.takes('-') => -1.0,
+                () => break,
+            };
+            let term = self.product()?;
+            sum = sum.with(term, sum.x + sign * term.x);
+        }
+        self.depth -= 1;
+        Some(sum)
+    }
+
+    fn product(&mut self) -> Option<Value> {
+        let mut product = self.power()?;
+        loop {
+            if self.takes('*') {
+                let factor = self.power()?;
+                product = product.with(factor, product.x * factor.x);
+            } else if self.takes('/') {
+                let factor = self.power()?;
+                product = product.with(factor, product.x / factor.x);
+            } else {
+                return Some(product);
+            }
+        }
+    }
+
+    fn power(&mut self) -> Option<Value> {
+        // A spreadsheet squares `-2^2` with its sign.
+        let sign = if self.takes('-') { -1.0 } else { 1.0 };
+        let base = self.operand()?;
+        let base = Value {
+            x: sign * base.x,
+            ..base
+        };
+        if !self.takes('^') {
+            return Some(base);
+        }
+        let exponent = self.operand()?;
+        let open = base.open * exponent.x.abs();
+        Some(Value {
+            x: libm::pow(base.x, exponent.x),
+            open,
+        })
+    }
+
+    fn operand(&mut self) -> Option<Value> {
+        if self.takes('(') {
+            let inner = self.sum()?;
+            return self.takes(')').then_some(inner);
+        }
+        if self
+            .rest
+            .starts_with(|c: char| c.is_ascii_digit() || c == '.')
+        {
+            let end = self.rest.find(|c: char| !(c.is_ascii_digit() || c == '.'));
+            return Some(Value::exact(self.word(end).parse().ok()?));
+        }
+        let end = self.rest.find(|c: char| !c.is_ascii_alphanumeric());
+        let name = self.word(end).to_ascii_uppercase();
+        if self.takes('(') {
+            return self.function(&name);
+        }
+        self.cell(&name)
+    }
+
+    /// The text in front of a place, or all of it, which is then behind the reader.
+    fn word(&mut self, end: Option<usize>) -> &'t str {
+        let (word, rest) = self.rest.split_at(end.unwrap_or(self.rest.len()));
+        self.rest = rest;
+        word
+    }
+
+    fn function(&mut self, name: &str) -> Option<Value> {
+        let of_list: Option<fn(f64) -> f64> = match name {
+            "SUM" => Some(|x| x),
+            "SUMSQ" => Some(|x| x * x),
+            _ => None,
+        };
+        if let Some(of) = of_list {
+            let all = self.list()?;
+            let x = all.iter().map(|value| of(value.x)).sum();
+            // The widest of the parts is more than the sum can be off by.
+            let open = all.iter().map(|value| 2.0 * value.open).fold(0.0, f64::max);
+            return Some(Value { x, open });
+        }
+        if name == "PI" {
+            return self
+                .takes(')')
+                .then_some(Value::exact(std::f64::consts::PI));
+        }
+        let inner = self.sum().filter(|_| self.takes(')'))?;
+        match name {
+            "SQRT" => Some(Value {
+                x: libm::sqrt(inner.x),
+                open: 0.5 * inner.open,
+            }),
+            "ABS" => Some(Value {
+                x: inner.x.abs(),
+                ..inner
+            }),
+            _ => None,
+        }
+    }
+
+    /// The arguments of a sum: single ones, and ranges of cells.
+    fn list(&mut self) -> Option<Vec<Value>> {
+        let mut all = Vec::new();
+        loop {
+            let end = self.rest.find([',', ')'])?;
+            match self.rest[..end].split_once(':') {
+                Some((first, last)) if !first.contains(['(', '+', '*']) => {
+                    let (from, to) = (place(first)?, place(last)?);
+                    let size = (to.0.checked_sub(from.0)? + 1) * (to.1.checked_sub(from.1)? + 1);
+                    if size > MOST_SUMMED {
+                        return None;
+                    }
+                    for row in from.0..=to.0 {
+                        let cells = (from.1..=to.1).map(|column| self.grid.cell(row, column));
+                        all.extend(cells.filter_map(|cell| Some(known(&cell.figure()?))));
+                    }
+                    self.rest = &self.rest[end..];
+                }
+                _ => all.push(self.sum()?),
+            }
+            if self.takes(')') {
+                return Some(all);
+            }
+            if !self.takes(',') {
+                return None;
+            }
+        }
+    }
+
+    fn cell(&self, name: &str) -> Option<Value> {
+        let (row, column) = place(name)?;
+        let figure = self.grid.cell(row, column).figure()?;
+        figure.unit.is_empty().then(|| known(&figure))
+    }
+}
+
+fn known(figure: &Printed) -> Value {
+    // Whole numbers are exact.
+    let open = match figure.half >= 0.5 || figure.value == 0.0 {
+        true => 0.0,
+        false => figure.relative_half(),
+    };
+    Value {
+        x: figure.value,
+        open,
+    }
+}
+
+/// Row and column, from 0, of `B7`.
+fn place(name: &str) -> Option<(usize, usize)> {
+    let letters = name.bytes().take_while(u8::is_ascii_alphabetic).count();
+    let row: usize = name.get(letters..)?.parse().ok()?;
+    let column = name[..letters].bytes().fold(0, |column, letter| {
+        26 * column + usize::from(letter.to_ascii_uppercase() - b'A') + 1
+    });
+    ((1..=3).contains(&letters) && row > 0).then(|| (row - 1, column - 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Cell;
+    use super::*;
+
+    #[test]
+    fn formulas_of_budgets_have_values() {
+        let row = |cells: &[&str]| cells.iter().map(|text| Cell::new(text)).collect();
+        let grid = Grid {
+            rows: vec![row(&["m", "30", "2"]), row(&["d", "40", "1"])],
+            ..Grid::default()
+        };
+        let of = |formula: &str| value(&grid, formula).map(|value| value.x);
+        assert_eq!(of("B1/2"), Some(15.0));
+        assert_eq!(of("SQRT(SUMSQ(B1:B2))"), Some(50.0));
+        assert_eq!(of("SQRT($B$1^2+B2^2)*C1"), Some(100.0));
+        assert_eq!(of("SUM(B1,B2,C1:C2)-1"), Some(72.0));
+        assert_eq!(of("-2^2"), Some(4.0));
+        assert!((of("B1/SQRT(3)").unwrap() - 17.320508).abs() < 1e-6);
+        for strange in ["A1", "Other!B1", "IF(B1>1,2,3)", "B1+", "\"a\"", "((((B1"] {
+            assert_eq!(of(strange), None, "{strange}");
+        }
+        assert_eq!(of(&"(".repeat(5000)), None);
+    }
+}

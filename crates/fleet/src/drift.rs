@@ -115,10 +115,7 @@ impl Device {
         let spread = rows
             .iter()
             .map(|row| weight(values, *row) * (years(*row) - mean).powi(2));
-        let spread: f64 = spread.sum();
-        if !(spread > 0.0) {
-            return None;
-        }
+        let spread = Some(spread.sum::<f64>()).filter(|spread| *spread > 0.0)?;
         let origin = values.estimate[rows[0]];
         let mut device = Device {
             group,

@@ -1,6 +1,6 @@
 //! One measurand in one group of rows: where the estimates lie, whether they scatter as their u says, what makes u large.
 
-use gumption_core::special::chi_squared_sf;
+use gumption_core::special::{chi_squared_sf, f_cdf, f_sf};
 
 use crate::deviation::{Others, SIGNIFICANCE, weight};
 use crate::results::{MeasurandValues, Values};
@@ -49,6 +49,8 @@ pub struct Consistency {
     pub birge: f64,
     /// Probability of a larger χ², where u is right and the items do not differ.
     pub p_larger: f64,
+    /// Degrees of freedom of the claimed u, the median.
+    pub dof_of_u: f64,
 }
 
 /// How estimates scatter, beside what their u claims.
@@ -64,11 +66,16 @@ pub enum Scatter {
 
 impl Consistency {
     /// Whether chance explains the scatter, where so many groups were looked at (Bonferroni).
+    ///
+    /// The u of all rows may be one estimate, as it is where a budget gives them the same: χ²/(n − 1) is a ratio of two variances then, F
+    /// of n − 1 and ν, which no number of rows makes more certain than ν does. For infinite ν that is χ² again.
     pub fn scatter(&self, groups: usize) -> Scatter {
+        let (ratio, dof) = (self.birge * self.birge, self.dof as f64);
+        let [larger, smaller] = [f_sf, f_cdf].map(|p| p(ratio, dof, self.dof_of_u));
         let improbable = |p: f64| groups as f64 * p < SIGNIFICANCE;
         match () {
-            () if improbable(self.p_larger) => Scatter::More,
-            () if improbable(1.0 - self.p_larger) => Scatter::Less,
+            () if improbable(larger) => Scatter::More,
+            () if improbable(smaller) => Scatter::Less,
             () => Scatter::AsClaimed,
         }
     }
@@ -164,6 +171,7 @@ impl Consistency {
             chi_squared += others * score * score;
         }
         let dof = rows.len().checked_sub(1).filter(|dof| *dof > 0)?;
+        let dofs = rows.iter().map(|row| values.dof[*row]).collect();
         Some(Consistency {
             count: rows.len(),
             mean: sums.mean(),
@@ -172,6 +180,7 @@ impl Consistency {
             dof,
             birge: (chi_squared / dof as f64).sqrt(),
             p_larger: chi_squared_sf(chi_squared, dof as f64),
+            dof_of_u: median(dofs),
         })
     }
 }
@@ -197,9 +206,9 @@ fn components(measurand: &MeasurandValues, rows: &[usize]) -> Vec<Component> {
     all.map(component).collect()
 }
 
-/// The middle one of numbers, or the mean of the two in the middle; of those that are finite.
+/// The middle one of numbers, or the mean of the two in the middle; of those that are numbers.
 pub(crate) fn median(mut numbers: Vec<f64>) -> f64 {
-    numbers.retain(|x| x.is_finite());
+    numbers.retain(|x| !x.is_nan());
     let count = numbers.len();
     if count == 0 {
         return f64::NAN;

@@ -318,10 +318,9 @@ impl<'a> Heads<'a> {
         let mut stated = self.quantity(name)?;
         let unit = owner.stated.unit.clone();
         stated.value = self.number(at, &unit)?;
-        for spread in [&mut stated.u, &mut stated.expanded] {
-            if let Some(column) = spread {
-                *column = self.number(column.at, &unit.difference())?;
-            }
+        let spreads = [&mut stated.u, &mut stated.expanded];
+        for column in spreads.into_iter().flatten() {
+            *column = self.number(column.at, &unit.difference())?;
         }
         stated.unit = unit;
         let is_known = stated.expanded.is_some() || (stated.u.is_some() && stated.k.is_some());

@@ -179,7 +179,7 @@ fn rows_of_groups(levels: &Levels) -> Vec<(&str, Vec<usize>)> {
     for (row, level) in levels.of_row.iter().enumerate() {
         groups[*level as usize].1.push(row);
     }
-    groups.sort_by(|(one, _), (other, _)| one.cmp(other));
+    groups.sort_by_key(|(key, _)| *key);
     groups
 }
 

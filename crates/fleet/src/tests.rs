@@ -112,6 +112,31 @@ fn the_constant_of_gravitation_is_as_published() {
     assert!(consistency.p_larger < 1e-20);
 }
 
+/// One u for all rows, known to 10 % (ν = 50): rows without number do not prove it 2 % too large. Known exactly, they do.
+#[test]
+fn a_shared_u_is_known_no_better_than_its_degrees_of_freedom() {
+    let scatter = |birge: f64, dof_of_u| {
+        let dof = 50_000;
+        let chi_squared = birge * birge * f64::from(dof);
+        let found = Consistency {
+            count: dof as usize + 1,
+            mean: 0.0,
+            u: 1.0,
+            chi_squared,
+            dof: dof as usize,
+            birge,
+            p_larger: gumption_core::special::chi_squared_sf(chi_squared, f64::from(dof)),
+            dof_of_u,
+        };
+        found.scatter(1)
+    };
+    assert_eq!(scatter(0.98, 50.0), Scatter::AsClaimed);
+    assert_eq!(scatter(0.98, f64::INFINITY), Scatter::Less);
+    assert_eq!(scatter(1.02, f64::INFINITY), Scatter::More);
+    assert_eq!(scatter(0.8, 50.0), Scatter::Less);
+    assert_eq!(scatter(1.3, 50.0), Scatter::More);
+}
+
 /// A value that lies apart does not make the others lie apart, and is named as the only one.
 #[test]
 fn one_that_lies_apart_is_named_alone() {

@@ -54,15 +54,20 @@ pub struct Evaluated<'a> {
     pub found: Result<(&'a Budget, Found<'a>), &'a Failed>,
 }
 
+/// What is known of a row before it is evaluated.
+#[derive(Clone, Copy)]
+struct Place<'a> {
+    number: u64,
+    label: Option<&'a str>,
+    kept: (&'a [String], &'a [Cow<'a, str>]),
+}
+
 impl<'a> Evaluated<'a> {
-    fn at(
-        (number, label, kept): (u64, Option<&'a str>, (&'a [String], &'a [Cow<'a, str>])),
-        found: Result<(&'a Budget, Found<'a>), &'a Failed>,
-    ) -> Self {
+    fn at(place: Place<'a>, found: Result<(&'a Budget, Found<'a>), &'a Failed>) -> Self {
         Evaluated {
-            number,
-            label,
-            kept,
+            number: place.number,
+            label: place.label,
+            kept: place.kept,
             found,
         }
     }
@@ -398,7 +403,11 @@ impl Worker<'_> {
                 .iter()
                 .map(|column| part.field(lane, *column))
                 .collect();
-            let place = (number, label.as_deref(), (heads, kept.as_slice()));
+            let place = Place {
+                number,
+                label: label.as_deref(),
+                kept: (heads, &kept),
+            };
             if let Some(room) = &mut self.room {
                 if let Some(figures) = room.figures(lane) {
                     let found = (room.pattern.budget(), Found::Figures(figures));

@@ -105,7 +105,7 @@ impl Shown<'_> {
             ),
         };
         let all = l.pick(
-            format!("Rows held against {against}: {tested}. Beyond |E_n| = 1 are {beyond} of them, where chance lets expect {by_chance}."),
+            format!("|E_n| > 1: {beyond} of {tested} rows, against {against}; chance lets expect {by_chance}."),
             format!("{tested} 行与{against}比较：{beyond} 行 |E_n| > 1，偶然性期望为 {by_chance} 行。"),
         );
         let named = found.apart.iter().filter(|one| one.is_named());
@@ -117,7 +117,7 @@ impl Shown<'_> {
             ),
             count => l.pick(
                 format!(
-                    "Chance does not explain {} of them (●, p < {} over all): {names}.",
+                    "Not explained by chance (●, p < {1} over all), {0}: {names}.",
                     grouped(count as u64),
                     self.limit()
                 ),
@@ -128,7 +128,14 @@ impl Shown<'_> {
                 ),
             ),
         };
-        format!("{all}{}{named}", l.pick(" ", ""))
+        let shared = match &one.reference {
+            Some(_) => "",
+            None => l.pick(
+                " What all rows share, such as the error of one reference, is in both sides and cancels, though U has it: E_n is then smaller than the difference deserves.",
+                "各行共有的部分（如同一标准器的误差）在差值中抵消，但仍计入 U：此时 E_n 偏小。",
+            ),
+        };
+        format!("{all}{}{named}{shared}", l.pick(" ", ""))
     }
 
     fn limit(self) -> String {
@@ -146,7 +153,7 @@ impl Shown<'_> {
         let [devices, beyond] = [drift.devices, drift.beyond].map(|n| grouped(n as u64));
         let by_chance = expected(drift.expected);
         let all = l.pick(
-            format!("Devices with calibrations at several dates: {devices}. Beyond the U of their rate drift {beyond} of them, where chance lets expect {by_chance}."),
+            format!("Rate beyond its U: {beyond} of {devices} devices with calibrations at several dates; chance lets expect {by_chance}."),
             format!("{devices} 个器件有多个日期的校准：{beyond} 个的漂移速率超出其 U，偶然性期望为 {by_chance} 个。"),
         );
         let named = drift.apart.iter().filter(|one| one.is_named());
@@ -158,7 +165,7 @@ impl Shown<'_> {
             ),
             count => l.pick(
                 format!(
-                    "Chance does not explain {} of them (●, p < {} over all): {names}.",
+                    "Not explained by chance (●, p < {1} over all), {0}: {names}.",
                     grouped(count as u64),
                     self.limit()
                 ),

@@ -217,38 +217,44 @@ fn stated_references_are_what_rows_are_held_against() {
     assert!(refusal("y,u(y),k(y),X\n1,1,2,1\n", &wanted).contains("add a column U(X)"));
 }
 
-/// Fleets whose u is right, also where ν is small: as many E_n beyond 1 as expected, χ² as probable as it says, and a name in no
-/// more fleets than stated.
+/// What is said of so many simulated fleets of 25 devices whose u is right: E_n beyond 1, how many chance lets expect, fleets in which a
+/// device is named, fleets in which p(χ²) is below 5 %.
+fn honest(fleets: usize, dof: f64) -> (usize, f64, [usize; 2]) {
+    let mut rng = StdRng::seed_from_u64(1);
+    let normal = Normal::new(0.0, 1.0).expect("a distribution");
+    let (mut beyond, mut expected, mut counts) = (0, 0.0, [0; 2]);
+    for _ in 0..fleets {
+        let mut table = String::from("label,y,u(y),nu(y),k(y)\n");
+        for row in 0..25 {
+            let sigma = 1.0 + f64::from(row % 3);
+            let u = match dof.is_finite() {
+                true => {
+                    let squares = ChiSquared::new(dof).expect("a distribution");
+                    sigma * (squares.sample(&mut rng) / dof).sqrt()
+                }
+                false => sigma,
+            };
+            let x = 100.0 + sigma * normal.sample(&mut rng);
+            table += &format!("{row},{x},{u},{dof},2\n");
+        }
+        let y = found(&table, &Wanted::default()).measurands.remove(0);
+        beyond += y.agreement.beyond;
+        expected += y.agreement.expected;
+        let consistency = y.groups[0].consistency.expect("values");
+        counts[0] += usize::from(y.agreement.named > 0);
+        counts[1] += usize::from(consistency.p_larger < SIGNIFICANCE);
+    }
+    (beyond, expected, counts)
+}
+
+/// Also where ν is small: as many E_n beyond 1 as expected, χ² as probable as it says, and a name in no more fleets than stated.
 #[test]
 fn honest_fleets_are_called_so() {
     const FLEETS: usize = 500;
-    let mut rng = StdRng::seed_from_u64(1);
-    let normal = Normal::new(0.0, 1.0).expect("a distribution");
     // Counts within four standard deviations of Poisson's distribution.
     let near = |count: usize, mean: f64| (count as f64 - mean).abs() < 4.0 * mean.sqrt();
     for dof in [10.0, f64::INFINITY] {
-        let (mut beyond, mut expected, mut named, mut improbable) = (0, 0.0, 0, 0);
-        for _ in 0..FLEETS {
-            let mut table = String::from("label,y,u(y),nu(y),k(y)\n");
-            for row in 0..25 {
-                let sigma = 1.0 + f64::from(row % 3);
-                let u = match dof.is_finite() {
-                    true => {
-                        let squares = ChiSquared::new(dof).expect("a distribution");
-                        sigma * (squares.sample(&mut rng) / dof).sqrt()
-                    }
-                    false => sigma,
-                };
-                let x = 100.0 + sigma * normal.sample(&mut rng);
-                table += &format!("{row},{x},{u},{dof},2\n");
-            }
-            let y = found(&table, &Wanted::default()).measurands.remove(0);
-            beyond += y.agreement.beyond;
-            expected += y.agreement.expected;
-            named += usize::from(y.agreement.named > 0);
-            let consistency = y.groups[0].consistency.expect("values");
-            improbable += usize::from(consistency.p_larger < SIGNIFICANCE);
-        }
+        let (beyond, expected, [named, improbable]) = honest(FLEETS, dof);
         let stated = SIGNIFICANCE * FLEETS as f64;
         assert!(near(beyond, expected), "ν {dof}: {beyond} for {expected}");
         assert!(
@@ -256,6 +262,19 @@ fn honest_fleets_are_called_so() {
             "ν {dof}: {improbable} for {stated}"
         );
         assert!(near(named, stated), "ν {dof}: {named} for {stated}");
+    }
+}
+
+#[test]
+#[ignore = "prints the figures of docs/fleet-statistics.md"]
+fn honest_fleets_in_figures() {
+    const FLEETS: usize = 8000;
+    for dof in [f64::INFINITY, 20.0, 10.0, 4.0] {
+        let (beyond, expected, counts) = honest(FLEETS, dof);
+        let [named, improbable] = counts.map(|count| 100.0 * count as f64 / FLEETS as f64);
+        println!(
+            "ν {dof}: {beyond} E_n beyond 1 for {expected:.0}, named in {named:.1} %, p < 5 % in {improbable:.1} %"
+        );
     }
 }
 

@@ -39,6 +39,7 @@ fn main() {
     let plan = Plan {
         monte_carlo: None,
         threads: 1,
+        keep: Vec::new(),
         progress: Progress::default(),
     };
     let columns = Columns {

@@ -144,6 +144,7 @@
 //! | [`equations`] | measurement equations over rows of data |
 //! | [`mod@budget`] | the file format and the checked budget |
 //! | [`batch`] | one budget for every row of a table |
+//! | [`mod@fleet`] | what the results of many devices say together |
 //! | [`propagate`] | GUM and Monte Carlo evaluation of a budget; verdicts; comparison with claims |
 //! | [`csv`] | the one reader of tables |
 //! | [`recording`] | recordings of instruments: columns, dwells, averages, Allan deviation |
@@ -168,6 +169,7 @@ pub use gumption_core::{
 pub use gumption_export as render;
 pub use gumption_fault as fault;
 pub use gumption_fault::language;
+pub use gumption_fleet as fleet;
 pub use gumption_format::{csv, document, files, machine};
 pub use gumption_gum::{batch, budget, propagate, versions};
 pub use gumption_lab::{calibrate, diagnose, experiment, recording};

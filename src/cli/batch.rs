@@ -47,6 +47,9 @@ pub(super) struct Args {
     /// covariance of two rows
     #[arg(long)]
     contributions: bool,
+    /// Columns of the table that go through to the results unchanged, such as type, laboratory or date
+    #[arg(long, value_name = "COLUMN", value_delimiter = ',')]
+    keep: Vec<String>,
     /// Worker threads; results do not depend on it [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -143,6 +146,7 @@ fn plan(args: &Args) -> Plan {
     Plan {
         monte_carlo: args.monte_carlo.then_some(wanted),
         threads: args.threads.map_or(cores, usize::from),
+        keep: args.keep.clone(),
         progress: Progress::default(),
     }
 }

@@ -1,5 +1,7 @@
 //! `gumption calibrate`, and `gumption plan` of a calibration: coefficients or predictions out.
 
+mod recordings;
+
 use std::path::PathBuf;
 
 use super::form::Form;
@@ -23,9 +25,16 @@ pub(super) struct Args {
     /// one file, all.toml
     #[arg(long, value_name = "COEFFICIENT=FILE|FILE")]
     budget: Vec<String>,
+    /// Calibrate from each of these recordings in place of the file's, CSV files or folders of them: a table (CSV) with a line
+    /// each
+    #[arg(long, value_name = "RECORDING", num_args = 1.., conflicts_with = "budget")]
+    recordings: Vec<PathBuf>,
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
+    if !args.recordings.is_empty() {
+        return recordings::run(&args.file, &args.recordings, &args.form);
+    }
     let beside = args
         .budget
         .iter()

@@ -13,7 +13,8 @@ use gumption::fault::catalogue::told;
 use gumption::fault::{Code, Said, nearest, say};
 use gumption::language::Language;
 use gumption::{
-    audit, budget, csv, diagnose, distribution, equations, experiment, model, quantity, report,
+    audit, budget, csv, diagnose, distribution, equations, experiment, fleet, model, quantity,
+    report,
 };
 
 #[derive(Debug, clap::Args)]
@@ -452,6 +453,7 @@ fn codes() -> impl Iterator<Item = &'static Code> {
         equations::faults::CODES,
         experiment::faults::CODES,
         diagnose::faults::CODES,
+        fleet::faults::CODES,
     ];
     let mut codes: Vec<&Code> = modules.into_iter().flatten().collect();
     // Those of TOML have numbers among those of budgets.

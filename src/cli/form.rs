@@ -107,6 +107,19 @@ impl Form {
         self.target.is_allowed(beside, self.language())
     }
 
+    /// Where the output goes that is no document, in a form of its own.
+    ///
+    /// # Errors
+    /// A format is asked for, which it has not.
+    pub fn target(&self) -> Result<&Target, Complaint> {
+        match self.format.0 {
+            None => Ok(&self.target),
+            Some(format) => {
+                Err(say!("the output is a table (CSV): leave out --{}", format.name).into())
+            }
+        }
+    }
+
     /// Writes a document in the form that was asked for.
     pub fn write(&self, document: &Document) -> Outcome {
         self.write_with(document, Vec::new())

@@ -13,6 +13,7 @@ mod diagnose;
 mod eval;
 mod evaluated;
 mod explain;
+mod fleet;
 mod form;
 mod grade;
 mod import;
@@ -69,6 +70,8 @@ enum Command {
     Eval(eval::Args),
     /// Evaluate one budget for every row of a table of devices
     Batch(batch::Args),
+    /// Say what many results say together: scatter against u, E_n, drift
+    Fleet(fleet::Args),
     /// Recompute a claimed budget from its sheet, and name the slip behind its figures
     Audit(audit::Args),
     /// Write a budget file from a laboratory's spreadsheet
@@ -107,6 +110,7 @@ pub(crate) fn run() -> ExitCode {
     let outcome = match command {
         Command::Eval(args) => eval::run(&args),
         Command::Batch(args) => batch::run(&args),
+        Command::Fleet(args) => fleet::run(&args),
         Command::Audit(args) => audit::run(&args),
         Command::Import(args) => import::run(&args),
         Command::Diagnose(args) => diagnose::run(&args),

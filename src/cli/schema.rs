@@ -33,6 +33,8 @@ enum Which {
     Outlook,
     /// The output of `gumption allan --json`
     Allan,
+    /// The output of `gumption fleet --json`
+    Fleet,
     /// The output of `gumption grade --json`
     Grade,
     /// The output of `gumption audit --json`
@@ -55,6 +57,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         Which::Diagnosis => report::diagnosis_schema(),
         Which::Outlook => report::outlook_schema(),
         Which::Allan => report::allan_schema(),
+        Which::Fleet => report::fleet_schema(),
         Which::Grade => challenge::grade::grade_schema(),
         Which::Audit => report::audit_schema(),
         Which::SheetGrades => challenge::budget::sheet_grades_schema(),

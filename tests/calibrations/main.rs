@@ -11,6 +11,7 @@ mod common;
 mod gyros;
 mod library;
 mod proposals;
+mod recordings;
 mod refusals;
 mod reports;
 mod rest;

@@ -10,5 +10,6 @@ mod common;
 
 mod calibrate;
 mod experiment;
+mod fleet;
 mod pages;
 mod schemas;

@@ -182,7 +182,7 @@ fn with_excerpts(readme: &str) -> (String, usize) {
 
 #[test]
 fn the_readmes_show_what_the_program_prints() {
-    for page in ["README.md", "docs/zh/README.md"] {
+    for page in ["README.md", "docs/zh/README.md", "docs/fleet-statistics.md"] {
         let (text, excerpts) = with_excerpts(&read(page));
         assert!(excerpts >= 1, "{page}: no excerpt found");
         let path = common::root().join(page);

@@ -290,6 +290,17 @@ fn diagnoses_outlooks_and_grades() {
 }
 
 #[test]
+fn fleets() {
+    let results = "docs/examples/fleet/results.csv";
+    let schema = Schema::of("fleet");
+    for more in [&[][..], &["--by", "type,laboratory", "--date", "date"]] {
+        let arguments = [&["fleet", results, "--json"], more].concat();
+        let found = cases::json(&common::root(), &arguments);
+        schema.holds(&found, "a fleet");
+    }
+}
+
+#[test]
 fn audits() {
     let schema = Schema::of("audit");
     let value = json(&["audit", "docs/examples/claimed-budget.csv"]).expect("an audit");

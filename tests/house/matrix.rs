@@ -10,13 +10,14 @@ use super::modules::{Sources, Uses};
 use super::rings::{folders, rings};
 
 /// The crates, lowest first: each may use those before it.
-pub const CRATES: [&str; 15] = [
+pub const CRATES: [&str; 16] = [
     "lanes",
     "say",
     "fault",
     "core",
     "format",
     "export",
+    "fleet",
     "gum",
     "lab",
     "audit",

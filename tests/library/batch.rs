@@ -104,6 +104,7 @@ fn plan(monte_carlo: Option<Wanted>, threads: usize) -> Plan {
     Plan {
         monte_carlo,
         threads,
+        keep: Vec::new(),
         progress: Progress::default(),
     }
 }
@@ -565,4 +566,72 @@ fn rows_of_a_table_are_as_if_each_were_alone_over_the_library() {
         }
     }
     assert!(tables > 50 && lines > 300, "{tables} tables, {lines} lines");
+}
+
+/// Columns of the user's own go through, whatever is in them, and change no figure; without a word they are refused.
+#[test]
+fn columns_that_are_kept_go_through() {
+    let budget = written(ANY);
+    let heads = "label,R [kohm],type,Date [d]";
+    let rows = ["a,0.1,\"A, new\",2026-01-02", "b,-,B,", "c,0.2,A,x"];
+    let table = format!("{heads}\n{}\n", rows.join("\n"));
+    let mut keeping = plan(None, 2);
+    keeping.keep = vec!["Date".into(), "type".into()];
+    let (found, count) = run(&budget, &table, &keeping).expect("a batch");
+    assert_eq!((count.rows, count.failed), (3, 1), "{found}");
+    assert!(found.starts_with("label,Date [d],type,I [mA],"), "{found}");
+    let plain = "label,R [kohm]\na,0.1\nb,-\nc,0.2\n";
+    let (alone, _) = run(&budget, plain, &plan(None, 1)).expect("a batch");
+    let kept = ["2026-01-02,\"A, new\"", ",B", "x,A"];
+    let lines = found.lines().skip(1).zip(alone.lines().skip(1));
+    for ((found, alone), kept) in lines.zip(kept) {
+        let (label, others) = alone.split_once(',').expect("a label");
+        assert_eq!(found, format!("{label},{kept},{others}"));
+    }
+    let files = [("budget.toml", budget.as_bytes())];
+    let file = BatchFile::open(Files::Library(&files), Path::new("budget.toml"), None);
+    let file = file.expect("a budget");
+    let columns = Columns {
+        shares: false,
+        contributions: false,
+        seeds: false,
+        language: Language::English,
+    };
+    let numbers = [0.1, 0.2];
+    let types = ["A", "B"].map(String::from).to_vec();
+    let columns_of = vec![
+        ("R [kohm]".to_owned(), Cells::Numbers(&numbers)),
+        ("type".to_owned(), Cells::Texts(types.clone())),
+    ];
+    let in_memory = gumption::csv::Columns::new(columns_of).expect("a table");
+    keeping.keep.remove(0);
+    let mut results = Results::of(columns, &file);
+    batch::run_columns(
+        &file,
+        (&in_memory, "table"),
+        &keeping,
+        |values, row| columns.add_values(values, row),
+        |values, _| {
+            results.add(values);
+            ControlFlow::Continue(())
+        },
+    )
+    .expect("a batch");
+    let (found, _) = results.end();
+    assert_eq!(found[1], ("type".into(), ResultColumn::Texts(Some(types))));
+
+    let refusal = |keep: &str| {
+        let mut plan = plan(None, 1);
+        plan.keep.push(keep.into());
+        run(&budget, &table, &plan)
+            .expect_err("refused")
+            .render(false)
+    };
+    let said = refusal("typ");
+    assert!(
+        said.contains("no column \"typ\" that could be kept"),
+        "{said}"
+    );
+    assert!(said.contains("did you mean \"type\"?"), "{said}");
+    assert!(refusal("type").contains("`--keep Date`"));
 }

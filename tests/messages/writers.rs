@@ -63,6 +63,7 @@ const WRITERS: &[Writer] = &[
     file("eval budget.toml --no-mc --csv OUT.csv", "--csv"),
     file("eval budget.toml --no-mc --archive OUT.zip", "--archive"),
     file("batch budget.toml devices.csv -o OUT.csv", "--output"),
+    file("fleet results.csv -o OUT.md", "--output"),
     file("audit claim.csv -o OUT.md", "--output"),
     careful(file("audit claim.csv --map OUT.toml", "--map")),
     file("import claim.csv -o OUT.toml", "--output"),
@@ -90,6 +91,10 @@ const WRITERS: &[Writer] = &[
     ),
     file("calibrate case.toml -o OUT.md", "--output"),
     file("calibrate case.toml --budget OUT.toml", "--budget"),
+    file(
+        "calibrate case.toml -o OUT.csv --recordings recording.csv",
+        "--output",
+    ),
     file("plan case.toml -o OUT.md", "--output"),
     careful(file("new OUT.toml", "<PATH>")),
     careful(folder(
@@ -158,6 +163,7 @@ impl Place {
              [claim]\nU = 2\nk = 2\n",
         );
         put("devices.csv", "label,V\na,5.1\nb,5.2\nc,5.3\n");
+        put("results.csv", "label,y,u(y),k(y)\na,1,1,2\nb,2,1,2\n");
         for (name, of) in [
             ("claim.csv", "docs/examples/claimed-budget.csv"),
             ("laboratory.toml", "reports/certificates/laboratory.toml"),

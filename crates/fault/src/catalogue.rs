@@ -6,11 +6,12 @@ use std::sync::LazyLock;
 use crate::language::Language;
 
 /// The catalogues: one for each crate that speaks, and one of the explanations, which have no values.
-const CATALOGUES: [&str; 11] = [
+const CATALOGUES: [&str; 12] = [
     include_str!("../zh/fault.po"),
     include_str!("../zh/core.po"),
     include_str!("../zh/format.po"),
     include_str!("../zh/export.po"),
+    include_str!("../zh/fleet.po"),
     include_str!("../zh/gum.po"),
     include_str!("../zh/lab.po"),
     include_str!("../zh/audit.po"),

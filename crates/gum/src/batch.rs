@@ -35,6 +35,8 @@ pub struct Plan {
     pub monte_carlo: Option<Wanted>,
     /// Threads that share the rows.
     pub threads: usize,
+    /// Columns of the table that go through to the results, whether they set anything or not.
+    pub keep: Vec<String>,
     /// Ends the work where it is stopped; counts trials.
     pub progress: Progress,
 }
@@ -46,18 +48,26 @@ pub struct Evaluated<'a> {
     pub number: u64,
     /// Its label, where the table has such a column.
     pub label: Option<&'a str>,
+    /// Heads of the columns that are kept, and what the row has there.
+    pub kept: (&'a [String], &'a [Cow<'a, str>]),
     /// Its budget, of which the numbers hold and not the words, and what was found; or why nothing was.
     pub found: Result<(&'a Budget, Found<'a>), &'a Failed>,
 }
 
+/// What is known of a row before it is evaluated.
+#[derive(Clone, Copy)]
+struct Place<'a> {
+    number: u64,
+    label: Option<&'a str>,
+    kept: (&'a [String], &'a [Cow<'a, str>]),
+}
+
 impl<'a> Evaluated<'a> {
-    fn at(
-        (number, label): (u64, Option<&'a str>),
-        found: Result<(&'a Budget, Found<'a>), &'a Failed>,
-    ) -> Self {
+    fn at(place: Place<'a>, found: Result<(&'a Budget, Found<'a>), &'a Failed>) -> Self {
         Evaluated {
-            number,
-            label,
+            number: place.number,
+            label: place.label,
+            kept: place.kept,
             found,
         }
     }
@@ -109,8 +119,8 @@ pub fn run<T: Default + Send>(
     let first = pieces.next().unwrap_or_else(none).map_err(refused)?;
     let head = Sheet::new(&first.text)
         .map_err(|fault| Rejection::new(table, &first.text, vec![*fault]))?;
-    let batch = file.batch(&head, table)?;
-    let mut run = Run::new(&batch, plan);
+    let batch = file.batch(&head, table, &plan.keep)?;
+    let mut run = Run::new(&batch, plan, &head);
     let mut work = |sheet: &Sheet<'_>, read: u64| {
         let rows: Vec<_> = sheet.rows().collect();
         run.learn(sheet, &rows)?;
@@ -140,8 +150,8 @@ pub fn run_columns<T: Default + Send>(
 ) -> Result<(), Rejection> {
     let head = columns.head();
     let sheet = Sheet::new(&head).map_err(|fault| Rejection::new(table, &head, vec![*fault]))?;
-    let batch = file.batch(&sheet, table)?;
-    let mut run = Run::new(&batch, plan);
+    let batch = file.batch(&sheet, table, &plan.keep)?;
+    let mut run = Run::new(&batch, plan, &sheet);
     for begin in (0..columns.rows()).step_by(STRETCH) {
         let rows = begin..columns.rows().min(begin + STRETCH);
         if run.is_to_learn() {
@@ -184,11 +194,18 @@ impl Part<'_> {
 
     /// The label of a row as the table writes it, where it has such a column: 007 is no number.
     fn label(&self, lane: usize, column: Option<usize>) -> Option<Cow<'_, str>> {
-        let label = match self {
-            Part::Lines(rows) => Cow::Borrowed(rows[lane].as_ref().ok()?.field(column?)),
-            Part::Columns(columns, rows) => columns.cells(column?).text(rows.start + lane),
-        };
-        Some(label).filter(|label| !label.is_empty())
+        Some(self.field(lane, column?)).filter(|label| !label.is_empty())
+    }
+
+    /// A field of a row; empty where the row cannot be read.
+    fn field(&self, lane: usize, column: usize) -> Cow<'_, str> {
+        match self {
+            Part::Lines(rows) => {
+                let row = rows[lane].as_ref().ok();
+                Cow::Borrowed(row.map_or("", |row| row.field(column)))
+            }
+            Part::Columns(columns, rows) => columns.cells(column).text(rows.start + lane),
+        }
     }
 }
 
@@ -196,6 +213,8 @@ impl Part<'_> {
 struct Run<'b> {
     batch: &'b Batch<'b>,
     plan: &'b Plan,
+    /// Heads of the columns that are kept.
+    kept: Vec<String>,
     /// The pattern of rows that are numbers, as soon as it is known whether there is one.
     known: Option<Option<Pattern>>,
     /// What threads leave to those of the next stretch.
@@ -205,10 +224,12 @@ struct Run<'b> {
 }
 
 impl<'b> Run<'b> {
-    fn new(batch: &'b Batch<'b>, plan: &'b Plan) -> Run<'b> {
+    fn new(batch: &'b Batch<'b>, plan: &'b Plan, head: &Sheet<'_>) -> Run<'b> {
+        let kept = batch.kept().iter();
         Run {
             batch,
             plan,
+            kept: kept.map(|at| head.header().field(*at).to_owned()).collect(),
             known: None,
             spare: Vec::new(),
             number: 0,
@@ -243,6 +264,7 @@ impl<'b> Run<'b> {
         take: impl FnMut(T) -> ControlFlow<()>,
     ) -> bool {
         let Run { batch, plan, .. } = *self;
+        let heads = self.kept.as_slice();
         let pattern = self.known.as_ref().and_then(Option::as_ref);
         let first = self.number;
         self.number += parts.iter().map(|part| part.len() as u64).sum::<u64>();
@@ -259,6 +281,7 @@ impl<'b> Run<'b> {
             Worker {
                 reader: batch.reader(),
                 label: batch.label(),
+                kept: (heads, batch.kept()),
                 room: room.or_else(|| Some(Room::of(pattern?, plan))),
             }
         };
@@ -301,6 +324,8 @@ struct Worker<'b> {
     reader: RowReader<'b>,
     /// The column of labels.
     label: Option<usize>,
+    /// Heads and places of the columns that are kept.
+    kept: (&'b [String], &'b [usize]),
     /// Where rows are numbers.
     room: Option<Room>,
 }
@@ -373,7 +398,16 @@ impl Worker<'_> {
         }
         for (lane, number) in (0..part.len()).zip(begin + 1..) {
             let label = part.label(lane, self.label);
-            let place = (number, label.as_deref());
+            let (heads, kept) = self.kept;
+            let kept: Vec<_> = kept
+                .iter()
+                .map(|column| part.field(lane, *column))
+                .collect();
+            let place = Place {
+                number,
+                label: label.as_deref(),
+                kept: (heads, &kept),
+            };
             if let Some(room) = &mut self.room {
                 if let Some(figures) = room.figures(lane) {
                     let found = (room.pattern.budget(), Found::Figures(figures));

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal, Union
 
@@ -33,6 +33,7 @@ def batch(
     quasi_random: bool = False,
     shares: bool = False,
     contributions: bool = False,
+    keep: Sequence[str] = (),
     threads: int | None = None,
     progress: Progress = None,
     language: Language = "en",
@@ -44,7 +45,7 @@ def batch(
     the row written into it; a faulty row has an ``error`` and stops nothing. With ``monte_carlo`` each row has a seed of its
     own, which follows from ``seed`` and its values. ``shares`` and ``contributions`` give the share of each input in u²(y), and
     c·u of each component, with sign: summed over the components that rows share, products of contributions are the
-    covariance of two rows.
+    covariance of two rows. The columns named in ``keep`` (type, laboratory, date …) go through to the results unchanged.
 
     Gives the results as columns: of a frame a frame, else a ``dict`` of arrays and lists. With ``output`` they go into that
     file as they come, however long the table is, and what is given is the number of rows and of those without a result.
@@ -59,6 +60,7 @@ def batch(
         source_files=files,
         wanted=settings(profile, monte_carlo, trials, seed, quasi_random, False, threads),
         more=(shares, contributions),
+        keep=keep,
         progress=progress,
         language=language,
     )
@@ -84,6 +86,7 @@ def evaluated(
     source_files: Contents | None = None,
     wanted: dict[str, Any],
     more: tuple[bool, bool] = (False, False),
+    keep: Sequence[str] = (),
     progress: Progress = None,
     language: Language = "en",
 ) -> tuple[dict[str, Any] | None, int, int]:
@@ -91,7 +94,7 @@ def evaluated(
     file; how many rows there were, and how many of them have no result."""
     with typed():
         found, rows, failed = _engine.batch_of(
-            source(budget, source_files), table, place, wanted, more, progress, language
+            source(budget, source_files), table, place, wanted, more, list(keep), progress, language
         )
     return (None if found is None else dict(found)), rows, failed
 

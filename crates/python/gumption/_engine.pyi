@@ -32,6 +32,7 @@ def batch_of(
     output: tuple[str | PathLike[str], bool] | None,
     settings: dict[str, Any],
     more: tuple[bool, bool],
+    keep: list[str],
     progress: Progress,
     language: str,
 ) -> tuple[list[tuple[str, np.ndarray | list[str] | None]] | None, int, int]: ...

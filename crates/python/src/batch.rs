@@ -123,6 +123,7 @@ pub(crate) fn batch_of(
     output: Option<(PathBuf, bool)>,
     settings: Settings,
     more: (bool, bool),
+    keep: Vec<String>,
     progress: Option<Py<PyAny>>,
     language: &str,
 ) -> PyResult<(Option<Found>, u64, u64)> {
@@ -132,6 +133,7 @@ pub(crate) fn batch_of(
     let plan = Plan {
         monte_carlo: settings.monte_carlo().then(|| settings.wanted()),
         threads: settings.threads(),
+        keep,
         progress: Progress::default(),
     };
     let rows = Rows::of(&table)?;

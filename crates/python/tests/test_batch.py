@@ -56,6 +56,8 @@ def test_a_faulty_row_stops_nothing(tmp_path):
     told, place = [], tmp_path / "results.csv"
     assert gumption.batch(budget, rows, output=place, progress=told.append) == {"rows": 3, "failed": 1}
     assert len(place.read_text().splitlines()) == 4 and told[-1] == 1.0
+    kept = gumption.batch(budget, {**rows, "type": ["A", "B", "C"]}, keep=["type"])
+    assert kept["type"] == ["A", "B", "C"] and kept["I [mA]"][2] == found["I [mA]"][2]
     with pytest.raises(gumption.Refused, match="no input or constant"):
         gumption.batch(budget, {"X": [1]})
     with pytest.raises(ValueError, match="lengths"):

@@ -27,14 +27,16 @@ pub struct Columns {
 pub struct Lines {
     /// The names of the columns, where a row has told them.
     heads: Option<Vec<Head>>,
-    /// The lines of those that have results, the labels of the others.
+    /// The heads of what is kept.
+    kept: Option<Vec<String>>,
+    /// The lines of those that have results, the labels of the others with what is kept of them.
     text: Vec<u8>,
     lines: Vec<Line>,
 }
 
 #[derive(Debug)]
 struct Line {
-    /// Where its label ends in the text, and where the line does.
+    /// Where its label ends in the text with what is kept of it, and where the line does.
     label: usize,
     end: usize,
     /// How many cells it has; or why there are none.
@@ -42,14 +44,48 @@ struct Line {
     rejected: bool,
 }
 
+impl Lines {
+    /// Adds the line of a row of numbers behind its label; or why there are none.
+    pub(super) fn push(
+        &mut self,
+        label: &str,
+        found: Result<(Vec<Head>, Vec<Option<f64>>), String>,
+    ) {
+        push_field(&mut self.text, label);
+        let label = self.text.len();
+        let cells = found.map(|(heads, numbers)| {
+            for number in &numbers {
+                self.text.push(b',');
+                Cell::Number(*number).push(&mut self.text);
+            }
+            // There is no error.
+            self.text.extend_from_slice(b",\n");
+            self.heads.get_or_insert(heads);
+            numbers.len() + 2
+        });
+        self.lines.push(Line {
+            label,
+            end: self.text.len(),
+            cells,
+            rejected: false,
+        });
+    }
+}
+
 impl Columns {
-    /// Adds the line of a row: label or number, then as [`super::rows`], the shares, the contributions, the seed of the trials,
+    /// Adds the line of a row: label or number, what is kept of it, then as [`super::rows`], the shares, the contributions, the seed of the trials,
     /// the findings, and the error of a row that has no result.
     pub fn add(self, lines: &mut Lines, row: &Evaluated<'_>) {
         let text = &mut lines.text;
         match row.label {
             Some(label) => push_field(text, label),
             None => Cell::Seed(Some(row.number)).push(text),
+        }
+        let (heads, kept) = row.kept;
+        lines.kept.get_or_insert_with(|| heads.to_vec());
+        for field in kept {
+            text.push(b',');
+            push_field(text, field);
         }
         let label = text.len();
         let mut rejected = false;
@@ -80,6 +116,7 @@ impl Columns {
         let cells = &mut values.cells;
         let mut rejected = false;
         let begin = cells.len();
+        values.kept.get_or_insert_with(|| row.kept.0.to_vec());
         let found = match &row.found {
             Ok((budget, found)) => {
                 values.heads.get_or_insert_with(|| self.heads(budget));
@@ -97,6 +134,7 @@ impl Columns {
         };
         values.rows.push(RowOfValues {
             label: row.label.map(str::to_owned),
+            kept: row.kept.1.iter().map(|field| field.to_string()).collect(),
             found,
             rejected,
         });
@@ -201,10 +239,10 @@ fn push_field(text: &mut Vec<u8>, field: &str) {
 }
 
 /// Adds a line of fields.
-fn push_line<'f>(text: &mut Vec<u8>, fields: impl IntoIterator<Item = &'f str>) {
+fn push_line(text: &mut Vec<u8>, fields: impl IntoIterator<Item = String>) {
     for (at, field) in fields.into_iter().enumerate() {
         text.extend((at > 0).then_some(b','));
-        push_field(text, field);
+        push_field(text, &field);
     }
     text.push(b'\n');
 }
@@ -226,18 +264,21 @@ fn codes<'c>(budget: &Budget, findings: impl Iterator<Item = (&'c str, Option<us
 fn why(failed: &Failed, language: Language) -> String {
     match failed {
         Failed::Row(fault) => described(fault, language),
-        Failed::Refused(rejection) => {
-            let Rejection { faults, others, .. } = &**rejection;
-            let all = faults
-                .iter()
-                .chain(others.iter().flat_map(|other| &other.faults));
-            let all: Vec<String> = all.map(|fault| described(fault, language)).collect();
-            all.join("; ")
-        }
+        Failed::Refused(rejection) => refused(rejection, language),
         Failed::NoResult(error) => failure(error, language),
     }
 }
 
+/// All faults of a file and of those that it uses, in one line.
+pub(super) fn refused(rejection: &Rejection, language: Language) -> String {
+    let Rejection { faults, others, .. } = rejection;
+    let others = others.iter().flat_map(|other| &other.faults);
+    let all = faults.iter().chain(others);
+    let all: Vec<String> = all.map(|fault| described(fault, language)).collect();
+    all.join("; ")
+}
+
+/// A fault in one line, with its code.
 fn described(fault: &Fault, language: Language) -> String {
     let message = fault.message.in_language(language);
     let help = fault.help.as_ref().map(|help| help.in_language(language));
@@ -249,6 +290,7 @@ fn described(fault: &Fault, language: Language) -> String {
 #[derive(Debug, Default)]
 pub struct Table {
     heads: Option<Vec<Head>>,
+    kept: Option<Vec<String>>,
     /// Whether they are written.
     headed: bool,
     /// Rows without a result, as long as no row has told what the columns are.
@@ -280,13 +322,18 @@ impl Table {
     /// The bytes that these lines add, as comma-separated values.
     pub fn add(&mut self, mut lines: Lines) -> Vec<u8> {
         self.heads = self.heads.take().or(lines.heads.take());
+        self.kept = self.kept.take().or(lines.kept.take());
         let Some(heads) = &self.heads else {
             self.waiting.push(lines);
             return Vec::new();
         };
         let mut text = Vec::with_capacity(lines.text.len());
         if !self.headed {
-            push_line(&mut text, heads.iter().map(|head| head.name.as_str()));
+            let (label, others) = heads.split_at(1);
+            let name = |head: &'_ Head| head.name.clone();
+            let kept = self.kept.iter().flatten().cloned();
+            let names = label.iter().map(name).chain(kept);
+            push_line(&mut text, names.chain(others.iter().map(name)));
             self.headed = true;
         }
         let waiting = std::mem::take(&mut self.waiting);
@@ -343,6 +390,7 @@ fn of_another_length(cells: usize, heads: &[Head]) -> String {
 pub struct Values {
     /// As of [`Lines`].
     heads: Option<Vec<Head>>,
+    kept: Option<Vec<String>>,
     /// The cells behind the labels of those that have results.
     cells: Vec<Value>,
     rows: Vec<RowOfValues>,
@@ -351,6 +399,7 @@ pub struct Values {
 #[derive(Debug)]
 struct RowOfValues {
     label: Option<String>,
+    kept: Vec<String>,
     /// How many cells it has; or why there are none.
     found: Result<usize, String>,
     rejected: bool,
@@ -376,6 +425,8 @@ pub enum ResultColumn {
 pub struct Results {
     heads: Option<Vec<Head>>,
     columns: Vec<ResultColumn>,
+    /// What is kept of the rows.
+    kept: Vec<(String, Vec<String>)>,
     waiting: Vec<Values>,
     count: Count,
 }
@@ -392,6 +443,10 @@ impl Results {
     /// Adds rows.
     pub fn add(&mut self, mut values: Values) {
         self.heads = self.heads.take().or(values.heads.take());
+        if self.kept.is_empty() {
+            let kept = values.kept.take().unwrap_or_default().into_iter();
+            self.kept = kept.map(|head| (head, Vec::new())).collect();
+        }
         self.waiting.push(values);
         let Some(heads) = &self.heads else { return };
         if self.columns.is_empty() {
@@ -407,6 +462,9 @@ impl Results {
                 let at = self.count.rows as usize;
                 self.count.rows += 1;
                 self.count.rejected += u64::from(row.rejected);
+                for ((_, texts), field) in self.kept.iter_mut().zip(row.kept) {
+                    texts.push(field);
+                }
                 let why = match row.found {
                     Ok(count) if count + 1 == heads.len() => {
                         for (column, cell) in self.columns[1..].iter_mut().zip(cells.by_ref()) {
@@ -442,7 +500,11 @@ impl Results {
         self.columns.iter_mut().for_each(|column| column.fill(rows));
         let heads = self.heads.unwrap_or_default().into_iter();
         let names = heads.map(|head| head.name);
-        (names.zip(self.columns).collect(), self.count)
+        let mut found: Vec<_> = names.zip(self.columns).collect();
+        let kept = self.kept.into_iter();
+        let kept = kept.map(|(head, texts)| (head, ResultColumn::Texts(Some(texts))));
+        found.splice(1..1, kept);
+        (found, self.count)
     }
 }
 

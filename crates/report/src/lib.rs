@@ -20,6 +20,7 @@ mod diagnosis;
 mod evaluation;
 mod figures;
 mod fits;
+mod fleet;
 mod how;
 mod indices;
 mod joint;
@@ -46,7 +47,9 @@ mod tests;
 
 pub use allan::{AllanReport, allan, allan_schema};
 pub use audit::{audit, audit_schema};
-pub use calibration::{calibration, calibration_schema, calibration_trouble, plan, plan_schema};
+pub use calibration::{
+    Unusable, calibration, calibration_schema, calibration_trouble, plan, plan_schema, recording,
+};
 pub use certificate::{
     administration, certificate_keys, certificate_schema, certificate_template, certified,
 };
@@ -55,6 +58,7 @@ pub use diagnosis::{
     outlook_schema,
 };
 pub use evaluation::{evaluation, evaluation_schema, evaluations};
+pub use fleet::{fleet, fleet_schema};
 pub use language::Language;
 pub use number::{grouped, significant};
 pub use remarks::failure;

@@ -84,6 +84,20 @@ impl Field {
     }
 }
 
+/// The number in a field of a table; NaN for one that is missing, nothing for what is no number.
+pub fn number(text: &str, sheet: &Sheet<'_>) -> Option<f64> {
+    Field::read(text, sheet)?.number()
+}
+
+/// Days from the beginning of 1970 to a date of the calendar, with or without a time behind it.
+pub fn days(text: &str) -> Option<f64> {
+    const SECONDS_OF_A_DAY: f64 = 86_400.0;
+    let date = text.split(['T', ' ']).next()?;
+    days_of(date)?;
+    let instant = instant(text)?;
+    Some((instant.whole as f64 + instant.rest) / SECONDS_OF_A_DAY)
+}
+
 /// Whether a field says that a range was exceeded.
 pub(super) fn is_overload(text: &str) -> bool {
     text.replace(',', ".")
@@ -111,10 +125,10 @@ fn instant(text: &str) -> Option<Instant> {
     let (date, clock) = match text.split_once(['T', ' ']) {
         Some((date, clock)) => (Some(date), clock.trim_start()),
         // A date alone is the beginning of its day.
-        None if days(text).is_some() => (Some(text), "00:00"),
+        None if days_of(text).is_some() => (Some(text), "00:00"),
         None => (None, text),
     };
-    let days = date.map_or(Some(0), days)?;
+    let days = date.map_or(Some(0), days_of)?;
     let (clock, offset) = zone(clock)?;
     let mut parts = clock.split(':');
     let hours = digits(parts.next()?, 2, 23)?;
@@ -153,7 +167,7 @@ fn digits(text: &str, count: usize, largest: i64) -> Option<i64> {
 }
 
 /// Days from 1 January 1970 to a date of the Gregorian calendar.
-fn days(date: &str) -> Option<i64> {
+fn days_of(date: &str) -> Option<i64> {
     let parts: Vec<&str> = date.split(['-', '/', '.']).collect();
     // The day goes first with points only: between solidi it may be the month.
     let (year, month, day) = match parts[..] {
@@ -245,7 +259,7 @@ fn mend_of_time(field: &str) -> Said {
 /// How a date is written that has its year at the end, where year or month are in doubt.
 fn date_meant(field: &str) -> Option<Said> {
     let [first, second, year] = date_parts(field).filter(|[first, ..]| first.len() < 4)?;
-    if days(&format!("{first}.{second}.{year}")).is_some() && field.contains('.') {
+    if days_of(&format!("{first}.{second}.{year}")).is_some() && field.contains('.') {
         return None;
     }
     if year.len() < 4 {
@@ -253,7 +267,7 @@ fn date_meant(field: &str) -> Option<Said> {
     }
     let date = |month: &str, day: &str| {
         let date = format!("{year}-{month:0>2}-{day:0>2}");
-        days(&date).map(|_| date)
+        days_of(&date).map(|_| date)
     };
     match (date(first, second), date(second, first)) {
         (Some(one), Some(other)) if one != other => {

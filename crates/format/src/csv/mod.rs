@@ -44,6 +44,7 @@ mod sheet;
 
 pub use columns::{Cells, Columns};
 pub use encoding::{Decoded, Encoding, Undecodable, decode};
+pub use field::{days, number};
 pub use heading::Heading;
 pub use pieces::{Piece, Pieces};
 pub use reader::{headings, open, text_of};

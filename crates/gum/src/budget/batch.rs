@@ -7,16 +7,17 @@ use std::path::{Path, PathBuf};
 use toml::de::DeTable;
 
 use super::check::{Origin, Variant};
-use super::faults::SERIES;
+use super::faults::{SERIES, UNKNOWN_NAME};
 use super::open_files::OpenFiles;
 use super::pattern::Pattern;
 use super::points::{Columns, plain_number};
 use super::reader::{checked, open_files, read_under, tables, text_of};
 use super::series::{self, Column};
 use super::{Budget, Files, Profile, Row, hints::HINTS};
-use gumption_fault::{Fault, Rejection, say};
+use gumption_fault::{Fault, Rejection, nearest, say};
+use gumption_format::csv::faults::NO_COLUMN;
 use gumption_format::csv::{self, Sheet};
-use gumption_format::toml::{Reader, leaves_the_rest, syntax_faults};
+use gumption_format::toml::{Reader, Stated, leaves_the_rest, syntax_faults};
 
 /// The text of a budget, whose values a table is to replace.
 #[derive(Debug)]
@@ -67,11 +68,17 @@ impl<'f> BatchFile<'f> {
         self.path.parent().unwrap_or_else(|| Path::new(""))
     }
 
-    /// The places that the columns of a table set; `table` is its name, for messages.
+    /// The places that the columns of a table set; `table` is its name, for messages. Columns that are to be kept may be none.
     ///
     /// # Errors
-    /// The budget is no TOML, or has a series of its own; a column is none of its places.
-    pub fn batch(&self, sheet: &Sheet<'_>, table: &str) -> Result<Batch<'_>, Rejection> {
+    /// The budget is no TOML, or has a series of its own; a column is none of its places, or one that is to be kept is not
+    /// in the table.
+    pub fn batch(
+        &self,
+        sheet: &Sheet<'_>,
+        table: &str,
+        keep: &[String],
+    ) -> Result<Batch<'_>, Rejection> {
         let (file, errors) = DeTable::parse_recoverable(&self.text);
         let refused = |faults| Err(Rejection::new(&self.name(), &self.text, faults));
         let syntax = syntax_faults(&errors, &self.text, HINTS.synonyms);
@@ -95,9 +102,23 @@ impl<'f> BatchFile<'f> {
         let place = |at| sheet.place(sheet.header(), at);
         let columns = Columns::of(sheet, place).map_err(in_table)?;
         let mut faults = Vec::new();
-        let targets = series::targets(&file, &columns.names, &mut faults);
-        // Their other places are in the budget.
-        faults.iter_mut().for_each(|fault| fault.related.clear());
+        let kept = kept(keep, sheet, &columns.names, &mut faults);
+        let names = columns.names.iter().enumerate();
+        let target = |(at, name): (usize, &Stated<String>)| {
+            let before = faults.len();
+            let target = series::column(&file, name, &mut faults);
+            if kept.contains(&at) && faults.len() > before {
+                faults.truncate(before);
+                return Some(Column::Kept);
+            }
+            faults[before..].iter_mut().for_each(|fault| {
+                // Their other places are in the budget.
+                fault.related.clear();
+                suggest_to_keep(fault, &name.value);
+            });
+            target
+        };
+        let targets = names.map(target).collect();
         if !faults.is_empty() {
             return Err(in_table(faults));
         }
@@ -108,8 +129,55 @@ impl<'f> BatchFile<'f> {
             file,
             columns,
             targets,
+            kept,
         })
     }
+}
+
+/// The places of the columns that are to be kept: by the text in the first line, or by the name without its unit.
+fn kept(
+    keep: &[String],
+    sheet: &Sheet<'_>,
+    names: &[Stated<String>],
+    faults: &mut Vec<Fault>,
+) -> Vec<usize> {
+    let heads: Vec<&str> = sheet.header().fields().collect();
+    let mut kept = Vec::new();
+    for wanted in keep {
+        let whole = heads.iter().position(|head| head == wanted);
+        let found = whole.or_else(|| names.iter().position(|name| name.value == *wanted));
+        match found {
+            Some(at) if kept.contains(&at) => {}
+            Some(at) => kept.push(at),
+            None => {
+                let here = sheet.place(sheet.header(), 0).start
+                    ..sheet
+                        .place(sheet.header(), heads.len().saturating_sub(1))
+                        .end;
+                let message = say!("the table has no column \"{wanted}\" that could be kept");
+                let fault = Fault::new(NO_COLUMN, here, message).label(say!("the columns"));
+                faults.push(match nearest(wanted, heads.iter().copied()) {
+                    Some(near) => fault.help(say!("did you mean \"{near}\"?")),
+                    None => fault.help(say!("write its name as the first line has it")),
+                });
+            }
+        }
+    }
+    kept
+}
+
+/// A column of the user's own may go through to the results.
+fn suggest_to_keep(fault: &mut Fault, column: &str) {
+    if fault.code != UNKNOWN_NAME {
+        return;
+    }
+    let keep = say!(
+        "if it is a column of your own, `--keep {column}` carries it through to the results (in Python, `keep=[\"{column}\"]`)"
+    );
+    fault.help = Some(match fault.help.take() {
+        Some(help) => say!("{help}; {keep}"),
+        None => keep,
+    });
 }
 
 /// A budget and the columns that replace its values.
@@ -121,6 +189,8 @@ pub struct Batch<'a> {
     file: DeTable<'a>,
     columns: Columns,
     targets: Vec<Option<Column>>,
+    /// The columns that go through to the results, in the order in which they are asked for.
+    kept: Vec<usize>,
 }
 
 /// Makes budgets of rows; each thread has its own, which keeps what the rows have in common.
@@ -169,11 +239,17 @@ impl Batch<'_> {
         self.targets.iter().position(is_label)
     }
 
-    /// Whether all cells of a row but its label are numbers, and none is zero.
+    /// The columns that go through to the results.
+    pub(crate) fn kept(&self) -> &[usize] {
+        &self.kept
+    }
+
+    /// Whether all cells of a row but its label, and those that are only kept, are numbers, and none is zero.
     fn numbers(&self, row: &csv::Row<'_>) -> bool {
         let is_number = |(target, field): (&Option<Column>, &str)| {
             let number = || plain_number(field);
-            matches!(target, Some(Column::Label)) || number().is_some_and(|number| number != 0.0)
+            matches!(target, Some(Column::Label | Column::Kept))
+                || number().is_some_and(|number| number != 0.0)
         };
         self.targets.iter().zip(row.fields()).all(is_number)
     }

@@ -27,7 +27,7 @@ use gumption_lanes::{Block, LANES};
 #[derive(Debug, Clone)]
 pub(crate) struct Pattern {
     budget: Budget,
-    /// Of each column, whether it holds numbers; the other one holds labels.
+    /// Of each column, whether it sets numbers; others hold labels, or what is only kept.
     numeric: Vec<bool>,
     /// The inputs whose estimates columns set.
     estimates: Vec<(usize, Number)>,
@@ -442,7 +442,7 @@ step = 0.1
         let file = BatchFile::open(Files::Library(&files), Path::new("budget.toml"), None);
         let file = file.expect("a text");
         let sheet = Sheet::new(table).expect("a table");
-        let batch = file.batch(&sheet, "table.csv").expect("columns");
+        let batch = file.batch(&sheet, "table.csv", &[]).expect("columns");
         let rows: Vec<Row> = sheet.rows().map(|row| row.expect("a row")).collect();
         let pattern = batch.pattern(rows.iter(), &sheet).flatten();
         let Some(pattern) = pattern else {

@@ -27,6 +27,8 @@ pub(super) struct Variant<'t> {
 #[derive(Debug)]
 pub(super) enum Column {
     Label,
+    /// Nothing: it goes through to the results.
+    Kept,
     /// The keys that lead to a value.
     Path(Vec<String>),
 }
@@ -135,7 +137,7 @@ pub(super) fn variant<'t>(
                 leave_out(&mut variant.table, path);
             }
             Some(Column::Path(path)) => set(&mut variant.table, path, name, cell, raw, faults),
-            None => {}
+            Some(Column::Kept) | None => {}
         }
     }
     variant
@@ -249,7 +251,11 @@ fn label(cell: &Entry) -> String {
 
 /// The place that a column names: `label`, an input or a constant, or a path such as `X.dof`,
 /// `conventions.coverage_probability` or `claim.figures."line.slope"`.
-fn column(file: &DeTable<'_>, name: &Stated<String>, faults: &mut Vec<Fault>) -> Option<Column> {
+pub(super) fn column(
+    file: &DeTable<'_>,
+    name: &Stated<String>,
+    faults: &mut Vec<Fault>,
+) -> Option<Column> {
     let wanted = name.value.as_str();
     if wanted == "label" {
         return Some(Column::Label);

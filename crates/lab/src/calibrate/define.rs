@@ -3,20 +3,23 @@
 //! All faults of the file are told at once, each at its place; what a procedure of the library says wrong
 //! in the units of this recording is told at the place of its name.
 
+use std::ops::Range;
 use std::path::Path;
 
 use super::campaign::{Campaign, Scatter, Weights};
 use super::points::{PointColumn, Points};
 use super::{contrary, data, noise};
 use crate::experiment::checker::{Checker, opened};
+use crate::experiment::entries::{Short, Shorthand};
 use crate::experiment::faults::{NO_EQUATIONS, NO_PARAMETERS};
 use crate::experiment::names::{Kind, Names};
 use crate::experiment::source::entries;
-use crate::experiment::tables::{NoiseWord, WeightsWord};
+use crate::experiment::tables::{ExperimentTable, NoiseWord, RecordingTable, WeightsWord};
 use crate::experiment::{Purpose, inferred, positions};
 use gumption_core::equations::Quantity;
 use gumption_fault::{Fault, say};
 use gumption_format::files::Files;
+use gumption_format::toml::Stated;
 use gumption_gum::budget::Rejection;
 use gumption_gum::budget::quantities::text_of;
 
@@ -35,7 +38,33 @@ pub fn load(path: &Path, purpose: Purpose) -> Result<Campaign, Rejection> {
 pub fn load_from(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Campaign, Rejection> {
     let text = text_of(files, path)?;
     let folder = path.parent().unwrap_or_else(|| Path::new(""));
-    read_from(files, &text, &path.display().to_string(), folder, purpose)
+    read_from(
+        files,
+        &text,
+        &path.display().to_string(),
+        folder,
+        purpose,
+        None,
+    )
+}
+
+/// As [`load_from`], to calibrate from this recording in place of the one that the file names; its path starts from the folder
+/// of the file.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_with(files: Files<'_>, path: &Path, recording: &Path) -> Result<Campaign, Rejection> {
+    let text = text_of(files, path)?;
+    let folder = path.parent().unwrap_or_else(|| Path::new(""));
+    let name = path.display().to_string();
+    read_from(
+        files,
+        &text,
+        &name,
+        folder,
+        Purpose::Calibrate,
+        Some(recording),
+    )
 }
 
 /// Checks the text of a calibration file; its recording is looked up in `folder`.
@@ -48,7 +77,7 @@ pub fn read(
     folder: &Path,
     purpose: Purpose,
 ) -> Result<Campaign, Rejection> {
-    read_from(Files::Disk, text, name, folder, purpose)
+    read_from(Files::Disk, text, name, folder, purpose, None)
 }
 
 fn read_from(
@@ -57,8 +86,12 @@ fn read_from(
     name: &str,
     folder: &Path,
     purpose: Purpose,
+    recording: Option<&Path>,
 ) -> Result<Campaign, Rejection> {
     let mut source = opened(text, name)?;
+    if let Some(recording) = recording {
+        put_in_place(&mut source.table, recording);
+    }
     let units = Checker::new(&source, purpose, files, folder).units;
     inferred::add(&mut source, &units, files, folder);
     let mut checker = Checker::new(&source, purpose, files, folder);
@@ -73,6 +106,29 @@ fn read_from(
             let mut rejection = checker.rejection(name);
             rejection.others.push(*recording);
             Err(rejection)
+        }
+    }
+}
+
+/// Names another recording, which is averaged as the file says.
+fn put_in_place(table: &mut ExperimentTable, recording: &Path) {
+    let file = |place: Range<usize>| Stated {
+        value: recording.display().to_string(),
+        span: place.clone(),
+        key: place,
+    };
+    match &mut table.recording {
+        Some(stated) => {
+            let old = stated.value.0.file.as_ref();
+            let place = old.map_or(stated.span.clone(), |old| old.span.clone());
+            stated.value.0.file = Some(file(place));
+        }
+        none => {
+            *none = Some(Stated {
+                value: Short(RecordingTable::of(file(0..0))),
+                span: 0..0,
+                key: 0..0,
+            });
         }
     }
 }

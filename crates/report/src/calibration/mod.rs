@@ -5,6 +5,7 @@ mod form;
 mod hidden;
 mod misfit;
 mod plots;
+mod recordings;
 mod sections;
 mod trouble;
 
@@ -13,6 +14,7 @@ use gumption_format::document::{Block, Document};
 use gumption_lab::calibrate::{Calibration, Campaign, Plan, Trouble};
 
 pub use form::{calibration_schema, plan_schema};
+pub use recordings::{Unusable, recording};
 
 /// The document of a calibration.
 pub fn calibration(campaign: &Campaign, found: &Calibration, language: Language) -> Document {

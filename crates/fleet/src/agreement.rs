@@ -1,0 +1,167 @@
+//! E_n of each row (ISO/IEC 17043, ISO 13528), against a stated reference or the others of its group, and the rows that stand
+//! apart.
+
+use crate::deviation::{Deviation, Others, SIGNIFICANCE};
+use crate::group::{GroupResult, Members};
+use crate::results::{MeasurandValues, Values};
+
+/// Rows with |E_n| > 1 that are listed by name.
+pub const LISTED: usize = 100;
+
+/// A row with |E_n| > 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Apart {
+    /// Its number in the table, the first being 1.
+    pub row: usize,
+    /// The name of its device.
+    pub device: String,
+    /// Its group.
+    pub group: usize,
+    /// Its estimate.
+    pub estimate: f64,
+    /// What it is held against: the reference, or the weighted mean of the others of its group.
+    pub other: f64,
+    /// E_n, with sign.
+    pub en: f64,
+    /// Probability of such a difference by chance, times the number of all rows that were tested (Bonferroni), at most 1.
+    pub probability: f64,
+}
+
+impl Apart {
+    /// Whether chance does not explain it: only then is a device named.
+    pub fn is_named(&self) -> bool {
+        self.probability < SIGNIFICANCE
+    }
+}
+
+/// The rows of a measurand with |E_n| > 1.
+#[derive(Debug, Clone, Default)]
+pub struct Agreement {
+    /// Rows that were tested.
+    pub tested: usize,
+    /// Those with |E_n| > 1.
+    pub beyond: usize,
+    /// How many of them chance lets expect.
+    pub expected: f64,
+    /// Those that chance does not explain.
+    pub named: usize,
+    /// Those beyond 1, the least probable first; the first of them, where there are very many.
+    pub apart: Vec<Apart>,
+}
+
+/// Rows of a group that can be tested.
+pub(crate) fn testable(measurand: &MeasurandValues, members: &Members) -> usize {
+    match &measurand.reference {
+        Some((_, reference)) => {
+            let known = |row: &&usize| reference.expanded[**row].is_finite();
+            members.weighed.iter().filter(known).count()
+        }
+        None if members.weighed.len() > 1 => members.weighed.len(),
+        None => 0,
+    }
+}
+
+/// Forms E_n of all rows; `tests` is the number of them over all measurands.
+pub(crate) fn agreement(
+    measurand: &MeasurandValues,
+    members: &[Members],
+    results: &mut [GroupResult],
+    tests: usize,
+    device: impl Fn(usize) -> String,
+) -> Agreement {
+    let values = &measurand.values;
+    let mut found = Agreement::default();
+    let mut beyond = Vec::new();
+    for (group, (members, result)) in members.iter().zip(results).enumerate() {
+        compare(measurand, members, tests, |row, deviation, expanded| {
+            result.tested += 1;
+            result.expected += deviation.beyond(expanded);
+            if deviation.difference.abs() > expanded {
+                result.beyond += 1;
+                let probability = (tests as f64 * deviation.probability()).min(1.0);
+                found.named += usize::from(probability < SIGNIFICANCE);
+                let en = deviation.difference / expanded;
+                beyond.push((probability, en, row, group, deviation.other));
+            }
+        });
+        found.tested += result.tested;
+        found.beyond += result.beyond;
+        found.expected += result.expected;
+    }
+    beyond.sort_by(|a, b| {
+        let worse = a.0.total_cmp(&b.0).then(b.1.abs().total_cmp(&a.1.abs()));
+        worse.then(a.2.cmp(&b.2))
+    });
+    let listed = beyond.into_iter().take(LISTED);
+    let apart = listed.map(|(probability, en, row, group, other)| Apart {
+        row: row + 1,
+        device: device(row),
+        group,
+        estimate: values.estimate[row],
+        other,
+        en,
+        probability,
+    });
+    found.apart = apart.collect();
+    found
+}
+
+/// Gives each row that can be tested its deviation and the expanded uncertainty of that.
+fn compare(
+    measurand: &MeasurandValues,
+    members: &Members,
+    tests: usize,
+    mut give: impl FnMut(usize, &Deviation, f64),
+) {
+    let values = &measurand.values;
+    if let Some((_, reference)) = &measurand.reference {
+        for row in members.weighed.iter().copied() {
+            let u = reference.u[row];
+            // Of an exact value 0/k is 0; where neither u nor k is stated, k is that of the row.
+            let other = (reference.estimate[row], u, reference.dof[row]);
+            let expanded = of_difference(values.expanded[row], reference.expanded[row]);
+            if expanded.is_finite() && u.is_finite() {
+                give(row, &Deviation::of(values, row, other), expanded);
+            }
+        }
+        return;
+    }
+    let agrees = agreeing(values, members, tests);
+    let agreeing = members
+        .weighed
+        .iter()
+        .zip(&agrees)
+        .filter(|(_, agrees)| **agrees);
+    let agreeing: Vec<usize> = agreeing.map(|(row, _)| *row).collect();
+    let others = Others::of(values, &agreeing, members.median);
+    for (row, agrees) in members.weighed.iter().zip(&agrees) {
+        if let Some(deviation) = others.deviation(*row, *agrees) {
+            // The expanded uncertainty of both sides with the k of the row.
+            give(*row, &deviation, values.k(*row) * deviation.u);
+        }
+    }
+}
+
+/// Which rows belong into the mean against which the others are held: one that lies far apart would shift it for all of them.
+///
+/// Far apart is what lies so from the median, which half of the rows could not move, with the probability at which a device is
+/// named. The median of values of different u has u² = π/2 · n/(Σ 1/u)², from the density of the normal distribution in its
+/// middle. Of two rows neither is more apart than the other.
+fn agreeing(values: &Values, members: &Members, tests: usize) -> Vec<bool> {
+    let rows = &members.weighed;
+    if rows.len() < 3 {
+        return vec![true; rows.len()];
+    }
+    let inverse: f64 = rows.iter().map(|row| 1.0 / values.u[*row]).sum();
+    let u = (std::f64::consts::FRAC_PI_2 * rows.len() as f64).sqrt() / inverse;
+    let agrees = |row: &usize| {
+        let from_median = Deviation::of(values, *row, (members.median, u, f64::INFINITY));
+        tests as f64 * from_median.probability() >= SIGNIFICANCE
+    };
+    rows.iter().map(agrees).collect()
+}
+
+/// The expanded uncertainty of a difference.
+pub(crate) fn of_difference(one: f64, other: f64) -> f64 {
+    (one * one + other * other).sqrt()
+}

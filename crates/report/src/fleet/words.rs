@@ -1,0 +1,203 @@
+//! What is said of a fleet in sentences.
+
+use gumption_fleet::{Drift, Measurand, SIGNIFICANCE, Scatter};
+
+use super::Shown;
+use super::tables::expected;
+use crate::number::{grouped, percent, significant};
+
+/// Names that one sentence lists.
+const LISTED: usize = 8;
+
+impl Shown<'_> {
+    /// Where estimates scatter otherwise than u says; what that may mean.
+    pub fn consistency(self, one: &Measurand) -> Vec<String> {
+        let l = self.l;
+        let tested = one
+            .groups
+            .iter()
+            .filter(|group| group.consistency.is_some());
+        let tests = tested.count();
+        let mut more = Vec::new();
+        let mut less = Vec::new();
+        for (at, group) in one.groups.iter().enumerate() {
+            let Some(found) = &group.consistency else {
+                continue;
+            };
+            match found.scatter(tests) {
+                Scatter::More => more.push((at, found.birge)),
+                Scatter::Less => less.push((at, found.birge)),
+                Scatter::AsClaimed => {}
+            }
+        }
+        let mut sentences = Vec::new();
+        if tests == 0 {
+            sentences.push(l.pick(
+                "No group has two estimates with an uncertainty: of their scatter nothing can be said.",
+                "没有任何一组含两个以上带不确定度的估计值，无法判断分散性。",
+            ).to_owned());
+            return sentences;
+        }
+        if !more.is_empty() {
+            let groups = self.ratios(&more);
+            sentences.push(l.pick(
+                format!("More scatter than u claims ({groups} times as much): the items differ from each other, or u leaves something out. Which of the two, the scatter alone does not tell; real differences between items are no fault of u."),
+                format!("分散性大于 u 所声明的（倍数：{groups}）：或各器件本身有差异，或 u 漏掉了某些来源。仅凭分散性无法区分两者；器件间的真实差异并非 u 之误。"),
+            ));
+        }
+        if !less.is_empty() {
+            let groups = self.ratios(&less);
+            sentences.push(l.pick(
+                format!("Less scatter than u claims ({groups} times as much): what all of them share, such as the error of one reference, is part of u and does not scatter; or u is too large."),
+                format!("分散性小于 u 所声明的（倍数：{groups}）：共同来源（如同一标准器的误差）计入 u，但不引起分散；或 u 偏大。"),
+            ));
+        }
+        if more.is_empty() && less.is_empty() {
+            sentences.push(l.pick(
+                "The estimates scatter as their u lets expect. Where all share a reference, whose error is part of u but does not scatter, that may hide differences between the items.",
+                "估计值的分散性与 u 相符。若各器件共用同一标准器，其误差计入 u 但不引起分散，可能掩盖器件间的差异。",
+            ).to_owned());
+        }
+        sentences
+    }
+
+    /// The first of some groups, with their ratios.
+    fn ratios(self, groups: &[(usize, f64)]) -> String {
+        let ratio = |(at, birge): &(usize, f64)| {
+            let birge = significant(*birge, 2);
+            match self.fleet.by.is_empty() {
+                true => birge,
+                false => format!("{} {birge}", self.group(*at)),
+            }
+        };
+        self.list(groups.len(), groups.iter().map(ratio))
+    }
+
+    /// The first of some names.
+    fn list(self, count: usize, names: impl Iterator<Item = String>) -> String {
+        let mut all: Vec<String> = Vec::new();
+        for name in names {
+            // A device may have several rows.
+            if !all.contains(&name) {
+                all.push(name);
+            }
+        }
+        let count = count.min(all.len());
+        all.truncate(LISTED);
+        let names = all;
+        let names = names.join(self.l.pick(", ", "、"));
+        match count > LISTED {
+            true => format!("{names} …"),
+            false => names,
+        }
+    }
+
+    pub fn agreement_words(self, one: &Measurand) -> String {
+        let l = self.l;
+        let found = &one.agreement;
+        let [tested, beyond] = [found.tested, found.beyond].map(|n| grouped(n as u64));
+        let by_chance = expected(found.expected);
+        let against = match &one.reference {
+            Some(name) => l.pick(format!("the reference {name}"), format!("参考值 {name}")),
+            None => l.pick(
+                "the weighted mean of the others of their group".to_owned(),
+                "同组其余器件的加权平均值".to_owned(),
+            ),
+        };
+        let all = l.pick(
+            format!("|E_n| > 1: {beyond} of {tested} rows, against {against}; chance lets expect {by_chance}."),
+            format!("{tested} 行与{against}比较：{beyond} 行 |E_n| > 1，偶然性期望为 {by_chance} 行。"),
+        );
+        let named = found.apart.iter().filter(|one| one.is_named());
+        let names = self.list(found.named, named.map(|one| one.device.clone()));
+        let named = match found.named {
+            0 => l.pick(
+                "Over all that was tested, chance explains each of them.".to_owned(),
+                "就全部检验而言，各偏差均可由偶然性解释。".to_owned(),
+            ),
+            count => l.pick(
+                format!(
+                    "Not explained by chance (●, p < {1} over all), {0}: {names}.",
+                    grouped(count as u64),
+                    self.limit()
+                ),
+                format!(
+                    "其中 {} 行不能由偶然性解释（●，总体 p < {}）：{names}。",
+                    grouped(count as u64),
+                    self.limit()
+                ),
+            ),
+        };
+        let shared = match &one.reference {
+            Some(_) => "",
+            None => l.pick(
+                " What all rows share, such as the error of one reference, is in both sides and cancels, though U has it: E_n is then smaller than the difference deserves.",
+                "各行共有的部分（如同一标准器的误差）在差值中抵消，但仍计入 U：此时 E_n 偏小。",
+            ),
+        };
+        format!("{all}{}{named}{shared}", l.pick(" ", ""))
+    }
+
+    fn limit(self) -> String {
+        format!("{} %", percent(SIGNIFICANCE).trim_end_matches(".0"))
+    }
+
+    pub fn drift_words(self, drift: &Drift) -> String {
+        let l = self.l;
+        if drift.devices == 0 {
+            return l.pick(
+                "No device has calibrations at two dates in one group: of a drift nothing can be said.",
+                "没有器件在同一组内有两个日期的校准，无法判断漂移。",
+            ).to_owned();
+        }
+        let [devices, beyond] = [drift.devices, drift.beyond].map(|n| grouped(n as u64));
+        let by_chance = expected(drift.expected);
+        let all = l.pick(
+            format!("Rate beyond its U: {beyond} of {devices} devices with calibrations at several dates; chance lets expect {by_chance}."),
+            format!("{devices} 个器件有多个日期的校准：{beyond} 个的漂移速率超出其 U，偶然性期望为 {by_chance} 个。"),
+        );
+        let named = drift.apart.iter().filter(|one| one.is_named());
+        let names = self.list(drift.named, named.map(|one| one.device.clone()));
+        let named = match drift.named {
+            0 => l.pick(
+                "Over all devices, chance explains each of them.".to_owned(),
+                "就全部器件而言，均可由偶然性解释。".to_owned(),
+            ),
+            count => l.pick(
+                format!(
+                    "Not explained by chance (●, p < {1} over all), {0}: {names}.",
+                    grouped(count as u64),
+                    self.limit()
+                ),
+                format!(
+                    "其中 {} 个不能由偶然性解释（●，总体 p < {}）：{names}。",
+                    grouped(count as u64),
+                    self.limit()
+                ),
+            ),
+        };
+        let shared = l.pick(
+            "Where all calibrations used the same reference, its error is in both sides and cancels: U is then larger than a difference needs, and a drift that is seen is seen all the more; one that is not seen may be there. Where the reference was changed or calibrated anew in between, it does not cancel.",
+            "若各次校准使用同一标准器，其误差在差值中抵消：此时 U 大于差值所需，检出的漂移更为可信，未检出的漂移仍可能存在。若其间更换或重新校准了标准器，则不抵消。",
+        );
+        let space = l.pick(" ", "");
+        format!("{all}{space}{named}{space}{shared}")
+    }
+
+    /// Definitions and where they come from.
+    pub fn sources(self) -> Vec<String> {
+        let l = self.l;
+        let p = self.limit();
+        [
+            l.pick(
+                "s: standard deviation of the estimates; u: claimed standard uncertainty, root mean square. Birge = √(χ²/(n − 1)) with χ² = Σ (x − x̄)²/u² and the mean x̄ with weights 1/u² (Birge 1932); p(χ²): probability of a larger χ².".to_owned(),
+                "s：估计值的标准偏差；u：声明的标准不确定度（方均根）。Birge 比 = √(χ²/(n − 1))，χ² = Σ (x − x̄)²/u²，x̄ 以 1/u² 加权（Birge 1932）；p(χ²)：χ² 更大的概率。".to_owned(),
+            ),
+            l.pick(
+                format!("E_n = (x − X)/√(U_x² + U_X²) (ISO/IEC 17043, ISO 13528). Without a reference, X is the weighted mean of the others of the group, with the k of the row; rows far from the median are left out of it. p over all: probability of such a difference, times the number of tests (Bonferroni); below {p} a device is named."),
+                format!("E_n = (x − X)/√(U_x² + U_X²)（ISO/IEC 17043、ISO 13528）。无参考值时，X 为同组其余器件的加权平均值，取该行的 k；远离中位数的行不计入。总体 p：出现该偏差的概率乘以检验次数（Bonferroni）；小于 {p} 才点名。"),
+            ),
+        ]
+        .to_vec()
+    }
+}

@@ -1,0 +1,115 @@
+//! Many recordings of one experiment: each line is what the recording gives by itself.
+
+use gumption::csv::{Row, Sheet};
+use serde_json::Value;
+
+use crate::common::{Noise, cases};
+
+fn recording(seed: u64, slope: f64) -> String {
+    let mut noise = Noise(seed);
+    let mut text = String::from("omega [deg/s],U [V]\n");
+    for k in 0..24 {
+        let omega = f64::from(k % 12) * 10.0 - 55.0;
+        let volts = slope * omega + 0.002 + 1e-4 * noise.normal();
+        text += &format!("{omega},{volts}\n");
+    }
+    text
+}
+
+const EXPERIMENT: &str =
+    "recording = { file = \"b.csv\", average = \"none\" }\nequations = \"U = K*omega + b\"\n";
+
+#[test]
+fn each_line_is_the_calibration_of_its_recording_alone() {
+    let folder = cases::folder("recordings");
+    let runs = folder.join("runs");
+    std::fs::create_dir_all(&runs).expect("a folder");
+    let put = |path: &std::path::Path, text: &str| std::fs::write(path, text).expect("written");
+    let names = ["a", "b", "c"];
+    for (at, name) in names.iter().enumerate() {
+        let text = recording(at as u64 + 1, 0.01 + 1e-4 * at as f64);
+        put(&runs.join(name).with_extension("csv"), &text);
+    }
+    put(&runs.join("bad.csv"), "omega [deg/s],V [V]\n1,2\n");
+    put(&runs.join("few.csv"), "omega [deg/s],U [V]\n1,2\n");
+    put(&runs.join("notes.txt"), "no recording");
+    put(&folder.join("gyro.toml"), EXPERIMENT);
+    let output = crate::common::program()
+        .current_dir(&folder)
+        .args([
+            "calibrate",
+            "gyro.toml",
+            "--lang",
+            "en",
+            "--recordings",
+            "runs",
+        ])
+        .output()
+        .expect("the program runs");
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        said.contains("2 of 5 recordings give no coefficients"),
+        "{said}"
+    );
+    let table = String::from_utf8(output.stdout).expect("text");
+    let sheet = Sheet::new(&table).expect("heads");
+    let heads: Vec<&str> = sheet.header().fields().collect();
+    let rows: Vec<Row> = sheet.rows().map(|row| row.expect("a row")).collect();
+    let rows: Vec<Vec<&str>> = rows.iter().map(|row| row.fields().collect()).collect();
+    let labels: Vec<&str> = rows.iter().map(|row| row[0]).collect();
+    assert_eq!(labels, ["a", "b", "bad", "c", "few"]);
+    let at = |head: &str| heads.iter().position(|one| one.starts_with(head));
+    let at = |head: &str| at(head).unwrap_or_else(|| panic!("{head} in {heads:?}"));
+    assert!(rows[2][at("error")].starts_with("C0104"), "{table}");
+    assert!(rows[4][at("error")].contains("reading"), "{table}");
+    for (row, name) in rows
+        .iter()
+        .filter(|row| row[at("error")].is_empty())
+        .zip(names)
+    {
+        let alone = EXPERIMENT.replace("b.csv", &format!("runs/{name}.csv"));
+        put(&folder.join("alone.toml"), &alone);
+        let found = cases::json(&folder, &["calibrate", "alone.toml", "--json"]);
+        let number = |value: &Value| value.as_f64().expect("a number").to_bits();
+        let cell = |head: &str| row[at(head)].parse::<f64>().expect("a number").to_bits();
+        for coefficient in found["coefficients"].as_array().expect("coefficients") {
+            let one = coefficient["name"].as_str().expect("a name");
+            assert_eq!(
+                cell(&format!("{one} ")),
+                number(&coefficient["value"]),
+                "{one}"
+            );
+            for (head, key) in [("u", "u"), ("nu", "dof"), ("k", "k"), ("U", "U")] {
+                assert_eq!(
+                    cell(&format!("{head}({one})")),
+                    number(&coefficient[key]),
+                    "{head}({one})"
+                );
+            }
+        }
+        assert_eq!(cell("s(U)"), number(&found["responses"][0]["s"]));
+    }
+    std::fs::write(folder.join("results.csv"), &table).expect("written");
+    let fleet = cases::json(&folder, &["fleet", "results.csv", "--json"]);
+    assert_eq!(fleet["measurands"][0]["name"], "K");
+    assert_eq!(
+        fleet["groups"][0]["faulty"].as_array().map(Vec::len),
+        Some(2)
+    );
+}
+
+#[test]
+fn the_table_is_no_document() {
+    let folder = cases::folder("recordings-form");
+    std::fs::write(folder.join("gyro.toml"), EXPERIMENT).expect("written");
+    let said = |more: &[&str]| {
+        let all = [&["calibrate", "gyro.toml", "--lang", "en"], more].concat();
+        let (good, said) = cases::gumption(&folder, &all);
+        assert!(!good, "{said}");
+        said
+    };
+    assert!(said(&["--html", "--recordings", "x.csv"]).contains("leave out --html"));
+    std::fs::create_dir_all(folder.join("empty")).expect("a folder");
+    assert!(said(&["--recordings", "empty"]).contains("no CSV file in the folder empty"));
+}

@@ -77,13 +77,13 @@ impl Columns {
 
     /// Adds the values of a row: as [`Columns::add`], but for the label of a row that has none.
     pub fn add_values(self, values: &mut Values, row: &Evaluated<'_>) {
-        let cells = &mut values.cells;
-        let mut rejected = false;
-        let begin = cells.len();
-        let found = match &row.found {
+        let label = row.label.unwrap_or_default().to_owned();
+        match &row.found {
             Ok((budget, found)) => {
                 values.heads.get_or_insert_with(|| self.heads(budget));
-                rejected = self.cells(budget, found, |cell| {
+                let mut cells = std::mem::take(&mut values.cells);
+                cells.push(Value::Text(label));
+                let rejected = self.cells(budget, found, |cell| {
                     cells.push(match cell {
                         Cell::Number(x) => Value::Number(x.unwrap_or(f64::NAN)),
                         // A seed is at most 2^53.
@@ -91,15 +91,11 @@ impl Columns {
                         Cell::Codes(codes) => Value::Text(codes.to_owned()),
                     });
                 });
-                Ok(cells.len() - begin)
+                values.add(cells.drain(..), rejected);
+                values.cells = cells;
             }
-            Err(failed) => Err(why(failed, self.language)),
-        };
-        values.rows.push(RowOfValues {
-            label: row.label.map(str::to_owned),
-            found,
-            rejected,
-        });
+            Err(failed) => values.add_failed(label, why(failed, self.language)),
+        }
     }
 
     /// The heads of the columns that rows of this budget have.
@@ -302,7 +298,6 @@ impl Table {
                         text.extend_from_slice(whole);
                         continue;
                     }
-                    // A vector of another length, or an assessment more.
                     Ok(cells) => of_another_length(cells, heads),
                     Err(why) => why,
                 };
@@ -343,23 +338,77 @@ fn of_another_length(cells: usize, heads: &[Head]) -> String {
 pub struct Values {
     /// As of [`Lines`].
     heads: Option<Vec<Head>>,
-    /// The cells behind the labels of those that have results.
+    stretches: Vec<Stretch>,
+    /// Room for a row.
     cells: Vec<Value>,
-    rows: Vec<RowOfValues>,
 }
 
+/// Rows that have equally many cells, as columns: the first are their labels, the last the errors of those among them that
+/// have no result.
 #[derive(Debug)]
-struct RowOfValues {
-    label: Option<String>,
-    /// How many cells it has; or why there are none.
-    found: Result<usize, String>,
-    rejected: bool,
+struct Stretch {
+    columns: Vec<ResultColumn>,
+    count: Count,
 }
 
 #[derive(Debug)]
 enum Value {
     Number(f64),
     Text(String),
+}
+
+impl Values {
+    fn add(&mut self, cells: impl ExactSizeIterator<Item = Value>, rejected: bool) {
+        let last = self.stretches.last();
+        if last.is_none_or(|last| last.columns.len() != cells.len()) {
+            self.stretches.push(Stretch {
+                columns: vec![ResultColumn::Texts(None); cells.len()],
+                count: Count::default(),
+            });
+        }
+        if let Some(Stretch { columns, count }) = self.stretches.last_mut() {
+            let row = count.rows as usize;
+            let cells = columns.iter_mut().zip(cells);
+            cells.for_each(|(column, cell)| column.set(row, cell));
+            count.rows += 1;
+            count.rejected += u64::from(rejected);
+        }
+    }
+
+    fn add_failed(&mut self, label: String, why: String) {
+        let [label, why] = [label, why].map(Value::Text);
+        let Some(Stretch { columns, count }) = self.stretches.last_mut() else {
+            self.add([label, why].into_iter(), false);
+            return;
+        };
+        let row = count.rows as usize;
+        if let [labels, .., errors] = columns.as_mut_slice() {
+            labels.set(row, label);
+            errors.set(row, why);
+        }
+        count.rows += 1;
+    }
+}
+
+impl Stretch {
+    /// As many columns as these heads: where it has others, its rows have labels and errors alone.
+    fn below(self, heads: &[Head]) -> Vec<ResultColumn> {
+        let Stretch { mut columns, count } = self;
+        let cells = columns.len();
+        if cells == heads.len() {
+            return columns;
+        }
+        let mut errors = columns.pop().map_or(Vec::new(), ResultColumn::texts);
+        errors.resize(count.rows as usize, String::new());
+        for error in errors.iter_mut().filter(|error| error.is_empty()) {
+            // A vector of another length, or an assessment more.
+            *error = of_another_length(cells, heads);
+        }
+        columns.truncate(1);
+        columns.extend(heads[2..].iter().map(ResultColumn::below));
+        columns.push(ResultColumn::Texts(Some(errors)));
+        columns
+    }
 }
 
 /// A column of results.
@@ -395,39 +444,20 @@ impl Results {
         self.waiting.push(values);
         let Some(heads) = &self.heads else { return };
         if self.columns.is_empty() {
-            let empty = |head: &Head| match head.numbers {
-                true => ResultColumn::Numbers(Vec::new()),
-                false => ResultColumn::Texts(None),
-            };
-            self.columns = heads.iter().map(empty).collect();
+            self.columns = heads.iter().map(ResultColumn::below).collect();
         }
-        for values in std::mem::take(&mut self.waiting) {
-            let mut cells = values.cells.into_iter();
-            for row in values.rows {
-                let at = self.count.rows as usize;
-                self.count.rows += 1;
-                self.count.rejected += u64::from(row.rejected);
-                let why = match row.found {
-                    Ok(count) if count + 1 == heads.len() => {
-                        for (column, cell) in self.columns[1..].iter_mut().zip(cells.by_ref()) {
-                            column.set(at, cell);
-                        }
-                        None
-                    }
-                    Ok(count) => {
-                        cells.by_ref().take(count).for_each(drop);
-                        Some(of_another_length(count + 1, heads))
-                    }
-                    Err(why) => Some(why),
-                };
-                if let [labels, .., errors] = self.columns.as_mut_slice() {
-                    labels.set(at, Value::Text(row.label.unwrap_or_default()));
-                    if let Some(why) = why {
-                        self.count.failed += 1;
-                        errors.set(at, Value::Text(why));
-                    }
-                }
+        let waiting = std::mem::take(&mut self.waiting);
+        for stretch in waiting.into_iter().flat_map(|values| values.stretches) {
+            let at = self.count.rows as usize;
+            self.count.rows += stretch.count.rows;
+            self.count.rejected += stretch.count.rejected;
+            let added = stretch.below(heads);
+            if let Some(ResultColumn::Texts(Some(errors))) = added.last() {
+                let failed = errors.iter().filter(|error| !error.is_empty());
+                self.count.failed += failed.count() as u64;
             }
+            let columns = self.columns.iter_mut().zip(added);
+            columns.for_each(|(column, added)| column.append(at, added));
         }
     }
 
@@ -447,6 +477,21 @@ impl Results {
 }
 
 impl ResultColumn {
+    /// The empty one below a head.
+    fn below(head: &Head) -> ResultColumn {
+        match head.numbers {
+            true => ResultColumn::Numbers(Vec::new()),
+            false => ResultColumn::Texts(None),
+        }
+    }
+
+    fn texts(self) -> Vec<String> {
+        match self {
+            ResultColumn::Texts(texts) => texts.unwrap_or_default(),
+            ResultColumn::Numbers(_) => Vec::new(),
+        }
+    }
+
     /// Makes it so long.
     fn fill(&mut self, rows: usize) {
         match self {
@@ -456,19 +501,36 @@ impl ResultColumn {
         }
     }
 
-    /// Sets the cell of a row behind those that are there.
+    /// Sets the cell of a row behind those that are there; a column of which nothing is there becomes one of numbers by one.
     fn set(&mut self, row: usize, value: Value) {
+        if let (ResultColumn::Texts(None), Value::Number(_)) = (&*self, &value) {
+            *self = ResultColumn::Numbers(Vec::new());
+        }
         match (self, value) {
-            (column @ ResultColumn::Numbers(_), Value::Number(x)) => {
-                column.fill(row);
-                if let ResultColumn::Numbers(numbers) = column {
-                    numbers.push(x);
-                }
+            (ResultColumn::Numbers(numbers), Value::Number(x)) => {
+                numbers.resize(row, f64::NAN);
+                numbers.push(x);
             }
             (ResultColumn::Texts(texts), Value::Text(text)) if !text.is_empty() => {
                 let texts = texts.get_or_insert_default();
                 texts.resize(row, String::new());
                 texts.push(text);
+            }
+            _ => {}
+        }
+    }
+
+    /// Adds a column from this row on, behind what is there.
+    fn append(&mut self, row: usize, added: ResultColumn) {
+        match (self, added) {
+            (ResultColumn::Numbers(numbers), ResultColumn::Numbers(added)) => {
+                numbers.resize(row, f64::NAN);
+                numbers.extend_from_slice(&added);
+            }
+            (ResultColumn::Texts(texts), ResultColumn::Texts(Some(added))) => {
+                let texts = texts.get_or_insert_default();
+                texts.resize(row, String::new());
+                texts.extend(added);
             }
             _ => {}
         }

@@ -144,14 +144,14 @@ pub fn product(
 
 fn products<const APART: bool>(
     level: Level,
-    x: [&Block; 2],
+    [x, y]: [&Block; 2],
     a: &Bounds,
     b: &Bounds,
     out: &mut Bounds,
 ) {
     dispatch!(level, _ => for lane in 0..LANES {
-        let x = [x[0].0[lane], x[1].0[lane]];
-        out.set(lane, product_of::<APART>(x, a.at(lane), b.at(lane)));
+        let values = [x.0[lane], y.0[lane]];
+        out.set(lane, product_of::<APART>(values, a.at(lane), b.at(lane)));
     })
 }
 
@@ -170,9 +170,9 @@ fn composed_of(slopes: [f64; 3], a: Bound) -> Bound {
 }
 
 /// `out` ← bounds of a function with these first three derivatives.
-pub fn composed(level: Level, slopes: [&Block; 3], a: &Bounds, out: &mut Bounds) {
+pub fn composed(level: Level, [f, g, h]: [&Block; 3], a: &Bounds, out: &mut Bounds) {
     dispatch!(level, _ => for lane in 0..LANES {
-        let slopes = [slopes[0].0[lane], slopes[1].0[lane], slopes[2].0[lane]];
+        let slopes = [f.0[lane], g.0[lane], h.0[lane]];
         out.set(lane, composed_of(slopes, a.at(lane)));
     })
 }
@@ -194,16 +194,16 @@ pub fn quotient(
 
 fn quotients<const APART: bool>(
     level: Level,
-    x: [&Block; 2],
+    [x, y]: [&Block; 2],
     a: &Bounds,
     b: &Bounds,
     out: &mut Bounds,
 ) {
     dispatch!(level, _ => for lane in 0..LANES {
-        let r = 1.0 / x[1].0[lane];
+        let r = 1.0 / y.0[lane];
         let r2 = r * r;
         let inverse = composed_of([r2, 2.0 * r2 * r, 6.0 * r2 * r2], b.at(lane));
-        out.set(lane, product_of::<APART>([x[0].0[lane], r], a.at(lane), inverse));
+        out.set(lane, product_of::<APART>([x.0[lane], r], a.at(lane), inverse));
     })
 }
 

@@ -5,7 +5,7 @@ use super::{Report, failure, remarks, rows};
 use gumption_core::model::Output;
 use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection};
-use gumption_gum::batch::{Evaluated, Failed, Found};
+use gumption_gum::batch::{BLOCK, Evaluated, Failed, Found};
 use gumption_gum::budget::{BatchFile, Budget};
 use gumption_gum::propagate::Verdict;
 
@@ -67,6 +67,10 @@ impl Columns {
             }
             Err(failed) => Err(why(failed, self.language)),
         };
+        if lines.lines.is_empty() {
+            // The others are about as long.
+            text.reserve(BLOCK * text.len());
+        }
         lines.lines.push(Line {
             label,
             end: text.len(),
@@ -77,24 +81,16 @@ impl Columns {
 
     /// Adds the values of a row: as [`Columns::add`], but for the label of a row that has none.
     pub fn add_values(self, values: &mut Values, row: &Evaluated<'_>) {
-        let label = row.label.unwrap_or_default().to_owned();
+        let label = Cell::Text(row.label.unwrap_or_default());
         match &row.found {
             Ok((budget, found)) => {
                 values.heads.get_or_insert_with(|| self.heads(budget));
-                let mut cells = std::mem::take(&mut values.cells);
-                cells.push(Value::Text(label));
-                let rejected = self.cells(budget, found, |cell| {
-                    cells.push(match cell {
-                        Cell::Number(x) => Value::Number(x.unwrap_or(f64::NAN)),
-                        // A seed is at most 2^53.
-                        Cell::Seed(seed) => Value::Number(seed.map_or(f64::NAN, |x| x as f64)),
-                        Cell::Codes(codes) => Value::Text(codes.to_owned()),
-                    });
+                values.add(|give| {
+                    give(label);
+                    self.cells(budget, found, give)
                 });
-                values.add(cells.drain(..), rejected);
-                values.cells = cells;
             }
-            Err(failed) => values.add_failed(label, why(failed, self.language)),
+            Err(failed) => values.add_failed(label, &why(failed, self.language)),
         }
     }
 
@@ -147,8 +143,8 @@ impl Columns {
                 }
                 let few = |one| Some((remarks::code(&row.few_degrees(one)?), Some(one)));
                 let few = measurands.filter_map(few);
-                give(Cell::Codes(&codes(budget, few)));
-                give(Cell::Codes(""));
+                give(Cell::Text(&codes(budget, few)));
+                give(Cell::Text(""));
                 false
             }
             Found::Evaluation(evaluation) => {
@@ -174,8 +170,8 @@ impl Columns {
                 }
                 let findings = evaluation.findings.iter();
                 let findings = findings.map(|one| (remarks::code(&one.kind), one.measurand));
-                give(Cell::Codes(&codes(budget, findings)));
-                give(Cell::Codes(""));
+                give(Cell::Text(&codes(budget, findings)));
+                give(Cell::Text(""));
                 let refuses = |verdict| verdict == Some(Verdict::NotConforming);
                 let mut conformity = evaluation.conformity.iter();
                 conformity.any(|found| refuses(found.verdict))
@@ -280,6 +276,13 @@ impl Table {
             self.waiting.push(lines);
             return Vec::new();
         };
+        let is_good = |line: &Line| line.cells.as_ref().is_ok_and(|cells| *cells == heads.len());
+        if self.headed && lines.lines.iter().all(is_good) {
+            self.count.rows += lines.lines.len() as u64;
+            let rejected = lines.lines.iter().filter(|line| line.rejected);
+            self.count.rejected += rejected.count() as u64;
+            return lines.text;
+        }
         let mut text = Vec::with_capacity(lines.text.len());
         if !self.headed {
             push_line(&mut text, heads.iter().map(|head| head.name.as_str()));
@@ -339,58 +342,75 @@ pub struct Values {
     /// As of [`Lines`].
     heads: Option<Vec<Head>>,
     stretches: Vec<Stretch>,
-    /// Room for a row.
-    cells: Vec<Value>,
 }
 
 /// Rows that have equally many cells, as columns: the first are their labels, the last the errors of those among them that
 /// have no result.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Stretch {
     columns: Vec<ResultColumn>,
     count: Count,
 }
 
-#[derive(Debug)]
-enum Value {
-    Number(f64),
-    Text(String),
-}
-
 impl Values {
-    fn add(&mut self, cells: impl ExactSizeIterator<Item = Value>, rejected: bool) {
-        let last = self.stretches.last();
-        if last.is_none_or(|last| last.columns.len() != cells.len()) {
-            self.stretches.push(Stretch {
-                columns: vec![ResultColumn::Texts(None); cells.len()],
-                count: Count::default(),
-            });
-        }
-        if let Some(Stretch { columns, count }) = self.stretches.last_mut() {
-            let row = count.rows as usize;
-            let cells = columns.iter_mut().zip(cells);
-            cells.for_each(|(column, cell)| column.set(row, cell));
-            count.rows += 1;
-            count.rejected += u64::from(rejected);
+    /// Adds a row, of which `cells` gives the cells and tells whether an item does not conform.
+    fn add(&mut self, cells: impl Fn(&mut dyn FnMut(Cell<'_>)) -> bool) {
+        let added = self.stretches.last_mut().map(|last| last.add(&cells));
+        if added != Some(true) {
+            let mut stretch = Stretch::default();
+            stretch.add(&cells);
+            self.stretches.push(stretch);
         }
     }
 
-    fn add_failed(&mut self, label: String, why: String) {
-        let [label, why] = [label, why].map(Value::Text);
-        let Some(Stretch { columns, count }) = self.stretches.last_mut() else {
-            self.add([label, why].into_iter(), false);
-            return;
-        };
-        let row = count.rows as usize;
-        if let [labels, .., errors] = columns.as_mut_slice() {
-            labels.set(row, label);
-            errors.set(row, why);
+    fn add_failed(&mut self, label: Cell<'_>, why: &str) {
+        let why = Cell::Text(why);
+        match self.stretches.last_mut() {
+            Some(last) => last.add_failed(label, why),
+            None => self.add(|give| {
+                give(label);
+                give(why);
+                false
+            }),
         }
-        count.rows += 1;
     }
 }
 
 impl Stretch {
+    /// Adds a row; false, and nothing is added, where it has another number of cells than those before it.
+    fn add(&mut self, cells: impl Fn(&mut dyn FnMut(Cell<'_>)) -> bool) -> bool {
+        let Stretch { columns, count } = self;
+        let row = count.rows as usize;
+        let mut at = 0;
+        let rejected = cells(&mut |cell| {
+            if row == 0 {
+                columns.push(ResultColumn::Texts(None));
+            }
+            if let Some(column) = columns.get_mut(at) {
+                column.set(row, cell);
+            }
+            at += 1;
+        });
+        let fits = at == columns.len();
+        match fits {
+            true => {
+                count.rows += 1;
+                count.rejected += u64::from(rejected);
+            }
+            false => columns.iter_mut().for_each(|column| column.cut(row)),
+        }
+        fits
+    }
+
+    fn add_failed(&mut self, label: Cell<'_>, why: Cell<'_>) {
+        let row = self.count.rows as usize;
+        if let [labels, .., errors] = self.columns.as_mut_slice() {
+            labels.set(row, label);
+            errors.set(row, why);
+        }
+        self.count.rows += 1;
+    }
+
     /// As many columns as these heads: where it has others, its rows have labels and errors alone.
     fn below(self, heads: &[Head]) -> Vec<ResultColumn> {
         let Stretch { mut columns, count } = self;
@@ -501,22 +521,35 @@ impl ResultColumn {
         }
     }
 
-    /// Sets the cell of a row behind those that are there; a column of which nothing is there becomes one of numbers by one.
-    fn set(&mut self, row: usize, value: Value) {
-        if let (ResultColumn::Texts(None), Value::Number(_)) = (&*self, &value) {
-            *self = ResultColumn::Numbers(Vec::new());
+    /// Makes it no longer than this.
+    fn cut(&mut self, rows: usize) {
+        match self {
+            ResultColumn::Numbers(numbers) => numbers.truncate(rows),
+            ResultColumn::Texts(Some(texts)) => texts.truncate(rows),
+            ResultColumn::Texts(None) => {}
         }
-        match (self, value) {
-            (ResultColumn::Numbers(numbers), Value::Number(x)) => {
+    }
+
+    /// Sets the cell of a row behind those that are there; a column of which nothing is there becomes one of numbers by one.
+    fn set(&mut self, row: usize, cell: Cell<'_>) {
+        match cell {
+            Cell::Number(x) => self.set_number(row, x.unwrap_or(f64::NAN)),
+            // A seed is at most 2^53.
+            Cell::Seed(seed) => self.set_number(row, seed.map_or(f64::NAN, |x| x as f64)),
+            Cell::Text("") => {}
+            Cell::Text(text) => self.append(row, ResultColumn::Texts(Some(vec![text.to_owned()]))),
+        }
+    }
+
+    fn set_number(&mut self, row: usize, x: f64) {
+        if let ResultColumn::Texts(None) = self {
+            *self = ResultColumn::Numbers(Vec::with_capacity(BLOCK));
+        }
+        if let ResultColumn::Numbers(numbers) = self {
+            if numbers.len() < row {
                 numbers.resize(row, f64::NAN);
-                numbers.push(x);
             }
-            (ResultColumn::Texts(texts), Value::Text(text)) if !text.is_empty() => {
-                let texts = texts.get_or_insert_default();
-                texts.resize(row, String::new());
-                texts.push(text);
-            }
-            _ => {}
+            numbers.push(x);
         }
     }
 

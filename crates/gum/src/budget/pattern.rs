@@ -389,7 +389,10 @@ impl Restated {
         if !self.is_stated(cells, lane) {
             return None;
         }
-        let (amount, dof) = (self.amount.of_row(cells, lane), self.dof.of_row(cells, lane));
+        let (amount, dof) = (
+            self.amount.of_row(cells, lane),
+            self.dof.of_row(cells, lane),
+        );
         self.plain.with(amount, dof, &budget.conventions)
     }
 

@@ -130,8 +130,8 @@ impl Expected<'_> {
                     .coverage_factor()
                     .is_some_and(|k| printed.is_nearest(k)),
                 _ => {
-                    printed.is_nearest(*freedom)
-                        || reported.dof.is_some_and(|nu| printed.is_nearest(nu))
+                    is_freedom(printed, *freedom)
+                        || reported.dof.is_some_and(|nu| is_freedom(printed, nu))
                 }
             })
     }
@@ -165,6 +165,11 @@ impl Expected<'_> {
             expanded && y.is_nearest(reported.estimate) && (y.unit / half.unit - 1.0).abs() < 1e-9
         })
     }
+}
+
+/// Whether it is so many degrees of freedom: ∞ stands for more than 10 000, too, on which k does not depend.
+fn is_freedom(printed: Printed, nu: f64) -> bool {
+    printed.is_nearest(nu) || printed.value.is_infinite() && nu > 1e4
 }
 
 /// The blocks in which the program speaks; what users wrote and tables of both methods, under their names, are left

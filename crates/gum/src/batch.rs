@@ -22,8 +22,8 @@ use gumption_format::csv::faults::NO_HEADER;
 use gumption_format::csv::{self, Columns, Pieces, Sheet};
 use gumption_lanes::LANES;
 
-/// Rows that a thread takes at a time: as many as are evaluated together.
-const BLOCK: usize = LANES;
+/// Rows that a thread takes at a time, and that are added to one another: as many as are evaluated together.
+pub const BLOCK: usize = LANES;
 
 /// Rows of a table in memory after which what was found is taken: some blocks for each thread, and little memory.
 const STRETCH: usize = 64 * BLOCK;

@@ -75,49 +75,55 @@ fn times(a: f64, b: f64) -> f64 {
     a * b + f64::MIN_POSITIVE
 }
 
-/// The length of the sum of two vectors of these lengths.
+/// The length of the sum of two vectors of these lengths. Whether they are at right angles is a constant of the loop:
+/// with a branch in it, it is not vectorised.
 #[inline(always)]
-fn length(a: f64, b: f64, apart: bool) -> f64 {
+fn length<const APART: bool>(a: f64, b: f64) -> f64 {
+    if !APART {
+        return a + b;
+    }
     // Of two that are both tiny the square is lost, the larger one is not.
     let larger = if a > b { a } else { b };
     let root = (a * a + b * b).sqrt();
-    match apart {
-        true if root > larger => root,
-        true => larger,
-        false => a + b,
-    }
+    if root > larger { root } else { larger }
 }
 
 /// `out` ← bounds of a + b or a − b.
 pub fn sum(level: Level, a: &Bounds, b: &Bounds, apart: bool, out: &mut Bounds) {
+    match apart {
+        true => sums::<true>(level, a, b, out),
+        false => sums::<false>(level, a, b, out),
+    }
+}
+
+fn sums<const APART: bool>(level: Level, a: &Bounds, b: &Bounds, out: &mut Bounds) {
     dispatch!(level, _ => for lane in 0..LANES {
         let (a, b) = (a.at(lane), b.at(lane));
         out.set(lane, Bound {
-            first: length(a.first, b.first, apart),
+            first: length::<APART>(a.first, b.first),
             diagonal: a.diagonal + b.diagonal,
-            second: length(a.second, b.second, apart),
-            third: length(a.third, b.third, apart),
+            second: length::<APART>(a.second, b.second),
+            third: length::<APART>(a.third, b.third),
         });
     })
 }
 
 #[inline(always)]
-fn product_of([x, y]: [f64; 2], a: Bound, b: Bound, apart: bool) -> Bound {
+fn product_of<const APART: bool>([x, y]: [f64; 2], a: Bound, b: Bound) -> Bound {
     let (x, y) = (x.abs(), y.abs());
     let mixed = times(a.first, b.first);
-    let straight = length(y * a.second, x * b.second, apart);
+    let straight = length::<APART>(y * a.second, x * b.second);
     let more = times(a.first, b.diagonal) + times(b.first, a.diagonal);
-    let third = length(y * a.third, x * b.third, apart) + more;
+    let third = length::<APART>(y * a.third, x * b.third) + more;
     let crossed = 2.0 * (times(a.second, b.first) + times(b.second, a.first));
     Bound {
-        first: length(y * a.first, x * b.first, apart),
-        diagonal: y * a.diagonal + x * b.diagonal + if apart { 0.0 } else { 2.0 * mixed },
-        second: length(
+        first: length::<APART>(y * a.first, x * b.first),
+        diagonal: y * a.diagonal + x * b.diagonal + if APART { 0.0 } else { 2.0 * mixed },
+        second: length::<APART>(
             straight,
-            mixed * if apart { std::f64::consts::SQRT_2 } else { 2.0 },
-            apart,
+            mixed * if APART { std::f64::consts::SQRT_2 } else { 2.0 },
         ),
-        third: if apart { third } else { third + crossed },
+        third: if APART { third } else { third + crossed },
     }
 }
 
@@ -130,9 +136,22 @@ pub fn product(
     apart: bool,
     out: &mut Bounds,
 ) {
+    match apart {
+        true => products::<true>(level, x, a, b, out),
+        false => products::<false>(level, x, a, b, out),
+    }
+}
+
+fn products<const APART: bool>(
+    level: Level,
+    [x, y]: [&Block; 2],
+    a: &Bounds,
+    b: &Bounds,
+    out: &mut Bounds,
+) {
     dispatch!(level, _ => for lane in 0..LANES {
-        let x = [x[0].0[lane], x[1].0[lane]];
-        out.set(lane, product_of(x, a.at(lane), b.at(lane), apart));
+        let values = [x.0[lane], y.0[lane]];
+        out.set(lane, product_of::<APART>(values, a.at(lane), b.at(lane)));
     })
 }
 
@@ -151,9 +170,9 @@ fn composed_of(slopes: [f64; 3], a: Bound) -> Bound {
 }
 
 /// `out` ← bounds of a function with these first three derivatives.
-pub fn composed(level: Level, slopes: [&Block; 3], a: &Bounds, out: &mut Bounds) {
+pub fn composed(level: Level, [f, g, h]: [&Block; 3], a: &Bounds, out: &mut Bounds) {
     dispatch!(level, _ => for lane in 0..LANES {
-        let slopes = [slopes[0].0[lane], slopes[1].0[lane], slopes[2].0[lane]];
+        let slopes = [f.0[lane], g.0[lane], h.0[lane]];
         out.set(lane, composed_of(slopes, a.at(lane)));
     })
 }
@@ -167,11 +186,24 @@ pub fn quotient(
     apart: bool,
     out: &mut Bounds,
 ) {
+    match apart {
+        true => quotients::<true>(level, x, a, b, out),
+        false => quotients::<false>(level, x, a, b, out),
+    }
+}
+
+fn quotients<const APART: bool>(
+    level: Level,
+    [x, y]: [&Block; 2],
+    a: &Bounds,
+    b: &Bounds,
+    out: &mut Bounds,
+) {
     dispatch!(level, _ => for lane in 0..LANES {
-        let r = 1.0 / x[1].0[lane];
+        let r = 1.0 / y.0[lane];
         let r2 = r * r;
         let inverse = composed_of([r2, 2.0 * r2 * r, 6.0 * r2 * r2], b.at(lane));
-        out.set(lane, product_of([x[0].0[lane], r], a.at(lane), inverse, apart));
+        out.set(lane, product_of::<APART>([x.0[lane], r], a.at(lane), inverse));
     })
 }
 

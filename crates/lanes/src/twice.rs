@@ -219,10 +219,11 @@ fn digits_of(x: f64, ten: f64) -> Option<f64> {
     (scaled.abs() < FIFTEEN_DIGITS && digits / ten == x).then_some(digits)
 }
 
-/// The part of a decimal, so many digits over a power of ten, that the double next to it lacks.
+/// The part of a decimal, so many digits over a power of ten, that the double next to it lacks. A double next to a quotient
+/// leaves a remainder that is a double (Markstein 1990): this is rounded once, and the same by any power of ten.
 #[inline(always)]
 fn rest_of(x: f64, digits: f64, ten: f64) -> f64 {
-    add(div([digits, 0.0], [ten, 0.0]), [-x, -0.0])[0]
+    x.mul_add(-ten, digits) / ten
 }
 
 /// The decimal from which x was read, where that has a fraction and at most 15 digits; found without being written.
@@ -235,43 +236,69 @@ pub fn short_decimal(x: f64) -> Option<Twice> {
     found.map(|(digits, ten)| [x, rest_of(x, digits, ten)])
 }
 
+/// Lanes that are looked at together.
+const WIDTH: usize = 8;
+
+/// Notes in `found` this power of ten for each number that is a whole one of at most 15 digits by it, and for which none is
+/// noted yet; what has happened. As wide as the numbers, and without branches within the loops: so they are vectorised.
+#[inline(always)]
+fn look(x: &[f64; WIDTH], ten: f64, found: &mut [f64; WIDTH]) -> Look {
+    let (mut near, mut open) = (0u64, 0u64);
+    for lane in 0..WIDTH {
+        let scaled = x[lane] * ten;
+        let off = (scaled - scaled.round_ties_even()).abs();
+        let unknown = (found[lane] == 0.0) & (scaled.abs() < FIFTEEN_DIGITS);
+        near |= u64::from(unknown & (off <= 2.0 * f64::EPSILON * scaled.abs()));
+        open |= u64::from(unknown);
+    }
+    // Where the quotient of a number is x, the product is off by no more than two roundings: elsewhere there is
+    // nothing to divide.
+    if near == 0 {
+        return if open == 0 { Look::Over } else { Look::Nothing };
+    }
+    for lane in 0..WIDTH {
+        let scaled = x[lane] * ten;
+        let hit = (scaled.round_ties_even() / ten == x[lane])
+            & (scaled.abs() < FIFTEEN_DIGITS)
+            & (found[lane] == 0.0);
+        found[lane] = if hit { ten } else { found[lane] };
+    }
+    Look::Near
+}
+
+/// What a power of ten has shown.
+#[derive(PartialEq)]
+enum Look {
+    /// There may be numbers with so many decimals.
+    Near,
+    /// There are none.
+    Nothing,
+    /// No number is open that has digits left.
+    Over,
+}
+
 /// What is known of the decimals from which numbers were read, as far as they are whole or [`short_decimal`]s; the error
 /// of all others is NaN. Tells whether there are such.
 pub fn decimals(level: Level, x: &Block, out: &mut KnownBlock) -> bool {
-    /// Lanes that are looked at together.
-    const WIDTH: usize = 8;
     let mut tens = Block::ZERO;
     dispatch!(level, _ => {
         let chunks = x.0.as_chunks::<WIDTH>().0.iter().zip(tens.0.as_chunks_mut::<WIDTH>().0);
+        // The numbers of a column have about as many decimals.
+        let mut usual = TENS[1];
         for (x, found) in chunks {
             for lane in 0..WIDTH {
                 let whole = x[lane].fract() == 0.0 && x[lane].abs() < 1.0 / f64::EPSILON;
                 found[lane] = if whole { 1.0 } else { 0.0 };
             }
+            look(x, usual, found);
+            if !found.contains(&0.0) {
+                continue;
+            }
             for ten in &TENS[1..] {
-                // As wide as the numbers, and without branches: so it is vectorised.
-                let (mut near, mut open) = (0u64, 0u64);
-                for lane in 0..WIDTH {
-                    let scaled = x[lane] * ten;
-                    let off = (scaled - scaled.round_ties_even()).abs();
-                    let unknown = (found[lane] == 0.0) & (scaled.abs() < FIFTEEN_DIGITS);
-                    near |= u64::from(unknown & (off <= 2.0 * f64::EPSILON * scaled.abs()));
-                    open |= u64::from(unknown);
-                }
-                if open == 0 {
-                    break;
-                }
-                // Where the quotient of a number is x, the product is off by no more than two roundings: elsewhere there is
-                // nothing to divide.
-                if near == 0 {
-                    continue;
-                }
-                for lane in 0..WIDTH {
-                    let scaled = x[lane] * ten;
-                    let hit = (scaled.round_ties_even() / ten == x[lane])
-                        & (scaled.abs() < FIFTEEN_DIGITS)
-                        & (found[lane] == 0.0);
-                    found[lane] = if hit { *ten } else { found[lane] };
+                match look(x, *ten, found) {
+                    Look::Near => usual = *ten,
+                    Look::Nothing => {}
+                    Look::Over => break,
                 }
             }
         }
@@ -279,13 +306,13 @@ pub fn decimals(level: Level, x: &Block, out: &mut KnownBlock) -> bool {
     let mut missed = 0;
     dispatch!(level, _ => for lane in 0..LANES {
         let (x, ten) = (x.0[lane], tens.0[lane]);
-        let low = rest_of(x, (x * ten).round(), ten);
-        let whole = ten == 1.0;
+        // Of a whole number nothing is lacking.
+        let low = rest_of(x, (x * ten).round_ties_even(), ten);
         let unknown = ten == 0.0;
         out.value[0].0[lane] = x;
-        out.value[1].0[lane] = if whole { 0.0 } else { low };
+        out.value[1].0[lane] = low;
         out.error.0[lane] = if unknown { f64::NAN } else { 0.0 };
-        out.doubles.0[lane] = if whole { 0.0 } else { ROUNDING * x.abs() };
+        out.doubles.0[lane] = if ten == 1.0 { 0.0 } else { ROUNDING * x.abs() };
         missed += u32::from(unknown);
     });
     missed > 0
@@ -301,11 +328,12 @@ mod tests {
         let mut block = Block::ZERO;
         for (lane, x) in block.0.iter_mut().enumerate() {
             let k = (lane * 7 + shift) as f64;
-            *x = match (lane + shift) % 5 {
+            *x = match (lane + shift) % 6 {
                 0 => k - 600.0,
                 1 => (k * 1234.5).round() / 1e3,
                 2 => (k + 1.0) / 7.0,
                 3 => ((k - 500.0) * 1e7).round() / 1e12,
+                4 => k * 1e10 + 0.25,
                 _ => -(k + 0.3) * 1e-30,
             };
         }

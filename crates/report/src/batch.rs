@@ -5,9 +5,10 @@ use super::{Report, failure, remarks, rows};
 use gumption_core::model::Output;
 use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection};
-use gumption_gum::batch::{Evaluated, Failed, Found};
+use gumption_gum::batch::{BLOCK, Evaluated, Failed, Found};
 use gumption_gum::budget::{BatchFile, Budget};
 use gumption_gum::propagate::Verdict;
+use std::borrow::Cow;
 
 /// What the lines hold beside what is reported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -103,6 +104,10 @@ impl Columns {
             }
             Err(failed) => Err(why(failed, self.language)),
         };
+        if lines.lines.is_empty() {
+            // The others are about as long.
+            text.reserve(BLOCK * text.len());
+        }
         lines.lines.push(Line {
             label,
             end: text.len(),
@@ -113,31 +118,18 @@ impl Columns {
 
     /// Adds the values of a row: as [`Columns::add`], but for the label of a row that has none.
     pub fn add_values(self, values: &mut Values, row: &Evaluated<'_>) {
-        let cells = &mut values.cells;
-        let mut rejected = false;
-        let begin = cells.len();
-        values.kept.get_or_insert_with(|| row.kept.0.to_vec());
-        let found = match &row.found {
+        let label = Cell::Text(row.label.unwrap_or_default());
+        values.keep(row.kept);
+        match &row.found {
             Ok((budget, found)) => {
                 values.heads.get_or_insert_with(|| self.heads(budget));
-                rejected = self.cells(budget, found, |cell| {
-                    cells.push(match cell {
-                        Cell::Number(x) => Value::Number(x.unwrap_or(f64::NAN)),
-                        // A seed is at most 2^53.
-                        Cell::Seed(seed) => Value::Number(seed.map_or(f64::NAN, |x| x as f64)),
-                        Cell::Codes(codes) => Value::Text(codes.to_owned()),
-                    });
+                values.add(|give| {
+                    give(label);
+                    self.cells(budget, found, give)
                 });
-                Ok(cells.len() - begin)
             }
-            Err(failed) => Err(why(failed, self.language)),
-        };
-        values.rows.push(RowOfValues {
-            label: row.label.map(str::to_owned),
-            kept: row.kept.1.iter().map(|field| field.to_string()).collect(),
-            found,
-            rejected,
-        });
+            Err(failed) => values.add_failed(label, &why(failed, self.language)),
+        }
     }
 
     /// The heads of the columns that rows of this budget have.
@@ -189,8 +181,8 @@ impl Columns {
                 }
                 let few = |one| Some((remarks::code(&row.few_degrees(one)?), Some(one)));
                 let few = measurands.filter_map(few);
-                give(Cell::Codes(&codes(budget, few)));
-                give(Cell::Codes(""));
+                give(Cell::Text(&codes(budget, few)));
+                give(Cell::Text(""));
                 false
             }
             Found::Evaluation(evaluation) => {
@@ -216,8 +208,8 @@ impl Columns {
                 }
                 let findings = evaluation.findings.iter();
                 let findings = findings.map(|one| (remarks::code(&one.kind), one.measurand));
-                give(Cell::Codes(&codes(budget, findings)));
-                give(Cell::Codes(""));
+                give(Cell::Text(&codes(budget, findings)));
+                give(Cell::Text(""));
                 let refuses = |verdict| verdict == Some(Verdict::NotConforming);
                 let mut conformity = evaluation.conformity.iter();
                 conformity.any(|found| refuses(found.verdict))
@@ -327,6 +319,13 @@ impl Table {
             self.waiting.push(lines);
             return Vec::new();
         };
+        let is_good = |line: &Line| line.cells.as_ref().is_ok_and(|cells| *cells == heads.len());
+        if self.headed && lines.lines.iter().all(is_good) {
+            self.count.rows += lines.lines.len() as u64;
+            let rejected = lines.lines.iter().filter(|line| line.rejected);
+            self.count.rejected += rejected.count() as u64;
+            return lines.text;
+        }
         let mut text = Vec::with_capacity(lines.text.len());
         if !self.headed {
             let (label, others) = heads.split_at(1);
@@ -349,7 +348,6 @@ impl Table {
                         text.extend_from_slice(whole);
                         continue;
                     }
-                    // A vector of another length, or an assessment more.
                     Ok(cells) => of_another_length(cells, heads),
                     Err(why) => why,
                 };
@@ -390,25 +388,107 @@ fn of_another_length(cells: usize, heads: &[Head]) -> String {
 pub struct Values {
     /// As of [`Lines`].
     heads: Option<Vec<Head>>,
-    kept: Option<Vec<String>>,
-    /// The cells behind the labels of those that have results.
-    cells: Vec<Value>,
-    rows: Vec<RowOfValues>,
+    /// What is kept of them, below its heads.
+    kept: Vec<(String, Vec<String>)>,
+    stretches: Vec<Stretch>,
 }
 
-#[derive(Debug)]
-struct RowOfValues {
-    label: Option<String>,
-    kept: Vec<String>,
-    /// How many cells it has; or why there are none.
-    found: Result<usize, String>,
-    rejected: bool,
+/// Rows that have equally many cells, as columns: the first are their labels, the last the errors of those among them that
+/// have no result.
+#[derive(Debug, Default)]
+struct Stretch {
+    columns: Vec<ResultColumn>,
+    count: Count,
 }
 
-#[derive(Debug)]
-enum Value {
-    Number(f64),
-    Text(String),
+impl Values {
+    /// Keeps the fields of a row below their heads.
+    fn keep(&mut self, (heads, fields): (&[String], &[Cow<'_, str>])) {
+        if self.kept.is_empty() {
+            let heads = heads.iter().cloned();
+            self.kept = heads.map(|head| (head, Vec::new())).collect();
+        }
+        for ((_, texts), field) in self.kept.iter_mut().zip(fields) {
+            texts.push(field.to_string());
+        }
+    }
+
+    /// Adds a row, of which `cells` gives the cells and tells whether an item does not conform.
+    fn add(&mut self, cells: impl Fn(&mut dyn FnMut(Cell<'_>)) -> bool) {
+        let added = self.stretches.last_mut().map(|last| last.add(&cells));
+        if added != Some(true) {
+            let mut stretch = Stretch::default();
+            stretch.add(&cells);
+            self.stretches.push(stretch);
+        }
+    }
+
+    fn add_failed(&mut self, label: Cell<'_>, why: &str) {
+        let why = Cell::Text(why);
+        match self.stretches.last_mut() {
+            Some(last) => last.add_failed(label, why),
+            None => self.add(|give| {
+                give(label);
+                give(why);
+                false
+            }),
+        }
+    }
+}
+
+impl Stretch {
+    /// Adds a row; false, and nothing is added, where it has another number of cells than those before it.
+    fn add(&mut self, cells: impl Fn(&mut dyn FnMut(Cell<'_>)) -> bool) -> bool {
+        let Stretch { columns, count } = self;
+        let row = count.rows as usize;
+        let mut at = 0;
+        let rejected = cells(&mut |cell| {
+            if row == 0 {
+                columns.push(ResultColumn::Texts(None));
+            }
+            if let Some(column) = columns.get_mut(at) {
+                column.set(row, cell);
+            }
+            at += 1;
+        });
+        let fits = at == columns.len();
+        match fits {
+            true => {
+                count.rows += 1;
+                count.rejected += u64::from(rejected);
+            }
+            false => columns.iter_mut().for_each(|column| column.cut(row)),
+        }
+        fits
+    }
+
+    fn add_failed(&mut self, label: Cell<'_>, why: Cell<'_>) {
+        let row = self.count.rows as usize;
+        if let [labels, .., errors] = self.columns.as_mut_slice() {
+            labels.set(row, label);
+            errors.set(row, why);
+        }
+        self.count.rows += 1;
+    }
+
+    /// As many columns as these heads: where it has others, its rows have labels and errors alone.
+    fn below(self, heads: &[Head]) -> Vec<ResultColumn> {
+        let Stretch { mut columns, count } = self;
+        let cells = columns.len();
+        if cells == heads.len() {
+            return columns;
+        }
+        let mut errors = columns.pop().map_or(Vec::new(), ResultColumn::texts);
+        errors.resize(count.rows as usize, String::new());
+        for error in errors.iter_mut().filter(|error| error.is_empty()) {
+            // A vector of another length, or an assessment more.
+            *error = of_another_length(cells, heads);
+        }
+        columns.truncate(1);
+        columns.extend(heads[2..].iter().map(ResultColumn::below));
+        columns.push(ResultColumn::Texts(Some(errors)));
+        columns
+    }
 }
 
 /// A column of results.
@@ -444,49 +524,36 @@ impl Results {
     pub fn add(&mut self, mut values: Values) {
         self.heads = self.heads.take().or(values.heads.take());
         if self.kept.is_empty() {
-            let kept = values.kept.take().unwrap_or_default().into_iter();
-            self.kept = kept.map(|head| (head, Vec::new())).collect();
+            let heads = values.kept.iter().map(|(head, _)| head.clone());
+            self.kept = heads.map(|head| (head, Vec::new())).collect();
         }
         self.waiting.push(values);
         let Some(heads) = &self.heads else { return };
         if self.columns.is_empty() {
-            let empty = |head: &Head| match head.numbers {
-                true => ResultColumn::Numbers(Vec::new()),
-                false => ResultColumn::Texts(None),
-            };
-            self.columns = heads.iter().map(empty).collect();
+            self.columns = heads.iter().map(ResultColumn::below).collect();
         }
         for values in std::mem::take(&mut self.waiting) {
-            let mut cells = values.cells.into_iter();
-            for row in values.rows {
-                let at = self.count.rows as usize;
-                self.count.rows += 1;
-                self.count.rejected += u64::from(row.rejected);
-                for ((_, texts), field) in self.kept.iter_mut().zip(row.kept) {
-                    texts.push(field);
-                }
-                let why = match row.found {
-                    Ok(count) if count + 1 == heads.len() => {
-                        for (column, cell) in self.columns[1..].iter_mut().zip(cells.by_ref()) {
-                            column.set(at, cell);
-                        }
-                        None
-                    }
-                    Ok(count) => {
-                        cells.by_ref().take(count).for_each(drop);
-                        Some(of_another_length(count + 1, heads))
-                    }
-                    Err(why) => Some(why),
-                };
-                if let [labels, .., errors] = self.columns.as_mut_slice() {
-                    labels.set(at, Value::Text(row.label.unwrap_or_default()));
-                    if let Some(why) = why {
-                        self.count.failed += 1;
-                        errors.set(at, Value::Text(why));
-                    }
-                }
+            for ((_, texts), (_, added)) in self.kept.iter_mut().zip(values.kept) {
+                texts.extend(added);
+            }
+            for stretch in values.stretches {
+                self.add_below(stretch);
             }
         }
+    }
+
+    /// Adds rows below the heads that are there.
+    fn add_below(&mut self, stretch: Stretch) {
+        let at = self.count.rows as usize;
+        self.count.rows += stretch.count.rows;
+        self.count.rejected += stretch.count.rejected;
+        let added = stretch.below(self.heads.as_deref().unwrap_or_default());
+        if let Some(ResultColumn::Texts(Some(errors))) = added.last() {
+            let failed = errors.iter().filter(|error| !error.is_empty());
+            self.count.failed += failed.count() as u64;
+        }
+        let columns = self.columns.iter_mut().zip(added);
+        columns.for_each(|(column, added)| column.append(at, added));
     }
 
     /// The columns with their heads, and how the rows have ended.
@@ -509,6 +576,21 @@ impl Results {
 }
 
 impl ResultColumn {
+    /// The empty one below a head.
+    fn below(head: &Head) -> ResultColumn {
+        match head.numbers {
+            true => ResultColumn::Numbers(Vec::new()),
+            false => ResultColumn::Texts(None),
+        }
+    }
+
+    fn texts(self) -> Vec<String> {
+        match self {
+            ResultColumn::Texts(texts) => texts.unwrap_or_default(),
+            ResultColumn::Numbers(_) => Vec::new(),
+        }
+    }
+
     /// Makes it so long.
     fn fill(&mut self, rows: usize) {
         match self {
@@ -518,19 +600,49 @@ impl ResultColumn {
         }
     }
 
-    /// Sets the cell of a row behind those that are there.
-    fn set(&mut self, row: usize, value: Value) {
-        match (self, value) {
-            (column @ ResultColumn::Numbers(_), Value::Number(x)) => {
-                column.fill(row);
-                if let ResultColumn::Numbers(numbers) = column {
-                    numbers.push(x);
-                }
+    /// Makes it no longer than this.
+    fn cut(&mut self, rows: usize) {
+        match self {
+            ResultColumn::Numbers(numbers) => numbers.truncate(rows),
+            ResultColumn::Texts(Some(texts)) => texts.truncate(rows),
+            ResultColumn::Texts(None) => {}
+        }
+    }
+
+    /// Sets the cell of a row behind those that are there; a column of which nothing is there becomes one of numbers by one.
+    fn set(&mut self, row: usize, cell: Cell<'_>) {
+        match cell {
+            Cell::Number(x) => self.set_number(row, x.unwrap_or(f64::NAN)),
+            // A seed is at most 2^53.
+            Cell::Seed(seed) => self.set_number(row, seed.map_or(f64::NAN, |x| x as f64)),
+            Cell::Text("") => {}
+            Cell::Text(text) => self.append(row, ResultColumn::Texts(Some(vec![text.to_owned()]))),
+        }
+    }
+
+    fn set_number(&mut self, row: usize, x: f64) {
+        if let ResultColumn::Texts(None) = self {
+            *self = ResultColumn::Numbers(Vec::with_capacity(BLOCK));
+        }
+        if let ResultColumn::Numbers(numbers) = self {
+            if numbers.len() < row {
+                numbers.resize(row, f64::NAN);
             }
-            (ResultColumn::Texts(texts), Value::Text(text)) if !text.is_empty() => {
+            numbers.push(x);
+        }
+    }
+
+    /// Adds a column from this row on, behind what is there.
+    fn append(&mut self, row: usize, added: ResultColumn) {
+        match (self, added) {
+            (ResultColumn::Numbers(numbers), ResultColumn::Numbers(added)) => {
+                numbers.resize(row, f64::NAN);
+                numbers.extend_from_slice(&added);
+            }
+            (ResultColumn::Texts(texts), ResultColumn::Texts(Some(added))) => {
                 let texts = texts.get_or_insert_default();
                 texts.resize(row, String::new());
-                texts.push(text);
+                texts.extend(added);
             }
             _ => {}
         }

@@ -4,7 +4,7 @@ use gumption_core::quantity::{Decimal, Rounded, Rounding, Unit, space_before};
 use gumption_gum::budget::CoverageRule;
 use gumption_gum::propagate::{Reason, Reported, ReportedUncertainty};
 
-use super::number::{STYLE, at_place, exact, freedom, print, significant};
+use super::number::{STYLE, at_place, effective, exact, print, significant};
 use super::{Report, symbol};
 use crate::language::Language;
 
@@ -102,7 +102,7 @@ impl<'a> Figures<'a> {
 
     /// ν that gave k.
     pub fn freedom(&self) -> Option<String> {
-        self.reported.dof.map(freedom)
+        self.reported.dof.map(effective)
     }
 
     /// `y = (… ± …) unit`, where the result is y ± U.

@@ -91,6 +91,27 @@ pub(super) fn probability(p: f64) -> String {
     format!("{} %", text.trim_end_matches('0').trim_end_matches('.'))
 }
 
+/// From here on ν is printed as infinite where it was not counted: k of the t distribution is that of the normal one then, at
+/// the two decimals that it is printed with and for every p up to 99.99 %. With z = 3.9 of that p, the first term of the
+/// difference, z(z² + 1)/4ν (Abramowitz and Stegun, 26.7.5), is 0.0016.
+const AS_GOOD_AS_INFINITE: f64 = 1e4;
+
+/// Effective degrees of freedom: as [`freedom`], but infinite where k no longer depends on it.
+pub(super) fn effective(dof: f64) -> String {
+    match dof > AS_GOOD_AS_INFINITE {
+        true => freedom(f64::INFINITY),
+        false => freedom(dof),
+    }
+}
+
+/// Degrees of freedom of a part of a budget: whole ones were counted or stated, the others are effective ones.
+pub(super) fn freedom_of_part(dof: f64) -> String {
+    match dof.fract() == 0.0 {
+        true => freedom(dof),
+        false => effective(dof),
+    }
+}
+
 /// Degrees of freedom: whole numbers as such, one decimal below 100, one digit where that were zero.
 pub(super) fn freedom(dof: f64) -> String {
     if dof > 0.0 && dof < 0.1 {
@@ -127,6 +148,16 @@ pub(super) fn in_unit(label: &str, unit: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn large_degrees_of_freedom_are_printed_where_they_were_counted() {
+        assert_eq!(freedom(19_999.0), "19999");
+        assert_eq!(freedom_of_part(19_999.0), "19999");
+        assert_eq!(freedom_of_part(14_406_318.7), "∞");
+        assert_eq!(effective(14_406_319.0), "∞");
+        assert_eq!(effective(9_999.0), "9999");
+        assert_eq!([freedom(16.74), effective(16.74)], ["16.7", "16.7"]);
+    }
 
     #[test]
     fn aligns_an_estimate_with_its_uncertainty() {

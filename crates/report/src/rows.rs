@@ -93,8 +93,8 @@ pub(super) enum Cell<'a> {
     Number(Option<f64>),
     /// A seed; nothing where there were no trials.
     Seed(Option<u64>),
-    /// Codes.
-    Codes(&'a str),
+    /// A label, a word, codes, an error.
+    Text(&'a str),
 }
 
 impl Cell<'_> {
@@ -105,7 +105,7 @@ impl Cell<'_> {
             // Writing to memory does not fail.
             Cell::Seed(Some(seed)) => drop(write!(text, "{seed}")),
             Cell::Number(None) | Cell::Seed(None) => {}
-            Cell::Codes(codes) => text.extend_from_slice(codes.as_bytes()),
+            Cell::Text(words) => text.extend_from_slice(words.as_bytes()),
         }
     }
 }
@@ -122,7 +122,7 @@ pub(super) fn cells(report: &Report<'_>, mut give: impl FnMut(Cell<'_>)) {
         figures(&found.figures(), &mut give);
     }
     for found in &report.evaluation.conformity {
-        give(Cell::Codes(
+        give(Cell::Text(
             found.verdict.map_or("", decisions::verdict_code),
         ));
         let known = found.conformance.as_ref();

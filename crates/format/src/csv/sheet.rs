@@ -342,6 +342,8 @@ impl<'a> Iterator for Rows<'a> {
             }
         } else {
             self.from = start + stop;
+            // There is no end of a line within it.
+            self.counted.0 = self.from;
             let line = &self.text[start..self.from];
             let separators = memchr_iter(self.separator, line.as_bytes()).count();
             (Fields::Line(line, self.separator), separators + 1)

@@ -84,6 +84,20 @@ impl Number {
         }
     }
 
+    /// Of the first `count` rows.
+    fn of_rows(self, cells: &[Block], count: usize, numbers: &mut Block) {
+        let numbers = &mut numbers.0[..count];
+        match self {
+            Number::In(column, None) => numbers.copy_from_slice(&cells[column].0[..count]),
+            Number::In(column, Some(conversion)) => {
+                for (number, cell) in numbers.iter_mut().zip(&cells[column].0) {
+                    *number = conversion.apply(*cell);
+                }
+            }
+            Number::Always(always) => numbers.fill(always),
+        }
+    }
+
     /// Whether the cell, if it is one, is greater than zero.
     fn is_positive(self, cells: &[Block], lane: usize) -> bool {
         match self {
@@ -214,18 +228,20 @@ impl Pattern {
     fn restate(&self, count: usize, numbers: &mut Numbers) {
         let Numbers { cells, taken, rows } = numbers;
         for (input, number) in &self.estimates {
-            for lane in 0..count {
-                rows.estimates[*input].0[lane] = number.of_row(cells, lane);
-            }
+            number.of_rows(cells, count, &mut rows.estimates[*input]);
         }
         for one in &self.restated {
             let (u, dof) = (&mut rows.u[one.component], &mut rows.dof[one.component]);
-            for (lane, taken) in taken[..count].iter_mut().enumerate().filter(|one| *one.1) {
-                match one.of_row(cells, lane, &self.budget) {
-                    Some((number, _)) => u.0[lane] = number,
+            one.amount.of_rows(cells, count, u);
+            one.dof.of_rows(cells, count, dof);
+            for (lane, taken) in taken[..count].iter_mut().enumerate() {
+                let (u, dof) = (&mut u.0[lane], dof.0[lane]);
+                let stated = *taken && one.is_stated(cells, lane);
+                let found = stated.then(|| one.plain.u(*u, dof, &self.budget.conventions));
+                match found.flatten() {
+                    Some(found) => *u = found,
                     None => *taken = false,
                 }
-                dof.0[lane] = one.dof.of_row(cells, lane);
             }
         }
     }
@@ -370,10 +386,19 @@ impl Pattern {
 impl Restated {
     /// u and the distribution in a row.
     fn of_row(&self, cells: &[Block], lane: usize, budget: &Budget) -> Option<(f64, Distribution)> {
-        let stated = self.amount.is_positive(cells, lane) && self.dof.is_positive(cells, lane);
-        let numbers = stated.then(|| [self.amount, self.dof].map(|one| one.of_row(cells, lane)));
-        let [amount, dof] = numbers?;
+        if !self.is_stated(cells, lane) {
+            return None;
+        }
+        let (amount, dof) = (
+            self.amount.of_row(cells, lane),
+            self.dof.of_row(cells, lane),
+        );
         self.plain.with(amount, dof, &budget.conventions)
+    }
+
+    /// Whether a row states more than zero.
+    fn is_stated(&self, cells: &[Block], lane: usize) -> bool {
+        self.amount.is_positive(cells, lane) && self.dof.is_positive(cells, lane)
     }
 }
 

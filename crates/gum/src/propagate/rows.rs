@@ -156,17 +156,18 @@ impl RowEvaluation {
     fn input_uncertainties(&mut self, rows: &Rows) {
         let mut largest = vec![Block::ZERO; self.u.len()];
         for entry in &self.entries {
-            let u = &rows.u[entry.component];
+            let (u, coefficient) = (&rows.u[entry.component], entry.coefficient);
             for (largest, u) in largest[entry.input].0.iter_mut().zip(&u.0) {
-                *largest = f64::max(*largest, (entry.coefficient * u).abs());
+                *largest = f64::max(*largest, (coefficient * u).abs());
             }
         }
         self.u.fill(Block::ZERO);
         for entry in &self.entries {
             let (u, largest) = (&rows.u[entry.component], &largest[entry.input]);
+            let (coefficient, sum) = (entry.coefficient, &mut self.u[entry.input]);
             for lane in 0..LANES {
-                let part = entry.coefficient * u.0[lane] / largest.0[lane];
-                self.u[entry.input].0[lane] += part * part;
+                let part = coefficient * u.0[lane] / largest.0[lane];
+                sum.0[lane] += part * part;
             }
         }
         for (u, largest) in self.u.iter_mut().zip(&largest) {
@@ -206,15 +207,14 @@ impl RowEvaluation {
         let mut largest = Block::ZERO;
         for (entry, weight) in self.entries.iter().zip(&mut of.weights) {
             let (c, u) = (&of.gradient[entry.input], &rows.u[entry.component]);
+            let coefficient = entry.coefficient;
             for lane in 0..LANES {
-                let one = (c.0[lane] * entry.coefficient) * u.0[lane];
+                let one = (c.0[lane] * coefficient) * u.0[lane];
                 weight.0[lane] = one;
                 // Of what is not a number u is none.
-                largest.0[lane] = match one.is_nan() {
-                    true => f64::NAN,
-                    false if largest.0[lane] < one.abs() => one.abs(),
-                    false => largest.0[lane],
-                };
+                let (size, before) = (one.abs(), largest.0[lane]);
+                let larger = (before < size) | size.is_nan();
+                largest.0[lane] = if larger { size } else { before };
             }
         }
         let [mut u, mut sum] = [Block::ZERO; 2];
@@ -272,9 +272,9 @@ impl RowEvaluation {
         }
         let [mut largest, mut others, mut exceeds] = [Block::ZERO; 3];
         for (input, bend) in bends.iter().enumerate() {
+            let (gradient, own, x) = (&gradient[input], &self.u[input], &rows.estimates[input]);
             for lane in 0..LANES {
-                let (c, own) = (gradient[input].0[lane], self.u[input].0[lane]);
-                let x = rows.estimates[input].0[lane].abs();
+                let (c, own, x) = (gradient.0[lane], own.0[lane], x.0[lane].abs());
                 let (part, bend) = ((c * own).abs() / u.0[lane], bend.0[lane] / u.0[lane]);
                 let seen = part > RESIDUE * SPARE
                     && (part >= VANISHED * SPARE * bend || bend * SPARE <= NEGLIGIBLE);
@@ -419,7 +419,7 @@ impl RowFigures<'_> {
     /// What is reported of a measurand.
     pub fn figures(&self, measurand: usize) -> Figures {
         let (of, lane) = (&self.of.measurands[measurand], self.lane);
-        let [estimate, u, k] = [&of.estimate, &of.u, &of.k].map(|block| block.0[lane]);
+        let (estimate, u, k) = (of.estimate.0[lane], of.u.0[lane], of.k.0[lane]);
         let conventions = &self.of.budget.conventions;
         let expanded = k * u;
         Figures {

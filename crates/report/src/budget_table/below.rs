@@ -5,7 +5,7 @@ use crate::Report;
 use crate::comparison;
 use crate::figures::Figures;
 use crate::language::{Language, Word};
-use crate::number::{NONE, TABLE_DIGITS, freedom, percent, probability, significant};
+use crate::number::{NONE, TABLE_DIGITS, effective, percent, probability, significant};
 use gumption_format::document::{Cell, ColumnKind, Table};
 use gumption_gum::propagate::{
     Basis, Coverage, Freedom, Gum, ReportedUncertainty, StatedProbability,
@@ -55,7 +55,7 @@ pub(super) fn footer(report: &Report<'_>, measurand: usize) -> Vec<(String, Stri
         rows.push((word, format!("{symbol} = {}", figures.amount(&u))));
     }
     if of_gum {
-        rows.push((Word::FreedomEffective, effective(gum, &figures, l)));
+        rows.push((Word::FreedomEffective, freedom(gum, &figures, l)));
     }
     if let Some(k) = figures.k() {
         let why = match of_gum {
@@ -85,26 +85,23 @@ pub(super) fn footer(report: &Report<'_>, measurand: usize) -> Vec<(String, Stri
 }
 
 /// ν_eff: the one that gave k, and what it was cut from.
-fn effective(gum: &Gum, figures: &Figures<'_>, l: Language) -> String {
-    let found = gum.freedom.value();
+fn freedom(gum: &Gum, figures: &Figures<'_>, l: Language) -> String {
+    let found = effective(gum.freedom.value());
     let relation = match gum.freedom {
-        Freedom::Refused { .. } => "≥",
+        Freedom::Refused { .. } if found != effective(f64::INFINITY) => "≥",
         _ => "=",
     };
-    match figures.reported.dof {
-        Some(used) if freedom(used) != freedom(found) && used.is_finite() => l.pick(
-            format!(
-                "ν_eff {relation} {} (cut from {})",
-                freedom(used),
-                freedom(found)
-            ),
-            format!(
-                "ν_eff {relation} {}（由 {} 截尾）",
-                freedom(used),
-                freedom(found)
-            ),
+    match figures
+        .reported
+        .dof
+        .filter(|used| used.is_finite())
+        .map(effective)
+    {
+        Some(used) if used != found => l.pick(
+            format!("ν_eff {relation} {used} (cut from {found})"),
+            format!("ν_eff {relation} {used}（由 {found} 截尾）"),
         ),
-        _ => format!("ν_eff {relation} {}", freedom(found)),
+        _ => format!("ν_eff {relation} {found}"),
     }
 }
 

@@ -6,7 +6,9 @@ mod beside;
 mod common;
 
 use crate::language::{Language, Word};
-use crate::number::{NONE, TABLE_DIGITS, aligned, freedom, percent, significant};
+use crate::number::{
+    NONE, TABLE_DIGITS, aligned, effective, freedom_of_part, percent, significant,
+};
 use crate::{Report, symbol};
 use gumption_format::document::Block;
 use gumption_format::document::{Cell, ColumnKind, Row, Table};
@@ -135,7 +137,7 @@ fn table(report: &Report<'_>, measurand: usize, selection: &Selection) -> Table 
         symbol(unit).into(),
         significant(gum.u, TABLE_DIGITS).into(),
         Cell::Empty,
-        freedom(gum.freedom.value()).into(),
+        effective(gum.freedom.value()).into(),
         Cell::Empty,
         significant(gum.u, TABLE_DIGITS).into(),
         percent(gum.inputs.iter().map(|c| c.share).sum()).into(),
@@ -156,7 +158,7 @@ fn input_rows(report: &Report<'_>, gum: &Gum, i: usize, table: &mut Table) {
         symbol(&input.unit).into(),
         significant(line.u, TABLE_DIGITS).into(),
         only.map_or(Cell::Empty, |c| distribution(c, report.language).into()),
-        freedom(line.dof).into(),
+        freedom_of_part(line.dof).into(),
         sensitivity(line, gum, input.estimate).into(),
         contribution(line.contribution, gum).into(),
         share(line, gum).into(),
@@ -194,7 +196,7 @@ fn component_row(
         symbol(&input.unit).into(),
         significant(u, TABLE_DIGITS).into(),
         distribution(component, report.language).into(),
-        freedom(component.dof).into(),
+        freedom_of_part(component.dof).into(),
         Cell::Empty,
         contribution(line.sensitivity * term.coefficient * component.u, gum).into(),
         share,
@@ -218,7 +220,7 @@ fn source_rows(report: &Report<'_>, gum: &Gum, table: &mut Table) {
             symbol(&component.unit).into(),
             significant(line.u, TABLE_DIGITS).into(),
             distribution(component, report.language).into(),
-            freedom(line.dof).into(),
+            freedom_of_part(line.dof).into(),
             sensitivity(line, gum, 0.0).into(),
             contribution(line.contribution, gum).into(),
             share(line, gum).into(),

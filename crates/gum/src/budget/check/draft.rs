@@ -214,7 +214,7 @@ pub(super) fn t_or_normal(u: f64, dof: f64, conventions: &Conventions) -> Option
 }
 
 /// Scale of the t distribution that stands for u; nothing where the conventions ask for one that does not exist.
-fn t_scale_of(u: f64, dof: f64, conventions: &Conventions) -> Option<f64> {
+pub(super) fn t_scale_of(u: f64, dof: f64, conventions: &Conventions) -> Option<f64> {
     match conventions.t_scale {
         TScale::Scale => Some(u),
         TScale::StandardDeviation if dof > 2.0 => Some(u * ((dof - 2.0) / dof).sqrt()),

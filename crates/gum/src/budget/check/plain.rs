@@ -1,6 +1,6 @@
 //! Components that one number states, so that another number there changes nothing but u and the distribution.
 
-use super::draft::t_or_normal;
+use super::draft::{t_or_normal, t_scale_of};
 use super::shapes::{default_shape, stated_shape};
 use super::ways::{Way, stated_ways};
 use crate::budget::Conventions;
@@ -98,6 +98,31 @@ impl Plain {
         (table.distribution.is_some() == plain.named).then_some((plain, keys))
     }
 
+    /// u alone of what [`Plain::with`] gives: many rows need no more.
+    pub(in crate::budget) fn u(
+        &self,
+        number: f64,
+        dof: f64,
+        conventions: &Conventions,
+    ) -> Option<f64> {
+        match (self.shape.word, self.width(number)) {
+            (Word::Bell(Bell::Normal), Width::U(u)) if self.named || dof.is_infinite() => Some(u),
+            (Word::Bell(_), Width::U(u)) if dof.is_finite() => {
+                t_scale_of(u, dof, conventions).map(|_| u)
+            }
+            _ => self.with(number, dof, conventions).map(|(u, _)| u),
+        }
+    }
+
+    fn width(&self, number: f64) -> Width {
+        match self.measure {
+            Measure::U => Width::U(number),
+            Measure::HalfWidth => Width::Half(number),
+            Measure::Step => Width::Half(number / 2.0),
+            Measure::Expanded { k } => Width::U(number / k),
+        }
+    }
+
     /// u and the distribution with another number, greater than zero, in the unit of the component; `None` where the
     /// statement is to be looked at.
     pub(in crate::budget) fn with(
@@ -106,20 +131,14 @@ impl Plain {
         dof: f64,
         conventions: &Conventions,
     ) -> Option<(f64, Distribution)> {
-        let width = match self.measure {
-            Measure::U => Width::U(number),
-            Measure::HalfWidth => Width::Half(number),
-            Measure::Step => Width::Half(number / 2.0),
-            Measure::Expanded { k } => Width::U(number / k),
-        };
-        match (self.shape.word, width) {
+        match (self.shape.word, self.width(number)) {
             (Word::Bell(Bell::Normal), Width::U(u)) if self.named => {
                 Some((u, Distribution::Normal(Normal { mean: 0.0, sd: u })))
             }
             (Word::Bell(bell), Width::U(u)) if bell == Bell::Normal || dof.is_finite() => {
                 Some((u, t_or_normal(u, dof, conventions)?))
             }
-            (Word::Limits, _) => {
+            (Word::Limits, width) => {
                 let spread = self.shape.of_width(width, 0.0, "").ok()?;
                 Some((spread.u, spread.distribution))
             }

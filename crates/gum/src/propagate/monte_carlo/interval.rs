@@ -298,11 +298,11 @@ impl Cuts {
             .step_by(values.len() / PILOT)
             .copied()
             .collect();
-        pilot.sort_unstable_by(f64::total_cmp);
         let count = pilot.len() as f64;
-        let place = |share: f64, errors: f64| {
+        let mut place = |share: f64, errors: f64| {
             let error = (share * (1.0 - share) / count).sqrt() + 1.0 / count;
-            pilot[((share + errors * error) * count) as usize]
+            let rank = ((share + errors * error) * count) as usize;
+            *pilot.select_nth_unstable_by(rank, f64::total_cmp).1
         };
         let share = depth as f64 / values.len() as f64;
         Some(Cuts {

@@ -52,6 +52,8 @@ mod samples;
 mod thread_counts;
 mod thread_pool;
 
+use std::borrow::Cow;
+
 use super::error::EvaluationError;
 use super::options::Workers;
 use super::result::{AdaptiveRun, Histogram, MonteCarlo, Quasi, Run};
@@ -259,8 +261,12 @@ impl Question<'_> {
     ) -> (MonteCarlo, Verdict) {
         match held {
             Held::Columns(columns) => {
-                let mut values = columns[output].clone();
-                values.retain(|value| value.is_finite());
+                let column = columns[output].as_slice();
+                let is_finite = |value: &f64| value.is_finite();
+                let values = match column.iter().all(is_finite) {
+                    true => Cow::Borrowed(column),
+                    false => column.iter().copied().filter(is_finite).collect(),
+                };
                 let ordered = Ordered::new(&values, self.depth(values.len()));
                 let picture = |interval| {
                     histogram::histogram(&values, ordered.range(), interval, self.threads)

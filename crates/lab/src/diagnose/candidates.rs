@@ -283,7 +283,7 @@ pub(super) fn question(
 fn cause(cells: &[Cell], index: usize) -> usize {
     let cell = &cells[index];
     let stands =
-        |other: &Cell| cell.effect.order_of == Some(other.effect.id) && other.place == cell.place;
+        |other: &Cell| cell.effect.order_of.contains(&other.effect.id) && other.place == cell.place;
     cells.iter().position(stands).unwrap_or(index)
 }
 

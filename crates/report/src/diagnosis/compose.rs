@@ -70,7 +70,7 @@ fn fields(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<(String, Strin
     vec![
         (
             l.pick("Declared model", "声明的模型").into(),
-            case.model.join("; "),
+            case.model_lines().join("; "),
         ),
         (
             l.pick("Recording", "记录").into(),

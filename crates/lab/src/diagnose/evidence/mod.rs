@@ -99,6 +99,7 @@ pub use findings::{
     Alternative, Confusion, Examination, Fitted, Invisible, Level, Rival, Slot, State, Variant,
     Verdict,
 };
+pub use grades::{Likeness, likeness};
 pub use locate::{Cell, Located, locate};
 pub use noise::{Correlation, Covariance, Noise};
 pub use omitted::omitted;

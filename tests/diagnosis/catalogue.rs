@@ -350,6 +350,80 @@ fn readings_that_stay_at_one_value_are_saturated() {
 }
 
 #[test]
+fn an_output_that_reaches_its_limit_is_saturated_whatever_it_is_made_of() {
+    // A gas analyser: neither concentration nor pressure alone says where the display ends.
+    let mut noise = Noise(12);
+    let mut rows = "c [ppm],P [hPa],A\n".to_owned();
+    for row in 0..60 {
+        let c = 40.0 * f64::from(row % 6);
+        let pressure = 1000.0 + 40.0 * libm::sin(1.7 * f64::from(row));
+        let absorbance = 0.005 + 2e-6 * c * pressure + 4e-4 * noise.normal();
+        let _ = writeln!(rows, "{c},{pressure:.1},{:.5}", absorbance.min(0.405));
+    }
+    let case = "equations = \"A = A0 + k*c*P\"\n[columns]\nA = \"output\"\nc = \"stimulus\"\nP = \"stimulus\"\n[noise]\nu = 4e-4\n";
+    let found = diagnosed("ceiling", &rows, case);
+    let (names, label) = first(&found);
+    assert_eq!(
+        (names, label.as_str()),
+        (vec!["saturation".to_owned()], "above 0.405"),
+        "{found}"
+    );
+}
+
+#[test]
+fn a_scale_that_bends_with_temperature_far_from_zero_is_named() {
+    let mut noise = Noise(14);
+    let mut rows = "t [h],q [l/min],T [degC],f [Hz]\n".to_owned();
+    for row in 0..80 {
+        let t = 0.04 * f64::from(row);
+        let q = 5.0 + 9.5 * f64::from(row * 7 % 11);
+        let temperature = 22.5 + 2.4 * libm::sin(1.9 * t) + 0.3 * noise.normal();
+        let warm = temperature - 22.5;
+        let f = 2.0 + 11.9 * q * (1.0 - 2e-4 * warm - 8e-5 * warm * warm);
+        let _ = writeln!(
+            rows,
+            "{t:.2},{q},{temperature:.2},{:.3}",
+            f + 0.05 * noise.normal()
+        );
+    }
+    let case = "equations = \"f = f0 + K*q\"\n[columns]\nt = \"time\"\nf = \"output\"\nq = \"stimulus\"\nT = \"covariate\"\n[noise]\nu = \"0.05 Hz\"\n";
+    let found = diagnosed("bent-scale", &rows, case);
+    let (names, label) = first(&found);
+    assert_eq!(names, ["sensitivity-scale-quadratic"], "{found}");
+    assert_eq!(label, "with a linear part");
+}
+
+#[test]
+fn what_one_of_several_outputs_has_alone_is_not_taken_for_its_noise() {
+    let mut noise = Noise(16);
+    let mut rows = "t [min],x [gn],y [gn],z [gn],ax [gn],ay [gn],az [gn]\n".to_owned();
+    for row in 0..36 {
+        let (turn, tilt) = (0.7 * f64::from(row), 1.3 * libm::sin(2.1 * f64::from(row)));
+        let (sin, cos) = (libm::sin(tilt), libm::cos(tilt));
+        let g = [cos * libm::cos(turn), cos * libm::sin(turn), sin];
+        let read = [g[0], g[1] + 3e-4 * g[1] * g[2], g[2]].map(|a| a + 2e-5 * noise.normal());
+        let _ = writeln!(
+            rows,
+            "{},{:.6},{:.6},{:.6},{:.6},{:.6},{:.6}",
+            2 * row,
+            g[0],
+            g[1],
+            g[2],
+            read[0],
+            read[1],
+            read[2]
+        );
+    }
+    let case = "equations = [\"ax = bx + Sx*x\", \"ay = by + Sy*y\", \"az = bz + Sz*z\"]\n[columns]\nt = \"time\"\nx = \"stimulus\"\ny = \"stimulus\"\nz = \"stimulus\"\nax = \"output\"\nay = \"output\"\naz = \"output\"\n";
+    let found = diagnosed("one-output", &rows, case);
+    let (names, label) = first(&found);
+    assert!(
+        found["verdict"] != "none" && label.contains("ay"),
+        "{names:?} {label} {found}"
+    );
+}
+
+#[test]
 fn a_coarse_display_rounds() {
     let mut noise = Noise(13);
     let mut rows = "x [mm],y [mm]\n".to_owned();

@@ -291,7 +291,7 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "temperature-scale",
         drive: Drive::Temperature,
         place: Place::Scale,
-        names: &[("tempco-scale", OWN)],
+        names: &[("tempco-scale", OWN), ("sensitivity-scale-quadratic", OWN)],
         forms: WARMTH,
     },
     Family {

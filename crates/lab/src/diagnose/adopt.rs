@@ -1,6 +1,8 @@
 //! The declared model with an effect in it: further columns for the modifiers, further parameters for the
 //! sizes, and the equations that contain them.
 
+use std::collections::BTreeMap;
+
 use nalgebra::DVector;
 
 use super::case::{Case, Column, Data, Parameter, Role};
@@ -219,6 +221,8 @@ struct Extending {
     before: Vec<String>,
     left: String,
     right: String,
+    /// Effects on parameters and columns, by their names.
+    inside: BTreeMap<String, Vec<String>>,
     /// Effects on everything but constant terms.
     gains: Vec<String>,
     /// Effects on the output.
@@ -234,6 +238,7 @@ impl Extending {
             left: left.to_owned(),
             right: right.to_owned(),
             before,
+            inside: BTreeMap::new(),
             gains: Vec::new(),
             offsets: Vec::new(),
         }
@@ -244,23 +249,27 @@ impl Extending {
             Node::Output => self.offsets.push(product.to_owned()),
             Node::Gain => self.gains.push(product.to_owned()),
             Node::Parameter(_) | Node::Column(_) => {
-                let name = fitted.name(term.node);
-                let with = format!("({name} + {product})");
-                self.right = replaced(&self.right, &name, &with);
-                for line in &mut self.before {
-                    *line = match line.split_once(" = ") {
-                        Some((left, right)) => {
-                            format!("{left} = {}", replaced(right, &name, &with))
-                        }
-                        None => replaced(line, &name, &with),
-                    };
-                }
+                let on_name = self.inside.entry(fitted.name(term.node));
+                on_name.or_default().push(product.to_owned());
             }
         }
     }
 
+    /// A formula with the effects on its parameters and columns.
+    fn disturbed(&self, formula: &str) -> String {
+        let effects = self.inside.iter();
+        effects.fold(formula.to_owned(), |formula, (name, products)| {
+            let with = format!("({name} + {})", products.join(" + "));
+            replaced(&formula, name, &with)
+        })
+    }
+
     fn text(&self, fitted: &FittedModel<'_>, response: usize) -> String {
-        let right = &self.right;
+        let right = self.disturbed(&self.right);
+        let before = self.before.iter().map(|line| match line.split_once(" = ") {
+            Some((left, right)) => format!("{left} = {}", self.disturbed(right)),
+            None => self.disturbed(line),
+        });
         let mut last = format!("{} = {right}", self.left);
         if !self.gains.is_empty() {
             let parameters = &fitted.case().parameters;
@@ -277,8 +286,7 @@ impl Extending {
         for offset in &self.offsets {
             last += &format!(" + {offset}");
         }
-        let lines = self.before.iter().map(String::as_str);
-        lines.chain([last.as_str()]).collect::<Vec<_>>().join("\n")
+        before.chain([last]).collect::<Vec<_>>().join("\n")
     }
 }
 

@@ -116,6 +116,21 @@ impl<'f> Candidates<'f> {
         if explains { Vec::new() } else { named }
     }
 
+    /// What estimated noise may be where an effect is taken for it.
+    pub(super) fn other_noise(&self, claimed: &Claimed) -> Vec<Claimed> {
+        let (design, fit) = (self.fitted.design, self.fitted.fit);
+        let blocks = design.blocks.len();
+        noise::otherwise(design, fit, claimed, |plain| {
+            let seen = baseline(design, fit, plain);
+            let part = |response: usize| {
+                let rows = response * blocks..(response + 1) * blocks;
+                let seen = seen.as_ref();
+                seen.map_or(1.0, |seen| evidence::quiet(seen, &self.atoms, rows))
+            };
+            (0..design.case.responses.len()).map(part).collect()
+        })
+    }
+
     /// The noise that is left when the named effects are in the model.
     pub(super) fn noise(
         &self,
@@ -137,31 +152,36 @@ impl<'f> Candidates<'f> {
         }
     }
 
-    /// Whether effects beat noise that is correlated: the probability that they gain as much by noise alone, and the noise
-    /// as it is then, without effects where these do not, else with the best one.
+    /// Whether effects beat noise that is correlated, or that grows with the reading: the probability that they gain as much
+    /// by noise alone, and the noise as it is then, without effects where these do not, else with the best one. `spreads` are
+    /// the standard uncertainties that it may have.
     ///
     /// # Errors
     /// When the recording does not determine the parameters.
     pub(super) fn against(
         &self,
         courses: &Courses,
-        claimed: &Claimed,
+        spreads: &[Claimed],
         settings: &evidence::Settings,
     ) -> Result<(f64, Claimed), Refusal> {
-        let with = |correlated| claimed.noise_with(correlated);
-        let seen = courses.seen(self.fitted.design, self.fitted.fit, &with)?;
+        let (design, fit) = (self.fitted.design, self.fitted.fit);
+        let seen = spreads
+            .iter()
+            .map(|spread| courses.seen(design, fit, &|correlated| spread.noise_with(correlated)));
+        let seen = seen.collect::<Result<Vec<_>, _>>()?.concat();
         let contest = evidence::contest(&seen, &self.candidates, &self.atoms, settings)?;
-        let stands = contest.p <= settings.alpha;
-        let log_posterior = if stands {
-            &contest.with
-        } else {
-            &contest.alone
+        let log_posterior = match contest.p <= settings.alpha {
+            true => &contest.with,
+            false => &contest.alone,
         };
-        let claimed = Claimed {
-            correlated: courses.likely(log_posterior),
-            ..claimed.clone()
-        };
-        Ok((contest.p, claimed))
+        let each = log_posterior.chunks(seen.len() / spreads.len());
+        let most = |of: &[f64]| of.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let likeliest = (spreads.iter().zip(each)).max_by(|a, b| most(a.1).total_cmp(&most(b.1)));
+        let claimed = likeliest.map(|(spread, own)| Claimed {
+            correlated: courses.likely(own),
+            ..spread.clone()
+        });
+        Ok((contest.p, claimed.unwrap_or_else(|| spreads[0].clone())))
     }
 
     /// What is found when noise and effects are estimated in turn, from this noise on and what is found with it, and the noise
@@ -283,7 +303,7 @@ pub(super) fn question(
 fn cause(cells: &[Cell], index: usize) -> usize {
     let cell = &cells[index];
     let stands =
-        |other: &Cell| cell.effect.order_of == Some(other.effect.id) && other.place == cell.place;
+        |other: &Cell| cell.effect.order_of.contains(&other.effect.id) && other.place == cell.place;
     cells.iter().position(stands).unwrap_or(index)
 }
 

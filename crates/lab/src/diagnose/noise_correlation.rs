@@ -139,6 +139,17 @@ impl Courses {
         })
     }
 
+    /// Where no other is asked for.
+    pub(super) fn white() -> Courses {
+        Courses {
+            unit: String::new(),
+            all: vec![(
+                Memory::White,
+                Arc::new(Correlation::new(DMatrix::zeros(0, 0))),
+            )],
+        }
+    }
+
     /// A recording seen with each of them, as the noise with such a correlation; `fit` is of any model with the same rows.
     ///
     /// # Errors

@@ -100,8 +100,19 @@ pub fn diagnose(
     let mut candidates = Candidates::new(FittedModel::new(&seen, &coarse.fit), &claimed, &white);
     let part = |from: f64, to: f64| move |share: f64| progress(from + (to - from) * share);
     let (mut baseline, mut examination) = candidates.ask(&claimed, &settings, &part(0.0, 0.4))?;
-    let courses = Courses::of(&candidates.fitted).filter(|_| claimed.correlated.is_none());
+    // What the model leaves out may look like noise that grows, or like that of the one response that has it.
+    let others = candidates.other_noise(&claimed);
+    let courses = Courses::of(&candidates.fitted)
+        .or_else(|| (!others.is_empty()).then(Courses::white))
+        .filter(|_| claimed.correlated.is_none());
     let is_open = claimed.is_estimated() || courses.is_some();
+    let mut begun = claimed.clone();
+    for other in &others {
+        if examination.verdict == Verdict::None {
+            begun = other.clone();
+            (baseline, examination) = candidates.ask(&begun, &settings, &part(0.4, 0.4))?;
+        }
+    }
     if let Some(courses) = courses
         .as_ref()
         .filter(|_| examination.verdict == Verdict::None)
@@ -109,13 +120,13 @@ pub fn diagnose(
         claimed = noise::refined(&design, &fit, &claimed, Some(courses));
         baseline = self::baseline(&design, &fit, &claimed)?;
     } else if is_open {
-        let mut starts = vec![claimed.clone()];
+        let mut starts: Vec<Claimed> = [claimed.clone()].into_iter().chain(others).collect();
         if let Some(courses) = &courses {
-            let (p, correlated) = candidates.against(courses, &claimed, &settings)?;
+            let (p, likeliest) = candidates.against(courses, &starts, &settings)?;
             settings.by_noise = p;
             match p > settings.alpha {
-                true => starts = vec![correlated],
-                false if correlated.correlated.is_some() => starts.push(correlated),
+                true => starts = vec![likeliest],
+                false if likeliest.correlated.is_some() => starts.push(likeliest),
                 false => {}
             }
         }
@@ -123,7 +134,7 @@ pub fn diagnose(
         // an effect does, the two are begun with in turn, and the likelier end stays.
         let (mut best, mut atoms) = (f64::NEG_INFINITY, candidates.places.len());
         let share = 0.3 / starts.len() as f64;
-        let begun = (claimed.clone(), baseline.clone(), examination.clone());
+        let begun = (begun, baseline.clone(), examination.clone());
         let stands = settings.by_noise <= settings.alpha;
         for (at, start) in starts.into_iter().enumerate() {
             let from = 0.4 + share * at as f64;

@@ -8,7 +8,7 @@ use gumption_format::document::{
     ColumnKind::{Names as NamesColumn, Numbers},
 };
 use gumption_lab::diagnose::case::Case;
-use gumption_lab::diagnose::evidence::{Alternative, Slot, State};
+use gumption_lab::diagnose::evidence::{Alternative, Likeness, Slot, State, likeness};
 use gumption_lab::diagnose::{Diagnosis, Doubt};
 
 use super::labels::spoken;
@@ -70,7 +70,7 @@ fn fields(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<(String, Strin
     vec![
         (
             l.pick("Declared model", "声明的模型").into(),
-            case.model.join("; "),
+            case.model_lines().join("; "),
         ),
         (
             l.pick("Recording", "记录").into(),
@@ -203,10 +203,7 @@ fn named(case: &Case, diagnosis: &Diagnosis, slot: &Slot, names: Names<'_>) -> V
             said.push(prose);
         }
         if slot.state == State::Like {
-            let text = names.l.pick(
-                "Nothing else in the catalogue acts like this. Something unlisted of similar shape would look the same at this strength.",
-                "目录中没有其他影响有此表现；但在此强度下，目录之外形状相近的影响看起来会相同。",
-            );
+            let text = only_like(likeness(slot, &diagnosis.examination.slots), names.l);
             blocks.push(Block::Paragraph(text.to_owned()));
         }
         let lines = [names.formula(diagnosis, alternative)].into_iter();
@@ -215,6 +212,24 @@ fn named(case: &Case, diagnosis: &Diagnosis, slot: &Slot, names: Names<'_>) -> V
         blocks.push(Block::Formula(lines.collect()));
     }
     blocks
+}
+
+/// Why a name says no more than what the effect acts like.
+fn only_like(likeness: Likeness, l: Language) -> &'static str {
+    match likeness {
+        Likeness::Weak => l.pick(
+            "Nothing else in the catalogue acts like this. Something unlisted of similar shape would look the same at this strength.",
+            "目录中没有其他影响有此表现；但在此强度下，目录之外形状相近的影响看起来会相同。",
+        ),
+        Likeness::Beside => l.pick(
+            "Nothing else in the catalogue acts like this. The stronger effect beside it, if its form were a little different, could leave as much.",
+            "目录中没有其他影响有此表现；但与之并存的较强影响若形式略有不同，也可能留下同样大小的残差。",
+        ),
+        Likeness::Form => l.pick(
+            "Nothing else in the catalogue acts like this. The recording departs a little from the form given here: more than noise does, less than would make it another effect.",
+            "目录中没有其他影响有此表现；记录与此处给出的形式略有偏离：大于噪声，但不足以成为另一种影响。",
+        ),
+    }
 }
 
 /// What the sizes of the best variant multiply, as it was fitted; nothing where there are too many terms to

@@ -40,10 +40,10 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Blo
 }
 
 fn improved_model(adopted: &Adopted) -> Vec<String> {
-    let model = adopted.extended.case.model.iter();
     let additions = adopted.extended.additions.iter();
-    let lines = model.flat_map(|model| model.lines().map(str::to_owned));
+    let lines = adopted.extended.case.model_lines().into_iter();
     lines
+        .map(str::to_owned)
         .chain(additions.filter_map(|addition| {
             let column = addition.column.as_ref()?;
             Some(format!("{column} = {}", addition.text))

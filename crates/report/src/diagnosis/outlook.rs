@@ -69,7 +69,7 @@ fn fields(case: &Case, outlook: &Outlook, l: Language) -> Vec<(String, String)> 
     let mut fields = vec![
         (
             l.pick("Declared model", "声明的模型").into(),
-            case.model.join("; "),
+            case.model_lines().join("; "),
         ),
         (l.pick("Design", "设计").into(), design),
         (

@@ -303,6 +303,22 @@ impl Case {
         (0..self.columns.len()).filter(move |i| self.columns[*i].role == role)
     }
 
+    /// The model line by line, statements that all equations see once.
+    pub fn model_lines(&self) -> Vec<&str> {
+        let equations = self.model.iter().map(|text| text.lines());
+        let equations: Vec<Vec<&str>> = equations.map(Iterator::collect).collect();
+        let Some((first, others)) = equations.split_first() else {
+            return Vec::new();
+        };
+        let is_shared = |at: &usize| others.iter().all(|other| other.get(*at) == first.get(*at));
+        // The equation itself is its last line.
+        let shared = (0..first.len().saturating_sub(1))
+            .take_while(is_shared)
+            .count();
+        let rest = others.iter().flat_map(|other| &other[shared..]);
+        first.iter().chain(rest).copied().collect()
+    }
+
     /// Whether all outputs of the model were recorded.
     pub fn is_recorded(&self) -> bool {
         self.responses

@@ -145,22 +145,24 @@ fn stands_for_temperature(fitted: &FittedModel<'_>, column: usize) -> bool {
     !recorded && fitted.is_timed() && steps < SLOW * squares
 }
 
-/// The square alone, and with a linear part; nothing where the numbers are the same up to their sign, or
-/// vary so little that the square is a line.
+/// The square alone, unless the numbers vary so little that it is a line, and the square about their middle with a linear
+/// part; nothing where they are the same up to their sign.
 fn squares(fitted: &FittedModel<'_>, column: usize) -> Variants {
     /// Through so many values a square with a line goes anyhow.
     const FEW: usize = 3;
     let (x, label) = (fitted.numbers(column), fitted.label(column));
     let square = map(x, |x| x * x);
-    let is_line = correlation(&square, x).abs() > 0.995;
-    if !varies(&square) || is_line {
+    if !varies(&square) {
         return Vec::new();
     }
-    let linear = Modifier::new(x.to_vec(), label, fitted.step_unit(column));
-    let square = linear.square();
-    let mut variants = vec![("square alone".to_owned(), vec![square.clone()])];
+    let mut variants = Vec::new();
+    if correlation(&square, x).abs() <= 0.995 {
+        let own = Modifier::new(x.to_vec(), label, fitted.step_unit(column));
+        variants.push(("square alone".to_owned(), vec![own.square()]));
+    }
     if levels_of(x).len() > FEW {
-        variants.push(("with a linear part".to_owned(), vec![square, linear]));
+        let own = fitted.centred(column);
+        variants.push(("with a linear part".to_owned(), vec![own.square(), own]));
     }
     variants
 }

@@ -30,8 +30,9 @@ pub struct Effect {
     pub usual: Option<Usual>,
     /// The size that it must have if it is there at all.
     pub exact: Option<f64>,
-    /// The effect of which this is another order: the cause is the same.
-    pub order_of: Option<EffectId>,
+    /// The effects of which this is another order, each where the other is: the cause is the same.
+    #[serde(default)]
+    pub order_of: Vec<EffectId>,
     /// The same on the scale: where the readings hardly vary the two are one.
     pub on_scale: Option<EffectId>,
     /// Whether it is of a higher order in what it follows, or goes with its rate: less likely beforehand.

@@ -5,7 +5,9 @@ use super::building::{on_node, on_output, plain, words};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{figure, figure_to, five_digits, largest, levels_of, map, range, rounded};
 use super::sharp::sharpened;
+use super::stuck::{beside, moves_on};
 use super::{Cell, EffectId, Modifier, Term, Variants, Variation};
+use crate::diagnose::case::Response;
 
 /// Rounding of knees in formulas, as a share of the range: whoever writes the formula into a model has the
 /// fit again.
@@ -40,6 +42,63 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         ));
     }
     cells
+}
+
+/// Limits of the outputs themselves, whatever the model makes them of: the largest or the smallest readings are the same to the
+/// last digit although the model moves on, and what it gives beyond them is missing. Where they pile up along one of the
+/// `columns`, that limit is a limit of the column.
+pub(super) fn of_outputs(fitted: &FittedModel<'_>, columns: &[usize]) -> Vec<Cell> {
+    if columns
+        .iter()
+        .any(|column| !plateaus(fitted, *column).is_empty())
+    {
+        return Vec::new();
+    }
+    let responses = 0..fitted.case().responses.len();
+    let explicit = responses.filter(|response| !fitted.is_implicit(*response));
+    let cells = explicit.filter_map(|response| {
+        let ends = [1.0, -1.0].into_iter();
+        let ends: Vec<_> = ends
+            .filter_map(|sign| ceiling(fitted, response, sign))
+            .collect();
+        let name = &fitted.case().responses[response].name;
+        (!ends.is_empty()).then(|| plain(fitted, EffectId::Saturation, name, ends))
+    });
+    cells.collect()
+}
+
+/// The limit at the upper end of the readings of a response, or with a sign of −1 at the lower end.
+fn ceiling(fitted: &FittedModel<'_>, response: usize, sign: f64) -> Option<Variation> {
+    /// Two readings are alike by chance.
+    const ROWS: usize = 3;
+    let observed = fitted.design.observed(response);
+    if observed.len() < fitted.rows() {
+        return None;
+    }
+    let level = sign
+        * observed
+            .iter()
+            .fold(f64::NEG_INFINITY, |most, y| most.max(sign * y));
+    let is_at = |row: usize| observed[row] == level;
+    let there: Vec<usize> = (0..observed.len()).filter(|row| is_at(*row)).collect();
+    if there.len() < ROWS || !moves_on(fitted, response, &observed, there) {
+        return None;
+    }
+    let model = beside(fitted, response, &observed, &is_at)?;
+    let modifier = map(&model, |y| -(sign * (y - level)).max(0.0) * sign);
+    let Response { name, unit, .. } = &fitted.case().responses[response];
+    let (least, end) = if sign > 0.0 {
+        ("min", "above")
+    } else {
+        ("max", "below")
+    };
+    let shown = match unit.is_one() {
+        true => level.to_string(),
+        false => format!("{level} {}", unit.typeset()),
+    };
+    let text = format!("({least}({name}, {shown}) - {name})");
+    let term = on_output(Modifier::new(modifier, text, unit.difference())).on(response);
+    Some(Variation::one(format!("{end} {shown}"), term))
 }
 
 /// A step at zero, and bands of several widths around it.

@@ -36,6 +36,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         cells.extend(dynamics(fitted, *column));
         cells.extend(super::history::cells(fitted, *column));
     }
+    cells.extend(super::limits::of_outputs(fitted, &direct));
     for (at, x) in direct.iter().enumerate() {
         for z in &direct[at + 1..] {
             cells.push(interaction(fitted, *x, *z));

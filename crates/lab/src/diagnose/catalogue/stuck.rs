@@ -31,13 +31,15 @@ fn of_response(fitted: &FittedModel<'_>, response: usize) -> Vec<Variation> {
     let observed = fitted.design.observed(response);
     let mut found: Vec<(usize, usize)> = stretches(&observed)
         .into_iter()
-        .filter(|(first, last)| moves_on(fitted, response, &observed, *first, *last))
+        .filter(|(first, last)| moves_on(fitted, response, &observed, *first..*last))
         .collect();
     found.sort_by_key(|(first, last)| std::cmp::Reverse(last - first));
     let held = found.into_iter().take(STRETCHES);
     let unit = fitted.case().responses[response].unit.difference();
     held.filter_map(|(first, last)| {
-        let model = beside(fitted, response, &observed, first, last)?;
+        let model = beside(fitted, response, &observed, &|row| {
+            (first..last).contains(&row)
+        })?;
         let modifier: Vec<f64> = (0..observed.len())
             .map(|row| match (first..last).contains(&row) {
                 true => observed[first] - model[row],
@@ -72,14 +74,13 @@ fn stretches(observed: &[f64]) -> Vec<(usize, usize)> {
     found
 }
 
-/// Whether the model moves in a stretch by far more than residuals change from row to row, and by more than
-/// the step in which readings come.
-fn moves_on(
+/// Whether the model moves in some rows by far more than residuals change from row to row, and by more than the step in which
+/// readings come.
+pub(super) fn moves_on(
     fitted: &FittedModel<'_>,
     response: usize,
     observed: &[f64],
-    first: usize,
-    last: usize,
+    rows: impl IntoIterator<Item = usize>,
 ) -> bool {
     /// So many times the change.
     const FAR: f64 = 6.0;
@@ -87,7 +88,8 @@ fn moves_on(
     const STEPS: f64 = 3.0;
     let model = &fitted.fit.linear.values[response];
     let residuals: Vec<f64> = (observed.iter().zip(model)).map(|(y, m)| y - m).collect();
-    let (least, most) = range(&model[first..last]);
+    let there: Vec<f64> = rows.into_iter().map(|row| model[row]).collect();
+    let (least, most) = range(&there);
     let mut values = observed.to_vec();
     values.sort_by(f64::total_cmp);
     values.dedup();
@@ -96,13 +98,12 @@ fn moves_on(
     most - least > FAR * typical_step(&residuals) && most - least > STEPS * step
 }
 
-/// The model as the other rows have it.
-fn beside(
+/// The model as the rows have it that are not such.
+pub(super) fn beside(
     fitted: &FittedModel<'_>,
     response: usize,
     observed: &[f64],
-    first: usize,
-    last: usize,
+    is_such: &dyn Fn(usize) -> bool,
 ) -> Option<Vec<f64>> {
     let model = &fitted.fit.linear.values[response];
     let slopes: Vec<Vec<f64>> = (0..fitted.case().parameters.len())
@@ -112,9 +113,7 @@ fn beside(
     if slopes.is_empty() {
         return Some(model.clone());
     }
-    let others: Vec<usize> = (0..observed.len())
-        .filter(|row| !(first..last).contains(row))
-        .collect();
+    let others: Vec<usize> = (0..observed.len()).filter(|row| !is_such(*row)).collect();
     let design = DMatrix::from_fn(others.len(), slopes.len(), |row, at| {
         slopes[at][others[row]]
     });

@@ -64,13 +64,42 @@ fn departs_little(
     })
 }
 
+/// Why a name that stands alone says no more than what it acts like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Likeness {
+    /// A departure that makes the effect another would not have been seen.
+    Weak,
+    /// It may be what a stronger effect leaves by a departure from its form.
+    Beside,
+    /// Its form is off, by less than makes it another.
+    Form,
+}
+
+/// Why one of some slots says no more than what its effect acts like.
+pub fn likeness(slot: &Slot, slots: &[Slot]) -> Likeness {
+    let own = strength(slot);
+    match own * LIKENESS >= SEEN {
+        false => Likeness::Weak,
+        true if own < LIKENESS * strongest(slots) => Likeness::Beside,
+        true => Likeness::Form,
+    }
+}
+
+fn strength(slot: &Slot) -> f64 {
+    slot.named.first().map_or(0.0, |first| first.lambda)
+}
+
+fn strongest(slots: &[Slot]) -> f64 {
+    slots.iter().map(strength).fold(0.0, f64::max)
+}
+
 /// A name is more than a likeness where a departure from its shape would have been seen, and where it is not the like of what
 /// a stronger effect leaves.
 pub(super) fn graded(slots: &mut [Slot]) {
-    let strength = |slot: &Slot| slot.named.first().map_or(0.0, |first| first.lambda);
-    let strongest = slots.iter().map(strength).fold(0.0, f64::max);
-    for slot in slots {
-        let is_severe = strength(slot) * LIKENESS >= SEEN && strength(slot) >= LIKENESS * strongest;
+    let severe: Vec<bool> = (slots.iter())
+        .map(|slot| likeness(slot, slots) == Likeness::Form)
+        .collect();
+    for (slot, is_severe) in slots.iter_mut().zip(severe) {
         if slot.state == State::Identified && !is_severe {
             slot.state = State::Like;
         }

@@ -149,9 +149,11 @@ fn footer_row(
             let unit = unit.unwrap_or_default().to_string();
             // A unit in a label, other than that of the contributions, is called with its figure.
             if unit == open_unit && !unit.is_empty() && unit != located.unit {
-                let called = |text: &str| format!("{text} {unit}");
-                figure.text = called(&figure.text);
-                figure.shown = figure.shown.as_deref().map(called);
+                figure.text = format!("{} {unit}", figure.text);
+                if let Some(shown) = &mut figure.shown {
+                    shown.push(' ');
+                    shown.push_str(&unit);
+                }
             }
             figure.unit = unit;
         }

@@ -168,8 +168,10 @@ pub const PROFILES: &[Profile] = &[
         name: "UKAS",
         coverage_probability: 0.9545,
         coverage_factor: CoverageRule::StudentT,
-        en: "Coverage probability 95.45 %; k from the t distribution at the effective degrees of freedom, 2 when they are many.",
-        zh: "包含概率 95.45 %；k 由有效自由度按 t 分布确定，自由度大时为 2。",
+        confirmation: Confirmation::Moments,
+        en: "Coverage probability 95.45 %; k from the t distribution at the effective degrees of freedom, 2 when they are many. k·u_c stands as soon as \
+             Monte Carlo confirms y and u, with u = s/√n for few readings.",
+        zh: "包含概率 95.45 %；k 由有效自由度按 t 分布确定，自由度大时为 2。只要蒙特卡洛法证实 y 和 u（少量重复测量取 u = s/√n），即采用 k·u_c。",
         source: "UKAS M3003, edition 4 (2019), appendix B",
         certified_en: "The uncertainty was evaluated in accordance with UKAS M3003.",
         certified_zh: "不确定度按 UKAS M3003 评定。",

@@ -441,7 +441,7 @@ fn stated_probability(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::budget::PROFILES;
+    use crate::budget::{PROFILES, profile_named};
     use crate::propagate::draft;
     use crate::propagate::result::{Histogram, Validation};
 
@@ -531,6 +531,21 @@ mod tests {
         let reported = of(&found, FIXED);
         assert_eq!(reported.reason, Reason::NotValidatedFewReadings);
         assert_eq!((reported.u, reported.expanded()), (Some(1.2), Some(2.4)));
+    }
+
+    /// M3003, appendix B: k from t at the effective degrees of freedom multiplies u, as EA-4/02 has it.
+    #[test]
+    fn guides_that_multiply_u_by_k_ask_for_y_and_u_alone() {
+        for (name, multiplies) in [("UKAS", true), ("EA", true), ("GUM", false), ("S1", false)] {
+            let rule = profile_named(name).expect("a profile").conventions();
+            let mc = monte_carlo([-2.6, 2.6], [-2.6, 2.6], 0.0);
+            let reported = result(Clause8::NotValidated, 1.02, mc).reported(&rule);
+            assert_eq!(
+                reported.reason == Reason::MomentsAgree,
+                multiplies,
+                "{name}"
+            );
+        }
     }
 
     #[test]

@@ -5,6 +5,8 @@
 //! loses is exact to 31 digits; errors are carried on by the slopes (first-order running error analysis: Higham, Accuracy
 //! and Stability of Numerical Algorithms, 2002, 3.3).
 
+use std::f64::consts::PI;
+
 use fearless_simd::{Level, dispatch};
 
 use crate::{Block, LANES};
@@ -206,17 +208,32 @@ pub const TENS: [f64; 23] = [
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
 
-/// As many digits as every double keeps.
-const FIFTEEN_DIGITS: f64 = 1e15;
+/// Decimals whose digits are a whole number below this are farther apart than doubles: of these there is one at most that is
+/// read as a double. That is all of 15 digits, and those of 16 up to 4.5.
+const FARTHER_APART: f64 = 1.0 / f64::EPSILON;
 
-/// The whole number of `1/ten` that a decimal with a fraction is, if it is one of at most 15 digits: then it is the only one of
-/// so many digits that is read as x, since up to 10²² powers of ten are doubles, and the quotient is what the decimal is
-/// read as.
+/// The whole number next to the exact product of the two, below 2⁵²: the rounded product may be half a unit off.
+#[inline(always)]
+fn whole(x: f64, ten: f64) -> f64 {
+    let scaled = x * ten;
+    let digits = scaled.round_ties_even();
+    digits + ((scaled - digits) + x.mul_add(ten, -scaled)).round_ties_even()
+}
+
+/// The whole number of `1/ten` that a decimal with a fraction is, if it is one of those that are [`FARTHER_APART`]: then it
+/// is the only one of them that is read as x, since up to 10²² powers of ten are doubles, and the quotient is what the
+/// decimal is read as.
 #[inline(always)]
 fn digits_of(x: f64, ten: f64) -> Option<f64> {
-    let scaled = x * ten;
-    let digits = scaled.round();
-    (scaled.abs() < FIFTEEN_DIGITS && digits / ten == x).then_some(digits)
+    let digits = whole(x, ten);
+    (digits.abs() < FARTHER_APART && digits / ten == x).then_some(digits)
+}
+
+/// Whether a number has so many digits before those of 10⁻²² that, where it is no [`short_decimal`], it is none of any power
+/// of ten: what is known of it is the double.
+#[inline(always)]
+pub fn is_long(x: f64) -> bool {
+    (x.fract() != 0.0) & (x.abs() < FARTHER_APART) & (x.abs() * 1e22 >= FARTHER_APART)
 }
 
 /// The part of a decimal, so many digits over a power of ten, that the double next to it lacks. A double next to a quotient
@@ -226,7 +243,8 @@ fn rest_of(x: f64, digits: f64, ten: f64) -> f64 {
     x.mul_add(-ten, digits) / ten
 }
 
-/// The decimal from which x was read, where that has a fraction and at most 15 digits; found without being written.
+/// The decimal from which x was read, where that has a fraction and digits that only one decimal has; found without being
+/// written.
 pub fn short_decimal(x: f64) -> Option<Twice> {
     if x.fract() == 0.0 {
         return None;
@@ -239,15 +257,15 @@ pub fn short_decimal(x: f64) -> Option<Twice> {
 /// Lanes that are looked at together.
 const WIDTH: usize = 8;
 
-/// Notes in `found` this power of ten for each number that is a whole one of at most 15 digits by it, and for which none is
+/// Notes in `found` this power of ten for each number that is a [`FARTHER_APART`] whole one by it, and for which none is
 /// noted yet; what has happened. As wide as the numbers, and without branches within the loops: so they are vectorised.
 #[inline(always)]
 fn look(x: &[f64; WIDTH], ten: f64, found: &mut [f64; WIDTH]) -> Look {
     let (mut near, mut open) = (0u64, 0u64);
     for lane in 0..WIDTH {
         let scaled = x[lane] * ten;
-        let off = (scaled - scaled.round_ties_even()).abs();
-        let unknown = (found[lane] == 0.0) & (scaled.abs() < FIFTEEN_DIGITS);
+        let off = (scaled - whole(x[lane], ten)).abs();
+        let unknown = (found[lane] == 0.0) & (scaled.abs() < FARTHER_APART);
         near |= u64::from(unknown & (off <= 2.0 * f64::EPSILON * scaled.abs()));
         open |= u64::from(unknown);
     }
@@ -257,10 +275,8 @@ fn look(x: &[f64; WIDTH], ten: f64, found: &mut [f64; WIDTH]) -> Look {
         return if open == 0 { Look::Over } else { Look::Nothing };
     }
     for lane in 0..WIDTH {
-        let scaled = x[lane] * ten;
-        let hit = (scaled.round_ties_even() / ten == x[lane])
-            & (scaled.abs() < FIFTEEN_DIGITS)
-            & (found[lane] == 0.0);
+        let digits = whole(x[lane], ten);
+        let hit = (digits / ten == x[lane]) & (digits.abs() < FARTHER_APART) & (found[lane] == 0.0);
         found[lane] = if hit { ten } else { found[lane] };
     }
     Look::Near
@@ -277,8 +293,8 @@ enum Look {
     Over,
 }
 
-/// What is known of the decimals from which numbers were read, as far as they are whole or [`short_decimal`]s; the error
-/// of all others is NaN. Tells whether there are such.
+/// What is known of the decimals from which numbers were read, as far as they are whole, [`short_decimal`]s or [long](is_long);
+/// the error of all others, and of π, is NaN. Tells whether there are such.
 pub fn decimals(level: Level, x: &Block, out: &mut KnownBlock) -> bool {
     let mut tens = Block::ZERO;
     dispatch!(level, _ => {
@@ -307,13 +323,16 @@ pub fn decimals(level: Level, x: &Block, out: &mut KnownBlock) -> bool {
     dispatch!(level, _ => for lane in 0..LANES {
         let (x, ten) = (x.0[lane], tens.0[lane]);
         // Of a whole number nothing is lacking.
-        let low = rest_of(x, (x * ten).round_ties_even(), ten);
-        let unknown = ten == 0.0;
+        let low = rest_of(x, whole(x, ten), ten);
+        let half = ROUNDING * x.abs();
+        let open = ten == 0.0;
+        let long = open & is_long(x) & (x != PI);
         out.value[0].0[lane] = x;
-        out.value[1].0[lane] = low;
-        out.error.0[lane] = if unknown { f64::NAN } else { 0.0 };
-        out.doubles.0[lane] = if ten == 1.0 { 0.0 } else { ROUNDING * x.abs() };
-        missed += u32::from(unknown);
+        out.value[1].0[lane] = if open { 0.0 } else { low };
+        let of_open = if long { half } else { f64::NAN };
+        out.error.0[lane] = if open { of_open } else { 0.0 };
+        out.doubles.0[lane] = if ten == 1.0 { 0.0 } else { half };
+        missed += u32::from(open & !long);
     });
     missed > 0
 }
@@ -376,6 +395,39 @@ mod tests {
         }
     }
 
+    /// Held against the shortest decimal that is read as the double, which the standard library writes.
+    #[test]
+    fn short_decimals_are_those_that_are_written() {
+        let (mut short, mut long) = (0, 0);
+        for k in 1..200_000u64 {
+            // Spread over all mantissas and over numbers from 10⁻⁵ to 10⁸.
+            let part = k.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 11;
+            let ten = TENS[(k % 14) as usize];
+            let mut x = part as f64 / (1u64 << 53) as f64 * ten / 1e5;
+            if k % 3 == 0 {
+                // Of fifteen to seventeen digits, as they are typed.
+                let digits = (k % 9) as usize;
+                x = format!("{x:.*e}", 9 + digits).parse().expect("a number");
+            }
+            let text = format!("{x:e}");
+            let (mantissa, power) = text.split_once('e').expect("a power");
+            let digits: u64 = mantissa.replace('.', "").parse().expect("digits");
+            let behind =
+                mantissa.len().saturating_sub(2) as i32 - power.parse::<i32>().expect("a power");
+            if !(1..=22).contains(&behind) {
+                continue;
+            }
+            let ten = TENS[behind as usize];
+            let expected =
+                ((digits as f64) < FARTHER_APART).then(|| [x, rest_of(x, digits as f64, ten)]);
+            assert_eq!(short_decimal(x), expected, "{text}");
+            assert!(expected.is_some() || is_long(x), "{text}");
+            short += u32::from(expected.is_some());
+            long += u32::from(expected.is_none());
+        }
+        assert!(short > 50_000 && long > 50_000, "{short} {long}");
+    }
+
     #[test]
     fn decimals_are_found_as_one_by_one() {
         let x = numbers(0);
@@ -388,6 +440,9 @@ mod tests {
                 match short_decimal(x) {
                     _ if whole => assert_eq!((known.value, known.doubles), ([x, 0.0], 0.0)),
                     Some(value) => assert_eq!((known.value, known.error), (value, 0.0)),
+                    None if is_long(x) => {
+                        assert_eq!((known.value, known.error), ([x, 0.0], ROUNDING * x.abs()));
+                    }
                     None => assert!(known.error.is_nan(), "{x}"),
                 }
             }

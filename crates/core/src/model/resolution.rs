@@ -26,16 +26,25 @@ pub struct Resolved {
 /// Whole exponents up to here are products.
 const PRODUCTS: f64 = 64.0;
 
-/// The decimal that a double was read from. Up to 15 digits it is the only one; of a longer one the double
-/// may have dropped half a unit in its last place.
+/// The decimal that a double was read from, where its digits leave no other; of a longer one the double may have dropped half a
+/// unit in its last place.
 pub(super) fn decimal(x: f64) -> Known {
     let half = ROUNDING * x.abs();
+    let of = |value: Dd, error: f64, doubles: f64| Known {
+        value: value.into(),
+        error,
+        doubles,
+    };
     if x.fract() == 0.0 && x.abs() < 1.0 / f64::EPSILON {
-        return Known {
-            value: [x, 0.0],
-            error: 0.0,
-            doubles: 0.0,
-        };
+        return of(Dd::from(x), 0.0, 0.0);
+    }
+    if x == std::f64::consts::PI {
+        // π and the double next to it.
+        return of(
+            Dd::from(x) + Dd::from(1.224_646_799_147_353_2e-16),
+            0.0,
+            half,
+        );
     }
     if let Some(value) = twice::short_decimal(x) {
         return Known {
@@ -44,18 +53,14 @@ pub(super) fn decimal(x: f64) -> Known {
             doubles: half,
         };
     }
-    let text = format!("{x:e}");
-    let value = if x == std::f64::consts::PI {
-        // π and the double next to it.
-        Dd::from(x) + Dd::from(1.224_646_799_147_353_2e-16)
-    } else {
-        Dd::nearest(x, &text)
-    };
-    Known {
-        value: value.into(),
-        error: if is_short(&text) { 0.0 } else { half },
-        doubles: if x.fract() == 0.0 { 0.0 } else { half },
+    if twice::is_long(x) {
+        return of(Dd::from(x), half, half);
     }
+    // Very large and very small ones.
+    let text = format!("{x:e}");
+    let error = if is_short(&text) { 0.0 } else { half };
+    let doubles = if x.fract() == 0.0 { 0.0 } else { half };
+    of(Dd::nearest(x, &text), error, doubles)
 }
 
 /// The value of an operation on operands with these slopes; it adds `rounding`, relative to the value.

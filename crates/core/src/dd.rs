@@ -267,8 +267,11 @@ mod tests {
             }
         }
         assert!(found > 150, "{found}");
+        // Sixteen digits that only one decimal has.
+        let third = 1.0 / 3.0;
+        let written = Dd::nearest(third, "0.3333333333333333");
+        assert_eq!(Dd::from_short_decimal(third), Some(written));
         for x in [
-            1.0 / 3.0,
             0.1 + 0.2,
             2f64.sqrt(),
             5e-324,

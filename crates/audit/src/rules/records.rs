@@ -64,12 +64,16 @@ pub(super) fn unequal_variances(seen: &Seen<'_>) -> Vec<Hit> {
             return None;
         };
         let variances: Vec<f64> = listed(&row.words).iter().map(|s| s * s).collect();
+        // The largest of two is that of an F test, and one reading has no variance.
+        if variances.len() < 3 || n < 2.0 {
+            return None;
+        }
         let (count, total) = (variances.len() as f64, variances.iter().sum::<f64>());
         let largest = variances.iter().copied().fold(0.0, f64::max);
         let share = largest / total;
         let by_f = f_quantile(1.0 - 0.01 / count, n - 1.0, (n - 1.0) * (count - 1.0));
         let critical = 1.0 / (1.0 + (count - 1.0) / by_f);
-        let is_out = variances.len() >= 3 && total > 0.0 && share > critical;
+        let is_out = total > 0.0 && share > critical;
         is_out.then(|| Hit::of(Some(i), format!("C = {share:.3} > {critical:.3}")))
     };
     rows.filter_map(hit).collect()

@@ -237,14 +237,18 @@ fn known(figure: &Printed) -> Value {
     }
 }
 
-/// Row and column, from 0, of `B7`.
+/// Row and column, from 0, of `B7`, as far as sheets go: `XFD1048576`.
 fn place(name: &str) -> Option<(usize, usize)> {
+    const ROWS: usize = 1 << 20;
     let letters = name.bytes().take_while(u8::is_ascii_alphabetic).count();
-    let row: usize = name.get(letters..)?.parse().ok()?;
-    let column = name[..letters].bytes().fold(0, |column, letter| {
-        26 * column + usize::from(letter.to_ascii_uppercase() - b'A') + 1
-    });
-    ((1..=3).contains(&letters) && row > 0).then(|| (row - 1, column - 1))
+    let (column, row) = name.split_at(letters);
+    let row: usize = row.parse().ok()?;
+    let column = (1..=3).contains(&letters).then(|| {
+        let place = |letter: u8| usize::from(letter.to_ascii_uppercase() - b'A') + 1;
+        let letters = column.bytes();
+        letters.fold(0, |column, letter| 26 * column + place(letter))
+    })?;
+    (1..=ROWS).contains(&row).then(|| (row - 1, column - 1))
 }
 
 #[cfg(test)]
@@ -270,5 +274,14 @@ mod tests {
             assert_eq!(of(strange), None, "{strange}");
         }
         assert_eq!(of(&"(".repeat(5000)), None);
+        // Cells beyond every sheet.
+        assert_eq!(of(&format!("{}1", "Z".repeat(40))), None);
+        for last in [
+            "B9223372036854775809",
+            "B18446744073709551615",
+            "ZZZ1048576",
+        ] {
+            assert_eq!(of(&format!("SUM(A1:{last})")), None, "{last}");
+        }
     }
 }

@@ -110,23 +110,13 @@ impl Shown<'_> {
         );
         let named = found.apart.iter().filter(|one| one.is_named());
         let names = self.list(found.named, named.map(|one| one.device.clone()));
+        let all_explained = l.pick(
+            "Over all that was tested, chance explains each of them.",
+            "就全部检验而言，各偏差均可由偶然性解释。",
+        );
         let named = match found.named {
-            0 => l.pick(
-                "Over all that was tested, chance explains each of them.".to_owned(),
-                "就全部检验而言，各偏差均可由偶然性解释。".to_owned(),
-            ),
-            count => l.pick(
-                format!(
-                    "Not explained by chance (●, p < {1} over all), {0}: {names}.",
-                    grouped(count as u64),
-                    self.limit()
-                ),
-                format!(
-                    "其中 {} 行不能由偶然性解释（●，总体 p < {}）：{names}。",
-                    grouped(count as u64),
-                    self.limit()
-                ),
-            ),
+            0 => all_explained.to_owned(),
+            count => self.unexplained(count, "行", &names),
         };
         let shared = match &one.reference {
             Some(_) => "",
@@ -136,6 +126,15 @@ impl Shown<'_> {
             ),
         };
         format!("{all}{}{named}{shared}", l.pick(" ", ""))
+    }
+
+    /// Those that chance does not explain; Chinese has a word with which they are counted.
+    fn unexplained(self, count: usize, counted: &str, names: &str) -> String {
+        let (count, limit) = (grouped(count as u64), self.limit());
+        self.l.pick(
+            format!("Not explained by chance (●, p < {limit} over all), {count}: {names}."),
+            format!("其中 {count} {counted}不能由偶然性解释（●，总体 p < {limit}）：{names}。"),
+        )
     }
 
     fn limit(self) -> String {
@@ -158,23 +157,13 @@ impl Shown<'_> {
         );
         let named = drift.apart.iter().filter(|one| one.is_named());
         let names = self.list(drift.named, named.map(|one| one.device.clone()));
+        let all_explained = l.pick(
+            "Over all devices, chance explains each of them.",
+            "就全部器件而言，均可由偶然性解释。",
+        );
         let named = match drift.named {
-            0 => l.pick(
-                "Over all devices, chance explains each of them.".to_owned(),
-                "就全部器件而言，均可由偶然性解释。".to_owned(),
-            ),
-            count => l.pick(
-                format!(
-                    "Not explained by chance (●, p < {1} over all), {0}: {names}.",
-                    grouped(count as u64),
-                    self.limit()
-                ),
-                format!(
-                    "其中 {} 个不能由偶然性解释（●，总体 p < {}）：{names}。",
-                    grouped(count as u64),
-                    self.limit()
-                ),
-            ),
+            0 => all_explained.to_owned(),
+            count => self.unexplained(count, "个", &names),
         };
         let shared = l.pick(
             "Where all calibrations used the same reference, its error is in both sides and cancels: U is then larger than a difference needs, and a drift that is seen is seen all the more; one that is not seen may be there. Where the reference was changed or calibrated anew in between, it does not cancel.",

@@ -140,3 +140,15 @@ fn no_package_is_there_twice() {
     versions.retain(|_, versions| versions.len() > 1);
     assert!(versions.is_empty(), "{versions:?}");
 }
+
+/// The fuzzers are a workspace of their own, whose list of dependencies follows this one's.
+#[test]
+fn the_fuzzers_list_is_in_step() {
+    if let Err(why) = metadata(&["--offline", "--manifest-path", "fuzz/Cargo.toml"]) {
+        assert!(
+            !why.contains("lock file"),
+            "{why}mend: cargo metadata --offline --manifest-path fuzz/Cargo.toml"
+        );
+        eprintln!("skipped: {why}");
+    }
+}

@@ -293,6 +293,7 @@ pub fn wrong_type(key: &str, found: &str) -> Option<Said> {
                 "two names are wanted: between = [\"{number}\", \"…\"]"
             ));
         }
+        ("readings" | "values", false) if let Some(list) = listed(number) => return Some(list),
         _ => {}
     }
     let begins = number.starts_with(|c: char| c.is_ascii_digit() || "+-.±".contains(c));
@@ -317,6 +318,21 @@ pub fn wrong_type(key: &str, found: &str) -> Option<Said> {
         )),
         _ => None,
     }
+}
+
+/// A list of numbers for a text that has them, and a unit behind the last one.
+fn listed(text: &str) -> Option<Said> {
+    let parts = text.split([',', ';', '，', '、', ' ', '\t']);
+    let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
+    let (unit, numbers) = parts.split_last()?;
+    let is_number = |part: &str| part.parse::<f64>().is_ok();
+    if is_number(unit) || numbers.len() < 2 || !numbers.iter().all(|part| is_number(part)) {
+        return None;
+    }
+    let numbers = numbers.join(", ");
+    Some(say!(
+        "numbers stand in brackets, their unit apart: [{numbers}], and unit = \"{unit}\""
+    ))
 }
 
 /// What to write in place of a value that stands where a table is expected.

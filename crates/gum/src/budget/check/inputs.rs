@@ -77,12 +77,14 @@ impl Checker<'_> {
                 (None, _) => None,
             };
             register.incomplete |= filled.is_none();
+            // What was refused may have held the unit: formulas are not judged by dimension one.
+            let silent = table.unit.is_none() && (table.refused || table.component.refused);
             register.entries.push(InputEntry {
                 name: name.clone(),
                 place: stated.key.clone(),
                 places: start..start + count,
                 vector,
-                unit,
+                unit: unit.filter(|_| !silent),
                 formula: None,
             });
         }

@@ -701,6 +701,20 @@ fn what_notes_say_may_be_right() {
 }
 
 #[test]
+fn what_rows_say_may_be_right() {
+    let pooled = row(1, |line| {
+        line.known = "pooled s from 4 series of 6 readings: 0.0104, 0.0135, 0.0112 and 0.0127; s_p = 0.0120 g; mean of 4 readings";
+    });
+    let bent = with(|sheet| {
+        sheet.notes[0] = "Model: m = m_S + dm + dr + dd + 4*dd*dd";
+    });
+    for (rule, sheet) in [(23, pooled), (52, bent)] {
+        let fired = sheet.rules();
+        assert!(!fired.contains(&rule), "{rule}: {fired:?}");
+    }
+}
+
+#[test]
 fn every_rule_fires() {
     let mut silent = Vec::new();
     let sheets = against();

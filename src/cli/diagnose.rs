@@ -77,10 +77,7 @@ pub(super) fn run(args: &Args) -> Outcome {
 /// Says what the file states and the command does not use.
 pub(super) fn remarks(case: &Case, lang: Language) {
     for remark in &case.remarks {
-        output::warn(&match lang {
-            Language::English => format!("note: {}\n", remark.en),
-            Language::Chinese => format!("注：{}\n", remark.zh),
-        });
+        output::note(lang.pick(&remark.en, &remark.zh), lang);
     }
 }
 

@@ -71,6 +71,10 @@ pub(super) fn run(args: &Args) -> Outcome {
         Ok(administration) => administration,
         Err(rejection) => return output::refused(&rejection, args.form.language()),
     };
+    if let Some(kept) = administration.as_ref().and_then(report::template_names) {
+        let lang = args.form.language();
+        output::note(&kept.in_language(lang), lang);
+    }
     let mut worst = Outcome::Done;
     let mut documents = Vec::new();
     let mut saved = Vec::new();

@@ -193,6 +193,14 @@ pub(super) fn warn(text: &str) {
     to_standard_error(&harmless(text));
 }
 
+/// Says on standard error what is to be known beside the output.
+pub(super) fn note(text: &str, lang: Language) {
+    warn(&match lang {
+        Language::English => format!("note: {text}\n"),
+        Language::Chinese => format!("注：{text}\n"),
+    });
+}
+
 /// What long work will take, before it does.
 pub(super) fn tell_size(readings: u64, bytes: u64, lang: Language) {
     /// As much as nobody notices.

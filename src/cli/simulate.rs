@@ -43,10 +43,8 @@ pub(super) fn run(args: &Args) -> Outcome {
     match simulate(&case, args.seed) {
         Ok(simulation) => {
             let noise = report::assumed_noise(&case, &simulation.noise, lang);
-            output::warn(&match lang {
-                Language::English => format!("note: the noise is {noise}\n"),
-                Language::Chinese => format!("注：噪声为{noise}\n"),
-            });
+            let told = say!("the noise is {noise}");
+            output::note(&told.in_language(lang), lang);
             let text = simulation.sheet.csv();
             args.target.write(text.into_bytes(), Vec::new(), lang)
         }

@@ -4,6 +4,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use gumption::report;
+
 use super::common::{assert_fresh, program, root, stale};
 
 /// One result, results with their covariance, a unit that the D-SI does not know, series with conformity and without.
@@ -346,4 +348,28 @@ fn what_is_missing_in_the_data_of_a_certificate_is_told() {
     ] {
         assert!(said.contains(words), "{words} is not in\n{said}");
     }
+}
+
+#[test]
+fn names_of_the_template_do_not_go_out_unnoticed() {
+    let folder = folder("template");
+    let template = folder.join("template.toml");
+    std::fs::write(&template, report::certificate_template()).expect("a file");
+    let filled = root().join("reports/certificates/laboratory.toml");
+    let budget = root().join("budgets/mass/weight-10kg-ea402-s2.toml");
+    let note = |data: &Path| {
+        let mut run = program();
+        run.arg("eval")
+            .arg(&budget)
+            .args(["--no-mc", "--certificate"]);
+        let run = run.arg(data).output().expect("the program runs");
+        assert!(run.status.success());
+        String::from_utf8_lossy(&run.stderr).into_owned()
+    };
+    assert_eq!(note(&filled), "");
+    let said = note(&template);
+    assert!(
+        said.contains("`customer`, `laboratory`, `person`"),
+        "{said}"
+    );
 }

@@ -52,6 +52,7 @@ pub use calibration::{
 };
 pub use certificate::{
     administration, certificate_keys, certificate_schema, certificate_template, certified,
+    template_names,
 };
 pub use diagnosis::{
     assumed_noise, diagnosis, diagnosis_schema, failure as diagnosis_failure, outlook,

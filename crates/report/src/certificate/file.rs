@@ -1,11 +1,12 @@
 //! The file with the data of a certificate, checked.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::Path;
 
 use gumption_core::quantity::UnitTable;
 use gumption_fault::language::Language;
-use gumption_fault::{Fault, Rejection, say};
+use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::document::{Administration, Condition, Contact, Item, Person, Told};
 use gumption_format::files::Files;
 use gumption_format::toml::faults::{UNKNOWN_WORD, UNREADABLE_FILE};
@@ -39,8 +40,43 @@ pub fn administration(files: Files<'_>, path: &Path) -> Result<Administration, R
         Rejection::new(&name, "", vec![fault])
     })?;
     let text = decoded(bytes, path)?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    let refused = |faults| Rejection::new(&name, text, faults);
+    checked(&name, text.strip_prefix('\u{feff}').unwrap_or(&text))
+}
+
+/// Which names of [`certificate_template`] nobody has replaced.
+pub fn template_names(given: &Administration) -> Option<Said> {
+    let template = checked("template.toml", &certificate_template()).ok()?;
+    let own = names(given);
+    let kept = names(&template)
+        .into_iter()
+        .filter(|name| own.contains(name));
+    let tables: BTreeSet<String> = kept.map(|(table, _)| format!("`{table}`")).collect();
+    let tables = tables.into_iter().collect::<Vec<_>>().join(", ");
+    (!tables.is_empty()).then(|| {
+        say!("the names under {tables} are still those of the template: put in the right ones before anybody signs")
+    })
+}
+
+/// Who answers for a certificate and who receives it, each with its table.
+fn names(given: &Administration) -> Vec<(&'static str, &str)> {
+    let contacts = [
+        ("laboratory", &given.laboratory.name),
+        ("customer", &given.customer.name),
+    ];
+    let told = contacts.into_iter().flat_map(|(table, told)| {
+        let texts = told.0.iter().map(|(_, text)| text.as_str());
+        texts.map(move |text| (table, text))
+    });
+    let signs = given
+        .persons
+        .iter()
+        .map(|one| ("person", one.name.as_str()));
+    told.chain(signs).collect()
+}
+
+/// The data in a text.
+fn checked(name: &str, text: &str) -> Result<Administration, Rejection> {
+    let refused = |faults| Rejection::new(name, text, faults);
     let (file, faults) =
         tables_of::<CertificateFile>(text, "the data of a certificate", &HINTS, UNUSED)
             .map_err(refused)?;

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use gumption::budget::{self, Budget, Heading, PROFILES, Trials};
+use gumption::budget::{self, Budget, CoverageRule, Heading, PROFILES, Trials};
 use gumption::document::{Block, Document};
 use gumption::propagate::{
     self, Evaluation, MonteCarloChoice, Options, Reported, ReportedUncertainty,
@@ -123,7 +123,7 @@ impl Expected<'_> {
                     // Beside an interval u has the last place of y.
                     let beside =
                         matches!(reported.uncertainty, ReportedUncertainty::Interval { .. });
-                    printed.is_nearest(u) && (printed.digits == 2 || u == 0.0)
+                    printed.is_nearest(u) && (matches!(printed.digits, 2 | 3) || u == 0.0)
                         || beside && self.is_expanded(printed, u)
                 }),
                 "k" => reported
@@ -148,6 +148,27 @@ impl Expected<'_> {
         };
         // A unit of the last digit may be of a number that is rounded up to the next power of ten.
         rounded && printed.digits == usize::from(conventions.digits)
+    }
+
+    /// Whether U is k times u_c as a sentence prints all three; where k was rounded, both may be off by half their last digit.
+    fn multiplies(&self, sentence: &str) -> bool {
+        let named = named(sentence);
+        let figure = |symbol| {
+            // The measurand, which stands first, may have the name of a symbol.
+            let found = named.iter().rfind(|(name, ..)| *name == symbol);
+            found.map(|(_, printed, _)| *printed)
+        };
+        let (Some(expanded), Some(k), Some(u)) = (figure("U"), figure("k"), figure("u_c")) else {
+            return true;
+        };
+        let slack = match self.budget.conventions.coverage_factor {
+            CoverageRule::Fixed(_) => 0.0,
+            _ => 0.5,
+        };
+        [-slack, 0.0, slack].into_iter().any(|off| {
+            let product = (k.value + off * k.unit) * (u.value + off * u.unit);
+            self.is_expanded(expanded, product)
+        })
     }
 
     /// Whether y ± U is the result of a measurand, with one last place.
@@ -346,6 +367,7 @@ fn hold(budget: &Budget, what: &str) -> usize {
             }
             for sentence in report::statement(&report) {
                 let sentence = sentence.split_whitespace().collect::<Vec<_>>().join(" ");
+                assert!(expected.multiplies(&sentence), "{what}: {sentence}");
                 assert!(
                     squeezed(&written).contains(&squeezed(&sentence)),
                     "{what}, {}: {sentence}\nis not in\n{written}",

@@ -16,7 +16,7 @@ pub(super) struct Figures<'a> {
     /// Whether y is a median, because the distribution has no mean.
     pub median: bool,
     /// k as the profile states it: a fixed one as it was given, others to two decimals.
-    k: Option<String>,
+    k: Option<Decimal>,
     /// y and what it is rounded beside: U, or u where an interval stands in the place of U.
     pair: Option<Rounded>,
 }
@@ -35,8 +35,10 @@ impl<'a> Figures<'a> {
             _ => reported.expanded(),
         };
         let k = match (conventions.coverage_factor, reported.uncertainty) {
-            (CoverageRule::Fixed(k), ReportedUncertainty::Multiple { .. }) => Some(exact(k)),
-            _ => reported.coverage_factor().map(|k| print(&at_place(k, -2))),
+            (CoverageRule::Fixed(k), ReportedUncertainty::Multiple { .. }) => {
+                Some(Decimal::from_f64(k))
+            }
+            _ => reported.coverage_factor().map(|k| at_place(k, -2)),
         };
         let mean = result.monte_carlo.as_ref().and_then(|mc| mc.estimate);
         Figures {
@@ -62,21 +64,36 @@ impl<'a> Figures<'a> {
         with_unit(&self.estimate(), &symbol(self.unit))
     }
 
-    /// u without its unit: two digits whatever the profile says about U; where an interval stands in the place of U,
-    /// as y is rounded beside it.
+    /// u without its unit: two digits whatever the profile says about U, or as many as k times them needs to be U;
+    /// where an interval stands in the place of U, as y is rounded beside it.
     pub fn u(&self) -> Option<String> {
         let u = self.reported.u?;
-        Some(match (&self.pair, self.reported.uncertainty) {
-            (Some(pair), ReportedUncertainty::Interval { .. }) => beside(pair, &pair.uncertainty),
-            (Some(pair), _) => {
-                let two = Decimal::from_f64(u).round_to_significant(2, Rounding::HalfEven);
-                match two.place() {
-                    Some(place) if place <= 0 => beside(pair, &two),
-                    _ => significant(u, 2),
-                }
-            }
-            _ => significant(u, 2),
+        let Some(pair) = &self.pair else {
+            return Some(significant(u, 2));
+        };
+        if let ReportedUncertainty::Interval { .. } = self.reported.uncertainty {
+            return Some(beside(pair, &pair.uncertainty));
+        }
+        let digits = self.digits(u, pair);
+        let rounded = rounded(u, digits);
+        Some(match rounded.place() {
+            Some(place) if place <= 0 => beside(pair, &rounded),
+            _ => significant(u, digits),
         })
+    }
+
+    /// Digits of u: two, or three where k times two digits would be rounded to another U than the one that is printed
+    /// beside them (GUM 7.2.6: more digits where round-off would enter what is computed from them).
+    fn digits(&self, u: f64, pair: &Rounded) -> u8 {
+        let Some(k) = &self.k else { return 2 };
+        let gives_expanded = |digits| {
+            let product = product(k, &rounded(u, digits));
+            self.reported.rounding.uncertainty(product).to_f64() == pair.uncertainty.to_f64()
+        };
+        match gives_expanded(2) {
+            true => 2,
+            false => 3,
+        }
     }
 
     /// U without its unit.
@@ -87,8 +104,8 @@ impl<'a> Figures<'a> {
     }
 
     /// k, where U is a multiple of u.
-    pub fn k(&self) -> Option<&str> {
-        self.k.as_deref()
+    pub fn k(&self) -> Option<String> {
+        self.k.as_ref().map(print)
     }
 
     /// The ends of the interval that stands in the place of U.
@@ -161,6 +178,22 @@ impl<'a> Figures<'a> {
         };
         l.pick(en, zh)
     }
+}
+
+/// u to so many digits.
+fn rounded(u: f64, digits: u8) -> Decimal {
+    Decimal::from_f64(u).round_to_significant(digits, Rounding::HalfEven)
+}
+
+/// The product of two decimals, which has the places of both: 3 · 0.1 is 0.3.
+fn product(a: &Decimal, b: &Decimal) -> f64 {
+    let exact = a.to_f64() * b.to_f64();
+    let place = a.place().zip(b.place()).map(|(a, b)| a + b);
+    place.map_or(exact, |place| {
+        Decimal::from_f64(exact)
+            .round_to_place(place, Rounding::HalfEven)
+            .to_f64()
+    })
 }
 
 /// An uncertainty as it is written beside y ± U: one sentence holds no figure in two forms, 0.000037 and 3.7×10^-5.

@@ -108,8 +108,8 @@ impl Subject<'_> {
         self.figures.amount(u.as_deref().unwrap_or(NONE))
     }
 
-    fn k(&self) -> &str {
-        self.figures.k().unwrap_or(NONE)
+    fn k(&self) -> String {
+        self.figures.k().unwrap_or_else(|| NONE.to_string())
     }
 
     fn gum_sentence(&self) -> String {

@@ -5,7 +5,9 @@ mod head;
 mod number;
 mod tables;
 
-pub use file::{administration, certificate_keys, certificate_schema, certificate_template};
+pub use file::{
+    administration, certificate_keys, certificate_schema, certificate_template, template_names,
+};
 pub use head::certified;
 
 use gumption_core::quantity::{Decimal, Unit};
@@ -108,10 +110,10 @@ fn point(row: &Report<'_>, measurand: usize, notation: &Notation) -> CertifiedPo
     let k = figures
         .k()
         .filter(|_| reported.coverage_factor().is_some_and(|k| k >= 1.0));
-    let uncertainty = match (figures.expanded(), k, figures.interval()) {
+    let uncertainty = match (figures.expanded(), &k, figures.interval()) {
         (Some(expanded), Some(k), _) => CertifiedUncertainty::Expanded {
             expanded: notation.printed_deviation(&expanded),
-            k: k.to_owned(),
+            k: k.clone(),
             p,
             distribution: distribution(row, measurand, reported.uncertainty),
         },

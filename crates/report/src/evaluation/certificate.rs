@@ -130,7 +130,7 @@ impl<'a> Points<'a> {
                 point.report.label.unwrap_or_default().into(),
                 figures.estimate().into(),
                 cell(figures.expanded()),
-                cell(figures.k().map(str::to_string)),
+                cell(figures.k()),
                 cell(freedom.filter(|_| figures.k().is_some())),
                 cell(point.probability().filter(|_| !one_probability)),
                 cell(

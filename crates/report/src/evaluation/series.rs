@@ -87,9 +87,7 @@ impl Series<'_> {
 
     /// The one k of all rows, if it is one.
     fn one_factor(&self) -> Option<String> {
-        let mut all = self
-            .figures()
-            .map(|figures| figures.k().map(str::to_string));
+        let mut all = self.figures().map(|figures| figures.k());
         let first = all.next()??;
         all.all(|k| k.as_ref() == Some(&first)).then_some(first)
     }
@@ -155,7 +153,7 @@ impl Series<'_> {
                 report.label.unwrap_or_default().into(),
                 figures.estimate().into(),
                 cell(figures.u()),
-                cell(k.map(str::to_string)),
+                cell(k),
                 cell(figures.expanded()),
                 cell(figures.interval().map(brackets)),
                 trials,

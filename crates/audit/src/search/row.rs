@@ -162,15 +162,7 @@ fn accident(row: &Row, right: Line, own: &[Act]) -> f64 {
 
 fn changed(mut line: Line, set: &[Act]) -> Line {
     for act in set {
-        match act.change {
-            Change::U(u) => line.u = u,
-            Change::Scaled(factor) => line.u *= factor,
-            Change::C(c) => line.c = c,
-            Change::Dof(dof) => line.dof = dof,
-            Change::Counted(counted) => line.counted = counted,
-            Change::Typed(contribution) => line.typed = Some(contribution),
-            _ => {}
-        }
+        act.change.apply(&mut line);
     }
     line
 }

@@ -2,7 +2,7 @@
 
 use gumption_fault::{Said, say};
 
-use crate::calculate::{Calculation, Case, Combined, Factor, Freedom, Printout};
+use crate::calculate::{Calculation, Case, Combined, Factor, Freedom, Line, Printout};
 
 /// A change of the calculation, in a row or in the whole.
 pub type Place = (Option<usize>, Change);
@@ -149,6 +149,21 @@ pub enum Group {
     Result,
 }
 
+impl Change {
+    /// Changes the row that it acts on; what acts on the whole calculation leaves it.
+    pub fn apply(&self, line: &mut Line) {
+        match *self {
+            Change::U(u) => line.u = u,
+            Change::Scaled(factor) => line.u *= factor,
+            Change::C(c) => line.c = c,
+            Change::Dof(dof) => line.dof = dof,
+            Change::Counted(counted) => line.counted = counted,
+            Change::Typed(contribution) => line.typed = Some(contribution),
+            _ => {}
+        }
+    }
+}
+
 impl Act {
     /// As in the neutral answer form: `s-not-mean@dm`.
     pub fn id(&self, case: &Case<'_>) -> String {
@@ -190,15 +205,7 @@ impl Act {
     /// Makes the slip.
     pub fn apply(&self, to: &mut Calculation) {
         if let Some(line) = self.row.and_then(|row| to.lines.get_mut(row)) {
-            match self.change {
-                Change::U(u) => line.u = u,
-                Change::Scaled(factor) => line.u *= factor,
-                Change::C(c) => line.c = c,
-                Change::Dof(dof) => line.dof = dof,
-                Change::Counted(counted) => line.counted = counted,
-                Change::Typed(contribution) => line.typed = Some(contribution),
-                _ => {}
-            }
+            self.change.apply(line);
         }
         match self.change {
             Change::Combined(combined) => to.combined = combined,

@@ -69,7 +69,7 @@ fn columns(layer: &Layer, panel: &Panel) -> Vec<(String, Vec<Option<f64>>)> {
             (x, some(points.iter().map(|[x, _]| *x).collect())),
             (name(""), some(points.iter().map(|[_, y]| *y).collect())),
         ],
-        Marks::Band(band) => vec![
+        Marks::Band(band) | Marks::Whiskers(band) => vec![
             (x, some(band.iter().map(|[x, ..]| *x).collect())),
             (
                 name("−"),
@@ -78,17 +78,6 @@ fn columns(layer: &Layer, panel: &Panel) -> Vec<(String, Vec<Option<f64>>)> {
             (
                 name("+"),
                 some(band.iter().map(|[.., high]| *high).collect()),
-            ),
-        ],
-        Marks::Whiskers(bars) => vec![
-            (x, some(bars.iter().map(|[x, ..]| *x).collect())),
-            (
-                name("−"),
-                some(bars.iter().map(|[_, low, _]| *low).collect()),
-            ),
-            (
-                name("+"),
-                some(bars.iter().map(|[.., high]| *high).collect()),
             ),
         ],
         Marks::Upright(at) => vec![(x, some(vec![*at; 2])), (name(""), some(heights.to_vec()))],

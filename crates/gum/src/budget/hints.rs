@@ -1,5 +1,6 @@
 //! What writers of budgets mistake, beyond misspelt words.
 
+use gumption_core::distribution::Entry;
 use gumption_fault::{Said, nearest, say};
 use gumption_format::toml::{DeValue, Hints, Table};
 
@@ -19,7 +20,7 @@ pub static HINTS: Hints = Hints {
 };
 
 /// Words that people try, and the keys and words that they mean.
-pub const SYNONYMS: [(&str, &str); 100] = [
+pub const SYNONYMS: [(&str, &str); 105] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),
@@ -37,7 +38,10 @@ pub const SYNONYMS: [(&str, &str); 100] = [
     ("interval", "limits"),
     ("bounds", "limits"),
     ("expanded_uncertainty", "U"),
+    ("expanded", "U"),
     ("coverage_factor", "k"),
+    ("coverage", "k"),
+    ("factor", "k"),
     ("coverage_probability", "p"),
     ("p", "coverage_probability"),
     ("k", "coverage_factor"),
@@ -113,6 +117,8 @@ pub const SYNONYMS: [(&str, &str); 100] = [
     ("区间半宽", "half_width"),
     ("分辨力", "step"),
     ("分辨率", "step"),
+    ("分度值", "step"),
+    ("least_count", "step"),
     ("证书", "certificate"),
     ("校准证书", "certificate"),
     ("分布", "distribution"),
@@ -148,11 +154,23 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
     }
     let has = |wanted: &str| known.contains(&wanted);
     let elsewhere = match (table, key.to_lowercase().as_str()) {
-        ("[input]", "accuracy" | "mpe" | "spec" | "tolerance") if has("specification") => {
-            Some(say!(
-                "limits ±a are half_width = …; those of an instrument that depend on its reading specification = {{ reading = \"0.05 %\", counts = 2, step = … }}"
-            ))
-        }
+        ("certificate", "u" | "standard_uncertainty" | "标准不确定度") => Some(say!(
+            "a certificate states U with its k; the standard uncertainty that one states stands alone: u = …"
+        )),
+        (
+            "certificate",
+            "half_width" | "limits" | "accuracy" | "mpe" | "tolerance" | "class" | "允差"
+            | "最大允许误差",
+        ) => Some(say!(
+            "limits ±a are no expanded uncertainty: half_width = … in the place of `certificate`"
+        )),
+        (
+            "[input]" | "a component",
+            "accuracy" | "class" | "mpe" | "spec" | "tolerance" | "允差" | "最大允许误差"
+            | "准确度等级",
+        ) if has("specification") => Some(say!(
+            "limits ±a are half_width = …; those of an instrument that depend on its reading specification = {{ reading = \"0.05 %\", counts = 2, step = … }}"
+        )),
         (_, "u_rel" | "urel" | "u_r" | "rel_u" | "relative_u" | "relative_uncertainty")
             if has("relative") =>
         {
@@ -168,6 +186,9 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
                 "a plain number is in the unit of the quantity; another unit stands with its number: \"0.1 mg\""
             ))
         }
+        (_, shape) if has("distribution") && has_limits(shape) => Some(say!(
+            "a shape goes with what it spreads over: half_width = …, distribution = \"{shape}\""
+        )),
         ("distribution", "type" | "name" | "kind" | "shape") => Some(say!(
             "the shape that goes with another way is a text: distribution = \"triangular\""
         )),
@@ -266,6 +287,12 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
     let beside = ["specification", "certificate"].contains(&table)
         && ["p", "k", "dof", "distribution", "name"].contains(&key);
     beside.then(|| say!("`{key}` stands beside `{table}`, not in it"))
+}
+
+/// Whether this names a distribution between limits.
+fn has_limits(name: &str) -> bool {
+    let parameters = Entry::named(name).map(|entry| entry.parameters);
+    parameters.is_some_and(|all| all.iter().any(|rule| rule.key == "half_width"))
 }
 
 /// What to write for a value of the wrong type at this key.

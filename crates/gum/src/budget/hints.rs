@@ -4,7 +4,7 @@ use gumption_core::distribution::Entry;
 use gumption_fault::{Said, nearest, say};
 use gumption_format::toml::{DeValue, Hints, Table};
 
-use super::tables::FileTable;
+use super::tables::{ConventionsTable, FileTable, MonteCarloTable};
 
 /// The mistakes of writers of budgets.
 pub static HINTS: Hints = Hints {
@@ -201,6 +201,19 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
         ("[input]" | "a component", "correlation" | "correlated" | "相关系数") => Some(say!(
             "write [[correlation]], between = [\"A\", \"B\"] with the names of two inputs, and r = …"
         )),
+        (
+            "[measurand]",
+            "limit" | "limits" | "lower" | "upper" | "mpe" | "nominal" | "tolerance" | "允差"
+            | "最大允许误差",
+        ) => Some(say!(
+            "what the result has to keep to stands below [conformity]: lower = … and upper = …, or mpe = … about a nominal = …, and the rule"
+        )),
+        ("[measurand]", "value" | "readings" | "u" | "half_width" | "certificate") => Some(say!(
+            "what is known of a quantity stands with an input: model = \"x\", and below [input.x] {key} = …"
+        )),
+        ("[measurand]", "name" | "symbol") => {
+            Some(say!("its name stands in the header: [measurand.NAME]"))
+        }
         ("[measurand]", "functions" | "function" | "model2" | "equations") => Some(say!(
             "functions and intermediate quantities are lines of the `model`, above its last one: f(x) = …"
         )),
@@ -279,6 +292,7 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
                 "data of a certificate stand in a file of their own: --certificate FILE; the U and k of a reference stand with its input, certificate = {{ U = …, k = 2 }}"
             ))
         }
+        _ if has("conventions") => header_of(key),
         _ => None,
     };
     if elsewhere.is_some() {
@@ -287,6 +301,16 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
     let beside = ["specification", "certificate"].contains(&table)
         && ["p", "k", "dof", "distribution", "name"].contains(&key);
     beside.then(|| say!("`{key}` stands beside `{table}`, not in it"))
+}
+
+/// Where a key stands that whoever wrote it has put at the top of the file.
+fn header_of(key: &str) -> Option<Said> {
+    let below = [
+        ("[conventions]", ConventionsTable::keys()),
+        ("[monte_carlo]", MonteCarloTable::keys()),
+    ];
+    let (header, _) = below.into_iter().find(|(_, keys)| keys.contains(&key))?;
+    Some(say!("`{key}` stands below the header {header}"))
 }
 
 /// Whether this names a distribution between limits.
@@ -374,6 +398,9 @@ fn no_table(title: &str, found: &DeValue<'_>) -> Option<Said> {
         )),
         ("[measurand]", DeValue::String(_)) => Some(say!(
             "its name stands in the header, its formula is the model: [measurand.NAME], model = \"…\""
+        )),
+        ("[monte_carlo]", _) => Some(say!(
+            "[monte_carlo] is a header, with trials = … below it; every budget is checked by Monte Carlo, unless --no-mc is given"
         )),
         ("certificate", DeValue::String(_)) => {
             Some(say!("a certificate is {{ U = …, k = 2, number = \"…\" }}"))

@@ -28,7 +28,7 @@ use std::path::{Component, Path, PathBuf};
 
 /// Most bytes of a file that are read: ten million rows of eight columns. What is read is in memory as a whole,
 /// and its numbers beside it.
-const MOST_BYTES: u64 = 1 << 30;
+pub(crate) const MOST_BYTES: u64 = 1 << 30;
 
 /// Where budgets, and the files that they name, are read from.
 ///

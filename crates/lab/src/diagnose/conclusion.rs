@@ -258,6 +258,7 @@ impl Diagnosis {
             unit: sine.unit_of_size(case).typeset(),
             value,
             u,
+            dof: alternative.dof,
         })
     }
 }

@@ -227,7 +227,7 @@ pub fn diagnose(
         examination.refute();
         adopted = None;
     }
-    let unknowns = estimates(&design, &fit, &claimed, before.scale);
+    let unknowns = estimates(&design, &fit, &claimed);
     let known = Known {
         case,
         design: &design,

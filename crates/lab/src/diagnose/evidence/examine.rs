@@ -2,15 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::DMatrix;
-
 use super::closed_form::Scale;
-use super::confusion::confusions;
-use super::findings::{Alternative, Examination, Fitted, Invisible, Slot, State, Verdict};
+use super::findings::{Alternative, Examination, Slot, State, Verdict};
 use super::fit::fitted;
 use super::grades::{alike, graded};
 use super::null::Simulated;
-use super::question::{Question, Shape};
+use super::question::Question;
 use super::refusal::Refusal;
 use super::search::{Search, search};
 use super::slots::{Explanation, LISTED, slots};
@@ -140,19 +137,12 @@ pub fn examine(
     let set = space.frame_of(&named);
     Ok(Examination {
         verdict,
-        fitted: (!named.is_empty()).then(|| Fitted {
-            confusions: confusions(&space, question, &named, &slots, &simulated),
-            ..fitted(&space, question, &set)
-        }),
+        fitted: (!named.is_empty()).then(|| fitted(&space, question, &set)),
         slots,
         explained,
         generic_probability,
         margin: rivalry.margin.unwrap_or(f64::INFINITY),
-        leftover,
         score: search.best().map_or(0.0, |best| best.score),
-        chi_squared: question.baseline.chi_squared(),
-        dof: question.baseline.dof(),
-        invisible: invisible(&space, question),
         levels: search.levels,
     })
 }
@@ -368,27 +358,9 @@ fn verdict(slots: &[Slot], explained: f64) -> Verdict {
     }
 }
 
-fn invisible(space: &Space, question: &Question) -> Vec<Invisible> {
-    space
-        .invisible
-        .iter()
-        .filter_map(|atom| {
-            let Shape::Columns(columns) = &question.atoms[*atom].shape else {
-                return None;
-            };
-            let gain: DMatrix<f64> = question.baseline.gain(columns);
-            Some(Invisible {
-                atom: *atom,
-                idle: columns.iter().all(|x| *x == 0.0),
-                gain,
-            })
-        })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
-    use nalgebra::DVector;
+    use nalgebra::{DMatrix, DVector};
 
     use super::super::findings::{Alternative, Rival};
     use super::*;

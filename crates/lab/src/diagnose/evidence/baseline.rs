@@ -194,8 +194,7 @@ impl Baseline {
         let colored = stacked(colored, &self.absorbed.rows(self.rows, known).into_owned());
         let along = self.absorbed.tr_mul(&colored);
         let expected = trace + known as f64 - along.trace();
-        let of_square =
-            square + known as f64 - 2.0 * colored.norm_squared() + along.norm_squared();
+        let of_square = square + known as f64 - 2.0 * colored.norm_squared() + along.norm_squared();
         let gain = &self.inverse * along;
         let variance = |at: usize| gain.row(at).dot(&self.inverse.row(at));
         Spread {

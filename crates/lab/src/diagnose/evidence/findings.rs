@@ -20,11 +20,9 @@ pub enum Verdict {
     Like,
     /// Every effect has a name or a list of names that the recording cannot tell apart.
     Ambiguous,
-    /// Some effects are named, and something without a name is left.
+    /// An effect is named, and something without a name is left.
     Partly,
-    /// Named effects, or else an effect without a name or outside the catalogue: both explain the recording.
-    Contested,
-    /// Something is there that no candidate explains; the slots say where.
+    /// Something is there that no candidates explain; the slots say where, and what it resembles.
     Unexplained,
 }
 
@@ -39,13 +37,8 @@ pub struct Examination {
     pub slots: Vec<Slot>,
     /// The model with the most probable named effects in it; `None` if there are none.
     pub fitted: Option<Fitted>,
-    /// Share of the excess χ² that the named effects explain, 0 … 1.
-    pub explained: f64,
     /// Posterior probability that an effect without a name is there.
     pub generic_probability: f64,
-    /// By how much the named effects are better than an unlisted effect that resembles the catalogue, as
-    /// the logarithm of a Bayes factor; ∞ if nothing is named.
-    pub margin: f64,
     /// Logarithm of the evidence of the most probable explanation, with or without names, against none.
     pub score: f64,
 }

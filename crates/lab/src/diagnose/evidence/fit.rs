@@ -123,7 +123,7 @@ pub(super) fn fitted(space: &Space, question: &Question, set: &Frame) -> Fitted 
 }
 
 /// Standard deviation of the noise in whitened units, with its degrees of freedom.
-fn noise(space: &Space, set: &Frame) -> (f64, f64) {
+pub(super) fn noise(space: &Space, set: &Frame) -> (f64, f64) {
     match space.scale.less(set.basis.ncols()) {
         Scale::Known => (1.0, f64::INFINITY),
         Scale::Estimated { total } => ((space.residual(set).rss / total).sqrt(), total),

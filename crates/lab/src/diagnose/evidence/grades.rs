@@ -5,10 +5,10 @@ use super::detection;
 use super::findings::{Slot, State};
 use super::null::Simulated;
 use super::question::Question;
+use super::restated::Restated;
 use super::search::Search;
 use super::slots::{Explanation, slots};
 use super::space::Space;
-use super::unlisted::Restated;
 
 /// A departure that makes an effect another is seen from so many standard deviations on.
 const SEEN: f64 = 4.0;
@@ -37,7 +37,6 @@ pub(super) fn alike(
     let explanation = Explanation {
         named: core.clone(),
         generic: None,
-        contested: false,
     };
     let mut slots = slots(space, question, search, &explanation, again);
     for slot in &mut slots {
@@ -48,7 +47,7 @@ pub(super) fn alike(
             };
         }
     }
-    (slots.iter().any(|slot| !slot.named.is_empty())).then_some((core, slots))
+    (slots.iter().all(Slot::is_explained)).then_some((core, slots))
 }
 
 /// Whether anything stands out beside a set by more than a departure of its effects from their forms leaves.

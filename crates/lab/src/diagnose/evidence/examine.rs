@@ -222,7 +222,8 @@ mod tests {
         // λ = 67 beside 44, then beside 109.
         let found = examined(course(|t| t) * 30.0 + hum() * 8.0, false);
         assert_eq!(found.verdict, Verdict::Partly);
-        assert_eq!(found.slots[0].named[0].candidate, 0);
+        let first = &found.slots[0];
+        assert_eq!((first.named[0].candidate, first.state), (0, State::Like));
         let found = examined(course(|t| t) * 30.0 + hum() * 20.0, false);
         assert_eq!(found.verdict, Verdict::Unexplained);
         // What only describes never has.

@@ -11,9 +11,9 @@ use super::fit::{estimate, nearest};
 use super::look_alikes;
 use super::question::{Kind, Question};
 use super::remainders::{Remainder, Remainders};
+use super::restated::Restated;
 use super::search::Search;
 use super::space::{Frame, Space};
-use super::unlisted::Restated;
 
 /// Probability of a credible list.
 const CREDIBLE: f64 = 0.95;
@@ -35,8 +35,6 @@ enum Member {
 pub(super) struct Explanation {
     pub(super) named: Vec<usize>,
     pub(super) generic: Option<usize>,
-    /// A smooth effect without a name competes with the named ones.
-    pub(super) contested: bool,
 }
 
 /// The slots of an explanation.

@@ -76,7 +76,6 @@ pub(super) struct Block {
 pub(super) struct Space {
     pub(super) z: DVector<f64>,
     pub(super) blocks: Vec<Block>,
-    pub(super) invisible: Vec<usize>,
     pub(super) scale: Scale,
     /// Dimension of the space, m.
     pub(super) dof: usize,
@@ -108,7 +107,6 @@ impl Space {
         let mut space = Space {
             z: baseline.residuals().clone(),
             blocks: Vec::new(),
-            invisible: Vec::new(),
             scale: Scale::new(baseline.dof(), baseline.scale_dof()),
             dof: baseline.dof(),
             offset: if baseline.scale_dof().is_finite() {
@@ -130,10 +128,8 @@ impl Space {
             let own = start..start + atom.shape.width();
             start = own.end;
             let columns = seen.columns_range(own.clone()).into_owned();
-            match block(index, atom, odds.of(atom), columns, &lengths[own]) {
-                Some(block) => space.blocks.push(block),
-                None => space.invisible.push(index),
-            }
+            let block = block(index, atom, odds.of(atom), columns, &lengths[own]);
+            space.blocks.extend(block);
         }
         for block in &space.blocks {
             let last = space.starts[space.starts.len() - 1];
@@ -270,44 +266,6 @@ impl Block {
             Form::Named => Kind::Named,
             Form::Smooth(_) | Form::Scatter => Kind::Generic,
         }
-    }
-
-    /// Logarithm of the Bayes factor against none, from the components of the residuals along the
-    /// directions of the block.
-    pub(super) fn evidence(
-        &self,
-        components: impl Iterator<Item = f64> + Clone,
-        residual: &Residual,
-    ) -> f64 {
-        let squares = components.map(|c| c * c);
-        self.form.evidence(self.basis.ncols(), squares, residual)
-    }
-
-    /// The block with everything along a basis taken out; `None` if nothing is left.
-    pub(super) fn beside(&self, basis: &DMatrix<f64>) -> Option<Block> {
-        if basis.ncols() == 0 {
-            return Some(self.clone());
-        }
-        let (form, directions) = match &self.form {
-            Form::Scatter => (Form::Scatter, self.basis.clone()),
-            Form::Named => (Form::Named, self.directions_beside(basis)),
-            Form::Smooth(_) => {
-                let (ladder, directions) = smooth(without(&self.columns, basis))?;
-                (Form::Smooth(ladder), directions)
-            }
-        };
-        if directions.ncols() == 0 && !matches!(form, Form::Scatter) {
-            return None;
-        }
-        Some(Block {
-            atom: self.atom,
-            candidate: self.candidate,
-            log_odds: self.log_odds,
-            form,
-            basis: directions,
-            columns: DMatrix::zeros(basis.nrows(), 0),
-            kept: self.kept.clone(),
-        })
     }
 
     fn directions_beside(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {

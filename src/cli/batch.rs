@@ -6,15 +6,15 @@ use std::path::PathBuf;
 use gumption::batch::{self, Plan};
 use gumption::budget::{BatchFile, Points, Profile, Trials, Wanted};
 use gumption::csv;
-use gumption::fault::{Said, say};
-use gumption::files::{Files, Growing};
+use gumption::fault::say;
+use gumption::files::Files;
 use gumption::propagate::Progress;
 use gumption::report::Language;
 use gumption::report::batch::{Columns, Table};
 
 use super::evaluated::{parse_points, parse_profile, parse_trials};
 use super::language::system_language;
-use super::output::Target;
+use super::output::{Sink, Target};
 use super::progress::Steps;
 use super::{Outcome, output};
 
@@ -78,10 +78,9 @@ pub(super) fn run(args: &Args) -> Outcome {
     let sink = args
         .target
         .is_allowed(&[], args.lang)
-        .map(|()| Sink::begin(&args.target, args.lang));
+        .and_then(|()| Sink::begin(&args.target, args.lang));
     let mut sink = match sink {
-        Ok(Ok(sink)) => sink,
-        Ok(Err(why)) => return output::complain(why),
+        Ok(sink) => sink,
         Err(outcome) => return outcome,
     };
     let columns = Columns {
@@ -148,44 +147,5 @@ fn plan(args: &Args) -> Plan {
         threads: args.threads.map_or(cores, usize::from),
         keep: args.keep.clone(),
         progress: Progress::default(),
-    }
-}
-
-/// Where the lines go as they come.
-enum Sink {
-    File(Box<Growing>, Language),
-    Printed,
-}
-
-impl Sink {
-    fn begin(target: &Target, language: Language) -> Result<Sink, Said> {
-        match target.file() {
-            None => Ok(Sink::Printed),
-            Some(path) => match Growing::begin(path, target.replacing()) {
-                Ok(file) => Ok(Sink::File(Box::new(file), language)),
-                Err(why) => Err(Said::quoted(why.words(language))),
-            },
-        }
-    }
-
-    fn add(&mut self, bytes: &[u8]) -> Result<(), Said> {
-        match self {
-            Sink::File(file, language) => file
-                .add(bytes)
-                .map_err(|why| Said::quoted(why.words(*language))),
-            Sink::Printed => match output::print(bytes) {
-                Outcome::Done => Ok(()),
-                _ => Err(say!("the table is not whole")),
-            },
-        }
-    }
-
-    fn finish(self) -> Result<(), Said> {
-        match self {
-            Sink::File(file, language) => file
-                .finish()
-                .map_err(|why| Said::quoted(why.words(language))),
-            Sink::Printed => Ok(()),
-        }
     }
 }

@@ -6,40 +6,46 @@ use gumption::calibrate;
 use gumption::fault::{Said, say};
 use gumption::files::Files;
 use gumption::report::batch::{Lines, Table};
-use gumption::report::{self, Unusable};
+use gumption::report::{self, RecordingColumns, Unusable};
 
-use crate::cli::form::Form;
+use crate::cli::output::Sink;
 use crate::cli::progress::Steps;
 use crate::cli::{Outcome, output};
 
-pub(super) fn run(file: &Path, given: &[PathBuf], form: &Form) -> Outcome {
-    let language = form.language();
-    let target = match form.target() {
+use super::Args;
+
+pub(super) fn run(args: &Args) -> Outcome {
+    let language = args.form.language();
+    let target = match args.form.target() {
         Ok(target) => target,
         Err(complaint) => return output::complain(complaint),
     };
     if let Err(outcome) = target.is_allowed(&[], language) {
         return outcome;
     }
-    let recordings = match listed(given) {
+    let recordings = match listed(&args.recordings) {
         Ok(recordings) => recordings,
         Err(why) => return output::complain(why),
     };
+    let mut sink = match Sink::begin(target, language) {
+        Ok(sink) => sink,
+        Err(outcome) => return outcome,
+    };
+    let columns = RecordingColumns {
+        shares: args.shares,
+        language,
+    };
     let mut table = Table::default();
-    let mut text = Vec::new();
     let steps = Steps::shown(say!("calibration"));
     for (at, recording) in recordings.iter().enumerate() {
         let mut lines = Lines::default();
-        let found = calibrated(file, recording);
+        let found = calibrated(&args.file, recording);
         let found = found.as_ref().map(|(campaign, found)| (campaign, found));
-        report::recording(&mut lines, &label(recording), found, language);
-        text.extend(table.add(lines));
-        if steps
-            .at((at + 1) as f64 / recordings.len() as f64)
-            .is_break()
-        {
-            break;
+        report::recording(&mut lines, &label(recording), found, columns);
+        if let Err(why) = sink.add(&table.add(lines)) {
+            return output::complain(why);
         }
+        let _ = steps.at((at + 1) as f64 / recordings.len() as f64);
     }
     drop(steps);
     // Now it is known what was read, too.
@@ -47,17 +53,18 @@ pub(super) fn run(file: &Path, given: &[PathBuf], form: &Form) -> Outcome {
         return outcome;
     }
     let (left, count) = table.end();
-    text.extend(left);
-    let written = target.write(text, Vec::new(), language);
+    if let Err(why) = sink.add(&left).and_then(|()| sink.finish()) {
+        return output::complain(why);
+    }
     match count.failed {
-        0 => written,
+        0 => Outcome::Done,
         failed => {
             let rows = count.rows;
             let said = say!(
                 "{failed} of {rows} recordings give no coefficients; their last column says why"
             );
             output::warn(&format!("{}\n", said.in_language(language)));
-            written.max(Outcome::Negative)
+            Outcome::Negative
         }
     }
 }

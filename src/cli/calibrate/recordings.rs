@@ -1,12 +1,10 @@
 //! `gumption calibrate --recordings`: one experiment, a table with a line for each recording.
 
-use std::path::{Path, PathBuf, absolute};
-
 use gumption::calibrate;
-use gumption::fault::{Said, say};
+use gumption::fault::say;
 use gumption::files::Files;
 use gumption::report::batch::{Lines, Table};
-use gumption::report::{self, RecordingColumns, Unusable};
+use gumption::report::{self, RecordingColumns};
 
 use crate::cli::output::Sink;
 use crate::cli::progress::Steps;
@@ -23,7 +21,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     if let Err(outcome) = target.is_allowed(&[], language) {
         return outcome;
     }
-    let recordings = match listed(&args.recordings) {
+    let recordings = match calibrate::listed(&args.recordings) {
         Ok(recordings) => recordings,
         Err(why) => return output::complain(why),
     };
@@ -39,9 +37,9 @@ pub(super) fn run(args: &Args) -> Outcome {
     let steps = Steps::shown(say!("calibration"));
     for (at, recording) in recordings.iter().enumerate() {
         let mut lines = Lines::default();
-        let found = calibrated(&args.file, recording);
+        let found = calibrate::of_recording(Files::Disk, &args.file, recording);
         let found = found.as_ref().map(|(campaign, found)| (campaign, found));
-        report::recording(&mut lines, &label(recording), found, columns);
+        report::recording(&mut lines, &calibrate::label(recording), found, columns);
         if let Err(why) = sink.add(&table.add(lines)) {
             return output::complain(why);
         }
@@ -67,52 +65,4 @@ pub(super) fn run(args: &Args) -> Outcome {
             Outcome::Negative
         }
     }
-}
-
-/// As `gumption calibrate` of an experiment that names this recording.
-fn calibrated(
-    file: &Path,
-    recording: &Path,
-) -> Result<(calibrate::Campaign, calibrate::Calibration), Unusable> {
-    // What the file names starts from its own folder.
-    let place = absolute(recording).unwrap_or_else(|_| recording.to_path_buf());
-    let campaign = calibrate::load_with(Files::Disk, file, &place)
-        .map_err(|rejection| Unusable::Refused(Box::new(rejection)))?;
-    let found = calibrate::calibrate(&campaign).map_err(Unusable::Trouble)?;
-    Ok((campaign, found))
-}
-
-/// The files that are given, and those of folders in the order of their names.
-fn listed(given: &[PathBuf]) -> Result<Vec<PathBuf>, Said> {
-    let mut all = Vec::new();
-    for path in given {
-        if !Files::Disk.is_folder(path) {
-            all.push(path.clone());
-            continue;
-        }
-        let entries = std::fs::read_dir(path);
-        let entries =
-            entries.map_err(|error| say!("{} cannot be read: {error}", path.display()))?;
-        let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
-        let is_table = |path: &PathBuf| {
-            let ending = path.extension().unwrap_or_default();
-            ending.eq_ignore_ascii_case("csv") && path.is_file()
-        };
-        let mut found: Vec<PathBuf> = paths.filter(is_table).collect();
-        if found.is_empty() {
-            return Err(say!(
-                "there is no CSV file in the folder {}",
-                path.display()
-            ));
-        }
-        found.sort();
-        all.extend(found);
-    }
-    Ok(all)
-}
-
-/// The name of the file, without its ending.
-fn label(recording: &Path) -> String {
-    let name = recording.file_stem().unwrap_or_default();
-    name.to_string_lossy().into_owned()
 }

@@ -15,7 +15,7 @@ pub struct Columns<'t> {
 #[derive(Debug)]
 pub enum Cells<'t> {
     /// Numbers; none where one is not a number.
-    Numbers(&'t [f64]),
+    Numbers(Cow<'t, [f64]>),
     /// Texts, as a file has them.
     Texts(Vec<String>),
 }
@@ -57,7 +57,8 @@ impl<'t> Columns<'t> {
 }
 
 impl Cells<'_> {
-    fn len(&self) -> usize {
+    /// How many there are.
+    pub fn len(&self) -> usize {
         match self {
             Cells::Numbers(numbers) => numbers.len(),
             Cells::Texts(texts) => texts.len(),

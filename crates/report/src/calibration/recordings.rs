@@ -1,22 +1,12 @@
 //! Calibrations of many recordings: one line each, in the columns of a batch.
 
-use gumption_fault::Rejection;
-use gumption_lab::calibrate::{Calibration, Campaign, Contribution, Origin, Trouble};
+use gumption_lab::calibrate::{Calibration, Campaign, Contribution, Origin, Unusable};
 
 use super::calibration_trouble;
 use super::causes::origin_name;
 use crate::batch::{Lines, refused};
 use crate::language::Language;
 use crate::rows::{Head, in_unit};
-
-/// Why a recording gives no coefficients.
-#[derive(Debug)]
-pub enum Unusable {
-    /// It, or the experiment with it, has faults.
-    Refused(Box<Rejection>),
-    /// It does not tell them.
-    Trouble(Trouble),
-}
 
 /// Columns that lines of recordings have on request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

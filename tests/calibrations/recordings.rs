@@ -128,5 +128,7 @@ fn the_table_is_no_document() {
     };
     assert!(said(&["--html", "--recordings", "x.csv"]).contains("leave out --html"));
     std::fs::create_dir_all(folder.join("empty")).expect("a folder");
+    let (good, why) = cases::gumption(&folder, &["calibrate", "no.toml", "--recordings", "x.csv"]);
+    assert!(!good && why.contains("no file no.toml"), "{why}");
     assert!(said(&["--recordings", "empty"]).contains("no CSV file in the folder empty"));
 }

@@ -404,7 +404,7 @@ fn columns_in_memory_give_what_a_file_gives() {
     let mut results = Results::of(wanted, &file);
     batch::run_columns(
         &file,
-        (&columns.expect("equal lengths"), "table"),
+        ([Ok(columns.expect("equal lengths"))], "table"),
         &plan(None, 3),
         |values, row| wanted.add_values(values, row),
         |values, _| {

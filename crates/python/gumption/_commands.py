@@ -116,6 +116,8 @@ def calibrate(
         place = source(experiment, {**(files or {}), **at_hand})
     else:
         given = [recordings] if isinstance(recordings, (str, os.PathLike)) else list(recordings)
+        if hasattr(recordings, "columns") or not all(isinstance(one, (str, os.PathLike)) for one in given):
+            raise TypeError('recordings: files or folders, or a dict of names with frames, such as {"17": frame}')
         listed = _engine.recordings_of(given, language)
         place = source(experiment, files)
         if place["files"] is not None:

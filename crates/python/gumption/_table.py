@@ -87,7 +87,15 @@ def given(table: Given) -> Any:
 
 def _columns(table: Any) -> list[tuple[str, Any]]:
     """A frame or columns by their names."""
-    names = list(table.keys() if isinstance(table, Mapping) else table.columns)
+    names = list(table.keys() if isinstance(table, Mapping) else getattr(table, "columns", ()))
+    if not isinstance(table, Mapping) and not (names and all(isinstance(name, str) for name in names)):
+        raise TypeError(
+            f"a table is a CSV file, a dict of columns, or a frame of pandas or polars, not {type(table).__name__};"
+            " Arrow goes through arrow_batch"
+        )
+    for name in names:
+        if isinstance(table[name], (str, bytes)) or not hasattr(table[name], "__iter__"):
+            raise TypeError(f"the column {name} is {table[name]!r}: a list or an array with a value for each row is needed")
     return [(str(name), cells(table[name])) for name in names]
 
 

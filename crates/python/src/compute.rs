@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use gumption_audit::claims;
 use gumption_audit::read::Mapping;
 use gumption_audit::sheet::Unreadable;
+use gumption_fault::Rejection;
 use gumption_fault::language::Language;
 use gumption_fleet as fleets;
 use gumption_format::csv;
@@ -173,7 +174,8 @@ pub(crate) fn calibrate_each(
     let language = spoken(language)?;
     let columns = RecordingColumns { shares, language };
     let share = Share::default();
-    watched(py, progress.as_ref(), &share, || {
+    let found = watched(py, progress.as_ref(), &share, || {
+        source.with(|files, experiment| calibrations::is_experiment(files, experiment))?;
         let mut table = Table::default();
         let mut text = Vec::new();
         for (at, (label, recording)) in recordings.iter().enumerate() {
@@ -192,8 +194,9 @@ pub(crate) fn calibrate_each(
         }
         let (left, count) = table.end();
         text.extend(left);
-        (String::from_utf8_lossy(&text).into_owned(), count.failed)
-    })
+        Ok((String::from_utf8_lossy(&text).into_owned(), count.failed))
+    })?;
+    found.map_err(|rejection: Rejection| Unmade::from(rejection).raised(py, language))
 }
 
 /// What many results say together.

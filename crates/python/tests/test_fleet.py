@@ -173,3 +173,28 @@ def test_many_calibrations_can_be_stopped(runs):
     many = {str(at): columns["a"] for at in range(3000)}
     with pytest.raises(RuntimeError, match="enough"):
         gumption.calibrate(GYRO, recordings=many, progress=stop)
+
+
+def test_what_is_no_table_is_said(runs):
+    folder, columns = runs
+    pandas = pytest.importorskip("pandas")
+    budget = EXAMPLE / "resistors.toml"
+    for given in ([1, 2], [{"ratio": 1.0}], gumption.evaluate(budget), 7):
+        with pytest.raises(TypeError, match="a table is a CSV file"):
+            gumption.fleet(given)
+        with pytest.raises(TypeError, match="a table is a CSV file"):
+            gumption.batch(budget, given)
+    with pytest.raises(TypeError, match="the column ratio is 1.0"):
+        gumption.batch(budget, {"ratio": 1.0})
+    frame = pandas.DataFrame(columns["a"])
+    for given in (frame, [frame]):
+        with pytest.raises(TypeError, match="a dict of names with frames"):
+            gumption.calibrate(GYRO, recordings=given)
+
+
+def test_an_experiment_that_is_none_is_refused(runs):
+    folder, _ = runs
+    with pytest.raises(gumption.Refused, match="no file"):
+        gumption.calibrate(folder / "none.toml", recordings=folder / "runs")
+    with pytest.raises(gumption.Refused):
+        gumption.calibrate("equations = [", recordings=folder / "runs")

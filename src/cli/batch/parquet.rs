@@ -20,7 +20,7 @@ const GROUP: usize = 1 << 17;
 
 /// Opens a table.
 pub(super) fn open(path: &Path, name: &str) -> Result<Rows, Rejection> {
-    // Notes that it is read, and refuses what is no file.
+    // Says what is no file, as of any table.
     gumption::csv::open(Files::Disk, path, name)?;
     Rows::open(path, STRETCH).map_err(|fault| Rejection::new(name, "", vec![*fault]))
 }

@@ -25,6 +25,9 @@ pub(super) fn run(args: &Args) -> Outcome {
         Ok(recordings) => recordings,
         Err(why) => return output::complain(why),
     };
+    if let Err(rejection) = calibrate::is_experiment(Files::Disk, &args.file) {
+        return output::refused(&rejection, language);
+    }
     let mut sink = match Sink::begin(target, language) {
         Ok(sink) => sink,
         Err(outcome) => return outcome,

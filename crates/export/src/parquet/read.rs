@@ -5,7 +5,7 @@ use std::fs::File;
 use std::path::Path;
 use std::sync::Arc;
 
-use ::parquet::basic::{LogicalType, Repetition, TimeUnit, Type as Physical};
+use ::parquet::basic::{ConvertedType, LogicalType, Repetition, TimeUnit, Type as Physical};
 use ::parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use ::parquet::data_type::DoubleType;
 use ::parquet::errors::ParquetError;
@@ -18,6 +18,7 @@ use gumption_fault::{Fault, say};
 use gumption_format::contained::contained;
 use gumption_format::csv::faults::UNREADABLE;
 use gumption_format::csv::{Cells, Columns};
+use gumption_format::files::Files;
 
 /// The rows of a file, some at a time.
 pub struct Rows {
@@ -58,7 +59,7 @@ impl Rows {
 
     fn opened(path: &Path, stretch: usize) -> Result<Rows> {
         let reader = || {
-            let file = File::open(path).map_err(ParquetError::from);
+            let file = Files::Disk.handle(path).map_err(ParquetError::from);
             file.and_then(SerializedFileReader::new).map_err(unreadable)
         };
         let file = reader()?;
@@ -204,7 +205,9 @@ impl Column {
         let logical = info.logical_type_ref();
         let is_double =
             field.is_primitive() && once && field.get_physical_type() == Physical::DOUBLE;
-        let is_list = matches!(logical, Some(LogicalType::List));
+        // DuckDB writes the older of the two ways to say so.
+        let is_list = matches!(logical, Some(LogicalType::List))
+            || info.converted_type() == ConvertedType::LIST;
         if field.is_group() && !is_list {
             let message = say!("the column \"{name}\" is a structure");
             let fault = Fault::new(UNREADABLE, 0..0, message);

@@ -75,7 +75,7 @@ pub use identify::{Alias, Combination, Identifiability, NearAlias, Shift, Shifts
 pub use limits::Limit;
 pub use plan::{Plan, plan};
 pub use points::{PointColumn, PointNames, Points, Reading};
-pub use recordings::{Unusable, label, listed, of_recording};
+pub use recordings::{Unusable, is_experiment, label, listed, of_recording};
 pub use residual::Residual;
 pub use scatter::{Misfit, ResponseScatter, ScatterTest};
 pub use trouble::Trouble;

@@ -4,11 +4,13 @@ use std::path::{Path, PathBuf, absolute};
 
 use gumption_fault::{Rejection, Said, say};
 use gumption_format::files::Files;
+use gumption_gum::budget::quantities::text_of;
 
 use super::calibration::{Calibration, calibrate};
 use super::campaign::Campaign;
 use super::define::load_with;
 use super::trouble::Trouble;
+use crate::experiment::checker::opened;
 
 /// Why a recording gives no coefficients.
 #[derive(Debug)]
@@ -17,6 +19,15 @@ pub enum Unusable {
     Refused(Box<Rejection>),
     /// It does not tell them.
     Trouble(Trouble),
+}
+
+/// Whether there is an experiment at all: without, every recording would be refused for it.
+///
+/// # Errors
+/// It cannot be read, or is no TOML.
+pub fn is_experiment(files: Files<'_>, experiment: &Path) -> Result<(), Rejection> {
+    let text = text_of(files, experiment)?;
+    opened(&text, &experiment.display().to_string()).map(drop)
 }
 
 /// As [`calibrate`] of an experiment that names this recording.

@@ -149,7 +149,7 @@ pub(crate) fn read_columns(
     let head = Sheet::new(&text).map_err(|fault| refused(vec![*fault]))?;
     let layout = layout(&head, wanted).map_err(refused)?;
     let mut results = Results::of(&layout);
-    let rows = (0..columns.rows()).map(|at| Ok(columns.row(at)));
+    let rows = (0..columns.rows()).map(|at| columns.row(at)).map(Ok);
     // What is wrong with a row stands in no text.
     let nowhere = |_: &Row<'_>, _| 0..0;
     let added = results.add_rows(rows, &head, &layout, nowhere);

@@ -79,7 +79,7 @@ type Found = Vec<(String, Option<Py<PyAny>>)>;
 pub(crate) fn batch_of(
     py: Python<'_>,
     source: Source,
-    table: Given<'_>,
+    mut table: Given<'_>,
     output: Option<(PathBuf, bool)>,
     settings: Settings,
     more: (bool, bool),
@@ -96,7 +96,7 @@ pub(crate) fn batch_of(
         keep,
         progress: Progress::default(),
     };
-    let rows = Rows::of(&table)?;
+    let rows = Rows::of(&mut table)?;
     let reading = Reading {
         read: &read,
         length: rows.length().max(1) as f64,

@@ -175,7 +175,7 @@ pub(crate) fn calibrate_each(
     let columns = RecordingColumns { shares, language };
     let share = Share::default();
     let found = watched(py, progress.as_ref(), &share, || {
-        source.with(|files, experiment| calibrations::is_experiment(files, experiment))?;
+        source.with(calibrations::is_experiment)?;
         let mut table = Table::default();
         let mut text = Vec::new();
         for (at, (label, recording)) in recordings.iter().enumerate() {
@@ -203,12 +203,12 @@ pub(crate) fn calibrate_each(
 #[pyfunction]
 pub(crate) fn fleet(
     py: Python<'_>,
-    results: Given<'_>,
+    mut results: Given<'_>,
     wanted: Together,
     language: &str,
 ) -> PyResult<Made> {
     let language = spoken(language)?;
-    let rows = Rows::of(&results)?;
+    let rows = Rows::of(&mut results)?;
     let found = watched(py, None, &Share::default(), || {
         let wanted = wanted.wanted();
         let (name, found) = match &rows {

@@ -1,5 +1,7 @@
 //! Tables that a call is given: a file, or columns in memory.
 
+use std::mem::take;
+
 use gumption_format::csv::{self, Cells};
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
@@ -32,20 +34,20 @@ pub(crate) enum Rows<'t> {
 }
 
 impl<'t> Rows<'t> {
-    /// What is given.
-    pub fn of(given: &'t Given<'_>) -> PyResult<Rows<'t>> {
+    /// What is given, of which the texts are taken.
+    pub fn of(given: &'t mut Given<'_>) -> PyResult<Rows<'t>> {
         let columns = match given {
             Given::File(source) => return Ok(Rows::File(source)),
             Given::Columns(columns) => columns,
         };
-        let cells = |(name, cells): &'t (String, GivenCells<'_>)| {
+        let cells = |(name, cells): &'t mut (String, GivenCells<'_>)| {
             let cells = match cells {
                 GivenCells::Numbers(numbers) => Cells::Numbers(numbers.as_slice()?.into()),
-                GivenCells::Texts(texts) => Cells::Texts(texts.clone()),
+                GivenCells::Texts(texts) => Cells::Texts(take(texts)),
             };
-            Ok((name.clone(), cells))
+            Ok((take(name), cells))
         };
-        let columns = columns.iter().map(cells).collect::<PyResult<_>>()?;
+        let columns = columns.iter_mut().map(cells).collect::<PyResult<_>>()?;
         let columns = csv::Columns::new(columns);
         let columns = columns.map(Rows::Columns);
         columns.ok_or_else(|| PyValueError::new_err("the columns have different lengths"))

@@ -602,7 +602,7 @@ impl ResultColumn {
     }
 
     /// How many cells it has; of texts that are all empty nobody knows.
-    pub fn len(&self) -> usize {
+    pub fn cells(&self) -> usize {
         match self {
             ResultColumn::Numbers(numbers) => numbers.len(),
             ResultColumn::Texts(texts) => texts.as_ref().map_or(0, Vec::len),

@@ -55,7 +55,7 @@ fn cells(
     results: Vec<(String, ResultColumn)>,
     numbered: &mut u64,
 ) -> Vec<(String, Cells<'static>)> {
-    let rows = results.iter().map(|(_, column)| column.len()).max();
+    let rows = results.iter().map(|(_, column)| column.cells()).max();
     let rows = rows.unwrap_or(0);
     let cells = |column| match column {
         ResultColumn::Numbers(numbers) => Cells::Numbers(Cow::Owned(numbers)),

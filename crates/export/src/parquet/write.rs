@@ -36,7 +36,7 @@ impl Writer {
             Some(file) => file,
             None => self.file.insert(begun(table, whole)?),
         };
-        let rows = table.iter().map(|(_, cells)| cells.len()).max();
+        let rows = table.iter().map(|(_, cells)| cells.count()).max();
         if rows.unwrap_or(0) == 0 {
             file.flush()?;
             return Ok(std::mem::take(file.inner_mut()));

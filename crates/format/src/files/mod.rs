@@ -117,6 +117,23 @@ impl<'a> Files<'a> {
         }
     }
 
+    /// A file of the computer, for those who read it back and forth.
+    ///
+    /// # Errors
+    /// As [`Files::read`]; `Unsupported` for what is in memory.
+    pub fn handle(self, path: &Path) -> Result<std::fs::File> {
+        match self {
+            Files::Disk => {
+                ledger::note(path);
+                opened(path).map(|(file, _)| file)
+            }
+            Files::Folder(folder) if held(folder.instead, path).is_none() => {
+                opened(&folder.place(path)?).map(|(file, _)| file)
+            }
+            _ => Err(Error::from(ErrorKind::Unsupported)),
+        }
+    }
+
     /// How many bytes a file has, as far as is known.
     pub fn length(&self, path: &Path) -> Option<u64> {
         match self {

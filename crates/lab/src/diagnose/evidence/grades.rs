@@ -5,10 +5,10 @@ use super::detection;
 use super::findings::{Slot, State};
 use super::null::Simulated;
 use super::question::Question;
-use super::restated::Restated;
 use super::search::Search;
 use super::slots::{Explanation, slots};
 use super::space::Space;
+use super::unlisted::Restated;
 
 /// A departure that makes an effect another is seen from so many standard deviations on.
 const SEEN: f64 = 4.0;

@@ -65,12 +65,12 @@ fn main() {
         std::hint::black_box(out);
     };
     let from_columns = || {
-        let cells = numbers.iter().map(|numbers| Cells::Numbers(numbers));
+        let cells = numbers.iter().map(|numbers| Cells::Numbers(numbers.into()));
         let rows = csv::Columns::new(heads.iter().cloned().zip(cells).collect());
         let mut results = Results::of(columns, &file);
         batch::run_columns(
             &file,
-            (&rows.expect("equal lengths"), "table"),
+            ([Ok(rows.expect("equal lengths"))], "table"),
             &plan,
             |values, row| columns.add_values(values, row),
             |values, _| {

@@ -1,20 +1,24 @@
 //! `gumption batch`: one budget and a table of devices in, a table of results out.
 
-use std::ops::ControlFlow;
-use std::path::PathBuf;
+#[cfg(feature = "parquet")]
+mod parquet;
 
-use gumption::batch::{self, Plan};
+use std::io::Read;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use gumption::batch::{self, Evaluated, Plan};
 use gumption::budget::{BatchFile, Points, Profile, Trials, Wanted};
 use gumption::csv;
 use gumption::fault::{Said, say};
-use gumption::files::{Files, Growing};
+use gumption::files::Files;
 use gumption::propagate::Progress;
 use gumption::report::Language;
-use gumption::report::batch::{Columns, Table};
+use gumption::report::batch::{Columns, Count, Lines, Table};
 
 use super::evaluated::{parse_points, parse_profile, parse_trials};
 use super::language::system_language;
-use super::output::Target;
+use super::output::{Sink, Target};
 use super::progress::Steps;
 use super::{Outcome, output};
 
@@ -23,7 +27,7 @@ pub(super) struct Args {
     /// The budget
     #[arg(value_name = "BUDGET")]
     budget: PathBuf,
-    /// The table (CSV): each column replaces a value of the budget, each row is a device
+    /// The table (CSV, or Parquet where that is built in): each column replaces a value of the budget, each row is a device
     #[arg(value_name = "TABLE")]
     table: PathBuf,
     #[command(flatten)]
@@ -62,64 +66,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
-    if let Err(outcome) = args.target.is_allowed(&[], args.lang) {
-        return outcome;
-    }
-    let file = match BatchFile::open(Files::Disk, &args.budget, args.profile) {
-        Ok(file) => file,
-        Err(rejection) => return output::refused(&rejection, args.lang),
-    };
-    let name = args.table.display().to_string();
-    let source = match csv::open(Files::Disk, &args.table, &name) {
-        Ok(source) => source,
-        Err(rejection) => return output::refused(&rejection, args.lang),
-    };
-    // Now it is known what is read, too.
-    let sink = args
-        .target
-        .is_allowed(&[], args.lang)
-        .map(|()| Sink::begin(&args.target, args.lang));
-    let mut sink = match sink {
-        Ok(Ok(sink)) => sink,
-        Ok(Err(why)) => return output::complain(why),
-        Err(outcome) => return outcome,
-    };
-    let columns = Columns {
-        shares: args.shares,
-        contributions: args.contributions,
-        seeds: args.monte_carlo,
-        language: args.lang,
-    };
-    let mut table = Table::of(columns, &file);
-    let mut trouble = None;
-    let length = Files::Disk.length(&args.table).unwrap_or(0).max(1);
-    let steps = Steps::shown(say!("batch"));
-    let ended = batch::run(
-        &file,
-        (source, &name),
-        &plan(args),
-        |lines, row| columns.add(lines, row),
-        |lines, read| match sink.add(&table.add(lines)) {
-            Ok(()) => steps.at(read as f64 / length as f64),
-            Err(why) => {
-                trouble = Some(why);
-                ControlFlow::Break(())
-            }
-        },
-    );
-    drop(steps);
-    if let Err(rejection) = ended {
-        return output::refused(&rejection, args.lang);
-    }
-    let done = match trouble {
-        Some(why) => Err(why),
-        None => {
-            let (left, count) = table.end();
-            sink.add(&left).and_then(|()| sink.finish()).map(|()| count)
-        }
-    };
-    match done {
-        Err(why) => output::complain(why),
+    match evaluated(args) {
         Ok(count) => {
             if count.failed > 0 {
                 let (failed, rows) = (count.failed, count.rows);
@@ -132,7 +79,127 @@ pub(super) fn run(args: &Args) -> Outcome {
                 _ => Outcome::Negative,
             }
         }
+        Err(outcome) => outcome,
     }
+}
+
+fn evaluated(args: &Args) -> Result<Count, Outcome> {
+    args.target.is_allowed(&[], args.lang)?;
+    let is_parquet = is_parquet(&args.table);
+    let to_parquet = args.target.ending().is_some_and(|ending| ending == PARQUET);
+    if (is_parquet || to_parquet) && !cfg!(feature = "parquet") {
+        return Err(output::complain(say!(
+            "this program was built without Parquet, which `cargo install --path . --features parquet` adds; CSV it reads and writes"
+        )));
+    }
+    let refused = |rejection| output::refused(&rejection, args.lang);
+    let file = BatchFile::open(Files::Disk, &args.budget, args.profile).map_err(refused)?;
+    let name = args.table.display().to_string();
+    let source = match is_parquet {
+        #[cfg(feature = "parquet")]
+        true => parquet::open(&args.table, &name).map(Source::Columns),
+        _ => csv::open(Files::Disk, &args.table, &name).map(Source::Lines),
+    };
+    let source = source.map_err(refused)?;
+    // Now it is known what is read, too.
+    args.target.is_allowed(&[], args.lang)?;
+    let sink = Sink::begin(&args.target, args.lang)?;
+    let work = Work {
+        file: &file,
+        source,
+        name: &name,
+        args,
+    };
+    match to_parquet {
+        #[cfg(feature = "parquet")]
+        true => parquet::written(work, sink),
+        _ => written(work, sink),
+    }
+}
+
+/// The ending of tables in the format of engines.
+const PARQUET: &str = "parquet";
+
+fn is_parquet(path: &Path) -> bool {
+    let ending = path.extension().unwrap_or_default();
+    ending.eq_ignore_ascii_case(PARQUET)
+}
+
+/// Where rows come from.
+enum Source {
+    Lines(Box<dyn Read>),
+    #[cfg(feature = "parquet")]
+    Columns(parquet::Rows),
+}
+
+/// What is to be evaluated.
+struct Work<'a> {
+    file: &'a BatchFile<'a>,
+    source: Source,
+    name: &'a str,
+    args: &'a Args,
+}
+
+impl Work<'_> {
+    fn columns(&self) -> Columns {
+        Columns {
+            shares: self.args.shares,
+            contributions: self.args.contributions,
+            seeds: self.args.monte_carlo,
+            language: self.args.lang,
+        }
+    }
+
+    /// Evaluates the rows: `add` makes of each what is wanted of it, `take` gets that of some and writes it.
+    fn each<T: Default + Send>(
+        self,
+        add: impl Fn(&mut T, &Evaluated<'_>) + Sync,
+        mut take: impl FnMut(T) -> Result<(), Said>,
+    ) -> Result<(), Outcome> {
+        let Work {
+            file,
+            source,
+            name,
+            args,
+        } = self;
+        let plan = plan(args);
+        let steps = Steps::shown(say!("batch"));
+        let mut trouble = None;
+        let mut take = |found, done: u64, all: u64| match take(found) {
+            Ok(()) => steps.at(done as f64 / all.max(1) as f64),
+            Err(why) => {
+                trouble = Some(why);
+                ControlFlow::Break(())
+            }
+        };
+        let ended = match source {
+            Source::Lines(source) => {
+                let all = Files::Disk.length(&args.table).unwrap_or(0);
+                let take = |found, done| take(found, done, all);
+                batch::run(file, (source, name), &plan, add, take)
+            }
+            #[cfg(feature = "parquet")]
+            Source::Columns(rows) => {
+                let all = rows.rows();
+                let take = |found, done| take(found, done, all);
+                batch::run_columns(file, (rows, name), &plan, add, take)
+            }
+        };
+        drop(steps);
+        ended.map_err(|rejection| output::refused(&rejection, args.lang))?;
+        trouble.map_or(Ok(()), |why| Err(output::complain(why)))
+    }
+}
+
+/// Writes the results as comma-separated values.
+fn written(work: Work<'_>, mut sink: Sink) -> Result<Count, Outcome> {
+    let columns = work.columns();
+    let mut table = Table::of(columns, work.file);
+    let add = |lines: &mut Lines, row: &Evaluated<'_>| columns.add(lines, row);
+    work.each(add, |lines| sink.add(&table.add(lines)))?;
+    let (left, count) = table.end();
+    let done = sink.add(&left).and_then(|()| sink.finish());
+    done.map(|()| count).map_err(output::complain)
 }
 
 fn plan(args: &Args) -> Plan {
@@ -148,44 +215,5 @@ fn plan(args: &Args) -> Plan {
         threads: args.threads.map_or(cores, usize::from),
         keep: args.keep.clone(),
         progress: Progress::default(),
-    }
-}
-
-/// Where the lines go as they come.
-enum Sink {
-    File(Box<Growing>, Language),
-    Printed,
-}
-
-impl Sink {
-    fn begin(target: &Target, language: Language) -> Result<Sink, Said> {
-        match target.file() {
-            None => Ok(Sink::Printed),
-            Some(path) => match Growing::begin(path, target.replacing()) {
-                Ok(file) => Ok(Sink::File(Box::new(file), language)),
-                Err(why) => Err(Said::quoted(why.words(language))),
-            },
-        }
-    }
-
-    fn add(&mut self, bytes: &[u8]) -> Result<(), Said> {
-        match self {
-            Sink::File(file, language) => file
-                .add(bytes)
-                .map_err(|why| Said::quoted(why.words(*language))),
-            Sink::Printed => match output::print(bytes) {
-                Outcome::Done => Ok(()),
-                _ => Err(say!("the table is not whole")),
-            },
-        }
-    }
-
-    fn finish(self) -> Result<(), Said> {
-        match self {
-            Sink::File(file, language) => file
-                .finish()
-                .map_err(|why| Said::quoted(why.words(language))),
-            Sink::Printed => Ok(()),
-        }
     }
 }

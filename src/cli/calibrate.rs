@@ -29,11 +29,14 @@ pub(super) struct Args {
     /// each
     #[arg(long, value_name = "RECORDING", num_args = 1.., conflicts_with = "budget")]
     recordings: Vec<PathBuf>,
+    /// With recordings: give the share of each cause in u² of each coefficient, too
+    #[arg(long, requires = "recordings")]
+    shares: bool,
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
     if !args.recordings.is_empty() {
-        return recordings::run(&args.file, &args.recordings, &args.form);
+        return recordings::run(args);
     }
     let beside = args
         .budget

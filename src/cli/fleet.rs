@@ -27,6 +27,9 @@ pub(super) struct Args {
     /// Column X of reference values, with U(X) beside it, in place of the others of the group; y=X of the measurand y
     #[arg(long, value_name = "COLUMN")]
     reference: Vec<String>,
+    /// Worker threads; results do not depend on it [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
     #[command(flatten)]
     form: Form,
 }
@@ -41,6 +44,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         date: args.date.clone(),
         device: args.device.clone(),
         references: args.reference.clone(),
+        threads: args.threads.map(usize::from),
     };
     let name = args.results.display().to_string();
     let found = csv::open(Files::Disk, &args.results, &name)

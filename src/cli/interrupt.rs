@@ -19,6 +19,10 @@ pub(super) fn say_so() {
             output::passing("");
         }
         output::warn(match written {
+            _ if output::is_printing() => spoken().pick(
+                "interrupted: the table on standard output is not whole: it has what was done until then\n",
+                "已中断：标准输出上的表格不完整，只有至此已完成的部分\n",
+            ),
             0 => spoken().pick(
                 "interrupted: nothing is written\n",
                 "已中断：没有写出任何文件\n",

@@ -4,13 +4,14 @@ use std::fmt::Display;
 use std::fs::Metadata;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::Outcome;
 use super::language::spoken;
 use gumption::budget::Rejection;
 use gumption::fault::{Code, Said, harmless, say};
 use gumption::files::write::{self, Output, Replacing};
-use gumption::files::{self, FileId};
+use gumption::files::{self, FileId, Growing};
 use gumption::report::Language;
 
 /// Where the output of a command goes, and what it may replace: the same for all of them.
@@ -88,6 +89,58 @@ impl Target {
         match self.force {
             true => Replacing::Anything,
             false => Replacing::Own,
+        }
+    }
+}
+
+/// Where a table goes whose lines come one after another: a file takes its place when it is whole, what is printed is printed.
+pub(super) enum Sink {
+    File(Box<Growing>, Language),
+    Printed,
+}
+
+/// Whether a table is being printed, of which lines are still to come.
+static PRINTING: AtomicBool = AtomicBool::new(false);
+
+/// Whether standard output holds a part of a table.
+pub(super) fn is_printing() -> bool {
+    PRINTING.load(Ordering::Relaxed)
+}
+
+impl Sink {
+    /// Begins a table where a command is to write.
+    pub fn begin(target: &Target, language: Language) -> Result<Sink, Outcome> {
+        let Some(path) = target.file() else {
+            PRINTING.store(true, Ordering::Relaxed);
+            return Ok(Sink::Printed);
+        };
+        match Growing::begin(path, target.replacing()) {
+            Ok(file) => Ok(Sink::File(Box::new(file), language)),
+            Err(why) => Err(complain(Said::quoted(why.words(language)))),
+        }
+    }
+
+    pub fn add(&mut self, bytes: &[u8]) -> Result<(), Said> {
+        match self {
+            Sink::File(file, language) => file
+                .add(bytes)
+                .map_err(|why| Said::quoted(why.words(*language))),
+            Sink::Printed => match print(bytes) {
+                Outcome::Done => Ok(()),
+                _ => Err(say!("the table is not whole")),
+            },
+        }
+    }
+
+    pub fn finish(self) -> Result<(), Said> {
+        match self {
+            Sink::File(file, language) => file
+                .finish()
+                .map_err(|why| Said::quoted(why.words(language))),
+            Sink::Printed => {
+                PRINTING.store(false, Ordering::Relaxed);
+                Ok(())
+            }
         }
     }
 }

@@ -11,6 +11,7 @@ use gumption::fault::{Said, say};
 use gumption::propagate;
 
 use super::language::spoken;
+use super::output;
 
 /// Nobody waits for an evaluation that is quicker.
 const PATIENCE: Duration = Duration::from_millis(1500);
@@ -121,7 +122,11 @@ impl Drop for Steps {
 
 fn share_line(what: &Said, share: f64) -> String {
     let percent = (100.0 * share).clamp(0.0, 100.0);
-    say!("{what}: {percent:.0} % (Ctrl-C ends it; nothing is written then)").in_language(spoken())
+    let line = match output::is_printing() {
+        false => say!("{what}: {percent:.0} % (Ctrl-C ends it; nothing is written then)"),
+        true => say!("{what}: {percent:.0} % (Ctrl-C ends it; what is printed ends there then)"),
+    };
+    line.in_language(spoken())
 }
 
 fn elapsed_line(what: &Said, elapsed: Duration) -> String {

@@ -16,8 +16,8 @@ fn recording(seed: u64, slope: f64) -> String {
     text
 }
 
-const EXPERIMENT: &str =
-    "recording = { file = \"b.csv\", average = \"none\" }\nequations = \"U = K*omega + b\"\n";
+const EXPERIMENT: &str = "recording = { file = \"b.csv\", average = \"none\" }\nequations = \"U = K*omega*(1 + e_rate) + b\"\n\
+    [input.e_rate]\ncertificate = { U = 2e-4, k = 2 }\n[reading.U]\nstep = 1e-4\n";
 
 #[test]
 fn each_line_is_the_calibration_of_its_recording_alone() {
@@ -41,6 +41,7 @@ fn each_line_is_the_calibration_of_its_recording_alone() {
             "gyro.toml",
             "--lang",
             "en",
+            "--shares",
             "--recordings",
             "runs",
         ])
@@ -89,10 +90,26 @@ fn each_line_is_the_calibration_of_its_recording_alone() {
             }
         }
         assert_eq!(cell("s(U)"), number(&found["responses"][0]["s"]));
+        let mut shares = 0;
+        for cause in found["causes"].as_array().expect("causes") {
+            for one in cause["contributions"].as_array().expect("contributions") {
+                let name = |value: &Value| value.as_str().expect("a name").to_owned();
+                let head = format!(
+                    "share({}, {})",
+                    name(&one["coefficient"]),
+                    name(&cause["name"])
+                );
+                assert_eq!(cell(&head), number(&one["share"]), "{head}");
+                shares += 1;
+            }
+        }
+        assert_eq!(shares, 2 * 3, "K and b by scatter, table and resolution");
     }
     std::fs::write(folder.join("results.csv"), &table).expect("written");
     let fleet = cases::json(&folder, &["fleet", "results.csv", "--json"]);
     assert_eq!(fleet["measurands"][0]["name"], "K");
+    let dominating = &fleet["measurands"][0]["groups"][0]["components"];
+    assert_eq!(dominating.as_array().map(Vec::len), Some(3), "{dominating}");
     assert_eq!(
         fleet["groups"][0]["faulty"].as_array().map(Vec::len),
         Some(2)
@@ -111,5 +128,7 @@ fn the_table_is_no_document() {
     };
     assert!(said(&["--html", "--recordings", "x.csv"]).contains("leave out --html"));
     std::fs::create_dir_all(folder.join("empty")).expect("a folder");
+    let (good, why) = cases::gumption(&folder, &["calibrate", "no.toml", "--recordings", "x.csv"]);
+    assert!(!good && why.contains("no file no.toml"), "{why}");
     assert!(said(&["--recordings", "empty"]).contains("no CSV file in the folder empty"));
 }

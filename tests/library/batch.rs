@@ -391,8 +391,8 @@ fn columns_in_memory_give_what_a_file_gives() {
     let file = file.expect("a budget");
     let columns = gumption::csv::Columns::new(vec![
         ("label".into(), Cells::Texts(labels)),
-        ("x".into(), Cells::Numbers(&x)),
-        ("x.u".into(), Cells::Numbers(&u)),
+        ("x".into(), Cells::Numbers(x.as_slice().into())),
+        ("x.u".into(), Cells::Numbers(u.as_slice().into())),
         ("z.half_width".into(), Cells::Texts(widths)),
     ]);
     let wanted = Columns {
@@ -404,7 +404,7 @@ fn columns_in_memory_give_what_a_file_gives() {
     let mut results = Results::of(wanted, &file);
     batch::run_columns(
         &file,
-        (&columns.expect("equal lengths"), "table"),
+        ([Ok(columns.expect("equal lengths"))], "table"),
         &plan(None, 3),
         |values, row| wanted.add_values(values, row),
         |values, _| {
@@ -600,7 +600,10 @@ fn columns_that_are_kept_go_through() {
     let numbers = [0.1, 0.2];
     let types = ["A", "B"].map(String::from).to_vec();
     let columns_of = vec![
-        ("R [kohm]".to_owned(), Cells::Numbers(&numbers)),
+        (
+            "R [kohm]".to_owned(),
+            Cells::Numbers(numbers.as_slice().into()),
+        ),
         ("type".to_owned(), Cells::Texts(types.clone())),
     ];
     let in_memory = gumption::csv::Columns::new(columns_of).expect("a table");
@@ -608,7 +611,7 @@ fn columns_that_are_kept_go_through() {
     let mut results = Results::of(columns, &file);
     batch::run_columns(
         &file,
-        (&in_memory, "table"),
+        ([Ok(&in_memory)], "table"),
         &keeping,
         |values, row| columns.add_values(values, row),
         |values, _| {
@@ -634,4 +637,36 @@ fn columns_that_are_kept_go_through() {
     );
     assert!(said.contains("did you mean \"type\"?"), "{said}");
     assert!(refusal("type").contains("`--keep Date`"));
+}
+
+#[cfg(not(feature = "parquet"))]
+#[test]
+fn without_parquet_it_is_said_how_to_have_it() {
+    let asked: [&[&str]; 2] = [
+        &["batch", "budget.toml", "devices.parquet"],
+        &[
+            "batch",
+            "budget.toml",
+            "devices.csv",
+            "-o",
+            "results.parquet",
+        ],
+    ];
+    for arguments in asked {
+        for (language, words) in [("en", "built without Parquet"), ("zh", "未包含 Parquet")] {
+            let mut program = crate::common::program();
+            let program = program.args(arguments).args(["--lang", language]);
+            let locale = ["C.UTF-8", "zh_CN.UTF-8"][usize::from(language == "zh")];
+            let run = program
+                .env("LC_ALL", locale)
+                .output()
+                .expect("the program runs");
+            let said = String::from_utf8_lossy(&run.stderr);
+            assert_eq!(run.status.code(), Some(2));
+            assert!(
+                said.contains(words) && said.contains("--features parquet"),
+                "{said}"
+            );
+        }
+    }
 }

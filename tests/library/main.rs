@@ -24,6 +24,8 @@ mod independent;
 mod interruption;
 mod known;
 mod one_figure;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod peers;
 mod published;
 mod references;

@@ -194,6 +194,24 @@ fn no_command_overwrites_what_it_reads() {
 }
 
 #[test]
+fn a_table_beyond_the_memory_is_refused_before_it_is_read() {
+    let folder = Folder::new("large");
+    let table = std::fs::File::create(folder.0.join("readings.csv")).expect("a file");
+    // Sparse: no block of it is ever written.
+    table.set_len(1 << 40).expect("a length");
+    for (language, mend) in [("en", "average them in blocks"), ("zh", "gumption batch")] {
+        let output = folder.run(&["eval", "budget.toml", "--lang", language]);
+        assert_eq!(output.status.code(), Some(2));
+        let said = said(&output);
+        assert!(said.contains("R0112"), "{said}");
+        assert!(
+            said.contains("1048576 MiB") && said.contains(mend),
+            "{said}"
+        );
+    }
+}
+
+#[test]
 fn what_somebody_wrote_is_replaced_when_the_program_is_told() {
     let folder = Folder::new("force");
     for (name, option) in [("report.md", "-o"), ("saved.json", "--save")] {

@@ -1,4 +1,4 @@
-//! Documents in the formats that laboratories hand over, and the list of all formats.
+//! Documents in the formats that laboratories hand over, and the list of all formats; tables in a format of engines.
 //!
 //! What rests on large libraries stands here, above `gumption_format`, so that whatever composes documents is compiled
 //! without them.
@@ -8,6 +8,8 @@ pub mod archive;
 mod columns;
 mod dcc;
 mod docx;
+#[cfg(feature = "parquet")]
+pub mod parquet;
 #[cfg(feature = "pdf")]
 mod pdf;
 mod xlsx;

@@ -3,6 +3,7 @@
 
 use crate::deviation::{Deviation, Others, SIGNIFICANCE};
 use crate::group::{GroupResult, Members};
+use crate::parallel::in_order;
 use crate::results::{MeasurandValues, Values};
 
 /// Rows with |E_n| > 1 that are listed by name.
@@ -66,22 +67,40 @@ pub(crate) fn agreement(
     measurand: &MeasurandValues,
     members: &[Members],
     results: &mut [GroupResult],
-    tests: usize,
+    [tests, threads]: [usize; 2],
     device: impl Fn(usize) -> String,
 ) -> Agreement {
     let values = &measurand.values;
     let mut found = Agreement::default();
     let mut beyond = Vec::new();
     for (group, (members, result)) in members.iter().zip(results).enumerate() {
-        compare(measurand, members, tests, |row, deviation, expanded| {
+        let against = Against::of(measurand, members, [tests, threads]);
+        let compare = |place: usize| against.compared(members, place);
+        let places: Vec<usize> = (0..members.weighed.len()).collect();
+        in_order(&places, threads, compare, |place, compared| {
+            let Some(Compared {
+                deviation,
+                expanded,
+                outside,
+                probability,
+            }) = compared
+            else {
+                return;
+            };
             result.tested += 1;
-            result.expected += deviation.beyond(expanded);
-            if deviation.difference.abs() > expanded {
+            result.expected += outside;
+            if let Some(probability) = probability {
                 result.beyond += 1;
-                let probability = (tests as f64 * deviation.probability()).min(1.0);
+                let probability = (tests as f64 * probability).min(1.0);
                 found.named += usize::from(probability < SIGNIFICANCE);
                 let en = deviation.difference / expanded;
-                beyond.push((probability, en, row, group, deviation.other));
+                beyond.push((
+                    probability,
+                    en,
+                    members.weighed[place],
+                    group,
+                    deviation.other,
+                ));
             }
         });
         found.tested += result.tested;
@@ -106,39 +125,70 @@ pub(crate) fn agreement(
     found
 }
 
-/// Gives each row that can be tested its deviation and the expanded uncertainty of that.
-fn compare(
-    measurand: &MeasurandValues,
-    members: &Members,
-    tests: usize,
-    mut give: impl FnMut(usize, &Deviation, f64),
-) {
-    let values = &measurand.values;
-    if let Some((_, reference)) = &measurand.reference {
-        for row in members.weighed.iter().copied() {
-            let u = reference.u[row];
-            // Of an exact value 0/k is 0; where neither u nor k is stated, k is that of the row.
-            let other = (reference.estimate[row], u, reference.dof[row]);
-            let expanded = of_difference(values.expanded[row], reference.expanded[row]);
-            if expanded.is_finite() && u.is_finite() {
-                give(row, &Deviation::of(values, row, other), expanded);
-            }
+/// What the rows of a group are held against.
+enum Against<'v> {
+    /// Stated references.
+    References(&'v Values, &'v Values),
+    /// The others of the group, of which some agree.
+    Others(&'v Values, Others<'v>, Vec<bool>),
+}
+
+/// A row beside what it is held against.
+struct Compared {
+    deviation: Deviation,
+    /// The expanded uncertainty of the difference.
+    expanded: f64,
+    /// Probability of a difference beyond that.
+    outside: f64,
+    /// That of this difference, where it is beyond.
+    probability: Option<f64>,
+}
+
+impl<'v> Against<'v> {
+    fn of(
+        measurand: &'v MeasurandValues,
+        members: &Members,
+        [tests, threads]: [usize; 2],
+    ) -> Against<'v> {
+        let values = &measurand.values;
+        if let Some((_, reference)) = &measurand.reference {
+            return Against::References(values, reference);
         }
-        return;
+        let agrees = agreeing(values, members, [tests, threads]);
+        let agreeing = members.weighed.iter().zip(&agrees);
+        let agreeing = agreeing.filter(|(_, agrees)| **agrees);
+        let agreeing: Vec<usize> = agreeing.map(|(row, _)| *row).collect();
+        let others = Others::of(values, &agreeing, members.median);
+        Against::Others(values, others, agrees)
     }
-    let agrees = agreeing(values, members, tests);
-    let agreeing = members
-        .weighed
-        .iter()
-        .zip(&agrees)
-        .filter(|(_, agrees)| **agrees);
-    let agreeing: Vec<usize> = agreeing.map(|(row, _)| *row).collect();
-    let others = Others::of(values, &agreeing, members.median);
-    for (row, agrees) in members.weighed.iter().zip(&agrees) {
-        if let Some(deviation) = others.deviation(*row, *agrees) {
-            // The expanded uncertainty of both sides with the k of the row.
-            give(*row, &deviation, values.k(*row) * deviation.u);
-        }
+
+    /// A row, by its place among those of the group that weigh; nothing of one that cannot be tested.
+    fn compared(&self, members: &Members, place: usize) -> Option<Compared> {
+        let row = members.weighed[place];
+        let (deviation, expanded) = match self {
+            Against::References(values, reference) => {
+                let u = reference.u[row];
+                // Of an exact value 0/k is 0; where neither u nor k is stated, k is that of the row.
+                let other = (reference.estimate[row], u, reference.dof[row]);
+                let expanded = of_difference(values.expanded[row], reference.expanded[row]);
+                if !(expanded.is_finite() && u.is_finite()) {
+                    return None;
+                }
+                (Deviation::of(values, row, other), expanded)
+            }
+            Against::Others(values, others, agrees) => {
+                let deviation = others.deviation(row, agrees[place])?;
+                // The expanded uncertainty of both sides with the k of the row.
+                (deviation, values.k(row) * deviation.u)
+            }
+        };
+        let is_beyond = deviation.difference.abs() > expanded;
+        Some(Compared {
+            expanded,
+            outside: deviation.beyond(expanded),
+            probability: is_beyond.then(|| deviation.probability()),
+            deviation,
+        })
     }
 }
 
@@ -147,18 +197,22 @@ fn compare(
 /// Far apart is what lies so from the median, which half of the rows could not move, with the probability at which a device is
 /// named. The median of values of different u has u² = π/2 · n/(Σ 1/u)², from the density of the normal distribution in its
 /// middle. Of two rows neither is more apart than the other.
-fn agreeing(values: &Values, members: &Members, tests: usize) -> Vec<bool> {
+fn agreeing(values: &Values, members: &Members, [tests, threads]: [usize; 2]) -> Vec<bool> {
     let rows = &members.weighed;
     if rows.len() < 3 {
         return vec![true; rows.len()];
     }
     let inverse: f64 = rows.iter().map(|row| 1.0 / values.u[*row]).sum();
     let u = (std::f64::consts::FRAC_PI_2 * rows.len() as f64).sqrt() / inverse;
-    let agrees = |row: &usize| {
-        let from_median = Deviation::of(values, *row, (members.median, u, f64::INFINITY));
-        tests as f64 * from_median.probability() >= SIGNIFICANCE
+    let is_probable = |probability: f64| tests as f64 * probability >= SIGNIFICANCE;
+    let agrees = |row: usize| {
+        let from_median = Deviation::of(values, row, (members.median, u, f64::INFINITY));
+        // Tails of t are longer than those of the normal distribution, which are quickly known.
+        is_probable(from_median.least_probability()) || is_probable(from_median.probability())
     };
-    rows.iter().map(agrees).collect()
+    let mut all = Vec::with_capacity(rows.len());
+    in_order(rows, threads, agrees, |_, agrees| all.push(agrees));
+    all
 }
 
 /// The expanded uncertainty of a difference.

@@ -150,6 +150,11 @@ impl Deviation {
         self.beyond(self.difference.abs())
     }
 
+    /// What that probability is at least: that of a normal distribution, whose tails are shorter.
+    pub fn least_probability(&self) -> f64 {
+        2.0 * normal_sf(self.difference.abs() / self.u)
+    }
+
     /// Probability of a difference beyond this one.
     pub fn beyond(&self, difference: f64) -> f64 {
         let size = difference / self.u;

@@ -2,6 +2,7 @@
 
 use crate::agreement::{LISTED, of_difference};
 use crate::deviation::{SIGNIFICANCE, weight};
+use crate::parallel::in_order;
 use crate::results::Values;
 use gumption_core::special::student_t_sf;
 
@@ -163,6 +164,7 @@ pub(crate) fn drift<'n>(
     values: &Values,
     dates: &[f64],
     groups: impl Iterator<Item = &'n [usize]>,
+    threads: usize,
     device: impl Fn(usize) -> &'n str,
 ) -> Drift {
     let mut found = Drift::default();
@@ -180,15 +182,20 @@ pub(crate) fn drift<'n>(
         let several = same.filter(|rows| rows.len() > 1);
         let first = devices.len();
         devices.extend(several.filter_map(|rows| Device::of(values, dates, rows.to_vec(), group)));
-        found.groups.push(GroupDrift::of(values, &devices[first..]));
+        found
+            .groups
+            .push(GroupDrift::of(values, &devices[first..], threads));
     }
     found.devices = devices.len();
     found.beyond = found.groups.iter().map(|group| group.beyond).sum();
     found.expected = found.groups.iter().map(|group| group.expected).sum();
     let tests = devices.len() as f64;
     let probability = |one: &Device| (tests * one.beyond(one.rate.abs())).min(1.0);
-    let mut order: Vec<(f64, &Device)> =
-        devices.iter().map(|one| (probability(one), one)).collect();
+    let all: Vec<&Device> = devices.iter().collect();
+    let mut order: Vec<(f64, &Device)> = Vec::with_capacity(all.len());
+    in_order(&all, threads, probability, |one, probability| {
+        order.push((probability, one));
+    });
     order.sort_by(|(p, one), (q, other)| {
         let size = |one: &Device| one.rate.abs() / one.expanded;
         let worse = p.total_cmp(q).then(size(other).total_cmp(&size(one)));
@@ -230,11 +237,15 @@ pub(crate) fn drift<'n>(
 }
 
 impl GroupDrift {
-    fn of(values: &Values, devices: &[Device]) -> GroupDrift {
+    fn of(values: &Values, devices: &[Device], threads: usize) -> GroupDrift {
         let count = devices.len() as f64;
         let mean = devices.iter().map(|one| one.rate).sum::<f64>() / count;
         let squares: f64 = devices.iter().map(|one| (one.rate - mean).powi(2)).sum();
         let u: f64 = devices.iter().map(|one| one.u * one.u).sum();
+        let all: Vec<&Device> = devices.iter().collect();
+        let outside = |one: &Device| one.beyond(one.expanded);
+        let mut expected = 0.0;
+        in_order(&all, threads, outside, |_, outside| expected += outside);
         let pairs = || devices.iter().flat_map(|one| one.successive(values));
         GroupDrift {
             devices: devices.len(),
@@ -245,7 +256,7 @@ impl GroupDrift {
                 .iter()
                 .filter(|one| one.rate.abs() > one.expanded)
                 .count(),
-            expected: devices.iter().map(|one| one.beyond(one.expanded)).sum(),
+            expected,
             pairs: pairs().count(),
             pairs_beyond: pairs().filter(|en| en.abs() > 1.0).count(),
         }

@@ -3,6 +3,7 @@
 use gumption_core::special::{chi_squared_sf, f_cdf, f_sf};
 
 use crate::deviation::{Others, SIGNIFICANCE, weight};
+use crate::parallel::in_order;
 use crate::results::{MeasurandValues, Values};
 
 /// What is found of a measurand in a group.
@@ -126,6 +127,7 @@ impl GroupResult {
     pub(crate) fn of(
         measurand: &MeasurandValues,
         members: &Members,
+        threads: usize,
         scores: impl FnMut(f64),
     ) -> GroupResult {
         let values = &measurand.values;
@@ -147,7 +149,7 @@ impl GroupResult {
             range: estimates().fold(ends, |[low, high], x| [low.min(x), high.max(x)]),
             u: known(&values.u),
             expanded: known(&values.expanded),
-            consistency: Consistency::of(values, members, scores),
+            consistency: Consistency::of(values, members, threads, scores),
             components: components(measurand, &members.valued),
             tested: 0,
             beyond: 0,
@@ -159,18 +161,25 @@ impl GroupResult {
 impl Consistency {
     /// With each row beside the weighted mean of all others: d_i of variance u_i²/(1 − h_i), h_i = w_i/W, so that
     /// Σ (x_i − x̄)²/u_i² = Σ (1 − h_i) z_i² with z_i = d_i/u(d_i).
-    fn of(values: &Values, members: &Members, mut scores: impl FnMut(f64)) -> Option<Consistency> {
+    fn of(
+        values: &Values,
+        members: &Members,
+        threads: usize,
+        mut scores: impl FnMut(f64),
+    ) -> Option<Consistency> {
         let rows = &members.weighed;
         let others = Others::of(values, rows, members.median);
         let sums = others.sums();
-        let mut chi_squared = 0.0;
-        for row in rows {
-            let score = others.deviation(*row, true)?.score();
-            scores(score);
-            let others = 1.0 - weight(values, *row) / sums.weight;
-            chi_squared += others * score * score;
-        }
         let dof = rows.len().checked_sub(1).filter(|dof| *dof > 0)?;
+        let mut chi_squared = 0.0;
+        let score = |row| others.deviation(row, true).map(|one| one.score());
+        in_order(rows, threads, score, |row, score| {
+            if let Some(score) = score {
+                scores(score);
+                let others = 1.0 - weight(values, row) / sums.weight;
+                chi_squared += others * score * score;
+            }
+        });
         let dofs = rows.iter().map(|row| values.dof[*row]).collect();
         Some(Consistency {
             count: rows.len(),

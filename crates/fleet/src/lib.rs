@@ -7,6 +7,7 @@
 //! | `wanted` | what is asked of a table |
 //! | `layout` | what the columns of a table of results hold, by their names |
 //! | `results` | the table as columns of numbers |
+//! | `parallel` | rows on several threads |
 //! | `deviation` | a value beside the weighted mean of others |
 //! | `group` | one measurand in one group |
 //! | `agreement` | E_n, and the rows that stand apart |
@@ -34,6 +35,7 @@ mod drift;
 pub mod faults;
 mod group;
 mod layout;
+mod parallel;
 mod results;
 #[cfg(test)]
 mod tests;
@@ -49,6 +51,7 @@ use std::io::Read;
 
 use gumption_core::quantity::Unit;
 use gumption_fault::Rejection;
+use gumption_format::csv::Columns;
 
 use crate::group::Members;
 use crate::results::{BETWEEN, Levels, Results};
@@ -135,7 +138,22 @@ impl Deviations {
 /// # Errors
 /// It cannot be read, has no measurand, or lacks a column that is asked for.
 pub fn fleet((source, name): (impl Read, &str), wanted: &Wanted) -> Result<Fleet, Rejection> {
-    let results = results::read(source, name, wanted)?;
+    results::read(source, name, wanted).map(|results| found(&results, wanted))
+}
+
+/// As [`fleet`], of a table in memory.
+///
+/// # Errors
+/// As of [`fleet`].
+pub fn fleet_of_columns(
+    (columns, name): (&Columns<'_>, &str),
+    wanted: &Wanted,
+) -> Result<Fleet, Rejection> {
+    let results = results::read_columns(columns, name, wanted)?;
+    Ok(found(&results, wanted))
+}
+
+fn found(results: &Results, wanted: &Wanted) -> Fleet {
     let groups = rows_of_groups(&results.groups);
     let members: Vec<Vec<Members>> = results
         .measurands
@@ -155,18 +173,19 @@ pub fn fleet((source, name): (impl Read, &str), wanted: &Wanted) -> Result<Fleet
             .sum()
     };
     let tests = all.clone().map(testable).sum();
-    let measurands =
-        (0..results.measurands.len()).map(|at| measurand(&results, at, &members[at], tests));
-    Ok(Fleet {
+    let threads = wanted.threads();
+    let measurands = (0..results.measurands.len())
+        .map(|at| measurand(results, at, &members[at], tests, threads));
+    Fleet {
         rows: results.rows,
         by: wanted.by.clone(),
         measurands: measurands.collect(),
         groups: groups
             .iter()
-            .map(|(key, rows)| Group::of(&results, key, rows))
+            .map(|(key, rows)| Group::of(results, key, rows))
             .collect(),
         tests,
-    })
+    }
 }
 
 /// The rows of each group, with its key; the groups in the order of their keys.
@@ -183,19 +202,28 @@ fn rows_of_groups(levels: &Levels) -> Vec<(&str, Vec<usize>)> {
     groups
 }
 
-fn measurand(results: &Results, at: usize, members: &[Members], tests: usize) -> Measurand {
+fn measurand(
+    results: &Results,
+    at: usize,
+    members: &[Members],
+    tests: usize,
+    threads: usize,
+) -> Measurand {
     let one = &results.measurands[at];
     let mut deviations = Deviations {
         counts: [0; Deviations::BINS],
     };
     let groups = members.iter();
-    let groups = groups.map(|members| GroupResult::of(one, members, |score| deviations.add(score)));
+    let groups =
+        groups.map(|members| GroupResult::of(one, members, threads, |score| deviations.add(score)));
     let mut groups: Vec<GroupResult> = groups.collect();
     let device = |row| results.devices.name(row);
-    let agreement = agreement::agreement(one, members, &mut groups, tests, device);
+    let agreement = agreement::agreement(one, members, &mut groups, [tests, threads], device);
     let drift = results.dates.as_ref().map(|dates| {
         let rows = members.iter().map(|members| members.weighed.as_slice());
-        drift::drift(&one.values, dates, rows, |row| results.devices.get(row))
+        drift::drift(&one.values, dates, rows, threads, |row| {
+            results.devices.get(row)
+        })
     });
     let mut points = Vec::new();
     if results.rows <= DRAWN {

@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 use std::io::Read;
+use std::ops::Range;
 
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, Rejection, say};
 use gumption_format::csv::faults::{NO_HEADER, NO_ROWS, NOT_A_NUMBER};
-use gumption_format::csv::{self, Piece, Pieces, Sheet};
+use gumption_format::csv::{self, Columns, Piece, Pieces, Row, Sheet};
 
 use crate::faults::NOT_A_DATE;
 use crate::layout::{Layout, NumberColumn, StatedColumns, layout};
@@ -131,16 +132,29 @@ pub(crate) fn read(source: impl Read, name: &str, wanted: &Wanted) -> Result<Res
         };
         results.add(&sheet, &layout).map_err(refused)?;
     }
-    match results.rows {
-        0 => {
-            let place = head.place(head.header(), 0);
-            let fault = Fault::new(NO_ROWS, place, say!("the table has no rows"));
-            Err(in_first(vec![
-                fault.label(say!("nothing follows this line")),
-            ]))
-        }
-        _ => Ok(results),
-    }
+    results.some(&head).map_err(in_first)
+}
+
+/// As [`read`], of a table in memory.
+///
+/// # Errors
+/// As of [`read`].
+pub(crate) fn read_columns(
+    columns: &Columns<'_>,
+    name: &str,
+    wanted: &Wanted,
+) -> Result<Results, Rejection> {
+    let text = columns.head();
+    let refused = |faults| Rejection::new(name, &text, faults);
+    let head = Sheet::new(&text).map_err(|fault| refused(vec![*fault]))?;
+    let layout = layout(&head, wanted).map_err(refused)?;
+    let mut results = Results::of(&layout);
+    let rows = (0..columns.rows()).map(|at| columns.row(at)).map(Ok);
+    // What is wrong with a row stands in no text.
+    let nowhere = |_: &Row<'_>, _| 0..0;
+    let added = results.add_rows(rows, &head, &layout, nowhere);
+    added.map_err(|faults| Rejection::new(name, "", faults))?;
+    results.some(&head).map_err(refused)
 }
 
 /// Faults of rows that are told at once.
@@ -178,11 +192,22 @@ impl Results {
     }
 
     fn add(&mut self, sheet: &Sheet<'_>, layout: &Layout) -> Result<(), Vec<Fault>> {
+        let place = |row: &Row<'_>, at| sheet.place(row, at);
+        self.add_rows(sheet.rows(), sheet, layout, place)
+    }
+
+    fn add_rows<'r>(
+        &mut self,
+        rows: impl Iterator<Item = Result<Row<'r>, Fault>>,
+        sheet: &Sheet<'_>,
+        layout: &Layout,
+        place: impl Fn(&Row<'r>, usize) -> Range<usize>,
+    ) -> Result<(), Vec<Fault>> {
         let mut faults = Vec::new();
-        for row in sheet.rows() {
+        for row in rows {
             let added = row.map_err(Box::new).and_then(|row| {
                 let fields: Vec<&str> = row.fields().collect();
-                let place = |at| (sheet.place(&row, at), row.line);
+                let place = |at| (place(&row, at), row.line);
                 self.push(
                     &Fields {
                         fields: &fields,
@@ -203,6 +228,16 @@ impl Results {
             true => Ok(()),
             false => Err(faults),
         }
+    }
+
+    /// These results, if there are any.
+    fn some(self, head: &Sheet<'_>) -> Result<Results, Vec<Fault>> {
+        if self.rows > 0 {
+            return Ok(self);
+        }
+        let place = head.place(head.header(), 0);
+        let fault = Fault::new(NO_ROWS, place, say!("the table has no rows"));
+        Err(vec![fault.label(say!("nothing follows this line"))])
     }
 
     fn push(&mut self, row: &Fields<'_>, layout: &Layout) -> Result<(), Box<Fault>> {

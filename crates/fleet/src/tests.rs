@@ -4,6 +4,8 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rand_distr::{ChiSquared, Distribution, Normal};
 
+use gumption_format::csv::Cells;
+
 use super::*;
 
 fn found(table: &str, wanted: &Wanted) -> Fleet {
@@ -371,6 +373,66 @@ fn groups_may_be_small_or_without_anything() {
             .all(|one| one.consistency.is_none() && one.tested == 0)
     );
     assert_eq!((y.groups[0].s, y.agreement.tested), (None, 0));
+}
+
+/// Rows of several groups and dates, more of them than one stretch of one thread, from numbers that look random.
+fn large() -> String {
+    let mut random = StdRng::seed_from_u64(11);
+    let normal = Normal::new(0.0, 1.0).expect("a distribution");
+    let mut table = String::from("label,type,date,y,u(y),nu(y),k(y)\n");
+    for row in 0..70_000 {
+        let (device, dof) = (row / 3, 5 + row % 90);
+        let x = 10.0 + 0.01 * normal.sample(&mut random);
+        let kind = ["A", "B"][device % 2];
+        table += &format!(
+            "d{device},{kind},202{}-03-01,{x:.9},0.01,{dof},2\n",
+            row % 3
+        );
+    }
+    table
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    let table = large();
+    let on = |threads: usize| {
+        let wanted = Wanted {
+            date: Some("date".into()),
+            threads: Some(threads),
+            ..by(&["type"])
+        };
+        format!("{:?}", found(&table, &wanted))
+    };
+    let one = on(1);
+    assert!(one.contains("tests: 70000"));
+    for threads in [2, 3, 16] {
+        assert!(on(threads) == one, "{threads} threads");
+    }
+}
+
+#[test]
+fn columns_in_memory_are_a_table() {
+    let table = "label,type,y [V],u(y) [mV],U(y) [V],error\na,A,1,1000,2,\nb,A,2,1000,2,\nc,B,,,,\"G0101: no\"\nd,A,9.5,1000,2,\n";
+    let wanted = by(&["type"]);
+    let expected = format!("{:?}", found(table, &wanted));
+    let texts = |all: [&str; 4]| Cells::Texts(all.map(str::to_owned).to_vec());
+    let numbers = |all: [f64; 4]| Cells::Numbers(all.to_vec().into());
+    let missing = f64::NAN;
+    let columns = vec![
+        ("label".to_owned(), texts(["a", "b", "c", "d"])),
+        ("type".to_owned(), texts(["A", "A", "B", "A"])),
+        ("y [V]".to_owned(), numbers([1.0, 2.0, missing, 9.5])),
+        (
+            "u(y) [mV]".to_owned(),
+            numbers([1000.0, 1000.0, missing, 1000.0]),
+        ),
+        ("U(y) [V]".to_owned(), texts(["2", "2", "", "2"])),
+        ("error".to_owned(), texts(["", "", "G0101: no", ""])),
+    ];
+    let columns = Columns::new(columns).expect("equal lengths");
+    let in_memory = fleet_of_columns((&columns, "table"), &wanted);
+    let in_memory = in_memory.map_err(|rejection| rejection.render(false));
+    assert_eq!(format!("{:?}", in_memory.expect("a fleet")), expected);
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! What is asked of a table of results.
 
+use std::thread::available_parallelism;
+
 /// What is wanted of a table.
 #[derive(Debug, Clone, Default)]
 pub struct Wanted {
@@ -11,4 +13,13 @@ pub struct Wanted {
     pub device: Option<String>,
     /// Columns of reference values: `X`, or `y=X` with several measurands.
     pub references: Vec<String>,
+    /// Threads that share the work, where it is not all that the machine offers; results do not depend on it.
+    pub threads: Option<usize>,
+}
+
+impl Wanted {
+    pub(crate) fn threads(&self) -> usize {
+        let all = || available_parallelism().map_or(1, usize::from);
+        self.threads.unwrap_or_else(all)
+    }
 }

@@ -3,6 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`csv`] | the one reader of tables |
+//! | [`contained`] | libraries that give up by a panic |
 //! | [`files`] | where files are read from: a disk, or a library in memory |
 //! | [`document`] | what every command composes: blocks for people, a typed form for machines |
 //! | [`machine`] | structures of the machine form with their JSON Schema |
@@ -12,6 +13,7 @@
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+pub mod contained;
 pub mod csv;
 pub mod document;
 pub mod files;

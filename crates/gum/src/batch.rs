@@ -4,8 +4,9 @@
 //! reading: not their faults, not the random numbers, and no result depends on how the table is cut, on other rows or on the
 //! number of threads.
 
-use std::borrow::Cow;
+use std::borrow::{Borrow, Cow};
 use std::io::Read;
+use std::iter::once;
 use std::ops::{ControlFlow, Range};
 use std::sync::{Mutex, PoisonError};
 
@@ -25,8 +26,8 @@ use gumption_lanes::LANES;
 /// Rows that a thread takes at a time, and that are added to one another: as many as are evaluated together.
 pub const BLOCK: usize = LANES;
 
-/// Rows of a table in memory after which what was found is taken: some blocks for each thread, and little memory.
-const STRETCH: usize = 64 * BLOCK;
+/// Rows of columns after which what was found is taken: some blocks for each thread, and little memory.
+pub const STRETCH: usize = 64 * BLOCK;
 
 /// How the rows of a table are evaluated.
 #[derive(Debug, Clone)]
@@ -109,14 +110,7 @@ pub fn run<T: Default + Send>(
 ) -> Result<(), Rejection> {
     let refused = |fault: Box<Fault>| Rejection::new(table, "", vec![*fault]);
     let mut pieces = Pieces::new(source);
-    let none = || {
-        Err(Box::new(Fault::new(
-            NO_HEADER,
-            0..0,
-            say!("the table is empty"),
-        )))
-    };
-    let first = pieces.next().unwrap_or_else(none).map_err(refused)?;
+    let first = pieces.next().unwrap_or_else(empty).map_err(refused)?;
     let head = Sheet::new(&first.text)
         .map_err(|fault| Rejection::new(table, &first.text, vec![*fault]))?;
     let batch = file.batch(&head, table, &plan.keep)?;
@@ -137,38 +131,54 @@ pub fn run<T: Default + Send>(
     Ok(())
 }
 
-/// As [`run`], of a table in memory; `take` gets the number of rows that were evaluated.
+/// As [`run`], of a table whose rows come as columns, piece by piece, all with the same heads; `take` gets the number of rows
+/// that were evaluated.
 ///
 /// # Errors
 /// As of [`run`].
-pub fn run_columns<T: Default + Send>(
+pub fn run_columns<'c, T: Default + Send>(
     file: &BatchFile<'_>,
-    (columns, table): (&Columns<'_>, &str),
+    (pieces, table): (
+        impl IntoIterator<Item = Result<impl Borrow<Columns<'c>>, Box<Fault>>>,
+        &str,
+    ),
     plan: &Plan,
     add: impl Fn(&mut T, &Evaluated<'_>) + Sync,
     mut take: impl FnMut(T, u64) -> ControlFlow<()>,
 ) -> Result<(), Rejection> {
-    let head = columns.head();
+    let refused = |fault: Box<Fault>| Rejection::new(table, "", vec![*fault]);
+    let mut pieces = pieces.into_iter();
+    let first = pieces.next().unwrap_or_else(empty).map_err(refused)?;
+    let head = first.borrow().head();
     let sheet = Sheet::new(&head).map_err(|fault| Rejection::new(table, &head, vec![*fault]))?;
     let batch = file.batch(&sheet, table, &plan.keep)?;
     let mut run = Run::new(&batch, plan, &sheet);
-    for begin in (0..columns.rows()).step_by(STRETCH) {
-        let rows = begin..columns.rows().min(begin + STRETCH);
-        if run.is_to_learn() {
-            let few = rows.clone().take(BLOCK);
-            let few: Vec<_> = few.map(|row| columns.row(row)).map(Ok).collect();
-            run.learn(&sheet, &few)?;
-        }
-        let parts = rows.clone().step_by(BLOCK);
-        let part = |begin| Part::Columns(columns, begin..rows.end.min(begin + BLOCK));
-        let done = rows.end as u64;
-        if !run.evaluate(&sheet, parts.map(part).collect(), &add, |part| {
-            take(part, done)
-        }) {
-            break;
+    for piece in once(Ok(first)).chain(pieces) {
+        let piece = piece.map_err(refused)?;
+        let columns = piece.borrow();
+        for begin in (0..columns.rows()).step_by(STRETCH) {
+            let rows = begin..columns.rows().min(begin + STRETCH);
+            if run.is_to_learn() {
+                let few = rows.clone().take(BLOCK);
+                let few: Vec<_> = few.map(|row| columns.row(row)).map(Ok).collect();
+                run.learn(&sheet, &few)?;
+            }
+            let parts = rows.clone().step_by(BLOCK);
+            let part = |begin| Part::Columns(columns, begin..rows.end.min(begin + BLOCK));
+            let done = run.number + rows.len() as u64;
+            let parts = parts.map(part).collect();
+            if !run.evaluate(&sheet, parts, &add, |part| take(part, done)) {
+                return Ok(());
+            }
         }
     }
     Ok(())
+}
+
+/// The fault of a table without a line of names.
+fn empty<T>() -> Result<T, Box<Fault>> {
+    let message = say!("the table is empty");
+    Err(Box::new(Fault::new(NO_HEADER, 0..0, message)))
 }
 
 /// Some rows of a table.

@@ -5,5 +5,6 @@
 
 pub mod batch;
 pub mod budget;
+mod elimination;
 pub mod propagate;
 pub mod versions;

@@ -20,11 +20,12 @@ command ``gumption``, to the last bit.
 
 from ._arrow import RecordBatch, arrow_batch
 from ._batch import batch
-from ._commands import audit, calibrate, diagnose, evaluate, plan, simulate, verify
+from ._commands import audit, calibrate, diagnose, evaluate, fleet, plan, simulate, verify
 from ._engine import version as __version__
 from ._faults import Fault, NoResult, Refused
 from ._quantity import Quantity, correlated, covariance, quantity
 from ._result import Measurand, Record, Result, Row
+from ._table import Table
 
 __all__ = [
     "Fault",
@@ -36,6 +37,7 @@ __all__ = [
     "Refused",
     "Result",
     "Row",
+    "Table",
     "__version__",
     "arrow_batch",
     "audit",
@@ -45,6 +47,7 @@ __all__ = [
     "covariance",
     "diagnose",
     "evaluate",
+    "fleet",
     "plan",
     "quantity",
     "simulate",

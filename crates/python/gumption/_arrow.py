@@ -6,10 +6,11 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ._batch import cells, evaluated
+from ._batch import evaluated
 from ._commands import settings
 from ._given import Contents, Given
 from ._result import Language
+from ._table import cells
 
 
 class RecordBatch:

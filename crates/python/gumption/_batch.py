@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Literal, Union
+from typing import Any, Literal
 
-import numpy as np
-
-from . import _engine
+from . import _engine, _table
 from ._commands import Progress, settings
 from ._faults import typed
-from ._given import Contents, Given, sheet, source
+from ._given import Contents, Given, source
 from ._result import Language
-
-Table = Union[str, os.PathLike, Mapping[str, Any], Any]
-"""A CSV file, its text, columns by their names, or a frame of pandas or polars."""
+from ._table import Table
 
 
 def batch(
     budget: Given,
-    table: Table,
+    table: _table.Given,
     *,
     output: str | os.PathLike[str] | None = None,
     replace: bool = False,
@@ -47,7 +43,7 @@ def batch(
     c·u of each component, with sign: summed over the components that rows share, products of contributions are the
     covariance of two rows. The columns named in ``keep`` (type, laboratory, date …) go through to the results unchanged.
 
-    Gives the results as columns: of a frame a frame, else a ``dict`` of arrays and lists. With ``output`` they go into that
+    Gives the results as columns: of a frame a frame, else a ``Table``, a ``dict`` of arrays and lists. With ``output`` they go into that
     file as they come, however long the table is, and what is given is the number of rows and of those without a result.
     ``progress`` is told the share that is done.
 
@@ -55,7 +51,7 @@ def batch(
     """
     columns, rows, failed = evaluated(
         budget,
-        sheet(table, "table.csv") if isinstance(table, (str, os.PathLike)) else _given(table),
+        _table.given(table),
         None if output is None else (Path(output), replace),
         source_files=files,
         wanted=settings(profile, monte_carlo, trials, seed, quasi_random, False, threads),
@@ -70,12 +66,7 @@ def batch(
         if column is None:
             columns[name] = [""] * rows
     columns["label"] = [label or str(at) for at, label in enumerate(columns["label"], 1)]
-    kind = type(table).__module__.partition(".")[0]
-    if kind in ("pandas", "polars") and not isinstance(table, Mapping):
-        import importlib
-
-        return importlib.import_module(kind).DataFrame(columns)
-    return columns
+    return _table.like(table, columns)
 
 
 def evaluated(
@@ -89,36 +80,11 @@ def evaluated(
     keep: Sequence[str] = (),
     progress: Progress = None,
     language: Language = "en",
-) -> tuple[dict[str, Any] | None, int, int]:
+) -> tuple[Table | None, int, int]:
     """The columns of results by their names, ``None`` for one whose texts are all empty, or ``None`` where they go into a
     file; how many rows there were, and how many of them have no result."""
     with typed():
         found, rows, failed = _engine.batch_of(
             source(budget, source_files), table, place, wanted, more, list(keep), progress, language
         )
-    return (None if found is None else dict(found)), rows, failed
-
-
-def _given(table: Any) -> list[tuple[str, Any]]:
-    """A frame or columns by their names, as the engine takes them."""
-    names = list(table.keys() if isinstance(table, Mapping) else table.columns)
-    return [(name, cells(table[name])) for name in names]
-
-
-def cells(column: Any) -> Any:
-    """A column as the engine takes it: numbers where it is an array of doubles, else texts, every number with all of its
-    digits."""
-    array = column.to_numpy() if hasattr(column, "to_numpy") else column
-    if isinstance(array, np.ndarray) and array.dtype == np.float64 and array.ndim == 1:
-        return np.ascontiguousarray(array)
-    return [_field(one) for one in column]
-
-
-def _field(value: Any) -> str:
-    if value is None or (isinstance(value, float) and np.isnan(value)):
-        return ""
-    if isinstance(value, (float, np.floating)):
-        return repr(float(value))
-    if isinstance(value, (list, tuple, np.ndarray)) or hasattr(value, "to_list"):
-        return "[" + ", ".join(repr(float(one)) for one in value) + "]"
-    return str(value)
+    return (None if found is None else Table(found)), rows, failed

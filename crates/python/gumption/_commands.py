@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import datetime
-from collections.abc import Callable
-from typing import Any, Literal, Union
+import os
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, Literal, Union, overload
 
-from . import _engine
+from . import _engine, _table
 from ._faults import typed
 from ._given import Contents, Given, sheet, source
 from ._result import Language, Result
+from ._table import Table
 
 Progress = Union[Callable[[float], Any], None]
 """Called now and then with how far the work has come; what it raises ends the work, as an interrupt does."""
+
+Recordings = Union[str, os.PathLike, Sequence[Union[str, os.PathLike]], Mapping[str, _table.Given]]
+"""Files or folders; or names with what they stand for."""
 
 
 def evaluate(
@@ -65,13 +71,99 @@ def settings(
     }
 
 
-def calibrate(experiment: Given, *, files: Contents | None = None, language: Language = "en") -> Result:
+@overload
+def calibrate(experiment: Given, *, files: Contents | None = None, language: Language = "en") -> Result: ...
+
+
+@overload
+def calibrate(
+    experiment: Given,
+    *,
+    recordings: Recordings,
+    shares: bool = False,
+    files: Contents | None = None,
+    progress: Progress = None,
+    language: Language = "en",
+) -> Table: ...
+
+
+def calibrate(
+    experiment: Given,
+    *,
+    recordings: Recordings | None = None,
+    shares: bool = False,
+    files: Contents | None = None,
+    progress: Progress = None,
+    language: Language = "en",
+) -> Result | Table:
     """Finds the coefficients of an experiment with their covariance.
 
     ``result.files()`` has a budget of the coefficients, which ``evaluate`` takes.
+
+    With ``recordings`` each of them takes the place of that of the experiment: files, or folders of CSV files; or a ``dict`` of
+    names with files, texts, frames or columns, and then the experiment finds no other files than those of ``files``. What is
+    given then is a table with a line for each: coefficients with u, ν, k and U, the scatter of the residuals, with ``shares``
+    the share of each cause in u², and an ``error`` for a recording that gives none, which stops nothing. ``progress`` is told
+    the share that is done.
     """
+    if recordings is None:
+        with typed():
+            return Result(_engine.calibrate(source(experiment, files), language), language)
+    if isinstance(recordings, Mapping):
+        texts = {name: _recording(one) for name, one in recordings.items()}
+        listed = [(name, f"recordings/{name}.csv") for name in texts]
+        at_hand = {path: texts[name] for name, path in listed}
+        place = source(experiment, {**(files or {}), **at_hand})
+    else:
+        given = [recordings] if isinstance(recordings, (str, os.PathLike)) else list(recordings)
+        if hasattr(recordings, "columns") or not all(isinstance(one, (str, os.PathLike)) for one in given):
+            raise TypeError('recordings: files or folders, or a dict of names with frames, such as {"17": frame}')
+        listed = _engine.recordings_of(given, language)
+        place = source(experiment, files)
+        if place["files"] is not None:
+            place["files"] += [(os.fspath(path), Path(path).read_bytes()) for _, path in listed]
     with typed():
-        return Result(_engine.calibrate(source(experiment, files), language), language)
+        text, _ = _engine.calibrate_each(place, listed, shares, progress, language)
+    return _table.read(text, ("label", "error"))
+
+
+def _recording(given: _table.Given) -> str | bytes:
+    """The text of a recording."""
+    if isinstance(given, bytes) or (isinstance(given, str) and "\n" in given):
+        return given
+    return Path(given).read_bytes() if isinstance(given, (str, os.PathLike)) else _table.written(given)
+
+
+def fleet(
+    results: _table.Given,
+    *,
+    by: str | Sequence[str] = (),
+    date: str | None = None,
+    device: str | None = None,
+    reference: str | Sequence[str] = (),
+    threads: int | None = None,
+    language: Language = "en",
+) -> Result:
+    """Says what many results say together: scatter against u, E_n, drift between calibrations, what dominates.
+
+    ``results`` is what ``batch`` gives, or ``calibrate`` of many recordings; a frame or columns with such names; or a CSV file.
+    Rows are grouped ``by`` columns, such as type or laboratory; ``date`` is the column of the dates of calibration, ``device``
+    the one that names the devices (``label``, where nothing is said), ``reference`` the one of reference values, ``X`` or
+    ``y=X``. ``result.groups`` and ``result["y"]`` have the figures, ``result.table()`` those of each group.
+    """
+    wanted = {
+        "by": _several(by),
+        "date": date,
+        "device": device,
+        "references": _several(reference),
+        "threads": threads,
+    }
+    with typed():
+        return Result(_engine.fleet(_table.given(results), wanted, language), language)
+
+
+def _several(names: str | Sequence[str]) -> list[str]:
+    return [names] if isinstance(names, str) else list(names)
 
 
 def plan(

@@ -8,11 +8,13 @@ import math
 import os
 from collections.abc import Iterator
 from functools import cached_property
+from itertools import zip_longest
 from typing import Any, Literal
 
 import numpy as np
 
 from ._engine import Made
+from ._table import Table
 
 Language = Literal["en", "zh"]
 
@@ -160,27 +162,28 @@ class Result:
         names = [one.name for one in self.rows[row].measurands]
         return dict(zip(names, self._made.samples(row, trials)))
 
-    def table(self) -> dict[str, list[Any]]:
-        """What is reported of every measurand and row, by columns."""
+    def table(self) -> Table:
+        """What is reported of every measurand and row, of every coefficient, or of every group of a fleet, by columns."""
+        found = self.rows[0].to_dict()
+        if "grouped_by" in found:
+            return _of_groups(found)
+        if found.get("coefficients"):
+            return _of_coefficients(found["coefficients"])
         columns = ("label", "measurand", "unit", "y", "u", "nu", "k", "U", "lower", "upper")
         lines = [
             (row.label, one.name, one.unit, one.y, one.u, one.nu, one.k, one.U, *(one.interval or (None, None)))
             for row in self.rows
             for one in row.measurands
         ]
-        return {column: [line[at] for line in lines] for at, column in enumerate(columns)}
+        return Table({column: [line[at] for line in lines] for at, column in enumerate(columns)})
 
     def to_pandas(self) -> Any:
         """``table`` as a frame of pandas."""
-        import pandas
-
-        return pandas.DataFrame(self.table())
+        return self.table().to_pandas()
 
     def to_polars(self) -> Any:
         """``table`` as a frame of polars."""
-        import polars
-
-        return polars.DataFrame(self.table())
+        return self.table().to_polars()
 
     def files(self, language: Language | None = None) -> dict[str, str]:
         """Files that go with the result, by name: a budget of the coefficients, the improved experiment."""
@@ -225,6 +228,25 @@ class Result:
 
     def __repr__(self) -> str:
         return f"<gumption {self.rows[0].format}, rows: {len(self.rows)}>"
+
+
+def _of_coefficients(coefficients: list[dict[str, Any]]) -> Table:
+    keys = {"coefficient": "name", "unit": "unit", "value": "value", "u": "u", "nu": "dof", "k": "k", "U": "U"}
+    return Table({column: [_wrapped(one[key]) for one in coefficients] for column, key in keys.items()})
+
+
+def _of_groups(fleet: dict[str, Any]) -> Table:
+    """A line for each measurand and group, with every figure that is one number."""
+    lines = []
+    for measurand in fleet["measurands"]:
+        for group, figures in zip(fleet["groups"], measurand["groups"]):
+            line = dict(zip_longest(fleet["grouped_by"], group["key"], fillvalue=""))
+            line |= {"measurand": measurand["name"], "unit": measurand["unit"], "rows": group["rows"]}
+            line |= {name: _wrapped(one) for name, one in figures.items() if not isinstance(one, (dict, list))}
+            consistency = figures["consistency"] or {}
+            line |= {name: _wrapped(consistency.get(name)) for name in ("birge", "p_value")}
+            lines.append(line)
+    return Table({name: [line[name] for line in lines] for name in (lines[0] if lines else ())})
 
 
 def _wrapped(value: Any) -> Any:

@@ -5,21 +5,21 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use gumption_fault::Rejection;
-use gumption_format::csv::{self, Cells};
+use gumption_format::csv;
 use gumption_format::files::write::Replacing;
 use gumption_format::files::{Files, Growing};
 use gumption_gum::batch::{self, Evaluated, Plan};
 use gumption_gum::budget::BatchFile;
 use gumption_gum::propagate::Progress;
 use gumption_report::batch::{Columns, Lines, ResultColumn, Results, Table, Values};
-use numpy::{IntoPyArray, PyReadonlyArray1};
-use pyo3::exceptions::PyValueError;
+use numpy::IntoPyArray;
 use pyo3::prelude::*;
 
 use crate::compute::Settings;
 use crate::made::{spoken, unwritten};
 use crate::refusal::Unmade;
 use crate::source::Source;
+use crate::table::{Given, Rows};
 use crate::watch::{Underway, watched};
 
 /// How much of the table was read; the evaluations stop where the work is to end.
@@ -40,49 +40,7 @@ impl Underway for Reading<'_> {
     }
 }
 
-/// A table: a file, or columns.
-#[derive(FromPyObject)]
-pub(crate) enum Given<'py> {
-    #[pyo3(transparent)]
-    File(Source),
-    #[pyo3(transparent)]
-    Columns(Vec<(String, GivenCells<'py>)>),
-}
-
-/// What a column holds.
-#[derive(FromPyObject)]
-pub(crate) enum GivenCells<'py> {
-    #[pyo3(transparent)]
-    Numbers(PyReadonlyArray1<'py, f64>),
-    #[pyo3(transparent)]
-    Texts(Vec<String>),
-}
-
-/// A table that is evaluated without the interpreter.
-enum Rows<'t> {
-    File(&'t Source),
-    Columns(csv::Columns<'t>),
-}
-
-impl<'t> Rows<'t> {
-    fn of(given: &'t Given<'_>) -> PyResult<Rows<'t>> {
-        let columns = match given {
-            Given::File(source) => return Ok(Rows::File(source)),
-            Given::Columns(columns) => columns,
-        };
-        let cells = |(name, cells): &'t (String, GivenCells<'_>)| {
-            let cells = match cells {
-                GivenCells::Numbers(numbers) => Cells::Numbers(numbers.as_slice()?),
-                GivenCells::Texts(texts) => Cells::Texts(texts.clone()),
-            };
-            Ok((name.clone(), cells))
-        };
-        let columns = columns.iter().map(cells).collect::<PyResult<_>>()?;
-        let columns = csv::Columns::new(columns);
-        let columns = columns.map(Rows::Columns);
-        columns.ok_or_else(|| PyValueError::new_err("the columns have different lengths"))
-    }
-
+impl Rows<'_> {
     /// Bytes of the file, or rows.
     fn length(&self) -> u64 {
         match self {
@@ -104,7 +62,9 @@ impl<'t> Rows<'t> {
                 let open = csv::open(files, path, &name)?;
                 batch::run(file, (open, &name), plan, add, take)
             }),
-            Rows::Columns(columns) => batch::run_columns(file, (columns, "table"), plan, add, take),
+            Rows::Columns(columns) => {
+                batch::run_columns(file, ([Ok(columns)], "table"), plan, add, take)
+            }
         }
     }
 }
@@ -119,7 +79,7 @@ type Found = Vec<(String, Option<Py<PyAny>>)>;
 pub(crate) fn batch_of(
     py: Python<'_>,
     source: Source,
-    table: Given<'_>,
+    mut table: Given<'_>,
     output: Option<(PathBuf, bool)>,
     settings: Settings,
     more: (bool, bool),
@@ -136,7 +96,7 @@ pub(crate) fn batch_of(
         keep,
         progress: Progress::default(),
     };
-    let rows = Rows::of(&table)?;
+    let rows = Rows::of(&mut table)?;
     let reading = Reading {
         read: &read,
         length: rows.length().max(1) as f64,

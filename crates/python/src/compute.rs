@@ -1,9 +1,14 @@
 //! One function for each command.
 
+use std::path::PathBuf;
+
 use gumption_audit::claims;
 use gumption_audit::read::Mapping;
 use gumption_audit::sheet::Unreadable;
+use gumption_fault::Rejection;
 use gumption_fault::language::Language;
+use gumption_fleet as fleets;
+use gumption_format::csv;
 use gumption_format::files::Files;
 use gumption_gum::budget::{self, Budget, PROFILES, Points, Profile, Trials, Wanted};
 use gumption_gum::propagate::{self, MonteCarloChoice, Options, Progress};
@@ -11,7 +16,8 @@ use gumption_lab::calibrate::{self as calibrations, Campaign, Trouble};
 use gumption_lab::diagnose::case::{self, Case};
 use gumption_lab::diagnose::{self as diagnoses, Failure};
 use gumption_lab::experiment::{Kind, Purpose, kind_of};
-use gumption_report as report;
+use gumption_report::batch::{Lines, Table};
+use gumption_report::{self as report, RecordingColumns};
 use gumption_verify::{Environment, Example, LIBRARY, Verification};
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
@@ -19,6 +25,7 @@ use pyo3::prelude::*;
 use crate::made::{Made, Row, What, spoken};
 use crate::refusal::Unmade;
 use crate::source::Source;
+use crate::table::{Given, Rows};
 use crate::watch::{Share, watched};
 
 /// What the caller of `evaluate` wants instead of what the file says.
@@ -82,6 +89,29 @@ impl Settings {
     }
 }
 
+/// What is asked of results that are seen together.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Together {
+    by: Vec<String>,
+    date: Option<String>,
+    device: Option<String>,
+    references: Vec<String>,
+    threads: Option<usize>,
+}
+
+impl Together {
+    fn wanted(&self) -> fleets::Wanted {
+        fleets::Wanted {
+            by: self.by.clone(),
+            date: self.date.clone(),
+            device: self.device.clone(),
+            references: self.references.clone(),
+            threads: self.threads,
+        }
+    }
+}
+
 /// Evaluates the rows of a budget file.
 #[pyfunction]
 pub(crate) fn evaluate(
@@ -127,6 +157,74 @@ pub(crate) fn calibrate(py: Python<'_>, source: Source, language: &str) -> PyRes
         let campaign = campaign(&source, Purpose::Calibrate)?;
         let found = calibrations::calibrate(&campaign).map_err(|why| troubled(&why, language))?;
         Ok(What::Calibration(Box::new(campaign), Box::new(found)))
+    })?;
+    made(py, language, found)
+}
+
+/// The coefficients of each of many recordings of an experiment: a table (CSV) with a line each, and how many of them give none.
+#[pyfunction]
+pub(crate) fn calibrate_each(
+    py: Python<'_>,
+    source: Source,
+    recordings: Vec<(String, PathBuf)>,
+    shares: bool,
+    progress: Option<Py<PyAny>>,
+    language: &str,
+) -> PyResult<(String, u64)> {
+    let language = spoken(language)?;
+    let columns = RecordingColumns { shares, language };
+    let share = Share::default();
+    let found = watched(py, progress.as_ref(), &share, || {
+        source.with(calibrations::is_experiment)?;
+        let mut table = Table::default();
+        let mut text = Vec::new();
+        for (at, (label, recording)) in recordings.iter().enumerate() {
+            let found = source
+                .with(|files, experiment| calibrations::of_recording(files, experiment, recording));
+            let found = found.as_ref().map(|(campaign, found)| (campaign, found));
+            let mut lines = Lines::default();
+            report::recording(&mut lines, label, found, columns);
+            text.extend(table.add(lines));
+            if share
+                .at((at + 1) as f64 / recordings.len() as f64)
+                .is_break()
+            {
+                break;
+            }
+        }
+        let (left, count) = table.end();
+        text.extend(left);
+        Ok((String::from_utf8_lossy(&text).into_owned(), count.failed))
+    })?;
+    found.map_err(|rejection: Rejection| Unmade::from(rejection).raised(py, language))
+}
+
+/// What many results say together.
+#[pyfunction]
+pub(crate) fn fleet(
+    py: Python<'_>,
+    mut results: Given<'_>,
+    wanted: Together,
+    language: &str,
+) -> PyResult<Made> {
+    let language = spoken(language)?;
+    let rows = Rows::of(&mut results)?;
+    let found = watched(py, None, &Share::default(), || {
+        let wanted = wanted.wanted();
+        let (name, found) = match &rows {
+            Rows::File(source) => source.with(|files, path| {
+                let name = path.display().to_string();
+                let found = csv::open(files, path, &name)
+                    .and_then(|open| fleets::fleet((open, &name), &wanted));
+                (name, found)
+            }),
+            Rows::Columns(columns) => {
+                let name = "table".to_owned();
+                let found = fleets::fleet_of_columns((columns, &name), &wanted);
+                (name, found)
+            }
+        };
+        Ok(What::Fleet(name, Box::new(found?)))
     })?;
     made(py, language, found)
 }

@@ -5,6 +5,7 @@
 //! |---|---|
 //! | `source` | where the files of a call are: on the disk, in memory, or dictionaries |
 //! | `batch` | a budget for every row of a table |
+//! | `table` | tables that a call is given |
 //! | `compute` | one function for each command |
 //! | `made` | what a command made: its document in every format, its files, its samples |
 //! | `refusal` | why there is no result, as exceptions |
@@ -15,6 +16,7 @@ mod compute;
 mod made;
 mod refusal;
 mod source;
+mod table;
 mod watch;
 
 use pyo3::prelude::*;
@@ -25,13 +27,15 @@ mod _engine {
     #[pymodule_export]
     use super::batch::batch_of;
     #[pymodule_export]
-    use super::compute::{audit, calibrate, diagnose, evaluate, plan, simulate, verify};
+    use super::compute::{
+        audit, calibrate, calibrate_each, diagnose, evaluate, fleet, plan, simulate, verify,
+    };
     #[pymodule_export]
     use super::made::Made;
     #[pymodule_export]
     use super::refusal::{NoResult, Refused};
     #[pymodule_export]
-    use super::source::toml_of;
+    use super::source::{recordings_of, toml_of};
 
     use super::*;
 

@@ -7,6 +7,7 @@ use gumption_audit::Audit;
 use gumption_audit::claim::Claimed;
 use gumption_export::{FORMATS, Format, Page, named, with_ending};
 use gumption_fault::language::Language;
+use gumption_fleet::Fleet;
 use gumption_format::document::Document;
 use gumption_format::files::write::{Output, Replacing, Unwritten, Why, write};
 use gumption_gum::budget::{Budget, MonteCarloSettings};
@@ -39,6 +40,7 @@ pub(crate) enum What {
     Outlook(Box<Case>, Box<diagnose::Outlook>),
     Verification(Box<Verification>),
     Audit(String, Vec<Claimed>),
+    Fleet(String, Box<Fleet>),
 }
 
 impl What {
@@ -57,6 +59,7 @@ impl What {
                 let audits: Vec<Audit<'_>> = claims.iter().map(gumption_audit::audit).collect();
                 report::audit(name, &audits, language)
             }
+            What::Fleet(table, found) => report::fleet(found, table, language),
         }
     }
 }

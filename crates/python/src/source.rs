@@ -3,11 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use gumption_format::files::Files;
-use pyo3::exceptions::PyValueError;
+use gumption_lab::calibrate::{label, listed};
+use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyInt, PyMapping, PyString};
 use serde::ser::{Error, SerializeMap, SerializeSeq};
 use serde::{Serialize, Serializer};
+
+use crate::made::spoken;
 
 /// A file and those that it names: on the disk, or all of them in memory.
 #[derive(FromPyObject)]
@@ -37,6 +40,21 @@ impl Source {
             }
         }
     }
+}
+
+/// The recordings that are given, and those of folders in the order of their names, each behind what it is called.
+#[pyfunction]
+pub(crate) fn recordings_of(
+    given: Vec<PathBuf>,
+    language: &str,
+) -> PyResult<Vec<(String, PathBuf)>> {
+    let language = spoken(language)?;
+    let listed = listed(&given);
+    let listed = listed.map_err(|why| PyOSError::new_err(why.in_language(language)))?;
+    Ok(listed
+        .into_iter()
+        .map(|path| (label(&path), path))
+        .collect())
 }
 
 /// The TOML of a file that is given as a dictionary, its entries in their order. What is `None` is left out; arrays and

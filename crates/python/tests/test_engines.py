@@ -113,6 +113,11 @@ def test_duckdb(page, expected):
     assert_same(run("DuckDB", page), expected)
 
 
+def test_datafusion(page, expected):
+    pytest.importorskip("datafusion")
+    assert_same(run("DataFusion", page), expected)
+
+
 def until_dead(whole, flag: Path):
     """`whole`, whose process is killed with the part in the middle, once."""
 

@@ -509,6 +509,8 @@ pub struct Results {
     kept: Vec<(String, Vec<String>)>,
     waiting: Vec<Values>,
     count: Count,
+    /// Rows that were taken away.
+    taken: u64,
 }
 
 impl Results {
@@ -544,7 +546,7 @@ impl Results {
 
     /// Adds rows below the heads that are there.
     fn add_below(&mut self, stretch: Stretch) {
-        let at = self.count.rows as usize;
+        let at = self.rows();
         self.count.rows += stretch.count.rows;
         self.count.rejected += stretch.count.rejected;
         let added = stretch.below(self.heads.as_deref().unwrap_or_default());
@@ -556,6 +558,29 @@ impl Results {
         columns.for_each(|(column, added)| column.append(at, added));
     }
 
+    /// How many rows are in them.
+    pub fn rows(&self) -> usize {
+        (self.count.rows - self.taken) as usize
+    }
+
+    /// The columns of the rows that are in them, with their heads; the next ones follow those.
+    pub fn take(&mut self) -> Vec<(String, ResultColumn)> {
+        let rows = self.rows();
+        self.taken = self.count.rows;
+        self.columns.iter_mut().for_each(|column| column.fill(rows));
+        let columns = self.columns.iter_mut();
+        let columns = columns.map(|column| std::mem::replace(column, column.emptied()));
+        let names = self.heads.iter().flatten().map(|head| head.name.clone());
+        let mut found: Vec<_> = names.zip(columns).collect();
+        let kept = self.kept.iter_mut();
+        let kept = kept.map(|(head, texts)| {
+            let texts = ResultColumn::Texts(Some(std::mem::take(texts)));
+            (head.clone(), texts)
+        });
+        found.splice(1..1, kept);
+        found
+    }
+
     /// The columns with their heads, and how the rows have ended.
     pub fn end(mut self) -> (Vec<(String, ResultColumn)>, Count) {
         // A table without rows has columns, too.
@@ -563,15 +588,7 @@ impl Results {
             heads: Some(nothing()),
             ..Values::default()
         });
-        let rows = self.count.rows as usize;
-        self.columns.iter_mut().for_each(|column| column.fill(rows));
-        let heads = self.heads.unwrap_or_default().into_iter();
-        let names = heads.map(|head| head.name);
-        let mut found: Vec<_> = names.zip(self.columns).collect();
-        let kept = self.kept.into_iter();
-        let kept = kept.map(|(head, texts)| (head, ResultColumn::Texts(Some(texts))));
-        found.splice(1..1, kept);
-        (found, self.count)
+        (self.take(), self.count)
     }
 }
 
@@ -581,6 +598,22 @@ impl ResultColumn {
         match head.numbers {
             true => ResultColumn::Numbers(Vec::new()),
             false => ResultColumn::Texts(None),
+        }
+    }
+
+    /// How many cells it has; of texts that are all empty nobody knows.
+    pub fn cells(&self) -> usize {
+        match self {
+            ResultColumn::Numbers(numbers) => numbers.len(),
+            ResultColumn::Texts(texts) => texts.as_ref().map_or(0, Vec::len),
+        }
+    }
+
+    /// One of the same kind, with nothing in it.
+    fn emptied(&self) -> ResultColumn {
+        match self {
+            ResultColumn::Numbers(_) => ResultColumn::Numbers(Vec::new()),
+            ResultColumn::Texts(_) => ResultColumn::Texts(None),
         }
     }
 

@@ -48,7 +48,8 @@ mod tests;
 pub use allan::{AllanReport, allan, allan_schema};
 pub use audit::{audit, audit_schema};
 pub use calibration::{
-    Unusable, calibration, calibration_schema, calibration_trouble, plan, plan_schema, recording,
+    RecordingColumns, calibration, calibration_schema, calibration_trouble, plan, plan_schema,
+    recording,
 };
 pub use certificate::{
     administration, certificate_keys, certificate_schema, certificate_template, certified,

@@ -73,15 +73,8 @@ impl fmt::Display for Share {
 
 /// Slots that have names which count.
 fn sure(found: &Examination) -> Vec<&Slot> {
-    let nameless = matches!(
-        found.verdict,
-        Verdict::None | Verdict::Unexplained | Verdict::Contested
-    );
-    found
-        .slots
-        .iter()
-        .filter(|slot| !nameless && slot.state != State::Unexplained)
-        .collect()
+    let slots = found.slots.iter();
+    slots.filter(|slot| slot.is_explained()).collect()
 }
 
 fn holds(slot: &Slot, candidate: usize) -> bool {
@@ -102,7 +95,7 @@ pub fn grade(found: &Examination, hidden: &Hidden, lambda: f64) -> Grade {
     let alias = hidden.kappa < 1e-3 * lambda;
     match found.verdict {
         Verdict::None => Grade::Miss,
-        Verdict::Unexplained | Verdict::Contested => Grade::Unexplained,
+        Verdict::Unexplained => Grade::Unexplained,
         _ if other_name(&slots, &[truth]) => Grade::WrongName,
         _ if slots.len() == 1 && slots[0].state == State::Identified && alias => Grade::Overclaim,
         _ if slots.len() == 1 && slots[0].state == State::Identified => Grade::Right,
@@ -116,7 +109,7 @@ pub fn grade_open(found: &Examination) -> Open {
     let slots = sure(found);
     match found.verdict {
         Verdict::None => Open::Miss,
-        Verdict::Unexplained | Verdict::Contested => Open::Unexplained,
+        Verdict::Unexplained => Open::Unexplained,
         _ if other_name(&slots, &[]) => Open::WrongName,
         _ => Open::List,
     }
@@ -134,7 +127,6 @@ pub fn grade_several(found: &Examination, truths: &[usize]) -> &'static str {
     match found.verdict {
         Verdict::None => "missed",
         Verdict::Unexplained => "unexplained",
-        Verdict::Contested => "contested",
         _ if other_name(&slots, truths) => "wrong name",
         _ if slots.len() == count && truths.iter().filter(unique).count() == count => "right",
         _ if truths.iter().filter(listed).count() == count => "listed",

@@ -8,9 +8,7 @@
 //! | `shown` | numbers by what their cells show |
 //! | `stale` | formulas that give another figure than their cells hold |
 //! | `text` | separated values, Markdown tables, plain text |
-//! | `contained` | libraries that give up by a panic |
 
-mod contained;
 mod hidden;
 mod open_document;
 mod shown;

@@ -6,8 +6,8 @@ use calamine::{Data, DataRef, Reader, SheetVisible, Sheets, open_workbook_auto_f
 
 use gumption_fault::{Said, say};
 
-use super::contained::contained;
 use super::{Cell, Grid, MOST_CELLS, Unreadable, open_document, shown, stale};
+use gumption_format::contained::contained;
 
 /// Every sheet of a workbook. Hidden ones come last: what is hidden is read, but does not stand in front.
 pub(super) fn grids(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {

@@ -151,13 +151,8 @@ fn matched(truth: &Truth, answer: &Answer) -> (Vec<Option<usize>>, Vec<usize>) {
 
 /// Whether the diagnosis says that something without a name is left.
 fn open_remainder(answer: &Answer) -> bool {
-    matches!(
-        answer.verdict.as_str(),
-        "unexplained" | "partly" | "contested"
-    ) || answer
-        .effects
-        .iter()
-        .any(|effect| effect.state == State::Unexplained)
+    let mut effects = answer.effects.iter();
+    answer.verdict == "unexplained" || effects.any(|effect| effect.state == State::Unexplained)
 }
 
 fn graded(truth: &TrueEffect, found: Option<usize>, answer: &Answer, open: bool) -> GradedEffect {

@@ -17,14 +17,15 @@ pub(super) fn accepts_or_alias(truth: &TrueEffect, name: &Name) -> bool {
 
 /// Whether a name leaves open which of two effects it is that give the same recording.
 pub(super) fn tells_both(truth: &TrueEffect, name: &Name) -> bool {
-    let tells = |accepted: &Accepted| {
-        is(name, accepted) || name.on_scale.as_ref().is_some_and(|id| *id == accepted.id)
-    };
+    let tells = |accepted: &Accepted| is(name, accepted);
     truth.names.iter().any(tells) && truth.aliases.iter().any(tells)
 }
 
+/// Where the readings hardly vary, a name says which effect on the scale gives the same.
 fn is(name: &Name, accepted: &Accepted) -> bool {
-    (name.id == accepted.id || holds(name, &accepted.id))
+    (name.id == accepted.id
+        || name.on_scale.as_ref() == Some(&accepted.id)
+        || holds(name, &accepted.id))
         && (accepted.along.is_empty()
             || accepted
                 .along
@@ -69,5 +70,20 @@ mod tests {
         assert!(accepts(&truth, &name("sensitivity", "supply")));
         assert!(!accepts(&truth, &name("sensitivity", "humidity")));
         assert!(!accepts(&TrueEffect::default(), &name("cubic", "head")));
+    }
+
+    #[test]
+    fn a_name_that_says_or_on_the_scale_says_both() {
+        let truth = TrueEffect {
+            names: vec![Accepted {
+                id: "step-scale".into(),
+                along: Vec::new(),
+            }],
+            ..TrueEffect::default()
+        };
+        let step = name("step", "time");
+        assert!(!accepts(&truth, &step));
+        let on_scale = Some("step-scale".into());
+        assert!(accepts(&truth, &Name { on_scale, ..step }));
     }
 }

@@ -39,6 +39,7 @@ pub fn compile(request: &Request<'_>) -> Result<Model, Vec<ModelFault>> {
         statements: Vec::new(),
         defined: HashMap::new(),
         spans: HashMap::new(),
+        added: Vec::new(),
         last: None,
     };
     check.symbols(request.symbols);
@@ -54,7 +55,7 @@ pub fn compile(request: &Request<'_>) -> Result<Model, Vec<ModelFault>> {
 
 /// A statement and what it refers to.
 pub struct Record {
-    pub statement: Statement,
+    pub statement: Rc<Statement>,
     pub place: Place,
     pub symbols: Vec<usize>,
     pub statements: Vec<usize>,
@@ -68,6 +69,8 @@ pub struct Check<'r> {
     pub defined: HashMap<String, usize>,
     /// Where a name was defined.
     pub spans: HashMap<String, (Place, Span)>,
+    /// The names that the text which is read has added to those in scope.
+    pub added: Vec<String>,
     /// Value of the bare expression that ends a text.
     pub last: Option<Value>,
 }
@@ -165,7 +168,10 @@ impl<'r> Check<'r> {
             self.l.report(fault);
         }
         for name in reading.faulty {
-            self.l.scope.entry(name).or_insert(Binding::Faulty);
+            if !self.l.scope.contains_key(&name) {
+                self.added.push(name.clone());
+                self.l.scope.insert(name, Binding::Faulty);
+            }
         }
         self.l.later = reading
             .statements
@@ -194,18 +200,18 @@ impl<'r> Check<'r> {
         let record = self.record(statement, place);
         self.statements.push(record);
         let index = self.statements.len() - 1;
-        match self.statements[index].statement.clone() {
+        match &*Rc::clone(&self.statements[index].statement) {
             Statement::Assign { name, value } => {
-                let lowered = self.l.value(&value);
+                let lowered = self.l.value(value);
                 let binding = lowered.map_or(Binding::Faulty, Binding::Value);
-                self.define(&name, binding, index);
+                self.define(name, binding, index);
             }
             Statement::Function {
                 name,
                 parameters,
                 body,
             } => {
-                self.function(&name, parameters, body, index);
+                self.function(name, parameters.clone(), body.clone(), index);
                 if ends && !broken {
                     self.l.report(
                         Fault::new(
@@ -219,7 +225,7 @@ impl<'r> Check<'r> {
                 }
             }
             Statement::Value(value) => {
-                let lowered = self.l.value(&value);
+                let lowered = self.l.value(value);
                 if ends {
                     self.last = lowered;
                 } else if !broken {
@@ -267,6 +273,7 @@ impl<'r> Check<'r> {
             self.l.report(fault);
             return;
         }
+        self.added.push(text.clone());
         self.l.scope.insert(text.clone(), binding);
         self.defined.insert(text.clone(), index);
         self.spans
@@ -360,7 +367,7 @@ impl<'r> Check<'r> {
             .filter_map(|n| self.defined.get(*n).copied())
             .collect();
         Record {
-            statement,
+            statement: Rc::new(statement),
             place,
             symbols,
             statements,
@@ -454,7 +461,7 @@ impl<'r> Check<'r> {
             .filter(|record| place_fits(record.place))
             .map(|record| printer::statement(&record.statement, name))
             .collect();
-        if let Statement::Assign { name: last, .. } = &self.statements[outcome.statement].statement
+        if let Statement::Assign { name: last, .. } = &*self.statements[outcome.statement].statement
             && last.text != name
         {
             lines.push(format!("{name} = {}", last.text));

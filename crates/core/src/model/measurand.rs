@@ -1,6 +1,6 @@
 //! The value of each measurand: where it comes from, whether it fits the unit that is wanted.
 
-use std::collections::BTreeSet;
+use std::rc::Rc;
 
 use super::catalogue;
 use super::check::{Check, Outcome, reserved};
@@ -77,7 +77,7 @@ impl Check<'_> {
                 .help(say!("choose another name for one of them")),
             );
         }
-        let before: BTreeSet<String> = self.l.scope.keys().cloned().collect();
+        self.added.clear();
         self.l.defining = Some(measurand.name.to_string());
         let own = self.text(text, place, true);
         self.l.defining = None;
@@ -86,14 +86,7 @@ impl Check<'_> {
             .copied()
             .and_then(|statement| self.outcome(index, measurand, statement, own, place));
         // The names of this text are its own.
-        let added: Vec<String> = self
-            .l
-            .scope
-            .keys()
-            .filter(|n| !before.contains(*n))
-            .cloned()
-            .collect();
-        for name in added {
+        for name in std::mem::take(&mut self.added) {
             self.l.scope.remove(&name);
             self.defined.remove(&name);
             self.spans.remove(&name);
@@ -110,9 +103,10 @@ impl Check<'_> {
         own: Vec<usize>,
         place: Place,
     ) -> Option<Outcome> {
-        let (value, expr) = self.statement_value(statement)?;
-        let (ids, unit) = self.result(index, measurand, &value, &expr, place)?;
-        self.l.scaled_once(measurand.name, &value, &expr, &unit)?;
+        let text = Rc::clone(&self.statements[statement].statement);
+        let (value, expr) = self.statement_value(&text, statement)?;
+        let (ids, unit) = self.result(index, measurand, &value, expr, place)?;
+        self.l.scaled_once(measurand.name, &value, expr, &unit)?;
         Some(Outcome {
             ids,
             vector: value.vector,
@@ -122,14 +116,18 @@ impl Check<'_> {
         })
     }
 
-    fn statement_value(&mut self, statement: usize) -> Option<(Value, Expr)> {
-        match &self.statements[statement].statement {
-            Statement::Value(expr) => Some((self.last.take()?, expr.clone())),
+    fn statement_value<'s>(
+        &mut self,
+        text: &'s Statement,
+        statement: usize,
+    ) -> Option<(Value, &'s Expr)> {
+        match text {
+            Statement::Value(expr) => Some((self.last.take()?, expr)),
             Statement::Assign { name, value }
                 if self.defined.get(&name.text) == Some(&statement) =>
             {
                 match self.l.scope.get(&name.text)? {
-                    Binding::Value(found) => Some((found.clone(), value.clone())),
+                    Binding::Value(found) => Some((found.clone(), value)),
                     _ => None,
                 }
             }
@@ -169,8 +167,8 @@ impl Check<'_> {
     ) -> Option<(Vec<Id>, Unit)> {
         self.l.place = place;
         let found = self.l.quantity(value, expr)?;
-        let text = printer::expression(expr);
         if value.elements.len() > MOST_ELEMENTS {
+            let text = printer::expression(expr);
             self.l.report(
                 Fault::new(
                     faults::VECTOR_RESULT,

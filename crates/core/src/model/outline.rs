@@ -217,6 +217,7 @@ impl<'r> Check<'r> {
             statements: Vec::new(),
             defined: HashMap::new(),
             spans: HashMap::new(),
+            added: Vec::new(),
             last: None,
         };
         check.symbols(symbols);

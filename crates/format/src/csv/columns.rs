@@ -15,7 +15,7 @@ pub struct Columns<'t> {
 #[derive(Debug)]
 pub enum Cells<'t> {
     /// Numbers; none where one is not a number.
-    Numbers(&'t [f64]),
+    Numbers(Cow<'t, [f64]>),
     /// Texts, as a file has them.
     Texts(Vec<String>),
 }
@@ -23,8 +23,8 @@ pub enum Cells<'t> {
 impl<'t> Columns<'t> {
     /// Of columns with their heads; `None` where they have different lengths.
     pub fn new(columns: Vec<(String, Cells<'t>)>) -> Option<Columns<'t>> {
-        let rows = columns.first().map_or(0, |(_, cells)| cells.len());
-        let equal = columns.iter().all(|(_, cells)| cells.len() == rows);
+        let rows = columns.first().map_or(0, |(_, cells)| cells.count());
+        let equal = columns.iter().all(|(_, cells)| cells.count() == rows);
         equal.then_some(Columns { columns, rows })
     }
 
@@ -57,7 +57,8 @@ impl<'t> Columns<'t> {
 }
 
 impl Cells<'_> {
-    fn len(&self) -> usize {
+    /// How many there are.
+    pub fn count(&self) -> usize {
         match self {
             Cells::Numbers(numbers) => numbers.len(),
             Cells::Texts(texts) => texts.len(),

@@ -25,6 +25,8 @@ codes! {
         "The quantity has a dimension, so its numbers need a unit, in the header (`U [mV]`) or in the file that names the column. No unit is ever assumed. An ending `_g` is not taken for a unit: gram and the acceleration of free fall (`gn`) are both written so.";
     UNIT_CLASH = "R0111", "the unit of a column does not fit", "列的单位不符",
         "The unit in the header is of another dimension than the quantity, or is another than the one stated for the column. A budget converts readings into the unit of their input.";
+    TOO_LARGE = "R0112", "a table is too large", "数据表过大",
+        "A table that a budget or an experiment names is kept in memory as a whole: its text, and each column that is asked for as numbers with all their decimals. What that takes is known from the length of the file and the number of its lines, and looked at before it is taken. `gumption batch` reads a table row by row.";
 }
 
 #[cfg(test)]

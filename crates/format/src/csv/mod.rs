@@ -10,6 +10,7 @@
 //! | `heading` | names and units in the first line |
 //! | `field` | numbers and times in the rows below |
 //! | `reader`, `column_unit` | the columns that somebody asks for; their units |
+//! | `size` | what they take of the memory |
 //!
 //! What makes a table unreadable is a [`Fault`](gumption_fault::Fault) in a
 //! [`Rejection`](gumption_fault::Rejection), drawn under the user's own lines. Nothing is repaired or
@@ -41,6 +42,7 @@ mod pieces;
 mod reader;
 mod request;
 mod sheet;
+mod size;
 
 pub use columns::{Cells, Columns};
 pub use encoding::{Decoded, Encoding, Undecodable, decode};

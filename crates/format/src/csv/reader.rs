@@ -12,6 +12,7 @@ use super::field::{Field, Instant, OVERLOAD, is_like_a_time, is_overload, mend};
 use super::heading::Heading;
 use super::request::{Content, Request};
 use super::sheet::{Row, SHOWN, Sheet};
+use super::size::{fits_as_columns, fits_as_text};
 use super::{Column, Data, Labels, Recording};
 use crate::files::Files;
 use gumption_core::quantity::{Unit, UnitTable};
@@ -48,6 +49,8 @@ impl Recording {
     ) -> Result<Recording, Rejection> {
         let reject = |faults| Rejection::new(name, text, faults);
         let sheet = Sheet::new(text).map_err(|fault| reject(vec![*fault]))?;
+        fits_as_columns(name, text, requests.len())
+            .map_err(|fault| Rejection::new(name, "", vec![*fault]))?;
         let headings = headings_of(&sheet, units);
         let mut faults = Vec::new();
         let mut drafts: Vec<Draft> = requests
@@ -166,6 +169,9 @@ pub fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejectio
     let refuse = |code, message: Said, help: Said| {
         Rejection::new(name, "", vec![Fault::new(code, 0..0, message).help(help)])
     };
+    if let Some(bytes) = files.length(path) {
+        fits_as_text(name, bytes).map_err(|fault| Rejection::new(name, "", vec![*fault]))?;
+    }
     let bytes = files.read(path).map_err(|error| {
         let mut fault = unreadable(files, path, name, &error);
         fault = fault.help(say!(

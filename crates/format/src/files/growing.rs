@@ -43,6 +43,8 @@ impl Growing {
     ) -> Result<Growing, Unwritten> {
         cleared(path);
         let planned = plan(path, replacing)?;
+        // No interrupt comes between a draft and its place in the list.
+        let mut unfinished = unfinished();
         let goal = match planned.way {
             Way::Stream => File::options().write(true).open(path).map(Goal::Stream),
             _ => disk
@@ -51,7 +53,7 @@ impl Growing {
         };
         let goal = goal.map_err(|error| unwritten(path, error))?;
         if let Goal::Draft(draft) = &goal {
-            unfinished().push(draft.path.clone());
+            unfinished.push(draft.path.clone());
         }
         Ok(Growing {
             goal,

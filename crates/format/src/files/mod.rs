@@ -28,7 +28,7 @@ use std::path::{Component, Path, PathBuf};
 
 /// Most bytes of a file that are read: ten million rows of eight columns. What is read is in memory as a whole,
 /// and its numbers beside it.
-const MOST_BYTES: u64 = 1 << 30;
+pub(crate) const MOST_BYTES: u64 = 1 << 30;
 
 /// Where budgets, and the files that they name, are read from.
 ///
@@ -114,6 +114,23 @@ impl<'a> Files<'a> {
                 Some(content) => Ok(Box::new(content)),
                 None => Ok(Box::new(opened(&folder.place(path)?)?.0)),
             },
+        }
+    }
+
+    /// A file of the computer, for those who read it back and forth.
+    ///
+    /// # Errors
+    /// As [`Files::read`]; `Unsupported` for what is in memory.
+    pub fn handle(self, path: &Path) -> Result<std::fs::File> {
+        match self {
+            Files::Disk => {
+                ledger::note(path);
+                opened(path).map(|(file, _)| file)
+            }
+            Files::Folder(folder) if held(folder.instead, path).is_none() => {
+                opened(&folder.place(path)?).map(|(file, _)| file)
+            }
+            _ => Err(Error::from(ErrorKind::Unsupported)),
         }
     }
 

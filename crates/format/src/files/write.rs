@@ -133,6 +133,8 @@ pub fn allowed_in(folder: &Path, names: &[&str], replacing: Replacing) -> Result
 
 /// Whether a file can be made in a folder: what permissions, quotas and mounts say together, only the system knows.
 fn takes_files(folder: &Path) -> io::Result<()> {
+    // An interrupt waits until it is removed.
+    let _undisturbed = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
     let draft = DISK.create(folder, None)?;
     discard(&[draft]);
     Ok(())
@@ -150,11 +152,12 @@ pub(super) fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
 pub fn stop() -> usize {
     let written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
     let count = *written;
-    for path in unfinished().drain(..) {
+    let mut unfinished = unfinished();
+    for path in unfinished.drain(..) {
         let _ = std::fs::remove_file(path);
     }
     // Kept until the process ends.
-    std::mem::forget(written);
+    std::mem::forget((written, unfinished));
     count
 }
 

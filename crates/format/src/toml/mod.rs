@@ -3,6 +3,7 @@
 mod edit;
 pub mod faults;
 mod file;
+mod matrix;
 mod places;
 mod spelled;
 mod strings;
@@ -13,12 +14,13 @@ pub mod writing;
 
 pub use edit::{Content, Unedited, spliced};
 pub use file::{decoded, tables_of};
+pub use matrix::{Matrices, Matrix, Number, Row};
 pub use places::{Form, Places, Statement, Step, Written};
 pub use strings::StringMap;
 pub use syntax::{elsewhere, leaves_the_rest, syntax_faults, without_comma};
 pub use table::{
-    FromToml, Hints, Key, KeyRow, Raw, Reader, Stated, Table, described, doc_text, in_order, inner,
-    read_table, table, unknown_word, words,
+    FromToml, Hints, Key, KeyRow, Raw, Reader, Slot, Stated, Table, described, doc_text, in_order,
+    inner, read_table, table, unknown_word, words,
 };
 pub use values::{Amount, Cell, Date, Dof, Named, OneOrMany, amount_parts, as_a_list};
 

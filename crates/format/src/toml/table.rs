@@ -12,6 +12,7 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 use super::faults::{UNKNOWN_KEY, UNKNOWN_WORD, WRONG_TYPE};
+use super::matrix::Matrices;
 use super::syntax::Synonyms;
 
 /// A value of the file as the parser gives it.
@@ -38,6 +39,10 @@ impl<T> Stated<T> {
         }
     }
 }
+
+/// What a table states under one of its keys, if anything. Tables have dozens of keys, of which a file states few, and
+/// there may be a table for each of ten thousand inputs.
+pub type Slot<T> = Option<Box<Stated<T>>>;
 
 /// A key as the parser gives it.
 pub type Key<'t> = Spanned<DeString<'t>>;
@@ -68,6 +73,8 @@ pub struct Reader<'f> {
     pub file: &'f str,
     /// What this kind of file knows about mistakes.
     pub hints: &'static Hints,
+    /// The matrices that the parser has not seen.
+    pub matrices: Matrices,
     /// What was found wrong, in the order of reading.
     pub faults: Vec<Fault>,
 }
@@ -78,6 +85,7 @@ impl<'f> Reader<'f> {
         Reader {
             file,
             hints,
+            matrices: Matrices::default(),
             faults: Vec::new(),
         }
     }
@@ -325,7 +333,7 @@ macro_rules! table {
         #[derive(Debug, Clone, Default)]
         #[allow(non_snake_case)]
         pub struct $name {
-            $( $( #[doc = $key_doc] )+ pub $key: Option<$crate::toml::Stated<$kind>>, )*
+            $( $( #[doc = $key_doc] )+ pub $key: $crate::toml::Slot<$kind>, )*
             $( /// The keys that this table shares with another.
             pub $rest: $rest_kind, )?
             /// Every own key that the file states, also those whose value was refused.
@@ -350,7 +358,7 @@ macro_rules! table {
                     if name == $crate::table!(@spelling $key $( $spelling )?) {
                         self.present.push(($crate::table!(@spelling $key $( $spelling )?), key.span()));
                         self.$key = <$kind as FromToml>::read(value, reader)
-                            .map(|read| Stated { value: read, span: value.span(), key: key.span() });
+                            .map(|read| Box::new(Stated { value: read, span: value.span(), key: key.span() }));
                         reader.mend_of_key(before, name, value);
                         self.refused |= self.$key.is_none() || reader.faults.len() > before;
                         return true;

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use toml::de::{DeFloat, DeInteger, DeValue};
 
 use super::faults::{AMOUNT, NOT_FINITE, NOT_WHOLE, QUOTED_NUMBER, WRONG_TYPE};
+use super::matrix::{Matrix, Number, Row};
 use super::spelled::spelled;
 use super::strings::StringMap;
 use super::syntax::{of_concise, of_plus_minus, without_comma};
@@ -435,6 +436,50 @@ impl<T: FromToml> FromToml for Vec<Stated<T>> {
 
     fn tables(path: &str, rows: &mut Vec<KeyRow>) {
         T::tables(&format!("{path}[]"), rows);
+    }
+}
+
+type Lists = Vec<Stated<Vec<Stated<f64>>>>;
+
+impl FromToml for Matrix {
+    fn expected() -> Said {
+        Lists::expected()
+    }
+
+    fn plural() -> Option<Said> {
+        Lists::plural()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        if let Some(matrix) = reader.matrices.at(value.span().start) {
+            return Some(matrix);
+        }
+        let lists = Lists::read(value, reader)?;
+        let number = |number: Stated<f64>| Number::new(number.value, number.span);
+        let rows = lists.into_iter().map(|row| Row {
+            numbers: row.value.into_iter().map(number).collect(),
+            span: row.span,
+        });
+        Some(Matrix::new(rows.collect()))
+    }
+
+    fn schema() -> Value {
+        Lists::schema()
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        Lists::tables(path, rows);
+    }
+}
+
+impl Number {
+    /// With its place.
+    pub fn stated(&self) -> Stated<f64> {
+        Stated {
+            value: self.value,
+            span: self.span(),
+            key: self.span(),
+        }
     }
 }
 

@@ -328,6 +328,7 @@ impl RowReader<'_> {
             label,
             repetitions: false,
             file,
+            faults,
         };
         let origin = Origin {
             files: &self.open,
@@ -335,7 +336,7 @@ impl RowReader<'_> {
             file: &self.batch.identity,
         };
         let place = (self.batch.name.as_str(), text);
-        let mut loaded = checked(vec![variant], [Vec::new(), faults], place, origin)?;
+        let mut loaded = checked(std::iter::once(variant), Vec::new(), place, origin)?;
         Ok(loaded.rows.swap_remove(0))
     }
 }

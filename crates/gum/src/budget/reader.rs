@@ -18,7 +18,7 @@ use super::tables::FileTable;
 use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::files::Files;
 use gumption_format::toml::faults::UNREADABLE_FILE;
-use gumption_format::toml::{FromToml, KeyRow, Reader, Stated, Table, read_table};
+use gumption_format::toml::{FromToml, KeyRow, Matrices, Reader, Stated, Table, read_table};
 use gumption_format::toml::{decoded, elsewhere, leaves_the_rest, syntax_faults};
 
 /// Reads and checks a budget file.
@@ -151,32 +151,37 @@ pub(super) fn read_under(
 ) -> Result<Loaded, Rejection> {
     // Editors on Windows put a byte order mark in front; places are counted behind it.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let (table, errors) = DeTable::parse_recoverable(text);
+    // The columns of a series may name an element of a matrix.
+    let keys: &[&str] = match text.contains("series") {
+        true => &[],
+        false => &["correlation", "covariance"],
+    };
+    let (left, matrices) = Matrices::taken_out(text, keys);
+    let (table, errors) = DeTable::parse_recoverable(&left);
     let syntax = syntax_faults(&errors, text, HINTS.synonyms);
     if !errors.iter().all(leaves_the_rest) {
         return Err(Rejection::new(name, text, syntax));
     }
-    let (variants, faults) = variants(table.get_ref(), text, origin, profile);
-    checked(variants, [syntax, faults], (name, text), origin)
+    let mut reader = Reader::new(text, &HINTS);
+    reader.matrices = matrices;
+    read_variants(table.get_ref(), reader, profile, syntax, name, origin)
 }
 
-/// Checks variants of a file, in which these faults of syntax and others were found.
+/// Checks variants of a file, in which these faults of syntax were found.
 pub(super) fn checked(
-    variants: Vec<Variant>,
-    [mut syntax, mut faults]: [Vec<Fault>; 2],
+    variants: impl ExactSizeIterator<Item = Variant>,
+    mut syntax: Vec<Fault>,
     (name, text): (&str, &str),
     origin: Origin<'_>,
 ) -> Result<Loaded, Rejection> {
     let checked = origin
         .files
         .within(origin.file, || check::rows(variants, text, origin));
-    match checked {
-        Ok((heading, rows)) if faults.is_empty() && syntax.is_empty() => {
-            return Ok(Loaded { heading, rows });
-        }
-        Ok(_) => {}
-        Err(found) => faults.extend(found),
-    }
+    let mut faults = match checked {
+        Ok((heading, rows)) if syntax.is_empty() => return Ok(Loaded { heading, rows }),
+        Ok(_) => Vec::new(),
+        Err(found) => found,
+    };
     if !syntax.is_empty() {
         let others = elsewhere(faults, &syntax, text, UNUSED);
         syntax.extend(others);
@@ -189,42 +194,49 @@ pub(super) fn checked(
     Err(rejection)
 }
 
-/// The tables of the file, or of the file with each row of its series in place.
-fn variants(
+/// Checks the file, or the file with each row of its series in place, one after the other.
+fn read_variants(
     table: &DeTable<'_>,
-    text: &str,
-    origin: Origin<'_>,
+    mut reader: Reader<'_>,
     profile: Option<&Profile>,
-) -> (Vec<Variant>, Vec<Fault>) {
-    let mut reader = Reader::new(text, &HINTS);
+    syntax: Vec<Fault>,
+    name: &str,
+    origin: Origin<'_>,
+) -> Result<Loaded, Rejection> {
+    let place = (name, reader.file);
     let file = tables(table, profile, &mut reader);
     let stated = file.series.as_ref();
     let named = stated.and_then(|stated| stated.value.file.as_ref());
     let points = named.map(|named| Points::read(named, origin, &mut reader.faults));
-    let rows = match (stated, &points) {
-        (Some(stated), None) => series::variants(table, stated, None, &mut reader.faults),
+    let series = match (stated, &points) {
+        (Some(stated), None) => series::series(table, stated, None, &mut reader.faults),
         (Some(stated), Some(Some(points))) => {
-            series::variants(table, stated, Some(points), &mut reader.faults)
+            series::series(table, stated, Some(points), &mut reader.faults)
         }
-        _ => Vec::new(),
+        _ => None,
     };
     let repetitions = stated.and_then(|stated| stated.value.repetitions.as_ref());
     let repetitions = repetitions.is_some_and(|stated| stated.value);
-    // With a faulty series the file itself is still checked.
-    if rows.is_empty() {
-        let alone = Variant {
-            label: None,
-            repetitions,
-            file,
-        };
-        return (vec![alone], reader.faults);
-    }
-    let rows = rows.into_iter().map(|row| Variant {
-        label: row.label,
+    let variant = |label, file, reader: &mut Reader<'_>| Variant {
+        label,
         repetitions,
-        file: tables(&row.table, profile, &mut reader),
-    });
-    (rows.collect(), reader.faults)
+        file,
+        faults: std::mem::take(&mut reader.faults),
+    };
+    match series {
+        // With a faulty series the file itself is still checked.
+        None => {
+            let alone = variant(None, file, &mut reader);
+            checked(std::iter::once(alone), syntax, place, origin)
+        }
+        Some(series) => {
+            let rows = series.variants().map(|row| {
+                let file = tables(&row.table, profile, &mut reader);
+                variant(row.label, file, &mut reader)
+            });
+            checked(rows, syntax, place, origin)
+        }
+    }
 }
 
 /// Reads the tables of a file.
@@ -235,11 +247,11 @@ pub(super) fn tables(
 ) -> FileTable {
     let mut file = read_table::<FileTable>(table, "a budget", reader);
     if let Some(profile) = profile {
-        file.profile = Some(Stated {
+        file.profile = Some(Box::new(Stated {
             value: profile.name.into(),
             span: 0..0,
             key: 0..0,
-        });
+        }));
     }
     file
 }

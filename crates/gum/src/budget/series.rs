@@ -17,6 +17,28 @@ use gumption_format::toml::{Raw, Stated, Table};
 /// Where a row stands, and its cells under the heads of their columns.
 type WrittenRow<'t> = (std::ops::Range<usize>, Vec<(Stated<Entry>, Raw<'t>)>);
 
+/// The rows of a series. The file with a row in place is made when it is asked for: those of all rows together are some
+/// thousand times as large as the table.
+pub(super) struct Series<'a, 't> {
+    /// Without the series: it would be copied for each of its rows.
+    file: DeTable<'t>,
+    columns: &'a [Stated<String>],
+    targets: Vec<Option<Column>>,
+    rows: Vec<WrittenRow<'t>>,
+}
+
+impl<'t> Series<'_, 't> {
+    /// The file with each row in place.
+    pub fn variants(&self) -> impl ExactSizeIterator<Item = Variant<'t>> {
+        let rows = self.rows.iter();
+        rows.map(|(_, cells)| {
+            // What can be wrong with them has been looked for.
+            let mut faults = Vec::new();
+            variant(&self.file, self.columns, &self.targets, cells, &mut faults)
+        })
+    }
+}
+
 /// One row: its label, and the file with its values in place.
 pub(super) struct Variant<'t> {
     pub label: Option<String>,
@@ -36,13 +58,16 @@ pub(super) enum Column {
 /// The tables of named entries that a column may leave out: `X` is `input.X.value`.
 const OWNERS: [&str; 3] = ["input", "constant", "source"];
 
-/// The file once for each row of its series; nothing where the series is faulty.
-pub(super) fn variants<'t>(
-    file: &DeTable<'t>,
-    stated: &Stated<SeriesTable>,
+/// The rows of the series of a file; nothing where it is faulty.
+pub(super) fn series<'a, 't>(
+    file: &'a DeTable<'t>,
+    stated: &'a Stated<SeriesTable>,
     points: Option<&'t Points>,
     faults: &mut Vec<Fault>,
-) -> Vec<Variant<'t>> {
+) -> Option<Series<'a, 't>>
+where
+    't: 'a,
+{
     let before = faults.len();
     let table = &stated.value;
     let (columns, rows) = match (points, &table.columns, &table.rows) {
@@ -66,45 +91,48 @@ pub(super) fn variants<'t>(
                     "the first line of `file` names the columns: leave out `columns` and `rows`"
                 )),
             );
-            return Vec::new();
+            return None;
         }
         _ => {
             if !table.refused {
                 faults.push(incomplete(stated));
             }
-            return Vec::new();
+            return None;
         }
     };
     let rows: Vec<WrittenRow<'t>> = rows;
-    let kinds = targets(file, columns, faults);
+    let targets = targets(file, columns, faults);
     if rows.is_empty() {
         faults.push(
             Fault::new(SERIES, stated.span.clone(), say!("the series has no rows"))
                 .label(say!("nothing to evaluate")),
         );
     }
-    let mut variants = Vec::new();
-    for (place, cells) in rows {
-        if cells.len() != kinds.len() {
+    let mut alone = file.clone();
+    alone.remove("series");
+    for (place, cells) in &rows {
+        if cells.len() != targets.len() {
             let message = say!(
                 "a row of {} entries for {} columns",
                 cells.len(),
-                kinds.len()
+                targets.len()
             );
-            let fault =
-                Fault::new(SERIES, place, message).label(say!("expected {} entries", kinds.len()));
+            let fault = Fault::new(SERIES, place.clone(), message)
+                .label(say!("expected {} entries", targets.len()));
             faults.push(match &table.columns {
                 Some(columns) => fault.related(columns.span.clone(), say!("the columns")),
                 None => fault,
             });
             continue;
         }
-        variants.push(variant(file, columns, &kinds, &cells, faults));
+        variant(&alone, columns, &targets, cells, faults);
     }
-    if faults.len() > before {
-        variants.clear();
-    }
-    variants
+    (faults.len() == before).then_some(Series {
+        file: alone,
+        columns,
+        targets,
+        rows,
+    })
 }
 
 /// What columns of these names set.
@@ -117,7 +145,7 @@ pub(super) fn targets(
     names.map(|name| column(file, name, faults)).collect()
 }
 
-/// The file with the cells of a row in the places that its columns set.
+/// The file, which has no series, with the cells of a row in the places that its columns set.
 pub(super) fn variant<'t>(
     file: &DeTable<'t>,
     names: &[Stated<String>],
@@ -129,7 +157,6 @@ pub(super) fn variant<'t>(
         label: None,
         table: file.clone(),
     };
-    variant.table.remove("series");
     for ((target, name), (cell, raw)) in targets.iter().zip(names).zip(cells) {
         match target {
             Some(Column::Label) => variant.label = Some(label(&cell.value)),

@@ -14,8 +14,8 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
-use super::elimination::pivoted_cholesky;
 use crate::budget::{Component, Group};
+use crate::elimination::pivoted_cholesky;
 
 /// A sum that was left over by cancellation alone is zero: relative size of what is left.
 const CANCELLED: f64 = 8.0 * f64::EPSILON;

@@ -1,5 +1,7 @@
 //! Both methods, side by side.
 
+use std::cell::OnceCell;
+
 use super::error::EvaluationError;
 use super::gum::Linear;
 use super::monte_carlo::{FirstOrder, Outcome};
@@ -99,6 +101,7 @@ fn both(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationErro
         second_order: &second_order,
         monte_carlo: monte_carlo.as_ref(),
         unresolved: &unresolved,
+        moved: vec![OnceCell::new(); budget.inputs.len()],
     };
     let findings = evidence.findings();
     let evidence = decide::Evidence {

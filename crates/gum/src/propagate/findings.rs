@@ -1,5 +1,7 @@
 //! What the reader must know before using the numbers.
 
+use std::cell::OnceCell;
+
 use super::gum::Linear;
 use super::monte_carlo::Outcome;
 use super::resolution;
@@ -60,6 +62,8 @@ pub(super) struct Evidence<'a> {
     pub monte_carlo: Option<&'a Outcome>,
     /// Measurands whose trials doubles do not resolve, for which Monte Carlo was left out; how far they are off.
     pub unresolved: &'a [(usize, f64)],
+    /// For each input that was asked for, which measurands change with it.
+    pub moved: Vec<OnceCell<Vec<bool>>>,
 }
 
 impl Evidence<'_> {
@@ -324,7 +328,7 @@ impl Evidence<'_> {
             && deviation == 0.0
             && (self.monte_carlo.is_none()
                 || result.reported(&self.budget.conventions).basis == Basis::MonteCarlo)
-            && self.moves(measurand, input, line.u)
+            && self.moves(measurand, input)
         {
             Sight::Neither
         } else {
@@ -332,15 +336,22 @@ impl Evidence<'_> {
         }
     }
 
-    /// Whether the measurand changes with an input at all.
-    fn moves(&self, measurand: usize, input: usize, by: f64) -> bool {
-        let at = |change: f64| {
-            let mut x = self.linear.x.clone();
-            x[input] += change;
-            self.budget.model.values(&x)[measurand]
-        };
-        let here = self.linear.values[measurand];
-        at(by) != here || at(-by) != here
+    /// Whether the measurand changes with an input at all. The model gives all measurands at once, and is asked once for
+    /// each input.
+    fn moves(&self, measurand: usize, input: usize) -> bool {
+        let moved = self.moved[input].get_or_init(|| {
+            let at = |change: f64| {
+                let mut x = self.linear.x.clone();
+                x[input] += change;
+                self.budget.model.values(&x)
+            };
+            let by = self.linear.inputs[input].u;
+            let sides = at(by).into_iter().zip(at(-by));
+            let all = sides.zip(&self.linear.values);
+            all.map(|((above, below), here)| above != *here || below != *here)
+                .collect()
+        });
+        moved[measurand]
     }
 
     fn of_monte_carlo(&self, measurand: usize) -> Vec<FindingKind> {

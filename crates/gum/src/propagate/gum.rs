@@ -193,26 +193,42 @@ impl Linear {
         (weight / of.u) * (self.covariance.with(component, &of.standard) / of.u)
     }
 
-    /// Covariance of two measurands.
-    pub(super) fn covariance_of(&self, a: usize, b: usize) -> f64 {
-        self.correlation_of(a, b) * self.measurands[a].u * self.measurands[b].u
+    /// Correlations of the measurands; zero where one of two is exact.
+    pub(super) fn correlations(&self) -> DMatrix<f64> {
+        let directions: Vec<Direction> = self.measurands.iter().map(Direction::of).collect();
+        let mut correlations = DMatrix::identity(directions.len(), directions.len());
+        for (a, one) in directions.iter().enumerate() {
+            for (b, other) in directions[..a].iter().enumerate() {
+                let r = one.along(other).clamp(-1.0, 1.0);
+                correlations[(a, b)] = r;
+                correlations[(b, a)] = r;
+            }
+        }
+        correlations
+    }
+}
+
+/// A measurand in standard coordinates, of length one; without those that do not enter it, which of thousands of measurands
+/// are nearly all. Nothing for an exact one; where a derivative is missing, every coordinate is NaN.
+struct Direction(Vec<(usize, f64)>);
+
+impl Direction {
+    fn of(measurand: &MeasurandForm) -> Direction {
+        let coordinates = measurand.standard.iter().enumerate();
+        let unit = coordinates.map(|(place, s)| (place, s / measurand.u));
+        let enter = unit.filter(|(_, s)| *s != 0.0 && measurand.u != 0.0);
+        Direction(enter.collect())
     }
 
-    /// Correlation of two measurands; zero where one of them is exact.
-    pub(super) fn correlation_of(&self, a: usize, b: usize) -> f64 {
-        if a == b {
-            return 1.0;
-        }
-        let (a, b) = (&self.measurands[a], &self.measurands[b]);
-        if a.u == 0.0 || b.u == 0.0 {
-            return 0.0;
-        }
-        let products = a
-            .standard
-            .iter()
-            .zip(&b.standard)
-            .map(|(s, t)| (s / a.u) * (t / b.u));
-        products.sum::<f64>().clamp(-1.0, 1.0)
+    /// The product with another.
+    fn along(&self, other: &Direction) -> f64 {
+        let mut others = other.0.iter().peekable();
+        let common = self.0.iter().filter_map(|(place, s)| {
+            while others.next_if(|(other, _)| other < place).is_some() {}
+            let (_, t) = others.next_if(|(other, _)| other == place)?;
+            Some(s * t)
+        });
+        common.fold(0.0, |sum, product| sum + product)
     }
 }
 

@@ -9,12 +9,12 @@
 use nalgebra::{Cholesky, DMatrix};
 
 use super::covariance::Form;
-use super::elimination::pivoted_cholesky;
 use super::freedom;
 use super::gum::Linear;
 use super::monte_carlo::Outcome;
 use super::result::{Freedom, JointResult};
 use crate::budget::Budget;
+use crate::elimination::pivoted_cholesky;
 use gumption_core::model::Output;
 use gumption_core::special::{
     chi_squared_quantile, f_quantile, normal_cdf, normal_quantile, student_t_two_sided_quantile,
@@ -33,12 +33,13 @@ pub(super) fn evaluate(
     if count < 2 {
         return None;
     }
-    let correlation = DMatrix::from_fn(count, count, |a, b| linear.correlation_of(a, b));
+    let correlation = linear.correlations();
+    let u = |a: usize| linear.measurands[a].u;
     let dof = freedom_of_all(budget, linear);
     let p = budget.conventions.coverage_probability;
-    let exact = linear.measurands.iter().any(|m| m.u == 0.0);
+    let exact = (0..count).any(|a| u(a) == 0.0);
     Some(JointResult {
-        covariance: DMatrix::from_fn(count, count, |a, b| linear.covariance_of(a, b)),
+        covariance: DMatrix::from_fn(count, count, |a, b| correlation[(a, b)] * u(a) * u(b)),
         monte_carlo_covariance: monte_carlo.and_then(|mc| mc.covariance.clone()),
         monte_carlo_correlation: monte_carlo.and_then(|mc| mc.correlation.clone()),
         k_ellipsoid: k_ellipsoid(count, p, dof.value()),

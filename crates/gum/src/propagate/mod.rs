@@ -9,7 +9,6 @@ mod coverage;
 mod decide;
 #[cfg(test)]
 mod draft;
-mod elimination;
 mod error;
 mod evaluate;
 mod few_readings;

@@ -2,11 +2,12 @@
 
 use nalgebra::DMatrix;
 
+use super::campaign::{Campaign, Scatter};
 use super::cause::{Cause, Origin};
 use super::gain::Gain;
 use super::scatter::Scatters;
 use super::stack::{Row, Stack};
-use crate::experiment::{Doubt, Scope, Target};
+use crate::experiment::{Doubt, Experiment, Scope, Target};
 use gumption_gum::budget::Evaluation;
 
 /// All causes that act on any coefficient.
@@ -29,6 +30,42 @@ pub(super) fn causes(stack: &Stack<'_>, gain: &Gain, scatters: &Scatters, u: &[f
     );
     all.retain(|cause| cause.effects.iter().any(|effect| *effect != 0.0));
     all
+}
+
+impl Campaign {
+    /// What may make the coefficients uncertain, whatever a recording shows of it: the origins of all causes, in their order.
+    pub fn origins(&self) -> Vec<Origin> {
+        let Experiment {
+            equations,
+            parameters,
+            doubts,
+            ..
+        } = &self.experiment;
+        let responses = equations.responses().iter();
+        let residuals = responses.map(|response| Origin::Residuals {
+            response: response.name.clone(),
+        });
+        let columns = self.points.columns.iter();
+        let samples = columns.filter(|column| !column.averages.is_empty());
+        let samples = samples.map(|column| Origin::Samples {
+            column: column.name.clone(),
+        });
+        // Where the file does not say what tells the scatter, the number of readings does.
+        let scatter = self.scatter;
+        let residuals = residuals.filter(|_| scatter.is_none_or(|way| way == Scatter::Residuals));
+        let samples = samples.filter(|_| scatter.is_none_or(|way| way == Scatter::Dwells));
+        let known = parameters.iter().filter(|one| one.known.is_some());
+        let priors = known.map(|one| Origin::Prior {
+            parameter: one.name.clone(),
+        });
+        let stated = doubts.chunk_by(|a, b| a.name == b.name);
+        let stated = stated.map(|parts| Origin::Stated {
+            name: parts[0].name.clone(),
+            scope: parts[0].scope.clone(),
+        });
+        let all = residuals.chain(samples).chain(priors).chain(stated);
+        all.collect()
+    }
 }
 
 fn prior(stack: &Stack<'_>, gain: &Gain, row: usize, parameter: usize) -> Option<Cause> {

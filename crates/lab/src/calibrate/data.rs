@@ -16,7 +16,7 @@ use crate::experiment::tables::{ColumnTable, RecordingTable};
 use crate::recording::{Checks, Finding, Problem, Recording, Request, Settling, Severity, check};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
-use gumption_format::toml::Stated;
+use gumption_format::toml::{Slot, Stated};
 use gumption_gum::budget::Rejection;
 use std::collections::HashSet;
 
@@ -210,7 +210,7 @@ fn dwelling(
         .and_then(|role| recording.column(role))
         .and_then(|column| column.unit.clone())
         .unwrap_or_else(Unit::one);
-    let mut in_time = |stated: &Option<Stated<gumption_format::toml::Amount>>| match stated {
+    let mut in_time = |stated: &Slot<gumption_format::toml::Amount>| match stated {
         Some(amount) => checker.amount(amount, &unit).map(Some),
         None => Some(None),
     };

@@ -121,14 +121,14 @@ fn put_in_place(table: &mut ExperimentTable, recording: &Path) {
         Some(stated) => {
             let old = stated.value.0.file.as_ref();
             let place = old.map_or(stated.span.clone(), |old| old.span.clone());
-            stated.value.0.file = Some(file(place));
+            stated.value.0.file = Some(Box::new(file(place)));
         }
         none => {
-            *none = Some(Stated {
+            *none = Some(Box::new(Stated {
                 value: Short(RecordingTable::of(file(0..0))),
                 span: 0..0,
                 key: 0..0,
-            });
+            }));
         }
     }
 }

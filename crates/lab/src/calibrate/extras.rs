@@ -26,7 +26,7 @@ impl Checker<'_> {
             .chain(inputs.map(|i| quantity(&i.name, &i.unit)))
             .collect();
         let table = &self.source.table;
-        let shared = table.model.as_ref().map(equation_text);
+        let shared = table.model.as_deref().map(equation_text);
         let mut all = Vec::new();
         for (name, entry) in entries(&table.omitted) {
             // What is estimated, or known with an uncertainty, is no longer left out.

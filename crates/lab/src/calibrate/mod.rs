@@ -14,6 +14,7 @@
 //! | `data`, `label_columns`, `positions`, `schedule` | where the points come from |
 //! | `points`, `dwells`, `together` | the points of an experiment: rows, or averages of dwells and of repeated positions |
 //! | `campaign` | an experiment with its points |
+//! | `recordings` | one experiment and many recordings |
 //! | `stack` | its readings as a problem of least squares |
 //! | `gain` | how coefficients follow readings, columns and inputs |
 //! | `scatter`, `cause`, `causes` | what makes the coefficients uncertain |
@@ -49,6 +50,7 @@ mod limits;
 mod noise;
 mod plan;
 mod points;
+mod recordings;
 mod residual;
 mod scatter;
 mod schedule;
@@ -73,6 +75,7 @@ pub use identify::{Alias, Combination, Identifiability, NearAlias, Shift, Shifts
 pub use limits::Limit;
 pub use plan::{Plan, plan};
 pub use points::{PointColumn, PointNames, Points, Reading};
+pub use recordings::{Unusable, is_experiment, label, listed, of_recording};
 pub use residual::Residual;
 pub use scatter::{Misfit, ResponseScatter, ScatterTest};
 pub use trouble::Trouble;

@@ -47,7 +47,7 @@ pub(super) fn adopt_named(
     };
     let design = Design::new(&extended.case);
     let quality = confirm::quality(&design, &fit, claimed, claimed);
-    let all = estimates(&design, &fit, claimed, quality.scale);
+    let all = estimates(&design, &fit, claimed);
     let added = extended.additions.len();
     let confirmation = parts::confirmation(&design, &fit, claimed, added, &found);
     let is_added = |estimated: &Estimated| {
@@ -103,6 +103,7 @@ fn restate(examination: &mut Examination, atom: usize, coefficient: usize, fitte
         let factor = fitted.u / first.covariance[(coefficient, coefficient)].sqrt();
         if factor.is_finite() && factor > 0.0 {
             first.estimate[coefficient] = fitted.value;
+            first.dof = fitted.dof;
             first.covariance.row_mut(coefficient).scale_mut(factor);
             first.covariance.column_mut(coefficient).scale_mut(factor);
         }

@@ -20,12 +20,10 @@ pub enum Conclusion<'d> {
         /// Effects with several names that the recording cannot tell apart.
         open: Vec<&'d Slot>,
     },
-    /// The model leaves out named effects, and that is not all.
+    /// The model leaves out a named effect, and something without a name.
     AndMore {
-        /// Effects with a name.
+        /// The effect with a name.
         named: Vec<&'d Slot>,
-        /// What has no name.
-        nameless: Option<Nameless>,
         /// Names that are not certain.
         tentative: Vec<&'d Alternative>,
     },
@@ -48,15 +46,6 @@ pub enum Conclusion<'d> {
         /// Where the mismatch sits.
         places: Vec<&'d Alternative>,
     },
-}
-
-/// How something without a name stands to the named effects.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Nameless {
-    /// It remains beside them.
-    Beside,
-    /// It varies smoothly, and explains the recording as well as they do.
-    Instead,
 }
 
 /// Why the names of an unexplained slot are to be taken with care.
@@ -121,27 +110,19 @@ impl Diagnosis {
             Verdict::Identified | Verdict::Like | Verdict::Ambiguous => {
                 return Conclusion::LeavesOut { told, open };
             }
-            Verdict::Partly | Verdict::Contested | Verdict::Unexplained => {}
+            Verdict::Partly | Verdict::Unexplained => {}
         }
         let named: Vec<&Slot> = told.into_iter().chain(open).collect();
-        let names: Vec<&Alternative> = slots.filter_map(|slot| self.tentative(slot)).collect();
+        let tentative: Vec<&Alternative> = slots.filter_map(|slot| self.tentative(slot)).collect();
         let places = self.places();
-        match (named.is_empty(), names.is_empty()) {
-            (true, true) => match self.undecided() {
-                Some(name) => Conclusion::Undecided { name, places },
-                None => Conclusion::Unexplained { places },
+        match (named.is_empty(), tentative.is_empty(), self.undecided()) {
+            (false, ..) => Conclusion::AndMore { named, tentative },
+            (true, false, _) => Conclusion::Tentative {
+                names: tentative,
+                places,
             },
-            (true, false) => Conclusion::Tentative { names, places },
-            (false, _) => Conclusion::AndMore {
-                named,
-                nameless: (names.is_empty() || !places.is_empty()).then_some(
-                    match self.examination.verdict {
-                        Verdict::Contested => Nameless::Instead,
-                        _ => Nameless::Beside,
-                    },
-                ),
-                tentative: names,
-            },
+            (true, true, Some(name)) => Conclusion::Undecided { name, places },
+            (true, true, None) => Conclusion::Unexplained { places },
         }
     }
 
@@ -258,6 +239,7 @@ impl Diagnosis {
             unit: sine.unit_of_size(case).typeset(),
             value,
             u,
+            dof: alternative.dof,
         })
     }
 }

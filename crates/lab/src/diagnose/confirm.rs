@@ -3,7 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::candidates::baseline;
-use super::design::Design;
+use super::design::{Design, Unknown};
+use super::evidence::{Covariance, Spread};
 use super::fit::Fit;
 use super::noise::Claimed;
 
@@ -20,9 +21,6 @@ pub struct Quality {
     pub expected: Vec<f64>,
     /// Root mean square of the errors of predictions of held-out observations, for each response.
     pub held_out: Vec<f64>,
-    /// Factor on the claimed noise that uncertainties of the parameters have: √(χ²/dof) where the noise is
-    /// estimated, else one.
-    pub scale: f64,
 }
 
 impl Quality {
@@ -42,21 +40,17 @@ pub(super) fn quality(
     claimed: &Claimed,
     expected: &Claimed,
 ) -> Quality {
-    let whitened = fit.residuals.component_div(&claimed.u);
-    let dof = degrees(design);
-    let chi_squared = whitened.norm_squared();
     Quality {
-        chi_squared,
-        dof,
+        chi_squared: chi_squared(fit, claimed),
+        dof: degrees(design),
         residual: design.root_mean_squares(&fit.residuals),
         expected: design.root_mean_squares(&expected.u),
         held_out: design.root_mean_squares(&held_out(design, fit, claimed)),
-        scale: if claimed.is_estimated() {
-            (chi_squared / dof.max(1.0)).sqrt()
-        } else {
-            1.0
-        },
     }
+}
+
+fn chi_squared(fit: &Fit, claimed: &Claimed) -> f64 {
+    fit.residuals.component_div(&claimed.u).norm_squared()
 }
 
 /// A fitted quantity.
@@ -70,27 +64,72 @@ pub struct Estimated {
     pub value: f64,
     /// Its standard uncertainty.
     pub u: f64,
+    /// Degrees of freedom of the standard uncertainty.
+    pub dof: f64,
 }
 
-/// Unknowns with their standard uncertainties; `scale` is the factor on the claimed noise.
-pub(super) fn estimates(
-    design: &Design<'_>,
-    fit: &Fit,
-    claimed: &Claimed,
-    scale: f64,
-) -> Vec<Estimated> {
-    let covariance = covariance(design, fit, claimed);
-    design
-        .unknowns
-        .iter()
-        .enumerate()
-        .map(|(at, unknown)| Estimated {
+/// Unknowns with their standard uncertainties.
+pub(super) fn estimates(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Vec<Estimated> {
+    let spreads = spreads(design, fit, claimed);
+    let estimated = |(at, unknown): (usize, &Unknown)| {
+        let (variance, dof) = mixed(&spreads, at);
+        Estimated {
             name: unknown.name.clone(),
             unit: design.unit(at),
             value: fit.unknowns[at],
-            u: scale * covariance[(at, at)].max(0.0).sqrt(),
-        })
-        .collect()
+            u: variance.max(0.0).sqrt(),
+            dof,
+        }
+    };
+    design.unknowns.iter().enumerate().map(estimated).collect()
+}
+
+/// How well the unknowns are known with each law of the noise that the recording allows, as likely as they occur. Where the
+/// size of the noise is estimated, it is the one with which the law gives the χ² of the fit, and known as well as this is.
+fn spreads(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Vec<Spread> {
+    let found = chi_squared(fit, claimed);
+    let sized = |mut spread: Spread| {
+        if claimed.is_estimated() {
+            spread.variances *= found / spread.expected.max(1.0);
+        } else {
+            spread.dof = claimed.dof;
+        }
+        spread
+    };
+    match baseline(design, fit, &claimed.uncorrelated()) {
+        Ok(baseline) => {
+            let noise = claimed.noise();
+            let only = std::slice::from_ref(&noise.covariance);
+            let laws = match noise.draws.as_slice() {
+                [] => only,
+                draws => draws,
+            };
+            let spread = |law: &Covariance| sized(baseline.spread(law));
+            laws.iter().map(spread).collect()
+        }
+        Err(_) => {
+            let degrees = degrees(design);
+            vec![sized(Spread {
+                variances: covariance(design, fit, claimed).diagonal(),
+                expected: degrees,
+                dof: degrees,
+            })]
+        }
+    }
+}
+
+/// Variance of an unknown and its degrees of freedom. Of several laws the variance is the mean u² (law of total variance: all
+/// of them have the same estimate), and its degrees of freedom are 2u⁴/Var(u²) (GUM G.4.2): u² differs from law to law,
+/// and within each as a χ² does.
+fn mixed(spreads: &[Spread], at: usize) -> (f64, f64) {
+    let count = spreads.len() as f64;
+    let mean = |of: &dyn Fn(&Spread) -> f64| spreads.iter().map(of).sum::<f64>() / count;
+    let variance = mean(&|spread| spread.variances[at]);
+    let of_variance = mean(&|spread| {
+        let own = spread.variances[at];
+        (own - variance).powi(2) + 2.0 * own * own / spread.dof
+    });
+    (variance, 2.0 * variance * variance / of_variance)
 }
 
 /// Observations and priors less unknowns.
@@ -189,4 +228,26 @@ fn inverse(normal: &DMatrix<f64>, least: f64) -> DMatrix<f64> {
     DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| {
         inverse[(i, j)] * scale[i] * scale[j]
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn laws_that_disagree_cost_degrees_of_freedom() {
+        let law = |variance: f64, dof: f64| Spread {
+            variances: DVector::from_element(1, variance),
+            expected: 1.0,
+            dof,
+        };
+        assert_eq!(mixed(&[law(3.0, 12.0)], 0), (3.0, 12.0));
+        assert_eq!(mixed(&[law(3.0, f64::INFINITY)], 0), (3.0, f64::INFINITY));
+        // u² = 1 or 3, as likely: mean 2, variance 1, 2·2²/1.
+        let both = [law(1.0, f64::INFINITY), law(3.0, f64::INFINITY)];
+        assert_eq!(mixed(&both, 0), (2.0, 8.0));
+        // Of ten degrees of freedom each: 2·2²/(1 + (2/10 + 18/10)/2).
+        let known_less = [law(1.0, 10.0), law(3.0, 10.0)];
+        assert!((mixed(&known_less, 0).1 - 4.0).abs() < 1e-12);
+    }
 }

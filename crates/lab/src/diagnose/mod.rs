@@ -35,7 +35,6 @@
 //! | `adopt`, `adopted` | the model with effects in it: its equations, its fit |
 //! | `confirm`, `parts`, `held_out` | how well a model describes the recording, its parts, and a recording that the fit has not seen |
 //! | `regions` | where the mismatch may sit |
-//! | `accidents` | bad rows and jumps that are too many to be accidents |
 //! | `plan` | what an experiment can see and tell apart, without data |
 //! | `extra`, `prolonged` | measurements that may follow, and the recording together with one of them |
 //! | `explanation`, `separation` | explanations of the same mismatch, and what tells them apart |
@@ -49,7 +48,6 @@
 //! | `size` | how much memory a diagnosis takes |
 //! | `stand_in` | what can stand in for something whose trace is known |
 
-mod accidents;
 mod adopt;
 mod adopted;
 pub mod at_rest;
@@ -92,7 +90,7 @@ mod typical;
 
 pub use adopt::{Addition, Extended, Free};
 pub use adopted::Adopted;
-pub use conclusion::{Conclusion, Doubt, Nameless};
+pub use conclusion::{Conclusion, Doubt};
 pub use confirm::{Estimated, Quality};
 pub use emphasis::{Agreement, Unseen};
 pub use extra::{Extra, Measure};

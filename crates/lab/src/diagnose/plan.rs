@@ -111,7 +111,7 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
     step(progress, 0.1)?;
     let found = evidence::visibility(&baseline, &candidates, &atoms)?;
     let effects = prospects(&fitted, &cells, (&atoms, &places, &unified), &found);
-    let unknowns = estimates(&design, &fit, &claimed, 1.0);
+    let unknowns = estimates(&design, &fit, &claimed);
     let u: Vec<f64> = unknowns.iter().map(|unknown| unknown.u).collect();
     let omitted = omitted::lines(&fitted, &cells, &baseline, None, &[], &u);
     step(progress, 0.4)?;

@@ -24,25 +24,18 @@ const MATTERS: f64 = 0.01;
 /// is any.
 pub fn budget(case: &Case, diagnosis: &Diagnosis) -> String {
     let declared = diagnosis.unknowns.as_slice();
-    let (model, estimates, all, dof) = match &diagnosis.adopted {
+    let (model, estimates, all) = match &diagnosis.adopted {
         Some(adopted) => {
             let all: Vec<Estimated> = [&adopted.unknowns[..], &adopted.coefficients].concat();
-            (
-                &adopted.extended.case,
-                &adopted.unknowns[..],
-                all,
-                adopted.quality.dof,
-            )
+            (&adopted.extended.case, &adopted.unknowns[..], all)
         }
-        None => (case, declared, declared.to_vec(), diagnosis.before.dof),
+        None => (case, declared, declared.to_vec()),
     };
     let design = Design::new(model);
     let results = results(&design, estimates);
-    let dof = if diagnosis.noise.is_estimated() {
-        dof
-    } else {
-        diagnosis.noise.dof
-    };
+    // What correlates has degrees of freedom in common: the fewest.
+    let dofs = estimates.iter().map(|estimate| estimate.dof);
+    let dof = dofs.fold(f64::INFINITY, f64::min);
     let mut text = head(case);
     let lines = lines(diagnosis, estimates);
     for result in &results {

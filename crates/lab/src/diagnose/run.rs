@@ -4,7 +4,6 @@ use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::accidents;
 use super::adopted::{Adopted, adopt_named};
 use super::candidates::{Candidates, baseline, settings};
 use super::case::Case;
@@ -193,8 +192,6 @@ pub fn diagnose(
             cells.push(generics::unsteady(&fitted));
         }
     }
-    let nameless = accidents::nameless(&fitted, &cells, &places, &examination);
-    examination.demote(&nameless);
     let located = if examination.verdict == Verdict::None {
         Vec::new()
     } else {
@@ -224,10 +221,10 @@ pub fn diagnose(
         }
     };
     if (adopted.as_ref()).is_some_and(|adopted| adopted.predicts_worse(&before)) {
-        examination.refute();
+        examination.withdraw();
         adopted = None;
     }
-    let unknowns = estimates(&design, &fit, &claimed, before.scale);
+    let unknowns = estimates(&design, &fit, &claimed);
     let known = Known {
         case,
         design: &design,
@@ -249,8 +246,7 @@ pub fn diagnose(
     if adopted.as_ref().is_some_and(recurs)
         && (held_out.as_ref()).is_some_and(|held| held.contradicts(settings.alpha))
     {
-        let all: Vec<usize> = (0..examination.slots.len()).collect();
-        examination.demote(&all);
+        examination.withdraw();
     }
     unsettled.extend((adopted.iter()).filter_map(|adopted| adopted.unsettled.clone()));
     let improved = adopted

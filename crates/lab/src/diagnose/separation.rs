@@ -1,7 +1,7 @@
 //! What further measurements tell apart.
 
 use super::catalogue::{Cell, Variation};
-use super::evidence::{self, Examination, Prospects, Separability, Standing, Verdict, Worth};
+use super::evidence::{self, Examination, Prospects, Separability, Standing, Worth};
 use super::explanation::{Explanation, Unlisted, likened, sizes, standing, unlisted};
 use super::extra::Extra;
 use super::prolonged::{Prolonged, Recorded, examined};
@@ -34,11 +34,6 @@ pub(super) fn separating(
     places: &[(usize, usize)],
     examination: &Examination,
 ) -> Vec<Separating> {
-    // Where something without a name explains the recording as well, it is not decided.
-    let nameless = match examination.verdict {
-        Verdict::Contested => examination.generic_probability,
-        _ => 0.0,
-    };
     let of_atom = |atom: usize| {
         let (cell, variation) = places[atom];
         (cell, &cells[cell].variants[variation])
@@ -78,7 +73,7 @@ pub(super) fn separating(
             .sum();
         // Of what a list holds beside these nothing is promised.
         let examined: f64 = set.iter().map(Explanation::probability).sum();
-        let share = (examined / listed).min(1.0) * (1.0 - nameless);
+        let share = (examined / listed).min(1.0);
         found.push((slot, rivals, kappa, set, share));
     }
     if found.is_empty() {

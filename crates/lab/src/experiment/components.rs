@@ -206,7 +206,7 @@ fn scope_of_source(checker: &Checker<'_>, name: &str) -> Scope {
     let Some((_, entry)) = sources.find(|(other, _)| other == name) else {
         return Scope::Common;
     };
-    stated_scope(entry.value.by.as_ref(), entry.value.scope.as_ref()).unwrap_or(Scope::Common)
+    stated_scope(entry.value.by.as_deref(), entry.value.scope.as_deref()).unwrap_or(Scope::Common)
 }
 
 /// Readings have errors of their own unless the file says otherwise, inputs have one in common.
@@ -217,7 +217,7 @@ fn scope_of(one: &Known<'_>) -> Scope {
     } else {
         Scope::Common
     };
-    stated_scope(table.by.as_ref(), table.scope.as_ref()).unwrap_or(unstated)
+    stated_scope(table.by.as_deref(), table.scope.as_deref()).unwrap_or(unstated)
 }
 
 fn stated_scope(by: Option<&Stated<String>>, scope: Option<&Stated<ScopeWord>>) -> Option<Scope> {

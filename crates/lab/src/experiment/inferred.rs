@@ -51,14 +51,16 @@ pub(crate) fn complete(source: &mut Source, units: &UnitTable, files: Files<'_>,
     if found.is_empty() {
         return;
     }
-    let table = source.table.parameter.get_or_insert_with(|| Stated {
-        value: Named {
-            entries: Vec::new(),
-            refused: false,
-        },
+    let named = Named {
+        entries: Vec::new(),
+        refused: false,
+    };
+    let none = Stated {
+        value: named,
         span: place.clone(),
         key: place,
-    });
+    };
+    let table = source.table.parameter.get_or_insert_with(|| Box::new(none));
     table.value.entries.extend(found);
 }
 

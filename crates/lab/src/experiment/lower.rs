@@ -18,7 +18,7 @@ use gumption_core::model::faults::{CLASH, EXPONENT, NOT_ONE, POINT, RESERVED, RE
 use gumption_core::model::{Role, Symbol, outline};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, Said, say};
-use gumption_format::toml::Stated;
+use gumption_format::toml::{Slot, Stated};
 use gumption_gum::budget::Remark;
 
 impl Checker<'_> {
@@ -113,7 +113,7 @@ impl Checker<'_> {
         constants: &[Symbol],
     ) -> Result<Equations, Vec<Fault>> {
         let table = &self.source.table;
-        let shared = table.model.as_ref().map(equation_text);
+        let shared = table.model.as_deref().map(equation_text);
         let texts: Vec<EquationText<'_>> = table
             .equations
             .iter()
@@ -228,7 +228,7 @@ impl Checker<'_> {
             };
             entries(&self.source.table.result)
                 .iter()
-                .any(|(_, entry)| entry.value.model.as_ref().is_some_and(contains))
+                .any(|(_, entry)| entry.value.model.as_deref().is_some_and(contains))
         };
         let mut faults = Vec::new();
         for (place, parameter) in parameters.iter().enumerate() {
@@ -272,7 +272,7 @@ impl Checker<'_> {
 
     fn heading(&self) -> Heading {
         let table = &self.source.table;
-        let text = |stated: &Option<Stated<String>>| stated.as_ref().map(|s| s.value.clone());
+        let text = |stated: &Slot<String>| stated.as_ref().map(|s| s.value.clone());
         Heading {
             title: words(&table.title, &table.title_zh).unwrap_or_default(),
             description: words(&table.description, &table.description_zh),

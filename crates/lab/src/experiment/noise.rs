@@ -42,8 +42,8 @@ impl<'s> Checker<'s> {
                     .as_ref()
                     .map(|r| Way::Replicates(&r.value.0)),
             ),
-            ("`at_rest`", table.at_rest.as_ref().map(Way::AtRest)),
-            ("`budget`", table.budget.as_ref().map(Way::Budget)),
+            ("`at_rest`", table.at_rest.as_deref().map(Way::AtRest)),
+            ("`budget`", table.budget.as_deref().map(Way::Budget)),
             (
                 "`from`",
                 table.from.as_ref().map(|from| Way::From(from.value)),

@@ -16,8 +16,7 @@ use gumption_core::equations::Quantity;
 use gumption_core::model::{Role, Symbol};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
-use gumption_format::toml::Stated;
-use gumption_format::toml::{Amount, Named, OneOrMany};
+use gumption_format::toml::{Amount, Named, OneOrMany, Slot, Stated};
 use gumption_gum::budget::quantities::{Quantities, quantities};
 use gumption_gum::budget::tables::{ConstantEntry, Sources};
 use gumption_gum::budget::tables::{
@@ -141,7 +140,7 @@ fn known<'t>(
         {
             checker
                 .faults
-                .push(state_input(name, entry, source.procedure.as_ref()));
+                .push(state_input(name, entry, source.procedure.as_deref()));
             continue;
         }
         let unit = match (&entry.value.input.unit, &entry.value.like) {
@@ -294,12 +293,13 @@ fn tables(checker: &Checker<'_>, known: &[Known<'_>]) -> FileTable {
     let mut constants: Vec<(String, Stated<ConstantEntry>)> = entries(&table.constant).to_vec();
     for one in known {
         let key = &one.entry.key;
-        let unit = Some(at(one.unit.symbol.clone(), key));
+        let unit = Some(Box::new(at(one.unit.symbol.clone(), key)));
         let zero = Amount {
             number: 0.0,
             unit: None,
         };
-        let value = one.table().value.clone().or_else(|| Some(at(zero, key)));
+        let value = one.table().value.clone();
+        let value = value.or_else(|| Some(Box::new(at(zero, key))));
         if one.is_exact() {
             let constant = ConstantEntry(ConstantTable {
                 value,
@@ -321,9 +321,9 @@ fn tables(checker: &Checker<'_>, known: &[Known<'_>]) -> FileTable {
         profile: table.profile.clone(),
         conventions: table.conventions.clone(),
         monte_carlo: table.monte_carlo.clone(),
-        constant: Some(at(named(constants), &(0..0))),
-        input: Some(at(named(inputs), &(0..0))),
-        source: Some(at(Sources(named(shared(checker))), &(0..0))),
+        constant: Some(Box::new(at(named(constants), &(0..0)))),
+        input: Some(Box::new(at(named(inputs), &(0..0)))),
+        source: Some(Box::new(at(Sources(named(shared(checker))), &(0..0)))),
         correlation: correlation(checker, known),
         ..FileTable::default()
     }
@@ -343,10 +343,7 @@ fn shared(checker: &Checker<'_>) -> Vec<(String, Stated<SourceTable>)> {
 }
 
 /// Correlations by the names that inputs and readings have in the budget.
-fn correlation(
-    checker: &Checker<'_>,
-    known: &[Known<'_>],
-) -> Option<Stated<OneOrMany<CorrelationTable>>> {
+fn correlation(checker: &Checker<'_>, known: &[Known<'_>]) -> Slot<OneOrMany<CorrelationTable>> {
     let mut stated = checker.source.table.correlation.clone()?;
     let names = stated
         .value

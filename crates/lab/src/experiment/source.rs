@@ -10,7 +10,7 @@ use super::tables::ExperimentTable;
 use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Named;
 use gumption_format::toml::tables_of;
-use gumption_format::toml::{Stated, Table};
+use gumption_format::toml::{Slot, Stated, Table};
 use gumption_gum::budget::faults::UNUSED;
 
 /// The tables of a file over those of its procedure.
@@ -23,7 +23,7 @@ pub(crate) struct Source {
     /// Names that the file itself lists as parameters and as inputs, before those of the procedure.
     pub listed: Listed,
     /// The procedure's name and its place.
-    pub procedure: Option<Stated<String>>,
+    pub procedure: Slot<String>,
     pub faults: Vec<Fault>,
 }
 
@@ -76,11 +76,11 @@ pub(crate) fn read(text: &str) -> Result<Source, Vec<Fault>> {
 }
 
 /// The named entries of an optional table.
-pub(crate) fn entries<T>(named: &Option<Stated<Named<T>>>) -> &[(String, Stated<T>)] {
+pub(crate) fn entries<T>(named: &Slot<Named<T>>) -> &[(String, Stated<T>)] {
     named.as_ref().map_or(&[], |stated| &stated.value.entries)
 }
 
-fn names<T>(named: &Option<Stated<Named<T>>>) -> HashSet<String> {
+fn names<T>(named: &Slot<Named<T>>) -> HashSet<String> {
     let entries = named.iter().flat_map(|stated| &stated.value.entries);
     entries.map(|(name, _)| name.clone()).collect()
 }
@@ -182,7 +182,7 @@ fn of_name<'t, T>(entries: &'t [(String, Stated<T>)], name: &str) -> Option<&'t 
     found.map(|(_, entry)| entry)
 }
 
-fn entries_mut<T>(named: &mut Option<Stated<Named<T>>>) -> &mut [(String, Stated<T>)] {
+fn entries_mut<T>(named: &mut Slot<Named<T>>) -> &mut [(String, Stated<T>)] {
     named
         .as_mut()
         .map_or(&mut [], |stated| stated.value.entries.as_mut_slice())
@@ -214,27 +214,30 @@ fn both<T>(own: Option<T>, base: Option<T>, join: impl FnOnce(T, T) -> T) -> Opt
     }
 }
 
-fn over<T: Over>(own: Option<Stated<T>>, base: Option<Stated<T>>) -> Option<Stated<T>> {
-    both(own, base, |own, base| Stated {
+fn over<T: Over>(own: Slot<T>, base: Slot<T>) -> Slot<T> {
+    both(own, base, |own, base| Box::new(stated_over(*own, *base)))
+}
+
+fn stated_over<T: Over>(own: Stated<T>, base: Stated<T>) -> Stated<T> {
+    Stated {
         value: own.value.laid_over(base.value),
         span: own.span,
         key: own.key,
-    })
+    }
 }
 
 /// Entries of the procedure first, in its order, each under what the file says of it.
-fn entries_over<T: Over>(
-    own: Option<Stated<Named<T>>>,
-    base: Option<Stated<Named<T>>>,
-) -> Option<Stated<Named<T>>> {
+fn entries_over<T: Over>(own: Slot<Named<T>>, base: Slot<Named<T>>) -> Slot<Named<T>> {
     both(own, base, |mut own, base| {
         let mut entries = Vec::new();
         for (name, below) in base.value.entries {
             let mut places = own.value.entries.iter();
             let at = places.position(|(other, _)| *other == name);
-            let above = at.map(|at| own.value.entries.remove(at).1);
-            let entry = over(above, Some(below));
-            entries.extend(entry.map(|entry| (name, entry)));
+            let entry = match at.map(|at| own.value.entries.remove(at).1) {
+                Some(above) => stated_over(above, below),
+                None => below,
+            };
+            entries.push((name, entry));
         }
         entries.append(&mut own.value.entries);
         own.value.entries = entries;
@@ -243,10 +246,7 @@ fn entries_over<T: Over>(
 }
 
 /// Entries of both; one of the file replaces that of the procedure as a whole.
-fn named_or<T>(
-    own: Option<Stated<Named<T>>>,
-    base: Option<Stated<Named<T>>>,
-) -> Option<Stated<Named<T>>> {
+fn named_or<T>(own: Slot<Named<T>>, base: Slot<Named<T>>) -> Slot<Named<T>> {
     both(own, base, |mut own, base| {
         for (name, entry) in base.value.entries {
             if !own.value.entries.iter().any(|(other, _)| *other == name) {

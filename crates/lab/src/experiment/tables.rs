@@ -123,7 +123,7 @@ impl Shorthand for RecordingTable {
 
     fn of(file: Stated<String>) -> Self {
         RecordingTable {
-            file: Some(file),
+            file: Some(Box::new(file)),
             ..RecordingTable::default()
         }
     }
@@ -178,7 +178,7 @@ impl Shorthand for ColumnTable {
 
     fn of(role: Stated<RoleWord>) -> Self {
         ColumnTable {
-            role: Some(role),
+            role: Some(Box::new(role)),
             ..ColumnTable::default()
         }
     }

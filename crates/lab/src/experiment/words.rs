@@ -1,6 +1,6 @@
 //! Texts in both languages.
 
-use gumption_format::toml::Stated;
+use gumption_format::toml::Slot;
 
 /// A text in both languages; Chinese is the English one where nobody has translated it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -27,7 +27,7 @@ impl Words {
 }
 
 /// The text that the file states in both languages.
-pub(crate) fn words(en: &Option<Stated<String>>, zh: &Option<Stated<String>>) -> Option<Words> {
+pub(crate) fn words(en: &Slot<String>, zh: &Slot<String>) -> Option<Words> {
     let en = en.as_ref()?.value.clone();
     let zh = zh
         .as_ref()

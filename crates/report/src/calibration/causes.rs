@@ -19,7 +19,11 @@ const SINGLE_BUDGETS: usize = 6;
 
 /// What a cause is.
 pub(super) fn cause_name(cause: &Cause, l: Language) -> String {
-    match &cause.origin {
+    origin_name(&cause.origin, l)
+}
+
+pub(super) fn origin_name(origin: &Origin, l: Language) -> String {
+    match origin {
         Origin::Stated { name, .. } => name.clone(),
         Origin::Residuals { response: of } => {
             l.pick(format!("scatter of {of}"), format!("{of} 的分散性"))

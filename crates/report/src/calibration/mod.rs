@@ -14,7 +14,7 @@ use gumption_format::document::{Block, Document};
 use gumption_lab::calibrate::{Calibration, Campaign, Plan, Trouble};
 
 pub use form::{calibration_schema, plan_schema};
-pub use recordings::{Unusable, recording};
+pub use recordings::{RecordingColumns, recording};
 
 /// The document of a calibration.
 pub fn calibration(campaign: &Campaign, found: &Calibration, language: Language) -> Document {

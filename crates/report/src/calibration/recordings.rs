@@ -1,32 +1,33 @@
 //! Calibrations of many recordings: one line each, in the columns of a batch.
 
-use gumption_fault::Rejection;
-use gumption_lab::calibrate::{Calibration, Campaign, Trouble};
+use gumption_lab::calibrate::{Calibration, Campaign, Contribution, Origin, Unusable};
 
 use super::calibration_trouble;
+use super::causes::origin_name;
 use crate::batch::{Lines, refused};
 use crate::language::Language;
 use crate::rows::{Head, in_unit};
 
-/// Why a recording gives no coefficients.
-#[derive(Debug)]
-pub enum Unusable {
-    /// It, or the experiment with it, has faults.
-    Refused(Box<Rejection>),
-    /// It does not tell them.
-    Trouble(Trouble),
+/// Columns that lines of recordings have on request.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RecordingColumns {
+    /// The share of each cause in the variance of each coefficient.
+    pub shares: bool,
+    /// The language in which errors are told.
+    pub language: Language,
 }
 
 /// Adds the line of a recording: its name, of each coefficient estimate, u, ν, k and U, of each response the standard deviation of
-/// its residuals, and the error of one that gives none.
+/// its residuals, the shares, and the error of one that gives none.
 pub fn recording(
     lines: &mut Lines,
     label: &str,
     found: Result<(&Campaign, &Calibration), &Unusable>,
-    language: Language,
+    RecordingColumns { shares, language }: RecordingColumns,
 ) {
     let found = found.map(|(campaign, found)| {
-        let numbers = numbers(campaign, found);
+        let shares = shares.then(|| self::shares(campaign, found));
+        let numbers = numbers(campaign, found).chain(shares.into_iter().flatten());
         let (mut heads, cells): (Vec<Head>, Vec<Option<f64>>) = numbers.unzip();
         heads.insert(0, Head::texts("label"));
         heads.push(Head::texts("error"));
@@ -63,10 +64,29 @@ fn numbers(campaign: &Campaign, found: &Calibration) -> impl Iterator<Item = (He
         (in_unit(head, &response.unit.difference()), scatter.s)
     });
     let all = coefficients.chain(responses);
-    all.map(|(head, number)| {
-        (
-            Head::numbers(head),
-            Some(number).filter(|number| !number.is_nan()),
-        )
-    })
+    all.map(|(head, number)| (Head::numbers(head), known(number)))
+}
+
+/// Of each coefficient the share of every cause that the experiment has; of one that a recording does not show, none.
+fn shares(campaign: &Campaign, found: &Calibration) -> Vec<(Head, Option<f64>)> {
+    let origins = campaign.origins();
+    let coefficients = found.figures.coefficients.iter().enumerate();
+    let shares = coefficients.flat_map(|(at, one)| {
+        let contributions: Vec<Contribution<'_>> = found.figures.contributions(at).collect();
+        let share = move |origin: &Origin| {
+            let own = contributions
+                .iter()
+                .find(|part| part.cause.origin == *origin);
+            // Names of columns do not depend on the language.
+            let cause = origin_name(origin, Language::English);
+            let head = Head::numbers(format!("share({}, {cause})", one.name));
+            (head, known(own.map_or(0.0, |part| part.share)))
+        };
+        origins.iter().map(share)
+    });
+    shares.collect()
+}
+
+fn known(number: f64) -> Option<f64> {
+    Some(number).filter(|number| !number.is_nan())
 }

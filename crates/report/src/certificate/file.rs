@@ -10,7 +10,9 @@ use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::document::{Administration, Condition, Contact, Item, Person, Told};
 use gumption_format::files::Files;
 use gumption_format::toml::faults::{UNKNOWN_WORD, UNREADABLE_FILE};
-use gumption_format::toml::{Amount, Date, FromToml, KeyRow, Stated, Table, decoded, tables_of};
+use gumption_format::toml::{
+    Amount, Date, FromToml, KeyRow, Slot, Stated, Table, decoded, tables_of,
+};
 use gumption_gum::budget::faults::{MISSING_KEY, NOT_POSITIVE, PROBABILITY, UNIT, UNUSED};
 
 use serde_json::{Value, json};
@@ -192,7 +194,7 @@ impl Check<'_> {
     /// What has to be stated.
     fn stated<'t, T>(
         &mut self,
-        stated: &'t Option<Stated<T>>,
+        stated: &'t Slot<T>,
         key: &str,
         end: &Range<usize>,
     ) -> Option<&'t T> {
@@ -205,7 +207,7 @@ impl Check<'_> {
     /// A text that has to be there.
     fn text(
         &mut self,
-        stated: &Option<Stated<String>>,
+        stated: &Slot<String>,
         key: &str,
         table: &str,
         place: &Range<usize>,
@@ -218,7 +220,7 @@ impl Check<'_> {
         words.unwrap_or_default()
     }
 
-    fn day(&mut self, date: &Option<Stated<Date>>) -> Option<String> {
+    fn day(&mut self, date: &Slot<Date>) -> Option<String> {
         let date = date.as_ref()?;
         date.value.0.get(..10).map(str::to_owned)
     }
@@ -256,8 +258,8 @@ impl Check<'_> {
     /// A name in one or two languages.
     fn named(
         &mut self,
-        name: &Option<Stated<String>>,
-        chinese: &Option<Stated<String>>,
+        name: &Slot<String>,
+        chinese: &Slot<String>,
         of: &str,
         place: &Range<usize>,
     ) -> Told {
@@ -411,7 +413,7 @@ impl Check<'_> {
 }
 
 /// A text that is not empty.
-fn text(stated: &Option<Stated<String>>) -> Option<String> {
+fn text(stated: &Slot<String>) -> Option<String> {
     let words = stated.as_ref()?.value.trim();
     (!words.is_empty()).then(|| words.to_owned())
 }

@@ -30,14 +30,13 @@ form! {
     DiagnosisForm<'a> of (case: &'a Case, d: &'a Diagnosis, names: Names<'a>) {
         /// Title.
         title: &'a str = &case.title,
-        /// `none`, `identified`, `acts-like`, `ambiguous`, `partly`, `contested` or `unexplained`.
+        /// `none`, `identified`, `acts-like`, `ambiguous`, `partly` or `unexplained`.
         verdict: &'static str = match d.examination.verdict {
             Verdict::None => "none",
             Verdict::Identified => "identified",
             Verdict::Like => "acts-like",
             Verdict::Ambiguous => "ambiguous",
             Verdict::Partly => "partly",
-            Verdict::Contested => "contested",
             Verdict::Unexplained => "unexplained",
         },
         /// The verdict in one sentence.
@@ -62,12 +61,8 @@ form! {
         effects: Vec<EffectForm<'a>> = all(&d.examination.slots, |one| EffectForm::of(one, case, d, names)),
         /// Fits on which a reader should not rely.
         unsettled_fits: Vec<UnsettledForm> = all(&d.unsettled, |one| UnsettledForm::of(one, case, names.l)),
-        /// Share of the excess χ² that the named effects explain.
-        explained: Number = Number(d.examination.explained),
         /// Probability that an effect without a name is there.
         generic_probability: Number = Number(d.examination.generic_probability),
-        /// By how much the named effects are better than an unlisted one: logarithm of a Bayes factor.
-        margin: Number = Number(d.examination.margin),
         /// The declared model.
         before: QualityForm = QualityForm::of(&d.before),
         /// The model with the adopted physics.
@@ -354,7 +349,7 @@ form! {
 
 impl Machine for DiagnosisForm<'_> {
     const KIND: &'static str = "diagnosis";
-    const VERSION: u32 = 1;
+    const VERSION: u32 = 2;
 }
 
 /// JSON Schema of the output of `gumption diagnose --json`.

@@ -2,7 +2,7 @@
 
 use crate::language::Language;
 use gumption_lab::diagnose::evidence::{Alternative, Slot, State};
-use gumption_lab::diagnose::{Conclusion, Diagnosis, Nameless};
+use gumption_lab::diagnose::{Conclusion, Diagnosis};
 
 use super::names::Names;
 use super::words::chance;
@@ -31,9 +31,7 @@ pub(super) fn verdict(diagnosis: &Diagnosis, l: Language) -> String {
             )
             .to_owned(),
         Conclusion::LeavesOut { told, open } => left_out(&list(&told), &list(&open), l),
-        Conclusion::AndMore { named, nameless, tentative } => {
-            and_more(&list(&named), nameless, &told(&tentative), l)
-        }
+        Conclusion::AndMore { named, tentative } => and_more(&list(&named), &told(&tentative), l),
         Conclusion::Tentative { names, places } => {
             let names = told(&names);
             let besides = match at(&places) {
@@ -83,19 +81,12 @@ fn left_out(told: &str, open: &str, l: Language) -> String {
     }
 }
 
-/// The verdict where not all has a certain name.
-fn and_more(list: &str, nameless: Option<Nameless>, tentative: &str, l: Language) -> String {
-    let sentence = match nameless {
-        Some(Nameless::Instead) => l.pick(
-            format!("The model leaves out: {list}; or else something unknown that varies smoothly, which explains the recording as well."),
-            format!("模型遗漏了：{list}；但某种平滑变化的未知影响同样可以解释本记录。"),
-        ),
-        Some(Nameless::Beside) => l.pick(
-            format!("The model leaves out: {list}. Something without a name remains."),
-            format!("模型遗漏了：{list}。此外还有无法命名的部分。"),
-        ),
-        None => left_out(list, "", l),
-    };
+/// The verdict where something has no name.
+fn and_more(list: &str, tentative: &str, l: Language) -> String {
+    let sentence = l.pick(
+        format!("The model leaves out: {list}. Something without a name remains."),
+        format!("模型遗漏了：{list}。此外还有无法命名的部分。"),
+    );
     match tentative {
         "" => sentence,
         _ => l.pick(

@@ -11,7 +11,7 @@ use crate::budget::tables::FileTable;
 use gumption_core::quantity::{Unit, revolutions_as_angle};
 use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Amount;
-use gumption_format::toml::Stated;
+use gumption_format::toml::{Slot, Stated};
 
 /// Whether a unit of dimension one names a ratio, of which one asks "of what?" (in contrast to angles).
 pub(super) fn is_ratio(symbol: &str) -> bool {
@@ -59,7 +59,7 @@ impl Checker<'_> {
     }
 
     /// A stated unit; dimension one when none is stated, nothing when it was refused.
-    pub(super) fn unit(&mut self, stated: &Option<Stated<String>>) -> Option<Unit> {
+    pub(super) fn unit(&mut self, stated: &Slot<String>) -> Option<Unit> {
         let Some(stated) = stated else {
             return Some(Unit::one());
         };
@@ -86,7 +86,7 @@ impl Checker<'_> {
                     span: span.clone(),
                     key: span.clone(),
                 };
-                self.unit(&Some(stated)).map(Some)
+                self.unit(&Some(Box::new(stated))).map(Some)
             }
         }
     }
@@ -94,8 +94,8 @@ impl Checker<'_> {
     /// The unit that a table states, or else that of its value: `value = "20.5 °C"` says both.
     pub(super) fn unit_or_of_value(
         &mut self,
-        unit: &Option<Stated<String>>,
-        value: &Option<Stated<Amount>>,
+        unit: &Slot<String>,
+        value: &Slot<Amount>,
     ) -> Option<Unit> {
         match (unit, value) {
             (None, Some(amount)) => self

@@ -254,7 +254,7 @@ impl Checker<'_> {
             );
         }
         let labels = |name: &'t Stated<String>| (name, Asked::labels("group", &name.value));
-        let columns: Vec<_> = std::iter::once((column, decimals(column, Some(unit))))
+        let columns: Vec<_> = std::iter::once((&**column, decimals(column, Some(unit))))
             .chain(names.iter().map(labels))
             .collect();
         let table = self.csv(file, &columns)?;

@@ -44,6 +44,9 @@ impl Checker<'_> {
         let taken = std::mem::take(&mut register.taken);
         let before = groups.len();
         let mut merge = Merge::new(&part, file, register, groups);
+        if !taken.is_empty() {
+            merge.look_up();
+        }
         for one in &taken {
             if let Err(stale) = merge.take(one) {
                 self.report(*stale);
@@ -163,10 +166,9 @@ impl<'a> Merge<'a> {
             chain.units.insert(Arc::clone(&part.file), units);
         }
         let own = (inputs.len(), components.len());
-        let places = |list: &[Identity]| list.iter().cloned().zip(0..).collect();
         Merge {
-            inputs: places(&inputs),
-            components: places(&components),
+            inputs: HashMap::new(),
+            components: HashMap::new(),
             chain: Chain {
                 inputs,
                 components,
@@ -175,6 +177,13 @@ impl<'a> Merge<'a> {
             register,
             own,
         }
+    }
+
+    /// Prepares for looking up what the file has of its own.
+    fn look_up(&mut self) {
+        let places = |list: &[Identity]| list.iter().cloned().zip(0..).collect();
+        self.inputs = places(&self.chain.inputs);
+        self.components = places(&self.chain.components);
     }
 
     fn take(&mut self, taken: &Taken) -> std::result::Result<(), Box<Fault>> {

@@ -10,7 +10,7 @@ use crate::budget::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, Par
 use gumption_core::quantity::{Decimal, Unit};
 use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Amount;
-use gumption_format::toml::{OneOrMany, Stated};
+use gumption_format::toml::{OneOrMany, Slot, Stated};
 
 /// The keys of a claim that state a figure.
 const FIGURES: [&str; 18] = [
@@ -56,16 +56,13 @@ struct Reading<'a> {
 
 impl Reading<'_> {
     /// A tolerance that the file states.
-    fn tolerance(&self, of: impl Fn(&ToleranceTable) -> &Option<Stated<f64>>) -> Option<f64> {
+    fn tolerance(&self, of: impl Fn(&ToleranceTable) -> &Slot<f64>) -> Option<f64> {
         let table = &self.table.tolerance.as_ref()?.value;
         of(table).as_ref().map(|stated| stated.value)
     }
 
     /// The tolerances of both ends of an interval.
-    fn ends(
-        &self,
-        of: impl Fn(&ToleranceTable) -> &Option<Stated<OneOrMany<f64>>>,
-    ) -> [Option<f64>; 2] {
+    fn ends(&self, of: impl Fn(&ToleranceTable) -> &Slot<OneOrMany<f64>>) -> [Option<f64>; 2] {
         let stated = self.table.tolerance.as_ref();
         let stated = stated.and_then(|table| of(&table.value).as_ref());
         let list = stated.map_or(&[][..], |stated| &stated.value.0);
@@ -174,7 +171,7 @@ impl Checker<'_> {
                 .confidence
                 .as_ref()
                 .map_or(Confidence::High, |word| word.value),
-            digits: table.digits.as_ref().map(correct_digits),
+            digits: table.digits.as_deref().map(correct_digits),
             reference: table.reference.as_ref().map(|text| text.value.clone()),
             note: table.note.as_ref().map(|text| text.value.clone()),
         })
@@ -368,10 +365,10 @@ impl Checker<'_> {
             .chain(covariances.map(|entry| (entry, Figure::Covariance as fn(usize) -> Figure)));
         for ((name, number), figure) in all {
             let wanted = number.map(|_| name.clone());
-            let wanted = Some(Stated {
+            let wanted = Some(Box::new(Stated {
                 span: number.key.clone(),
                 ..wanted
-            });
+            }));
             if let Some(with) = self.claimed(&wanted, &number.key) {
                 let figure = figure(with);
                 let stated = match figure {
@@ -574,7 +571,7 @@ impl Checker<'_> {
     /// Which measurand a claim is about.
     pub(super) fn claimed(
         &mut self,
-        stated: &Option<Stated<String>>,
+        stated: &Slot<String>,
         place: &std::ops::Range<usize>,
     ) -> Option<usize> {
         let names: Vec<String> = self

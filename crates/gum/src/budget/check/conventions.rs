@@ -203,19 +203,18 @@ impl Checker<'_> {
             .points
             .as_ref()
             .map_or(Points::Random, |word| word.value);
-        let trials = match &table.trials {
+        let trials = match table.trials.as_deref() {
             Some(Stated {
                 value: TrialsEntry::Adaptive,
                 ..
             }) => self.adaptive(table),
             None if points == Points::QuasiRandom => self.adaptive(table),
             stated => {
-                self.fixed_only(table, stated.as_ref());
+                self.fixed_only(table, stated);
                 let decisive = Trials::Decisive {
                     least: DEFAULT_TRIALS,
                     most: DECISIVE_TRIALS,
                 };
-                let stated = stated.as_ref();
                 stated.map_or(decisive, |stated| Trials::Fixed(fixed(stated)))
             }
         };

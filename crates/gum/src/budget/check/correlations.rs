@@ -2,14 +2,14 @@
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
-use std::sync::Arc;
+use std::rc::Rc;
 
 use super::checker::Checker;
 use super::draft::show;
 use super::fits::Fitted;
 use super::groups::connected;
 use super::register::Register;
-use super::statement::{ROUNDING, Statement};
+use super::statement::{Pair, ROUNDING, Statement};
 use crate::budget::faults::{
     CORRELATION_TWICE, MISSING_KEY, NOT_A_CORRELATION, PAIR_TWICE, SELF_PAIR, UNKNOWN_NAME,
 };
@@ -25,7 +25,7 @@ const MOST_PAIRS: usize = 1 << 22;
 
 /// One side of a correlation: components with their shares of the side's standard uncertainty.
 pub(super) struct Side {
-    name: Arc<str>,
+    name: Rc<str>,
     /// Where the file names it.
     span: Range<usize>,
     members: Vec<(usize, f64)>,
@@ -228,11 +228,11 @@ impl Checker<'_> {
                 )),
             );
         }
-        let pairs = a
+        let mut pairs = a
             .members
             .iter()
-            .flat_map(|(m, v)| b.members.iter().map(move |(n, w)| (*m, *n, v * w)))
-            .collect();
+            .flat_map(|(m, v)| b.members.iter().map(move |(n, w)| (*m, *n, v * w)));
+        let pair = pairs.next()?;
         let place = a.span.start..r.span.end.max(b.span.end);
         let place = if place.start < r.span.start {
             r.span.clone()
@@ -242,15 +242,12 @@ impl Checker<'_> {
         Some(Statement {
             names: [a.name.clone(), b.name.clone()],
             r: r.value,
-            half: if r.value.fract() == 0.0 {
-                0.0
-            } else {
-                self.half_digit(r)
-            },
+            coefficient: r.span.clone(),
             place,
             scale,
             offset,
-            pairs,
+            pair,
+            further: pairs.collect(),
             whole: 2,
         })
     }
@@ -320,7 +317,7 @@ impl Checker<'_> {
     /// Reports pairs that are stated more than once.
     fn twice(&mut self, statements: &[Statement]) {
         // Of millions of pairs a sorted list takes a fraction of the memory of a map.
-        let pairs = statements.iter().flat_map(|statement| &statement.pairs);
+        let pairs = statements.iter().flat_map(Statement::pairs);
         let mut pairs: Vec<(usize, usize)> = pairs.map(ordered).collect();
         pairs.sort_unstable();
         if pairs.windows(2).all(|two| two[0] != two[1]) {
@@ -329,10 +326,9 @@ impl Checker<'_> {
         let mut first: HashMap<(usize, usize), &Statement> = HashMap::new();
         for later in statements {
             let earlier = later
-                .pairs
-                .iter()
+                .pairs()
                 .find_map(|pair| first.get(&ordered(pair)).copied());
-            for pair in &later.pairs {
+            for pair in later.pairs() {
                 first.entry(ordered(pair)).or_insert(later);
             }
             if let Some(earlier) = earlier {
@@ -359,8 +355,7 @@ impl Checker<'_> {
             .collect();
         for statement in statements {
             let taken = statement
-                .pairs
-                .iter()
+                .pairs()
                 .flat_map(|(a, b, _)| [*a, *b])
                 .find(|index| joint.contains(index));
             if let Some(component) = taken.and_then(|index| register.components.get(index)) {
@@ -380,9 +375,9 @@ impl Checker<'_> {
     }
 }
 
-/// The components of a pair, whichever is named first.
-fn ordered((a, b, _): &(usize, usize, f64)) -> (usize, usize) {
-    (*a.min(b), *a.max(b))
+/// The components of a pair, whichever is named first. A matrix states them in this order.
+fn ordered((a, b, _): &Pair) -> (usize, usize) {
+    (*a.max(b), *a.min(b))
 }
 
 fn unknown(name: &Stated<String>, register: &Register) -> Fault {

@@ -9,11 +9,11 @@ use crate::budget::variants::{Amounts, Numbers};
 use gumption_core::quantity::Unit;
 use gumption_core::statistics::Dd;
 use gumption_fault::{Fault, Rejection, say};
-use gumption_format::csv::faults::{NO_COLUMN, NOT_UTF8, UNREADABLE};
+use gumption_format::csv::faults::{NO_COLUMN, NOT_UTF8, TOO_LARGE, UNREADABLE};
 use gumption_format::csv::{Recording, Request};
 use gumption_format::toml::Amount;
-use gumption_format::toml::Stated;
 use gumption_format::toml::faults::UNREADABLE_FILE;
+use gumption_format::toml::{Slot, Stated};
 
 impl Checker<'_> {
     /// The numbers themselves.
@@ -51,7 +51,7 @@ impl Checker<'_> {
         table: &ComponentTable,
         unit: &Unit,
     ) -> Option<ComponentTable> {
-        let named = |stated: &Option<Stated<Amounts>>| {
+        let named = |stated: &Slot<Amounts>| {
             matches!(stated.as_ref().map(|s| &s.value), Some(Amounts::Column(_)))
         };
         if !named(&table.u) && !named(&table.half_width) {
@@ -175,10 +175,9 @@ impl Checker<'_> {
                 false => message,
             };
             return self.refuse(Fault {
-                code: if fault.code == NOT_UTF8 {
-                    NOT_UTF8
-                } else {
-                    UNREADABLE_FILE
+                code: match [NOT_UTF8, TOO_LARGE].contains(&fault.code) {
+                    true => fault.code,
+                    false => UNREADABLE_FILE,
                 },
                 message,
                 label: say!("expected a CSV file"),

@@ -8,7 +8,7 @@ use crate::budget::faults::{DETECTION, MISSING_KEY, NOT_POSITIVE};
 use crate::budget::tables::{DetectionTable, FileTable};
 use gumption_core::special::normal_sf;
 use gumption_fault::{Fault, say};
-use gumption_format::toml::Stated;
+use gumption_format::toml::{Slot, Stated};
 
 /// α and β where the file states none (ISO 11929).
 const USUAL: f64 = 0.05;
@@ -67,7 +67,7 @@ impl Checker<'_> {
         };
         let alpha = self.error_probability(&table.alpha, &table.k_alpha);
         let beta = self.error_probability(&table.beta, &table.k_beta);
-        let quantile = |stated: &Option<Stated<f64>>| stated.as_ref().map(|k| k.value);
+        let quantile = |stated: &Slot<f64>| stated.as_ref().map(|k| k.value);
         let coverage = match &table.coverage_probability {
             Some(p) => self.probability(p),
             None => Some(self.conventions.coverage_probability),
@@ -99,11 +99,7 @@ impl Checker<'_> {
     }
 
     /// From a probability, or from the quantile that is exceeded with it.
-    fn error_probability(
-        &mut self,
-        stated: &Option<Stated<f64>>,
-        quantile: &Option<Stated<f64>>,
-    ) -> Option<f64> {
+    fn error_probability(&mut self, stated: &Slot<f64>, quantile: &Slot<f64>) -> Option<f64> {
         let stated = match (stated, quantile) {
             (None, None) => return Some(USUAL),
             (Some(stated), None) => stated,

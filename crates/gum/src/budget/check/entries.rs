@@ -1,6 +1,6 @@
 //! The named entries of a file's tables.
 
-use gumption_format::toml::{Named, Stated};
+use gumption_format::toml::{Named, Slot, Stated};
 
 use crate::budget::tables::{FileTable, SourceTable};
 
@@ -12,7 +12,7 @@ pub(super) fn shared(file: &FileTable) -> &[(String, Stated<SourceTable>)] {
 }
 
 /// The named entries of an optional table.
-pub(super) fn entries<T>(named: &Option<Stated<Named<T>>>) -> &[(String, Stated<T>)] {
+pub(super) fn entries<T>(named: &Slot<Named<T>>) -> &[(String, Stated<T>)] {
     named.as_ref().map_or(&[], |stated| &stated.value.entries)
 }
 

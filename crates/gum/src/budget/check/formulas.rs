@@ -177,11 +177,11 @@ impl Checker<'_> {
         let ModelFault { place, fault } = found;
         let measurands = entries(&file.measurand);
         match place {
-            Place::Shared => self.in_formula(fault, file.model.as_ref()),
+            Place::Shared => self.in_formula(fault, file.model.as_deref()),
             Place::Measurand(index) => {
                 let text = measurands
                     .get(index)
-                    .and_then(|(_, entry)| entry.value.model.as_ref());
+                    .and_then(|(_, entry)| entry.value.model.as_deref());
                 self.in_formula(fault, text)
             }
             Place::Entry(index) => {

@@ -11,8 +11,10 @@ use super::register::{Register, t_dof};
 use super::statement::{ROUNDING, Statement};
 use crate::budget::faults::{NOT_SEMIDEFINITE, UNATTAINABLE};
 use crate::budget::{Component, Group, Law};
+use crate::elimination::is_definite;
 use gumption_core::distribution::{Distribution, StudentT, latent_correlation};
 use gumption_fault::{Fault, say};
+use gumption_format::toml::Stated;
 
 impl Checker<'_> {
     pub(super) fn group(
@@ -21,12 +23,10 @@ impl Checker<'_> {
         statements: &[Statement],
         register: &Register,
     ) -> Option<Group> {
+        let places = places(&members);
         let own: Vec<&Statement> = statements
             .iter()
-            .filter(|s| {
-                let among = |(a, ..): &(usize, usize, f64)| members.binary_search(a).is_ok();
-                s.pairs.iter().any(among)
-            })
+            .filter(|s| s.pairs().any(|(a, ..)| place(&places, *a).is_some()))
             .collect();
         let r: Vec<f64> = own.iter().map(|statement| statement.r).collect();
         let correlation = matrix(&members, &own, &r);
@@ -37,7 +37,7 @@ impl Checker<'_> {
         };
         let correlation = match negative {
             None => correlation,
-            Some(smallest) => match within_rounding(&correlation, &halves(&members, &own)) {
+            Some(smallest) => match within_rounding(&correlation, &self.halves(&members, &own)) {
                 Some(nearest) => {
                     self.remark_rounded(smallest, &correlation, &nearest);
                     nearest
@@ -49,6 +49,37 @@ impl Checker<'_> {
             .first()
             .map_or(0..0, |statement| statement.place.clone());
         self.join(members, correlation, register, &place)
+    }
+
+    /// Half a unit of the last digit of each coefficient, as it falls on the components.
+    fn halves(&self, members: &[usize], statements: &[&Statement]) -> DMatrix<f64> {
+        let places = places(members);
+        let mut halves = DMatrix::zeros(members.len(), members.len());
+        for statement in statements {
+            let half = self.half_of(statement.r, statement.coefficient.clone());
+            for (a, b, share) in statement.pairs() {
+                let (Some(i), Some(j)) = (place(&places, *a), place(&places, *b)) else {
+                    continue;
+                };
+                let half = (half * statement.scale * share).abs();
+                halves[(i, j)] = half;
+                halves[(j, i)] = half;
+            }
+        }
+        // The diagonal is one but for the last bits.
+        halves.map(|half| half + 1e-9)
+    }
+
+    /// Half a unit of the last digit of an element of a matrix; 0 of a whole number.
+    pub(super) fn half_of(&self, value: f64, place: Range<usize>) -> f64 {
+        match value.fract() == 0.0 {
+            true => 0.0,
+            false => self.half_digit(&Stated {
+                value,
+                key: place.clone(),
+                span: place,
+            }),
+        }
     }
 
     /// Tells that coefficients were moved within their rounding.
@@ -184,7 +215,7 @@ pub(super) fn connected(
     };
     let stated = statements
         .iter()
-        .flat_map(|statement| statement.pairs.iter().map(|(a, b, _)| (*a, *b)));
+        .flat_map(|statement| statement.pairs().map(|(a, b, _)| (*a, *b)));
     let related = families
         .iter()
         .flat_map(|family| family.windows(2).map(|pair| (pair[0], pair[1])));
@@ -202,12 +233,12 @@ pub(super) fn connected(
 
 /// The correlation matrix of the members (in ascending order), with the statements' coefficients replaced by `r`.
 fn matrix(members: &[usize], statements: &[&Statement], r: &[f64]) -> DMatrix<f64> {
+    let places = places(members);
     let mut matrix = DMatrix::identity(members.len(), members.len());
     for (statement, r) in statements.iter().zip(r) {
         let own = statement.scale * r + statement.offset;
-        for (a, b, weight) in &statement.pairs {
-            let index = |wanted| members.binary_search(wanted);
-            if let (Ok(i), Ok(j)) = (index(a), index(b)) {
+        for (a, b, weight) in statement.pairs() {
+            if let (Some(i), Some(j)) = (place(&places, *a), place(&places, *b)) {
                 matrix[(i, j)] = own * weight;
                 matrix[(j, i)] = own * weight;
             }
@@ -216,29 +247,27 @@ fn matrix(members: &[usize], statements: &[&Statement], r: &[f64]) -> DMatrix<f6
     matrix
 }
 
-/// Half a unit of the last digit of each coefficient, as it falls on the components.
-fn halves(members: &[usize], statements: &[&Statement]) -> DMatrix<f64> {
-    let mut halves = DMatrix::zeros(members.len(), members.len());
-    for statement in statements {
-        for (a, b, share) in &statement.pairs {
-            let (Ok(i), Ok(j)) = (members.binary_search(a), members.binary_search(b)) else {
-                continue;
-            };
-            let half = (statement.half * statement.scale * share).abs();
-            halves[(i, j)] = half;
-            halves[(j, i)] = half;
-        }
+/// Where each component stands among the members.
+fn places(members: &[usize]) -> Vec<Option<usize>> {
+    let mut places = vec![None; members.last().map_or(0, |last| last + 1)];
+    for (place, member) in members.iter().enumerate() {
+        places[*member] = Some(place);
     }
-    // The diagonal is one but for the last bits.
-    halves.map(|half| half + 1e-9)
+    places
+}
+
+fn place(places: &[Option<usize>], component: usize) -> Option<usize> {
+    places.get(component).copied().flatten()
 }
 
 /// The smallest eigenvalue of a correlation matrix, if it is negative beyond rounding.
 pub(super) fn negative_eigenvalue(matrix: &DMatrix<f64>) -> Option<f64> {
-    let n = matrix.nrows();
-    // A factor of R + ROUNDING·1 is found in a fraction of the time that eigenvalues take.
-    let raised = matrix + DMatrix::identity(n, n) * ROUNDING;
-    if raised.cholesky().is_some() {
+    // Whether R + ROUNDING·1 has a factor is found in a fraction of the time that eigenvalues take.
+    let mut raised = matrix.clone();
+    for i in 0..matrix.nrows() {
+        raised[(i, i)] += ROUNDING;
+    }
+    if is_definite(raised) {
         return None;
     }
     Some(smallest_eigenvalue(matrix)).filter(|smallest| *smallest < -ROUNDING)

@@ -14,7 +14,7 @@ use crate::budget::variants::ReadingsOf;
 use crate::budget::{Follows, Owner};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
-use gumption_format::toml::Stated;
+use gumption_format::toml::{Slot, Stated};
 
 /// A reason for doubt of one input.
 pub(super) enum Piece {
@@ -94,7 +94,7 @@ impl Checker<'_> {
     pub(super) fn ways<'f>(
         &mut self,
         name: &str,
-        list: &'f Option<Stated<Vec<Stated<ComponentTable>>>>,
+        list: &'f Slot<Vec<Stated<ComponentTable>>>,
         direct: &'f ComponentTable,
         place: &Range<usize>,
         unit: &Unit,
@@ -371,7 +371,7 @@ impl Checker<'_> {
         name: &str,
         draft: &Draft,
         value: Option<f64>,
-        stated: &Option<Stated<gumption_format::toml::Amount>>,
+        stated: &Slot<gumption_format::toml::Amount>,
     ) -> Option<f64> {
         let place = stated
             .as_ref()

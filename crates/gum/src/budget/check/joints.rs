@@ -16,9 +16,7 @@ use crate::budget::faults::{CORRELATION_TWICE, JOINT, MODIFIER, NOT_SEMIDEFINITE
 use crate::budget::tables::{FileTable, JointTable};
 use crate::budget::{Evaluation, Group, Owner, TScale};
 use gumption_fault::{Fault, Said, say};
-use gumption_format::toml::Stated;
-
-pub(super) type Matrix = Stated<Vec<Stated<Vec<Stated<f64>>>>>;
+use gumption_format::toml::{Matrix, Stated};
 
 impl Checker<'_> {
     /// Notes the inputs whose uncertainty a joint statement states, before they are read.
@@ -151,52 +149,53 @@ impl Checker<'_> {
     }
 
     /// A square symmetric matrix with one row for each input.
-    fn matrix(&mut self, stated: &Matrix, size: usize) -> Option<DMatrix<f64>> {
+    fn matrix(&mut self, stated: &Stated<Matrix>, size: usize) -> Option<DMatrix<f64>> {
         self.symmetric(stated, size, say!("inputs"))
     }
 
     /// A square symmetric matrix with one row for each of so many `what`.
     pub(super) fn symmetric(
         &mut self,
-        stated: &Matrix,
+        stated: &Stated<Matrix>,
         size: usize,
         what: Said,
     ) -> Option<DMatrix<f64>> {
-        if let Some(row) = stated.value.iter().find(|row| row.value.len() != size) {
+        let rows = stated.value.rows();
+        if let Some(row) = rows.iter().find(|row| row.numbers.len() != size) {
             return self.refuse(
                 Fault::new(
                     JOINT,
                     row.span.clone(),
-                    say!("a row of {} numbers for {size} {what}", row.value.len()),
+                    say!("a row of {} numbers for {size} {what}", row.numbers.len()),
                 )
                 .label(say!("expected {size} numbers")),
             );
         }
-        if stated.value.len() != size {
+        if rows.len() != size {
             return self.refuse(
                 Fault::new(
                     JOINT,
                     stated.span.clone(),
-                    say!("{} rows for {size} {what}", stated.value.len()),
+                    say!("{} rows for {size} {what}", rows.len()),
                 )
                 .label(say!("expected {size} rows")),
             );
         }
-        let matrix = DMatrix::from_fn(size, size, |i, j| stated.value[i].value[j].value);
+        let numbers = rows.iter().flat_map(|row| &row.numbers);
+        let matrix = DMatrix::from_row_iterator(size, size, numbers.map(|number| number.value));
         for i in 0..size {
             for j in 0..i {
                 let (lower, upper) = (matrix[(i, j)], matrix[(j, i)]);
                 if (lower - upper).abs() > 1e-9 * lower.abs().max(upper.abs()) {
-                    let (lower_at, upper_at) =
-                        (&stated.value[i].value[j], &stated.value[j].value[i]);
+                    let (lower_at, upper_at) = (rows[i].numbers[j], rows[j].numbers[i]);
                     return self.refuse(
                         Fault::new(
                             JOINT,
-                            lower_at.span.clone(),
+                            lower_at.span(),
                             say!("the matrix is not symmetric: {lower} and {upper}"),
                         )
                         .label(say!("this element"))
-                        .related(upper_at.span.clone(), say!("and this one must be equal")),
+                        .related(upper_at.span(), say!("and this one must be equal")),
                     );
                 }
             }
@@ -205,11 +204,14 @@ impl Checker<'_> {
     }
 
     /// How far the digits of a covariance matrix leave each correlation coefficient open.
-    fn halves_of_covariance(&self, stated: &Matrix, matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    fn halves_of_covariance(&self, stated: &Stated<Matrix>, matrix: &DMatrix<f64>) -> DMatrix<f64> {
         let half = |i: usize, j: usize| {
-            let entry = stated.value.get(i).and_then(|row| row.value.get(j));
-            let entry = entry.filter(|entry| entry.value.fract() != 0.0);
-            entry.map_or(0.0, |entry| self.half_digit(entry))
+            let entry = stated
+                .value
+                .rows()
+                .get(i)
+                .and_then(|row| row.numbers.get(j));
+            entry.map_or(0.0, |entry| self.half_of(entry.value, entry.span()))
         };
         DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
             let (v, w) = (matrix[(i, i)], matrix[(j, j)]);
@@ -221,7 +223,7 @@ impl Checker<'_> {
     fn by_covariance(
         &mut self,
         stated: &Stated<JointTable>,
-        covariance: &Matrix,
+        covariance: &Stated<Matrix>,
         inputs: &[(usize, Stated<String>)],
         register: &mut Register,
     ) -> Option<Group> {
@@ -230,7 +232,7 @@ impl Checker<'_> {
             return self.refuse(
                 Fault::new(
                     JOINT,
-                    covariance.value[i].value[i].span.clone(),
+                    covariance.value.rows()[i].numbers[i].span(),
                     say!(
                         "the variance of {} is {}",
                         inputs[i].1.value,
@@ -303,7 +305,7 @@ impl Checker<'_> {
     /// Whether a matrix is that of the readings of the inputs, rounded: then these are joint readings.
     fn is_of_readings(
         &self,
-        correlation: &Matrix,
+        correlation: &Stated<Matrix>,
         inputs: &[(usize, Stated<String>)],
         register: &Register,
     ) -> bool {
@@ -334,7 +336,8 @@ impl Checker<'_> {
             let products = a.0.iter().zip(b.0).map(|(x, y)| (x - a.1) * (y - b.1));
             products.sum::<f64>() / (a.2 * b.2).sqrt()
         };
-        let stated = |i: usize, j: usize| correlation.value.get(i)?.value.get(j).map(|r| r.value);
+        let rows = correlation.value.rows();
+        let stated = |i: usize, j: usize| rows.get(i)?.numbers.get(j).map(|r| r.value);
         (0..series.len()).all(|i| {
             (0..i).all(|j| stated(i, j).is_some_and(|r| (r - coefficient(i, j)).abs() <= ROUNDED))
         })
@@ -343,7 +346,7 @@ impl Checker<'_> {
     fn by_correlation(
         &mut self,
         stated: &Stated<JointTable>,
-        correlation: &Matrix,
+        correlation: &Stated<Matrix>,
         inputs: &[(usize, Stated<String>)],
         register: &Register,
         statements: &mut Vec<Statement>,
@@ -358,12 +361,14 @@ impl Checker<'_> {
         let Some(matrix) = self.matrix(correlation, inputs.len()) else {
             return;
         };
+        let rows = correlation.value.rows();
+        let coefficient = |i: usize, j: usize| rows[i].numbers[j];
         for i in 0..inputs.len() {
             if (matrix[(i, i)] - 1.0).abs() > 1e-9 {
                 self.report(
                     Fault::new(
                         JOINT,
-                        correlation.value[i].value[i].span.clone(),
+                        coefficient(i, i).span(),
                         say!(
                             "the correlation of {} with itself is {}",
                             inputs[i].1.value,
@@ -376,7 +381,6 @@ impl Checker<'_> {
                 return;
             }
         }
-        let coefficient = |i: usize, j: usize| &correlation.value[i].value[j];
         let correlated =
             |i: usize| (0..inputs.len()).any(|j| j != i && coefficient(i, j).value != 0.0);
         let sides: Vec<Option<Side>> = inputs
@@ -388,10 +392,10 @@ impl Checker<'_> {
             for (j, first) in sides[..i].iter().enumerate() {
                 let r = coefficient(i, j);
                 if r.value != 0.0
-                    && self.is_coefficient(r)
+                    && self.is_coefficient(&r.stated())
                     && let (Some(first), Some(second)) = (first, second)
                 {
-                    statements.extend(self.pair(first, second, r, register));
+                    statements.extend(self.pair(first, second, &r.stated(), register));
                 }
             }
         }

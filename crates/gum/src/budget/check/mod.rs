@@ -55,7 +55,7 @@ use checker::{Checker, Source};
 use entries::{entries, shared};
 use gumption_core::quantity::UnitTable;
 use gumption_fault::Fault;
-use gumption_format::toml::Stated;
+use gumption_format::toml::Slot;
 pub(super) use plain::Plain;
 
 /// One evaluation: the file itself, or with the values of a row of its series in place.
@@ -64,6 +64,8 @@ pub(super) struct Variant {
     /// Whether its series says that rows repeat one another.
     pub repetitions: bool,
     pub file: FileTable,
+    /// What was found wrong while its tables were read.
+    pub faults: Vec<Fault>,
 }
 
 /// The budgets of a file: one, or one for each row of its series.
@@ -71,21 +73,20 @@ pub(super) struct Variant {
 /// # Errors
 /// All faults, in no particular order.
 pub(super) fn rows(
-    variants: Vec<Variant>,
+    variants: impl ExactSizeIterator<Item = Variant>,
     text: &str,
     origin: Origin<'_>,
 ) -> Result<(Heading, Vec<Row>), Vec<Fault>> {
-    let mut faults = Vec::new();
-    let heading = variants
-        .first()
-        .map(|variant| Heading {
+    let (mut of_reading, mut faults) = (Vec::new(), Vec::new());
+    let mut first = None;
+    let several = variants.len() > 1;
+    let mut rows = Vec::with_capacity(variants.len());
+    for (index, mut variant) in variants.enumerate() {
+        of_reading.append(&mut variant.faults);
+        let heading: &Heading = first.get_or_insert_with(|| Heading {
             repetitions: variant.repetitions,
             ..heading(&variant.file)
-        })
-        .unwrap_or_default();
-    let several = variants.len() > 1;
-    let mut rows = Vec::new();
-    for (index, mut variant) in variants.into_iter().enumerate() {
+        });
         let found = dcc::fill(&mut variant.file, origin.files, origin.directory);
         if !found.faults.is_empty() {
             faults.extend(found.faults);
@@ -97,7 +98,7 @@ pub(super) fn rows(
             &variant.file,
             text,
             origin,
-            &heading,
+            heading,
             row.as_deref(),
             found.remarks,
         ) {
@@ -109,11 +110,12 @@ pub(super) fn rows(
             Err(found) => faults.extend(found),
         }
     }
-    if faults.is_empty() {
+    of_reading.append(&mut faults);
+    if of_reading.is_empty() {
         share_sources(&mut rows, origin.file);
-        Ok((heading, rows))
+        Ok((first.unwrap_or_default(), rows))
     } else {
-        Err(faults)
+        Err(of_reading)
     }
 }
 
@@ -143,7 +145,7 @@ fn share_sources(rows: &mut [Row], file: &Path) {
 }
 
 fn heading(file: &FileTable) -> Heading {
-    let text = |stated: &Option<Stated<String>>| stated.as_ref().map(|stated| stated.value.clone());
+    let text = |stated: &Slot<String>| stated.as_ref().map(|stated| stated.value.clone());
     Heading {
         title: text(&file.title).unwrap_or_default(),
         method: text(&file.method),

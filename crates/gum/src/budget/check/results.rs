@@ -258,7 +258,7 @@ impl Checker<'_> {
             .as_ref()
             .map(|row| row.map(|row| row.0.clone()));
         let row = self.one(file, from, "row", What::Row, row.as_ref(), &rows)?;
-        let measurand = from.value.measurand.as_ref();
+        let measurand = from.value.measurand.as_deref();
         let measurand = self.one(
             file,
             from,

@@ -212,11 +212,11 @@ impl Checker<'_> {
             Some(sensitivity) => match &sensitivity.value.unit {
                 None => return Some(whole * sensitivity.value.number),
                 Some((text, span)) => {
-                    let text = Stated {
+                    let text = Box::new(Stated {
                         value: text.clone(),
                         span: span.clone(),
                         key: span.clone(),
-                    };
+                    });
                     (
                         sensitivity.value.number,
                         self.unit(&Some(text))?.product(source),

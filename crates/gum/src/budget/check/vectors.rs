@@ -12,7 +12,7 @@ use crate::budget::variants::{Amounts, Numbers};
 use gumption_core::quantity::Unit;
 use gumption_core::statistics::Series;
 use gumption_fault::{Fault, say};
-use gumption_format::toml::Stated;
+use gumption_format::toml::{Slot, Stated};
 
 /// Elements of a vector. More of them would keep the Monte Carlo method busy for hours.
 const MOST_ELEMENTS: usize = 10_000;
@@ -311,7 +311,7 @@ impl Checker<'_> {
         table: &ComponentTable,
         length: usize,
     ) -> Option<()> {
-        let amounts = |stated: &Option<Stated<Amounts>>| match stated {
+        let amounts = |stated: &Slot<Amounts>| match stated.as_deref() {
             Some(Stated {
                 value: Amounts::Each(list),
                 span,
@@ -319,7 +319,7 @@ impl Checker<'_> {
             }) => Some((list.len(), span.clone())),
             _ => None,
         };
-        let readings = match &table.readings {
+        let readings = match table.readings.as_deref() {
             Some(Stated {
                 value: Numbers::Lists(lists),
                 span,
@@ -357,7 +357,7 @@ impl Checker<'_> {
         let certificate = table
             .certificate
             .as_ref()
-            .and_then(|certificate| certificate.value.U.as_ref());
+            .and_then(|certificate| certificate.value.U.as_deref());
         let stated_amount = table.u.as_ref().or(table.half_width.as_ref());
         let first = stated_amount.and_then(|amounts| Amounts::of_element(amounts, 0));
         let of_dimension_one = first
@@ -391,30 +391,30 @@ fn one_estimate(name: &str, entry: &Entry<'_>) -> Fault {
 
 /// The component as it stands for one element, if it lists an amount for each.
 pub(super) fn of_element(table: &ComponentTable, element: usize) -> Option<ComponentTable> {
-    let one = |stated: &Option<Stated<Amounts>>| {
+    let one = |stated: &Slot<Amounts>| {
         let amount = Amounts::of_element(stated.as_ref()?, element)?;
-        Some(amount.map(|amount| Amounts::One(amount.clone())))
+        Some(Box::new(amount.map(|amount| Amounts::One(amount.clone()))))
     };
-    let listed = |stated: &Option<Stated<Amounts>>| {
+    let listed = |stated: &Slot<Amounts>| {
         matches!(
-            stated,
+            stated.as_deref(),
             Some(Stated {
                 value: Amounts::Each(_),
                 ..
             })
         )
     };
-    let readings = |stated: &Option<Stated<Numbers>>| match stated {
+    let readings = |stated: &Slot<Numbers>| match stated.as_deref() {
         Some(Stated {
             value: Numbers::Lists(lists),
             ..
         }) => lists
             .get(element)
-            .map(|list| list.map(|list| Numbers::List(list.clone()))),
-        other => other.clone(),
+            .map(|list| Box::new(list.map(|list| Numbers::List(list.clone())))),
+        _ => stated.clone(),
     };
     let by_readings = matches!(
-        table.readings,
+        table.readings.as_deref(),
         Some(Stated {
             value: Numbers::Lists(_),
             ..

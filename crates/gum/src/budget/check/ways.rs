@@ -10,6 +10,7 @@ use crate::budget::tables::{CertificateTable, ComponentTable};
 use crate::budget::{Certificate, Evaluation, Follows};
 use gumption_core::distribution::Distribution as Shape;
 use gumption_fault::{Fault, Said, say};
+use gumption_format::toml::{Date, Slot};
 
 /// Declares the ways in which a component can state its uncertainty: the key that states it, what the component is called
 /// in the budget table where the file gives it no name, whether the way determines the estimate by itself, and which other
@@ -387,12 +388,8 @@ impl Checker<'_> {
     }
 
     fn certificate(&mut self, table: &CertificateTable, context: &Context<'_>) -> Certificate {
-        let date = |date: &Option<gumption_format::toml::Stated<gumption_format::toml::Date>>| {
-            date.as_ref().map(|date| date.value.0.clone())
-        };
-        let text = |text: &Option<gumption_format::toml::Stated<String>>| {
-            text.as_ref().map(|text| text.value.clone())
-        };
+        let date = |date: &Slot<Date>| date.as_ref().map(|date| date.value.0.clone());
+        let text = |text: &Slot<String>| text.as_ref().map(|text| text.value.clone());
         let certificate = Certificate {
             number: text(&table.number),
             laboratory: text(&table.laboratory),

@@ -21,7 +21,7 @@ pub(super) fn choose(
     file: &Stated<String>,
     table: &CertificateTable,
 ) -> Result<Chosen, Box<Fault>> {
-    let quantity = quantity(certificate, file, table.result.as_ref())?;
+    let quantity = quantity(certificate, file, table.result.as_deref())?;
     let at = point(quantity, file, table)?;
     Ok(Chosen {
         value: quantity.values[at].clone(),

@@ -86,11 +86,13 @@ impl Filling<'_> {
                 .as_ref()
                 .is_none_or(|stated| stated.value.unit.is_none())
         {
-            input.unit = Some(file.map(|_| value.unit.symbol.clone()));
+            input.unit = Some(Box::new(file.map(|_| value.unit.symbol.clone())));
             input.present.push(("unit", file.key.clone()));
         }
         if input.value.is_none() && input.values.is_none() {
-            input.value = Some(file.map(|_| amount(value.value, &value.unit, &file)));
+            input.value = Some(Box::new(
+                file.map(|_| amount(value.value, &value.unit, &file)),
+            ));
             input.present.push(("value", file.key.clone()));
         }
     }
@@ -129,23 +131,25 @@ impl Filling<'_> {
             return None;
         };
         let difference = chosen.value.unit.difference();
-        table.U = Some(file.map(|_| amount(uncertainty.expanded, &difference, &file)));
+        table.U = Some(Box::new(
+            file.map(|_| amount(uncertainty.expanded, &difference, &file)),
+        ));
         table.present.push(("U", file.key.clone()));
         // k is what leads back to u; p without it, with ν where the certificate has it.
         match (uncertainty.k, uncertainty.p) {
             (Some(k), _) if table.k.is_none() && table.p.is_none() => {
-                table.k = Some(file.map(|_| k));
+                table.k = Some(Box::new(file.map(|_| k)));
             }
             (None, Some(p)) if table.k.is_none() && table.p.is_none() => {
-                table.p = Some(file.map(|_| p));
+                table.p = Some(Box::new(file.map(|_| p)));
             }
             _ => {}
         }
         if let (None, Some(freedom)) = (&table.dof, chosen.freedom) {
-            table.dof = Some(file.map(|_| Dof(freedom)));
+            table.dof = Some(Box::new(file.map(|_| Dof(freedom))));
         }
         self.identity(owner, table, &file, &certificate);
-        Some((file, chosen))
+        Some((*file, chosen))
     }
 
     /// Number, laboratory, date and end of use; what the budget states otherwise is remarked on, as the file may have been exchanged.
@@ -172,7 +176,7 @@ impl Filling<'_> {
                     en: format!("The certificate of {owner} in {name} has the {key} {found}, where the budget states {stated}: it was exchanged, or is another one."),
                     zh: format!("{owner} 的证书文件 {name} 中{zh}为 {found}，与评定文件所写的 {stated} 不一致：证书已更换，或不是同一份证书。"),
                 }),
-                (None, Some(found)) => *stated = Some(file.map(|_| found.clone())),
+                (None, Some(found)) => *stated = Some(Box::new(file.map(|_| found.clone()))),
                 _ => {}
             }
         }
@@ -186,12 +190,12 @@ impl Filling<'_> {
                     zh: format!("{owner} 的证书文件 {name} 的日期为 {found}，与评定文件所写的 {stated} 不一致：证书已更换，或不是同一份证书。"),
                 });
             }
-            (None, Some(found)) => table.date = Some(file.map(|_| Date(found.clone()))),
+            (None, Some(found)) => table.date = Some(Box::new(file.map(|_| Date(found.clone())))),
             _ => {}
         }
         // Whether that day is past is looked at where the other certificates are.
         if let (None, Some(until)) = (&table.due, &certificate.validity.until) {
-            table.due = Some(file.map(|_| Date(until.to_string())));
+            table.due = Some(Box::new(file.map(|_| Date(until.to_string()))));
         }
         for statement in &certificate.validity.refused {
             self.found.remarks.push(Remark {

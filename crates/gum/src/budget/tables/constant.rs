@@ -48,8 +48,8 @@ impl FromToml for ConstantEntry {
             key: value.span(),
         });
         Some(ConstantEntry(ConstantTable {
-            value,
-            unit,
+            value: value.map(Box::new),
+            unit: unit.map(Box::new),
             ..ConstantTable::default()
         }))
     }

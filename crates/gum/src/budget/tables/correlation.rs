@@ -1,8 +1,7 @@
 //! What inputs have to do with one another.
 
 use super::list::List;
-use gumption_format::toml::Dof;
-use gumption_format::toml::table;
+use gumption_format::toml::{Dof, Matrix, table};
 
 table! {
     /// Correlation of two quantities.
@@ -22,9 +21,9 @@ table! {
         /// The inputs. Without a matrix, their readings were taken simultaneously.
         inputs: List<String>,
         /// Covariance matrix in the units of the inputs, row by row.
-        covariance: List<List<f64>>,
+        covariance: Matrix,
         /// Correlation matrix, row by row; the inputs state their own uncertainties.
-        correlation: List<List<f64>>,
+        correlation: Matrix,
         /// Degrees of freedom of the covariance matrix.
         dof: Dof,
         /// Where the matrix comes from.

@@ -6,7 +6,9 @@ use super::component::ComponentTable;
 use super::list::List;
 use crate::budget::variants::Numbers;
 use gumption_format::toml::faults::WRONG_TYPE;
-use gumption_format::toml::{Amount, FromToml, KeyRow, Named, Raw, Reader, Stated, table, words};
+use gumption_format::toml::{
+    Amount, FromToml, KeyRow, Matrix, Named, Raw, Reader, Stated, table, words,
+};
 use serde_json::{Value, json};
 use toml::de::DeValue;
 
@@ -48,7 +50,7 @@ table! {
         /// What it is.
         description: String,
         /// Covariance matrix of the values in the square of their unit, row by row.
-        covariance: List<List<f64>>,
+        covariance: Matrix,
         /// Weights of the values, 1/u², as a list or from a CSV file.
         weights: Numbers,
         /// Several reasons to doubt the values; those with `common = true` and shared causes act on all points together.

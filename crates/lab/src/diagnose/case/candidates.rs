@@ -80,7 +80,7 @@ fn per_unit(
 ) -> Option<Stated<String>> {
     let table = &stated.value;
     match (&table.formula, &table.term) {
-        (Some(formula), None) => Some(formula.clone()),
+        (Some(formula), None) => Some((**formula).clone()),
         (None, Some(term)) => Some(term.map(|term| with_size_one(term, name))),
         (one, _) => {
             if !table.refused {

@@ -10,7 +10,7 @@ use crate::experiment::tables::ColumnTable;
 use crate::recording::{Labels, Recording};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
-use gumption_format::toml::{Amount, Stated};
+use gumption_format::toml::{Amount, Slot, Stated};
 
 impl Checker<'_> {
     /// The columns without the rows that lack a value, how many rows are left, and how many are not.
@@ -50,7 +50,7 @@ impl Checker<'_> {
             } else {
                 Data::Absent
             };
-            let mut amount = |of: fn(&ColumnTable) -> &Option<Stated<Amount>>| {
+            let mut amount = |of: fn(&ColumnTable) -> &Slot<Amount>| {
                 let stated = of(w.table?).as_ref()?;
                 self.spread(stated, &unit)
             };

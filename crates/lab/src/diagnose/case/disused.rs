@@ -2,7 +2,7 @@
 
 use crate::experiment::source::Source;
 use crate::experiment::tables::{ExperimentTable, RecordingTable};
-use gumption_format::toml::Stated;
+use gumption_format::toml::Slot;
 use gumption_gum::budget::Remark;
 
 /// Remarks on keys of the file itself that only calibrations use.
@@ -28,6 +28,6 @@ pub(super) fn remarks(source: &Source, file: &ExperimentTable) -> Vec<Remark> {
         .collect()
 }
 
-fn place<T>(stated: &Option<Stated<T>>) -> Option<std::ops::Range<usize>> {
+fn place<T>(stated: &Slot<T>) -> Option<std::ops::Range<usize>> {
     stated.as_ref().map(|stated| stated.span.clone())
 }

@@ -8,7 +8,7 @@ pub(super) type Models = Stated<OneOrMany<String>>;
 
 /// The equations, each behind the statements that all of them see.
 pub(super) fn models(file: &ExperimentTable) -> Option<Models> {
-    let mut models = file.equations.clone()?;
+    let mut models = *file.equations.clone()?;
     if let Some(shared) = &file.model {
         for model in &mut models.value.0 {
             model.value = format!("{}\n{}", shared.value.trim_end(), model.value);

@@ -16,7 +16,7 @@ impl Checker<'_> {
             .as_ref()
             .map(|stated| stated.value.0.clone())
             .unwrap_or_default();
-        let settle = self.settle(table.settle.as_ref(), columns);
+        let settle = self.settle(table.settle.as_deref(), columns);
         let blocks = match (&table.dwells, &table.average) {
             (Some(names), _) => {
                 let mut found = Vec::new();

@@ -37,6 +37,17 @@ pub struct Baseline {
     left: DVector<f64>,
 }
 
+/// How well parameters are known that are fitted with weights which the noise need not have.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spread {
+    /// Variances of the parameters.
+    pub variances: DVector<f64>,
+    /// Expectation of χ².
+    pub expected: f64,
+    /// Degrees of freedom of χ²: of a multiple of a χ² with its expectation and variance.
+    pub dof: f64,
+}
+
 /// A column of WJ whose length falls by this factor when the columns before it are projected out says
 /// nothing of its own.
 const DEPENDENT: f64 = 1e-9;
@@ -155,6 +166,42 @@ impl Baseline {
             gain.columns_range(self.rows..).into_owned(),
         );
         &rows * correlation * rows.transpose() + &known * known.transpose()
+    }
+
+    /// How well the parameters are known where the rows have another covariance matrix Σ than the one that weights them.
+    ///
+    /// With C = WΣWᵀ the parameters have the covariance matrix R⁻¹QᵀCQR⁻ᵀ, and χ² = zᵀz is a quadratic form of normal
+    /// errors with the expectation tr PC and the variance 2 tr PCPC; a multiple of a χ² with as much of both has
+    /// (tr PC)²/tr PCPC degrees of freedom (Satterthwaite 1941).
+    pub fn spread(&self, covariance: &Covariance) -> Spread {
+        let known = self.left.len() - self.rows;
+        let own = self.absorbed.rows(0, self.rows).into_owned();
+        let (colored, trace, square) = match (&self.whitener, covariance) {
+            (Factor::Diagonal(weights), Covariance::Diagonal(variances)) => {
+                let own_variances = weights.component_mul(weights).component_mul(variances);
+                let mut colored = own;
+                for mut column in colored.column_iter_mut() {
+                    column.component_mul_assign(&own_variances);
+                }
+                (colored, own_variances.sum(), own_variances.norm_squared())
+            }
+            _ => {
+                let half = self.whitener.times(&covariance.to_dense());
+                let whole = self.whitener.times(&half.transpose());
+                (&whole * own, whole.trace(), whole.norm_squared())
+            }
+        };
+        let colored = stacked(colored, &self.absorbed.rows(self.rows, known).into_owned());
+        let along = self.absorbed.tr_mul(&colored);
+        let expected = trace + known as f64 - along.trace();
+        let of_square = square + known as f64 - 2.0 * colored.norm_squared() + along.norm_squared();
+        let gain = &self.inverse * along;
+        let variance = |at: usize| gain.row(at).dot(&self.inverse.row(at));
+        Spread {
+            variances: DVector::from_fn(self.parameters(), |at, _| variance(at)),
+            expected,
+            dof: expected * expected / of_square,
+        }
     }
 
     /// PWH: what columns of output units leave in the space of z.
@@ -343,6 +390,70 @@ mod tests {
         assert!(baseline.correction()[1].abs() < 1e-9);
         assert!((baseline.chi_squared() - 2.0).abs() < 1e-6);
         assert_eq!(baseline.dof(), 2);
+    }
+
+    /// Correlation φ^|i−j| of n rows.
+    fn remembering(n: usize, phi: f64) -> DMatrix<f64> {
+        DMatrix::from_fn(n, n, |i, j| libm::pow(phi, i.abs_diff(j) as f64))
+    }
+
+    fn long_line(n: usize, residuals: &DVector<f64>) -> Baseline {
+        let jacobian = DMatrix::from_fn(n, 2, |i, j| libm::pow(i as f64 / n as f64, j as f64));
+        let noise = Noise::with_scale_dof(Covariance::Diagonal(DVector::from_element(n, 4.0)), 0.0);
+        Baseline::new(&jacobian, residuals, &noise, &Prior::none(2)).unwrap()
+    }
+
+    #[test]
+    fn the_spread_with_the_weights_own_noise_is_the_usual_one() {
+        let baseline = long_line(20, &DVector::zeros(20));
+        let own = baseline.spread(&Covariance::Diagonal(DVector::from_element(20, 4.0)));
+        assert!((own.variances - baseline.covariance().diagonal()).norm() < 1e-12);
+        assert!((own.expected - 18.0).abs() < 1e-12 && (own.dof - 18.0).abs() < 1e-12);
+    }
+
+    /// Traces of PC and PCPC with the matrices written out, and the variances of (JᵀJ)⁻¹Jᵀr.
+    #[test]
+    fn the_spread_with_other_noise_is_that_of_the_matrices() {
+        let (n, matrix) = (12, remembering(12, 0.7));
+        let spread = long_line(n, &DVector::zeros(n)).spread(&Covariance::Dense(&matrix * 4.0));
+        let jacobian = DMatrix::from_fn(n, 2, |i, j| libm::pow(i as f64 / n as f64, j as f64));
+        let solve = (jacobian.tr_mul(&jacobian)).try_inverse().unwrap() * jacobian.transpose();
+        let variances = (&solve * &matrix * solve.transpose()).diagonal() * 4.0;
+        assert!((spread.variances - &variances).norm() < 1e-9 * variances.norm());
+        let left = (DMatrix::identity(n, n) - &jacobian * solve) * &matrix;
+        let (once, twice) = (left.trace(), (&left * &left).trace());
+        assert!((spread.expected - once).abs() < 1e-9);
+        assert!((spread.dof - once * once / twice).abs() < 1e-9);
+    }
+
+    /// Intervals of a slope under noise that remembers and whose size the residuals tell: as many hold it as they should;
+    /// by the usual formula for independent rows far too few do.
+    #[test]
+    fn intervals_under_correlated_noise_hold_what_they_should() {
+        use gumption_core::special::{normal_quantile, student_t_two_sided_quantile};
+        use gumption_lanes::{Block, Generator, level};
+        let (n, draws) = (40, 2000);
+        let matrix = remembering(n, 0.8);
+        let lower = matrix.clone().cholesky().unwrap().unpack();
+        let mut held = [0, 0];
+        for draw in 0..draws {
+            let (mut generator, mut block) = (Generator::new(7, draw, 0), Block::ZERO);
+            generator.uniforms(level(), &mut block);
+            let noise = DVector::from_fn(n, |i, _| normal_quantile(block.0[i]));
+            let baseline = long_line(n, &(&lower * noise * 2.0));
+            let slope = baseline.correction()[1].abs();
+            let chi_squared = baseline.chi_squared();
+            let own = baseline.spread(&Covariance::Dense(&matrix * 4.0));
+            let white = baseline.spread(&Covariance::Diagonal(DVector::from_element(n, 4.0)));
+            for (held, spread) in held.iter_mut().zip([own, white]) {
+                let u = (spread.variances[1] * chi_squared / spread.expected).sqrt();
+                let k = student_t_two_sided_quantile(0.95, spread.dof);
+                *held += u32::from(slope <= k * u);
+            }
+        }
+        let [own, white] = held.map(|held| f64::from(held) / draws as f64);
+        assert!((0.93..0.98).contains(&own), "{own}");
+        assert!(white < 0.65, "{white}");
     }
 
     #[test]

@@ -19,7 +19,6 @@ use super::space::{Frame, Space};
 pub(super) struct Outcome {
     /// Index of the strongest block.
     pub(super) strongest: Option<usize>,
-    pub(super) statistic: f64,
     pub(super) p: f64,
     pub(super) draws: usize,
 }
@@ -46,7 +45,6 @@ pub(super) fn test(
     let Some(strongest) = panel.observed(space, allowance) else {
         return Outcome {
             strongest: None,
-            statistic: 0.0,
             p: 1.0,
             draws: 0,
         };
@@ -73,7 +71,6 @@ pub(super) fn test(
     }
     Outcome {
         strongest: Some(strongest.block),
-        statistic: strongest.statistic,
         p,
         draws: draws.len(),
     }

@@ -20,11 +20,9 @@ pub enum Verdict {
     Like,
     /// Every effect has a name or a list of names that the recording cannot tell apart.
     Ambiguous,
-    /// Some effects are named, and something without a name is left.
+    /// An effect is named, and something without a name is left.
     Partly,
-    /// Named effects, or else an effect without a name or outside the catalogue: both explain the recording.
-    Contested,
-    /// Something is there that no candidate explains; the slots say where.
+    /// Something is there that no candidates explain; the slots say where, and what it resembles.
     Unexplained,
 }
 
@@ -39,25 +37,10 @@ pub struct Examination {
     pub slots: Vec<Slot>,
     /// The model with the most probable named effects in it; `None` if there are none.
     pub fitted: Option<Fitted>,
-    /// Share of the excess χ² that the named effects explain, 0 … 1.
-    pub explained: f64,
     /// Posterior probability that an effect without a name is there.
     pub generic_probability: f64,
-    /// By how much the named effects are better than an unlisted effect that resembles the catalogue, as
-    /// the logarithm of a Bayes factor; ∞ if nothing is named.
-    pub margin: f64,
-    /// Probability that as much is left beside the named effects as there is, in the directions that the
-    /// catalogue cares for or at all, if they are all there is.
-    pub leftover: f64,
     /// Logarithm of the evidence of the most probable explanation, with or without names, against none.
     pub score: f64,
-    /// χ² before any effect is added.
-    pub chi_squared: f64,
-    /// Its degrees of freedom.
-    pub dof: usize,
-    /// Atoms that this recording cannot show, because the parameters absorb them or because the
-    /// conditions do not excite them.
-    pub invisible: Vec<Invisible>,
 }
 
 /// The test whether an effect is left beside some that are adopted.
@@ -67,8 +50,6 @@ pub struct Level {
     pub adopted: Vec<usize>,
     /// The atom that explains most of what is left.
     pub strongest: usize,
-    /// Its logarithmic evidence against none, with its prior odds.
-    pub statistic: f64,
     /// Probability of as much among all atoms if nothing is left.
     pub p: f64,
     /// Simulated recordings behind `p`.
@@ -196,17 +177,6 @@ pub struct Rival {
     pub resolved: f64,
 }
 
-/// How often simulated recordings with one explanation are given the name of another.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Confusion {
-    /// Slot in [`Examination::slots`].
-    pub slot: usize,
-    /// Candidate with which recordings were simulated.
-    pub truth: usize,
-    /// Candidate that was most probable in them, and the share of the recordings.
-    pub named: Vec<(usize, f64)>,
-}
-
 /// The model with named effects in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fitted {
@@ -214,28 +184,6 @@ pub struct Fitted {
     pub atoms: Vec<usize>,
     /// Coefficients of all atoms one after another; NaN for those that are not determined.
     pub coefficients: DVector<f64>,
-    /// Their covariance matrix.
-    pub covariance: DMatrix<f64>,
     /// χ² with the effects.
     pub chi_squared: f64,
-    /// Its degrees of freedom.
-    pub dof: usize,
-    /// Change of the declared parameters when the effects are adopted, beside
-    /// [`Baseline::correction`](super::Baseline::correction).
-    pub parameters: DVector<f64>,
-    /// Covariance matrix of the declared parameters with the effects adopted.
-    pub parameter_covariance: DMatrix<f64>,
-    /// How often these names are confused with others, by simulation.
-    pub confusions: Vec<Confusion>,
-}
-
-/// An atom that this recording cannot show.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Invisible {
-    /// Index of the atom.
-    pub atom: usize,
-    /// It has no effect on any row, so that it does no harm either.
-    pub idle: bool,
-    /// Change of the parameters per unit of each coefficient when it is adopted, p × d.
-    pub gain: DMatrix<f64>,
 }

@@ -104,50 +104,26 @@ pub(super) fn resolved(kappa: f64) -> f64 {
 pub(super) fn fitted(space: &Space, question: &Question, set: &Frame) -> Fitted {
     let atoms: Vec<usize> = set.blocks.iter().map(|b| space.blocks[*b].atom).collect();
     let columns = side_by_side(set.blocks.iter().map(|b| space.blocks[*b].determined()));
-    let gain = side_by_side(set.blocks.iter().map(|b| {
-        let block = &space.blocks[*b];
-        match &question.atoms[block.atom].shape {
-            Shape::Columns(h) => question.baseline.gain(&h.select_columns(&block.kept)),
-            Shape::Smooth { .. } | Shape::Scatter => {
-                DMatrix::zeros(question.baseline.parameters(), 0)
-            }
+    let (found, _) = least_squares(&columns, &space.z);
+    let mut found = found.iter();
+    let mut coefficients = Vec::new();
+    for block in set.blocks.iter().map(|b| &space.blocks[*b]) {
+        let mut own = vec![f64::NAN; width(question, block.atom)];
+        for (at, size) in block.kept.iter().zip(&mut found) {
+            own[*at] = *size;
         }
-    }));
-    let (found, spread) = least_squares(&columns, &space.z);
-    let (sigma, _) = noise(space, set);
-    let spread = spread * (sigma * sigma);
-    let total: usize = atoms.iter().map(|atom| width(question, *atom)).sum();
-    let mut coefficients = DVector::from_element(total, f64::NAN);
-    let mut covariance = DMatrix::from_element(total, total, f64::NAN);
-    let mut places = Vec::new();
-    let mut start = 0;
-    for block in &set.blocks {
-        let block = &space.blocks[*block];
-        places.extend(block.kept.iter().map(|k| start + k));
-        start += width(question, block.atom);
-    }
-    for (i, a) in places.iter().enumerate() {
-        coefficients[*a] = found[i];
-        for (j, b) in places.iter().enumerate() {
-            covariance[(*a, *b)] = spread[(i, j)];
-        }
+        coefficients.extend(own);
     }
     let residual = space.residual(set);
     Fitted {
         atoms,
-        coefficients,
-        covariance,
+        coefficients: DVector::from_vec(coefficients),
         chi_squared: residual.chi_squared,
-        dof: residual.dof,
-        parameters: &gain * &found,
-        parameter_covariance: question.baseline.covariance() * (sigma * sigma)
-            + &gain * &spread * gain.transpose(),
-        confusions: Vec::new(),
     }
 }
 
 /// Standard deviation of the noise in whitened units, with its degrees of freedom.
-fn noise(space: &Space, set: &Frame) -> (f64, f64) {
+pub(super) fn noise(space: &Space, set: &Frame) -> (f64, f64) {
     match space.scale.less(set.basis.ncols()) {
         Scale::Known => (1.0, f64::INFINITY),
         Scale::Estimated { total } => ((space.residual(set).rss / total).sqrt(), total),

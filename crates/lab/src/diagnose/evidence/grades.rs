@@ -37,7 +37,6 @@ pub(super) fn alike(
     let explanation = Explanation {
         named: core.clone(),
         generic: None,
-        contested: false,
     };
     let mut slots = slots(space, question, search, &explanation, again);
     for slot in &mut slots {
@@ -48,7 +47,7 @@ pub(super) fn alike(
             };
         }
     }
-    (slots.iter().any(|slot| !slot.named.is_empty())).then_some((core, slots))
+    (slots.iter().all(Slot::is_explained)).then_some((core, slots))
 }
 
 /// Whether anything stands out beside a set by more than a departure of its effects from their forms leaves.
@@ -71,6 +70,8 @@ pub enum Likeness {
     Weak,
     /// It may be what a stronger effect leaves by a departure from its form.
     Beside,
+    /// Something without a name is left, which may have a part of it.
+    Open,
     /// Its form is off, by less than makes it another.
     Form,
 }
@@ -81,6 +82,7 @@ pub fn likeness(slot: &Slot, slots: &[Slot]) -> Likeness {
     match own * LIKENESS >= SEEN {
         false => Likeness::Weak,
         true if own < LIKENESS * strongest(slots) => Likeness::Beside,
+        true if !slots.iter().all(Slot::is_explained) => Likeness::Open,
         true => Likeness::Form,
     }
 }
@@ -93,8 +95,8 @@ fn strongest(slots: &[Slot]) -> f64 {
     slots.iter().map(strength).fold(0.0, f64::max)
 }
 
-/// A name is more than a likeness where a departure from its shape would have been seen, and where it is not the like of what
-/// a stronger effect leaves.
+/// A name is more than a likeness where a departure from its shape would have been seen, where it is not the like of what
+/// a stronger effect leaves, and where nothing is left without a name.
 pub(super) fn graded(slots: &mut [Slot]) {
     let severe: Vec<bool> = (slots.iter())
         .map(|slot| likeness(slot, slots) == Likeness::Form)

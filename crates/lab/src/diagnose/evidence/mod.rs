@@ -50,7 +50,6 @@
 //! | `look_alikes` | effects that are the shape of another, aliases, mixtures |
 //! | `unlisted` | effects outside the catalogue that look like what is in it |
 //! | `unsteady` | whether noise that wanders does so as noise does |
-//! | `confusion` | how often names are confused, by simulation |
 //! | `locate` | where the mismatch sits |
 //! | `plan` | without data: what an experiment can see and tell apart |
 //! | `separate` | which extra measurement tells rivals apart |
@@ -64,7 +63,6 @@
 mod baseline;
 mod choice;
 mod closed_form;
-mod confusion;
 mod contest;
 mod departure;
 mod detection;
@@ -93,14 +91,11 @@ mod space;
 mod unlisted;
 mod unsteady;
 
-pub use baseline::{Baseline, Prior};
+pub use baseline::{Baseline, Prior, Spread};
 pub use contest::{Contest, Course, contest};
 pub use directions::{TRACE, determined, left, left_beside};
 pub use examine::examine;
-pub use findings::{
-    Alternative, Confusion, Examination, Fitted, Invisible, Level, Rival, Slot, State, Variant,
-    Verdict,
-};
+pub use findings::{Alternative, Examination, Fitted, Level, Rival, Slot, State, Variant, Verdict};
 pub use grades::{Likeness, likeness};
 pub use locate::{Cell, Located, locate};
 pub use noise::{Correlation, Covariance, Noise};

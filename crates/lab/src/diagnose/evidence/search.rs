@@ -82,7 +82,6 @@ pub(super) fn search(
         search.levels.push(Level {
             adopted: best.blocks.iter().map(|b| space.blocks[*b].atom).collect(),
             strongest: space.blocks[strongest].atom,
-            statistic: outcome.statistic,
             p: outcome.p,
             draws: outcome.draws,
         });

@@ -35,8 +35,6 @@ enum Member {
 pub(super) struct Explanation {
     pub(super) named: Vec<usize>,
     pub(super) generic: Option<usize>,
-    /// A smooth effect without a name competes with the named ones.
-    pub(super) contested: bool,
 }
 
 /// The slots of an explanation.

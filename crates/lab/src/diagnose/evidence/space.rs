@@ -76,7 +76,6 @@ pub(super) struct Block {
 pub(super) struct Space {
     pub(super) z: DVector<f64>,
     pub(super) blocks: Vec<Block>,
-    pub(super) invisible: Vec<usize>,
     pub(super) scale: Scale,
     /// Dimension of the space, m.
     pub(super) dof: usize,
@@ -108,7 +107,6 @@ impl Space {
         let mut space = Space {
             z: baseline.residuals().clone(),
             blocks: Vec::new(),
-            invisible: Vec::new(),
             scale: Scale::new(baseline.dof(), baseline.scale_dof()),
             dof: baseline.dof(),
             offset: if baseline.scale_dof().is_finite() {
@@ -130,10 +128,8 @@ impl Space {
             let own = start..start + atom.shape.width();
             start = own.end;
             let columns = seen.columns_range(own.clone()).into_owned();
-            match block(index, atom, odds.of(atom), columns, &lengths[own]) {
-                Some(block) => space.blocks.push(block),
-                None => space.invisible.push(index),
-            }
+            let block = block(index, atom, odds.of(atom), columns, &lengths[own]);
+            space.blocks.extend(block);
         }
         for block in &space.blocks {
             let last = space.starts[space.starts.len() - 1];

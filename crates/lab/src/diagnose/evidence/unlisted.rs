@@ -107,8 +107,6 @@ pub(super) struct Rivalry {
     /// By how much the set is better: logarithm of the odds, without prior odds of the competitor. Infinite
     /// where nothing competes.
     pub(super) margin: Option<f64>,
-    /// The part of the set that the competitor needs.
-    pub(super) kept: Vec<usize>,
 }
 
 impl Rivalry {
@@ -122,17 +120,10 @@ impl Rivalry {
             let part = (0..count).filter(|i| subset & (1 << i) != 0);
             let part: Vec<usize> = part.map(|i| named[i]).collect();
             let frame = space.frame(&part)?;
-            Some((
-                space.score(&frame) + beside(space, &frame, competitor)?,
-                part,
-            ))
+            Some(space.score(&frame) + beside(space, &frame, competitor)?)
         });
-        match rivals.max_by(|a, b| a.0.total_cmp(&b.0)) {
-            Some((score, kept)) => Rivalry {
-                margin: Some(own - score),
-                kept,
-            },
-            None => Rivalry::default(),
+        Rivalry {
+            margin: rivals.max_by(f64::total_cmp).map(|score| own - score),
         }
     }
 

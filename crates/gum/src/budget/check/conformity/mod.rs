@@ -15,7 +15,7 @@ use crate::budget::{Conformity, Interval};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Amount;
-use gumption_format::toml::Stated;
+use gumption_format::toml::{Slot, Stated};
 
 /// A name from the file and the unit in which amounts are understood.
 struct Subject<'a> {
@@ -111,7 +111,7 @@ impl Checker<'_> {
                 .help(say!("add `mpe`, the distance of both limits from it, or state `lower` and `upper` in its place")),
             );
         }
-        let mut limit = |amount: &Option<Stated<Amount>>, missing: f64| match amount {
+        let mut limit = |amount: &Slot<Amount>, missing: f64| match amount {
             Some(amount) => self.quantity(amount, subject.unit, subject.name),
             None => Some(missing),
         };
@@ -249,7 +249,7 @@ impl Checker<'_> {
     /// The measurand that a decision is about.
     pub(in crate::budget::check) fn decided(
         &mut self,
-        stated: &Option<Stated<String>>,
+        stated: &Slot<String>,
         place: &Range<usize>,
         file: &FileTable,
         table: &str,

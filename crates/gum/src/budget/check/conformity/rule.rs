@@ -10,7 +10,7 @@ use crate::budget::tables::{ConformityTable, RuleWord};
 use crate::budget::{DecisionRule, GlobalRisks, Guard, ISO_14253_PROBABILITY, Interval};
 use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Amount;
-use gumption_format::toml::Stated;
+use gumption_format::toml::{Slot, Stated};
 
 const BAND_AND_PROBABILITY: Said = say!("a guard band beside a probability");
 
@@ -195,8 +195,8 @@ impl Checker<'_> {
     /// A probability that decides, or the risk that is its complement: better than tossing a coin.
     fn right_decision(
         &mut self,
-        probability: &Option<Stated<f64>>,
-        risk: &Option<Stated<f64>>,
+        probability: &Slot<f64>,
+        risk: &Slot<f64>,
     ) -> Option<Option<Guard>> {
         let (stated, right, expected, such) = match (probability, risk) {
             (None, None) => return Some(None),
@@ -241,7 +241,7 @@ impl Checker<'_> {
 
     /// Permissible risks over all items, of which something must be known.
     fn permitted_risks(&mut self, table: &ConformityTable) -> Option<DecisionRule> {
-        let mut risk = |stated: &Option<Stated<f64>>| match stated {
+        let mut risk = |stated: &Slot<f64>| match stated {
             Some(stated) => self.probability(stated).map(Some),
             None => Some(None),
         };

@@ -33,7 +33,7 @@ use gumption_core::model::Model;
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Named;
-use gumption_format::toml::Stated;
+use gumption_format::toml::{Slot, Stated};
 
 use columns::ColumnErrors;
 use formula::{Parameter, Scope};
@@ -301,12 +301,7 @@ impl Checker<'_> {
         let Some(first) = entries(&file.fit).first().map(|(_, stated)| stated.clone()) else {
             return Cow::Borrowed(file);
         };
-        let at = |value| Stated {
-            value,
-            span: first.span.clone(),
-            key: first.key.clone(),
-        };
-        let described: HashMap<String, Stated<String>> = entries(&file.fit)
+        let described: HashMap<String, Box<Stated<String>>> = entries(&file.fit)
             .iter()
             .filter_map(|(_, fit)| fit.value.parameters.as_ref())
             .flat_map(|stated| &stated.value.0.entries)
@@ -317,26 +312,19 @@ impl Checker<'_> {
                 description: described.get(name).cloned(),
                 ..MeasurandTable::default()
             };
-            (name.clone(), at(table))
+            (name.clone(), first.map(|_| table))
         });
         let mut file = file.clone();
-        file.measurand = Some(Stated {
-            value: Named {
-                entries: measurands.collect(),
-                refused: false,
-            },
-            span: first.span.clone(),
-            key: first.key.clone(),
-        });
+        let measurands = Named {
+            entries: measurands.collect(),
+            refused: false,
+        };
+        file.measurand = Some(Box::new(first.map(|_| measurands)));
         Cow::Owned(file)
     }
 
     /// The unit of a measurand: as stated, or that of the parameter which it reports.
-    pub(super) fn measurand_unit(
-        &mut self,
-        name: &str,
-        stated: &Option<Stated<String>>,
-    ) -> Option<Unit> {
+    pub(super) fn measurand_unit(&mut self, name: &str, stated: &Slot<String>) -> Option<Unit> {
         match (stated, self.parameter_unit(name)) {
             (None, Some(unit)) => Some(unit.clone()),
             _ => self.unit(stated),

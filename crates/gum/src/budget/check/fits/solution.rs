@@ -13,7 +13,7 @@ use crate::budget::fit::{Fit, FitColumn, FitDoubt, FitParameter, LackOfFit, Lack
 use crate::budget::tables::{FitTable, ScaleWord};
 use gumption_core::least_squares::{self, Errors, Problem, Scale, Solution, Spread};
 use gumption_fault::{Fault, say};
-use gumption_format::toml::Stated;
+use gumption_format::toml::{Slot, Stated};
 
 /// Residuals of this share of the largest response are what the arithmetic leaves of none.
 const NOISE: f64 = 5e-16;
@@ -288,7 +288,7 @@ impl Solved {
             .map(|((column, u), common)| fit_column(column, u.clone(), common, register))
             .collect();
         let solution = self.solution;
-        let text = |stated: &Option<Stated<String>>| stated.as_ref().map(|text| text.value.clone());
+        let text = |stated: &Slot<String>| stated.as_ref().map(|text| text.value.clone());
         Fit {
             name: name.to_string(),
             description: text(&stated.value.description),

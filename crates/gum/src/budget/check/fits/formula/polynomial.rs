@@ -7,7 +7,7 @@ use crate::budget::tables::FitParameterTable;
 use gumption_core::least_squares::{Polynomial, Response};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
-use gumption_format::toml::Stated;
+use gumption_format::toml::{Slot, Stated};
 
 /// The highest degree of a polynomial.
 const HIGHEST: u64 = 30;
@@ -65,12 +65,7 @@ impl Checker<'_> {
     }
 
     /// The column that `response` or `predictor` names.
-    fn fit_side(
-        &mut self,
-        fit: &Scope<'_>,
-        key: &str,
-        side: &Option<Stated<String>>,
-    ) -> Option<usize> {
+    fn fit_side(&mut self, fit: &Scope<'_>, key: &str, side: &Slot<String>) -> Option<usize> {
         match side {
             Some(side) => fit.column(&side.value).or_else(|| {
                 let place = side.span.clone();

@@ -9,7 +9,7 @@ use crate::budget::faults::{FIT, MODIFIER};
 use gumption_core::model::faults::LEFT_SIDE;
 use gumption_core::model::{Outline, outline};
 use gumption_fault::{Fault, say};
-use gumption_format::toml::Stated;
+use gumption_format::toml::{Slot, Stated};
 
 /// A formula that was read, and whose left side is a column.
 pub(super) struct Written<'f> {
@@ -69,8 +69,7 @@ impl Checker<'_> {
     /// Refuses the keys that say what a formula says by itself.
     fn keys_of_polynomials(&mut self, fit: &Scope<'_>) {
         let table = &fit.stated.value;
-        let key =
-            |stated: &Option<Stated<String>>| stated.as_ref().map(|stated| stated.key.clone());
+        let key = |stated: &Slot<String>| stated.as_ref().map(|stated| stated.key.clone());
         let intercept = table.intercept.as_ref().map(|stated| stated.key.clone());
         for (name, place) in [
             ("response", key(&table.response)),

@@ -11,7 +11,7 @@ use nalgebra::DMatrix;
 
 /// Lᵀ with R = L Lᵀ and as many rows as the correlation matrix R has rank: Cholesky with diagonal
 /// pivoting, ended where no pivot exceeds `negligible`.
-pub(super) fn pivoted_cholesky(matrix: &DMatrix<f64>, negligible: f64) -> DMatrix<f64> {
+pub(crate) fn pivoted_cholesky(matrix: &DMatrix<f64>, negligible: f64) -> DMatrix<f64> {
     let n = matrix.nrows();
     let mut rest = Rest {
         places: (0..n).collect(),
@@ -34,6 +34,24 @@ pub(super) fn pivoted_cholesky(matrix: &DMatrix<f64>, negligible: f64) -> DMatri
         rest = rest.after(&block);
     }
     factor.resize_vertically(rank, 0.0)
+}
+
+/// Whether a symmetric matrix is positive definite as far as the arithmetic tells.
+pub(crate) fn is_definite(matrix: DMatrix<f64>) -> bool {
+    let n = matrix.nrows();
+    let mut rest = Rest {
+        places: (0..n).collect(),
+        matrix: matrix.data.into(),
+    };
+    let mut rank = 0;
+    loop {
+        let block = rest.eliminate(0.0);
+        rank += block.pivots.len();
+        if block.pivots.len() < DEPTH {
+            return rank == n;
+        }
+        rest = rest.after(&block);
+    }
 }
 
 /// What is left of a matrix of which some rows and columns have been eliminated.
@@ -100,20 +118,24 @@ impl Rest {
         Block { pivots, rows }
     }
 
-    /// What a block leaves.
-    fn after(&self, block: &Block) -> Rest {
-        let mut kept: Vec<usize> = (0..self.places.len()).collect();
+    /// What a block leaves, in the same memory.
+    fn after(self, block: &Block) -> Rest {
+        let Rest { places, mut matrix } = self;
+        let mut kept: Vec<usize> = (0..places.len()).collect();
         kept.retain(|place| !block.pivots.contains(place));
-        let mut matrix = vec![0.0; kept.len() * kept.len()];
-        for (a, line) in matrix.chunks_mut(kept.len().max(1)).enumerate() {
-            for (entry, j) in line.iter_mut().zip(&kept[..=a]) {
-                *entry = self.at(kept[a], *j);
+        let mut moved = 0;
+        for (a, i) in kept.iter().enumerate() {
+            // Every entry moves to the front, past none that is still to be moved.
+            for (b, j) in kept[..=a].iter().enumerate() {
+                matrix[moved + b] = matrix[i * places.len() + j];
             }
+            moved += kept.len();
         }
+        matrix.truncate(moved);
         let rows: Vec<Row> = kept.iter().map(|i| block.rows[*i]).collect();
         products::subtract(level(), &rows, &mut matrix);
         Rest {
-            places: kept.iter().map(|i| self.places[*i]).collect(),
+            places: kept.iter().map(|i| places[*i]).collect(),
             matrix,
         }
     }
@@ -153,6 +175,17 @@ mod tests {
                 "{n} {rank}"
             );
         }
+    }
+
+    #[test]
+    fn matrices_of_many_blocks_are_definite_or_not() {
+        for n in [4, 64, 65, 150, 200] {
+            let shifted = |by: f64| correlation(n, 3) + DMatrix::identity(n, n) * by;
+            assert!(is_definite(shifted(0.1)), "{n}");
+            assert!(!is_definite(shifted(-0.1)), "{n}");
+        }
+        assert!(is_definite(DMatrix::zeros(0, 0)));
+        assert!(!is_definite(DMatrix::from_element(2, 2, f64::NAN)));
     }
 
     #[test]

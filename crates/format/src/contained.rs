@@ -10,7 +10,7 @@ thread_local! {
 }
 
 /// What is computed; nothing where that ends in a panic. What is computed from is not used afterwards.
-pub(super) fn contained<T>(compute: impl FnOnce() -> T) -> Option<T> {
+pub fn contained<T>(compute: impl FnOnce() -> T) -> Option<T> {
     static QUIET: Once = Once::new();
     QUIET.call_once(|| {
         let usual = take_hook();

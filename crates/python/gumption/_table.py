@@ -1,0 +1,119 @@
+"""Tables: what a call is given, and what it gives."""
+
+from __future__ import annotations
+
+import csv
+import html
+import importlib
+import io
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any, Union
+
+import numpy as np
+
+from ._given import sheet
+
+Given = Union[str, os.PathLike, Mapping[str, Any], Any]
+"""A CSV file, its text, columns by their names, or a frame of pandas or polars."""
+
+SHOWN = 20
+"""Rows that a notebook shows."""
+
+
+class Table(dict[str, Any]):
+    """Columns of equal length by their names: arrays of numbers, ``nan`` where there is none, and lists of texts."""
+
+    def to_pandas(self) -> Any:
+        """The columns as a frame of pandas."""
+        return importlib.import_module("pandas").DataFrame(self)
+
+    def to_polars(self) -> Any:
+        """The columns as a frame of polars."""
+        return importlib.import_module("polars").DataFrame(dict(self))
+
+    def _repr_html_(self) -> str:
+        rows = max((len(column) for column in self.values()), default=0)
+        lines = [_line("th", self)]
+        lines += [_line("td", [_shown(column[at]) for column in self.values()]) for at in range(min(rows, SHOWN))]
+        more = f"<p>{SHOWN} of {rows} rows</p>" if rows > SHOWN else ""
+        return f"<table>{''.join(lines)}</table>{more}"
+
+
+def _line(kind: str, cells: Sequence[str] | Table) -> str:
+    return "<tr>" + "".join(f"<{kind}>{html.escape(cell)}</{kind}>" for cell in cells) + "</tr>"
+
+
+def _shown(cell: Any) -> str:
+    if isinstance(cell, float):
+        return "" if np.isnan(cell) else f"{cell:.7g}"
+    return "" if cell is None else str(cell)
+
+
+def like(given: Any, found: Table) -> Any:
+    """What was found of a table: of a frame a frame, else columns."""
+    library = type(given).__module__.partition(".")[0]
+    if isinstance(given, Mapping) or library not in ("pandas", "polars"):
+        return found
+    return found.to_pandas() if library == "pandas" else found.to_polars()
+
+
+def read(text: str, texts: Sequence[str]) -> Table:
+    """The columns of comma-separated values, of which those of these names are texts and the others numbers."""
+    names, *rows = csv.reader(io.StringIO(text))
+    columns = Table()
+    for at, name in enumerate(names):
+        cells = [row[at] for row in rows]
+        columns[name] = cells if name in texts else np.array([float(cell or "nan") for cell in cells])
+    return columns
+
+
+def written(table: Any) -> str:
+    """The comma-separated values of a frame or of columns by their names."""
+    columns = dict(_columns(table))
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(columns)
+    # Every double as the shortest decimal that is read as the same.
+    texts = [[_field(cell) for cell in column] for column in columns.values()]
+    writer.writerows(zip(*texts, strict=True))
+    return out.getvalue()
+
+
+def given(table: Given) -> Any:
+    """A table as the engine takes it."""
+    return sheet(table, "table.csv") if isinstance(table, (str, os.PathLike, bytes)) else _columns(table)
+
+
+def _columns(table: Any) -> list[tuple[str, Any]]:
+    """A frame or columns by their names."""
+    names = list(table.keys() if isinstance(table, Mapping) else getattr(table, "columns", ()))
+    if not isinstance(table, Mapping) and not (names and all(isinstance(name, str) for name in names)):
+        raise TypeError(
+            f"a table is a CSV file, a dict of columns, or a frame of pandas or polars, not {type(table).__name__};"
+            " Arrow goes through arrow_batch"
+        )
+    for name in names:
+        if isinstance(table[name], (str, bytes)) or not hasattr(table[name], "__iter__"):
+            raise TypeError(f"the column {name} is {table[name]!r}: a list or an array with a value for each row is needed")
+    return [(str(name), cells(table[name])) for name in names]
+
+
+def cells(column: Any) -> Any:
+    """A column as the engine takes it: numbers where it is an array of doubles, else texts, every number with all of its
+    digits."""
+    array = column.to_numpy() if hasattr(column, "to_numpy") else column
+    if isinstance(array, np.ndarray) and array.dtype == np.float64 and array.ndim == 1:
+        return np.ascontiguousarray(array)
+    return [_field(one) for one in column]
+
+
+def _field(value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    if isinstance(value, (list, tuple, np.ndarray)) or hasattr(value, "to_list"):
+        return "[" + ", ".join(repr(float(one)) for one in value) + "]"
+    # What is missing: None, nan, and what pandas calls NaT and NA.
+    if value is None or str(value) in ("nan", "NaT", "<NA>"):
+        return ""
+    return repr(float(value)) if isinstance(value, (float, np.floating)) else str(value)

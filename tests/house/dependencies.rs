@@ -8,11 +8,9 @@ use serde_json::Value;
 
 use super::common::root;
 
-/// What cargo knows of the packages that are compiled here; those that only the package for Python needs are fetched, where
-/// nothing has fetched them yet. `None` where they are not to be had.
+/// What cargo knows of the packages that are compiled here. `None` where they are not to be had.
 fn packages() -> Option<Vec<Value>> {
-    let at_hand = metadata(&["--offline"]).or_else(|_| metadata(&[]));
-    let metadata = at_hand
+    let metadata = metadata("Cargo.toml")
         .inspect_err(|why| eprintln!("skipped: the packages are not at hand: {why}"))
         .ok()?;
     let nodes = metadata["resolve"]["nodes"].as_array().expect("packages");
@@ -22,8 +20,14 @@ fn packages() -> Option<Vec<Value>> {
     Some(all.iter().filter(here).cloned().collect())
 }
 
-/// What `cargo metadata` prints, or why it does not.
-fn metadata(arguments: &[&str]) -> Result<Value, String> {
+/// What `cargo metadata` prints for a workspace, or why it does not; packages that nothing has fetched yet, such as those
+/// that only Python or the fuzzers need, are fetched.
+fn metadata(manifest: &str) -> Result<Value, String> {
+    let at_hand = run(&["--manifest-path", manifest, "--offline"]);
+    at_hand.or_else(|_| run(&["--manifest-path", manifest]))
+}
+
+fn run(arguments: &[&str]) -> Result<Value, String> {
     let output = Command::new(env!("CARGO"))
         .args(["metadata", "--format-version", "1", "--locked"])
         .args(["--filter-platform", &host()])
@@ -144,7 +148,7 @@ fn no_package_is_there_twice() {
 /// The fuzzers are a workspace of their own, whose list of dependencies follows this one's.
 #[test]
 fn the_fuzzers_list_is_in_step() {
-    if let Err(why) = metadata(&["--offline", "--manifest-path", "fuzz/Cargo.toml"]) {
+    if let Err(why) = metadata("fuzz/Cargo.toml") {
         assert!(
             !why.contains("lock file"),
             "{why}mend: cargo metadata --offline --manifest-path fuzz/Cargo.toml"

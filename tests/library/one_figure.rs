@@ -165,10 +165,22 @@ impl Expected<'_> {
             CoverageRule::Fixed(_) => 0.0,
             _ => 0.5,
         };
-        [-slack, 0.0, slack].into_iter().any(|off| {
-            let product = (k.value + off * k.unit) * (u.value + off * u.unit);
-            self.is_expanded(expanded, product)
-        })
+        let gives = |k: f64, u: f64| self.is_expanded(expanded, k * u);
+        let multiplies = [-slack, 0.0, slack]
+            .into_iter()
+            .any(|off| gives(k.value + off * k.unit, u.value + off * u.unit));
+        // A third digit stands only where two do not do; halfway between two roundings either may.
+        let nearly = |u: f64| [1.0 - 1e-5, 1.0 + 1e-5].map(|by| by * u);
+        let two = |u: f64| format!("{u:.1e}").parse::<f64>().expect("a number");
+        let all = self.reported.iter().filter_map(|reported| reported.u);
+        let mut own = all.filter(|of_one| u.is_nearest(*of_one));
+        // A rule that may round up or down gives what is nearest for certain.
+        let surely = |u: f64| match self.budget.conventions.rounding {
+            Rounding::Up => gives(k.value, u),
+            _ => expanded.is_nearest(k.value * u) && gives(k.value, u),
+        };
+        let needless = u.digits == 3 && own.any(|u| nearly(two(u)).into_iter().all(surely));
+        multiplies && !needless
     }
 
     /// Whether y ± U is the result of a measurand, with one last place.

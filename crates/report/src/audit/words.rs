@@ -80,8 +80,8 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
     };
     let right_u = with_unit(found.right.expanded, 2);
     let claimed_u = match (&claimed.footer.expanded, language) {
-        (Some(u), Language::English) => format!(" where {} is claimed", u.as_read()),
-        (Some(u), Language::Chinese) => format!("，声称值为 {}", u.as_read()),
+        (Some(u), Language::English) => format!(" where {} is claimed", as_claimed(audit, u)),
+        (Some(u), Language::Chinese) => format!("，声称值为 {}", as_claimed(audit, u)),
         (None, Language::English) => "; none is claimed".to_string(),
         (None, Language::Chinese) => "；表中没有声称值".to_string(),
     };
@@ -135,9 +135,13 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
             chance(),
         ],
         Verdict::Unexplained => {
+            let recomputed = recomputed(audit, language).unwrap_or_else(|| match language {
+                Language::English => format!("Recomputed, U is {right_u}{claimed_u}."),
+                Language::Chinese => format!("重新计算 U = {right_u}{claimed_u}。"),
+            });
             let mut sentences = vec![match language {
-                Language::English => format!("Unexplained: the claimed figures do not follow from what is stated, and no slip that is known gives them. Recomputed, U is {right_u}{claimed_u}."),
-                Language::Chinese => format!("无法解释：声称值不能由所述信息得出，已知的差错也都不能给出这些数值。重新计算 U = {right_u}{claimed_u}。"),
+                Language::English => format!("Unexplained: the claimed figures do not follow from what is stated, and no slip that is known gives them. {recomputed}"),
+                Language::Chinese => format!("无法解释：声称值不能由所述信息得出，已知的差错也都不能给出这些数值。{recomputed}"),
             }];
             let accidental = found.withheld > 0 && found.gaps.iter().all(|gap| !matches!(gap, Gap::Row(..)));
             if accidental {
@@ -163,6 +167,49 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
             "Cannot be recomputed: the sheet holds no budget with figures and a claim that could be understood.",
             "无法重新计算：表中没有可以理解的、带有数值和声称值的不确定度预算。",
         ).to_string()],
+    }
+}
+
+/// What departs where U is printed as claimed: u_c, or neither.
+fn recomputed(audit: &Audit<'_>, language: Language) -> Option<String> {
+    let (right, footer) = (audit.found.right, &audit.found.case.claimed.footer);
+    let is_met = |figure: &&Printed, x: f64| figure.is_met_within(x, figure.half);
+    let u = footer
+        .expanded
+        .as_ref()
+        .filter(|u| is_met(u, right.expanded))?;
+    let u = as_claimed(audit, u);
+    let u_c = footer.u_c.as_ref().filter(|u_c| !is_met(u_c, right.u_c));
+    Some(match (u_c, language) {
+        (Some(u_c), _) => {
+            // So many digits that it is seen which way it is rounded.
+            let exact = in_unit(audit, right.u_c, u8::try_from(u_c.digits).unwrap_or(8) + 2);
+            let claimed = as_claimed(audit, u_c);
+            match language {
+                Language::English => {
+                    format!(
+                        "Recomputed, u_c is {exact} where {claimed} is claimed; U is {u}, as claimed."
+                    )
+                }
+                Language::Chinese => {
+                    format!("重新计算 u_c = {exact}，声称值为 {claimed}；U = {u}，与声称值一致。")
+                }
+            }
+        }
+        (None, Language::English) => format!("Recomputed, U is {u}, as claimed."),
+        (None, Language::Chinese) => format!("重新计算 U = {u}，与声称值一致。"),
+    })
+}
+
+/// A claimed figure with its unit, else with that of the result.
+fn as_claimed(audit: &Audit<'_>, figure: &Printed) -> String {
+    let unit = match figure.unit.as_str() {
+        "" => audit.found.case.claimed.unit.as_str(),
+        own => own,
+    };
+    match figure.as_read() {
+        text if text.ends_with(unit) => text.to_string(),
+        text => format!("{text} {unit}"),
     }
 }
 
@@ -221,16 +268,7 @@ fn sound(audit: &Audit<'_>, language: Language) -> Vec<String> {
     };
     let u = match &footer.expanded {
         Some(claimed) => {
-            let (text, unit) = (claimed.as_read(), claimed.unit.as_str());
-            let unit = if unit.is_empty() {
-                &found.case.claimed.unit
-            } else {
-                unit
-            };
-            let claimed = match text.ends_with(unit) {
-                true => text.to_string(),
-                false => format!("{text} {unit}"),
-            };
+            let claimed = as_claimed(audit, claimed);
             pick(
                 format!("U = {claimed}: {before}."),
                 format!("U = {claimed}：{before}。"),

@@ -1,0 +1,35 @@
+//! What the formulas of a workbook give away: figures that they would not give, numbers typed among them.
+
+use std::ops::Range;
+
+use crate::claim::{Claimed, Stale};
+use crate::printed::{Place, Printed};
+use crate::sheet::{Cell, Grid};
+
+/// Cells of a budget whose formulas give other figures than they hold.
+pub(super) fn stale(grid: &Grid, sheet: usize, rows: Range<usize>) -> Vec<Stale> {
+    let cells = rows.flat_map(|row| {
+        grid.filled(row)
+            .map(move |(column, cell)| (row, column, cell))
+    });
+    let of = |(row, column, cell): (usize, usize, &Cell)| {
+        let at = Place { sheet, row, column };
+        let formula = cell.formula.clone()?;
+        cell.gives.map(|gives| Stale { at, formula, gives })
+    };
+    cells.filter_map(of).collect()
+}
+
+/// Whether u_c stands as a number where U and the computed cells of the rows are formulas.
+pub(super) fn typed(grid: &Grid, sheet: usize, claimed: &Claimed) -> bool {
+    let is_formula = |figure: &Option<Printed>| {
+        let at = figure.as_ref().map(|figure| figure.at);
+        at.filter(|at| at.sheet == sheet)
+            .map(|at| grid.cell(at.row, at.column).formula.is_some())
+    };
+    let rows = &claimed.rows;
+    let computed = rows.iter().filter(|row| !row.formulas.is_empty()).count();
+    2 * computed > rows.len()
+        && is_formula(&claimed.footer.u_c) == Some(false)
+        && is_formula(&claimed.footer.expanded) == Some(true)
+}

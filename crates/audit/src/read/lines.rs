@@ -1,0 +1,201 @@
+//! Lines of text beside a table: what each is about, the whole or a row.
+
+use std::ops::Range;
+
+use crate::claim::{Claimed, Understood, Unplaced};
+use crate::printed::Place;
+use crate::sheet::Grid;
+
+use super::{footer, notes, result_unit, words};
+
+/// A line of text beside a table.
+#[derive(Debug, Clone)]
+pub(super) struct Line {
+    pub(super) text: String,
+    pub(super) at: Place,
+}
+
+/// Lines of text outside the tables.
+pub(super) fn lines(
+    grid: &Grid,
+    sheet: usize,
+    rows: Range<usize>,
+    used: impl Fn(usize) -> bool,
+) -> Vec<Line> {
+    let outside = rows.filter(|row| !used(*row));
+    outside
+        .filter_map(|row| {
+            let cells: Vec<&str> = grid
+                .filled(row)
+                .map(|(_, cell)| cell.text.as_str())
+                .collect();
+            let (column, _) = grid.filled(row).next()?;
+            Some(Line {
+                text: cells.join(" ; "),
+                at: Place { sheet, row, column },
+            })
+        })
+        .collect()
+}
+
+/// Lines beside a table: each to the whole, or to the row that it is about.
+pub(super) fn place_lines(all: &[&Line], claimed: &mut Claimed) {
+    let mut of_row = vec![String::new(); claimed.rows.len()];
+    let texts: Vec<&str> = all.iter().map(|line| line.text.as_str()).collect();
+    claimed.words = texts.join("\n");
+    let title = claimed.title.clone();
+    for line in all.iter().filter(|line| line.text != title) {
+        place_line(line, claimed, &mut of_row);
+    }
+    for (row, words) in claimed.rows.iter_mut().zip(&of_row) {
+        row.words.push_str(words);
+    }
+    claimed.reported_mean_of = all
+        .iter()
+        .find_map(|line| notes::mean_of(&line.text, claimed));
+    if claimed.unit.is_empty() {
+        claimed.unit = result_unit::unit_of_result(claimed);
+    }
+}
+
+/// Finds what a line is about: a row, the whole, or nothing that is known.
+fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
+    let lower = line.text.to_lowercase();
+    if claimed
+        .understood
+        .iter()
+        .any(|u| u.at == line.at && u.role == "model")
+    {
+        return;
+    }
+    let whole = notes::note(&line.text, line.at, claimed);
+    if let Some(role) = whole {
+        claimed.understood.push(Understood {
+            at: line.at,
+            text: line.text.clone(),
+            role,
+        });
+        let labelled = matches!(
+            footer::label(&line.text, ""),
+            Some(footer::Whole::Expanded | footer::Whole::Combined)
+        );
+        let statement = labelled || footer::states_figures(&lower);
+        if role == "correlation" || role == "CMC" || role == "rule for k" && !statement {
+            return;
+        }
+    }
+    if let Some(row) = notes::absent(&line.text, line.at, claimed) {
+        claimed.understood.push(Understood {
+            at: line.at,
+            text: line.text.clone(),
+            role: "known, but not in the table",
+        });
+        claimed.absent.push(row);
+        return;
+    }
+    let about = row_of_line(&line.text, &lower, claimed);
+    let statement = about.is_none() || footer::label(&line.text, &claimed.measurand).is_some();
+    if statement && !words::has(&lower, &["certificate", "证书"]) {
+        let found = footer::sentence(
+            &line.text,
+            &claimed.measurand.clone(),
+            line.at,
+            &mut claimed.footer,
+        );
+        let role = found.first().map(|whole| whole.name());
+        if let Some(role) = role {
+            claimed.understood.push(Understood {
+                at: line.at,
+                text: line.text.clone(),
+                role,
+            });
+            return;
+        }
+    }
+    if let Some(row) = about {
+        of_row[row].push_str("; ");
+        of_row[row].push_str(&line.text);
+        claimed.understood.push(Understood {
+            at: line.at,
+            text: line.text.clone(),
+            role: "note to a row",
+        });
+    } else if whole.is_none() {
+        claimed.unplaced.push(Unplaced {
+            at: line.at,
+            text: line.text.clone(),
+        });
+    }
+}
+
+/// The row whose remark refers to the footnote that a line is: `[2] …`, `2) …`, `Note 2: …`, `注2：…`.
+fn footnote(text: &str, claimed: &Claimed) -> Option<usize> {
+    let lower = text.trim().to_lowercase();
+    let inner = ["note", "注", "[", "("]
+        .iter()
+        .fold(lower.as_str(), |rest, lead| {
+            rest.strip_prefix(lead).unwrap_or(rest).trim_start()
+        });
+    let digits = inner.bytes().take_while(u8::is_ascii_digit).count();
+    let marked = digits > 0
+        && digits <= 2
+        && inner[digits..]
+            .trim_start()
+            .starts_with([']', ')', ':', '.']);
+    let number = inner.get(..digits).filter(|_| marked)?;
+    let marks = [
+        format!("[{number}]"),
+        format!("{number})"),
+        format!("({number})"),
+        format!("note {number}"),
+        format!("注{number}"),
+    ];
+    let refers = |words: &str| {
+        let lower = words.to_lowercase();
+        let mut parts = lower.split(';').map(str::trim);
+        parts.any(|part| {
+            marks
+                .iter()
+                .any(|mark| part == mark || part.ends_with(&format!(" {mark}")))
+        })
+    };
+    let mut rows = claimed
+        .rows
+        .iter()
+        .enumerate()
+        .filter(|(_, row)| refers(&row.words));
+    match (rows.next(), rows.next()) {
+        (Some((row, _)), None) => Some(row),
+        _ => None,
+    }
+}
+
+/// The row that a line is about: the one whose symbol or name comes first in it, or whose number it gives.
+fn row_of_line(text: &str, lower: &str, claimed: &Claimed) -> Option<usize> {
+    let numbered = words::count_after(lower, &["row", "note to row", "line", "第"])
+        .filter(|_| lower.contains("row") || lower.contains('行') || lower.contains('项'));
+    if let Some(n) = numbered
+        && n >= 1.0
+        && n as usize <= claimed.rows.len()
+    {
+        return Some(n as usize - 1);
+    }
+    if let Some(row) = footnote(text, claimed) {
+        return Some(row);
+    }
+    let symbol = (0..claimed.rows.len())
+        .filter_map(|row| Some((words::symbol_at(text, &claimed.rows[row].symbol, 0)?, row)))
+        .min();
+    let name = || {
+        (0..claimed.rows.len())
+            .filter_map(|row| {
+                let name = claimed.rows[row].name.to_lowercase();
+                (name.chars().count() >= 3)
+                    .then(|| lower.find(&name))
+                    .flatten()
+                    .map(|at| (at, row))
+            })
+            .min()
+    };
+    symbol.or_else(name).map(|(_, row)| row)
+}

@@ -1,0 +1,52 @@
+//! The unit of a result, where its own figures or those of its rows have one.
+
+use crate::claim::{Claimed, Row};
+use crate::printed::Printed;
+
+use super::words;
+
+pub(super) fn unit_of_result(claimed: &Claimed) -> String {
+    let footer = &claimed.footer;
+    let contributions = claimed.rows.iter().map(|row| &row.contribution);
+    let figures = [&footer.u_c].into_iter().chain(contributions);
+    let unit_of = |figure: &Printed| Some(figure.unit.clone()).filter(|unit| !unit.is_empty());
+    let mut stated = figures.chain([&footer.y]).flatten();
+    let unit = stated
+        .find_map(unit_of)
+        .or_else(|| unit_of_plain_rows(claimed));
+    unit.or_else(|| unit_of(footer.expanded.as_ref()?))
+        .unwrap_or_default()
+}
+
+/// The unit of rows whose contribution is printed with the figure of u, by a coefficient of 1: U may be in another one.
+fn unit_of_plain_rows(claimed: &Claimed) -> Option<String> {
+    let plain = |row: &Row| {
+        let c = row.c.as_ref()?;
+        let worked = row.used.as_ref().zip(row.divisor.as_ref());
+        let worked = worked.map(|(used, divisor)| (used.value / divisor.value, &used.unit));
+        let (u, unit) = row.u.as_ref().map(|u| (u.value, &u.unit)).or(worked)?;
+        let made = row.contribution.as_ref()?.value.abs();
+        let same = c.value.abs() == 1.0 && c.unit.is_empty() && (made - u).abs() <= 0.01 * u;
+        let known = [unit, &row.unit].into_iter().find(|unit| !unit.is_empty());
+        let unit = known.cloned().or_else(|| unit_in_words(row));
+        unit.filter(|_| same)
+    };
+    let units: Vec<String> = claimed.rows.iter().filter_map(plain).collect();
+    let first = units.first()?;
+    // A single row is enough to tell a unit from a multiple of it.
+    let expanded = claimed.footer.expanded.as_ref();
+    let is_multiple = expanded.is_some_and(|u| crate::units::factor(&u.unit, first).is_some());
+    let enough = units.len() >= 2 || is_multiple;
+    (enough && units.iter().all(|unit| unit == first)).then(|| first.clone())
+}
+
+/// The unit in which the words of a row state the figure of its ± column, or twice that: `resolution 0.01 mm` beside 0.005.
+fn unit_in_words(row: &Row) -> Option<String> {
+    let used = row.used.as_ref()?.value;
+    let is_it = |figure: &Printed| {
+        let ratio = figure.value / used;
+        [1.0, 2.0].iter().any(|times| (ratio - times).abs() < 1e-9)
+    };
+    let mut figures = words::figures_with_units(&row.words);
+    figures.find(is_it).map(|figure| figure.unit)
+}

@@ -4,7 +4,7 @@ use gumption_fault::language::Language;
 use gumption_format::document::{Block, Document, Math, Severity};
 use gumption_format::render::parts::{Part, parts};
 
-use super::flow::{BLACK, BLUE, Flow, GREY, PALE, WIDTH};
+use super::flow::{BLACK, BLUE, Flow, GREY, PAGE, PALE, WIDTH, at_least};
 use super::fonts::Style;
 use super::{formula, picture, table, text};
 
@@ -117,44 +117,74 @@ fn paragraph(flow: &mut Flow<'_>, words: &str, style: Style) {
 
 /// Names at the left, texts beside them.
 fn pairs<'t>(flow: &mut Flow<'_>, pairs: impl Iterator<Item = (&'t str, String)>) {
-    const NAMES: f32 = 130.0;
-    for (name, words) in pairs {
-        let (name, words) = (
-            flow.set(name, Style::Regular, SIZE),
-            flow.set(&words, Style::Regular, SIZE),
-        );
-        beside(flow, &name, &words, NAMES);
-    }
-    flow.y += 6.0;
+    rows(flow, pairs, 130.0, (Style::Regular, SIZE));
 }
 
 fn figures_of<'t>(flow: &mut Flow<'_>, pairs: impl Iterator<Item = (&'t str, String)>) {
-    const NAMES: f32 = 190.0;
-    for (name, words) in pairs {
-        let (name, words) = (
-            flow.set(name, Style::Regular, SIZE),
-            flow.set(&words, Style::Bold, SIZE + 1.0),
-        );
-        beside(flow, &name, &words, NAMES);
+    rows(flow, pairs, 190.0, (Style::Bold, SIZE + 1.0));
+}
+
+/// Rows of a name and a text, the names in a column of this width. A list of up to a quarter of a page stays on one.
+fn rows<'t>(
+    flow: &mut Flow<'_>,
+    pairs: impl Iterator<Item = (&'t str, String)>,
+    names: f32,
+    (style, size): (Style, f32),
+) {
+    let set: Vec<Beside> = pairs
+        .map(|(name, words)| {
+            let name = flow.set(name, Style::Regular, SIZE);
+            let words = flow.set(&words, style, size);
+            Beside::new(name, words, names)
+        })
+        .collect();
+    let height: f32 = set.iter().map(|row| row.height).sum();
+    if height <= 0.25 * PAGE[1] {
+        flow.room(height);
     }
+    set.iter().for_each(|row| row.draw(flow));
     flow.y += 6.0;
 }
 
-fn beside(flow: &mut Flow<'_>, name: &[text::Letter], words: &[text::Letter], names: f32) {
-    let room = WIDTH - names - 8.0;
-    let of_name = text::lines(name, names).len();
-    let height = of_name.max(text::lines(words, room).len()) as f32 * LEADING;
-    flow.room(height.min(120.0));
-    let (page, top) = (flow.pages.len(), flow.y);
-    flow.lines(name, [flow.left(), names], LEADING, GREY);
-    let after = flow.y;
-    if flow.pages.len() == page {
-        flow.y = top;
+/// A name with a text beside it.
+struct Beside {
+    name: Vec<text::Letter>,
+    words: Vec<text::Letter>,
+    names: f32,
+    height: f32,
+}
+
+impl Beside {
+    fn new(name: Vec<text::Letter>, words: Vec<text::Letter>, names: f32) -> Beside {
+        let of_name = text::lines(&name, names).len();
+        let of_words = text::lines(&words, Beside::room(names)).len();
+        Beside {
+            height: of_name.max(of_words) as f32 * LEADING,
+            name,
+            words,
+            names,
+        }
     }
-    let page = flow.pages.len();
-    flow.lines(words, [flow.left() + names + 8.0, room], LEADING, BLACK);
-    if flow.pages.len() == page {
-        flow.y = flow.y.max(after);
+
+    /// What is left for the text.
+    fn room(names: f32) -> f32 {
+        WIDTH - names - 8.0
+    }
+
+    fn draw(&self, flow: &mut Flow<'_>) {
+        flow.room(self.height.min(120.0));
+        let (page, top) = (flow.pages.len(), flow.y);
+        flow.lines(&self.name, [flow.left(), self.names], LEADING, GREY);
+        let after = flow.y;
+        if flow.pages.len() == page {
+            flow.y = top;
+        }
+        let page = flow.pages.len();
+        let column = [flow.left() + self.names + 8.0, Beside::room(self.names)];
+        flow.lines(&self.words, column, LEADING, BLACK);
+        if flow.pages.len() == page {
+            flow.y = flow.y.max(after);
+        }
     }
 }
 
@@ -162,7 +192,8 @@ fn item_of(flow: &mut Flow<'_>, words: &str, first: &str) {
     const INDENT: f32 = 12.0;
     let mut letters = flow.plain(first, Style::Bold, SIZE);
     letters.extend(flow.set(words, Style::Regular, SIZE));
-    flow.room(LEADING);
+    let lines = text::lines(&letters, WIDTH - INDENT).len();
+    flow.room(at_least(lines) as f32 * LEADING);
     let mark = flow.plain("•", Style::Regular, SIZE);
     let y = flow.y;
     flow.lines(&mark, [flow.left(), INDENT], LEADING, BLUE);

@@ -117,11 +117,19 @@ impl<'f> Flow<'f> {
         text::plain(text, style, size, self.fonts, &mut self.missing)
     }
 
-    /// Lines of letters, one below the other, in a column of the text.
+    /// Lines of letters, one below the other, in a column of the text. No line stands alone at the foot of a page or at
+    /// the head of the next.
     pub fn lines(&mut self, letters: &[Letter], column: [f32; 2], leading: f32, colour: Colour) {
         let [left, width] = column;
-        for line in text::lines(letters, width) {
-            self.room(leading);
+        let lines = text::lines(letters, width);
+        let many = lines.len();
+        for (at, line) in lines.into_iter().enumerate() {
+            let together = match at {
+                0 => at_least(many),
+                _ if at + 2 == many => 2,
+                _ => 1,
+            };
+            self.room(together as f32 * leading);
             let at = [left, self.y + 0.78 * leading];
             self.draw(Op::Letters {
                 at,
@@ -152,6 +160,14 @@ impl<'f> Flow<'f> {
             fill: Some((colour, 1.0)),
             stroke: None,
         });
+    }
+}
+
+/// How many of so many lines stand together where they begin: three are not parted, of more the last two go together.
+pub(super) fn at_least(lines: usize) -> usize {
+    match lines {
+        0..=3 => lines,
+        _ => 2,
     }
 }
 

@@ -1,0 +1,129 @@
+//! Every rule fires where something is against it, and not on a sheet that is right.
+
+mod against;
+mod sheet;
+
+use super::{RULES, findings};
+use crate::read::Mapping;
+use crate::{audit, read, sheet as grid};
+
+use against::against;
+use sheet::{noted, right, row, with};
+
+#[test]
+fn a_right_sheet_is_against_no_rule() {
+    assert_eq!(right().rules(), Vec::<u8>::new(), "{}", right().text());
+}
+
+#[test]
+fn numbers_are_those_of_the_list() {
+    let numbers: Vec<u8> = RULES.iter().map(|rule| rule.number).collect();
+    assert_eq!(numbers, (1..=85).collect::<Vec<u8>>());
+    let mut names: Vec<&str> = RULES.iter().map(|rule| rule.id).collect();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), 85);
+}
+
+#[test]
+fn what_notes_say_may_be_right() {
+    for note in [
+        "One outlier was removed by the test of Grubbs, record 17",
+        "CMC of the laboratory: 0.050 g (k = 2)",
+        "Comparison of 2025: E_n = -0.4",
+        "Calibrated by EN ISO 376",
+        "Readings: 100.003, 100.001, 100.004, 100.002, 100.005, 100.001, 100.003, 100.002, 100.004, 100.003",
+        "Fit of the drift: χ²/ν = 1.2 with ν = 12",
+        "Monte Carlo, 10^6 trials: 95 % interval [99.948, 100.057] g",
+        "Standard: calibrated range 20 g to 2000 g, used at 100 g",
+        "Method revised on 2020-02-01; budget prepared on 2021-05-01",
+        "Check standard: s = 0.014 g, predicted 0.012 g",
+    ] {
+        assert_eq!(noted(note).rules(), Vec::<u8>::new(), "{note}");
+    }
+}
+
+#[test]
+fn what_rows_say_may_be_right() {
+    let pooled = row(1, |line| {
+        line.known = "pooled s from 4 series of 6 readings: 0.0104, 0.0135, 0.0112 and 0.0127; s_p = 0.0120 g; mean of 4 readings";
+    });
+    let bent = with(|sheet| {
+        sheet.notes[0] = "Model: m = m_S + dm + dr + dd + 4*dd*dd";
+    });
+    for (rule, sheet) in [(23, pooled), (52, bent)] {
+        let fired = sheet.rules();
+        assert!(!fired.contains(&rule), "{rule}: {fired:?}");
+    }
+}
+
+#[test]
+fn every_rule_fires() {
+    let mut silent = Vec::new();
+    let sheets = against();
+    for (number, sheet) in &sheets {
+        let fired = sheet.rules();
+        if !fired.contains(number) {
+            silent.push(format!("{number}: {fired:?}\n{}", sheet.text()));
+        }
+    }
+    assert!(silent.is_empty(), "{}", silent.join("\n"));
+    let tested: Vec<u8> = sheets
+        .iter()
+        .map(|(number, _)| *number)
+        .chain([82])
+        .collect();
+    for rule in RULES {
+        assert!(tested.contains(&rule.number), "{}", rule.number);
+    }
+}
+
+#[test]
+fn hidden_rows_are_found() {
+    let grids = grid::grids("sheet.txt", right().text().as_bytes()).unwrap();
+    let mut claims = read::budgets(&grids, &Mapping::default());
+    claims[0].rows[2].is_hidden = true;
+    let found = audit(&claims[0]).found;
+    let hidden = findings(&found);
+    assert_eq!((hidden[0].rule, hidden[0].row), (82, Some(2)));
+}
+
+/// A sound sheet may owe an answer, which is no error; a slip is one, and is told by its figures.
+#[test]
+fn questions_are_no_errors_and_slips_have_figures() {
+    let sheet = |u: &str, u_c: &str, expanded: &str| {
+        format!(
+            "Mass comparison\nModel: m = m_S + dT\nCoverage factor k = 2\n\
+             Symbol,Source of uncertainty,Value ±,Probability distribution,Divisor,c_i,u_i(y) / g,ν_i\n\
+             m_S,\"certificate M-12: U = 0.040 g, k = 2\",0.040,normal,2,1,{u},∞\n\
+             dT,\"limits ±0.030 g, nothing else known\",0.030,rectangular,√3,1,0.0173,∞\n\
+             u_c,Combined standard uncertainty,,,,,{u_c},\nU,Expanded uncertainty,,,,,{expanded},\n"
+        )
+    };
+    let told = |text: String| -> Vec<(u8, String, String)> {
+        let grids = crate::sheet::grids("sheet.csv", text.as_bytes()).unwrap();
+        let claims = crate::read::budgets(&grids, &crate::read::Mapping::default());
+        let all = super::findings(&crate::audit(&claims[0]).found);
+        let told = all
+            .iter()
+            .map(|one| (one.rule, one.said().to_string(), one.numbers.clone()));
+        told.collect()
+    };
+    let sound = told(sheet("0.0200", "0.0264", "0.053"));
+    assert!(
+        sound
+            .iter()
+            .any(|(rule, said, _)| (*rule, said.as_str()) == (34, "question")),
+        "{sound:?}"
+    );
+    assert!(
+        sound.iter().all(|(_, said, _)| said != "error"),
+        "{sound:?}"
+    );
+    let slip = told(sheet("0.0400", "0.0436", "0.087"));
+    assert!(
+        slip.iter()
+            .any(|(_, said, numbers)| said == "error" && numbers == "u = 0.04 ≠ 0.02"),
+        "{slip:?}"
+    );
+}

@@ -114,7 +114,7 @@ fn unreadable(files: Files<'_>, path: &Path, error: &std::io::Error) -> Fault {
     }
     match error.kind() {
         ErrorKind::NotFound => fault(say!("there is no file {name}"))
-            .help(say!("check the name and the folder; `gumption new budget.toml` writes a budget to start from")),
+            .help(say!("check the name and the folder; `gumption new` writes a budget to start from, with --recording or --procedure an experiment")),
         ErrorKind::PermissionDenied => fault(say!("{name} may not be read"))
             .help(say!("ask its owner for the permission to read it")),
         _ => fault(say!("{name} cannot be read: {error}")),

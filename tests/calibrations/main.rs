@@ -10,6 +10,7 @@ mod common;
 
 mod gyros;
 mod library;
+mod positions;
 mod proposals;
 mod recordings;
 mod refusals;

@@ -3,6 +3,7 @@
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::faults::KEY;
+use crate::experiment::names::{Kind, Names};
 use crate::experiment::source::entries;
 use crate::experiment::tables::{ExperimentTable, NoiseTable};
 use gumption_fault::{Fault, say};
@@ -28,8 +29,8 @@ pub(super) fn check(checker: &mut Checker<'_>) {
     checker.faults.extend(faults);
 }
 
-/// Remarks on what is stated of the noise and not used by a calibration.
-pub(super) fn remarks(table: &ExperimentTable) -> Vec<Remark> {
+/// Remarks on what is stated and not used by a calibration: of the noise, and stimuli that no equation has.
+pub(super) fn remarks(table: &ExperimentTable, names: &Names) -> Vec<Remark> {
     let noise = table.noise.as_ref().map(|noise| &noise.value);
     let of_noise = |is_there: fn(&NoiseTable) -> bool| noise.is_some_and(is_there);
     let columns = entries(&table.columns);
@@ -55,5 +56,13 @@ pub(super) fn remarks(table: &ExperimentTable) -> Vec<Remark> {
             zh: format!("列 {name} 的 `{key}` 仅用于 `diagnose` 和 `simulate`；其读数误差请在 [reading.NAME] 中给出。"),
         })
     });
-    of_noise.chain(of_columns).collect()
+    let unused = columns.iter().filter_map(|(name, entry)| {
+        let role = entry.value.0.role.as_ref()?.value;
+        let is_used = names.kind(name) == Some(Kind::Column);
+        (role == RoleWord::Stimulus && !is_used).then(|| Remark {
+            en: format!("No equation has the stimulus {name}: what it does to the readings is taken for scatter. `gumption diagnose` tests whether it acts."),
+            zh: format!("没有方程含激励量 {name}：它对读数的影响被当作离散。可用 `gumption diagnose` 检验其作用。"),
+        })
+    });
+    of_noise.chain(of_columns).chain(unused).collect()
 }

@@ -16,7 +16,7 @@ use crate::experiment::tables::{ColumnTable, RecordingTable};
 use crate::recording::{Checks, Finding, Problem, Recording, Request, Settling, Severity, check};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
-use gumption_format::toml::{Slot, Stated};
+use gumption_format::toml::{Named, Slot, Stated};
 use gumption_gum::budget::Rejection;
 use std::collections::HashSet;
 
@@ -48,6 +48,10 @@ pub(super) fn points(
 
 fn texts(list: &[Stated<String>]) -> Vec<&str> {
     list.iter().map(|stated| stated.value.as_str()).collect()
+}
+
+fn owned(list: &[Stated<String>]) -> Vec<String> {
+    list.iter().map(|stated| stated.value.clone()).collect()
 }
 
 fn no_data(purpose: Purpose) -> Fault {
@@ -86,15 +90,23 @@ fn recorded(
     Ok(averaged(checker, names, &recording, stated))
 }
 
+/// The declared columns of a role.
+fn of_role<'t>(
+    columns: &'t Slot<Named<Short<ColumnTable>>>,
+    wanted: RoleWord,
+) -> impl Iterator<Item = &'t str> {
+    let has_role = move |table: &ColumnTable| {
+        let role = table.role.as_ref();
+        role.is_some_and(|role| role.value == wanted)
+    };
+    let found = entries(columns).iter();
+    let found = found.filter(move |(_, entry)| has_role(&entry.value.0));
+    found.map(|(name, _)| name.as_str())
+}
+
 /// The column of time.
 fn time<'t>(checker: &Checker<'t>) -> Option<&'t str> {
-    let mut columns = entries(&checker.source.table.columns).iter();
-    let is_time = |table: &ColumnTable| {
-        let role = table.role.as_ref();
-        role.is_some_and(|role| role.value == RoleWord::Time)
-    };
-    let (name, _) = columns.find(|(_, entry)| is_time(&entry.value.0))?;
-    Some(name)
+    of_role(&checker.source.table.columns, RoleWord::Time).next()
 }
 
 /// The columns that a calibration asks the recording for, each once.
@@ -105,7 +117,7 @@ fn requests(
     table: &RecordingTable,
 ) -> Vec<Request> {
     let labels = label_columns(checker);
-    let steps = table.steps.as_ref().map(|steps| steps.value.as_str());
+    let steps = table.steps.iter().flat_map(|list| texts(&list.value.0));
     let numbers = names.columns.iter().map(|(name, _)| name);
     let named = numbers.chain(&names.optional);
     let named = named.chain(labels.iter().map(|label| &label.name));
@@ -219,6 +231,9 @@ fn dwelling(
     let fewest = table.fewest.as_ref().map_or(2, |stated| stated.value);
     Some(Dwelling {
         by: dwells_by(names, table),
+        stimuli: of_role(&checker.source.table.columns, RoleWord::Stimulus)
+            .map(str::to_owned)
+            .collect(),
         time,
         settling: Settling {
             settle,
@@ -231,18 +246,19 @@ fn dwelling(
 /// Labels before steps, and these before rest.
 fn dwells_by(names: &Names, table: &RecordingTable) -> DwellsBy {
     match (&table.dwells, &table.steps, &table.still) {
-        (None, Some(stimulus), _) => DwellsBy::Steps {
-            stimulus: stimulus.value.clone(),
+        (None, Some(stimuli), _) => DwellsBy::Steps {
+            stimuli: owned(&stimuli.value.0),
             tolerance: table.tolerance.as_ref().map(|stated| stated.value),
         },
         (None, None, Some(rows)) => DwellsBy::Rest {
             outputs: names.columns.iter().map(|(role, _)| role.clone()).collect(),
             rows: usize::try_from(rows.value).unwrap_or(usize::MAX),
         },
-        (labels, ..) => {
-            let labels = labels.iter().flat_map(|list| texts(&list.value.0));
-            DwellsBy::Labels(labels.map(str::to_owned).collect())
-        }
+        (labels, ..) => DwellsBy::Labels(
+            labels
+                .as_ref()
+                .map_or_else(Vec::new, |list| owned(&list.value.0)),
+        ),
     }
 }
 

@@ -206,7 +206,7 @@ impl Checker<'_> {
         let is_stated = noise::add(self, &points, &mut experiment)?;
         let omitted = self.omitted(&experiment);
         let results = self.results(&experiment);
-        experiment.remarks.extend(contrary::remarks(table));
+        experiment.remarks.extend(contrary::remarks(table, names));
         Some(Campaign {
             experiment,
             points,

@@ -13,11 +13,11 @@ use gumption_core::quantity::Unit;
 pub enum DwellsBy {
     /// Labels in the columns of these roles.
     Labels(Vec<String>),
-    /// Steps of a stimulus.
+    /// Steps of one stimulus, or of any of several.
     Steps {
-        /// Its role.
-        stimulus: String,
-        /// How far apart its values in one dwell may be; see [`Steps::tolerance`].
+        /// Their roles.
+        stimuli: Vec<String>,
+        /// How far apart the values of each in one dwell may be; see [`Steps::tolerance`].
         tolerance: Option<f64>,
     },
     /// The outputs of these roles are at rest.
@@ -37,6 +37,8 @@ const QUIET: f64 = 3.0;
 pub struct Dwelling {
     /// What tells dwells apart.
     pub by: DwellsBy,
+    /// Roles of all that is set: dwells in which one of them changes are remarked on.
+    pub stimuli: Vec<String>,
     /// Role of the time.
     pub time: Option<String>,
     /// What is left out at the beginning, what is used, the fewest samples.
@@ -50,16 +52,16 @@ impl Dwelling {
                 let labels = roles.iter().filter_map(|role| recording.labels(role));
                 by_label(&labels.collect::<Vec<&Labels>>())
             }
-            DwellsBy::Steps {
-                stimulus,
-                tolerance,
-            } => by_steps(
-                recording.numbers(stimulus).unwrap_or_default(),
-                &Steps {
+            DwellsBy::Steps { stimuli, tolerance } => {
+                let steps = Steps {
                     fewest: self.shortest(recording),
                     tolerance: *tolerance,
-                },
-            ),
+                };
+                let each = stimuli.iter().filter_map(|role| recording.numbers(role));
+                each.map(|stimulus| by_steps(stimulus, &steps))
+                    .reduce(|dwells, others| both(&dwells, &others, steps.fewest))
+                    .unwrap_or_default()
+            }
             DwellsBy::Rest { outputs, rows } => {
                 let outputs = outputs.iter().filter_map(|role| recording.numbers(role));
                 by_stillness(
@@ -104,6 +106,7 @@ impl Points {
             .and_then(|role| recording.numbers(role));
         let cut = Cut::new(&dwells, time, &dwelling.settling);
         let mut points = Points {
+            findings: merged(recording, dwelling, &cut.kept),
             names: PointNames::Words(
                 cut.kept
                     .iter()
@@ -149,6 +152,45 @@ impl Points {
         }
         (points, cut.lost)
     }
+}
+
+/// Stretches of no fewer rows that two divisions have in common.
+fn both(dwells: &[Dwell], others: &[Dwell], fewest: usize) -> Vec<Dwell> {
+    let common = dwells.iter().flat_map(|one| {
+        let first = others.partition_point(|other| other.rows.end <= one.rows.start);
+        let within = others[first..]
+            .iter()
+            .take_while(|other| other.rows.start < one.rows.end);
+        within.map(|other| Dwell {
+            label: None,
+            rows: one.rows.start.max(other.rows.start)..one.rows.end.min(other.rows.end),
+        })
+    });
+    common.filter(|dwell| dwell.rows.len() >= fewest).collect()
+}
+
+/// Stimuli that rest at several values within what is averaged as one dwell.
+fn merged(recording: &Recording, dwelling: &Dwelling, kept: &[Dwell]) -> Vec<Finding> {
+    let steps = Steps {
+        fewest: dwelling.shortest(recording),
+        tolerance: None,
+    };
+    let of = |role: &String| {
+        let column = recording.column(role)?;
+        let own = by_steps(recording.numbers(role)?, &steps);
+        let values = |dwell: &&Dwell| both(std::slice::from_ref(*dwell), &own, steps.fewest).len();
+        let mut found = kept.iter().filter(|dwell| values(dwell) > 1);
+        let first = found.next()?;
+        Some(Finding {
+            problem: Problem::Merged {
+                values: values(&first),
+            },
+            column: Some(column.header.clone()),
+            line: recording.line(first.rows.start),
+            count: 1 + found.count(),
+        })
+    };
+    dwelling.stimuli.iter().filter_map(of).collect()
 }
 
 /// So many readings of a column are kept: as many as a picture shows one by one.

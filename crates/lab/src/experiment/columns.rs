@@ -75,7 +75,8 @@ impl<'s> Checker<'s> {
             .iter()
             .map(|(name, place)| (name, Some(place)));
         let others = names.optional.iter().map(|name| (name, None));
-        let stepped = steps.map(|steps| (&steps.value, Some(&steps.span)));
+        let stepped = steps.iter().flat_map(|steps| &steps.value.0);
+        let stepped = stepped.map(|step| (&step.value, Some(&step.span)));
         for (name, place) in numbers.chain(stepped).chain(others) {
             if self.is_declared(name) || columns.iter().any(|c| c.name == *name) {
                 continue;

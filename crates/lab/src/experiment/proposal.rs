@@ -1,7 +1,8 @@
 //! A proposal: the experiment that a recording may be of, for somebody to look over.
 //!
 //! Names and units come from the first line. Roles are told by how the numbers behave, which decides nothing: the file says of each column what is in
-//! it, and that its role is a guess. Without a procedure the equation is a straight line, the least that has a coefficient to calibrate.
+//! it, and that its role is a guess. Without a procedure the equation is a straight line, the least that has a coefficient to calibrate; along
+//! several axes that are set, the sum of one for each.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -283,27 +284,34 @@ fn source(file: &str, columns: &[Guess<'_>], rows: usize) -> String {
         Data::Labels(labels) => {
             guess.role != RoleWord::Ignore && is_dwell(stretches(&labels.of_row))
         }
-        Data::Numbers(_) => false,
+        Data::Numbers(numbers) => guess.role == RoleWord::Position && is_dwell(stretches(numbers)),
     });
-    let stepped = columns.iter().find(|guess| match &guess.column.data {
+    let stepped = columns.iter().filter(|guess| match &guess.column.data {
         Data::Numbers(numbers) => guess.role == RoleWord::Stimulus && is_dwell(stretches(numbers)),
         Data::Labels(_) => false,
     });
-    match (rows > MANY, stepped, labelled) {
-        (true, Some(guess), _) => format!("{{ file = {file}, steps = {} }}", quoted(&guess.name)),
-        (true, None, Some(guess)) => {
+    let stepped: Vec<String> = stepped.map(|guess| quoted(&guess.name)).collect();
+    match (rows > MANY, stepped.as_slice(), labelled) {
+        (true, [step], _) => format!("{{ file = {file}, steps = {step} }}"),
+        (true, _, Some(guess)) => {
             format!("{{ file = {file}, dwells = [{}] }}", quoted(&guess.name))
         }
-        (true, None, None) => format!("{{ file = {file}, average = \"none\" }}"),
-        _ => file,
+        (true, [], None) => format!("{{ file = {file}, average = \"none\" }}"),
+        (true, steps, None) => format!("{{ file = {file}, steps = [{}] }}", steps.join(", ")),
+        (false, ..) => file,
     }
 }
 
-/// A straight line for each output.
+/// For each output a straight line along what is set; along its other axes, too.
 fn by_line(columns: &[Guess<'_>]) -> String {
     let of = |role| columns.iter().filter(move |guess| guess.role == role);
-    let along = of(RoleWord::Stimulus).chain(of(RoleWord::Time)).next();
+    let first = of(RoleWord::Stimulus).chain(of(RoleWord::Time)).next();
+    let kin = of(RoleWord::Stimulus).filter(|guess| {
+        first.is_some_and(|first| first.name != guess.name && is_kin(first.column, guess.column))
+    });
+    let along: Vec<&Guess<'_>> = first.into_iter().chain(kin).collect();
     let outputs: Vec<&Guess<'_>> = of(RoleWord::Output).collect();
+    let along_axes = along.len() > 1;
     let mut taken: BTreeSet<String> = columns.iter().map(|guess| guess.name.clone()).collect();
     // Numbered: a name that is nearly that of a column would be taken for a slip of the pen.
     let equations = outputs.iter().zip(1..).map(|(output, number)| {
@@ -311,15 +319,17 @@ fn by_line(columns: &[Guess<'_>]) -> String {
             1 => String::new(),
             _ => number.to_string(),
         };
-        let mut coefficient = |letter: &str| identifier(&format!("{letter}{number}"), &mut taken);
-        let constant = coefficient("a");
-        match along {
-            Some(along) => {
-                let slope = coefficient("b");
-                format!("{} = {constant} + {slope}*{}", output.name, along.name)
-            }
-            None => format!("{} = {constant}", output.name),
-        }
+        let mut coefficient = |name: String| identifier(&name, &mut taken);
+        let constant = coefficient(format!("a{number}"));
+        let terms = along.iter().zip(1..).map(|(along, axis)| {
+            let slope = coefficient(match along_axes {
+                true => format!("b{number}{axis}"),
+                false => format!("b{number}"),
+            });
+            format!(" + {slope}*{}", along.name)
+        });
+        let terms: String = terms.collect();
+        format!("{} = {constant}{terms}", output.name)
     });
     let equations: Vec<String> = equations.map(|equation| quoted(&equation)).collect();
     let equations = match equations.as_slice() {
@@ -496,6 +506,42 @@ mod tests {
             (2, "position")
         );
         assert_eq!(equations[0].as_str(), Some("ax = a1"));
+    }
+
+    /// Six positions: what is set along each axis acts on every output, and a position is a dwell.
+    #[test]
+    fn axes_that_are_set_act_on_all_outputs() {
+        let set = [
+            [1, 0, 0],
+            [-1, 0, 0],
+            [0, 1, 0],
+            [0, -1, 0],
+            [0, 0, 1],
+            [0, 0, -1],
+        ];
+        let rows = |head: &dyn Fn(usize) -> String| -> String {
+            let row = |i: usize| {
+                let ([x, y, z], noise) = (set[i / 20], 0.001 * (i * i % 37) as f64);
+                format!(
+                    "{}{x},{y},{z},{},{}\n",
+                    head(i),
+                    f64::from(x) + noise,
+                    f64::from(y) - noise
+                )
+            };
+            (0..120).map(row).collect()
+        };
+        let table = of(&format!("gx,gy,gz,Ux,Uy\n{}", rows(&|_| String::new())));
+        let equations = table["equations"].as_array().expect("a list");
+        assert_eq!(
+            equations[1].as_str(),
+            Some("Uy = a2 + b21*gx + b22*gy + b23*gz")
+        );
+        let steps = table["recording"]["steps"].as_array().expect("a list");
+        assert_eq!(steps.len(), 3);
+        let numbered = rows(&|i| format!("{},", i / 20 + 1));
+        let table = of(&format!("position,gx,gy,gz,Ux,Uy\n{numbered}"));
+        assert_eq!(table["recording"]["dwells"][0].as_str(), Some("position"));
     }
 
     #[test]

@@ -97,8 +97,8 @@ table! {
         average: AverageEntry,
         /// Columns of labels that tell the dwells apart: consecutive rows with the same labels are averaged.
         dwells: OneOrMany<String>,
-        /// The column whose steps tell the dwells apart.
-        steps: String,
+        /// The column whose steps tell the dwells apart, or several: a step of any of them begins a new one.
+        steps: OneOrMany<String>,
         /// Without labels and steps: dwells are stretches at rest, in which no column of the equations scatters more than it does at its quietest, over so many rows.
         still: u64,
         /// How far apart values of `steps` in one dwell may be, in its unit.

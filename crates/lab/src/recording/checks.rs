@@ -98,6 +98,11 @@ pub enum Problem {
         /// The label, or the labels.
         label: String,
     },
+    /// What is averaged as one dwell holds several values of a stimulus.
+    Merged {
+        /// Values in the first of them.
+        values: usize,
+    },
     /// Points are averaged over a label, and it has more or fewer of them than others.
     Uneven {
         /// The label.

@@ -77,6 +77,13 @@ impl Finding {
             Problem::LabelUnknown { label, .. } => {
                 format!("\"{column}\" is \"{label}\" in {rows}, {lines}, which is not expected")
             }
+            Problem::Merged { values } => format!(
+                "\"{column}\" is set to {values} values within one dwell, from line {line} on, and they are averaged{}",
+                match count {
+                    1 => String::new(),
+                    dwells => format!(" (so in {dwells} dwells)"),
+                }
+            ),
             Problem::Uneven { label, usual } => format!(
                 "\"{label}\" has {} where most others have {usual}, and its average stands for them",
                 if count == 1 {
@@ -140,6 +147,13 @@ impl Finding {
             Problem::LabelUnknown { label, .. } => {
                 format!("“{column}”{lines}为“{label}”，不在预期之列")
             }
+            Problem::Merged { values } => format!(
+                "“{column}”自第 {line} 行起在一个驻留段内取了 {values} 个设定值，它们被一并平均{}",
+                match count {
+                    1 => String::new(),
+                    dwells => format!("（共 {dwells} 个驻留段如此）"),
+                }
+            ),
             Problem::Uneven { label, usual } => {
                 format!("“{label}”有 {count} 个点，其余多为 {usual} 个，其平均值由这些点求得")
             }
@@ -176,6 +190,7 @@ impl Finding {
                 Some(near) => format!("did you mean \"{near}\"?"),
                 None => "correct the label, or add it to the list".into(),
             },
+            Problem::Merged { .. } => "name it in `steps`, too: steps = [\"ax\", \"ay\"]; or name the column that tells the dwells apart in `dwells`".into(),
             Problem::Uneven { .. } => "what the average shall cancel remains in it; record the missing point, or check the labels".into(),
         }
     }
@@ -208,6 +223,9 @@ impl Finding {
                 Some(near) => format!("是否应为“{near}”？"),
                 None => "请更正标签，或将其加入清单".into(),
             },
+            Problem::Merged { .. } => {
+                "请将其一并列入 steps，如 steps = [\"ax\", \"ay\"]；或在 dwells 中给出区分驻留段的列".into()
+            }
             Problem::Uneven { .. } => {
                 "本应由平均抵消的影响会残留其中；请补测缺少的点或核对标签".into()
             }

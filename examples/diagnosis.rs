@@ -105,7 +105,9 @@ fn save_tables(options: &Options) -> Result<(), String> {
          Earlier tables: diagnosis-1.md (four rigs, the catalogue scored by slopes), diagnosis-2.md (noise judged before \
          the explanation), diagnosis-3.md (departures of a form allowed to everything beside it), diagnosis-4.md (a delay written as two terms), \
          diagnosis-5.md (effects on the scale of specimens not looked for, shapes looked for anew in a held-out recording), \
-         diagnosis-6.md (aliases with a coefficient more left out of the lists, widths of plays on a grid).",
+         diagnosis-6.md (aliases with a coefficient more left out of the lists, widths of plays on a grid), \
+         diagnosis-7.md (rules for accidents and contested names, what stood for several effects kept beside them, waves over fewer \
+         than 16 set points not looked for).",
         env!("CARGO_PKG_VERSION")
     );
     std::fs::write(out.join("diagnosis.md"), report(&read(&lines), &made))

@@ -59,6 +59,9 @@ fn quantisation(fitted: &FittedModel<'_>, response: usize) -> Option<Cell> {
     Some(cell)
 }
 
+/// Steps that are followed up at most: of more than these, some fit anything.
+const POSSIBLE: usize = 10_000;
+
 /// Equal steps in which readings come.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Steps {
@@ -111,10 +114,10 @@ fn steps(readings: &[f64]) -> Option<Steps> {
         return None;
     }
     let digit = digit(&values)?;
-    let step = spacing(&values, digit)?;
+    let (step, tried) = spacing(&values, digit)?;
     // Of the readings that the file can hold, so many lie next to a step, on either side.
     let near = (2.0 * digit / step).min(1.0);
-    let by_chance = libm::pow(near, (values.len() - 2) as f64);
+    let by_chance = tried as f64 * libm::pow(near, (values.len() - 2) as f64);
     let again = values.len() as f64 <= ALIKE * readings.len() as f64;
     if by_chance > CHANCE && !again {
         return None;
@@ -143,31 +146,61 @@ fn digit(values: &[f64]) -> Option<f64> {
     Some(libm::pow(10.0, f64::from(-place)))
 }
 
-/// The largest step of which all distances of ascending values are multiples, each value rounded to a digit. Longer and longer
-/// distances from the first narrow it down.
-fn spacing(values: &[f64], digit: f64) -> Option<f64> {
+/// The largest step of which all distances of ascending values are multiples, each value rounded to a digit, and how many steps
+/// were possible on the way to it.
+fn spacing(values: &[f64], digit: f64) -> Option<(f64, usize)> {
+    let digits = |x: f64| (x / digit).round() as i64;
+    let exact = values.windows(2).fold(0, |all, pair| {
+        common(all, digits(pair[1]) - digits(pair[0]))
+    });
+    let gaps = values.windows(2).map(|pair| pair[1] - pair[0]);
+    let least = gaps.clone().fold(f64::INFINITY, f64::min);
+    // A step of few digits is meant where it is possible; steps of less than two digits show as those of the file.
+    if exact > 1 || digits(least) <= 2 {
+        return Some((exact as f64 * digit, 1));
+    }
     // A bound is met by rounding as well.
     let slack = digit * (1.0 + 1e-6);
-    let gaps = values.windows(2).map(|pair| pair[1] - pair[0]);
-    let least = gaps.fold(f64::INFINITY, f64::min);
-    let (mut low, mut high) = ((least - slack).max(digit / 2.0), least + slack);
-    for value in &values[1..] {
-        let far = value - values[0];
-        let times = (far / (0.5 * (low + high))).round().max(1.0);
-        low = low.max((far - slack) / times);
-        high = high.min((far + slack) / times);
-        if low > high {
+    let mut distances: Vec<f64> = gaps.chain(values.iter().map(|x| x - values[0])).collect();
+    distances.retain(|far| *far > 0.0);
+    distances.sort_by(f64::total_cmp);
+    // A distance of many steps may be one more or less, so long as the step is not known better: each number of them leaves
+    // an interval for the step.
+    let (mut possible, mut tried) = (vec![(least - slack, least + slack)], 1);
+    for far in distances {
+        let held = |(low, high): &(f64, f64)| {
+            let (low, high) = (*low, *high);
+            let first = ((far - slack) / high).ceil().max(1.0);
+            let last = ((far + slack) / low).floor();
+            let numbers = (0..).map(move |more| first + f64::from(more));
+            numbers
+                .take_while(move |times| *times <= last)
+                .map(move |times| {
+                    (
+                        low.max((far - slack) / times),
+                        high.min((far + slack) / times),
+                    )
+                })
+        };
+        possible = possible.iter().flat_map(held).take(POSSIBLE + 1).collect();
+        tried = tried.max(possible.len());
+        if possible.len() > POSSIBLE {
             return None;
         }
     }
-    let step = 0.5 * (low + high);
-    // A step of few digits is meant where it is possible.
-    let short = super::modifiers::rounded(step, high - low);
-    Some(if (low..=high).contains(&short) {
-        short
-    } else {
-        step
-    })
+    let (low, high) = possible.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((
+        super::modifiers::rounded(0.5 * (low + high), high - low),
+        tried,
+    ))
+}
+
+/// The largest whole number that divides both; zero is divided by all.
+fn common(a: i64, b: i64) -> i64 {
+    match b {
+        0 => a.abs(),
+        _ => common(b, a % b),
+    }
 }
 
 /// Every output stands one row too late or too early.
@@ -228,6 +261,14 @@ mod tests {
         // A step of many digits, in a file of few.
         let found = steps(&of(0.023_47, 1e-3)).unwrap();
         assert!((found.step - 0.023_47).abs() < 1e-4, "{found:?}");
+        // Few set points, hundreds of steps from one to the next, and an origin of its own.
+        let noise = |k: usize| 0.0125 * libm::sin(7.3 * k as f64);
+        let reading = |k: usize| 0.4047 + 14.237 * (k % 8) as f64 + noise(k);
+        let far: Vec<f64> = (0..45)
+            .map(|k| (((reading(k) / 0.012_692).round() * 0.012_692 + 0.005) / 1e-4).round() * 1e-4)
+            .collect();
+        let found = steps(&far).unwrap();
+        assert!((found.step - 0.012_692).abs() < 1e-7, "{found:?}");
         let fine: Vec<f64> = course.iter().map(|x| libm::sin(37.0 * x)).collect();
         assert_eq!(steps(&fine), None);
         let digits: Vec<f64> = fine.iter().map(|x| (x * 1e5).round() / 1e5).collect();

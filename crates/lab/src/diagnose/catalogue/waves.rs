@@ -13,8 +13,8 @@ use crate::diagnose::case::Role;
 /// A wave with fewer periods is the business of drifts and smooth curves.
 const FEWEST_PERIODS: f64 = 3.0;
 
-/// A course with fewer different values says nothing of waves.
-const LEAST_VALUES: usize = 16;
+/// What is free in a wave: its period, its height, its phase.
+const FREE: usize = 3;
 
 /// Up to so many values the frequencies are half a period per range apart, beyond it a whole one.
 const FINE: usize = 130;
@@ -91,11 +91,15 @@ fn wave(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
         Some(_) => set_points(&distinct),
         None => distinct.len(),
     };
-    if values < LEAST_VALUES || span <= 0.0 {
+    // Beside what is declared and a wave, as many values have to be left that could refute it as it has free.
+    if values < fitted.design.unknowns.len() + 2 * FREE || span <= 0.0 {
         return None;
     }
     let step = if values <= FINE { 0.5 } else { 1.0 };
     let highest = (values - 1) as f64 / 2.0;
+    if highest <= FEWEST_PERIODS {
+        return None;
+    }
     let count = ((highest - FEWEST_PERIODS) / step).floor() as usize;
     let mut frequencies: Vec<f64> = (0..=count)
         .map(|k| (FEWEST_PERIODS + step * k as f64) / span)

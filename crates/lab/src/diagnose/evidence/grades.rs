@@ -7,7 +7,7 @@ use super::null::Simulated;
 use super::question::Question;
 use super::search::Search;
 use super::slots::{Explanation, slots};
-use super::space::Space;
+use super::space::{Frame, Space};
 use super::unlisted::Restated;
 
 /// A departure that makes an effect another is seen from so many standard deviations on.
@@ -23,17 +23,23 @@ pub(super) fn alike(
     again: &Restated,
     simulated: &Simulated,
 ) -> Option<(Vec<usize>, Vec<Slot>)> {
-    let strength = |block: &usize| {
-        let places = space.places(*block);
-        space.components.rows(places.start, places.len()).norm()
+    let best = |count: usize| {
+        let subsets =
+            (0..1_usize << named.len()).filter(|subset| subset.count_ones() as usize == count);
+        let part = |subset: usize| -> Vec<usize> {
+            let own = (0..named.len()).filter(|at| subset & (1 << at) != 0);
+            own.map(|at| named[at]).collect()
+        };
+        let frames = subsets.filter_map(|subset| space.frame(&part(subset)));
+        frames.max_by(|a, b| space.score(a).total_cmp(&space.score(b)))
     };
-    let mut strongest_first = named.to_vec();
-    strongest_first.sort_by(|a, b| strength(b).total_cmp(&strength(a)));
-    let sets = [2, 1].into_iter().filter(|count| *count <= named.len());
-    let mut sets = sets.map(|count| &strongest_first[..count]);
-    let core = sets.find(|set| departs_little(space, question, set, simulated))?;
-    let mut core = core.to_vec();
-    core.sort_unstable();
+    // Whether nothing stands out beside a set by more than a departure of its effects from their forms leaves.
+    let departs_little = |set: &Frame| {
+        let beside = detection::test(space, question, set, LIKENESS, None, simulated);
+        beside.p > question.settings.alpha
+    };
+    let mut sets = [2, 1].into_iter().filter_map(best);
+    let core = sets.find(departs_little)?.blocks;
     let explanation = Explanation {
         named: core.clone(),
         generic: None,
@@ -48,19 +54,6 @@ pub(super) fn alike(
         }
     }
     (slots.iter().all(Slot::is_explained)).then_some((core, slots))
-}
-
-/// Whether anything stands out beside a set by more than a departure of its effects from their forms leaves.
-fn departs_little(
-    space: &Space,
-    question: &Question,
-    set: &[usize],
-    simulated: &Simulated,
-) -> bool {
-    space.frame(set).is_some_and(|frame| {
-        let beside = detection::test(space, question, &frame, LIKENESS, None, simulated);
-        beside.p > question.settings.alpha
-    })
 }
 
 /// Why a name that stands alone says no more than what it acts like.

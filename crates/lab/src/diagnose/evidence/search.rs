@@ -12,7 +12,7 @@ use super::pairs::Pairs;
 use super::question::{Kind, Question};
 use super::refusal::Refusal;
 use super::remainders::Remainders;
-use super::space::Space;
+use super::space::{Frame, Space};
 use super::unlisted::Restated;
 
 /// Logarithm of the odds by which a pair has to beat the best single effect for the search to go on
@@ -90,7 +90,7 @@ pub(super) fn search(
             .filter_map(|seed| space.frame(seed))
             .any(|pair| level == 1 && space.score(&pair) > beam[0].0 + DECISIVE);
         if outcome.p > question.settings.alpha && !masked {
-            search.complete = Some(best.blocks);
+            search.complete = Some(needed(space, best));
             break;
         }
         if level == question.settings.max_effects {
@@ -113,6 +113,24 @@ pub(super) fn search(
         }
     }
     Ok(search)
+}
+
+/// The blocks of a set that it does not do as well without: what stood for several effects before they were found is one
+/// too many beside them.
+fn needed(space: &Space, mut set: Frame) -> Vec<usize> {
+    while set.blocks.len() > 1 {
+        let less = (0..set.blocks.len()).filter_map(|at| {
+            let mut rest = set.blocks.clone();
+            rest.remove(at);
+            space.frame(&rest)
+        });
+        let best = less.max_by(|a, b| space.score(a).total_cmp(&space.score(b)));
+        match best.filter(|best| space.score(best) >= space.score(&set)) {
+            Some(best) => set = best,
+            None => break,
+        }
+    }
+    set.blocks
 }
 
 /// All sets with one block more than those of the beam, the best first.
@@ -240,5 +258,43 @@ impl Search {
         self.visited
             .iter()
             .max_by(|a, b| a.score.total_cmp(&b.score))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, DVector};
+
+    use super::super::baseline::{Baseline, Prior};
+    use super::super::noise::{Covariance, Noise};
+    use super::super::question::{Atom, Candidate, Settings, Shape};
+    use super::*;
+
+    #[test]
+    fn what_stood_for_several_effects_is_one_too_many_beside_them() {
+        const ROWS: usize = 60;
+        let wave = |k: f64| DVector::from_fn(ROWS, |row, _| libm::sin(k * (row as f64 + 0.5)));
+        let (one, other, none) = (wave(0.31), wave(0.73), wave(1.37));
+        let columns = [one.clone(), other.clone(), &one + &other + &none * 0.5];
+        let candidates = [0, 1, 2].map(|at| Candidate::plain("", at));
+        let atoms = [0, 1, 2].map(|candidate: usize| Atom {
+            candidate,
+            variant: String::new(),
+            shape: Shape::Columns(DMatrix::from_columns(&columns[candidate..=candidate])),
+            share: 1.0,
+        });
+        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(ROWS, 1.0)));
+        let ones = DMatrix::from_element(ROWS, 1, 1.0);
+        let residuals = one * 5.0 + other * 5.0;
+        let baseline = Baseline::new(&ones, &residuals, &noise, &Prior::none(1)).unwrap();
+        let question = Question {
+            baseline: &baseline,
+            candidates: &candidates,
+            atoms: &atoms,
+            settings: Settings::default(),
+        };
+        let space = Space::new(&question).unwrap();
+        assert_eq!(needed(&space, space.frame_of(&[0, 1, 2])), [0, 1]);
+        assert_eq!(needed(&space, space.frame_of(&[2])), [2]);
     }
 }

@@ -191,6 +191,10 @@ const QUALIFIERS: &[&str] = &[
     "rms", "RMS", "pp", "p-p", "pk", "dc", "DC", "ac", "AC", "_rms", "_pp", "_dc", "_ac",
 ];
 
+const CLASS: Said = say!(
+    "a class is no amount: write the limits that it stands for, such as half_width = \"0.05 %\""
+);
+
 /// Units that are counted, or that a procedure defines; what resembles their symbols is something else.
 const BY_PROCEDURE: &[&str] = &[
     "NTU", "FNU", "FTU", "FAU", "EBC", "cfu", "CFU", "pfu", "PFU", "MPN", "copies", "cells", "pcs",
@@ -255,6 +259,9 @@ const FREQUENT: &[(&str, Said)] = &[
         "v",
         say!("write `V` for the volt; a ratio of volumes is `%`, or `L/L`"),
     ),
+    ("级", CLASS),
+    ("等", CLASS),
+    ("class", CLASS),
     ("cps", say!("write `1/s`")),
     ("cpm", say!("write `1/min`")),
     (

@@ -253,6 +253,8 @@ fn relative_amounts() {
     assert_eq!(faults(&one("value = 0\nu = \"50 ppm\""))[0].0, "B0214");
     let ratio = "[measurand.Y]\nmodel = \"X\"\n[input.X]\nvalue = 2\nu = \"1 %\"\n";
     assert_eq!(faults(ratio), [("B0113", "\"1 %\"".into())]);
+    // Of one, both are the same.
+    close(component("value = 1\nu = \"1.67 %\"").0, 0.0167);
     let angle = "[measurand.Y]\nmodel = \"X\"\nunit = \"°\"\n[input.X]\nvalue = 2\nunit = \"°\"\nu = \"6 '\"\n";
     close(budget(angle).components[0].u, 0.1);
     let temperature = "[measurand.Y]\nmodel = \"X\"\nunit = \"°C\"\n[input.X]\nvalue = \"293.15 K\"\nunit = \"°C\"\nu = \"0.1 °C\"\n";

@@ -284,3 +284,28 @@ fn the_larger_of_resolution_and_repeatability() {
     assert_eq!(largest.components.len(), 1);
     assert_eq!(largest.components[0].label, "repeatability");
 }
+
+#[test]
+fn directions_beside_each_other_are_told() {
+    let vector = |values: &str| {
+        format!(
+            "[measurand.Y]\nmodel = \"mean(D)\"\nunit = \"°\"\n[input.D]\nunit = \"°\"\nu = 2\nvalues = {values}\n"
+        )
+    };
+    let told = budget(&vector("[359, 1, 3]")).remarks;
+    assert!(told[0].en.contains("write -1 in place") || told[0].en.contains("write 361 in place"));
+    assert!(budget(&vector("[0, 90, 180, 270]")).remarks.is_empty());
+    assert!(budget(&vector("[-1, 1, 3]")).remarks.is_empty());
+}
+
+#[test]
+fn constants_are_numbers_amounts_lists_or_tables() {
+    let text = "[constant]\nx = [1, 2, 3]\nn = 2\n[measurand.Y]\nmodel = \"X * sum(x) / n\"\n[input.X]\nvalue = 2\nu = 1\n";
+    assert_eq!(budget(text).constants[0].values, [1.0, 2.0, 3.0]);
+}
+
+#[test]
+fn a_refused_assessment_has_no_further_faults() {
+    let text = "[measurand.Y]\nmodel = \"X\"\n[input.X]\nvalue = 2\nu = 1\n[conformity]\nupper = 3\n[claim]\nfigures = { \"Y.p_c\" = 0.5 }\n";
+    assert_eq!(faults(text).len(), 1, "the missing rule alone");
+}

@@ -303,6 +303,11 @@ fn unseen_in_english(report: &Report<'_>, measurand: Option<usize>, unseen: Unse
             "{first} Second order does not see it either, although the measurand depends on it. Only Monte Carlo tells what it does."
         );
     }
+    if !u_effect.is_finite() {
+        return format!(
+            "{first} The second derivatives do not exist there. Only Monte Carlo tells what it does."
+        );
+    }
     let amount = |x: f64| amount(report, measurand, significant(x, 2));
     let whose = if inputs.len() == 1 { "Its" } else { "Their" };
     let moved = if is_residue(shift, u_effect) {
@@ -329,6 +334,9 @@ fn unseen_in_chinese(report: &Report<'_>, measurand: Option<usize>, unseen: Unse
         return format!(
             "{first}二阶项也反映不出，而被测量确实随之变化，只有蒙特卡洛法能给出其影响。"
         );
+    }
+    if !u_effect.is_finite() {
+        return format!("{first}该处二阶导数不存在，只有蒙特卡洛法能给出其影响。");
     }
     let amount = |x: f64| amount(report, measurand, significant(x, 2));
     let moved = if is_residue(shift, u_effect) {

@@ -26,6 +26,7 @@ impl Univariate for Arcsine {
     const KIND: Kind = Kind {
         key: "arcsine",
         aliases: &[
+            "u",
             "u-shape",
             "u-shaped",
             "arc-sine",

@@ -216,11 +216,25 @@ impl Lowering<'_> {
                 say!("`{text}` is in {symbol}, a scale with an arbitrary zero, and cannot be used as an amount"),
             )
             .label(say!("a point on the {symbol} scale"))
-            .help(say!(
-                "of a temperature write `kelvin({text})`, {apart}, or its number without unit, `value_in({text}, '{symbol}')`; a difference or a correction is stated in {difference}: `unit = \"{difference}\"`"
-            )),
+            .help(match is_called_a_difference(&text) {
+                true => say!(
+                    "a difference or a correction is stated in {difference}: `unit = \"{difference}\"` for {text}, with the same numbers"
+                ),
+                false => say!(
+                    "of a temperature write `kelvin({text})`, {apart}, or its number without unit, `value_in({text}, '{symbol}')`; a difference or a correction is stated in {difference}: `unit = \"{difference}\"`"
+                ),
+            }),
         );
     }
+}
+
+/// Whether a name says that it is a difference: `Δt`, `δt_a`, `dT`, `delta_t`.
+fn is_called_a_difference(name: &str) -> bool {
+    let lower = name.to_lowercase();
+    let short = name
+        .strip_prefix('d')
+        .is_some_and(|rest| rest.starts_with(|c: char| c.is_uppercase() || "tθ_".contains(c)));
+    short || lower.starts_with(['δ', '∆']) || lower.starts_with("delta")
 }
 
 /// `t` and `20` of `t - 20 'K'`, which is a point where the difference from one was meant.

@@ -14,6 +14,7 @@ pub(super) fn torn(terms: &[NamedTerm]) -> Option<UnitError> {
     let whole = |first: &str, second: &str| match (first, second) {
         ("deg" | "°", "C") => Some(say!("write `°C` or `degC`; with the coulomb, `C·°`")),
         ("deg" | "°", "F") => Some(say!("write `°F` or `degF`; with the farad, `F·°`")),
+        ("R" | "%R", "H") => Some(say!("write `%RH`")),
         ("dB", "A" | "C") => Some(say!(
             "declare the weighted level in the [unit] table, `dB{second} = \"dB\"`, and write `dB{second}`"
         )),
@@ -42,10 +43,6 @@ pub(super) fn for_unknown<'a>(
         return say!(
             "what is counted, or defined by its procedure, is of dimension one: declare it in the [unit] table, `{name} = \"1\"`"
         );
-    }
-    let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
-    if letters != name && is_known(letters) {
-        return say!("write `{letters}^{}`", &name[letters.len()..]);
     }
     if let Some(symbol) = by_english_name(name)
         .map(str::to_owned)
@@ -194,8 +191,8 @@ const QUALIFIERS: &[&str] = &[
     "rms", "RMS", "pp", "p-p", "pk", "dc", "DC", "ac", "AC", "_rms", "_pp", "_dc", "_ac",
 ];
 
-const HARDNESS: Said = say!(
-    "a hardness number is of dimension one: declare its scale in the [unit] table, as in `HV = \"1\"`"
+const CLASS: Said = say!(
+    "a class is no amount: write the limits that it stands for, such as half_width = \"0.05 %\""
 );
 
 /// Units that are counted, or that a procedure defines; what resembles their symbols is something else.
@@ -222,17 +219,11 @@ const FREQUENT: &[(&str, Said)] = &[
         "mmH2O",
         say!("declare it in the [unit] table: `mmH2O = \"9.80665 Pa\"`"),
     ),
+    ("y", say!("write `a`")),
     ("year", say!("write `a`")),
     ("years", say!("write `a`")),
     ("gr", say!("write `g` for the gram, `grain` for the grain")),
     ("度", say!("write `°` for an angle, `°C` for a temperature")),
-    ("HV", HARDNESS),
-    ("HB", HARDNESS),
-    ("HBW", HARDNESS),
-    ("HRC", HARDNESS),
-    ("HRB", HARDNESS),
-    ("HRA", HARDNESS),
-    ("HLD", HARDNESS),
     ("sec", say!("write `s`")),
     ("secs", say!("write `s`")),
     ("hr", say!("write `h`")),
@@ -268,6 +259,9 @@ const FREQUENT: &[(&str, Said)] = &[
         "v",
         say!("write `V` for the volt; a ratio of volumes is `%`, or `L/L`"),
     ),
+    ("级", CLASS),
+    ("等", CLASS),
+    ("class", CLASS),
     ("cps", say!("write `1/s`")),
     ("cpm", say!("write `1/min`")),
     (

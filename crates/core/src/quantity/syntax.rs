@@ -1,11 +1,14 @@
 //! The syntax of unit texts: text → named factors with exponents and spans.
 //!
 //! ```text
-//! product  = operand (("·" | "*" | " " | "/") operand)*
+//! product  = [operand] (("·" | "*" | "." | " " | "/") operand)*
 //! operand  = ["√"] primary [power]
 //! primary  = name | number | "(" product ")" | "sqrt(" product ")"
-//! power    = ("^" | "**") (number | "(" number ["/" number] ")") | superscript
+//! power    = ("^" | "**") (number | "(" number ["/" number] ")") | superscript | "-" number
 //! ```
+//!
+//! Only a solidus may begin a product without an operand: `/K`. A digit behind a name is a power where the name with it is
+//! no unit, which the table of units decides: `m3`.
 
 use std::ops::Range;
 
@@ -160,7 +163,11 @@ impl Parser<'_> {
         let start = self
             .peek()
             .map_or(self.here().start, |token| token.span.start);
-        let mut result = self.operand(depth)?;
+        let reciprocal = self.peek().is_some_and(|token| token.kind == Kind::Over);
+        let mut result = match reciprocal {
+            true => Product::one(),
+            false => self.operand(depth)?,
+        };
         let mut divided_by_name = None;
         loop {
             if let Some(solidus) = self.eat(&Kind::Over) {
@@ -217,9 +224,10 @@ impl Parser<'_> {
         }
         let second = &self.text[second_start..span.end];
         let numerator = before.trim_end_matches(['/', '⁄', '∕', '／']).trim_end();
-        let below = format!("`{numerator}/({first}·{second})`");
+        let one = if numerator.is_empty() { "1" } else { numerator };
+        let below = format!("`{one}/({first}·{second})`");
         match numerator {
-            "1" => error.help(say!("write {below} or `{second}/{first}`")),
+            "" | "1" => error.help(say!("write {below} or `{second}/{first}`")),
             _ if numerator.contains('/') => {
                 error.help(say!("write {below}, or negative exponents"))
             }
@@ -359,8 +367,12 @@ impl Parser<'_> {
             let exponent = exponent.ok_or_else(|| self.too_large(span.clone()))?;
             return Ok(Some((exponent * STEPS, span)));
         }
-        let Some(caret) = self.eat(&Kind::Power) else {
-            return Ok(None);
+        let caret = match self.eat(&Kind::Power) {
+            Some(caret) => caret,
+            None => match self.negative_power() {
+                Some(start) => start..start,
+                None => return Ok(None),
+            },
         };
         let value = if self.eat(&Kind::Open).is_some() {
             let numerator = self.signed_number(&caret)?;
@@ -400,6 +412,22 @@ impl Parser<'_> {
         Ok(Some((sixtieths.round() as i32, span)))
     }
 
+    /// Where `-3` begins right behind an operand, as in `kg·m-3`.
+    fn negative_power(&self) -> Option<usize> {
+        let behind = self.here().end;
+        match self.tokens.get(self.next..self.next + 2)? {
+            [minus, number]
+                if minus.kind == Kind::Minus
+                    && number.kind == Kind::Number
+                    && minus.span.start == behind
+                    && minus.span.end == number.span.start =>
+            {
+                Some(behind)
+            }
+            _ => None,
+        }
+    }
+
     fn signed_number(&mut self, caret: &Range<usize>) -> Result<f64, UnitError> {
         let sign = if self.eat(&Kind::Minus).is_some() {
             -1.0
@@ -426,16 +454,7 @@ impl Parser<'_> {
             "" => say!("a unit is missing at the end"),
             found => say!("a unit is missing before `{found}`"),
         };
-        let reciprocal = self.text.trim();
-        let help = match reciprocal.strip_prefix('/').map(str::trim_start) {
-            Some(below)
-                if span.start == self.text.len() - self.text.trim_start().len()
-                    && !below.is_empty() =>
-            {
-                say!("a reciprocal is written `1/{below}`")
-            }
-            _ => say!("write a unit as in `m/s^2` or `1/K`"),
-        };
+        let help = say!("write a unit as in `m/s^2` or `1/K`");
         UnitError::new(MALFORMED_UNIT, span, message).help(help)
     }
 
@@ -492,6 +511,8 @@ mod tests {
             "m／s²",
             "(m/s^2)",
             "m·s^−2",
+            "m.s-2",
+            "m s−2",
         ] {
             let total: i32 = parse(text, Numbers::OneOnly)
                 .unwrap()
@@ -525,6 +546,8 @@ mod tests {
     fn one_is_a_numerator_or_stands_alone() {
         assert_eq!(terms("1"), "");
         assert_eq!(terms("1/K"), "K:-1 ");
+        assert_eq!(terms("/K"), "K:-1 ");
+        assert_eq!(terms("W/(/K)"), "W:1 K:1 ");
         assert!(parse("°C", Numbers::OneOnly).unwrap().bare);
         assert!(!parse("1/°C", Numbers::OneOnly).unwrap().bare);
     }
@@ -560,7 +583,9 @@ mod tests {
         assert_eq!(error("").2, "write \"1\" for a quantity of dimension one");
         assert_eq!(error("  ").0, 0..2);
         assert_eq!(error("m/").1, "a unit is missing at the end");
-        assert_eq!(error("/s").0, 0..1);
+        assert_eq!(error("/").0, 1..1);
+        assert_eq!(error("m//s").0, 2..3);
+        assert_eq!(error("/K·m").2, "write `1/(K·m)` or `m/K`");
         assert_eq!(error("m/(s").0, 2..3);
         assert_eq!(error("m)").0, 1..2);
         assert_eq!(error("m^x").1, "a number is missing in the exponent");

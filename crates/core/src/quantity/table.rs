@@ -110,8 +110,20 @@ impl UnitTable {
             dimension: scale.dimension,
             factor: scale.factor,
             origin: scale.origin,
-            symbol: text.trim().to_owned(),
+            symbol: self.symbol(text, &parsed),
         })
+    }
+
+    /// A unit text with the sign of each power that it leaves out: `m^3` for `m3`.
+    fn symbol(&self, text: &str, parsed: &Parsed) -> String {
+        let mut symbol = text.to_owned();
+        let implied = parsed.terms.iter().rev().filter_map(|term| {
+            let (letters, _) = power_behind(&term.name)?;
+            let digit = term.span.end - (term.name.len() - letters.len());
+            self.lookup(&term.name).is_none().then_some(digit)
+        });
+        implied.for_each(|digit| symbol.insert(digit, '^'));
+        symbol.trim().to_owned()
     }
 
     /// Whether it has no units but the built-in ones.
@@ -258,16 +270,29 @@ enum CombineFault {
 fn combine(parsed: &Parsed, lookup: impl Fn(&str) -> Option<Scale>) -> Result<Scale, CombineFault> {
     let mut result = Scale::coherent(Dimension::NONE, parsed.number);
     for term in &parsed.terms {
-        let scale = lookup(&term.name).ok_or_else(|| CombineFault::Unknown(term.clone()))?;
-        let dimension = scale.dimension.powr(term.exponent, STEPS);
+        let implied = || {
+            let (letters, power) = power_behind(&term.name)?;
+            let scale = lookup(letters).filter(|scale| scale.dimension != Dimension::NONE)?;
+            Some((scale, power))
+        };
+        let found = lookup(&term.name).map(|scale| (scale, 1)).or_else(implied);
+        let (scale, power) = found.ok_or_else(|| CombineFault::Unknown(term.clone()))?;
+        let exponent = term.exponent * power;
+        let dimension = scale.dimension.powr(exponent, STEPS);
         let dimension = dimension.ok_or_else(|| CombineFault::Exponent(term.clone()))?;
         result.dimension = result.dimension.product(dimension);
-        result.factor = result
-            .factor
-            .product(scale.factor.powr(term.exponent, STEPS));
-        result.origin = scale.origin.filter(|_| parsed.bare);
+        result.factor = result.factor.product(scale.factor.powr(exponent, STEPS));
+        result.origin = scale.origin.filter(|_| parsed.bare && power == 1);
     }
     Ok(result)
+}
+
+/// The letters of a name and the digit behind them, which is a power if the name is no unit: `m3`.
+fn power_behind(name: &str) -> Option<(&str, i32)> {
+    let letters = name.strip_suffix(|c: char| ('2'..='9').contains(&c))?;
+    let power = i32::from(name.as_bytes()[letters.len()] - b'0');
+    let plain = !letters.ends_with(|c: char| c.is_ascii_digit());
+    plain.then_some((letters, power))
 }
 
 /// Checks the name of a unit that a file defines.
@@ -430,6 +455,23 @@ mod tests {
     }
 
     #[test]
+    fn a_digit_behind_a_name_is_a_power_unless_the_name_has_it() {
+        let mut table = UnitTable::default();
+        table.define("m3", "1 s").unwrap();
+        table.define("HV5", "1").unwrap();
+        let dimension = |text: &str| table.parse(text).unwrap().dimension.to_string();
+        assert_eq!(dimension("m3"), "s");
+        assert_eq!(dimension("m2"), "m^2");
+        assert_eq!(dimension("HV5"), "1");
+        assert_eq!(dimension("g0"), "m·s^-2");
+        assert_eq!(unit(" kg/m3 ").symbol, "kg/m^3");
+        assert_eq!(unit("μm2·μs").symbol, "μm^2·μs");
+        assert_eq!(unit("°C2").origin, None);
+        // A number to a power is a name that nobody declared.
+        assert!(error("ppm2").help.unwrap().to_string().contains("[unit]"));
+    }
+
+    #[test]
     fn laboratory_spellings_are_read() {
         for (a, b) in [
             ("℃", "°C"),
@@ -450,6 +492,12 @@ mod tests {
             ("r/min", "rpm"),
             ("ml", "mL"),
             ("ppm/℃", "ppm/K"),
+            ("m3", "m^3"),
+            ("W/(m2.K4)", "W/(m^2·K^4)"),
+            ("kg.m-3", "kg/m^3"),
+            ("mPa.s", "mPa·s"),
+            ("/℃", "1/K"),
+            ("1/cm3", "cm^-3"),
         ] {
             let (a, b) = (unit(a), unit(b));
             assert_eq!(
@@ -489,14 +537,12 @@ mod tests {
         assert_eq!(suggestion("KHz"), "write `kHz`");
         assert_eq!(suggestion("sec"), "write `s`");
         assert_eq!(suggestion("Volt"), "write `V`");
-        assert_eq!(suggestion("m2"), "write `m^2`");
-        assert_eq!(suggestion("mm3"), "write `mm^3`");
+        assert!(suggestion("HV10").contains("[unit]"));
         assert_eq!(suggestion("meters"), "write `m`");
         assert!(suggestion("arcsecs").contains("`arcsec`"));
         assert_eq!(suggestion("Nm"), "write `N·m` for the product");
         assert!(suggestion("Pas").contains("`Pa·s`"));
         assert!(suggestion("arcmni").contains("`arcmin`"));
-        assert_eq!(suggestion("m/s2"), "write `s^2`");
         assert!(suggestion("Vrms").contains("`V`"));
         assert!(suggestion("dBm").contains("[unit]"));
         assert!(suggestion("M").contains("`m`"));
@@ -518,7 +564,7 @@ mod tests {
         assert_eq!(suggestion("毫米"), "write `mm`");
         assert_eq!(suggestion("毫米/秒"), "write `mm`");
         assert!(suggestion("gr").contains("`grain`"));
-        assert!(suggestion("HRC").contains("[unit]"));
+        assert!(suggestion("NTU").contains("[unit]"));
         assert!(!suggestion("克拉").contains("2.5"));
     }
 

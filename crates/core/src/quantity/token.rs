@@ -44,7 +44,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, UnitError> {
             _ if c.is_whitespace() => continue,
             '*' if chars.next_if(|(_, c)| *c == '*').is_some() => Kind::Power,
             '^' => Kind::Power,
-            '*' | '·' | '⋅' | '∙' | '•' | '・' | '×' => Kind::Times,
+            '*' | '·' | '⋅' | '∙' | '•' | '・' | '×' | '.' => Kind::Times,
             '/' | '⁄' | '∕' | '／' | '÷' => Kind::Over,
             '(' | '（' => Kind::Open,
             ')' | '）' => Kind::Close,
@@ -69,10 +69,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, UnitError> {
             }
             _ => {
                 let span = start..start + c.len_utf8();
-                let help = match c {
-                    '.' => say!("a product is written `N·m` or `N*m`, relative humidity `%RH`"),
-                    _ => say!("units are written as in `m/s^2`, `µV/(V·K)` or `°/√h`"),
-                };
+                let help = say!("units are written as in `m/s^2`, `µV/(V·K)` or `°/√h`");
                 let message = say!("`{c}` has no meaning in a unit");
                 return Err(UnitError::new(MALFORMED_UNIT, span, message).help(help));
             }

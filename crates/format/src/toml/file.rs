@@ -3,10 +3,9 @@
 use std::path::Path;
 
 use gumption_fault::{Code, Fault, Rejection, say};
-use toml::de::DeTable;
 
 use super::faults::{NOT_UTF8, TOML_SYNTAX};
-use super::syntax::{elsewhere, leaves_the_rest, syntax_faults};
+use super::syntax::{document, elsewhere, leaves_the_rest, syntax_faults};
 use super::table::{Hints, Reader, Table, read_table};
 
 /// The tables of a file, with the faults of their syntax and keys. `unused` is the code of faults that follow
@@ -20,7 +19,7 @@ pub fn tables_of<T: Table>(
     hints: &'static Hints,
     unused: Code,
 ) -> Result<(T, Vec<Fault>), Vec<Fault>> {
-    let (table, errors) = DeTable::parse_recoverable(text);
+    let (table, errors) = document(text, hints.synonyms);
     let mut faults = syntax_faults(&errors, text, hints.synonyms);
     if !errors.iter().all(leaves_the_rest) {
         return Err(faults);

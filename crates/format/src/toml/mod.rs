@@ -17,7 +17,7 @@ pub use file::{decoded, tables_of};
 pub use matrix::{Matrices, Matrix, Number, Row};
 pub use places::{Form, Places, Statement, Step, Written};
 pub use strings::StringMap;
-pub use syntax::{elsewhere, leaves_the_rest, syntax_faults, without_comma};
+pub use syntax::{document, elsewhere, leaves_the_rest, syntax_faults, without_comma};
 pub use table::{
     FromToml, Hints, Key, KeyRow, Raw, Reader, Slot, Stated, Table, described, doc_text, in_order,
     inner, read_table, table, unknown_word, words,

@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 use toml_parser::Source;
 use toml_parser::parser::{Event, EventKind, parse_document};
 
+use super::syntax::document;
+
 /// A step of a path: into a table or into a list.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(untagged)]
@@ -65,7 +67,9 @@ impl<'t> Places<'t> {
     /// The places of a text; `None` where it is no well-formed TOML.
     pub fn of(text: &'t str) -> Option<Places<'t>> {
         // The reader says whether it is one, and bounds how deep lists stand in one another.
-        text.parse::<toml::Table>().ok()?;
+        if !document(text, &[]).1.is_empty() {
+            return None;
+        }
         let source = Source::new(text);
         let tokens = source.lex().into_vec();
         let mut events = Vec::new();

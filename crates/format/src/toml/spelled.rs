@@ -1,4 +1,7 @@
-//! Numbers as they are written elsewhere: with full-width digits, a power of ten, groups of digits, no digit before the point.
+//! Numbers as they are written elsewhere: with full-width digits, a power of ten, groups of digits, no digit before the point, angles in
+//! minutes and seconds.
+
+use std::ops::Range;
 
 /// A number, as TOML writes it, and what stands behind it, of a text that writes the number in another way.
 pub(super) fn spelled(text: &str) -> Option<(String, String)> {
@@ -115,6 +118,35 @@ fn digits(text: &str) -> (&str, &str) {
     text.split_at(end)
 }
 
+/// An angle in degrees, minutes and seconds, `45°00′03.5″`, as a number of degrees, and where its degree sign is.
+pub(super) fn sexagesimal(text: &str) -> Option<(f64, Range<usize>)> {
+    let start = text.find(['°', 'º', '˚'])?;
+    let sign = text[start..].chars().next()?;
+    let behind = start + sign.len_utf8();
+    let (minutes, seconds) = text[behind..].split_once(['′', '\'', '’'])?;
+    let (minus, degrees) = match text[..start].trim().strip_prefix(['-', '−']) {
+        Some(degrees) => (-1.0, degrees),
+        None => (1.0, &text[..start]),
+    };
+    let seconds = match seconds.trim() {
+        "" => 0.0,
+        written => below_sixty(written.strip_suffix(['″', '"', '”'])?)?,
+    };
+    let degrees = unsigned(degrees).filter(|degrees| degrees.fract() == 0.0)?;
+    let total = degrees * 3600.0 + below_sixty(minutes)? * 60.0 + seconds;
+    Some((minus * total / 3600.0, start..behind))
+}
+
+fn below_sixty(text: &str) -> Option<f64> {
+    unsigned(text).filter(|number| *number < 60.0)
+}
+
+fn unsigned(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let digits = text.starts_with(|c: char| c.is_ascii_digit());
+    text.parse::<f64>().ok().filter(|_| digits)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -135,6 +167,32 @@ mod tests {
         ] {
             let found = spelled(text);
             assert_eq!(found, Some((number.to_owned(), unit.to_owned())), "{text}");
+        }
+    }
+
+    #[test]
+    fn angles_in_minutes_and_seconds() {
+        for (text, degrees) in [
+            ("45°30′", 45.5),
+            ("45°00′36″", 45.01),
+            ("-0° 0' 36.0\"", -0.01),
+            ("−1º30’00”", -1.5),
+        ] {
+            let (found, sign) = sexagesimal(text).expect(text);
+            assert_eq!(found, degrees, "{text}");
+            assert!(["°", "º"].contains(&&text[sign]));
+        }
+        for text in [
+            "45°",
+            "45.5°30′",
+            "1°60′",
+            "1°30′5",
+            "1°-3′",
+            "30′",
+            "°C",
+            "1 °/h",
+        ] {
+            assert_eq!(sexagesimal(text), None, "{text}");
         }
     }
 

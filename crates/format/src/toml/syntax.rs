@@ -5,6 +5,9 @@ use std::ops::Range;
 use gumption_fault::libraries::of_toml;
 use gumption_fault::{Code, Fault, Said, say};
 
+use toml::Spanned;
+use toml::de::DeTable;
+
 use super::faults::TOML_SYNTAX;
 use super::spelled::spelled;
 
@@ -13,6 +16,32 @@ const MAX_SYNTAX_FAULTS: usize = 8;
 
 /// Words that people try, and the key that they mean.
 pub type Synonyms = [(&'static str, &'static str)];
+
+/// What the parser reads of a text, with its errors.
+///
+/// TOML itself wants quotes around keys with other letters than A to Z. Names of quantities have them, ρ or 电压, and nothing
+/// else can be meant: they are read without.
+pub fn document<'t>(
+    text: &'t str,
+    synonyms: &Synonyms,
+) -> (Spanned<DeTable<'t>>, Vec<toml::de::Error>) {
+    let (table, mut errors) = DeTable::parse_recoverable(text);
+    errors.retain(|error| !is_name(error, text, synonyms));
+    (table, errors)
+}
+
+/// Whether an error is about a key that is a name of letters without quotes, and no word for a key of the program.
+fn is_name(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> bool {
+    let Some(span) = error.span().filter(|_| error.message().contains(UNQUOTED)) else {
+        return false;
+    };
+    let letter = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
+    let word = text.get(word_at(&span, text)).unwrap_or_default();
+    word.chars().all(letter) && !synonyms.iter().any(|(synonym, _)| *synonym == word)
+}
+
+/// How the parser says that a key needs quotes.
+const UNQUOTED: &str = "invalid unquoted key";
 
 /// Syntax errors, the first of each line: what follows on the same line mostly follows from it.
 pub fn syntax_faults(errors: &[toml::de::Error], text: &str, synonyms: &Synonyms) -> Vec<Fault> {
@@ -77,7 +106,7 @@ pub fn leaves_the_rest(error: &toml::de::Error) -> bool {
     let message = error.message();
     [
         "string values must be quoted",
-        "invalid unquoted key",
+        UNQUOTED,
         "invalid float",
         "string, expected",
         "duplicate key",
@@ -193,7 +222,7 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
         fault(say!("`{marked}` needs quotes"))
             .label(say!("an amount with a unit is a text"))
             .help(quoted(number, unit))
-    } else if says("invalid unquoted key") && !marked.is_empty() {
+    } else if says(UNQUOTED) && !marked.is_empty() {
         let span = word_at(&span, text);
         let marked = text.get(span.clone()).unwrap_or_default();
         unquoted_key(span, marked, text, synonyms)
@@ -448,11 +477,10 @@ fn amount(text: &str) -> Option<(&str, &str)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use toml::de::DeTable;
 
     /// Marked text and help of the first fault.
     fn first(text: &str) -> (String, String) {
-        let (_, errors) = DeTable::parse_recoverable(text);
+        let (_, errors) = document(text, &[]);
         let fault = syntax_faults(&errors, text, &[])
             .into_iter()
             .next()
@@ -485,6 +513,28 @@ mod tests {
     }
 
     #[test]
+    fn names_of_letters_need_no_quotes() {
+        let synonyms = [("单位", "unit")];
+        let errors = |text| document(text, &synonyms).1.len();
+        for text in [
+            "[input.Δp]\nvalue = 1",
+            "[input]\nρ_w = { value = 1 }\n电压 = 3",
+            "[measurand.R₀]",
+            "α-1 = 2",
+            "a = { φ = 1, Δ2Δ = 3 }",
+            "a.δ.b = 1",
+        ] {
+            assert_eq!(errors(text), 0, "{text}");
+            let (table, _) = document(text, &synonyms);
+            let quoted = format!("{table:?}");
+            assert!(!quoted.contains("\"\""), "{quoted}");
+        }
+        for text in ["单位 = \"V\"", "a（1） = 2", "°x = 1", "ρ w = 1"] {
+            assert_ne!(errors(text), 0, "{text}");
+        }
+    }
+
+    #[test]
     fn a_list_that_is_not_closed_is_not_a_comma() {
         for text in ["readings = [1,2", "readings = [1.5,2", "readings = [1,2}"] {
             let (_, help) = first(text);
@@ -496,7 +546,7 @@ mod tests {
     fn a_repeated_table_is_one_fault() {
         let text =
             "[input.R]\nvalue = 1\nu = 2\n[input.S]\nvalue = 1\n[input.R]\nvalue = 1\nu = 3\n";
-        let (_, errors) = DeTable::parse_recoverable(text);
+        let (_, errors) = document(text, &[]);
         let faults = syntax_faults(&errors, text, &[]);
         assert_eq!(faults.len(), 1, "{faults:?}");
         assert!(faults[0].message.to_string().contains("`R`"));

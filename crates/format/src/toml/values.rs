@@ -7,7 +7,7 @@ use toml::de::{DeFloat, DeInteger, DeValue};
 
 use super::faults::{AMOUNT, NOT_FINITE, NOT_WHOLE, QUOTED_NUMBER, WRONG_TYPE};
 use super::matrix::{Matrix, Number, Row};
-use super::spelled::spelled;
+use super::spelled::{sexagesimal, spelled};
 use super::strings::StringMap;
 use super::syntax::{of_concise, of_plus_minus, without_comma};
 use super::table::{FromToml, KeyRow, Raw, Reader, Stated, in_order, inner};
@@ -323,6 +323,9 @@ pub fn amount_parts(text: &str) -> Option<(f64, &str)> {
 
 /// The number at the beginning of a text, and where its unit is.
 fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
+    if let Some(angle) = sexagesimal(text) {
+        return Some(angle);
+    }
     let lead = text.len() - text.trim_start().len();
     let body = text.trim();
     // The longest prefix that is a number: `5e-3 V`, but also `5 eV`.
@@ -382,22 +385,24 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
         fault.help(without_comma(text.trim(), "\""))
     } else if text.contains(',') && bare.trim().parse::<f64>().is_ok() {
         fault.help(without_comma(text.trim(), ""))
-    } else if let Some((number, rest)) = text
-        .split_once(['±', '('])
-        .filter(|(n, _)| !n.trim().is_empty())
+    } else if let Some(amount) = text.trim().strip_prefix('±').map(str::trim) {
+        let quotes = match amount.parse::<f64>() {
+            Ok(_) => "",
+            Err(_) => "\"",
+        };
+        fault.help(say!(
+            "leave out the ±, which the key says: {quotes}{amount}{quotes}"
+        ))
+    } else if let Some((number, rest)) = text.split_once('±') {
+        fault.help(of_plus_minus(number.trim(), rest.trim()))
+    } else if let Some((number, _)) = text
+        .split_once('(')
+        .filter(|(number, _)| number.trim().parse::<f64>().is_ok())
     {
-        let (number, rest) = (number.trim(), rest.trim());
-        fault.help(match text.contains('±') {
-            true => of_plus_minus(number, rest),
-            false => of_concise(number),
-        })
-    } else if text.contains(['/', '*', '^']) && text.starts_with(|c: char| c.is_ascii_digit()) {
+        fault.help(of_concise(number.trim()))
+    } else if text.contains(['/', '*', '^', '(']) {
         fault.help(say!(
             "write the number that it gives; formulas stand in a `model`"
-        ))
-    } else if text.trim_start().starts_with('±') {
-        fault.help(say!(
-            "leave out the ±; the key says that it is an uncertainty"
         ))
     } else {
         fault.help(say!(

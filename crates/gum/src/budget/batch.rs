@@ -17,7 +17,7 @@ use super::{Budget, Files, Profile, Row, hints::HINTS};
 use gumption_fault::{Fault, Rejection, nearest, say};
 use gumption_format::csv::faults::NO_COLUMN;
 use gumption_format::csv::{self, Sheet};
-use gumption_format::toml::{Reader, Stated, leaves_the_rest, syntax_faults};
+use gumption_format::toml::{Reader, Stated, document, leaves_the_rest, syntax_faults};
 
 /// The text of a budget, whose values a table is to replace.
 #[derive(Debug)]
@@ -79,7 +79,7 @@ impl<'f> BatchFile<'f> {
         table: &str,
         keep: &[String],
     ) -> Result<Batch<'_>, Rejection> {
-        let (file, errors) = DeTable::parse_recoverable(&self.text);
+        let (file, errors) = document(&self.text, HINTS.synonyms);
         let refused = |faults| Err(Rejection::new(&self.name(), &self.text, faults));
         let syntax = syntax_faults(&errors, &self.text, HINTS.synonyms);
         if !errors.iter().all(leaves_the_rest) || !syntax.is_empty() {

@@ -19,7 +19,7 @@ use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::files::Files;
 use gumption_format::toml::faults::UNREADABLE_FILE;
 use gumption_format::toml::{FromToml, KeyRow, Matrices, Reader, Stated, Table, read_table};
-use gumption_format::toml::{decoded, elsewhere, leaves_the_rest, syntax_faults};
+use gumption_format::toml::{decoded, document, elsewhere, leaves_the_rest, syntax_faults};
 
 /// Reads and checks a budget file.
 ///
@@ -157,7 +157,7 @@ pub(super) fn read_under(
         false => &["correlation", "covariance"],
     };
     let (left, matrices) = Matrices::taken_out(text, keys);
-    let (table, errors) = DeTable::parse_recoverable(&left);
+    let (table, errors) = document(&left, HINTS.synonyms);
     let syntax = syntax_faults(&errors, text, HINTS.synonyms);
     if !errors.iter().all(leaves_the_rest) {
         return Err(Rejection::new(name, text, syntax));

@@ -6,6 +6,7 @@ use crate::experiment::faults::KEY;
 use crate::experiment::names::{Kind, Names};
 use crate::experiment::source::entries;
 use crate::experiment::tables::{ExperimentTable, NoiseTable};
+use crate::experiment::{Experiment, Observed};
 use gumption_fault::{Fault, say};
 use gumption_gum::budget::Remark;
 
@@ -27,6 +28,34 @@ pub(super) fn check(checker: &mut Checker<'_>) {
         })
         .collect();
     checker.faults.extend(faults);
+}
+
+/// A plan of readings that nothing lets scatter expects less than there will be.
+pub(super) fn without_scatter(experiment: &Experiment) -> Option<Remark> {
+    let observed = experiment
+        .observed
+        .iter()
+        .filter_map(|observed| match observed {
+            Observed::Column(name) => Some(name.as_str()),
+            _ => None,
+        });
+    let scatters = |name: &str| {
+        experiment
+            .doubts
+            .iter()
+            .any(|doubt| doubt.of_each_reading(name) > 0.0)
+    };
+    let silent: Vec<&str> = observed.filter(|name| !scatters(name)).collect();
+    let first = silent.first()?;
+    let names = silent.join(", ");
+    Some(Remark {
+        en: format!(
+            "Nothing states how the readings of {names} will scatter, and what is expected leaves it out. State it: [noise] u = …, or [reading.{first}] u = …."
+        ),
+        zh: format!(
+            "未给出 {names} 的读数将如何分散，预期值中不含这一项。请给出：[noise] u = …，或 [reading.{first}] u = …。"
+        ),
+    })
 }
 
 /// Remarks on what is stated and not used by a calibration: of the noise, and stimuli that no equation has.

@@ -207,6 +207,10 @@ impl Checker<'_> {
         let omitted = self.omitted(&experiment);
         let results = self.results(&experiment);
         experiment.remarks.extend(contrary::remarks(table, names));
+        if self.purpose == Purpose::Plan {
+            let silent = contrary::without_scatter(&experiment);
+            experiment.remarks.extend(silent);
+        }
         Some(Campaign {
             experiment,
             points,

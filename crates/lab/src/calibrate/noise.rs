@@ -28,15 +28,12 @@ pub(super) fn add(
     let Some((way, _)) = checker.noise_way(false) else {
         return (checker.faults.len() == before).then_some(false);
     };
-    let columns = experiment
-        .observed
-        .iter()
+    let observed = experiment.observed.iter();
+    let outputs: Vec<(String, Unit)> = observed
         .filter_map(|observed| match observed {
-            Observed::Column(name) => experiment.columns.iter().find(|c| c.name == *name),
+            Observed::Column(name) => Some((name.clone(), unit_of(checker, experiment, name)?)),
             _ => None,
-        });
-    let outputs: Vec<(String, Unit)> = columns
-        .map(|column| (column.name.clone(), column.unit.difference()))
+        })
         .collect();
     let found: Vec<Scatter> = match way {
         Way::From(_) => return Some(false),
@@ -81,6 +78,18 @@ pub(super) fn add(
         });
     }
     Some(true)
+}
+
+/// The unit of differences of an output, of a plan that in which it will be read.
+fn unit_of(checker: &Checker<'_>, experiment: &Experiment, name: &str) -> Option<Unit> {
+    let mut recorded = experiment.columns.iter();
+    let recorded = recorded.find(|column| column.name == name);
+    let unit = recorded.map(|column| column.unit.clone());
+    let unit = unit.or_else(|| match checker.purpose {
+        Purpose::Plan => checker.planned_unit(name),
+        _ => None,
+    });
+    unit.map(|unit| unit.difference())
 }
 
 /// An output as the recording heads it.

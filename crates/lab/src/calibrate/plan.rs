@@ -15,7 +15,7 @@ pub struct Plan {
     /// What it would tell apart.
     pub identifiability: Identifiability,
     /// Coefficients with the uncertainties to expect, at the values that were assumed; none where the
-    /// schedule does not determine all of them.
+    /// schedule does not determine all of them, or nothing states an uncertainty.
     pub figures: Option<Figures>,
     /// What each omitted effect would shift; empty where the schedule does not determine everything.
     pub aliases: Vec<Alias>,
@@ -59,11 +59,13 @@ pub fn plan(campaign: &Campaign) -> Result<Plan, Trouble> {
     let identifiability = Identifiability::of(&jacobian, &campaign.experiment.parameters);
     let complete = identifiability.rank == campaign.experiment.parameters.len();
     let gain = Gain::linear(&stack, &values, &u).filter(|_| complete);
+    let expected = gain.map(|gain| {
+        let causes = causes(&stack, &gain, &Scatters::stated(), &u);
+        figures(campaign, &values, causes)
+    });
     Ok(Plan {
-        figures: gain.map(|gain| {
-            let causes = causes(&stack, &gain, &Scatters::stated(), &u);
-            figures(campaign, &values, causes)
-        }),
+        // Where nothing is in doubt there is nothing to expect, and no uncertainty of 0.
+        figures: expected.filter(|figures| figures.coefficients.iter().any(|one| one.u > 0.0)),
         aliases: if complete {
             aliases(&stack, &values, &u)
         } else {

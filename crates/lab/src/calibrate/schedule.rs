@@ -39,7 +39,10 @@ pub(super) fn scheduled(checker: &mut Checker<'_>, names: &Names) -> Option<Poin
         }
         let heading = Heading::read(key, &checker.units);
         let unit = match heading.unit {
-            Ok(unit) => unit.unwrap_or_else(Unit::one),
+            Ok(Some(unit)) => unit,
+            Ok(None) => checker
+                .planned_unit(&heading.name)
+                .unwrap_or_else(Unit::one),
             Err(error) => {
                 checker
                     .faults

@@ -158,6 +158,20 @@ fn both_sides(name: &str, place: &Range<usize>) -> Fault {
         .label(say!("expected columns, parameters, inputs and constants"))
 }
 
+/// An error of what a column holds, stated as if the column were an input.
+fn column_as_input(name: &str, place: &Range<usize>, column: &Range<usize>) -> Fault {
+    Fault::new(
+        NAME_TWICE,
+        place.clone(),
+        say!("{name} is a column, and no input"),
+    )
+    .label(say!("used again here"))
+    .related(column.clone(), say!("first used here"))
+    .help(say!(
+        "an error that all points share is an input of its own, e_{name}, with {name}*(1 + e_{name}) or {name} + e_{name} in the equation; one of each reading is [reading.{name}]"
+    ))
+}
+
 /// What the file declares.
 fn declared(checker: &mut Checker<'_>) -> HashMap<String, Kind> {
     let table = &checker.source.table;
@@ -204,6 +218,13 @@ fn declared(checker: &mut Checker<'_>) -> HashMap<String, Kind> {
         declare(&name, Kind::Column, &place);
     }
     checker.faults.extend(faults);
+    let columns = entries(&table.columns);
+    let inputs = entries(&table.input).iter();
+    let of_columns = inputs.filter_map(|(name, entry)| {
+        let (_, column) = columns.iter().find(|(column, _)| column == name)?;
+        Some(column_as_input(name, &entry.key, &column.key))
+    });
+    checker.faults.extend(of_columns.collect::<Vec<Fault>>());
     kinds
         .into_iter()
         .map(|(name, (kind, _))| (name, kind))

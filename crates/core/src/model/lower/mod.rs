@@ -154,7 +154,15 @@ impl<'r> Lowering<'r> {
                 )
             }
         };
-        if !self.faults.contains(&(place, fault.clone())) {
+        // The same place of a function is told once, however often the function is called.
+        let is_same = |(other_place, other): &(Place, Fault)| {
+            *other_place == place
+                && other.code == fault.code
+                && other.message == fault.message
+                && other.related == fault.related
+                && (other.span == fault.span || !fault.related.is_empty())
+        };
+        if !self.faults.iter().any(is_same) {
             self.faults.push((place, fault));
         }
     }

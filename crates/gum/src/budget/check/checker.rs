@@ -74,6 +74,8 @@ pub(super) struct Figures {
     pub found: Vec<NamedFigure>,
     /// Names of figures that only the evaluation will give.
     pub awaited: Vec<String>,
+    /// Whether an analysis was refused, whose figures are therefore not known.
+    pub incomplete: bool,
 }
 
 /// What the user will be told.

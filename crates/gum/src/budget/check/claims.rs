@@ -492,7 +492,7 @@ impl Checker<'_> {
                 reading.push(Figure::Named(name.clone()), stated.value, half, tolerance);
                 continue;
             }
-            if self.scatters.iter().any(|fit| fit.withholds(name)) {
+            if self.figures.incomplete || self.scatters.iter().any(|fit| fit.withholds(name)) {
                 continue;
             }
             let help = match nearest(name, known()) {

@@ -240,11 +240,15 @@ impl Checker<'_> {
                     ),
                 )
                 .label(say!("units do not fit"))
-                .help(say!(
-                    "add the sensitivity: sensitivity = \"… ({})/({})\"",
-                    target.symbol,
-                    source.symbol
-                )),
+                .help({
+                    let sensitivity = target.quotient(&source.difference()).symbol;
+                    match source.is_one() && entry.table.sensitivity.is_none() {
+                        true => say!(
+                            "add relative = true if it is a relative error of the value, else the sensitivity: sensitivity = \"… {sensitivity}\""
+                        ),
+                        false => say!("add the sensitivity: sensitivity = \"… {sensitivity}\""),
+                    }
+                }),
             ),
         }
     }

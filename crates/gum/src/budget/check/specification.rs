@@ -39,7 +39,15 @@ impl Checker<'_> {
                         stated.span.clone(),
                         say!("the specification has `{has}` and not `{lacks}`"),
                     )
-                    .label(say!("`{lacks}` is missing")),
+                    .label(say!("`{lacks}` is missing"))
+                    .help(match key {
+                        "range" => say!(
+                            "`range` is a part of `span`, the upper end of the range: range = \"0.001 %\", span = …"
+                        ),
+                        _ => say!(
+                            "`counts` are steps of the display: counts = 2, step = …"
+                        ),
+                    }),
                 );
             }
         }

@@ -12,7 +12,7 @@ use crate::budget::tables::{ComponentTable, OutlierWord, PooledTable};
 use crate::budget::variants::{Numbers, ReadingsOf};
 use crate::budget::{Finding, Outlier, Statistics};
 use gumption_core::distribution::{Distribution, StudentT};
-use gumption_core::quantity::Decimal;
+use gumption_core::quantity::{Decimal, Unit};
 use gumption_core::statistics::{Dd, OutlierTest, Series, pooled};
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
@@ -501,9 +501,10 @@ fn no_scatter(readings: &Stated<Numbers>, numbers: &[f64], context: &Context<'_>
         .help(say!("the scatter is below the resolution: state `value` and the resolution, {{ step = … }}, or add the resolution to `components`"))
 }
 
-/// Directions that lie within half a turn of one another, written on two turns: their arithmetic mean points elsewhere.
-fn on_two_turns(readings: &Stated<Numbers>, plain: &[f64], context: &Context<'_>) -> Option<Fault> {
-    let turn = context.unit.full_turn()?;
+/// Of directions that lie within half a turn of one another and are written on two turns: the first, one on the
+/// other turn, and what to write for that.
+pub(super) fn two_turns(plain: &[f64], unit: &Unit) -> Option<[f64; 3]> {
+    let turn = unit.full_turn()?;
     let first = *plain.first()?;
     let spread = |angles: &[f64]| {
         let low = angles.iter().copied().fold(f64::INFINITY, f64::min);
@@ -518,6 +519,12 @@ fn on_two_turns(readings: &Stated<Numbers>, plain: &[f64], context: &Context<'_>
         .iter()
         .copied()
         .find(|angle| (angle - first).abs() > turn / 2.0)?;
+    Some([first, other, at_twelve(beside(other))])
+}
+
+/// Readings on two turns, whose arithmetic mean points elsewhere.
+fn on_two_turns(readings: &Stated<Numbers>, plain: &[f64], context: &Context<'_>) -> Option<Fault> {
+    let [first, other, beside] = two_turns(plain, context.unit)?;
     let unit = &context.unit.symbol;
     Some(
         Fault::new(
@@ -526,7 +533,7 @@ fn on_two_turns(readings: &Stated<Numbers>, plain: &[f64], context: &Context<'_>
             say!("the readings of {} lie on both sides of the end of a turn: {first} {unit} and {other} {unit}", context.owner),
         )
         .label(say!("their arithmetic mean is another direction"))
-        .help(say!("write all of them on one turn: {} in place of {other}", Decimal::from_f64(at_twelve(beside(other))))),
+        .help(say!("write all of them on one turn: {} in place of {other}", Decimal::from_f64(beside))),
     )
 }
 

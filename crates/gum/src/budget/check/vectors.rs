@@ -4,6 +4,7 @@ use super::checker::Checker;
 use super::draft::{Context, Draft, Location, show};
 use super::inputs::{Entry, Piece, single};
 use super::register::{Register, element_name};
+use super::type_a::two_turns;
 use super::ways::Way;
 use crate::budget::Owner;
 use crate::budget::faults::VECTOR;
@@ -86,6 +87,14 @@ impl Checker<'_> {
                 Fault::new(VECTOR, place, say!("{name} has {} values", values.len()))
                     .label(say!("expected {MOST_ELEMENTS} at most"))
                     .help(say!("each element is an input of its own; repeated readings of one quantity are `readings`")),
+            );
+        }
+        if let Some([first, other, beside]) = two_turns(values, unit) {
+            let (first, other, beside) = (show(first), show(other), show(beside));
+            let unit = &unit.symbol;
+            self.remark(
+                format!("{name}: {first} {unit} and {other} {unit} lie beside each other on the circle, but a sum, a mean or a line takes the way around. If the model has one, write {beside} in place of {other}."),
+                format!("{name}：{first} {unit} 与 {other} {unit} 在圆周上相邻，而求和、求平均或拟合直线时并不相邻。模型中若有此类运算，请把 {other} 写作 {beside}。"),
             );
         }
         let list = self.entries_of(name, stated, unit, register)?;

@@ -23,18 +23,29 @@ table! {
     }
 }
 
-/// A constant: `c = 9.8`, `c = "299792458 m/s"`, or a table.
+/// A constant: `c = 9.8`, `c = "299792458 m/s"`, `c = [1, 2, 3]`, or a table.
 #[derive(Debug, Clone)]
 pub struct ConstantEntry(pub ConstantTable);
 
 impl FromToml for ConstantEntry {
     fn expected() -> Said {
-        say!("a number, an amount or a table")
+        say!("a number, an amount, a list of numbers or a table")
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         if matches!(value.get_ref(), DeValue::Table(_)) {
             return ConstantTable::read(value, reader).map(ConstantEntry);
+        }
+        if matches!(value.get_ref(), DeValue::Array(_)) {
+            let values = List::<f64>::read(value, reader)?;
+            return Some(ConstantEntry(ConstantTable {
+                values: Some(Box::new(Stated {
+                    value: values,
+                    span: value.span(),
+                    key: value.span(),
+                })),
+                ..ConstantTable::default()
+            }));
         }
         let amount = Amount::read(value, reader)?;
         let unit = amount.unit.clone().map(|(text, span)| Stated {
@@ -55,7 +66,7 @@ impl FromToml for ConstantEntry {
     }
 
     fn schema() -> Value {
-        json!({ "oneOf": [Amount::schema(), ConstantTable::schema()] })
+        json!({ "oneOf": [Amount::schema(), List::<f64>::schema(), ConstantTable::schema()] })
     }
 
     fn tables(path: &str, rows: &mut Vec<KeyRow>) {

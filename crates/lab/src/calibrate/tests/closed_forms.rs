@@ -239,6 +239,34 @@ fn a_plan_predicts_the_uncertainty_of_the_calibration() {
 }
 
 #[test]
+fn a_plan_takes_the_noise_and_the_units_of_columns() {
+    let toml = r#"
+equations = ["U = K*omega + b"]
+columns = { omega = { unit = "deg/s" }, U = { unit = "V" } }
+[parameter]
+K = { start = 0.02 }
+b = { start = 0 }
+[noise]
+u = "1 mV"
+[schedule]
+omega = [-100, -50, 0, 50, 100]
+"#;
+    let campaign = planned(toml);
+    assert!(campaign.experiment.remarks.is_empty());
+    let figures = plan(&campaign).expect("a plan").figures.expect("figures");
+    let [k, b] = figures.coefficients.as_slice() else {
+        panic!("two");
+    };
+    near(k.u, 1e-3 / 25_000.0_f64.sqrt(), 1e-9);
+    assert_eq!(k.unit.symbol, "V·s/deg");
+    near(b.u, 1e-3 / 5.0_f64.sqrt(), 1e-9);
+
+    let silent = planned(&toml.replace("[noise]\nu = \"1 mV\"\n", ""));
+    assert!(silent.experiment.remarks[0].en.contains("readings of U"));
+    assert!(plan(&silent).expect("a plan").figures.is_none());
+}
+
+#[test]
 fn a_partly_known_parameter_is_between_known_and_unknown() {
     // b is known to be 1 ± 0.2, the readings scatter by 0.1.
     let toml = "noise.from = \"stated\"\nweights = \"readings\"\n".to_owned()

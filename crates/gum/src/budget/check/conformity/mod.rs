@@ -34,6 +34,7 @@ impl Checker<'_> {
         let mut found: Vec<Conformity> = Vec::new();
         for one in stated {
             let Some(conformity) = self.assessment(one, file, register) else {
+                self.figures.incomplete = true;
                 continue;
             };
             if found.iter().any(|other| other.name == conformity.name) {
@@ -99,6 +100,9 @@ impl Checker<'_> {
         let table = &stated.value;
         if let Some(mpe) = &table.mpe {
             return self.permissible_error(table, mpe, subject);
+        }
+        if table.refused {
+            return None;
         }
         if let Some(nominal) = &table.nominal {
             return self.refuse(

@@ -253,6 +253,8 @@ fn relative_amounts() {
     assert_eq!(faults(&one("value = 0\nu = \"50 ppm\""))[0].0, "B0214");
     let ratio = "[measurand.Y]\nmodel = \"X\"\n[input.X]\nvalue = 2\nu = \"1 %\"\n";
     assert_eq!(faults(ratio), [("B0113", "\"1 %\"".into())]);
+    // Of one, both are the same.
+    close(component("value = 1\nu = \"1.67 %\"").0, 0.0167);
     let angle = "[measurand.Y]\nmodel = \"X\"\nunit = \"°\"\n[input.X]\nvalue = 2\nunit = \"°\"\nu = \"6 '\"\n";
     close(budget(angle).components[0].u, 0.1);
     let temperature = "[measurand.Y]\nmodel = \"X\"\nunit = \"°C\"\n[input.X]\nvalue = \"293.15 K\"\nunit = \"°C\"\nu = \"0.1 °C\"\n";
@@ -281,4 +283,29 @@ fn the_larger_of_resolution_and_repeatability() {
     let largest = budget(&format!("[conventions]\nresolution = \"largest\"\n{parts}"));
     assert_eq!(largest.components.len(), 1);
     assert_eq!(largest.components[0].label, "repeatability");
+}
+
+#[test]
+fn directions_beside_each_other_are_told() {
+    let vector = |values: &str| {
+        format!(
+            "[measurand.Y]\nmodel = \"mean(D)\"\nunit = \"°\"\n[input.D]\nunit = \"°\"\nu = 2\nvalues = {values}\n"
+        )
+    };
+    let told = budget(&vector("[359, 1, 3]")).remarks;
+    assert!(told[0].en.contains("write -1 in place") || told[0].en.contains("write 361 in place"));
+    assert!(budget(&vector("[0, 90, 180, 270]")).remarks.is_empty());
+    assert!(budget(&vector("[-1, 1, 3]")).remarks.is_empty());
+}
+
+#[test]
+fn constants_are_numbers_amounts_lists_or_tables() {
+    let text = "[constant]\nx = [1, 2, 3]\nn = 2\n[measurand.Y]\nmodel = \"X * sum(x) / n\"\n[input.X]\nvalue = 2\nu = 1\n";
+    assert_eq!(budget(text).constants[0].values, [1.0, 2.0, 3.0]);
+}
+
+#[test]
+fn a_refused_assessment_has_no_further_faults() {
+    let text = "[measurand.Y]\nmodel = \"X\"\n[input.X]\nvalue = 2\nu = 1\n[conformity]\nupper = 3\n[claim]\nfigures = { \"Y.p_c\" = 0.5 }\n";
+    assert_eq!(faults(text).len(), 1, "the missing rule alone");
 }

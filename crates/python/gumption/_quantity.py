@@ -108,9 +108,15 @@ class Quantity:
 
     def to_uncertainties(self) -> Any:
         """A number of the package ``uncertainties``, correlated with all others that were made so."""
-        from ._interchange import to_uncertainties
+        from ._uncertainties import to_uncertainties
 
         return to_uncertainties(self)
+
+    def to_gtc(self) -> Any:
+        """An uncertain number of the package ``GTC`` with its degrees of freedom, correlated with all others that were made so."""
+        from ._gtc import to_gtc
+
+        return to_gtc(self)
 
     def __add__(self, other: Operand) -> Quantity:
         return _formed("add", self, other)
@@ -169,18 +175,24 @@ class Quantity:
 class Joint:
     """Quantities of which correlation coefficients are stated."""
 
-    def __init__(self, members: list[Quantity], correlation: np.ndarray):
+    def __init__(self, members: list[Quantity], correlation: Any):
         self.members = members
-        self.correlation = correlation
+        self._correlation = correlation
         for one in members:
             one._joint = self
 
+    def coefficient(self, one: int, other: int) -> float:
+        """The correlation coefficient of two members, by their places."""
+        return float(self._correlation[one][other])
+
     def table(self, names: set[str]) -> dict[str, Any] | None:
-        """The table of a budget for those of these names; nothing for one alone."""
-        at = [place for place, one in enumerate(self.members) if one._name in names]
-        if len(at) < 2:
+        """The table of a budget for those of these names that correlate with another; nothing where none does."""
+        named = [place for place, one in enumerate(self.members) if one._name in names]
+        at = [i for i in named if any(i != j and self.coefficient(i, j) != 0 for j in named)]
+        if not at:
             return None
-        return {"inputs": [self.members[i]._name for i in at], "correlation": self.correlation[np.ix_(at, at)].tolist()}
+        matrix = [[self.coefficient(i, j) for j in at] for i in at]
+        return {"inputs": [self.members[i]._name for i in at], "correlation": matrix}
 
 
 _OPERATIONS: dict[str, tuple[str, Callable[..., Units]]] = {
@@ -222,13 +234,17 @@ def quantity(
 
     ``u`` is its standard uncertainty; anything else is said as in an input of a budget file: ``half_width=0.1``,
     ``dof=9``, ``readings=[…]`` (with ``value`` None), ``distribution="triangular"``, ``certificate={"U": 0.2, "k": 2}``.
-    A number of the package ``uncertainties`` stays correlated with all others that are taken so. ``name`` is what
+    A number of the package ``uncertainties`` or ``GTC`` stays correlated with all others that are taken so. ``name`` is what
     reports call it.
     """
     if hasattr(value, "nominal_value"):
-        from ._interchange import from_uncertainties
+        from ._uncertainties import from_uncertainties
 
         return from_uncertainties(value)
+    if type(value).__module__.partition(".")[0] == "GTC":
+        from ._gtc import from_gtc
+
+        return from_gtc(value)
     if name is not None and (not name.isidentifier() or _OURS.fullmatch(name)):
         raise ValueError(f"{name!r} cannot be the name of a quantity")
     stated = {"value": value, "u": None if u == 0 else u, "unit": "1" if unit is None else unit}

@@ -9,6 +9,7 @@ use crate::budget::variants::Amounts;
 use gumption_core::distribution::stating::{Bell, Width, Word};
 use gumption_core::distribution::{Distribution, Entry, Normal, Uniform};
 use gumption_format::toml::Amount;
+use gumption_lanes::Block;
 
 /// A component that one number states.
 #[derive(Debug, Clone)]
@@ -98,13 +99,25 @@ impl Plain {
         (table.distribution.is_some() == plain.named).then_some((plain, keys))
     }
 
-    /// u alone of what [`Plain::with`] gives: many rows need no more.
-    pub(in crate::budget) fn u(
+    /// The numbers of rows become u of what [`Plain::with`] gives; marks those of which it gives nothing.
+    pub(in crate::budget) fn of_rows(
         &self,
-        number: f64,
-        dof: f64,
+        count: usize,
+        (numbers, dof): (&mut Block, &Block),
         conventions: &Conventions,
-    ) -> Option<f64> {
+        refused: &mut Block,
+    ) {
+        let rows = numbers.0.iter_mut().zip(&dof.0).zip(&mut refused.0);
+        for ((number, dof), refused) in rows.take(count) {
+            match self.u(*number, *dof, conventions) {
+                Some(u) => *number = u,
+                None => *refused = 1.0,
+            }
+        }
+    }
+
+    /// u alone of what [`Plain::with`] gives.
+    fn u(&self, number: f64, dof: f64, conventions: &Conventions) -> Option<f64> {
         match (self.shape.word, self.width(number)) {
             (Word::Bell(Bell::Normal), Width::U(u)) if self.named || dof.is_infinite() => Some(u),
             (Word::Bell(_), Width::U(u)) if dof.is_finite() => {

@@ -69,11 +69,9 @@ pub fn invert(level: Level, x: &mut Block) {
 #[inline(always)]
 pub fn cut(dof: f64) -> f64 {
     let whole = ((100.0 * dof).round() / 100.0).floor();
-    if (dof >= 1.0) & (dof < 1e9) {
-        whole
-    } else {
-        dof
-    }
+    // Chosen by its bits: of a branch over so many operations the compiler makes one for each lane.
+    let within = u64::from((dof >= 1.0) & (dof < 1e9)).wrapping_neg();
+    f64::from_bits((whole.to_bits() & within) | (dof.to_bits() & !within))
 }
 
 /// `entered` ← ν, [`cut`].
@@ -278,17 +276,11 @@ pub fn covers(level: Level, weight: &Block, k: f64, expanded: &Block, doubt: &mu
 
 /// Takes the numbers of a column; marks those that are infinite, none, or −0.
 pub fn take(level: Level, column: &[f64], cells: &mut Block, doubt: &mut Block) {
-    let count = column.len().min(LANES);
-    let (column, cells, doubt) = (
-        &column[..count],
-        &mut cells.0[..count],
-        &mut doubt.0[..count],
-    );
-    dispatch!(level, _ => for lane in 0..count {
-        let x = column[lane];
-        cells[lane] = x;
+    let rows = column.iter().zip(&mut cells.0).zip(&mut doubt.0);
+    dispatch!(level, _ => for ((x, cell), doubt) in rows {
+        *cell = *x;
         let fine = x.is_finite() & (x.to_bits() != (-0.0f64).to_bits());
-        doubt[lane] = if fine { doubt[lane] } else { 1.0 };
+        *doubt = if fine { *doubt } else { 1.0 };
     })
 }
 
@@ -353,19 +345,19 @@ mod tests {
                 added: 0.2,
             };
             bends(level, &bounds, &c, most, &mut doubts[0]);
-            let mut contest = Contest::OPEN;
+            let [mut contest, unit] = [Contest::OPEN, Block([1.0; LANES])];
             let sight = Sight {
                 least: 1e-9,
                 vanished: 0.01,
                 negligible: 1e-3,
             };
-            for [x, own, derivative] in [[&a, &b, &c], [&b, &c, &a], [&c, &a, &b]] {
+            for [x, own, derivative] in [[&a, &unit, &b], [&unit, &unit, &unit], [&b, &c, &a]] {
                 let one = Entrant {
                     x,
                     own,
                     derivative,
                     bend: &b,
-                    u: &c,
+                    u: &unit,
                 };
                 contest.add(level, one, sight, &mut doubts[1]);
             }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -12,19 +12,19 @@ class RecordBatch:
     ``pyarrow.record_batch(x)``, ``polars.DataFrame(x)``, ``duckdb.arrow(x)`` …"""
 
     def __init__(self, array: Any) -> None:
-        self._array = array
+        self._array: Any = array
 
     def __arrow_c_schema__(self) -> object:
-        return self._array.schema.__arrow_c_schema__()
+        return cast(object, self._array.schema.__arrow_c_schema__())
 
     def __arrow_c_array__(self, requested_schema: object | None = None) -> tuple[object, object]:
-        return self._array.__arrow_c_array__(requested_schema)
+        return cast(tuple[object, object], self._array.__arrow_c_array__(requested_schema))
 
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
-        from nanoarrow.c_array_stream import CArrayStream
+        from nanoarrow.c_array_stream import CArrayStream  # type: ignore[import-untyped]
 
         stream = CArrayStream.from_c_arrays([self._array], self._array.schema, validate=False)
-        return stream.__arrow_c_stream__(requested_schema)
+        return cast(object, stream.__arrow_c_stream__(requested_schema))
 
     def __len__(self) -> int:
         return len(self._array)
@@ -32,7 +32,7 @@ class RecordBatch:
 
 def _nanoarrow() -> Any:
     try:
-        import nanoarrow
+        import nanoarrow  # type: ignore[import-untyped]
     except ImportError as missing:
         raise ImportError("record batches need the package nanoarrow: pip install 'gumption[arrow]'") from missing
     return nanoarrow

@@ -1,4 +1,4 @@
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any
 
@@ -25,7 +25,7 @@ def evaluate(source: Source, settings: dict[str, Any], progress: Progress, langu
 def calibrate(source: Source, language: str) -> Made: ...
 def calibrate_each(
     source: Source,
-    recordings: list[tuple[str, str | PathLike[str]]],
+    recordings: Sequence[tuple[str, str | PathLike[str]]],
     shares: bool,
     progress: Progress,
     language: str,
@@ -46,5 +46,5 @@ def batch_of(
     progress: Progress,
     language: str,
 ) -> tuple[list[tuple[str, np.ndarray | list[str] | None]] | None, int, int]: ...
-def recordings_of(given: list[str | PathLike[str]], language: str) -> list[tuple[str, str]]: ...
+def recordings_of(given: Sequence[str | PathLike[str]], language: str) -> list[tuple[str, str]]: ...
 def toml_of(given: Mapping[str, Any]) -> str: ...

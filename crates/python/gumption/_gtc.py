@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import GTC
-from GTC.vector import Vector
+import GTC  # type: ignore[import-untyped]
+from GTC.vector import Vector  # type: ignore[import-untyped]
 
 from ._quantity import Joint, Quantity, quantity
 
@@ -45,7 +45,7 @@ def from_gtc(number: Any) -> Quantity:
     """The quantity of a number: linear in the deviations of its leaves."""
     if not isinstance(number, GTC.lib.UncertainReal):
         raise TypeError("only real numbers of GTC become quantities: take z.real and z.imag of a complex one")
-    total: Any = quantity(number.x)
+    total = quantity(number.x)
     for components in (number._u_components, number._d_components):
         for leaf, component in components.iteritems():
             total = total + (component / leaf.u) * _deviation(leaf)

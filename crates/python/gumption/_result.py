@@ -67,27 +67,27 @@ class Measurand(Record):
     @property
     def y(self) -> float:
         """The estimate."""
-        return self.reported.estimate
+        return float(self.reported.estimate)
 
     @property
     def u(self) -> float | None:
         """The standard uncertainty; ``None`` where the distribution has none."""
-        return self.reported.standard_uncertainty
+        return _figure(self.reported.standard_uncertainty)
 
     @property
     def nu(self) -> float | None:
         """The degrees of freedom that give k; ``None`` for a k that is fixed."""
-        return self.reported.degrees_of_freedom
+        return _figure(self.reported.degrees_of_freedom)
 
     @property
     def k(self) -> float | None:
         """The coverage factor."""
-        return self.reported.coverage_factor
+        return _figure(self.reported.coverage_factor)
 
     @property
     def U(self) -> float | None:  # noqa: N802 - the symbol of the standard
         """The expanded uncertainty; ``None`` where an interval is reported instead."""
-        return self.reported.expanded_uncertainty
+        return _figure(self.reported.expanded_uncertainty)
 
     @property
     def interval(self) -> tuple[float, float] | None:
@@ -100,7 +100,7 @@ class Measurand(Record):
     @property
     def p(self) -> float | None:
         """The coverage probability, where one is claimed."""
-        return self.reported.coverage_probability
+        return _figure(self.reported.coverage_probability)
 
     def __repr__(self) -> str:
         unit = "" if self.unit == "1" else f" {self.unit}"
@@ -269,6 +269,10 @@ def _of_groups(fleet: dict[str, Any]) -> Table:
             line |= {name: _wrapped(consistency.get(name)) for name in ("birge", "p_value")}
             lines.append(line)
     return Table({name: [line[name] for line in lines] for name in (lines[0] if lines else ())})
+
+
+def _figure(value: Any) -> float | None:
+    return None if value is None else float(value)
 
 
 def _wrapped(value: Any) -> Any:

@@ -15,7 +15,7 @@ import numpy as np
 from . import _arrow
 from ._given import sheet
 
-Given = Union[str, os.PathLike, Mapping[str, Any], Any]
+Given = Union[str, "os.PathLike[str]", Mapping[str, Any], Any]
 """A CSV file, its text, columns by their names, a frame of pandas or polars, or a table of Arrow."""
 
 SHOWN = 20

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import uncertainties
+import uncertainties  # type: ignore[import-untyped]
 from uncertainties import UFloat
 
 from ._quantity import Quantity, quantity
@@ -28,7 +28,7 @@ def from_uncertainties(number: UFloat) -> Quantity:
         return quantity(number.nominal_value)
     if number in derivatives:
         return _quantity_of(number)
-    total: Any = number.nominal_value
+    total = quantity(number.nominal_value)
     for variable, slope in derivatives.items():
         total = total + slope * (_quantity_of(variable) - variable.nominal_value)
     return total

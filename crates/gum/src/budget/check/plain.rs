@@ -1,6 +1,6 @@
 //! Components that one number states, so that another number there changes nothing but u and the distribution.
 
-use super::draft::{t_or_normal, t_scale_of};
+use super::draft::{least_dof, t_or_normal};
 use super::shapes::{default_shape, stated_shape};
 use super::ways::{Way, stated_ways};
 use crate::budget::Conventions;
@@ -107,23 +107,31 @@ impl Plain {
         conventions: &Conventions,
         refused: &mut Block,
     ) {
-        let rows = numbers.0.iter_mut().zip(&dof.0).zip(&mut refused.0);
-        for ((number, dof), refused) in rows.take(count) {
-            match self.u(*number, *dof, conventions) {
-                Some(u) => *number = u,
-                None => *refused = 1.0,
+        let rows = numbers.0[..count].iter_mut().zip(&dof.0);
+        let rows = rows.zip(&mut refused.0);
+        let (bell, k) = match (self.shape.word, self.measure) {
+            (Word::Bell(bell), Measure::U) => (bell, 1.0),
+            (Word::Bell(bell), Measure::Expanded { k }) => (bell, k),
+            _ => {
+                for ((number, dof), refused) in rows {
+                    match self.with(*number, *dof, conventions) {
+                        Some((u, _)) => *number = u,
+                        None => *refused = 1.0,
+                    }
+                }
+                return;
             }
-        }
-    }
-
-    /// u alone of what [`Plain::with`] gives.
-    fn u(&self, number: f64, dof: f64, conventions: &Conventions) -> Option<f64> {
-        match (self.shape.word, self.width(number)) {
-            (Word::Bell(Bell::Normal), Width::U(u)) if self.named || dof.is_infinite() => Some(u),
-            (Word::Bell(_), Width::U(u)) if dof.is_finite() => {
-                t_scale_of(u, dof, conventions).map(|_| u)
-            }
-            _ => self.with(number, dof, conventions).map(|(u, _)| u),
+        };
+        // Without columns for more, u alone is found: the same for all shapes of a bell, where they have one.
+        let normal = bell == Bell::Normal;
+        let least = match normal && self.named {
+            true => 0.0,
+            false => least_dof(conventions),
+        };
+        for ((number, dof), refused) in rows {
+            *number /= k;
+            let fine = (*dof > least) & (normal | dof.is_finite());
+            *refused = if fine { *refused } else { 1.0 };
         }
     }
 

@@ -7,7 +7,7 @@ use std::io::Read;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use gumption::batch::{self, Evaluated, Plan};
+use gumption::batch::{self, Lot, Plan};
 use gumption::budget::{BatchFile, Points, Profile, Trials, Wanted};
 use gumption::csv;
 use gumption::fault::{Said, say};
@@ -153,7 +153,7 @@ impl Work<'_> {
     /// Evaluates the rows: `add` makes of each what is wanted of it, `take` gets that of some and writes it.
     fn each<T: Default + Send>(
         self,
-        add: impl Fn(&mut T, &Evaluated<'_>) + Sync,
+        add: impl Fn(&mut T, &Lot<'_>) + Sync,
         mut take: impl FnMut(T) -> Result<(), Said>,
     ) -> Result<(), Outcome> {
         let Work {
@@ -195,7 +195,7 @@ impl Work<'_> {
 fn written(work: Work<'_>, mut sink: Sink) -> Result<Count, Outcome> {
     let columns = work.columns();
     let mut table = Table::of(columns, work.file);
-    let add = |lines: &mut Lines, row: &Evaluated<'_>| columns.add(lines, row);
+    let add = |lines: &mut Lines, row: &Lot<'_>| columns.add(lines, row);
     work.each(add, |lines| sink.add(&table.add(lines)))?;
     let (left, count) = table.end();
     let done = sink.add(&left).and_then(|()| sink.finish());

@@ -4,7 +4,9 @@
 //! reading: not their faults, not the random numbers, and no result depends on how the table is cut, on other rows or on the
 //! number of threads.
 
-use std::borrow::{Borrow, Cow};
+mod lot;
+
+use std::borrow::Borrow;
 use std::io::Read;
 use std::iter::once;
 use std::ops::{ControlFlow, Range};
@@ -14,14 +16,17 @@ use crate::budget::{
     Batch, BatchFile, Budget, MonteCarloSettings, Numbers, Pattern, RowReader, Wanted,
 };
 use crate::propagate::{
-    self, Evaluation, EvaluationError, MonteCarloChoice, Options, Progress, RowEvaluation,
-    RowFigures, parallel_map,
+    self, BlockFigures, Evaluation, EvaluationError, MonteCarloChoice, Options, Progress,
+    RowEvaluation, parallel_map,
 };
 use gumption_fault::say;
 use gumption_fault::{Fault, Rejection};
 use gumption_format::csv::faults::NO_HEADER;
 use gumption_format::csv::{self, Columns, Pieces, Sheet};
 use gumption_lanes::LANES;
+use lot::{Part, Place};
+
+pub use lot::{Evaluated, Failed, Found, Lot, Several};
 
 /// Rows that a thread takes at a time, and that are added to one another: as many as are evaluated together.
 pub const BLOCK: usize = LANES;
@@ -42,60 +47,8 @@ pub struct Plan {
     pub progress: Progress,
 }
 
-/// A row of the table, evaluated.
-#[derive(Debug)]
-pub struct Evaluated<'a> {
-    /// Its number, the first being 1.
-    pub number: u64,
-    /// Its label, where the table has such a column.
-    pub label: Option<&'a str>,
-    /// Heads of the columns that are kept, and what the row has there.
-    pub kept: (&'a [String], &'a [Cow<'a, str>]),
-    /// Its budget, of which the numbers hold and not the words, and what was found; or why nothing was.
-    pub found: Result<(&'a Budget, Found<'a>), &'a Failed>,
-}
-
-/// What is known of a row before it is evaluated.
-#[derive(Clone, Copy)]
-struct Place<'a> {
-    number: u64,
-    label: Option<&'a str>,
-    kept: (&'a [String], &'a [Cow<'a, str>]),
-}
-
-impl<'a> Evaluated<'a> {
-    fn at(place: Place<'a>, found: Result<(&'a Budget, Found<'a>), &'a Failed>) -> Self {
-        Evaluated {
-            number: place.number,
-            label: place.label,
-            kept: place.kept,
-            found,
-        }
-    }
-}
-
-/// What was found of a row.
-#[derive(Debug, Clone, Copy)]
-pub enum Found<'a> {
-    /// Everything.
-    Evaluation(&'a Evaluation),
-    /// What is reported, where there is no more to be said.
-    Figures(RowFigures<'a>),
-}
-
-/// Why a row has no result.
-#[derive(Debug)]
-pub enum Failed {
-    /// The row itself is faulty.
-    Row(Box<Fault>),
-    /// The budget with the row in place has faults.
-    Refused(Box<Rejection>),
-    /// It has no value.
-    NoResult(EvaluationError),
-}
-
-/// Evaluates the rows of a table, piece by piece. `add` makes of each row what is wanted of it, on any thread, and adds it to
-/// that of the rows before it; `take` gets what some rows have given, in their order, with the number of bytes that were
+/// Evaluates the rows of a table, piece by piece. `add` makes of rows what is wanted of them, on any thread, and adds it to
+/// that of the rows before them; `take` gets what some rows have given, in their order, with the number of bytes that were
 /// read, and may end the work.
 ///
 /// # Errors
@@ -105,7 +58,7 @@ pub fn run<T: Default + Send>(
     file: &BatchFile<'_>,
     (source, table): (impl Read, &str),
     plan: &Plan,
-    add: impl Fn(&mut T, &Evaluated<'_>) + Sync,
+    add: impl Fn(&mut T, &Lot<'_>) + Sync,
     mut take: impl FnMut(T, u64) -> ControlFlow<()>,
 ) -> Result<(), Rejection> {
     let refused = |fault: Box<Fault>| Rejection::new(table, "", vec![*fault]);
@@ -143,7 +96,7 @@ pub fn run_columns<'c, T: Default + Send>(
         &str,
     ),
     plan: &Plan,
-    add: impl Fn(&mut T, &Evaluated<'_>) + Sync,
+    add: impl Fn(&mut T, &Lot<'_>) + Sync,
     mut take: impl FnMut(T, u64) -> ControlFlow<()>,
 ) -> Result<(), Rejection> {
     let refused = |fault: Box<Fault>| Rejection::new(table, "", vec![*fault]);
@@ -179,44 +132,6 @@ pub fn run_columns<'c, T: Default + Send>(
 fn empty<T>() -> Result<T, Box<Fault>> {
     let message = say!("the table is empty");
     Err(Box::new(Fault::new(NO_HEADER, 0..0, message)))
-}
-
-/// Some rows of a table.
-enum Part<'t> {
-    Lines(&'t [Result<csv::Row<'t>, Fault>]),
-    Columns(&'t Columns<'t>, Range<usize>),
-}
-
-impl Part<'_> {
-    fn len(&self) -> usize {
-        match self {
-            Part::Lines(rows) => rows.len(),
-            Part::Columns(_, rows) => rows.len(),
-        }
-    }
-
-    fn row(&self, lane: usize) -> Result<Cow<'_, csv::Row<'_>>, &Fault> {
-        match self {
-            Part::Lines(rows) => rows[lane].as_ref().map(Cow::Borrowed),
-            Part::Columns(columns, rows) => Ok(Cow::Owned(columns.row(rows.start + lane))),
-        }
-    }
-
-    /// The label of a row as the table writes it, where it has such a column: 007 is no number.
-    fn label(&self, lane: usize, column: Option<usize>) -> Option<Cow<'_, str>> {
-        Some(self.field(lane, column?)).filter(|label| !label.is_empty())
-    }
-
-    /// A field of a row; empty where the row cannot be read.
-    fn field(&self, lane: usize, column: usize) -> Cow<'_, str> {
-        match self {
-            Part::Lines(rows) => {
-                let row = rows[lane].as_ref().ok();
-                Cow::Borrowed(row.map_or("", |row| row.field(column)))
-            }
-            Part::Columns(columns, rows) => columns.cells(column).text(rows.start + lane),
-        }
-    }
 }
 
 /// Rows of a table that are evaluated one stretch after another.
@@ -270,7 +185,7 @@ impl<'b> Run<'b> {
         &mut self,
         sheet: &Sheet<'_>,
         parts: Vec<Part<'_>>,
-        add: &(impl Fn(&mut T, &Evaluated<'_>) + Sync),
+        add: &(impl Fn(&mut T, &Lot<'_>) + Sync),
         take: impl FnMut(T) -> ControlFlow<()>,
     ) -> bool {
         let Run { batch, plan, .. } = *self;
@@ -362,7 +277,7 @@ impl Room {
         }
     }
 
-    /// Takes rows, and finds what is reported of those that need no more.
+    /// Takes rows, and finds what is reported of those that need no more than their figures.
     fn take(&mut self, part: &Part<'_>) {
         let numbers = &mut self.numbers;
         match part {
@@ -379,9 +294,18 @@ impl Room {
         }
     }
 
-    fn figures(&self, lane: usize) -> Option<RowFigures<'_>> {
-        let block = self.block.as_ref().filter(|_| self.numbers.takes(lane))?;
-        block.row(self.numbers.rows(), lane)
+    /// How many rows from this lane on need no more than their figures.
+    fn sure(&self, lanes: Range<usize>) -> usize {
+        let Some(block) = &self.block else { return 0 };
+        let doubts = [block.doubt(), self.numbers.refused()];
+        let is_sure = |lane: &usize| doubts.iter().all(|doubt| doubt.0[*lane] == 0.0);
+        lanes.take_while(is_sure).count()
+    }
+
+    /// The figures of rows that need no more.
+    fn figures(&self, lanes: Range<usize>) -> Option<BlockFigures<'_>> {
+        let block = self.block.as_ref()?;
+        Some(block.figures(self.numbers.rows(), lanes))
     }
 
     /// Evaluates a row by itself; why it has no value is told by the reader of the file.
@@ -401,43 +325,73 @@ impl Worker<'_> {
         part: &Part<'_>,
         begin: u64,
         plan: &Plan,
-        mut hand_on: impl FnMut(&Evaluated<'_>),
+        mut hand_on: impl FnMut(&Lot<'_>),
     ) {
         if let Some(room) = &mut self.room {
             room.take(part);
         }
-        for (lane, number) in (0..part.len()).zip(begin + 1..) {
-            let label = part.label(lane, self.label);
-            let (heads, kept) = self.kept;
-            let kept: Vec<_> = kept
-                .iter()
-                .map(|column| part.field(lane, *column))
-                .collect();
-            let place = Place {
-                number,
-                label: label.as_deref(),
-                kept: (heads, &kept),
-            };
-            if let Some(room) = &mut self.room {
-                if let Some(figures) = room.figures(lane) {
-                    let found = (room.pattern.budget(), Found::Figures(figures));
-                    hand_on(&Evaluated::at(place, Ok(found)));
-                    continue;
-                }
-                if let Some((budget, evaluation)) = room.evaluation(lane, plan) {
-                    let found = (budget, Found::Evaluation(&evaluation));
-                    hand_on(&Evaluated::at(place, Ok(found)));
-                    continue;
-                }
+        let place = Place {
+            part,
+            begin,
+            label: self.label,
+            heads: self.kept.0,
+            kept: self.kept.1,
+        };
+        let mut lane = 0;
+        while lane < part.len() {
+            let sure = self.sure(lane..part.len());
+            if sure > 0 {
+                self.hand_on_several(&place, lane..lane + sure, &mut hand_on);
+                lane += sure;
+                continue;
             }
-            let read = match part.row(lane) {
-                Ok(row) => self.read(&row, sheet, plan),
-                Err(fault) => Err(Failed::Row(Box::new(fault.clone()))),
-            };
-            let found = read.as_ref();
-            let found = found.map(|(budget, found)| (budget, Found::Evaluation(found)));
-            hand_on(&Evaluated::at(place, found));
+            self.hand_on_one(&place, lane, sheet, plan, &mut hand_on);
+            lane += 1;
         }
+    }
+
+    fn sure(&self, lanes: Range<usize>) -> usize {
+        self.room.as_ref().map_or(0, |room| room.sure(lanes))
+    }
+
+    fn hand_on_several(
+        &self,
+        place: &Place<'_>,
+        lanes: Range<usize>,
+        hand_on: &mut impl FnMut(&Lot<'_>),
+    ) {
+        let Some(room) = &self.room else { return };
+        if let Some(figures) = room.figures(lanes.clone()) {
+            hand_on(&Lot::Several(Several {
+                place,
+                lanes,
+                budget: room.pattern.budget(),
+                figures,
+            }));
+        }
+    }
+
+    fn hand_on_one(
+        &mut self,
+        place: &Place<'_>,
+        lane: usize,
+        sheet: &Sheet<'_>,
+        plan: &Plan,
+        hand_on: &mut impl FnMut(&Lot<'_>),
+    ) {
+        let room = self.room.as_mut();
+        if let Some((budget, evaluation)) = room.and_then(|room| room.evaluation(lane, plan)) {
+            let found = (budget, Found::Evaluation(&evaluation));
+            place.row(lane, Ok(found), |row| hand_on(&Lot::One(row)));
+            return;
+        }
+        let read = match place.part.row(lane) {
+            Ok(row) => self.read(&row, sheet, plan),
+            Err(fault) => Err(Failed::Row(Box::new(fault.clone()))),
+        };
+        let found = read.as_ref();
+        let found = found.map(|(budget, found)| (budget, Found::Evaluation(found)));
+        place.row(lane, found, |row| hand_on(&Lot::One(row)));
     }
 
     /// Evaluates a row with which the file is read.

@@ -23,6 +23,7 @@
 //! | [`separate`] | the values outside of two stretches, and counts of the others |
 //! | [`adjoint`] | reverse sweeps through formulas |
 //! | [`twice`] | numbers of twice the precision, with what is known of their errors |
+//! | [`linear`] | lengths, degrees of freedom and intervals of first order |
 //! | [`bounds`] | how far formulas move and bend within the uncertainties of their inputs |
 //! | [`moments`] | sums of powers, extremes and the count of trials that have no finite value |
 //!
@@ -60,6 +61,7 @@ pub mod elementary;
 pub mod generator;
 pub mod kernel;
 pub mod level;
+pub mod linear;
 pub mod moments;
 pub mod normal_quantile;
 pub mod ops;

@@ -18,8 +18,8 @@ command ``gumption``, to the last bit.
 9.9990 mA
 """
 
-from ._arrow import RecordBatch, arrow_batch
-from ._batch import batch
+from ._arrow import RecordBatch
+from ._batch import arrow_batch, batch
 from ._commands import audit, calibrate, diagnose, evaluate, fleet, plan, simulate, verify
 from ._engine import version as __version__
 from ._faults import Fault, NoResult, Refused

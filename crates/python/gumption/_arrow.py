@@ -1,16 +1,10 @@
-"""One function from a record batch to a record batch, for whatever engine has the table."""
+"""Tables in the memory layout of Arrow."""
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any, cast
 
 import numpy as np
-
-from ._batch import evaluated
-from ._commands import settings
-from ._given import Contents, Given
-from ._result import Language
-from ._table import cells
 
 
 class RecordBatch:
@@ -18,77 +12,39 @@ class RecordBatch:
     ``pyarrow.record_batch(x)``, ``polars.DataFrame(x)``, ``duckdb.arrow(x)`` …"""
 
     def __init__(self, array: Any) -> None:
-        self._array = array
+        self._array: Any = array
 
     def __arrow_c_schema__(self) -> object:
-        return self._array.schema.__arrow_c_schema__()
+        return cast(object, self._array.schema.__arrow_c_schema__())
 
     def __arrow_c_array__(self, requested_schema: object | None = None) -> tuple[object, object]:
-        return self._array.__arrow_c_array__(requested_schema)
+        return cast(tuple[object, object], self._array.__arrow_c_array__(requested_schema))
 
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
-        from nanoarrow.c_array_stream import CArrayStream
+        from nanoarrow.c_array_stream import CArrayStream  # type: ignore[import-untyped]
 
         stream = CArrayStream.from_c_arrays([self._array], self._array.schema, validate=False)
-        return stream.__arrow_c_stream__(requested_schema)
+        return cast(object, stream.__arrow_c_stream__(requested_schema))
 
     def __len__(self) -> int:
         return len(self._array)
 
 
-def arrow_batch(
-    budget: Given,
-    rows: Any,
-    *,
-    files: Contents | None = None,
-    profile: str | None = None,
-    monte_carlo: bool = False,
-    trials: int | Literal["adaptive"] | None = None,
-    seed: int | None = None,
-    quasi_random: bool = False,
-    shares: bool = False,
-    contributions: bool = False,
-    threads: int = 1,
-    language: Language = "en",
-) -> RecordBatch:
-    """Evaluates a budget for every row of a record batch, or of a table, of Arrow; gives a record batch with as many rows in
-    the same order.
-
-    It is ``batch`` for engines: what has the PyCapsule interface goes in and comes out; ``U(y)`` is called ``expanded(y)``,
-    since SQL does not tell it from ``u(y)``. A row depends on nothing but its own
-    values, so that neither partitions nor workers nor their order change a bit; a faulty row has an ``error`` and stops
-    nothing. There is a ``label`` where the rows have one. The columns do not depend on the rows: those of an empty batch are
-    the schema.
-
-    Columns of doubles are taken as they lie in memory. What may be stated is that of ``batch``; ``threads`` is 1 unless stated,
-    as engines have workers of their own. Needs the package ``nanoarrow``.
-    """
-    columns = _columns(rows)
-    found, count, _ = evaluated(
-        budget,
-        columns,
-        source_files=files,
-        wanted=settings(profile, monte_carlo, trials, seed, quasi_random, False, threads),
-        more=(shares, contributions),
-        language=language,
-    )
-    assert found is not None
-    if all(name != "label" for name, _ in columns):
-        # The number of a row in its batch means nothing outside of it.
-        del found["label"]
-    return _record_batch(found, count)
-
-
 def _nanoarrow() -> Any:
     try:
-        import nanoarrow
+        import nanoarrow  # type: ignore[import-untyped]
     except ImportError as missing:
         raise ImportError("record batches need the package nanoarrow: pip install 'gumption[arrow]'") from missing
     return nanoarrow
 
 
-def _columns(rows: Any) -> list[tuple[str, Any]]:
-    """The columns of a record batch or a table, as the engine takes them."""
+def is_of(table: Any) -> bool:
+    """Whether something has the PyCapsule interface of Arrow."""
+    return hasattr(table, "__arrow_c_array__") or hasattr(table, "__arrow_c_stream__")
+
+
+def columns(rows: Any) -> list[tuple[str, Any]]:
+    """The columns of a record batch or a table: arrays where they are doubles, else lists."""
     nanoarrow = _nanoarrow()
     array = nanoarrow.Array(rows)
     missing = nanoarrow.nulls_as_sentinel()
@@ -98,10 +54,11 @@ def _columns(rows: Any) -> list[tuple[str, Any]]:
         return child.to_pysequence(handle_nulls=missing) if doubles else list(child.iter_py())
 
     children = zip(array.schema.fields, array.iter_children())
-    return [(field.name, cells(column(field, child))) for field, child in children]
+    return [(field.name, column(field, child)) for field, child in children]
 
 
-def _record_batch(found: dict[str, Any], length: int) -> RecordBatch:
+def record_batch(found: dict[str, Any], length: int) -> RecordBatch:
+    """Columns of results as a record batch: nothing for what is not there."""
     nanoarrow = _nanoarrow()
     fields, arrays = {}, []
     for name, column in found.items():
@@ -119,8 +76,7 @@ def _record_batch(found: dict[str, Any], length: int) -> RecordBatch:
                 array = nanoarrow.c_array_from_buffers(kind, length, buffers)
             else:
                 array = nanoarrow.c_array([one or None for one in column], kind)
-        # SQL does not tell U(y) from u(y).
-        fields[f"expanded{name[1:]}" if name.startswith("U(") else name] = kind
+        fields[name] = kind
         arrays.append(array)
     schema = nanoarrow.struct(fields)
     return RecordBatch(nanoarrow.c_array_from_buffers(schema, length, [None], children=arrays))

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Literal
 
-from . import _engine, _table
+from . import _arrow, _engine, _table
 from ._commands import Progress, settings
 from ._faults import typed
 from ._given import Contents, Given, source
@@ -43,8 +43,8 @@ def batch(
     c·u of each component, with sign: summed over the components that rows share, products of contributions are the
     covariance of two rows. The columns named in ``keep`` (type, laboratory, date …) go through to the results unchanged.
 
-    Gives the results as columns: of a frame a frame, else a ``Table``, a ``dict`` of arrays and lists. With ``output`` they go into that
-    file as they come, however long the table is, and what is given is the number of rows and of those without a result.
+    Gives the results as columns: of a frame a frame, of a table of Arrow one of Arrow, else a ``Table``, a ``dict`` of arrays and
+    lists. With ``output`` they go into that file as they come, however long the table is, and what is given is the number of rows and of those without a result.
     ``progress`` is told the share that is done.
 
     Raises ``Refused`` where the budget has faults that no row mends, or a column is no place of it.
@@ -62,11 +62,54 @@ def batch(
     )
     if columns is None:
         return {"rows": rows, "failed": failed}
-    for name, column in columns.items():
-        if column is None:
-            columns[name] = [""] * rows
-    columns["label"] = [label or str(at) for at, label in enumerate(columns["label"], 1)]
-    return _table.like(table, columns)
+    labels = columns["label"] or [""] * rows
+    columns["label"] = [label or str(at) for at, label in enumerate(labels, 1)]
+    return _table.like(table, columns, rows)
+
+
+def arrow_batch(
+    budget: Given,
+    rows: Any,
+    *,
+    files: Contents | None = None,
+    profile: str | None = None,
+    monte_carlo: bool = False,
+    trials: int | Literal["adaptive"] | None = None,
+    seed: int | None = None,
+    quasi_random: bool = False,
+    shares: bool = False,
+    contributions: bool = False,
+    threads: int = 1,
+    language: Language = "en",
+) -> _arrow.RecordBatch:
+    """Evaluates a budget for every row of a record batch, or of a table, of Arrow; gives a record batch with as many rows in
+    the same order.
+
+    It is ``batch`` for engines: what has the PyCapsule interface goes in and comes out; ``U(y)`` is called ``expanded(y)``,
+    since SQL does not tell it from ``u(y)``. A row depends on nothing but its own
+    values, so that neither partitions nor workers nor their order change a bit; a faulty row has an ``error`` and stops
+    nothing. There is a ``label`` where the rows have one. The columns do not depend on the rows: those of an empty batch are
+    the schema.
+
+    Columns of doubles are taken as they lie in memory. What may be stated is that of ``batch``; ``threads`` is 1 unless stated,
+    as engines have workers of their own. Needs the package ``nanoarrow``.
+    """
+    columns = _table.of_arrow(rows)
+    found, count, _ = evaluated(
+        budget,
+        columns,
+        source_files=files,
+        wanted=settings(profile, monte_carlo, trials, seed, quasi_random, False, threads),
+        more=(shares, contributions),
+        language=language,
+    )
+    assert found is not None
+    if all(name != "label" for name, _ in columns):
+        # The number of a row in its batch means nothing outside of it.
+        del found["label"]
+    # SQL does not tell U(y) from u(y).
+    named = {f"expanded{name[1:]}" if name.startswith("U(") else name: column for name, column in found.items()}
+    return _arrow.record_batch(named, count)
 
 
 def evaluated(

@@ -17,7 +17,7 @@ from ._table import Table
 Progress = Union[Callable[[float], Any], None]
 """Called now and then with how far the work has come; what it raises ends the work, as an interrupt does."""
 
-Recordings = Union[str, os.PathLike, Sequence[Union[str, os.PathLike]], Mapping[str, _table.Given]]
+Recordings = Union[str, "os.PathLike[str]", Sequence[Union[str, "os.PathLike[str]"]], Mapping[str, _table.Given]]
 """Files or folders; or names with what they stand for."""
 
 
@@ -214,7 +214,9 @@ def verify(
     return Result(_engine.verify(sources, today, progress), language)
 
 
-def audit(claimed: Given | bytes, *, name: str = "sheet.csv", language: Language = "en") -> Result:
+def audit(
+    claimed: str | os.PathLike[str] | bytes, *, name: str = "sheet.csv", language: Language = "en"
+) -> Result:
     """Recomputes the claimed budgets of a spreadsheet, and names the slip behind their figures.
 
     ``claimed`` is a path, or the content of a file whose kind the ending of ``name`` tells.

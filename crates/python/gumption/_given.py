@@ -9,7 +9,7 @@ from typing import Any, Union
 
 from . import _engine
 
-Given = Union[str, os.PathLike, Mapping[str, Any]]
+Given = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 """A file: its path, its text (a ``str`` with a line break or an ``=``), or what would stand in it."""
 
 Contents = Mapping[str, Union[str, bytes]]
@@ -28,7 +28,7 @@ def source(given: Given, files: Contents | None = None, name: str = "file.toml")
     return _in_memory(path.name, path.read_bytes(), files)
 
 
-def sheet(given: Given | bytes, name: str) -> dict[str, Any]:
+def sheet(given: str | os.PathLike[str] | bytes, name: str) -> dict[str, Any]:
     """A file that is no TOML: its path, or its content, whose kind the ending of ``name`` tells."""
     if isinstance(given, bytes) or (isinstance(given, str) and "\n" in given):
         return _in_memory(name, given, None)

@@ -8,7 +8,7 @@ import numbers
 import re
 from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
-from typing import Any, Union
+from typing import Any, Union, cast
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from ._commands import evaluate
 from ._result import Measurand, Result
 from ._units import Units
 
-Operand = Union["Quantity", numbers.Real]
+Operand = Union["Quantity", float]
 
 _count = itertools.count(1)
 
@@ -55,7 +55,7 @@ class Quantity:
 
     @property
     def _found(self) -> Measurand:
-        return self.result["y"]
+        return cast(Measurand, self.result["y"])
 
     @property
     def y(self) -> float:
@@ -65,7 +65,7 @@ class Quantity:
     @property
     def unit(self) -> str:
         """Its unit."""
-        return self._found.unit
+        return str(self._found.unit)
 
     @property
     def u(self) -> float | None:
@@ -75,7 +75,7 @@ class Quantity:
     @property
     def nu(self) -> float:
         """The effective degrees of freedom (Welch and Satterthwaite)."""
-        return self._found.gum.effective_degrees_of_freedom
+        return float(self._found.gum.effective_degrees_of_freedom)
 
     @property
     def k(self) -> float | None:
@@ -108,15 +108,22 @@ class Quantity:
 
     def to_uncertainties(self) -> Any:
         """A number of the package ``uncertainties``, correlated with all others that were made so."""
-        from ._interchange import to_uncertainties
+        from ._uncertainties import to_uncertainties
 
         return to_uncertainties(self)
+
+    def to_gtc(self) -> Any:
+        """An uncertain number of the package ``GTC`` with its degrees of freedom, correlated with all others that were made so."""
+        from ._gtc import to_gtc
+
+        return to_gtc(self)
 
     def __add__(self, other: Operand) -> Quantity:
         return _formed("add", self, other)
 
     def __radd__(self, other: Operand) -> Quantity:
-        return _formed("add", other, self)
+        # `sum` begins with 0, whatever the unit.
+        return self if isinstance(other, numbers.Real) and other == 0 else _formed("add", other, self)
 
     def __sub__(self, other: Operand) -> Quantity:
         return _formed("subtract", self, other)
@@ -169,18 +176,24 @@ class Quantity:
 class Joint:
     """Quantities of which correlation coefficients are stated."""
 
-    def __init__(self, members: list[Quantity], correlation: np.ndarray):
+    def __init__(self, members: list[Quantity], correlation: Any):
         self.members = members
-        self.correlation = correlation
+        self._correlation = correlation
         for one in members:
             one._joint = self
 
+    def coefficient(self, one: int, other: int) -> float:
+        """The correlation coefficient of two members, by their places."""
+        return float(self._correlation[one][other])
+
     def table(self, names: set[str]) -> dict[str, Any] | None:
-        """The table of a budget for those of these names; nothing for one alone."""
-        at = [place for place, one in enumerate(self.members) if one._name in names]
-        if len(at) < 2:
+        """The table of a budget for those of these names that correlate with another; nothing where none does."""
+        named = [place for place, one in enumerate(self.members) if one._name in names]
+        at = [i for i in named if any(i != j and self.coefficient(i, j) != 0 for j in named)]
+        if not at:
             return None
-        return {"inputs": [self.members[i]._name for i in at], "correlation": self.correlation[np.ix_(at, at)].tolist()}
+        matrix = [[self.coefficient(i, j) for j in at] for i in at]
+        return {"inputs": [self.members[i]._name for i in at], "correlation": matrix}
 
 
 _OPERATIONS: dict[str, tuple[str, Callable[..., Units]]] = {
@@ -222,13 +235,17 @@ def quantity(
 
     ``u`` is its standard uncertainty; anything else is said as in an input of a budget file: ``half_width=0.1``,
     ``dof=9``, ``readings=[…]`` (with ``value`` None), ``distribution="triangular"``, ``certificate={"U": 0.2, "k": 2}``.
-    A number of the package ``uncertainties`` stays correlated with all others that are taken so. ``name`` is what
+    A number of the package ``uncertainties`` or ``GTC`` stays correlated with all others that are taken so. ``name`` is what
     reports call it.
     """
     if hasattr(value, "nominal_value"):
-        from ._interchange import from_uncertainties
+        from ._uncertainties import from_uncertainties
 
         return from_uncertainties(value)
+    if type(value).__module__.partition(".")[0] == "GTC":
+        from ._gtc import from_gtc
+
+        return from_gtc(value)
     if name is not None and (not name.isidentifier() or _OURS.fullmatch(name)):
         raise ValueError(f"{name!r} cannot be the name of a quantity")
     stated = {"value": value, "u": None if u == 0 else u, "unit": "1" if unit is None else unit}
@@ -247,8 +264,10 @@ def correlated(
     matrix = np.asarray(correlation, dtype=float)
     if matrix.shape != (len(values), len(values)) or len(u) != len(values):
         raise ValueError(f"{len(values)} values take as many u and a matrix of as many rows and columns")
-    of_each = [unit] * len(values) if unit is None or isinstance(unit, str) else unit
-    each = zip(values, u, of_each, names or [None] * len(values))
+    alike = unit is None or isinstance(unit, str)
+    of_each: Sequence[str | None] = [cast("str | None", unit)] * len(values) if alike else cast(Sequence[str], unit)
+    named: Sequence[str | None] = [None] * len(values) if names is None else names
+    each = zip(values, u, of_each, named)
     return Joint([quantity(y, s, one, name=name) for y, s, one, name in each], matrix).members
 
 
@@ -261,9 +280,9 @@ def covariance(quantities: Iterable[Quantity]) -> np.ndarray:
     return np.array(result.joint.covariance, dtype=float)
 
 
-def _formed(operation: str, *given: Any) -> Any:
+def _formed(operation: str, *given: Any) -> Quantity:
     if not all(isinstance(one, (Quantity, numbers.Real)) for one in given):
-        return NotImplemented
+        return cast(Quantity, NotImplemented)
     written = [one._name if isinstance(one, Quantity) else _number(float(one)) for one in given]
     formula, unit = _OPERATIONS[operation]
     operands = [one._units if isinstance(one, Quantity) else one for one in given]
@@ -301,7 +320,7 @@ def _budget(quantities: list[Quantity]) -> dict[str, Any]:
     order = _order(quantities)
     known = {one._name: one for one in order if one._known is not None}
     # Of what has neither uncertainty nor readings nothing is in doubt.
-    exact = {name for name, one in known.items() if set(one._known) <= {"value", "unit"}}
+    exact = {name for name, one in known.items() if set(one._known or ()) <= {"value", "unit"}}
     inputs = {name: one._known for name, one in known.items() if name not in exact}
     names = ["y"] if len(quantities) == 1 else [f"y{at}" for at in range(1, len(quantities) + 1)]
     measurands = {

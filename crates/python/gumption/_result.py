@@ -6,6 +6,7 @@ import html
 import json
 import math
 import os
+import warnings
 from collections.abc import Iterator
 from functools import cached_property
 from itertools import zip_longest
@@ -14,9 +15,14 @@ from typing import Any, Literal
 import numpy as np
 
 from ._engine import Made
+from ._faults import typed
+from ._given import Given, source
 from ._table import Table
 
 Language = Literal["en", "zh"]
+
+Languages = Literal["en", "zh", "both"]
+"""Those of a report: ``both`` beside each other."""
 
 
 class Record:
@@ -61,27 +67,27 @@ class Measurand(Record):
     @property
     def y(self) -> float:
         """The estimate."""
-        return self.reported.estimate
+        return float(self.reported.estimate)
 
     @property
     def u(self) -> float | None:
         """The standard uncertainty; ``None`` where the distribution has none."""
-        return self.reported.standard_uncertainty
+        return _figure(self.reported.standard_uncertainty)
 
     @property
     def nu(self) -> float | None:
         """The degrees of freedom that give k; ``None`` for a k that is fixed."""
-        return self.reported.degrees_of_freedom
+        return _figure(self.reported.degrees_of_freedom)
 
     @property
     def k(self) -> float | None:
         """The coverage factor."""
-        return self.reported.coverage_factor
+        return _figure(self.reported.coverage_factor)
 
     @property
     def U(self) -> float | None:  # noqa: N802 - the symbol of the standard
         """The expanded uncertainty; ``None`` where an interval is reported instead."""
-        return self.reported.expanded_uncertainty
+        return _figure(self.reported.expanded_uncertainty)
 
     @property
     def interval(self) -> tuple[float, float] | None:
@@ -94,7 +100,7 @@ class Measurand(Record):
     @property
     def p(self) -> float | None:
         """The coverage probability, where one is claimed."""
-        return self.reported.coverage_probability
+        return _figure(self.reported.coverage_probability)
 
     def __repr__(self) -> str:
         unit = "" if self.unit == "1" else f" {self.unit}"
@@ -189,11 +195,11 @@ class Result:
         """Files that go with the result, by name: a budget of the coefficients, the improved experiment."""
         return dict(self._made.files(language or self._language))
 
-    def render(self, format: str, language: Language | None = None, width: int = 100) -> bytes:
+    def render(self, format: str, language: Languages | None = None, width: int = 100) -> bytes:
         """The report in a format of the program: ``text``, ``markdown``, ``html``, ``json`` and whatever else it has."""
         return self._made.render(format, language or self._language, width)
 
-    def save(self, path: str | os.PathLike[str], language: Language | None = None, replace: bool = False) -> None:
+    def save(self, path: str | os.PathLike[str], language: Languages | None = None, replace: bool = False) -> None:
         """Writes the report in the format of the ending: ``.html``, ``.xlsx``, ``.md``, ``.json`` …
 
         A file that is there is replaced if gumption wrote it and nobody changed it since, or with ``replace``; otherwise
@@ -201,17 +207,33 @@ class Result:
         """
         self._made.save(path, language or self._language, replace)
 
-    def text(self, language: Language | None = None, width: int = 100) -> str:
+    def text(self, language: Languages | None = None, width: int = 100) -> str:
         """The report as text."""
         return self.render("text", language, width).decode()
 
-    def to_html(self, language: Language | None = None) -> str:
+    def to_html(self, language: Languages | None = None) -> str:
         """The report as a page that stands alone."""
         return self.render("html", language).decode()
 
-    def to_xlsx(self, language: Language | None = None) -> bytes:
+    def to_xlsx(self, language: Languages | None = None) -> bytes:
         """The report as a workbook that calculates."""
         return self.render("xlsx", language)
+
+    def certified(self, certificate: Given) -> Result:
+        """The same as a certificate: its reports are headed by number, dates, laboratory, customer and item.
+
+        ``certificate`` is their file (``gumption new --certificate`` writes one to fill in), its text, or a ``dict``.
+        """
+        with typed():
+            made, kept = self._made.certified(source(certificate, name="certificate.toml"), self._language)
+        if kept is not None:
+            warnings.warn(kept, stacklevel=2)
+        return Result(made, self._language)
+
+    def to_dcc(self, certificate: Given | None = None, language: Languages | None = None) -> bytes:
+        """The report as a digital calibration certificate (DCC, XML), with these data of a certificate."""
+        result = self if certificate is None else self.certified(certificate)
+        return result.render("dcc", language)
 
     def _repr_html_(self) -> str:
         page = html.escape(self.to_html(), quote=True)
@@ -247,6 +269,10 @@ def _of_groups(fleet: dict[str, Any]) -> Table:
             line |= {name: _wrapped(consistency.get(name)) for name in ("birge", "p_value")}
             lines.append(line)
     return Table({name: [line[name] for line in lines] for name in (lines[0] if lines else ())})
+
+
+def _figure(value: Any) -> float | None:
+    return None if value is None else float(value)
 
 
 def _wrapped(value: Any) -> Any:

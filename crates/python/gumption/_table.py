@@ -12,10 +12,11 @@ from typing import Any, Union
 
 import numpy as np
 
+from . import _arrow
 from ._given import sheet
 
-Given = Union[str, os.PathLike, Mapping[str, Any], Any]
-"""A CSV file, its text, columns by their names, or a frame of pandas or polars."""
+Given = Union[str, "os.PathLike[str]", Mapping[str, Any], Any]
+"""A CSV file, its text, columns by their names, a frame of pandas or polars, or a table of Arrow."""
 
 SHOWN = 20
 """Rows that a notebook shows."""
@@ -50,12 +51,26 @@ def _shown(cell: Any) -> str:
     return "" if cell is None else str(cell)
 
 
-def like(given: Any, found: Table) -> Any:
-    """What was found of a table: of a frame a frame, else columns."""
-    library = type(given).__module__.partition(".")[0]
-    if isinstance(given, Mapping) or library not in ("pandas", "polars"):
+def like(given: Any, found: Table, rows: int) -> Any:
+    """What was found of a table: of a frame a frame, of a table of Arrow one of Arrow, else columns."""
+    library = _library(given)
+    if library not in _FRAMES and _arrow.is_of(given):
+        batch = _arrow.record_batch(found, rows)
+        return batch if library != "pyarrow" else importlib.import_module("pyarrow").table(batch)
+    for name, column in found.items():
+        if column is None:
+            found[name] = [""] * rows
+    if library not in _FRAMES:
         return found
     return found.to_pandas() if library == "pandas" else found.to_polars()
+
+
+_FRAMES = ("pandas", "polars")
+"""Libraries whose frames are taken by columns."""
+
+
+def _library(given: Any) -> str:
+    return type(given).__module__.partition(".")[0]
 
 
 def read(text: str, texts: Sequence[str]) -> Table:
@@ -70,7 +85,7 @@ def read(text: str, texts: Sequence[str]) -> Table:
 
 def written(table: Any) -> str:
     """The comma-separated values of a frame or of columns by their names."""
-    columns = dict(_columns(table))
+    columns = dict(given(table))
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(columns)
@@ -82,7 +97,14 @@ def written(table: Any) -> str:
 
 def given(table: Given) -> Any:
     """A table as the engine takes it."""
-    return sheet(table, "table.csv") if isinstance(table, (str, os.PathLike, bytes)) else _columns(table)
+    if isinstance(table, (str, os.PathLike, bytes)):
+        return sheet(table, "table.csv")
+    return of_arrow(table) if _library(table) not in _FRAMES and _arrow.is_of(table) else _columns(table)
+
+
+def of_arrow(table: Any) -> list[tuple[str, Any]]:
+    """Whatever has the interface of Arrow, as the engine takes it."""
+    return [(name, cells(column)) for name, column in _arrow.columns(table)]
 
 
 def _columns(table: Any) -> list[tuple[str, Any]]:
@@ -90,8 +112,8 @@ def _columns(table: Any) -> list[tuple[str, Any]]:
     names = list(table.keys() if isinstance(table, Mapping) else getattr(table, "columns", ()))
     if not isinstance(table, Mapping) and not (names and all(isinstance(name, str) for name in names)):
         raise TypeError(
-            f"a table is a CSV file, a dict of columns, or a frame of pandas or polars, not {type(table).__name__};"
-            " Arrow goes through arrow_batch"
+            "a table is a CSV file, a dict of columns, a frame of pandas or polars, or a table of Arrow,"
+            f" not {type(table).__name__}"
         )
     for name in names:
         if isinstance(table[name], (str, bytes)) or not hasattr(table[name], "__iter__"):

@@ -8,7 +8,7 @@ use gumption_fault::Rejection;
 use gumption_format::csv;
 use gumption_format::files::write::Replacing;
 use gumption_format::files::{Files, Growing};
-use gumption_gum::batch::{self, Evaluated, Plan};
+use gumption_gum::batch::{self, Lot, Plan};
 use gumption_gum::budget::BatchFile;
 use gumption_gum::propagate::Progress;
 use gumption_report::batch::{Columns, Lines, ResultColumn, Results, Table, Values};
@@ -53,7 +53,7 @@ impl Rows<'_> {
         &self,
         file: &BatchFile<'_>,
         plan: &Plan,
-        add: impl Fn(&mut T, &Evaluated<'_>) + Sync,
+        add: impl Fn(&mut T, &Lot<'_>) + Sync,
         take: impl FnMut(T, u64) -> ControlFlow<()>,
     ) -> Result<(), Rejection> {
         match self {
@@ -114,7 +114,7 @@ pub(crate) fn batch_of(
         let work = |files: Files<'_>, path: &Path| {
             let file = BatchFile::open(files, path, profile)?;
             let mut results = Results::of(columns, &file);
-            let add = |values: &mut Values, row: &Evaluated<'_>| columns.add_values(values, row);
+            let add = |values: &mut Values, row: &Lot<'_>| columns.add_values(values, row);
             rows.evaluate(&file, &plan, add, |values, done| {
                 read.store(done, Ordering::Relaxed);
                 results.add(values);
@@ -147,7 +147,7 @@ pub(crate) fn batch_of(
     let work = |files: Files<'_>, path: &Path| {
         let file = BatchFile::open(files, path, profile)?;
         let mut results = Table::of(columns, &file);
-        let add = |lines: &mut Lines, row: &Evaluated<'_>| columns.add(lines, row);
+        let add = |lines: &mut Lines, row: &Lot<'_>| columns.add(lines, row);
         rows.evaluate(&file, &plan, add, |lines, done| {
             read.store(done, Ordering::Relaxed);
             match sink.add(&results.add(lines)) {

@@ -9,6 +9,7 @@ use gumption_fault::Rejection;
 use gumption_fault::language::Language;
 use gumption_fleet as fleets;
 use gumption_format::csv;
+use gumption_format::document::Attachment;
 use gumption_format::files::Files;
 use gumption_gum::budget::{self, Budget, PROFILES, Points, Profile, Trials, Wanted};
 use gumption_gum::propagate::{self, MonteCarloChoice, Options, Progress};
@@ -146,7 +147,16 @@ pub(crate) fn evaluate(
             });
         rows.collect::<Result<Vec<Row>, Unmade>>()
     })?;
-    made(py, language, rows.map(What::Evaluation))
+    let file = source.with(|files, path| files.read(path)).ok();
+    let file = file.map(|content| Attachment {
+        name: match source.path().file_name() {
+            Some(name) => name.to_string_lossy().into_owned(),
+            None => source.path().display().to_string(),
+        },
+        media_type: "application/toml",
+        content,
+    });
+    made(py, language, rows.map(|rows| What::Evaluation(rows, file)))
 }
 
 /// Finds the coefficients of an experiment.

@@ -1,14 +1,14 @@
 //! What a command made.
 
 use std::path::PathBuf;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use gumption_audit::Audit;
 use gumption_audit::claim::Claimed;
 use gumption_export::{FORMATS, Format, Page, named, with_ending};
 use gumption_fault::language::Language;
 use gumption_fleet::Fleet;
-use gumption_format::document::Document;
+use gumption_format::document::{Administration, Attachment, Document};
 use gumption_format::files::write::{Output, Replacing, Unwritten, Why, write};
 use gumption_gum::budget::{Budget, MonteCarloSettings};
 use gumption_gum::propagate::{self, Evaluation, MonteCarloChoice, Options};
@@ -21,6 +21,8 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::{PyFileExistsError, PyOSError, PyValueError};
 use pyo3::prelude::*;
 
+use crate::refusal::Unmade;
+use crate::source::Source;
 use crate::watch::watched;
 
 /// An evaluated row of a budget file.
@@ -32,8 +34,8 @@ pub(crate) struct Row {
 
 /// What was computed, with what it was computed from.
 pub(crate) enum What {
-    /// At least one row.
-    Evaluation(Vec<Row>),
+    /// At least one row, and the file of the budget.
+    Evaluation(Vec<Row>, Option<Attachment>),
     Calibration(Box<Campaign>, Box<Calibration>),
     CalibrationPlan(Box<Campaign>, Box<calibrate::Plan>),
     Diagnosis(Box<Case>, Box<Diagnosis>),
@@ -46,7 +48,7 @@ pub(crate) enum What {
 impl What {
     fn document(&self, language: Language) -> Document {
         match self {
-            What::Evaluation(rows) => {
+            What::Evaluation(rows, _) => {
                 let reports: Vec<Report<'_>> = rows.iter().map(|r| r.report(language)).collect();
                 report::evaluations(&reports, reports.len()).expect("a file has a row")
             }
@@ -60,6 +62,14 @@ impl What {
                 report::audit(name, &audits, language)
             }
             What::Fleet(table, found) => report::fleet(found, table, language),
+        }
+    }
+
+    /// What is handed over with a certificate.
+    fn attached(&self) -> Vec<Attachment> {
+        match self {
+            What::Evaluation(_, file) => file.iter().cloned().collect(),
+            _ => Vec::new(),
         }
     }
 }
@@ -93,7 +103,9 @@ impl Row {
 /// The result of a command: its document in every format, the files that go with it, samples.
 #[pyclass(frozen, module = "gumption._engine")]
 pub(crate) struct Made {
-    what: What,
+    what: Arc<What>,
+    /// Who certifies it for whom.
+    administration: Option<Administration>,
     english: OnceLock<Document>,
     chinese: OnceLock<Document>,
 }
@@ -101,7 +113,8 @@ pub(crate) struct Made {
 impl Made {
     pub fn new(what: What) -> Made {
         Made {
-            what,
+            what: Arc::new(what),
+            administration: None,
             english: OnceLock::new(),
             chinese: OnceLock::new(),
         }
@@ -113,16 +126,29 @@ impl Made {
             Language::English => &self.english,
             Language::Chinese => &self.chinese,
         };
-        composed.get_or_init(|| self.what.document(language))
+        composed.get_or_init(|| {
+            let document = self.what.document(language);
+            match &self.administration {
+                Some(given) => report::certified(document, given, self.what.attached()),
+                None => document,
+            }
+        })
     }
 
-    fn rendered(&self, format: &Format, language: Language, width: usize) -> PyResult<Vec<u8>> {
+    fn rendered(&self, format: &Format, languages: Languages, width: usize) -> PyResult<Vec<u8>> {
         let page = Page {
             width,
             ..Page::default()
         };
-        (format.render)(self.document(language), &page)
-            .map_err(|unfit| PyValueError::new_err(unfit.0.in_language(language)))
+        let first = self.document(languages.first());
+        let rendered = match languages {
+            Languages::One(_) => (format.render)(first, &page),
+            Languages::Both => {
+                let other = self.document(languages.first().other()).clone();
+                (format.render)(&first.clone().beside_the_words_of(other), &page)
+            }
+        };
+        rendered.map_err(|unfit| PyValueError::new_err(unfit.0.in_language(languages.first())))
     }
 }
 
@@ -133,7 +159,7 @@ impl Made {
         py.detach(|| self.document(Language::English).machine.to_string())
     }
 
-    /// The document in a format (`text`, `html`, …) and a language (`en`, `zh`).
+    /// The document in a format (`text`, `html`, …) and a language (`en`, `zh`, `both`).
     fn render(
         &self,
         py: Python<'_>,
@@ -141,16 +167,40 @@ impl Made {
         language: &str,
         width: usize,
     ) -> PyResult<Vec<u8>> {
-        let language = spoken(language)?;
+        let languages = Languages::of(language)?;
         let format = named(format)
             .ok_or_else(|| unknown("formats", FORMATS.iter().map(|format| format.name)))?;
-        py.detach(|| self.rendered(format, language, width))
+        py.detach(|| self.rendered(format, languages, width))
+    }
+
+    /// The same, certified: with the data of a certificate, of which the names that are still those of the template are told.
+    fn certified(
+        &self,
+        py: Python<'_>,
+        certificate: Source,
+        language: &str,
+    ) -> PyResult<(Made, Option<String>)> {
+        let language = spoken(language)?;
+        if !matches!(*self.what, What::Evaluation(..)) {
+            let why = "only an evaluated budget becomes a certificate";
+            return Err(PyValueError::new_err(why));
+        }
+        let given = certificate.with(report::administration);
+        let given = given.map_err(|rejection| Unmade::from(rejection).raised(py, language))?;
+        let kept = report::template_names(&given).map(|kept| kept.in_language(language));
+        let made = Made {
+            what: Arc::clone(&self.what),
+            administration: Some(given),
+            english: OnceLock::new(),
+            chinese: OnceLock::new(),
+        };
+        Ok((made, kept))
     }
 
     /// Writes the document in the format of the path's ending, as a whole. What is there is replaced if this program wrote
     /// it and nobody changed it since, or if the caller says so.
     fn save(&self, py: Python<'_>, path: PathBuf, language: &str, replace: bool) -> PyResult<()> {
-        let language = spoken(language)?;
+        let languages = Languages::of(language)?;
         let ending = path.extension().unwrap_or_default().to_string_lossy();
         let format = with_ending(&ending.to_lowercase())
             .ok_or_else(|| unknown("endings", FORMATS.iter().map(|format| format.ending)))?;
@@ -159,15 +209,16 @@ impl Made {
             false => Replacing::Own,
         };
         py.detach(|| {
-            let content = self.rendered(format, language, Page::default().width)?;
-            write(&[Output { path, content }], replacing).map_err(|why| unwritten(why, language))
+            let content = self.rendered(format, languages, Page::default().width)?;
+            write(&[Output { path, content }], replacing)
+                .map_err(|why| unwritten(why, languages.first()))
         })
     }
 
     /// Files that go with the result, by name: the budget of the coefficients, the improved experiment.
     fn files(&self, language: &str) -> PyResult<Vec<(String, String)>> {
         let language = spoken(language)?;
-        Ok(match &self.what {
+        Ok(match &*self.what {
             What::Calibration(campaign, found) => {
                 let all: Vec<usize> = (0..found.figures.coefficients.len()).collect();
                 let budget = calibrate::budget(campaign, found, &all, language);
@@ -191,7 +242,7 @@ impl Made {
         row: usize,
         trials: u64,
     ) -> PyResult<Vec<Bound<'py, PyArray1<f64>>>> {
-        let What::Evaluation(rows) = &self.what else {
+        let What::Evaluation(rows, _) = &*self.what else {
             return Err(PyValueError::new_err(
                 "only an evaluated budget has samples",
             ));
@@ -221,6 +272,30 @@ pub(crate) fn unwritten(unwritten: Unwritten, language: Language) -> PyErr {
 fn unknown(what: &str, known: impl Iterator<Item = &'static str>) -> PyErr {
     let known: Vec<&str> = known.collect();
     PyValueError::new_err(format!("the {what} are {}", known.join(", ")))
+}
+
+/// In which languages a document is written.
+#[derive(Clone, Copy)]
+enum Languages {
+    One(Language),
+    /// Beside each other.
+    Both,
+}
+
+impl Languages {
+    fn of(code: &str) -> PyResult<Languages> {
+        match code {
+            "both" => Ok(Languages::Both),
+            code => spoken(code).map(Languages::One),
+        }
+    }
+
+    fn first(self) -> Language {
+        match self {
+            Languages::One(language) => language,
+            Languages::Both => Language::English,
+        }
+    }
 }
 
 /// The language of a code.

@@ -58,7 +58,7 @@ pub(crate) fn recordings_of(
 }
 
 /// The TOML of a file that is given as a dictionary, its entries in their order. What is `None` is left out; arrays and
-/// numbers of NumPy are lists and numbers.
+/// numbers of NumPy are lists and numbers, dates are dates.
 #[pyfunction]
 pub(crate) fn toml_of(given: &Bound<'_, PyMapping>) -> PyResult<String> {
     toml::to_string(&Entry(given.as_any().clone()))
@@ -80,6 +80,10 @@ impl Serialize for Entry<'_> {
             to.serialize_f64(given.extract().map_err(raised)?)
         } else if given.is_instance_of::<PyString>() {
             to.serialize_str(&given.extract::<String>().map_err(raised)?)
+        } else if let Ok(date) = given.call_method0("isoformat") {
+            let date: String = date.extract().map_err(raised)?;
+            let date: toml::value::Datetime = date.parse().map_err(S::Error::custom)?;
+            date.serialize(to)
         } else if let Ok(table) = given.cast::<PyMapping>() {
             let mut map = to.serialize_map(None)?;
             for item in table.items().map_err(raised)? {

@@ -71,3 +71,44 @@ def test_frames(library):
     found = gumption.batch(BUDGET.format(readings="[1, 2]", R=1, u=1), frame)
     assert isinstance(found, frames.DataFrame)
     assert list(found["label"]) == ["a", "b"] and list(found["I [mA]"]) == [15.0, 7.5]
+
+
+def test_tables_of_arrow():
+    arrow = pytest.importorskip("pyarrow")
+    budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
+    table = arrow.table({"label": ["a", "b", "c"], "R": [100.0, 200.0, None], "R.u": [0.1, 0.2, -1.0]})
+    found = gumption.batch(budget, table)
+    assert isinstance(found, arrow.Table) and found["label"].to_pylist() == ["a", "b", "c"]
+    assert found["I [mA]"].to_pylist() == [15.0, 7.5, None] and found["error"][2].as_py()
+    columns = {"R": np.array([100.0, 200.0]), "R.u": np.array([0.1, 0.2])}
+    same = gumption.batch(budget, columns)
+    assert list(same["U(I) [mA]"]) == found["U(I) [mA]"].to_pylist()[:2]
+
+
+def test_many_rows_are_what_each_is():
+    """Rows that are evaluated together, some of which need more than their figures."""
+    random = np.random.default_rng(1)
+    budget = """
+[measurand.y]
+model = "a * b / c"
+[input]
+a = { value = 1.5, u = 0.01, dof = 5 }
+b = { value = 1.5, u = 0.01, dof = 3 }
+c = { value = 1.5, u = 0.01 }
+"""
+    rows = 700
+    table = {name: random.uniform(0.1, 9, rows) for name in "abc"} | {"a.u": random.uniform(1e-4, 0.1, rows)}
+    table["c"][::97] = 0.02
+    table["b"][::101] = np.nan
+    names = [f"type {at}" for at in range(rows)]
+    wanted = {"keep": ["type"], "shares": True, "contributions": True}
+    together = gumption.batch(budget, {"type": names, **table}, **wanted)
+    few = ["few_degrees_of_freedom" in one for one in together["findings"]]
+    assert any(few) and not all(few)
+    # A row alone is read with the file.
+    for at in [*range(0, 40), *range(250, 262), 97, 101, rows - 1]:
+        row = {name: column[at : at + 1] for name, column in table.items()}
+        alone = gumption.batch(budget, {"type": names[at : at + 1], **row}, **wanted)
+        for name in together.keys() - {"label"}:
+            one, other = together[name][at], alone[name][0]
+            assert one == other or (one != one and other != other), (name, at)

@@ -113,3 +113,35 @@ def test_arrays_of_quantities():
     x = np.array([quantity(float(at), 1e-6) for at in range(1, 4)])
     assert [one.y for one in np.sqrt(x * 4)] == pytest.approx([2, math.sqrt(8), math.sqrt(12)])
     assert math.isclose(x.sum().u, 1e-6 * math.sqrt(3))
+
+
+def test_numbers_of_gtc_keep_degrees_of_freedom_and_correlation():
+    gtc = pytest.importorskip("GTC")
+    a, b = gtc.ureal(2.0, 0.1, 4, label="a"), gtc.ureal(3.0, 0.2)
+    theirs = a * b + a
+    ours = quantity(theirs)
+    assert math.isclose(ours.y, theirs.x) and math.isclose(ours.u, theirs.u) and math.isclose(ours.nu, theirs.df)
+    # Taken one by one, and still of one cause.
+    assert math.isclose((ours - 4 * quantity(a)).u, (theirs - 4 * a).u)
+    back = ours.to_gtc() - theirs
+    assert math.isclose(back.u, 0, abs_tol=1e-15) and math.isclose(back.x, 0, abs_tol=1e-15)
+    x, y = (gtc.ureal(1.0, 0.1, independent=False) for _ in range(2))
+    gtc.set_correlation(0.5, x, y)
+    assert math.isclose((quantity(x) + quantity(y)).u, (x + y).u)
+    with pytest.raises(TypeError, match="real"):
+        quantity(gtc.ucomplex(1 + 1j, 0.1))
+
+
+def test_quantities_become_numbers_of_gtc():
+    pytest.importorskip("GTC")
+    x, y = correlated([1.0, 2.0], [0.1, 0.2], [[1, 0.8], [0.8, 1]])
+    z = quantity(5.0, 0.3, dof=6)
+    for ours in (x * z, y - x, np.sin(z)):
+        theirs = ours.to_gtc()
+        assert math.isclose(theirs.x, ours.y) and math.isclose(theirs.u, ours.u, rel_tol=1e-9)
+    assert math.isclose((2 * z).to_gtc().df, 6)
+
+
+def test_a_sum_begins_with_nothing():
+    total = sum([quantity(1.0, 0.1, "V"), quantity(2.0, 0.1, "V")])
+    assert math.isclose(total.u, 0.1 * math.sqrt(2)) and total.unit == "V"

@@ -1,14 +1,19 @@
 //! The results of a batch, row by row, as lines of a table or as columns.
 
+mod values;
+
 use super::rows::{Cell, Head};
 use super::{Report, failure, remarks, rows};
 use gumption_core::model::Output;
 use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection};
-use gumption_gum::batch::{BLOCK, Evaluated, Failed, Found};
+use gumption_gum::batch::{BLOCK, Evaluated, Failed, Found, Lot, Several};
 use gumption_gum::budget::{BatchFile, Budget};
-use gumption_gum::propagate::Verdict;
+use gumption_gum::propagate::{RowFigures, Verdict};
 use std::borrow::Cow;
+use values::Given;
+
+pub use values::{ResultColumn, Results, Values};
 
 /// What the lines hold beside what is reported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,9 +79,16 @@ impl Lines {
 }
 
 impl Columns {
-    /// Adds the line of a row: label or number, what is kept of it, then as [`super::rows`], the shares, the contributions, the seed of the trials,
+    /// Adds the line of each row: label or number, what is kept of it, then as [`super::rows`], the shares, the contributions, the seed of the trials,
     /// the findings, and the error of a row that has no result.
-    pub fn add(self, lines: &mut Lines, row: &Evaluated<'_>) {
+    pub fn add(self, lines: &mut Lines, rows: &Lot<'_>) {
+        match rows {
+            Lot::One(row) => self.add_line(lines, row),
+            Lot::Several(rows) => rows.each(|row| self.add_line(lines, row)),
+        }
+    }
+
+    fn add_line(self, lines: &mut Lines, row: &Evaluated<'_>) {
         let text = &mut lines.text;
         match row.label {
             Some(label) => push_field(text, label),
@@ -116,8 +128,54 @@ impl Columns {
         });
     }
 
-    /// Adds the values of a row: as [`Columns::add`], but for the label of a row that has none.
-    pub fn add_values(self, values: &mut Values, row: &Evaluated<'_>) {
+    /// Adds the values of rows: as [`Columns::add`], but for the label of a row that has none.
+    pub fn add_values(self, values: &mut Values, rows: &Lot<'_>) {
+        match rows {
+            Lot::One(row) => self.add_row(values, row),
+            Lot::Several(rows) => self.add_rows(values, rows),
+        }
+    }
+
+    /// Adds the values of rows that stand one after the other, column by column.
+    fn add_rows(self, values: &mut Values, rows: &Several<'_>) {
+        let Several {
+            budget, figures, ..
+        } = rows;
+        values.heads.get_or_insert_with(|| self.heads(budget));
+        values.keep_all(rows);
+        let measurands = 0..budget.model.outputs().len();
+        let numbers = measurands.clone().flat_map(|one| {
+            let of = figures.columns(one);
+            let [lower, upper] = of.ends.map(Some);
+            let found = [of.estimate, of.u].map(Some);
+            let wide = [Some(of.k), Some(of.expanded), lower, upper];
+            found.into_iter().chain([of.dof]).chain(wide)
+        });
+        let mut columns: Vec<Given<'_>> = numbers.map(Given::Numbers).collect();
+        if self.shares {
+            let shares = measurands.clone().flat_map(|one| figures.shares(one));
+            columns.extend(shares.map(Given::Made));
+        }
+        if self.contributions {
+            let all = measurands.clone();
+            let all = all.flat_map(|one| figures.contributions(one));
+            columns.extend(all.map(|one| Given::Numbers(Some(one))));
+        }
+        columns.extend(self.seeds.then_some(Given::Numbers(None)));
+        let few = measurands.clone().any(|one| figures.have_few_degrees(one));
+        let findings = few.then(|| {
+            let of_row = |row: RowFigures<'_>| few_degrees(budget, &row);
+            figures.rows().map(of_row).collect()
+        });
+        columns.push(Given::Texts(findings));
+        // There are no errors.
+        columns.push(Given::Texts(None));
+        let labels = rows.labels().map(|all| all.map(Cow::into_owned).collect());
+        columns.insert(0, Given::Texts(labels));
+        values.add_columns(figures.count(), columns);
+    }
+
+    fn add_row(self, values: &mut Values, row: &Evaluated<'_>) {
         let label = Cell::Text(row.label.unwrap_or_default());
         values.keep(row.kept);
         match &row.found {
@@ -179,9 +237,7 @@ impl Columns {
                 if self.seeds {
                     give(Cell::Seed(None));
                 }
-                let few = |one| Some((remarks::code(&row.few_degrees(one)?), Some(one)));
-                let few = measurands.filter_map(few);
-                give(Cell::Text(&codes(budget, few)));
+                give(Cell::Text(&few_degrees(budget, row)));
                 give(Cell::Text(""));
                 false
             }
@@ -251,6 +307,12 @@ fn codes<'c>(budget: &Budget, findings: impl Iterator<Item = (&'c str, Option<us
         }
     }
     codes
+}
+
+/// The codes of the findings of a row of which there are no others.
+fn few_degrees(budget: &Budget, row: &RowFigures<'_>) -> String {
+    let few = |one| Some((remarks::code(&row.few_degrees(one)?), Some(one)));
+    codes(budget, (0..budget.model.outputs().len()).filter_map(few))
 }
 
 fn why(failed: &Failed, language: Language) -> String {
@@ -381,303 +443,4 @@ fn nothing() -> Vec<Head> {
 
 fn of_another_length(cells: usize, heads: &[Head]) -> String {
     format!("{cells} figures where the first row has {}", heads.len())
-}
-
-/// Values of some rows, made by whoever evaluated them.
-#[derive(Debug, Default)]
-pub struct Values {
-    /// As of [`Lines`].
-    heads: Option<Vec<Head>>,
-    /// What is kept of them, below its heads.
-    kept: Vec<(String, Vec<String>)>,
-    stretches: Vec<Stretch>,
-}
-
-/// Rows that have equally many cells, as columns: the first are their labels, the last the errors of those among them that
-/// have no result.
-#[derive(Debug, Default)]
-struct Stretch {
-    columns: Vec<ResultColumn>,
-    count: Count,
-}
-
-impl Values {
-    /// Keeps the fields of a row below their heads.
-    fn keep(&mut self, (heads, fields): (&[String], &[Cow<'_, str>])) {
-        if self.kept.is_empty() {
-            let heads = heads.iter().cloned();
-            self.kept = heads.map(|head| (head, Vec::new())).collect();
-        }
-        for ((_, texts), field) in self.kept.iter_mut().zip(fields) {
-            texts.push(field.to_string());
-        }
-    }
-
-    /// Adds a row, of which `cells` gives the cells and tells whether an item does not conform.
-    fn add(&mut self, cells: impl Fn(&mut dyn FnMut(Cell<'_>)) -> bool) {
-        let added = self.stretches.last_mut().map(|last| last.add(&cells));
-        if added != Some(true) {
-            let mut stretch = Stretch::default();
-            stretch.add(&cells);
-            self.stretches.push(stretch);
-        }
-    }
-
-    fn add_failed(&mut self, label: Cell<'_>, why: &str) {
-        let why = Cell::Text(why);
-        match self.stretches.last_mut() {
-            Some(last) => last.add_failed(label, why),
-            None => self.add(|give| {
-                give(label);
-                give(why);
-                false
-            }),
-        }
-    }
-}
-
-impl Stretch {
-    /// Adds a row; false, and nothing is added, where it has another number of cells than those before it.
-    fn add(&mut self, cells: impl Fn(&mut dyn FnMut(Cell<'_>)) -> bool) -> bool {
-        let Stretch { columns, count } = self;
-        let row = count.rows as usize;
-        let mut at = 0;
-        let rejected = cells(&mut |cell| {
-            if row == 0 {
-                columns.push(ResultColumn::Texts(None));
-            }
-            if let Some(column) = columns.get_mut(at) {
-                column.set(row, cell);
-            }
-            at += 1;
-        });
-        let fits = at == columns.len();
-        match fits {
-            true => {
-                count.rows += 1;
-                count.rejected += u64::from(rejected);
-            }
-            false => columns.iter_mut().for_each(|column| column.cut(row)),
-        }
-        fits
-    }
-
-    fn add_failed(&mut self, label: Cell<'_>, why: Cell<'_>) {
-        let row = self.count.rows as usize;
-        if let [labels, .., errors] = self.columns.as_mut_slice() {
-            labels.set(row, label);
-            errors.set(row, why);
-        }
-        self.count.rows += 1;
-    }
-
-    /// As many columns as these heads: where it has others, its rows have labels and errors alone.
-    fn below(self, heads: &[Head]) -> Vec<ResultColumn> {
-        let Stretch { mut columns, count } = self;
-        let cells = columns.len();
-        if cells == heads.len() {
-            return columns;
-        }
-        let mut errors = columns.pop().map_or(Vec::new(), ResultColumn::texts);
-        errors.resize(count.rows as usize, String::new());
-        for error in errors.iter_mut().filter(|error| error.is_empty()) {
-            // A vector of another length, or an assessment more.
-            *error = of_another_length(cells, heads);
-        }
-        columns.truncate(1);
-        columns.extend(heads[2..].iter().map(ResultColumn::below));
-        columns.push(ResultColumn::Texts(Some(errors)));
-        columns
-    }
-}
-
-/// A column of results.
-#[derive(Debug, Clone, PartialEq)]
-pub enum ResultColumn {
-    /// Numbers; none where one is not a number.
-    Numbers(Vec<f64>),
-    /// Texts; nothing where all of them are empty.
-    Texts(Option<Vec<String>>),
-}
-
-/// The results of a batch as columns, which grow by rows.
-#[derive(Debug, Default)]
-pub struct Results {
-    heads: Option<Vec<Head>>,
-    columns: Vec<ResultColumn>,
-    /// What is kept of the rows.
-    kept: Vec<(String, Vec<String>)>,
-    waiting: Vec<Values>,
-    count: Count,
-    /// Rows that were taken away.
-    taken: u64,
-}
-
-impl Results {
-    /// Nothing is in them yet. Columns are as of [`Table::of`].
-    pub fn of(columns: Columns, file: &BatchFile<'_>) -> Results {
-        Results {
-            heads: file.alone().map(|budget| columns.heads(&budget)),
-            ..Results::default()
-        }
-    }
-
-    /// Adds rows.
-    pub fn add(&mut self, mut values: Values) {
-        self.heads = self.heads.take().or(values.heads.take());
-        if self.kept.is_empty() {
-            let heads = values.kept.iter().map(|(head, _)| head.clone());
-            self.kept = heads.map(|head| (head, Vec::new())).collect();
-        }
-        self.waiting.push(values);
-        let Some(heads) = &self.heads else { return };
-        if self.columns.is_empty() {
-            self.columns = heads.iter().map(ResultColumn::below).collect();
-        }
-        for values in std::mem::take(&mut self.waiting) {
-            for ((_, texts), (_, added)) in self.kept.iter_mut().zip(values.kept) {
-                texts.extend(added);
-            }
-            for stretch in values.stretches {
-                self.add_below(stretch);
-            }
-        }
-    }
-
-    /// Adds rows below the heads that are there.
-    fn add_below(&mut self, stretch: Stretch) {
-        let at = self.rows();
-        self.count.rows += stretch.count.rows;
-        self.count.rejected += stretch.count.rejected;
-        let added = stretch.below(self.heads.as_deref().unwrap_or_default());
-        if let Some(ResultColumn::Texts(Some(errors))) = added.last() {
-            let failed = errors.iter().filter(|error| !error.is_empty());
-            self.count.failed += failed.count() as u64;
-        }
-        let columns = self.columns.iter_mut().zip(added);
-        columns.for_each(|(column, added)| column.append(at, added));
-    }
-
-    /// How many rows are in them.
-    pub fn rows(&self) -> usize {
-        (self.count.rows - self.taken) as usize
-    }
-
-    /// The columns of the rows that are in them, with their heads; the next ones follow those.
-    pub fn take(&mut self) -> Vec<(String, ResultColumn)> {
-        let rows = self.rows();
-        self.taken = self.count.rows;
-        self.columns.iter_mut().for_each(|column| column.fill(rows));
-        let columns = self.columns.iter_mut();
-        let columns = columns.map(|column| std::mem::replace(column, column.emptied()));
-        let names = self.heads.iter().flatten().map(|head| head.name.clone());
-        let mut found: Vec<_> = names.zip(columns).collect();
-        let kept = self.kept.iter_mut();
-        let kept = kept.map(|(head, texts)| {
-            let texts = ResultColumn::Texts(Some(std::mem::take(texts)));
-            (head.clone(), texts)
-        });
-        found.splice(1..1, kept);
-        found
-    }
-
-    /// The columns with their heads, and how the rows have ended.
-    pub fn end(mut self) -> (Vec<(String, ResultColumn)>, Count) {
-        // A table without rows has columns, too.
-        self.add(Values {
-            heads: Some(nothing()),
-            ..Values::default()
-        });
-        (self.take(), self.count)
-    }
-}
-
-impl ResultColumn {
-    /// The empty one below a head.
-    fn below(head: &Head) -> ResultColumn {
-        match head.numbers {
-            true => ResultColumn::Numbers(Vec::new()),
-            false => ResultColumn::Texts(None),
-        }
-    }
-
-    /// How many cells it has; of texts that are all empty nobody knows.
-    pub fn cells(&self) -> usize {
-        match self {
-            ResultColumn::Numbers(numbers) => numbers.len(),
-            ResultColumn::Texts(texts) => texts.as_ref().map_or(0, Vec::len),
-        }
-    }
-
-    /// One of the same kind, with nothing in it.
-    fn emptied(&self) -> ResultColumn {
-        match self {
-            ResultColumn::Numbers(_) => ResultColumn::Numbers(Vec::new()),
-            ResultColumn::Texts(_) => ResultColumn::Texts(None),
-        }
-    }
-
-    fn texts(self) -> Vec<String> {
-        match self {
-            ResultColumn::Texts(texts) => texts.unwrap_or_default(),
-            ResultColumn::Numbers(_) => Vec::new(),
-        }
-    }
-
-    /// Makes it so long.
-    fn fill(&mut self, rows: usize) {
-        match self {
-            ResultColumn::Numbers(numbers) => numbers.resize(rows, f64::NAN),
-            ResultColumn::Texts(Some(texts)) => texts.resize(rows, String::new()),
-            ResultColumn::Texts(None) => {}
-        }
-    }
-
-    /// Makes it no longer than this.
-    fn cut(&mut self, rows: usize) {
-        match self {
-            ResultColumn::Numbers(numbers) => numbers.truncate(rows),
-            ResultColumn::Texts(Some(texts)) => texts.truncate(rows),
-            ResultColumn::Texts(None) => {}
-        }
-    }
-
-    /// Sets the cell of a row behind those that are there; a column of which nothing is there becomes one of numbers by one.
-    fn set(&mut self, row: usize, cell: Cell<'_>) {
-        match cell {
-            Cell::Number(x) => self.set_number(row, x.unwrap_or(f64::NAN)),
-            // A seed is at most 2^53.
-            Cell::Seed(seed) => self.set_number(row, seed.map_or(f64::NAN, |x| x as f64)),
-            Cell::Text("") => {}
-            Cell::Text(text) => self.append(row, ResultColumn::Texts(Some(vec![text.to_owned()]))),
-        }
-    }
-
-    fn set_number(&mut self, row: usize, x: f64) {
-        if let ResultColumn::Texts(None) = self {
-            *self = ResultColumn::Numbers(Vec::with_capacity(BLOCK));
-        }
-        if let ResultColumn::Numbers(numbers) = self {
-            if numbers.len() < row {
-                numbers.resize(row, f64::NAN);
-            }
-            numbers.push(x);
-        }
-    }
-
-    /// Adds a column from this row on, behind what is there.
-    fn append(&mut self, row: usize, added: ResultColumn) {
-        match (self, added) {
-            (ResultColumn::Numbers(numbers), ResultColumn::Numbers(added)) => {
-                numbers.resize(row, f64::NAN);
-                numbers.extend_from_slice(&added);
-            }
-            (ResultColumn::Texts(texts), ResultColumn::Texts(Some(added))) => {
-                let texts = texts.get_or_insert_default();
-                texts.resize(row, String::new());
-                texts.extend(added);
-            }
-            _ => {}
-        }
-    }
 }

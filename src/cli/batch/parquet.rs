@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use gumption::batch::{Evaluated, STRETCH};
+use gumption::batch::{Lot, STRETCH};
 use gumption::csv::Cells;
 use gumption::fault::{Rejection, Said};
 use gumption::files::Files;
@@ -35,7 +35,7 @@ pub(super) fn written(work: Work<'_>, mut sink: Sink) -> Result<Count, Outcome> 
         let cells = cells(results, &mut numbered);
         sink.add(&writer.add(&cells, &["seed"])?)
     };
-    let add = |values: &mut Values, row: &Evaluated<'_>| columns.add_values(values, row);
+    let add = |values: &mut Values, row: &Lot<'_>| columns.add_values(values, row);
     work.each(add, |values| {
         results.add(values);
         match results.rows() < GROUP {

@@ -1,6 +1,7 @@
 //! Conventions on which guides differ, and settings of the Monte Carlo method.
 
 use gumption_format::toml::words;
+use gumption_lanes::linear::cut;
 
 use gumption_core::quantity::{Rounding, RoundingRule};
 use gumption_core::special::{normal_two_sided_quantile, student_t_two_sided_quantile};
@@ -213,10 +214,8 @@ impl DofRule {
     /// ν by which t is entered; rounded to two decimals before it is cut, since u and ν are never known to more.
     pub fn entered(self, dof: f64) -> f64 {
         match self {
-            DofRule::Truncated if (1.0..1e9).contains(&dof) => {
-                ((100.0 * dof).round() / 100.0).floor()
-            }
-            _ => dof,
+            DofRule::Truncated => cut(dof),
+            DofRule::Real => dof,
         }
     }
 }

@@ -13,7 +13,7 @@ use std::ops::Range;
 use super::Budget;
 use super::check::Plain;
 use super::components::{Component, Owner};
-use super::points::{is_settled, plain_number};
+use super::points::plain_number;
 use super::rows::Rows;
 use super::series::Column;
 use super::tables::{ComponentTable, FileTable, InputTable};
@@ -21,7 +21,7 @@ use gumption_core::distribution::Distribution;
 use gumption_core::quantity::{Conversion, Unit, UnitTable};
 use gumption_format::csv::{Cells, Columns, Row};
 use gumption_format::toml::{Amount, Stated};
-use gumption_lanes::{Block, LANES};
+use gumption_lanes::{Block, LANES, level, linear};
 
 /// A budget, and the numbers in it that columns set.
 #[derive(Debug, Clone)]
@@ -58,8 +58,8 @@ struct Restated {
 pub(crate) struct Numbers {
     /// The cells of each column.
     cells: Vec<Block>,
-    /// The rows that are taken.
-    taken: [bool; LANES],
+    /// Marks the rows that are not taken.
+    refused: Block,
     rows: Rows,
 }
 
@@ -71,7 +71,12 @@ impl Numbers {
 
     /// Whether a row is taken.
     pub fn takes(&self, lane: usize) -> bool {
-        self.taken[lane]
+        self.refused.0[lane] == 0.0
+    }
+
+    /// Marks the rows that are not taken.
+    pub fn refused(&self) -> &Block {
+        &self.refused
     }
 }
 
@@ -95,6 +100,13 @@ impl Number {
                 }
             }
             Number::Always(always) => numbers.fill(always),
+        }
+    }
+
+    /// Marks the rows whose cell, if it is one, is not greater than zero.
+    fn refuse_nothing(self, cells: &[Block], refused: &mut Block) {
+        if let Number::In(column, _) = self {
+            linear::exceed(level(), &cells[column], 0.0, refused);
         }
     }
 
@@ -146,7 +158,7 @@ impl Pattern {
     pub fn numbers(&self) -> Numbers {
         Numbers {
             cells: vec![Block::ZERO; self.numeric.len()],
-            taken: [false; LANES],
+            refused: Block([1.0; LANES]),
             rows: Rows::of(&self.budget),
         }
     }
@@ -179,7 +191,7 @@ impl Pattern {
     pub fn take<'r>(&self, rows: impl Iterator<Item = Option<&'r Row<'r>>>, numbers: &mut Numbers) {
         let mut count = 0;
         for row in rows {
-            numbers.taken[count] = row.is_some_and(|row| {
+            let taken = row.is_some_and(|row| {
                 let cells = numbers.cells.iter_mut().zip(&self.numeric);
                 cells.zip(row.fields()).all(|((cells, numeric), field)| {
                     let number = match numeric {
@@ -192,6 +204,7 @@ impl Pattern {
                     })
                 })
             });
+            numbers.refused.0[count] = if taken { 0.0 } else { 1.0 };
             count += 1;
         }
         self.restate(count, numbers);
@@ -199,24 +212,19 @@ impl Pattern {
 
     /// Takes rows of a table in memory, from this one on.
     pub fn take_columns(&self, table: &Columns<'_>, rows: Range<usize>, numbers: &mut Numbers) {
-        let taken = &mut numbers.taken[..rows.len()];
-        taken.fill(true);
-        let columns = numbers.cells.iter_mut().zip(&self.numeric).enumerate();
+        let Numbers { cells, refused, .. } = numbers;
+        refused.0[..rows.len()].fill(0.0);
+        let columns = cells.iter_mut().zip(&self.numeric).enumerate();
         for (at, (cells, _)) in columns.filter(|(_, (_, numeric))| **numeric) {
             match table.cells(at) {
-                Cells::Numbers(all) => {
-                    let all = &all[rows.clone()];
-                    cells.0[..all.len()].copy_from_slice(all);
-                    for (taken, number) in taken.iter_mut().zip(all) {
-                        *taken &= is_settled(*number);
-                    }
-                }
+                Cells::Numbers(all) => linear::take(level(), &all[rows.clone()], cells, refused),
                 Cells::Texts(all) => {
-                    let all = all[rows.clone()].iter().zip(&mut cells.0);
-                    for ((text, cell), taken) in all.zip(taken.iter_mut()) {
+                    for (lane, text) in all[rows.clone()].iter().enumerate() {
                         let number = plain_number(text.trim());
-                        *taken &= number.is_some();
-                        *cell = number.unwrap_or(f64::NAN);
+                        cells.0[lane] = number.unwrap_or(f64::NAN);
+                        if number.is_none() {
+                            refused.0[lane] = 1.0;
+                        }
                     }
                 }
             }
@@ -226,7 +234,11 @@ impl Pattern {
 
     /// What the cells make of the budget.
     fn restate(&self, count: usize, numbers: &mut Numbers) {
-        let Numbers { cells, taken, rows } = numbers;
+        let Numbers {
+            cells,
+            refused,
+            rows,
+        } = numbers;
         for (input, number) in &self.estimates {
             number.of_rows(cells, count, &mut rows.estimates[*input]);
         }
@@ -234,15 +246,11 @@ impl Pattern {
             let (u, dof) = (&mut rows.u[one.component], &mut rows.dof[one.component]);
             one.amount.of_rows(cells, count, u);
             one.dof.of_rows(cells, count, dof);
-            for (lane, taken) in taken[..count].iter_mut().enumerate() {
-                let (u, dof) = (&mut u.0[lane], dof.0[lane]);
-                let stated = *taken && one.is_stated(cells, lane);
-                let found = stated.then(|| one.plain.u(*u, dof, &self.budget.conventions));
-                match found.flatten() {
-                    Some(found) => *u = found,
-                    None => *taken = false,
-                }
+            for number in [one.amount, one.dof] {
+                number.refuse_nothing(cells, refused);
             }
+            one.plain
+                .of_rows(count, (u, dof), &self.budget.conventions, refused);
         }
     }
 

@@ -5,6 +5,7 @@
 //! inputs share enters once, with the sum of its effects. Covariances between inputs (GUM F.1.2.3)
 //! need no formula of their own then.
 
+use gumption_lanes::linear::settled;
 use nalgebra::DMatrix;
 
 use super::covariance::{Covariance, Form, norm};
@@ -64,20 +65,12 @@ pub(super) fn linearise(budget: &Budget) -> Result<Linear, EvaluationError> {
     }
     let resolved = budget.model.resolved(&x);
     for (value, resolved) in values.iter_mut().zip(&resolved) {
-        settle(value, resolved.value, resolved.error);
+        *value = settled(*value, resolved.value, resolved.error);
     }
     let gradient = budget.model.gradients(&x);
     let covariance = Covariance::new(&budget.components, &budget.groups);
     let linear = Linear::new(x, values, gradient, covariance, &budget.inputs);
     Ok(Linear { resolved, ..linear })
-}
-
-/// The value by twice the precision, where doubles are off by more than a unit in the last place.
-pub(super) fn settle(value: &mut f64, resolved: f64, error: f64) {
-    let off = (*value - resolved).abs();
-    if off > f64::EPSILON * resolved.abs() && error < off {
-        *value = resolved;
-    }
 }
 
 fn name(model: &Model, output: usize) -> String {

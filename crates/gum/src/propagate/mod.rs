@@ -52,4 +52,4 @@ pub use result::{
     SecondOrder, SensitivityIndices, Side, SobolIndex, TrialMoments, Validation, Verdict,
     WhyRandom,
 };
-pub use rows::{RowEvaluation, RowFigures};
+pub use rows::{BlockFigures, FigureColumns, RowEvaluation, RowFigures};

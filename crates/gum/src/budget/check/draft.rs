@@ -213,6 +213,14 @@ pub(super) fn t_or_normal(u: f64, dof: f64, conventions: &Conventions) -> Option
     }))
 }
 
+/// The degrees of freedom beyond which there is a t distribution of any u.
+pub(super) fn least_dof(conventions: &Conventions) -> f64 {
+    match conventions.t_scale {
+        TScale::StandardDeviation if conventions.states("t_scale") => 2.0,
+        TScale::StandardDeviation | TScale::Scale => 0.0,
+    }
+}
+
 /// Scale of the t distribution that stands for u; nothing where the conventions ask for one that does not exist.
 pub(super) fn t_scale_of(u: f64, dof: f64, conventions: &Conventions) -> Option<f64> {
     match conventions.t_scale {
@@ -220,7 +228,6 @@ pub(super) fn t_scale_of(u: f64, dof: f64, conventions: &Conventions) -> Option<
         TScale::StandardDeviation if dof > 2.0 => Some(u * ((dof - 2.0) / dof).sqrt()),
         // Nobody asked for it: three readings are evaluated as JCGM 101, 6.4.9.4 says, and the report
         // tells that Monte Carlo has no standard deviation then.
-        TScale::StandardDeviation if !conventions.states("t_scale") => Some(u),
-        TScale::StandardDeviation => None,
+        TScale::StandardDeviation => (dof > least_dof(conventions)).then_some(u),
     }
 }

@@ -1,6 +1,6 @@
 //! Components that one number states, so that another number there changes nothing but u and the distribution.
 
-use super::draft::{t_or_normal, t_scale_of};
+use super::draft::{least_dof, t_or_normal};
 use super::shapes::{default_shape, stated_shape};
 use super::ways::{Way, stated_ways};
 use crate::budget::Conventions;
@@ -9,6 +9,7 @@ use crate::budget::variants::Amounts;
 use gumption_core::distribution::stating::{Bell, Width, Word};
 use gumption_core::distribution::{Distribution, Entry, Normal, Uniform};
 use gumption_format::toml::Amount;
+use gumption_lanes::Block;
 
 /// A component that one number states.
 #[derive(Debug, Clone)]
@@ -98,19 +99,39 @@ impl Plain {
         (table.distribution.is_some() == plain.named).then_some((plain, keys))
     }
 
-    /// u alone of what [`Plain::with`] gives: many rows need no more.
-    pub(in crate::budget) fn u(
+    /// The numbers of rows become u of what [`Plain::with`] gives; marks those of which it gives nothing.
+    pub(in crate::budget) fn of_rows(
         &self,
-        number: f64,
-        dof: f64,
+        count: usize,
+        (numbers, dof): (&mut Block, &Block),
         conventions: &Conventions,
-    ) -> Option<f64> {
-        match (self.shape.word, self.width(number)) {
-            (Word::Bell(Bell::Normal), Width::U(u)) if self.named || dof.is_infinite() => Some(u),
-            (Word::Bell(_), Width::U(u)) if dof.is_finite() => {
-                t_scale_of(u, dof, conventions).map(|_| u)
+        refused: &mut Block,
+    ) {
+        let rows = numbers.0[..count].iter_mut().zip(&dof.0);
+        let rows = rows.zip(&mut refused.0);
+        let (bell, k) = match (self.shape.word, self.measure) {
+            (Word::Bell(bell), Measure::U) => (bell, 1.0),
+            (Word::Bell(bell), Measure::Expanded { k }) => (bell, k),
+            _ => {
+                for ((number, dof), refused) in rows {
+                    match self.with(*number, *dof, conventions) {
+                        Some((u, _)) => *number = u,
+                        None => *refused = 1.0,
+                    }
+                }
+                return;
             }
-            _ => self.with(number, dof, conventions).map(|(u, _)| u),
+        };
+        // Without columns for more, u alone is found: the same for all shapes of a bell, where they have one.
+        let normal = bell == Bell::Normal;
+        let least = match normal && self.named {
+            true => 0.0,
+            false => least_dof(conventions),
+        };
+        for ((number, dof), refused) in rows {
+            *number /= k;
+            let fine = (*dof > least) & (normal | dof.is_finite());
+            *refused = if fine { *refused } else { 1.0 };
         }
     }
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import uncertainties
+import uncertainties  # type: ignore[import-untyped]
 from uncertainties import UFloat
 
 from ._quantity import Quantity, quantity
@@ -28,7 +28,7 @@ def from_uncertainties(number: UFloat) -> Quantity:
         return quantity(number.nominal_value)
     if number in derivatives:
         return _quantity_of(number)
-    total: Any = number.nominal_value
+    total = quantity(number.nominal_value)
     for variable, slope in derivatives.items():
         total = total + slope * (_quantity_of(variable) - variable.nominal_value)
     return total
@@ -57,7 +57,9 @@ def _number_of(resting: Quantity) -> UFloat:
         members = [resting] if resting._joint is None else resting._joint.members
         known = [member.result["y"].gum for member in members]
         deviations = np.array([gum.standard_uncertainty for gum in known])
-        matrix = np.eye(1) if resting._joint is None else resting._joint.correlation
+        places = range(len(members))
+        joint = resting._joint
+        matrix = np.eye(1) if joint is None else np.array([[joint.coefficient(i, j) for j in places] for i in places])
         covariance = matrix * np.outer(deviations, deviations)
         numbers = uncertainties.correlated_values([gum.estimate for gum in known], covariance)
         if len(members) == 1:

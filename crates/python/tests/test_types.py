@@ -1,0 +1,34 @@
+"""The package and what is written with it hold before a strict checker of types."""
+
+from pathlib import Path
+
+import pytest
+
+USED = """
+import gumption
+import numpy as np
+from gumption import quantity
+
+result = gumption.evaluate({"measurand": {"y": {"model": "x"}}, "input": {"x": {"value": 1, "u": 0.1}}}, seed=7)
+figures: dict[str, np.ndarray] = result.samples(1000)
+page: str = result.to_html("both")
+certificate: bytes = result.to_dcc("laboratory.toml", language="zh")
+x = quantity(1.0, 0.1, "V") * 2 + quantity(2.0, unit="V", half_width=0.1)
+u: float | None = x.u
+value: float = x.to("mV").y
+table = gumption.calibrate("gyro.toml", recordings=["one.csv", "two.csv"])
+errors: list[str] = table["error"]
+try:
+    gumption.diagnose("case.toml", progress=print)
+except gumption.Refused as refused:
+    mends: list[str | None] = [fault.mend for fault in refused.faults]
+"""
+
+
+def test_types(tmp_path):
+    api = pytest.importorskip("mypy.api")
+    script = tmp_path / "used.py"
+    script.write_text(USED)
+    package = Path(__file__).parents[1] / "gumption"
+    said, complained, code = api.run(["--strict", "--cache-dir", str(tmp_path / "cache"), str(package), str(script)])
+    assert code == 0, said + complained

@@ -282,7 +282,8 @@ fn the_unit_check_tells_model_2_from_formula_12() {
         let toml = format!(
             "procedure = \"{procedure}\"\n[schedule]\naxis = [\"x\", \"x\", \"y\", \"y\", \"z\", \"z\"]\n\
              \"omega [rad/s]\" = [0, 10, 0, 10, 0, 10]\n\
-             [columns]\nUax = {{ unit = \"m/s^2\" }}\nUay = {{ unit = \"m/s^2\" }}\nUaz = {{ unit = \"m/s^2\" }}\n"
+             [columns]\nUax = {{ unit = \"m/s^2\" }}\nUay = {{ unit = \"m/s^2\" }}\nUaz = {{ unit = \"m/s^2\" }}\n\
+             [noise]\nu = \"0.01 m/s^2\"\n"
         );
         let figures = planned(&toml).figures.expect("all is determined");
         let p = figures.coefficients.iter().find(|c| c.name == "pyx");

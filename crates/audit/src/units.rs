@@ -11,23 +11,20 @@ static TABLE: LazyLock<UnitTable> = LazyLock::new(UnitTable::default);
 /// A unit as a sheet writes it; `None` for what is none.
 pub(crate) fn parse(text: &str) -> Option<Unit> {
     let text = text.trim().trim_matches(['[', ']']);
-    if text.is_empty() || text.len() > 24 {
+    // Behind the name of a quantity a solidus parts its unit: `u /kPa`.
+    if text.is_empty() || text.len() > 24 || text.starts_with('/') {
         return None;
     }
-    let written = text.replace("Ω", "ohm").replace('⋅', "·");
-    TABLE
-        .parse(&written)
-        .or_else(|_| TABLE.parse(text))
-        .ok()
-        .or_else(|| TABLE.parse(&with_powers(&written)?).ok())
+    let written = with_powers(&text.replace("Ω", "ohm").replace('⋅', "·"))?;
+    TABLE.parse(&written).or_else(|_| TABLE.parse(text)).ok()
 }
 
 /// `kg/m3` as sheets write it: a power behind a known unit. A whole text of one letter and a digit is the name of a
-/// quantity (`m1`, `V1`), but for areas and volumes (`m2`, `cm3`) and what is usual for itself (`s-1`, `K-1`).
+/// quantity (`m1`, `V1`), but for areas and volumes (`m2`, `cm3`) and what is usual for itself (`s-1`, `K-1`); for
+/// such a name nothing is given.
 fn with_powers(text: &str) -> Option<String> {
     let factors: Vec<&str> = text.split_inclusive(['/', '·', '*', ' ']).collect();
     let is_alone = factors.len() == 1;
-    let mut powers = 0;
     let written = factors.iter().map(|factor| {
         let end = factor.trim_end_matches(['/', '·', '*', ' ']).len();
         let (factor, sign) = factor.split_at(end);
@@ -48,12 +45,14 @@ fn with_powers(text: &str) -> Option<String> {
         // An exponent is one digit, and no unit is written to the power of 0 or 1.
         let is_power = power.chars().count() == 1 + usize::from(is_inverse)
             && (is_inverse || !power.starts_with(['0', '1']));
-        powers += 1;
+        // `g0` is a unit by its name.
+        if !is_power && TABLE.parse(factor).is_ok() {
+            return Some(format!("{factor}{sign}"));
+        }
         (is_power && (!is_alone || is_usual))
             .then(|| format!("{unit}^{}{sign}", power.replace('−', "-")))
     });
-    let written: Option<String> = written.collect();
-    written.filter(|_| powers > 0)
+    written.collect()
 }
 
 /// Whether a unit is one of the quantity that this one is a unit of.

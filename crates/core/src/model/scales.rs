@@ -217,6 +217,10 @@ impl Lowering<'_> {
             )
             .label(say!("a point on the {symbol} scale"))
             .help(match is_called_a_difference(&text) {
+                _ if text.starts_with(|c: char| c.is_ascii_digit()) => say!(
+                    "a difference is in {difference}: write `{}`",
+                    text.replace(symbol.as_str(), &difference)
+                ),
                 true => say!(
                     "a difference or a correction is stated in {difference}: `unit = \"{difference}\"` for {text}, with the same numbers"
                 ),

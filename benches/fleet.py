@@ -254,7 +254,7 @@ pandas {pandas.__version__}. CPU time on one thread, medians of {TURNS} turns. A
 {chr(10).join(lines)}
 
 Vectorised code by hand for one model is faster than a program that takes any model, and will be: a row in memory is {8 * (2 * len(NAMES) + 7)} bytes of doubles in and out, so that NumPy
-without looking further is near what memory delivers, and nothing can be many times as fast. What it costs is the derivatives by hand, anew for each model.
+without looking further is near what memory delivers: thirty times as fast as that cannot be had, nor many times. What it costs is the derivatives by hand, anew for each model.
 Packages in a loop spend their time on an object for each input and each operation.
 
 | Monte Carlo | trials per second and core |

@@ -4,7 +4,7 @@
 use fearless_simd::{Level, dispatch};
 
 use crate::bounds::Bounds;
-use crate::twice::KnownBlock;
+use crate::twice::{KnownBlock, select};
 use crate::{Block, LANES};
 
 /// `largest` ← |c·u|, where that is larger.
@@ -69,9 +69,7 @@ pub fn invert(level: Level, x: &mut Block) {
 #[inline(always)]
 pub fn cut(dof: f64) -> f64 {
     let whole = ((100.0 * dof).round() / 100.0).floor();
-    // Chosen by its bits: of a branch over so many operations the compiler makes one for each lane.
-    let within = u64::from((dof >= 1.0) & (dof < 1e9)).wrapping_neg();
-    f64::from_bits((whole.to_bits() & within) | (dof.to_bits() & !within))
+    select((1.0..1e9).contains(&dof), whole, dof)
 }
 
 /// `entered` ← ν, [`cut`].
@@ -218,7 +216,8 @@ pub fn resolves(
         let before = doubt.0[lane];
         doubt.0[lane] = if resolved { before } else { 1.0 };
         let sure = resolved & (before == 0.0);
-        let loses = sure & !(doubles <= harmless * known.value[0].0[lane].abs());
+        let fine = doubles <= harmless * known.value[0].0[lane].abs();
+        let loses = sure & !fine;
         lossy.0[lane] = if loses { 1.0 } else { 0.0 };
         any |= u64::from(loses);
     });

@@ -75,6 +75,14 @@ pub fn div(a: Twice, b: Twice) -> Twice {
     ]
 }
 
+/// One of two numbers, by their bits: where one of them takes many operations, the compiler makes a branch of `if`, and then a loop
+/// over lanes is not vectorised.
+#[inline(always)]
+pub(crate) fn select(first: bool, a: f64, b: f64) -> f64 {
+    let mask = u64::from(first).wrapping_neg();
+    f64::from_bits((a.to_bits() & mask) | (b.to_bits() & !mask))
+}
+
 /// Half a unit in the last place of a double, relative.
 pub const ROUNDING: f64 = f64::EPSILON / 2.0;
 
@@ -319,7 +327,7 @@ pub fn decimals(level: Level, x: &Block, out: &mut KnownBlock) -> bool {
             }
         }
     });
-    let mut missed = 0;
+    let mut missed = 0u64;
     dispatch!(level, _ => for lane in 0..LANES {
         let (x, ten) = (x.0[lane], tens.0[lane]);
         // Of a whole number nothing is lacking.
@@ -328,11 +336,10 @@ pub fn decimals(level: Level, x: &Block, out: &mut KnownBlock) -> bool {
         let open = ten == 0.0;
         let long = open & is_long(x) & (x != PI);
         out.value[0].0[lane] = x;
-        out.value[1].0[lane] = if open { 0.0 } else { low };
-        let of_open = if long { half } else { f64::NAN };
-        out.error.0[lane] = if open { of_open } else { 0.0 };
-        out.doubles.0[lane] = if ten == 1.0 { 0.0 } else { half };
-        missed += u32::from(open & !long);
+        out.value[1].0[lane] = select(open, 0.0, low);
+        out.error.0[lane] = select(open, select(long, half, f64::NAN), 0.0);
+        out.doubles.0[lane] = select(ten == 1.0, 0.0, half);
+        missed += u64::from(open & !long);
     });
     missed > 0
 }

@@ -344,7 +344,7 @@ mod tests {
                 added: 0.2,
             };
             bends(level, &bounds, &c, most, &mut doubts[0]);
-            let [mut contest, unit] = [Contest::OPEN, Block([1.0; LANES])];
+            let (mut contest, unit) = (Contest::OPEN, Block([1.0; LANES]));
             let sight = Sight {
                 least: 1e-9,
                 vanished: 0.01,

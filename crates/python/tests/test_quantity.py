@@ -137,8 +137,9 @@ def test_quantities_become_numbers_of_gtc():
     x, y = correlated([1.0, 2.0], [0.1, 0.2], [[1, 0.8], [0.8, 1]])
     z = quantity(5.0, 0.3, dof=6)
     for ours in (x * z, y - x, np.sin(z)):
-        theirs = ours.to_gtc()
-        assert math.isclose(theirs.x, ours.y) and math.isclose(theirs.u, ours.u, rel_tol=1e-9)
+        theirs, gum = ours.to_gtc(), ours.result["y"].gum
+        assert math.isclose(theirs.x, gum.estimate)
+        assert math.isclose(theirs.u, gum.standard_uncertainty, rel_tol=1e-9)
     assert math.isclose((2 * z).to_gtc().df, 6)
 
 

@@ -56,7 +56,7 @@ def _deviation(leaf: Any) -> Quantity:
     if leaf.uid not in _taken:
         known = {} if math.isinf(leaf.df) else {"dof": leaf.df}
         deviation = _taken[leaf.uid] = quantity(0.0, leaf.u, **known)
-        component, nothing = Vector(index=leaf, value=leaf.u), Vector()
+        component, nothing = Vector(index=[leaf], value=[leaf.u]), Vector()
         parts = (component, nothing) if leaf.independent else (nothing, component)
         _made[deviation] = GTC.lib.UncertainReal(0.0, *parts, Vector(), leaf)
         if not leaf.independent:

@@ -325,7 +325,10 @@ impl ResultColumn {
                     .into_iter()
                     .for_each(|all| all.extend_from_slice(numbers));
             }
-            Given::Made(numbers) => self.append(row, ResultColumn::Numbers(numbers)),
+            Given::Made(numbers) => {
+                let added = self.numbers_before(row);
+                added.into_iter().for_each(|all| all.extend(&numbers));
+            }
             Given::Numbers(None) => {
                 let added = self.numbers_before(row);
                 added

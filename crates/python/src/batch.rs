@@ -16,7 +16,8 @@ use numpy::IntoPyArray;
 use pyo3::prelude::*;
 
 use crate::compute::Settings;
-use crate::made::{spoken, unwritten};
+use crate::language::spoken;
+use crate::made::unwritten;
 use crate::refusal::Unmade;
 use crate::source::Source;
 use crate::table::{Given, Rows};

@@ -23,7 +23,8 @@ use gumption_verify::{Environment, Example, LIBRARY, Verification};
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::made::{Made, Row, What, spoken};
+use crate::language::spoken;
+use crate::made::{Made, Row, What};
 use crate::refusal::Unmade;
 use crate::source::Source;
 use crate::table::{Given, Rows};

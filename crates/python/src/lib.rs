@@ -7,12 +7,14 @@
 //! | `batch` | a budget for every row of a table |
 //! | `table` | tables that a call is given |
 //! | `compute` | one function for each command |
+//! | `language` | in which languages a call is answered |
 //! | `made` | what a command made: its document in every format, its files, its samples |
 //! | `refusal` | why there is no result, as exceptions |
 //! | `watch` | long work, which can be interrupted |
 
 mod batch;
 mod compute;
+mod language;
 mod made;
 mod refusal;
 mod source;

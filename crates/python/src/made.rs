@@ -21,6 +21,7 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::{PyFileExistsError, PyOSError, PyValueError};
 use pyo3::prelude::*;
 
+use crate::language::{Languages, spoken};
 use crate::refusal::Unmade;
 use crate::source::Source;
 use crate::watch::watched;
@@ -272,37 +273,4 @@ pub(crate) fn unwritten(unwritten: Unwritten, language: Language) -> PyErr {
 fn unknown(what: &str, known: impl Iterator<Item = &'static str>) -> PyErr {
     let known: Vec<&str> = known.collect();
     PyValueError::new_err(format!("the {what} are {}", known.join(", ")))
-}
-
-/// In which languages a document is written.
-#[derive(Clone, Copy)]
-enum Languages {
-    One(Language),
-    /// Beside each other.
-    Both,
-}
-
-impl Languages {
-    fn of(code: &str) -> PyResult<Languages> {
-        match code {
-            "both" => Ok(Languages::Both),
-            code => spoken(code).map(Languages::One),
-        }
-    }
-
-    fn first(self) -> Language {
-        match self {
-            Languages::One(language) => language,
-            Languages::Both => Language::English,
-        }
-    }
-}
-
-/// The language of a code.
-pub(crate) fn spoken(code: &str) -> PyResult<Language> {
-    code.parse().map_err(|_| {
-        PyValueError::new_err(format!(
-            "there is no language `{code}`; there are `en` and `zh`"
-        ))
-    })
 }

@@ -10,7 +10,7 @@ use pyo3::types::{PyBool, PyFloat, PyInt, PyMapping, PyString};
 use serde::ser::{Error, SerializeMap, SerializeSeq};
 use serde::{Serialize, Serializer};
 
-use crate::made::spoken;
+use crate::language::spoken;
 
 /// A file and those that it names: on the disk, or all of them in memory.
 #[derive(FromPyObject)]

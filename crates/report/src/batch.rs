@@ -1,5 +1,6 @@
 //! The results of a batch, row by row, as lines of a table or as columns.
 
+mod shape;
 mod values;
 
 use super::rows::{Cell, Head};
@@ -10,23 +11,12 @@ use gumption_fault::{Fault, Rejection};
 use gumption_gum::batch::{BLOCK, Evaluated, Failed, Found, Lot, Several};
 use gumption_gum::budget::{BatchFile, Budget};
 use gumption_gum::propagate::{RowFigures, Verdict};
+use shape::{nothing, of_another_length};
 use std::borrow::Cow;
 use values::Given;
 
+pub use shape::{Columns, Count};
 pub use values::{ResultColumn, Results, Values};
-
-/// What the lines hold beside what is reported.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Columns {
-    /// The share of each input in u²(y).
-    pub shares: bool,
-    /// c·u of each component: products of those that rows share are their covariance.
-    pub contributions: bool,
-    /// The seeds of the trials.
-    pub seeds: bool,
-    /// The language in which errors are told.
-    pub language: Language,
-}
 
 /// Lines of some rows, made by whoever evaluated them.
 #[derive(Debug, Default)]
@@ -352,17 +342,6 @@ pub struct Table {
     count: Count,
 }
 
-/// How the rows of a batch have ended.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Count {
-    /// All of them.
-    pub rows: u64,
-    /// Those without a result.
-    pub failed: u64,
-    /// Those whose item does not conform.
-    pub rejected: u64,
-}
-
 impl Table {
     /// Nothing is in it yet. Its columns are those of the budget where that is whole without a row, else those of the first row
     /// that has a result.
@@ -434,13 +413,4 @@ impl Table {
         };
         (self.add(head), self.count)
     }
-}
-
-/// The heads of a table in which no row has a result.
-fn nothing() -> Vec<Head> {
-    ["label", "error"].map(Head::texts).to_vec()
-}
-
-fn of_another_length(cells: usize, heads: &[Head]) -> String {
-    format!("{cells} figures where the first row has {}", heads.len())
 }

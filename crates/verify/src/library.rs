@@ -93,6 +93,7 @@ pub const LIBRARY: &[(&str, &[u8])] = library![
     "length/end-gauge-nine-inputs.toml",
     "length/gauge-block-50mm-ea402-s4.toml",
     "length/gauge-block-gum-s1-9-5.toml",
+    "length/string-npl-gpg11.toml",
     "length/vernier-caliper-ea402-s10.toml",
     "mass/mass-standard-gum-7-2.toml",
     "mass/reference-weight.toml",

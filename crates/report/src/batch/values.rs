@@ -1,6 +1,6 @@
 //! Results as columns.
 
-use super::{Columns, Count, nothing, of_another_length};
+use super::shape::{Columns, Count, nothing, of_another_length};
 use crate::rows::{Cell, Head};
 use gumption_gum::batch::{BLOCK, Several};
 use gumption_gum::budget::BatchFile;
@@ -9,7 +9,7 @@ use std::borrow::Cow;
 /// Values of some rows, made by whoever evaluated them.
 #[derive(Debug, Default)]
 pub struct Values {
-    /// As of [`Lines`](super::Lines).
+    /// As of `Lines`.
     pub(super) heads: Option<Vec<Head>>,
     /// What is kept of them, below its heads.
     kept: Vec<(String, Vec<String>)>,
@@ -177,7 +177,7 @@ pub struct Results {
 }
 
 impl Results {
-    /// Nothing is in them yet. Columns are as of [`Table::of`](super::Table::of).
+    /// Nothing is in them yet. Columns are as of `Table::of`.
     pub fn of(columns: Columns, file: &BatchFile<'_>) -> Results {
         Results {
             heads: file.alone().map(|budget| columns.heads(&budget)),

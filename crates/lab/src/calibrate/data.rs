@@ -91,10 +91,10 @@ fn recorded(
 }
 
 /// The declared columns of a role.
-fn of_role<'t>(
-    columns: &'t Slot<Named<Short<ColumnTable>>>,
+fn of_role(
+    columns: &Slot<Named<Short<ColumnTable>>>,
     wanted: RoleWord,
-) -> impl Iterator<Item = &'t str> {
+) -> impl Iterator<Item = &str> {
     let has_role = move |table: &ColumnTable| {
         let role = table.role.as_ref();
         role.is_some_and(|role| role.value == wanted)

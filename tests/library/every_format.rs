@@ -127,12 +127,16 @@ fn certificate(path: &Path, laboratory: &gumption::document::Administration) -> 
     report::certified(both, laboratory, Vec::new())
 }
 
-#[test]
-fn no_figure_of_the_library_differs_between_formats() {
-    let folder = folder("library");
+/// The data of a certificate, as they are to be filled in.
+fn laboratory(folder: &Path) -> gumption::document::Administration {
     let data = folder.join("laboratory.toml");
     std::fs::write(&data, report::certificate_template()).expect("written");
-    let laboratory = report::administration(Files::Disk, &data).expect("the template is good");
+    report::administration(Files::Disk, &data).expect("the template is good")
+}
+
+#[test]
+fn no_figure_of_the_library_differs_between_formats() {
+    let laboratory = laboratory(&folder("library"));
     let (mut count, mut certified) = (0, 0);
     for path in common::files("budgets", "toml") {
         let document = certificate(&path, &laboratory);
@@ -160,6 +164,40 @@ fn no_figure_of_the_library_differs_between_formats() {
         count > 100 && certified * 4 > count * 3,
         "{certified} of {count}"
     );
+}
+
+/// Another program reads on the pages of every budget what is stated.
+#[cfg(feature = "pdf")]
+#[test]
+fn pages_of_the_library_hold_the_figures_of_its_statements() {
+    let folder = folder("pages");
+    let laboratory = laboratory(&folder);
+    let file = folder.join("report.pdf");
+    for path in common::files("budgets", "toml") {
+        let document = certificate(&path, &laboratory);
+        let pages = render::named("pdf").expect("the format");
+        let pages = match (pages.render)(&document, &Page::default()) {
+            Ok(pages) => pages,
+            Err(unfit) => {
+                assert!(unfit.0.to_string().contains("no font"), "{}", unfit.0);
+                eprintln!("skipped: PDF in both languages needs a font with Chinese letters");
+                return;
+            }
+        };
+        std::fs::write(&file, pages).expect("written");
+        let read = std::process::Command::new("pdftotext")
+            .arg("-layout")
+            .arg(&file)
+            .arg("-")
+            .output();
+        let Ok(read) = read else {
+            eprintln!("skipped: needs pdftotext");
+            return;
+        };
+        let words = figures(&String::from_utf8_lossy(&read.stdout));
+        let what = format!("{}: statement, not on pages", common::relative(&path));
+        within(&statement(&document), &words, &what);
+    }
 }
 
 /// Holds the words of every format against those of HTML, which it gives.
@@ -274,7 +312,7 @@ fn every_command_writes_every_format() {
     let folder = folder("commands");
     common::bent_line(&folder);
     let here = |path: &str| root().join(path).display().to_string();
-    let commands: [(&str, Vec<String>); 8] = [
+    let commands: [(&str, Vec<String>); 9] = [
         ("diagnose", vec!["case.toml".into()]),
         ("plan", vec!["case.toml".into()]),
         (
@@ -289,6 +327,14 @@ fn every_command_writes_every_format() {
                 .to_vec(),
         ),
         ("audit", vec![here("docs/examples/claimed-budget.csv")]),
+        (
+            "fleet",
+            vec![
+                here("docs/examples/fleet/results.csv"),
+                "--by".into(),
+                "type".into(),
+            ],
+        ),
         (
             "verify",
             vec![here("budgets/electrical/resistor-10k-ea402-s3.toml")],
@@ -350,6 +396,7 @@ fn every_command_writes_every_format() {
         "calibrate",
         "diagnose",
         "eval",
+        "fleet",
         "plan",
         "verify",
     ];

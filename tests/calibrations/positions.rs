@@ -56,7 +56,7 @@ fn stimuli_that_change_within_a_dwell_are_told() {
         let found = campaign.points.findings.iter().find(of);
         found.map(|finding| (&finding.problem, finding.line))
     };
-    assert_eq!(merged("ay"), Some((&Problem::Merged { values: 3 }, 42)));
+    assert_eq!(merged("ay"), Some((&Problem::Merged { stretches: 3 }, 42)));
     assert_eq!(merged("ax"), None);
 }
 

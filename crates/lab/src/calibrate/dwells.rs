@@ -178,12 +178,13 @@ fn merged(recording: &Recording, dwelling: &Dwelling, kept: &[Dwell]) -> Vec<Fin
     let of = |role: &String| {
         let column = recording.column(role)?;
         let own = by_steps(recording.numbers(role)?, &steps);
-        let values = |dwell: &&Dwell| both(std::slice::from_ref(*dwell), &own, steps.fewest).len();
-        let mut found = kept.iter().filter(|dwell| values(dwell) > 1);
+        let stretches =
+            |dwell: &&Dwell| both(std::slice::from_ref(*dwell), &own, steps.fewest).len();
+        let mut found = kept.iter().filter(|dwell| stretches(dwell) > 1);
         let first = found.next()?;
         Some(Finding {
             problem: Problem::Merged {
-                values: values(&first),
+                stretches: stretches(&first),
             },
             column: Some(column.header.clone()),
             line: recording.line(first.rows.start),

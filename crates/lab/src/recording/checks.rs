@@ -100,8 +100,8 @@ pub enum Problem {
     },
     /// What is averaged as one dwell holds several values of a stimulus.
     Merged {
-        /// Values in the first of them.
-        values: usize,
+        /// Stretches of one value each in the first of them.
+        stretches: usize,
     },
     /// Points are averaged over a label, and it has more or fewer of them than others.
     Uneven {

@@ -77,8 +77,8 @@ impl Finding {
             Problem::LabelUnknown { label, .. } => {
                 format!("\"{column}\" is \"{label}\" in {rows}, {lines}, which is not expected")
             }
-            Problem::Merged { values } => format!(
-                "\"{column}\" is set to {values} values within one dwell, from line {line} on, and they are averaged{}",
+            Problem::Merged { stretches } => format!(
+                "\"{column}\" changes within one dwell, from line {line} on: {stretches} stretches of one value each are averaged{}",
                 match count {
                     1 => String::new(),
                     dwells => format!(" (so in {dwells} dwells)"),
@@ -147,8 +147,8 @@ impl Finding {
             Problem::LabelUnknown { label, .. } => {
                 format!("“{column}”{lines}为“{label}”，不在预期之列")
             }
-            Problem::Merged { values } => format!(
-                "“{column}”自第 {line} 行起在一个驻留段内取了 {values} 个设定值，它们被一并平均{}",
+            Problem::Merged { stretches } => format!(
+                "“{column}”自第 {line} 行起在一个驻留段内有变化：{stretches} 段各为一个设定值，被一并平均{}",
                 match count {
                     1 => String::new(),
                     dwells => format!("（共 {dwells} 个驻留段如此）"),

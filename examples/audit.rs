@@ -173,7 +173,9 @@ fn answer(name: &str, bytes: &[u8]) -> (SheetAnswer, bool) {
     let claims = claims(name, bytes, &Mapping::default()).unwrap_or_default();
     let audits: Vec<_> = claims.iter().map(audit).collect();
     let withheld = audits.iter().any(|audit| audit.found.withheld > 0);
-    let machine = report::audit(name, &audits, Language::English).machine;
+    let machine = report::audit(name, &audits, Language::English)
+        .machine
+        .value();
     (
         serde_json::from_value(machine).unwrap_or_default(),
         withheld,

@@ -279,7 +279,9 @@ fn said(case: &Case, folder: &Path, options: &Options) -> Result<Said, String> {
         None => {
             let failed = |failure| diagnosis_failure(case, &failure, Language::English);
             let diagnosis = diagnose(case, &|_| ControlFlow::Continue(())).map_err(failed)?;
-            report::diagnosis(case, &diagnosis, Language::English).machine
+            report::diagnosis(case, &diagnosis, Language::English)
+                .machine
+                .value()
         }
         Some(program) => {
             let file = folder.join("CASE.toml");

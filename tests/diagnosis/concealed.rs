@@ -113,7 +113,9 @@ fn diagnosed(sealed: &SealedCase) -> (Answer, Advice) {
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
     let diagnosis = diagnose(&case, &|_| ControlFlow::Continue(())).unwrap();
     std::fs::remove_dir_all(&folder).unwrap();
-    let said = report::diagnosis(&case, &diagnosis, Language::English).machine;
+    let said = report::diagnosis(&case, &diagnosis, Language::English)
+        .machine
+        .value();
     let answer = serde_json::from_value(said.clone()).unwrap();
     (answer, serde_json::from_value(said).unwrap())
 }

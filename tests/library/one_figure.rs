@@ -426,8 +426,9 @@ fn decisions_and_machine(
         Some(x) if x.is_infinite() => "inf".into(),
         Some(x) => x.into(),
     };
+    let machine = document.machine.value();
     for (place, reported) in expected.reported.iter().enumerate() {
-        let told = &document.machine["measurands"][place]["reported"];
+        let told = &machine["measurands"][place]["reported"];
         assert_eq!(told["estimate"], number(Some(reported.estimate)), "{what}");
         assert_eq!(told["standard_uncertainty"], number(reported.u), "{what}");
         assert_eq!(

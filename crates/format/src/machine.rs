@@ -134,17 +134,85 @@ pub fn object(about: &str, fields: Vec<Field>) -> Value {
     })
 }
 
-/// The machine form of a document as JSON.
-pub(crate) fn value<M: Machine>(machine: &M) -> Value {
-    let mut whole = Map::new();
-    whole.insert("format".to_string(), Value::from(M::format()));
-    let generator = concat!("gumption ", env!("CARGO_PKG_VERSION"));
-    whole.insert("generator".to_string(), Value::from(generator));
-    // A record has string keys and no number that JSON cannot write: this does not fail.
-    if let Ok(Value::Object(fields)) = serde_json::to_value(machine) {
-        whole.extend(fields);
+/// A form with its name, its version and its program in front.
+#[derive(Serialize)]
+struct Whole<'m, M> {
+    format: String,
+    generator: &'static str,
+    #[serde(flatten)]
+    fields: &'m M,
+}
+
+/// The machine form of a document as compact JSON. It is kept as text: as a tree of values it would take ten times the
+/// memory, whether anyone asks for it or not.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Json(String);
+
+impl Json {
+    pub(crate) fn of<M: Machine>(machine: &M) -> Json {
+        let whole = Whole {
+            format: M::format(),
+            generator: concat!("gumption ", env!("CARGO_PKG_VERSION")),
+            fields: machine,
+        };
+        // A record has string keys and no number that JSON cannot write: this does not fail.
+        Json(serde_json::to_string(&whole).unwrap_or_default())
     }
-    Value::Object(whole)
+
+    /// Several together as an array, into which arrays are taken up; one alone as it is.
+    pub(crate) fn together(all: Vec<Json>) -> Json {
+        let mut texts: Vec<String> = all.into_iter().map(|json| json.0).collect();
+        if texts.len() == 1 {
+            return Json(texts.remove(0));
+        }
+        let items = texts.iter().map(|text| {
+            let inner = text.strip_prefix('[');
+            inner
+                .and_then(|text| text.strip_suffix(']'))
+                .unwrap_or(text)
+        });
+        Json(format!("[{}]", items.collect::<Vec<_>>().join(",")))
+    }
+
+    /// The text, in one line.
+    pub fn text(&self) -> &str {
+        &self.0
+    }
+
+    /// As a tree of values.
+    pub fn value(&self) -> Value {
+        // It was written by the same library.
+        serde_json::from_str(&self.0).unwrap_or_default()
+    }
+
+    /// The text with a line for each element, indented by two spaces for each level.
+    pub fn indented(&self) -> String {
+        let mut out = String::with_capacity(2 * self.0.len());
+        let (mut depth, mut last) = (0, ' ');
+        // Whether it is inside a string, and behind a backslash in one.
+        let (mut quoted, mut escaped) = (false, false);
+        for c in self.0.chars() {
+            let (opened, closes) = (matches!(last, '{' | '['), matches!(c, '}' | ']'));
+            depth -= usize::from(closes && !quoted);
+            // An empty list stays in its line.
+            if !quoted && (opened != closes || last == ',') {
+                out.push('\n');
+                out.extend(std::iter::repeat_n("  ", depth));
+            }
+            out.push(c);
+            match c {
+                '"' if !escaped => quoted = !quoted,
+                '{' | '[' if !quoted => depth += 1,
+                ':' if !quoted => out.push(' '),
+                _ => {}
+            }
+            escaped = quoted && c == '\\' && !escaped;
+            // What stands in a string has no part in this.
+            last = if quoted { '"' } else { c };
+        }
+        out.push('\n');
+        out
+    }
 }
 
 /// JSON Schema of the machine form of a document, for `command`'s output.
@@ -269,5 +337,33 @@ impl<T: Describe> Describe for Box<T> {
 impl<K, T: Describe> Describe for BTreeMap<K, T> {
     fn describe() -> Value {
         json!({ "type": "object", "additionalProperties": T::describe() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_those_of_the_library() {
+        let texts = ["a,b", "{[:]}", "\\", "\"", "\\\"{", "", "电,[ "];
+        let value = json!({
+            "texts": texts,
+            "empty": [[], {}, [[]]],
+            "x,{": { "a": 1.5, "b": [null, true, { "c": -1e-300 }] },
+        });
+        let json = Json(value.to_string());
+        let expected = serde_json::to_string_pretty(&value).expect("JSON");
+        assert_eq!(json.indented(), expected + "\n");
+        assert_eq!(json.value(), value);
+    }
+
+    #[test]
+    fn several_are_one_array() {
+        let of = |text: &str| Json(text.to_owned());
+        let alone = Json::together(vec![of("{\"a\":[1]}")]);
+        assert_eq!(alone.text(), "{\"a\":[1]}");
+        let all = Json::together(vec![of("[1,[2]]"), of("3"), of("[4]")]);
+        assert_eq!(all.value(), json!([1, [2], 3, 4]));
     }
 }

@@ -157,7 +157,7 @@ impl Made {
 impl Made {
     /// The machine form as JSON.
     fn json(&self, py: Python<'_>) -> String {
-        py.detach(|| self.document(Language::English).machine.to_string())
+        py.detach(|| self.document(Language::English).machine.text().to_owned())
     }
 
     /// The document in a format (`text`, `html`, …) and a language (`en`, `zh`, `both`).

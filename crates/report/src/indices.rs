@@ -137,7 +137,7 @@ mod tests {
     #[test]
     fn machines_get_them_by_factor() {
         let case = case();
-        let value = evaluation(&case.report(Language::English)).machine;
+        let value = evaluation(&case.report(Language::English)).machine.value();
         let indices = &value["sensitivity_indices"];
         assert_eq!(indices["measurands"][0][1]["total"], 0.75);
         assert_eq!(indices["factors"][0].as_array().map(Vec::len), Some(2));

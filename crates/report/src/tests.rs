@@ -17,7 +17,7 @@ fn markdown(report: &Report<'_>) -> String {
 }
 
 fn json(report: &Report<'_>) -> Value {
-    evaluation(report).machine
+    evaluation(report).machine.value()
 }
 
 fn page(width: usize) -> Page {

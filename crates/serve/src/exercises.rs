@@ -505,7 +505,7 @@ mod tests {
             // The list of kinds is that of the program.
             beside["kinds"] = Value::Null;
             beside["files"] = Value::Null;
-            let sent = format!("{:?}{}{beside}", document.blocks, document.machine);
+            let sent = format!("{:?}{}{beside}", document.blocks, document.machine.text());
             for name in &truth.slips {
                 assert!(!sent.contains(name.as_str()), "{name}");
             }
@@ -524,7 +524,7 @@ mod tests {
         let answer = json!({ "file": "", "verdict": truth.verdict, "candidates": [truth.slips] });
         let right = asked(Kind::Budget, Wanted::Grade(answer));
         let (document, _) = found(&right, &shown);
-        assert_eq!(document.machine["sheets"][0]["grade"], "exact");
+        assert_eq!(document.machine.value()["sheets"][0]["grade"], "exact");
         assert!(!matches!(document.blocks[0], Block::Paragraph(_)));
         let (again, _) = found(&right, &shown);
         assert!(matches!(again.blocks[0], Block::Paragraph(_)));
@@ -555,11 +555,12 @@ mod tests {
             ..asked(Kind::Recording, Wanted::Grade(answer))
         };
         let (document, _) = found(&wanted, &shown);
-        assert_eq!(document.machine["points"], 1.0);
-        assert_eq!(document.machine["attainable"], 1.0);
+        let value = document.machine.value();
+        assert_eq!(value["points"], 1.0);
+        assert_eq!(value["attainable"], 1.0);
         assert_eq!(
-            document.machine["effects"][0]["answered_size"],
-            document.machine["effects"][0]["truth"]["in_residuals"]
+            value["effects"][0]["answered_size"],
+            value["effects"][0]["truth"]["in_residuals"]
         );
         let broken = asked(Kind::Recording, Wanted::Grade(json!(3)));
         assert!(practice(&broken, Language::English, &shown).is_err());

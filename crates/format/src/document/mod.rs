@@ -12,7 +12,6 @@ mod table;
 mod texts;
 
 use gumption_fault::language::Language;
-use serde_json::Value;
 
 pub use certificate::{
     Administration, Attachment, Certificate, Certified, CertifiedConformity, CertifiedPoint,
@@ -23,7 +22,7 @@ pub use plot::{Axis, Bar, Layer, Marks, Panel, Plot, Scale, Tone};
 pub use sheet::{Bars, Entry, Held, Sheet, address};
 pub use table::{Cell, Column, ColumnKind, Row, Table};
 
-use crate::machine::{self, Machine};
+use crate::machine::{Json, Machine};
 
 /// A document of one kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,7 +38,7 @@ pub struct Document {
     /// What a person reads.
     pub blocks: Vec<Block>,
     /// What a machine reads; exact numbers.
-    pub machine: Value,
+    pub machine: Json,
     /// Plots beside the text, for formats and folders that have room for them.
     pub beside: Vec<Plot>,
     /// Sheets that calculate, for spreadsheets.
@@ -62,7 +61,7 @@ impl Document {
             language,
             other: None,
             blocks,
-            machine: machine::value(machine),
+            machine: Json::of(machine),
             beside: Vec::new(),
             sheets: Vec::new(),
             certificate: None,
@@ -94,17 +93,14 @@ impl Document {
     pub fn together(documents: Vec<Document>) -> Option<Document> {
         let mut documents = documents.into_iter();
         let mut whole = documents.next()?;
-        let mut values = values(whole.machine.take());
+        let mut machines = vec![whole.machine];
         for one in documents {
             whole.blocks.extend(one.blocks);
             whole.beside.extend(one.beside);
             whole.sheets.extend(one.sheets);
-            values.extend(self::values(one.machine));
+            machines.push(one.machine);
         }
-        whole.machine = match values.len() {
-            1 => values.remove(0),
-            _ => Value::Array(values),
-        };
+        whole.machine = Json::together(machines);
         Some(whole)
     }
 
@@ -133,14 +129,6 @@ impl Document {
             _ => None,
         });
         inside.chain(&self.beside)
-    }
-}
-
-/// The machine forms of a document that may be several together.
-fn values(machine: Value) -> Vec<Value> {
-    match machine {
-        Value::Array(values) => values,
-        one => vec![one],
     }
 }
 

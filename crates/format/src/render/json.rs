@@ -3,7 +3,6 @@
 use std::fmt::Write;
 
 use gumption_fault::is_obeyed;
-use serde_json::Value;
 
 use super::format::{Format, Page, Unfit};
 use crate::document::Document;
@@ -18,14 +17,7 @@ pub const FORMAT: Format = Format {
 };
 
 fn render(document: &Document, _: &Page) -> Result<Vec<u8>, Unfit> {
-    Ok(escaped(pretty(&document.machine)).into_bytes())
-}
-
-fn pretty(value: &Value) -> String {
-    // A value has keys that are texts, and memory takes what is written: neither can fail.
-    let mut text = serde_json::to_string_pretty(value).unwrap_or_default();
-    text.push('\n');
-    text
+    Ok(escaped(document.machine.indented()).into_bytes())
 }
 
 /// JSON in which characters that a terminal would obey are escaped. They stand inside strings alone, where `\u`
@@ -54,9 +46,9 @@ mod tests {
     #[test]
     fn a_string_means_the_same_and_is_not_obeyed() {
         let text = "\x1b[0m \u{9b} \u{202e} \u{e0041} \n\t\"\\ µ 电";
-        let json = escaped(pretty(&serde_json::json!({ text: [text] })));
+        let json = escaped(serde_json::json!({ text: [text] }).to_string());
         assert!(!json.chars().any(is_obeyed), "{json:?}");
-        let back: Value = serde_json::from_str(&json).expect("JSON");
+        let back: serde_json::Value = serde_json::from_str(&json).expect("JSON");
         assert_eq!(back[text][0], text);
     }
 }

@@ -3,6 +3,7 @@
 mod edit;
 pub mod faults;
 mod file;
+mod lists;
 mod matrix;
 mod places;
 mod spelled;
@@ -14,6 +15,7 @@ pub mod writing;
 
 pub use edit::{Content, Unedited, spliced};
 pub use file::{decoded, tables_of};
+pub use lists::{Named, OneOrMany, as_a_list};
 pub use matrix::{Matrices, Matrix, Number, Row};
 pub use places::{Form, Places, Statement, Step, Written};
 pub use strings::StringMap;
@@ -22,7 +24,7 @@ pub use table::{
     FromToml, Hints, Key, KeyRow, Raw, Reader, Slot, Stated, Table, described, doc_text, in_order,
     inner, read_table, table, unknown_word, words,
 };
-pub use values::{Amount, Cell, Date, Dof, Named, OneOrMany, amount_parts, as_a_list};
+pub use values::{Amount, Cell, Date, Dof, amount_parts};
 
 // What the macros name.
 #[doc(hidden)]

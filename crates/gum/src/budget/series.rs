@@ -3,16 +3,22 @@
 //! A column names a place of the file, and each row puts its own values there: the rows are files of their own
 //! that are read as if somebody had written them, so that a column may be any number that a budget can state.
 
+mod columns;
+mod places;
+
 use toml::Spanned;
-use toml::de::{DeString, DeTable, DeValue};
+use toml::de::{DeTable, DeValue};
 
 use super::cell::Entry;
-use super::faults::{SERIES, UNKNOWN_NAME};
+use super::faults::SERIES;
 use super::points::Points;
-use super::tables::{FileTable, SeriesTable};
-use gumption_fault::{Fault, Said, nearest, say};
-use gumption_format::toml::amount_parts;
-use gumption_format::toml::{Raw, Stated, Table};
+use super::tables::SeriesTable;
+use columns::OWNERS;
+use gumption_fault::{Fault, say};
+use gumption_format::toml::{Raw, Stated};
+use places::{leave_out, set};
+
+pub(super) use columns::{Column, column, targets};
 
 /// Where a row stands, and its cells under the heads of their columns.
 type WrittenRow<'t> = (std::ops::Range<usize>, Vec<(Stated<Entry>, Raw<'t>)>);
@@ -44,19 +50,6 @@ pub(super) struct Variant<'t> {
     pub label: Option<String>,
     pub table: DeTable<'t>,
 }
-
-/// What a column sets.
-#[derive(Debug)]
-pub(super) enum Column {
-    Label,
-    /// Nothing: it goes through to the results.
-    Kept,
-    /// The keys that lead to a value.
-    Path(Vec<String>),
-}
-
-/// The tables of named entries that a column may leave out: `X` is `input.X.value`.
-const OWNERS: [&str; 3] = ["input", "constant", "source"];
 
 /// The rows of the series of a file; nothing where it is faulty.
 pub(super) fn series<'a, 't>(
@@ -135,16 +128,6 @@ where
     })
 }
 
-/// What columns of these names set.
-pub(super) fn targets(
-    file: &DeTable<'_>,
-    names: &[Stated<String>],
-    faults: &mut Vec<Fault>,
-) -> Vec<Option<Column>> {
-    let names = names.iter();
-    names.map(|name| column(file, name, faults)).collect()
-}
-
 /// The file, which has no series, with the cells of a row in the places that its columns set.
 pub(super) fn variant<'t>(
     file: &DeTable<'t>,
@@ -183,49 +166,6 @@ fn is_left_out(cell: &Entry, path: &[String]) -> bool {
         Entry::Text(text) => text.is_empty(),
         Entry::Number(number) => *number == 0.0 && deviation && owned,
         Entry::List => false,
-    }
-}
-
-/// Takes out a key, or the component of a list to which it belongs.
-fn leave_out(table: &mut DeTable<'_>, path: &[String]) {
-    let Some((first, rest)) = path.split_first() else {
-        return;
-    };
-    let key = named_component(table, first);
-    let path: Vec<String> = key.into_iter().chain(rest.iter().cloned()).collect();
-    let Some((first, rest)) = path.split_first() else {
-        return;
-    };
-    let Some((next, below)) = rest.split_first() else {
-        table.remove(first.as_str());
-        return;
-    };
-    match table.get_mut(first.as_str()).map(Spanned::get_mut) {
-        Some(DeValue::Table(inner)) => leave_out(inner, rest),
-        Some(DeValue::Array(list)) => {
-            let named = list.iter().position(|entry| is_called(entry, next));
-            let numbered = next
-                .parse::<usize>()
-                .ok()
-                .and_then(|number| number.checked_sub(1));
-            let place = named.or(numbered).filter(|place| *place < list.len());
-            match (place, first == "components") {
-                (Some(place), true) => {
-                    let kept = list.iter().enumerate().filter(|(other, _)| *other != place);
-                    *list = kept.map(|(_, entry)| entry.clone()).collect();
-                }
-                // Without a number the first of several claims is meant.
-                (place, _) => {
-                    let below = if place.is_some() { below } else { rest };
-                    if let Some(DeValue::Table(inner)) =
-                        list.get_mut(place.unwrap_or(0)).map(Spanned::get_mut)
-                    {
-                        leave_out(inner, below);
-                    }
-                }
-            }
-        }
-        _ => {}
     }
 }
 
@@ -276,335 +216,10 @@ fn label(cell: &Entry) -> String {
     }
 }
 
-/// The place that a column names: `label`, an input or a constant, or a path such as `X.dof`,
-/// `conventions.coverage_probability` or `claim.figures."line.slope"`.
-pub(super) fn column(
-    file: &DeTable<'_>,
-    name: &Stated<String>,
-    faults: &mut Vec<Fault>,
-) -> Option<Column> {
-    let wanted = name.value.as_str();
-    if wanted == "label" {
-        return Some(Column::Label);
-    }
-    if let Some(pair) = correlated(wanted) {
-        return correlation(file, pair, name, faults).map(Column::Path);
-    }
-    let mut path = segments(wanted);
-    for owner in OWNERS {
-        let Some(entry) = entry(file, owner, &path[0]) else {
-            continue;
-        };
-        path.insert(0, owner.to_string());
-        if path.len() > 2 {
-            return Some(Column::Path(path));
-        }
-        if let Some(values) = values(entry) {
-            faults.push(
-                Fault::new(SERIES, name.span.clone(), say!("{wanted} is a vector"))
-                    .label(say!("a column sets one number"))
-                    .related(values, say!("its values"))
-                    .help(say!("name an element: \"{wanted}.values.1\"")),
-            );
-            return None;
-        }
-        // A constant may be a bare number.
-        if matches!(entry.get_ref(), DeValue::Table(_)) {
-            path.push("value".into());
-        }
-        return Some(Column::Path(path));
-    }
-    if matches!(&path[..], [owner, _, key] if owner == "measurand" && key == "unit") {
-        let message = say!("{wanted} would give the rows results in several units");
-        faults.push(
-            Fault::new(SERIES, name.span.clone(), message)
-                .label(say!("the column of a result has one unit"))
-                .help(say!(
-                    "leave the column out: results are in the unit that the budget states"
-                )),
-        );
-        return None;
-    }
-    if path.len() > 1 && FileTable::keys().contains(&path[0].as_str()) && path[0] != "series" {
-        return Some(Column::Path(path));
-    }
-    faults.push(unknown_column(file, name, &path));
-    None
-}
-
-/// The two names of `r(X, Y)`.
-fn correlated(column: &str) -> Option<[&str; 2]> {
-    let inside = column.strip_prefix("r(")?.strip_suffix(')')?;
-    let (one, other) = inside.split_once(',')?;
-    Some([one.trim(), other.trim()])
-}
-
-/// The place of a stated correlation coefficient.
-fn correlation(
-    file: &DeTable<'_>,
-    pair: [&str; 2],
-    name: &Stated<String>,
-    faults: &mut Vec<Fault>,
-) -> Option<Vec<String>> {
-    let is_between = |entry: &Raw<'_>| {
-        let DeValue::Table(table) = entry.get_ref() else {
-            return false;
-        };
-        let Some(DeValue::Array(between)) = table.get("between").map(Spanned::get_ref) else {
-            return false;
-        };
-        let stated = |wanted: &str| {
-            let mut names = between.iter().map(Spanned::get_ref);
-            names.any(|name| matches!(name, DeValue::String(name) if name == wanted))
-        };
-        between.len() == 2 && pair.into_iter().all(stated)
-    };
-    let path = |parts: &[&str]| Some(parts.iter().map(|part| (*part).to_owned()).collect());
-    match file.get("correlation").map(Spanned::get_ref) {
-        Some(DeValue::Array(list)) if let Some(at) = list.iter().position(is_between) => {
-            return path(&["correlation", &(at + 1).to_string(), "r"]);
-        }
-        Some(DeValue::Table(_)) if file.get("correlation").is_some_and(is_between) => {
-            return path(&["correlation", "r"]);
-        }
-        _ => {}
-    }
-    let [one, other] = pair;
-    let message = say!("the file states no correlation between {one} and {other}");
-    faults.push(
-        Fault::new(UNKNOWN_NAME, name.span.clone(), message)
-            .label(say!("unknown column"))
-            .help(say!("state one, which the column replaces:\n[[correlation]]\nbetween = [\"{one}\", \"{other}\"]\nr = 0")),
-    );
-    None
-}
-
-fn unknown_column(file: &DeTable<'_>, name: &Stated<String>, path: &[String]) -> Fault {
-    let fault = Fault::new(
-        UNKNOWN_NAME,
-        name.span.clone(),
-        say!("no input or constant is called {}", path[0]),
-    )
-    .label(say!("unknown column"));
-    let known = known_names(file, path.len());
-    match nearest(&path[0], known.iter().map(String::as_str)) {
-        Some(near) => {
-            let whole: Vec<&str> = std::iter::once(near)
-                .chain(path[1..].iter().map(String::as_str))
-                .collect();
-            fault.help(say!("did you mean \"{}\"?", whole.join(".")))
-        }
-        None => fault.help(
-            say!("columns are inputs, constants, `label`, or other numbers of the file by their path, such as `claim.value`"),
-        ),
-    }
-}
-
-/// What a path of so many parts may begin with.
-fn known_names(file: &DeTable<'_>, parts: usize) -> Vec<String> {
-    let mut names: Vec<String> = OWNERS
-        .iter()
-        .filter_map(|owner| match file.get(*owner)?.get_ref() {
-            DeValue::Table(table) => Some(table.keys().map(|key| key.get_ref().to_string())),
-            _ => None,
-        })
-        .flatten()
-        .collect();
-    if parts == 1 {
-        names.push("label".into());
-    } else {
-        names.extend(FileTable::keys().into_iter().map(String::from));
-    }
-    names
-}
-
-/// The parts of a path; a part in quotes may contain points.
-fn segments(path: &str) -> Vec<String> {
-    let mut parts = vec![String::new()];
-    let mut quoted = false;
-    for c in path.chars() {
-        match c {
-            '"' => quoted = !quoted,
-            '.' if !quoted => parts.push(String::new()),
-            _ => parts.last_mut().expect("never empty").push(c),
-        }
-    }
-    parts
-}
-
-fn entry<'a, 't>(file: &'a DeTable<'t>, owner: &str, name: &str) -> Option<&'a Raw<'t>> {
-    match file.get(owner)?.get_ref() {
-        DeValue::Table(table) => table.get(name),
-        _ => None,
-    }
-}
-
-/// Where an entry states the values of a vector.
-fn values(entry: &Raw<'_>) -> Option<std::ops::Range<usize>> {
-    match entry.get_ref() {
-        DeValue::Table(table) => table
-            .get_key_value("values")
-            .map(|(key, _)| key.span().clone()),
-        _ => None,
-    }
-}
-
-/// Puts the cell of a row in its place, and makes the tables that lead there.
-fn set<'t>(
-    table: &mut DeTable<'t>,
-    path: &[String],
-    name: &Stated<String>,
-    cell: &Stated<Entry>,
-    raw: &Raw<'t>,
-    faults: &mut Vec<Fault>,
-) {
-    let amount = |text: &str| amount_parts(text).is_some();
-    if let (Entry::Text(text), Some("value")) = (&cell.value, path.last().map(String::as_str))
-        && !amount(text)
-    {
-        faults.push(
-            Fault::new(
-                SERIES,
-                cell.span.clone(),
-                say!("the text {text:?} where a number is expected"),
-            )
-            .label(say!("expected a number in the unit of the input")),
-        );
-        return;
-    }
-    let Some((first, rest)) = path.split_first() else {
-        return;
-    };
-    if let Err(message) = set_in_table(table, first, rest, name, raw) {
-        let fault =
-            Fault::new(UNKNOWN_NAME, name.span.clone(), message).label(say!("unknown column"));
-        if !faults.contains(&fault) {
-            faults.push(fault);
-        }
-    }
-}
-
-fn set_in_table<'t>(
-    table: &mut DeTable<'t>,
-    key: &str,
-    rest: &[String],
-    name: &Stated<String>,
-    cell: &Raw<'t>,
-) -> Result<(), Said> {
-    let key = named_component(table, key);
-    let key = key.as_slice();
-    let (first, further) = key.split_first().expect("a path is never empty");
-    let further: Vec<String> = further.iter().chain(rest).cloned().collect();
-    if !table.contains_key(first.as_str()) {
-        let place = name.span.clone();
-        let key: Spanned<DeString<'t>> = Spanned::new(place.clone(), first.clone().into());
-        table.insert(key, Spanned::new(place, DeValue::Table(DeTable::new())));
-        if further.is_empty() {
-            return replace(table.get_mut(first.as_str()), cell);
-        }
-    }
-    match table.get_mut(first.as_str()) {
-        slot if further.is_empty() => replace(slot, cell),
-        Some(value) => set_in_value(value, &further, name, cell),
-        None => Ok(()),
-    }
-}
-
-/// `V.calibration` is the component of that name in the list of V's components.
-fn named_component(table: &DeTable<'_>, key: &str) -> Vec<String> {
-    let listed = match table.get("components").map(Spanned::get_ref) {
-        Some(DeValue::Array(list)) if !table.contains_key(key) => {
-            list.iter().any(|entry| is_called(entry, key))
-        }
-        _ => false,
-    };
-    let prefix = listed.then(|| "components".to_string());
-    prefix.into_iter().chain([key.to_string()]).collect()
-}
-
-fn is_called(entry: &Raw<'_>, name: &str) -> bool {
-    let DeValue::Table(table) = entry.get_ref() else {
-        return false;
-    };
-    matches!(table.get("name").map(Spanned::get_ref), Some(DeValue::String(text)) if text == name)
-}
-
-fn replace<'t>(slot: Option<&mut Raw<'t>>, cell: &Raw<'t>) -> Result<(), Said> {
-    let Some(slot) = slot else { return Ok(()) };
-    // A constant that is a text with a unit keeps its unit.
-    let unit = match (slot.get_ref(), cell.get_ref()) {
-        (DeValue::String(text), DeValue::Integer(_) | DeValue::Float(_)) => {
-            amount_parts(text).map(|(_, unit)| unit.to_string())
-        }
-        _ => None,
-    };
-    *slot = match unit {
-        None => cell.clone(),
-        Some(unit) => {
-            let place = slot.span();
-            let key = |name: &'static str| Spanned::new(place.clone(), DeString::from(name));
-            let mut amount = DeTable::new();
-            amount.insert(key("value"), cell.clone());
-            let unit = DeValue::String(unit.into());
-            amount.insert(key("unit"), Spanned::new(place.clone(), unit));
-            Spanned::new(place, DeValue::Table(amount))
-        }
-    };
-    Ok(())
-}
-
-fn set_in_value<'t>(
-    value: &mut Raw<'t>,
-    path: &[String],
-    name: &Stated<String>,
-    cell: &Raw<'t>,
-) -> Result<(), Said> {
-    let Some((first, rest)) = path.split_first() else {
-        return Ok(());
-    };
-    match value.get_mut() {
-        DeValue::Table(table) => set_in_table(table, first, rest, name, cell),
-        DeValue::Array(list) => {
-            let count = list.len();
-            let chosen = match first.parse::<usize>() {
-                Ok(number) => number.checked_sub(1).map(|index| (index, rest)),
-                Err(_) => match list.iter().position(|entry| is_called(entry, first)) {
-                    Some(index) => Some((index, rest)),
-                    // Without a number the first of several claims is meant.
-                    None => Some((0, path)),
-                },
-            };
-            let Some((entry, rest)) =
-                chosen.and_then(|(index, rest)| Some((list.get_mut(index)?, rest)))
-            else {
-                return Err(say!(
-                    "there is no entry {first} for the column \"{}\": the list has {count}",
-                    name.value
-                ));
-            };
-            if rest.is_empty() {
-                replace(Some(entry), cell)
-            } else if matches!(entry.get_ref(), DeValue::Table(_)) {
-                set_in_value(entry, rest, name, cell)
-            } else {
-                Err(say!(
-                    "the column \"{}\" leads to a list of numbers; name one by its place, counted from 1",
-                    name.value
-                ))
-            }
-        }
-        _ => Err(say!(
-            "the column \"{}\" goes beyond a number or text of the file, at `{first}`",
-            name.value
-        )),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::path::Path;
 
-    use super::segments;
     use crate::budget::{Budget, Figure, read};
 
     const FILE: &str = r#"
@@ -696,14 +311,5 @@ inputs."V.scatter" = { u = 0.5 }
         );
         assert!(message(r#""X.value.deeper""#, "[1]").contains("goes beyond a number"));
         assert!(message(r#""X""#, "[\"much\"]").contains("where a number is expected"));
-    }
-
-    #[test]
-    fn a_part_in_quotes_may_contain_points() {
-        assert_eq!(segments("a.b"), ["a", "b"]);
-        assert_eq!(
-            segments("claim.figures.\"line.slope\""),
-            ["claim", "figures", "line.slope"]
-        );
     }
 }

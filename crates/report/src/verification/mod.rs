@@ -142,7 +142,9 @@ rows = [["one volt", 1, 10.0], ["two volt", 2, 20.1]]
 
     #[test]
     fn machines_get_every_figure() {
-        let value = super::dossier(&verified(), Language::English).machine;
+        let value = super::dossier(&verified(), Language::English)
+            .machine
+            .value();
         assert_eq!(value["format"], "gumption-verification/1");
         assert_eq!(value["counts"]["failed"], 2);
         let figure = &value["examples"][0]["rows"][1]["figures"][0];

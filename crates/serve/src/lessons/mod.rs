@@ -286,7 +286,7 @@ mod tests {
     fn figures(name: &str, n: usize, seed: u64) -> Vec<f64> {
         let progress = Progress::default();
         let document = lesson(name, n, seed, Language::English, &progress).expect("a lesson");
-        let figures = document.machine["figures"]
+        let figures = document.machine.value()["figures"]
             .as_array()
             .expect("figures")
             .clone();

@@ -1,0 +1,261 @@
+//! What keys may be set to: lists, matrices, tables by name.
+
+use serde_json::{Value, json};
+use toml::de::DeValue;
+
+use super::faults::AMOUNT;
+use super::matrix::{Matrix, Number, Row};
+use super::table::{FromToml, KeyRow, Raw, Reader, Stated, in_order, inner};
+use gumption_fault::{Fault, Said, say};
+
+impl<T: FromToml> FromToml for Vec<Stated<T>> {
+    fn expected() -> Said {
+        match T::plural() {
+            Some(plural) => say!("a list of {plural}"),
+            None => say!("a list, each {}", T::expected()),
+        }
+    }
+
+    fn plural() -> Option<Said> {
+        T::plural().map(|plural| say!("lists of {plural}"))
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        let DeValue::Array(list) = value.get_ref() else {
+            return reader.wrong_type_with(value, Self::expected(), as_a_list(value, reader.file));
+        };
+        if let Some(fault) = decimal_commas(value, list, reader.file) {
+            return reader.refuse(fault);
+        }
+        let read: Vec<Option<Stated<T>>> =
+            list.iter().map(|item| read_item(item, reader)).collect();
+        read.into_iter().collect()
+    }
+
+    fn schema() -> Value {
+        json!({ "type": "array", "items": T::schema() })
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        T::tables(&format!("{path}[]"), rows);
+    }
+}
+
+type Lists = Vec<Stated<Vec<Stated<f64>>>>;
+
+impl FromToml for Matrix {
+    fn expected() -> Said {
+        Lists::expected()
+    }
+
+    fn plural() -> Option<Said> {
+        Lists::plural()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        if let Some(matrix) = reader.matrices.at(value.span().start) {
+            return Some(matrix);
+        }
+        let lists = Lists::read(value, reader)?;
+        let number = |number: Stated<f64>| Number::new(number.value, number.span);
+        let rows = lists.into_iter().map(|row| Row {
+            numbers: row.value.into_iter().map(number).collect(),
+            span: row.span,
+        });
+        Some(Matrix::new(rows.collect()))
+    }
+
+    fn schema() -> Value {
+        Lists::schema()
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        Lists::tables(path, rows);
+    }
+}
+
+impl Number {
+    /// With its place.
+    pub fn stated(&self) -> Stated<f64> {
+        Stated {
+            value: self.value,
+            span: self.span(),
+            key: self.span(),
+        }
+    }
+}
+
+/// What stands where a list is expected, written as a list.
+pub fn as_a_list(value: &Raw<'_>, file: &str) -> Option<Said> {
+    match value.get_ref() {
+        DeValue::Table(_) => Some(say!(
+            "one is a list as well: [{{ … }}], or the header in double brackets"
+        )),
+        DeValue::String(text) => {
+            let separated = text.split([',', ';', '，', '、', ' ']);
+            let members: Vec<&str> = separated.map(str::trim).filter(|m| !m.is_empty()).collect();
+            let numbers = members.len() > 1 && members.iter().all(|m| m.parse::<f64>().is_ok());
+            match numbers {
+                true => Some(say!("write [{}]", excerpt(&members))),
+                false => {
+                    let texts: Vec<String> = members.iter().map(|m| format!("\"{m}\"")).collect();
+                    let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+                    Some(say!("write [{}]", excerpt(&texts)))
+                }
+            }
+        }
+        _ => file
+            .get(value.span())
+            .map(|one| say!("one is a list as well: [{one}]")),
+    }
+}
+
+/// `[10,13, 10,15]`: whole numbers whose commas stand close and apart in turns are numbers with decimal
+/// commas, and would be read as twice as many.
+fn decimal_commas(value: &Raw<'_>, list: &[Raw<'_>], file: &str) -> Option<Fault> {
+    let texts: Vec<&str> = list
+        .iter()
+        .map(|item| file.get(item.span()))
+        .collect::<Option<_>>()?;
+    let whole = |item: &Raw<'_>| matches!(item.get_ref(), DeValue::Integer(_));
+    let between = |pair: &[Raw<'_>]| file.get(pair[0].span().end..pair[1].span().start);
+    let close = |pair: &[Raw<'_>]| between(pair) == Some(",");
+    // Pairs on lines of their own are pairs.
+    let lines = list
+        .windows(2)
+        .any(|pair| between(pair).is_none_or(|gap| gap.contains('\n')));
+    let digits = |text: &&str| text.bytes().all(|byte| byte.is_ascii_digit());
+    if lines || !texts.iter().skip(1).step_by(2).all(digits) {
+        return None;
+    }
+    let in_turns = list
+        .windows(2)
+        .enumerate()
+        .all(|(place, pair)| close(pair) == (place % 2 == 0));
+    if list.len() < 4 || !list.len().is_multiple_of(2) || !list.iter().all(whole) || !in_turns {
+        return None;
+    }
+    let joined = |sign: &str| -> Vec<String> {
+        let pairs = texts.chunks(2);
+        pairs.map(|pair| pair.join(sign)).collect()
+    };
+    let numbers = joined(".");
+    // 1,000 may be a thousand.
+    let thousands = match texts.iter().skip(1).step_by(2).all(|text| text.len() == 3) {
+        true => format!("; or, for thousands, [{}]", excerpt(&joined(""))),
+        false => String::new(),
+    };
+    Some(
+        Fault::new(
+            AMOUNT,
+            value.span(),
+            say!(
+                "{} numbers with decimal commas, or {} whole numbers?",
+                numbers.len(),
+                list.len()
+            ),
+        )
+        .label(say!("every second comma stands close"))
+        .help(say!(
+            "write decimal points: [{}]; or a space behind every comma: [{}]{thousands}",
+            excerpt(&numbers),
+            excerpt(&texts)
+        )),
+    )
+}
+
+/// The first entries of a list.
+fn excerpt<T: AsRef<str>>(entries: &[T]) -> String {
+    let shown: Vec<&str> = entries.iter().take(4).map(AsRef::as_ref).collect();
+    let more = if entries.len() > shown.len() {
+        ", …"
+    } else {
+        ""
+    };
+    format!("{}{more}", shown.join(", "))
+}
+
+fn read_item<T: FromToml>(item: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Stated<T>> {
+    T::read(item, reader).map(|value| Stated {
+        value,
+        span: item.span(),
+        key: item.span(),
+    })
+}
+
+/// A table, or several as `[[name]]`.
+#[derive(Debug, Clone)]
+pub struct OneOrMany<T>(pub Vec<Stated<T>>);
+
+impl<T: FromToml> FromToml for OneOrMany<T> {
+    fn expected() -> Said {
+        say!("{}, or several", T::expected())
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Array(_) => Vec::read(value, reader).map(OneOrMany),
+            _ => read_item(value, reader).map(|one| OneOrMany(vec![one])),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "oneOf": [T::schema(), { "type": "array", "items": T::schema() }] })
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        T::tables(path, rows);
+    }
+}
+
+/// Entries under names that the user chooses, in the order of the file.
+#[derive(Debug, Clone)]
+pub struct Named<T> {
+    /// The entries that could be read.
+    pub entries: Vec<(String, Stated<T>)>,
+    /// Whether an entry could not be read.
+    pub refused: bool,
+}
+
+impl<T: FromToml> FromToml for Named<T> {
+    fn expected() -> Said {
+        say!("a table of named entries")
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        let DeValue::Table(table) = value.get_ref() else {
+            let help = say!(
+                "each entry has a name: [….NAME] as its header, with its keys below, or NAME = {{ … }}"
+            );
+            return reader.wrong_type_with(value, Self::expected(), Some(help));
+        };
+        let mut named = Named {
+            // Tables are large, and would be moved again and again as the list grows.
+            entries: Vec::with_capacity(table.len()),
+            refused: false,
+        };
+        for (key, item) in in_order(table) {
+            let Some(read) = T::read(item, reader) else {
+                named.refused = true;
+                continue;
+            };
+            named.entries.push((
+                key.get_ref().to_string(),
+                Stated {
+                    value: read,
+                    span: item.span(),
+                    key: key.span(),
+                },
+            ));
+        }
+        Some(named)
+    }
+
+    fn schema() -> Value {
+        json!({ "type": "object", "additionalProperties": T::schema() })
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        T::tables(&inner(path, "NAME"), rows);
+    }
+}

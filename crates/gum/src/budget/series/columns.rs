@@ -1,0 +1,219 @@
+//! Which place of a file the name of a column means.
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::budget::faults::{SERIES, UNKNOWN_NAME};
+use crate::budget::tables::FileTable;
+use gumption_fault::{Fault, nearest, say};
+use gumption_format::toml::{Raw, Stated, Table};
+
+/// What a column sets.
+#[derive(Debug)]
+pub(in crate::budget) enum Column {
+    Label,
+    /// Nothing: it goes through to the results.
+    Kept,
+    /// The keys that lead to a value.
+    Path(Vec<String>),
+}
+
+/// The tables of named entries that a column may leave out: `X` is `input.X.value`.
+pub(super) const OWNERS: [&str; 3] = ["input", "constant", "source"];
+
+/// What columns of these names set.
+pub(in crate::budget) fn targets(
+    file: &DeTable<'_>,
+    names: &[Stated<String>],
+    faults: &mut Vec<Fault>,
+) -> Vec<Option<Column>> {
+    let names = names.iter();
+    names.map(|name| column(file, name, faults)).collect()
+}
+
+/// The place that a column names: `label`, an input or a constant, or a path such as `X.dof`,
+/// `conventions.coverage_probability` or `claim.figures."line.slope"`.
+pub(in crate::budget) fn column(
+    file: &DeTable<'_>,
+    name: &Stated<String>,
+    faults: &mut Vec<Fault>,
+) -> Option<Column> {
+    let wanted = name.value.as_str();
+    if wanted == "label" {
+        return Some(Column::Label);
+    }
+    if let Some(pair) = correlated(wanted) {
+        return correlation(file, pair, name, faults).map(Column::Path);
+    }
+    let mut path = segments(wanted);
+    for owner in OWNERS {
+        let Some(entry) = entry(file, owner, &path[0]) else {
+            continue;
+        };
+        path.insert(0, owner.to_string());
+        if path.len() > 2 {
+            return Some(Column::Path(path));
+        }
+        if let Some(values) = values(entry) {
+            faults.push(
+                Fault::new(SERIES, name.span.clone(), say!("{wanted} is a vector"))
+                    .label(say!("a column sets one number"))
+                    .related(values, say!("its values"))
+                    .help(say!("name an element: \"{wanted}.values.1\"")),
+            );
+            return None;
+        }
+        // A constant may be a bare number.
+        if matches!(entry.get_ref(), DeValue::Table(_)) {
+            path.push("value".into());
+        }
+        return Some(Column::Path(path));
+    }
+    if matches!(&path[..], [owner, _, key] if owner == "measurand" && key == "unit") {
+        let message = say!("{wanted} would give the rows results in several units");
+        faults.push(
+            Fault::new(SERIES, name.span.clone(), message)
+                .label(say!("the column of a result has one unit"))
+                .help(say!(
+                    "leave the column out: results are in the unit that the budget states"
+                )),
+        );
+        return None;
+    }
+    if path.len() > 1 && FileTable::keys().contains(&path[0].as_str()) && path[0] != "series" {
+        return Some(Column::Path(path));
+    }
+    faults.push(unknown_column(file, name, &path));
+    None
+}
+
+/// The two names of `r(X, Y)`.
+fn correlated(column: &str) -> Option<[&str; 2]> {
+    let inside = column.strip_prefix("r(")?.strip_suffix(')')?;
+    let (one, other) = inside.split_once(',')?;
+    Some([one.trim(), other.trim()])
+}
+
+/// The place of a stated correlation coefficient.
+fn correlation(
+    file: &DeTable<'_>,
+    pair: [&str; 2],
+    name: &Stated<String>,
+    faults: &mut Vec<Fault>,
+) -> Option<Vec<String>> {
+    let is_between = |entry: &Raw<'_>| {
+        let DeValue::Table(table) = entry.get_ref() else {
+            return false;
+        };
+        let Some(DeValue::Array(between)) = table.get("between").map(Spanned::get_ref) else {
+            return false;
+        };
+        let stated = |wanted: &str| {
+            let mut names = between.iter().map(Spanned::get_ref);
+            names.any(|name| matches!(name, DeValue::String(name) if name == wanted))
+        };
+        between.len() == 2 && pair.into_iter().all(stated)
+    };
+    let path = |parts: &[&str]| Some(parts.iter().map(|part| (*part).to_owned()).collect());
+    match file.get("correlation").map(Spanned::get_ref) {
+        Some(DeValue::Array(list)) if let Some(at) = list.iter().position(is_between) => {
+            return path(&["correlation", &(at + 1).to_string(), "r"]);
+        }
+        Some(DeValue::Table(_)) if file.get("correlation").is_some_and(is_between) => {
+            return path(&["correlation", "r"]);
+        }
+        _ => {}
+    }
+    let [one, other] = pair;
+    let message = say!("the file states no correlation between {one} and {other}");
+    faults.push(
+        Fault::new(UNKNOWN_NAME, name.span.clone(), message)
+            .label(say!("unknown column"))
+            .help(say!("state one, which the column replaces:\n[[correlation]]\nbetween = [\"{one}\", \"{other}\"]\nr = 0")),
+    );
+    None
+}
+
+fn unknown_column(file: &DeTable<'_>, name: &Stated<String>, path: &[String]) -> Fault {
+    let fault = Fault::new(
+        UNKNOWN_NAME,
+        name.span.clone(),
+        say!("no input or constant is called {}", path[0]),
+    )
+    .label(say!("unknown column"));
+    let known = known_names(file, path.len());
+    match nearest(&path[0], known.iter().map(String::as_str)) {
+        Some(near) => {
+            let whole: Vec<&str> = std::iter::once(near)
+                .chain(path[1..].iter().map(String::as_str))
+                .collect();
+            fault.help(say!("did you mean \"{}\"?", whole.join(".")))
+        }
+        None => fault.help(
+            say!("columns are inputs, constants, `label`, or other numbers of the file by their path, such as `claim.value`"),
+        ),
+    }
+}
+
+/// What a path of so many parts may begin with.
+fn known_names(file: &DeTable<'_>, parts: usize) -> Vec<String> {
+    let mut names: Vec<String> = OWNERS
+        .iter()
+        .filter_map(|owner| match file.get(*owner)?.get_ref() {
+            DeValue::Table(table) => Some(table.keys().map(|key| key.get_ref().to_string())),
+            _ => None,
+        })
+        .flatten()
+        .collect();
+    if parts == 1 {
+        names.push("label".into());
+    } else {
+        names.extend(FileTable::keys().into_iter().map(String::from));
+    }
+    names
+}
+
+/// The parts of a path; a part in quotes may contain points.
+fn segments(path: &str) -> Vec<String> {
+    let mut parts = vec![String::new()];
+    let mut quoted = false;
+    for c in path.chars() {
+        match c {
+            '"' => quoted = !quoted,
+            '.' if !quoted => parts.push(String::new()),
+            _ => parts.last_mut().expect("never empty").push(c),
+        }
+    }
+    parts
+}
+
+fn entry<'a, 't>(file: &'a DeTable<'t>, owner: &str, name: &str) -> Option<&'a Raw<'t>> {
+    match file.get(owner)?.get_ref() {
+        DeValue::Table(table) => table.get(name),
+        _ => None,
+    }
+}
+
+/// Where an entry states the values of a vector.
+fn values(entry: &Raw<'_>) -> Option<std::ops::Range<usize>> {
+    match entry.get_ref() {
+        DeValue::Table(table) => table
+            .get_key_value("values")
+            .map(|(key, _)| key.span().clone()),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::segments;
+
+    #[test]
+    fn a_part_in_quotes_may_contain_points() {
+        assert_eq!(segments("a.b"), ["a", "b"]);
+        assert_eq!(
+            segments("claim.figures.\"line.slope\""),
+            ["claim", "figures", "line.slope"]
+        );
+    }
+}

@@ -198,14 +198,14 @@ impl Results {
 
     fn add_rows<'r>(
         &mut self,
-        rows: impl Iterator<Item = Result<Row<'r>, Fault>>,
+        rows: impl Iterator<Item = Result<Row<'r>, Box<Fault>>>,
         sheet: &Sheet<'_>,
         layout: &Layout,
         place: impl Fn(&Row<'r>, usize) -> Range<usize>,
     ) -> Result<(), Vec<Fault>> {
         let mut faults = Vec::new();
         for row in rows {
-            let added = row.map_err(Box::new).and_then(|row| {
+            let added = row.and_then(|row| {
                 let fields: Vec<&str> = row.fields().collect();
                 let place = |at| (place(&row, at), row.line);
                 self.push(

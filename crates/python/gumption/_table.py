@@ -36,13 +36,18 @@ class Table(dict[str, Any]):
     def _repr_html_(self) -> str:
         rows = max((len(column) for column in self.values()), default=0)
         lines = [_line("th", self)]
-        lines += [_line("td", [_shown(column[at]) for column in self.values()]) for at in range(min(rows, SHOWN))]
+        lines += [_line("td", [column[at] for column in self.values()]) for at in range(min(rows, SHOWN))]
         more = f"<p>{SHOWN} of {rows} rows</p>" if rows > SHOWN else ""
         return f"<table>{''.join(lines)}</table>{more}"
 
 
-def _line(kind: str, cells: Sequence[str] | Table) -> str:
-    return "<tr>" + "".join(f"<{kind}>{html.escape(cell)}</{kind}>" for cell in cells) + "</tr>"
+def _line(kind: str, cells: Sequence[Any] | Table) -> str:
+    def cell(value: Any) -> str:
+        # Notebooks align all cells right, which is good for numbers only.
+        left = ' style="text-align:left"' if kind == "td" and isinstance(value, str) else ""
+        return f"<{kind}{left}>{html.escape(_shown(value))}</{kind}>"
+
+    return f"<tr>{''.join(map(cell, cells))}</tr>"
 
 
 def _shown(cell: Any) -> str:

@@ -51,7 +51,7 @@ pub use heading::Heading;
 pub use pieces::{Piece, Pieces};
 pub use reader::{headings, open, text_of};
 pub use request::{Content, Request};
-pub use sheet::{Row, Sheet};
+pub use sheet::{Row, RowFields, Sheet};
 
 use std::collections::BTreeSet;
 

@@ -161,7 +161,7 @@ impl<'a> Sheet<'a> {
                 Err(fault) => {
                     bad += 1;
                     if faults.len() < SHOWN {
-                        faults.push(fault);
+                        faults.push(*fault);
                     }
                 }
             }
@@ -184,17 +184,17 @@ impl<'a> Sheet<'a> {
     }
 
     /// The rows below the first line; a fault in place of one that has another length than the first line.
-    pub fn rows(&self) -> impl Iterator<Item = Result<Row<'a>, Fault>> + '_ {
+    pub fn rows(&self) -> impl Iterator<Item = Result<Row<'a>, Box<Fault>>> + '_ {
         let mut broken = false;
         let rows = Rows::new(self.text, self.separator, self.line).skip(self.skipped);
         rows.map_while(move |row| match row {
             _ if broken => None,
             Ok(row) if row.len() == self.header.len() => Some(Ok(row)),
-            Ok(row) => Some(Err(self.wrong_length(&row))),
+            Ok(row) => Some(Err(Box::new(self.wrong_length(&row)))),
             Err(message) => {
                 broken = true;
                 let end = self.text.len();
-                Some(Err(Fault::new(ROW_LENGTH, end..end, message)))
+                Some(Err(Box::new(Fault::new(ROW_LENGTH, end..end, message))))
             }
         })
     }
@@ -245,21 +245,61 @@ impl Row<'_> {
     }
 
     /// All fields.
-    pub fn fields(&self) -> impl Iterator<Item = &str> {
-        let (mut line, quoted) = match &self.fields {
-            Fields::Line(line, separator) => (Some((*line, *separator)), None),
-            Fields::Quoted(fields) => (None, Some(fields)),
+    pub fn fields(&self) -> RowFields<'_> {
+        match &self.fields {
+            Fields::Line(line, separator) => RowFields::Line(Some(line), *separator),
+            Fields::Quoted(fields) => RowFields::Quoted(fields, 0),
+        }
+    }
+}
+
+/// Goes through the fields of a row.
+#[derive(Debug)]
+pub enum RowFields<'r> {
+    /// What is left of a line, unless it has ended, and what separates the fields in it.
+    Line(Option<&'r str>, u8),
+    /// Fields that are at hand, and the number of the next one.
+    Quoted(&'r StringRecord, usize),
+}
+
+impl<'r> RowFields<'r> {
+    /// What the next field holds, if `read` finds it at the beginning of a text and, with the number of bytes that it
+    /// tells, the field ends. Otherwise the field stays the next one. So a line is gone through once for its fields and for
+    /// what they hold.
+    #[inline]
+    pub fn read<T>(&mut self, read: impl Fn(&str) -> Option<(T, usize)>) -> Option<T> {
+        let RowFields::Line(line, separator) = self else {
+            return None;
         };
-        let mut quoted = quoted.into_iter().flatten();
-        std::iter::from_fn(move || {
-            let Some((rest, separator)) = line else {
-                return quoted.next();
-            };
-            // Fields are too short for a search by words to pay.
-            let end = rest.bytes().position(|byte| byte == separator);
-            line = end.map(|end| (&rest[end + 1..], separator));
-            Some(trimmed(&rest[..end.unwrap_or(rest.len())]))
-        })
+        let rest = (*line)?;
+        let (found, end) = read(rest)?;
+        *line = match rest.as_bytes().get(end) {
+            None => None,
+            Some(byte) if byte == separator => Some(&rest[end + 1..]),
+            Some(_) => return None,
+        };
+        Some(found)
+    }
+}
+
+impl<'r> Iterator for RowFields<'r> {
+    type Item = &'r str;
+
+    #[inline]
+    fn next(&mut self) -> Option<&'r str> {
+        match self {
+            RowFields::Line(line, separator) => {
+                let rest = (*line)?;
+                // Fields are too short for a search by words to pay.
+                let end = rest.bytes().position(|byte| byte == *separator);
+                *line = end.map(|end| &rest[end + 1..]);
+                Some(trimmed(&rest[..end.unwrap_or(rest.len())]))
+            }
+            RowFields::Quoted(fields, next) => {
+                *next += 1;
+                fields.get(*next - 1)
+            }
+        }
     }
 }
 
@@ -514,6 +554,22 @@ mod tests {
                     .to_string()
                     .ends_with("; 3 more rows like this")
         );
+    }
+
+    #[test]
+    fn what_is_read_from_the_front_is_a_whole_field() {
+        let sheet = Sheet::new("a,b,c,d\n12,12 ,x,34\n").expect("a header");
+        let row = sheet.rows().next().expect("a row").expect("four fields");
+        let whole = |text: &str| {
+            let end = text.bytes().take_while(u8::is_ascii_digit).count();
+            (end > 0).then(|| (text[..end].to_owned(), end))
+        };
+        let mut fields = row.fields();
+        assert_eq!(fields.read(whole).as_deref(), Some("12"));
+        assert_eq!((fields.read(whole), fields.next()), (None, Some("12")));
+        assert_eq!((fields.read(whole), fields.next()), (None, Some("x")));
+        assert_eq!(fields.read(whole).as_deref(), Some("34"));
+        assert_eq!((fields.read(whole), fields.next()), (None, None));
     }
 
     #[test]

@@ -128,7 +128,7 @@ pub enum Failed {
 /// Some rows of a table.
 #[derive(Debug)]
 pub(super) enum Part<'t> {
-    Lines(&'t [Result<csv::Row<'t>, Fault>]),
+    Lines(&'t [Result<csv::Row<'t>, Box<Fault>>]),
     Columns(&'t Columns<'t>, Range<usize>),
 }
 
@@ -140,7 +140,7 @@ impl Part<'_> {
         }
     }
 
-    pub(super) fn row(&self, lane: usize) -> Result<Cow<'_, csv::Row<'_>>, &Fault> {
+    pub(super) fn row(&self, lane: usize) -> Result<Cow<'_, csv::Row<'_>>, &Box<Fault>> {
         match self {
             Part::Lines(rows) => rows[lane].as_ref().map(Cow::Borrowed),
             Part::Columns(columns, rows) => Ok(Cow::Owned(columns.row(rows.start + lane))),

@@ -13,7 +13,7 @@ use std::ops::Range;
 use super::Budget;
 use super::check::Plain;
 use super::components::{Component, Owner};
-use super::points::plain_number;
+use super::points::{next_number, plain_number};
 use super::rows::Rows;
 use super::series::Column;
 use super::tables::{ComponentTable, FileTable, InputTable};
@@ -192,11 +192,12 @@ impl Pattern {
         let mut count = 0;
         for row in rows {
             let taken = row.is_some_and(|row| {
-                let cells = numbers.cells.iter_mut().zip(&self.numeric);
-                cells.zip(row.fields()).all(|((cells, numeric), field)| {
+                let mut fields = row.fields();
+                let mut cells = numbers.cells.iter_mut().zip(&self.numeric);
+                cells.all(|(cells, numeric)| {
                     let number = match numeric {
-                        true => plain_number(field),
-                        false => Some(0.0),
+                        true => next_number(&mut fields),
+                        false => fields.next().map(|_| 0.0),
                     };
                     number.is_some_and(|number| {
                         cells.0[count] = number;

@@ -10,7 +10,7 @@ use super::check::Origin;
 use super::faults::CSV;
 use gumption_core::quantity::UnitTable;
 use gumption_fault::{Fault, Rejection, say};
-use gumption_format::csv::{Heading, Row, Sheet, text_of};
+use gumption_format::csv::{Heading, Row, RowFields, Sheet, text_of};
 use gumption_format::toml::{Raw, Stated};
 use gumption_lanes::twice::TENS;
 
@@ -204,14 +204,34 @@ fn written(field: &str, unit: Option<&str>, sheet: &Sheet) -> Written {
 /// The number that a field puts into a budget, where there is no doubt what it is: decimal digits, perhaps with a fraction
 /// and an exponent, neither minus zero nor a whole number beyond what doubles count.
 pub(super) fn plain_number(field: &str) -> Option<f64> {
+    let (number, length) = leading_number(field)?;
+    (length == field.len()).then_some(number)
+}
+
+/// As [`plain_number`], of the next field of a row.
+#[inline]
+pub(super) fn next_number(fields: &mut RowFields<'_>) -> Option<f64> {
+    fields
+        .read(leading_number)
+        .or_else(|| plain_number(fields.next()?))
+}
+
+/// The number at the beginning of a text, and how long it is.
+#[inline]
+fn leading_number(text: &str) -> Option<(f64, usize)> {
     /// Digits that every double and every whole number of TOML keeps.
     const DIGITS: usize = 15;
-    let decimal = Decimal::read(field.as_bytes())?;
-    if decimal.is_whole && field.len() > DIGITS {
+    let (decimal, rest) = Decimal::leading(text.as_bytes())?;
+    let length = text.len() - rest.len();
+    if decimal.is_whole && length > DIGITS {
         return None;
     }
-    let number = decimal.exact().or_else(|| field.parse().ok())?;
-    Some(number).filter(|number| is_settled(*number))
+    let number = match decimal.exact() {
+        // Whether it is settled is told by its digits, so that nobody waits for the division.
+        Some(number) => (decimal.digits != 0 || !decimal.negative).then_some(number),
+        None => text[..length].parse().ok().filter(|one| is_settled(*one)),
+    };
+    Some((number?, length))
 }
 
 /// Whether there is no doubt what a number puts into a budget.
@@ -221,7 +241,7 @@ pub(super) fn is_settled(number: f64) -> bool {
 
 /// Whether TOML is sure to read a text as the decimal number that it is.
 fn is_toml_number(text: &str) -> bool {
-    Decimal::read(text.as_bytes()).is_some()
+    Decimal::leading(text.as_bytes()).is_some_and(|(_, rest)| rest.is_empty())
 }
 
 /// A decimal number as TOML writes it: digits, then perhaps a fraction and an exponent.
@@ -237,7 +257,9 @@ struct Decimal {
 }
 
 impl Decimal {
-    fn read(text: &[u8]) -> Option<Decimal> {
+    /// The one at the beginning of a text, and what follows it.
+    #[inline]
+    fn leading(text: &[u8]) -> Option<(Decimal, &[u8])> {
         let unsigned = text.strip_prefix(b"-").unwrap_or(text);
         if let [b'0', b'0'..=b'9', ..] = unsigned {
             return None;
@@ -248,7 +270,7 @@ impl Decimal {
             digits,
             count: unsigned.len() - rest.len(),
             exponent: 0,
-            is_whole: rest.is_empty(),
+            is_whole: !matches!(rest, [b'.' | b'e' | b'E', ..]),
         };
         let rest = match rest {
             [b'.', fraction @ ..] => {
@@ -262,19 +284,19 @@ impl Decimal {
             rest => rest,
         };
         let (sign, exponent) = match rest {
-            [] => return Some(decimal),
             [b'e' | b'E', b'-', exponent @ ..] => (-1, exponent),
             [b'e' | b'E', b'+', exponent @ ..] | [b'e' | b'E', exponent @ ..] => (1, exponent),
-            _ => return None,
+            rest => return Some((decimal, rest)),
         };
         let (power, rest) = self::digits(exponent, 0)?;
         // What is this long is out of the range of doubles.
         let power = i64::from(u16::try_from(power).unwrap_or(u16::MAX));
         decimal.exponent += sign * power;
-        rest.is_empty().then_some(decimal)
+        Some((decimal, rest))
     }
 
     /// The nearest double, where digits and power of ten are doubles themselves, so that one rounding gives it (Clinger 1990).
+    #[inline]
     fn exact(&self) -> Option<f64> {
         /// Digits that 64 bits hold.
         const HELD: usize = 19;
@@ -290,6 +312,7 @@ impl Decimal {
 }
 
 /// The whole number that goes on with the digits at the beginning of a text, of which there must be some; the rest.
+#[inline]
 fn digits(text: &[u8], before: u64) -> Option<(u64, &[u8])> {
     let mut number = before;
     let mut rest = text;

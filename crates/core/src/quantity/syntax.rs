@@ -47,6 +47,8 @@ pub(super) struct NamedTerm {
     pub span: Range<usize>,
     /// Exponent in sixtieths.
     pub exponent: i32,
+    /// Whether it stands with neither exponent nor root, so that a digit at its end may be the exponent: `m3`.
+    pub plain: bool,
 }
 
 /// Which numbers may occur.
@@ -82,6 +84,11 @@ pub(super) fn parse(text: &str, numbers: Numbers) -> Result<Parsed, UnitError> {
     };
     let product = parser.product(0)?;
     if let Some(token) = parser.peek() {
+        if matches!(token.kind, Kind::Power | Kind::Superscript(_)) {
+            let message = say!("this is a second exponent");
+            return Err(UnitError::new(BAD_EXPONENT, token.span.clone(), message)
+                .help(say!("put what it raises in parentheses, as in `(m^2)^3`")));
+        }
         return Err(UnitError::new(
             MALFORMED_UNIT,
             token.span.clone(),
@@ -255,10 +262,15 @@ impl Parser<'_> {
                 .raised(STEPS / 2)
                 .ok_or_else(|| self.too_large(root));
         }
-        let base = self.primary(depth)?;
+        let is_name = |token: &Token| matches!(&token.kind, Kind::Name(name) if name != "sqrt");
+        let named = self.peek().is_some_and(is_name);
+        let mut base = self.primary(depth)?;
         match self.exponent()? {
             Some((sixtieths, span)) => base.raised(sixtieths).ok_or_else(|| self.too_large(span)),
-            None => Ok(base),
+            None => {
+                base.terms.iter_mut().for_each(|term| term.plain |= named);
+                Ok(base)
+            }
         }
     }
 
@@ -287,6 +299,7 @@ impl Parser<'_> {
                     name,
                     span: token.span,
                     exponent: STEPS,
+                    plain: false,
                 };
                 Ok(Product {
                     terms: vec![term],

@@ -118,7 +118,7 @@ impl UnitTable {
     fn symbol(&self, text: &str, parsed: &Parsed) -> String {
         let mut symbol = text.to_owned();
         let implied = parsed.terms.iter().rev().filter_map(|term| {
-            let (letters, _) = power_behind(&term.name)?;
+            let (letters, _) = power_behind(term)?;
             let digit = term.span.end - (term.name.len() - letters.len());
             self.lookup(&term.name).is_none().then_some(digit)
         });
@@ -271,7 +271,7 @@ fn combine(parsed: &Parsed, lookup: impl Fn(&str) -> Option<Scale>) -> Result<Sc
     let mut result = Scale::coherent(Dimension::NONE, parsed.number);
     for term in &parsed.terms {
         let implied = || {
-            let (letters, power) = power_behind(&term.name)?;
+            let (letters, power) = power_behind(term)?;
             let scale = lookup(letters).filter(|scale| scale.dimension != Dimension::NONE)?;
             Some((scale, power))
         };
@@ -288,10 +288,11 @@ fn combine(parsed: &Parsed, lookup: impl Fn(&str) -> Option<Scale>) -> Result<Sc
 }
 
 /// The letters of a name and the digit behind them, which is a power if the name is no unit: `m3`.
-fn power_behind(name: &str) -> Option<(&str, i32)> {
+fn power_behind(term: &NamedTerm) -> Option<(&str, i32)> {
+    let name = term.name.as_str();
     let letters = name.strip_suffix(|c: char| ('2'..='9').contains(&c))?;
     let power = i32::from(name.as_bytes()[letters.len()] - b'0');
-    let plain = !letters.ends_with(|c: char| c.is_ascii_digit());
+    let plain = term.plain && !letters.ends_with(|c: char| c.is_ascii_digit());
     plain.then_some((letters, power))
 }
 
@@ -465,6 +466,12 @@ mod tests {
         assert_eq!(dimension("HV5"), "1");
         assert_eq!(dimension("g0"), "m·s^-2");
         assert_eq!(unit(" kg/m3 ").symbol, "kg/m^3");
+        // A digit is no exponent beside another one, nor under a root.
+        for text in ["s7^0", "m3²", "m3-1", "√m3"] {
+            assert_eq!(error(text).code, UNKNOWN_UNIT, "{text}");
+        }
+        assert_eq!(error("m^2^3").code, BAD_EXPONENT);
+        assert_eq!(unit("(m3)^2/sqrt(s2)").symbol, "(m^3)^2/sqrt(s^2)");
         assert_eq!(unit("μm2·μs").symbol, "μm^2·μs");
         assert_eq!(unit("°C2").origin, None);
         // A number to a power is a name that nobody declared.

@@ -179,7 +179,7 @@ mod tests {
                 1 => first.clone(),
                 line => first.below(&piece.text, line),
             };
-            let row = |row: Result<crate::csv::Row, Fault>| {
+            let row = |row: Result<crate::csv::Row, Box<Fault>>| {
                 let row = row.unwrap();
                 (row.line, row.fields().map(str::to_owned).collect())
             };

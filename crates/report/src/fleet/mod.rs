@@ -40,8 +40,8 @@ impl Shown<'_> {
         let l = self.l;
         let mut blocks = vec![
             Block::Title(l.pick(
-                format!("What the results of {table} say together"),
-                format!("{table} 中各结果的汇总统计"),
+                format!("What the results say together: {table}"),
+                format!("各结果的汇总统计：{table}"),
             )),
             Block::Fields(self.fields()),
         ];

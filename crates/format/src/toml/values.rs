@@ -340,10 +340,17 @@ fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
     let rest = body[end..].trim_start();
     let divided = rest.strip_prefix('/').map(str::trim_start);
     let goes_on = rest.starts_with([',', '，', '±', '('])
+        || is_arithmetic(rest)
         || rest.starts_with(|c: char| c.is_ascii_digit() || "xX×·⋅*'".contains(c))
             && spelled(body).is_some()
         || divided.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
     (number.is_finite() && !unit.is_empty() && !goes_on).then_some((number, unit))
+}
+
+/// Whether a formula goes on behind a number: `*0.02`, ` µm + 2.5 ppm`. No unit has a sum, or begins with a sign of
+/// multiplication.
+fn is_arithmetic(rest: &str) -> bool {
+    rest.starts_with(['*', '×', '·', '⋅']) || rest.contains(['+', '＋'])
 }
 
 /// The number of `2 (95 %)` or `2, p = 95 %`.
@@ -400,7 +407,11 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
         .filter(|(number, _)| number.trim().parse::<f64>().is_ok())
     {
         fault.help(of_concise(number.trim()))
-    } else if text.contains(['/', '*', '^', '(']) {
+    } else if text.trim_start_matches(['+', '＋']).contains(['+', '＋']) {
+        fault.help(say!(
+            "write the one amount that the sum gives here; parts of an accuracy specification are specification = {{ reading = \"…\", fixed = \"…\" }}, other reasons for doubt entries of `components`"
+        ))
+    } else if text.contains(['/', '*', '×', '·', '⋅', '^', '(']) {
         fault.help(say!(
             "write the number that it gives; formulas stand in a `model`"
         ))

@@ -38,12 +38,15 @@ pub(super) fn remarks(report: &Report<'_>) -> Vec<Remark> {
         remark
     });
     let of_budget = report.budget.remarks.iter().map(|remark| Remark {
-        id: "remark".to_string(),
+        id: REMARK.to_string(),
         severity: Severity::Note,
         text: l.pick(&remark.en, &remark.zh).clone(),
     });
     findings.chain(of_budget).collect()
 }
+
+/// What remarks of the budget are called, for machines.
+pub(super) const REMARK: &str = "remark";
 
 /// A stable name of the kind, for machines.
 pub(super) fn code(kind: &FindingKind) -> &'static str {

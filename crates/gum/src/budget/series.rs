@@ -531,26 +531,25 @@ fn is_called(entry: &Raw<'_>, name: &str) -> bool {
 
 fn replace<'t>(slot: Option<&mut Raw<'t>>, cell: &Raw<'t>) -> Result<(), Said> {
     let Some(slot) = slot else { return Ok(()) };
-    // A constant that is a text with a unit keeps its unit.
-    let unit = match (slot.get_ref(), cell.get_ref()) {
-        (DeValue::String(text), DeValue::Integer(_) | DeValue::Float(_)) => {
-            amount_parts(text).map(|(_, unit)| unit.to_string())
-        }
-        _ => None,
-    };
-    *slot = match unit {
-        None => cell.clone(),
-        Some(unit) => {
-            let place = slot.span();
-            let key = |name: &'static str| Spanned::new(place.clone(), DeString::from(name));
-            let mut amount = DeTable::new();
-            amount.insert(key("value"), cell.clone());
-            let unit = DeValue::String(unit.into());
-            amount.insert(key("unit"), Spanned::new(place.clone(), unit));
-            Spanned::new(place, DeValue::Table(amount))
-        }
+    *slot = match slot.get_ref() {
+        DeValue::String(text) => in_unit_of(text, cell).unwrap_or_else(|| cell.clone()),
+        _ => cell.clone(),
     };
     Ok(())
+}
+
+/// A number in the unit of the text with a unit whose place it takes: `0.2` in that of `"0.1 %"`.
+fn in_unit_of<'t>(text: &str, cell: &Raw<'t>) -> Option<Raw<'t>> {
+    let number = match cell.get_ref() {
+        DeValue::Integer(number) if number.radix() == 10 => number.as_str(),
+        DeValue::Float(number) => number.as_str(),
+        _ => return None,
+    };
+    let (_, unit) = amount_parts(text)?;
+    let amount = format!("{} {unit}", number.replace('_', ""));
+    // Not so of an angle in degrees, minutes and seconds.
+    (amount_parts(&amount)?.1 == unit)
+        .then(|| Spanned::new(cell.span(), DeValue::String(amount.into())))
 }
 
 fn set_in_value<'t>(
@@ -684,6 +683,35 @@ inputs."V.scatter" = { u = 0.5 }
         assert_eq!(found[0].constants[0].values, [3.0]);
         assert_eq!(found[0].constants[0].unit.symbol, "V");
         assert_eq!(found[0].inputs[0].estimate, 5.0);
+    }
+
+    #[test]
+    fn an_amount_keeps_its_unit() {
+        let file = r#"
+[measurand.Y]
+model = "t - t0"
+unit = "K"
+[constant]
+t0 = "20 °C"
+[input.t]
+value = "20.5 °C"
+half_width = "300 mK"
+[conformity]
+mpe = "500 mK"
+rule = "simple"
+[series]
+columns = ["t0", "t", "t.half_width", "conformity.mpe"]
+rows = [[21, 22.5, 600, 4e2], ["294.15 K", "296 K", "0.9 K", "1 K"]]
+"#;
+        let loaded = read(file, "budget.toml", Path::new("")).expect("a budget");
+        let [own, others] = [0, 1].map(|row| &loaded.rows[row].budget);
+        let close = |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-12, "{found}");
+        close(own.constants[0].values[0], 21.0);
+        close(own.inputs[0].estimate, 22.5);
+        close(own.components[0].u, 0.6 / 3f64.sqrt());
+        close(own.conformity[0].tolerance.upper, 0.4);
+        close(others.components[0].u, 0.9 / 3f64.sqrt());
+        close(others.conformity[0].tolerance.upper, 1.0);
     }
 
     #[test]

@@ -152,7 +152,8 @@ impl Columns {
             columns.extend(all.map(|one| Given::Numbers(Some(one))));
         }
         columns.extend(self.seeds.then_some(Given::Numbers(None)));
-        let few = measurands.clone().any(|one| figures.have_few_degrees(one));
+        let few = measurands.clone().any(|one| figures.have_few_degrees(one))
+            || !budget.remarks.is_empty();
         let findings = few.then(|| {
             let of_row = |row: RowFigures<'_>| few_degrees(budget, &row);
             figures.rows().map(of_row).collect()
@@ -285,11 +286,12 @@ fn push_line(text: &mut Vec<u8>, fields: impl IntoIterator<Item = String>) {
     text.push(b'\n');
 }
 
-/// The codes of findings; behind each the measurand that it is about, where there are several.
+/// The codes of findings and of remarks; behind each the measurand that it is about, where there are several.
 fn codes<'c>(budget: &Budget, findings: impl Iterator<Item = (&'c str, Option<usize>)>) -> String {
     let outputs = budget.model.outputs();
     let mut codes = String::new();
-    for (code, measurand) in findings {
+    let remark = (!budget.remarks.is_empty()).then_some((remarks::REMARK, None));
+    for (code, measurand) in findings.chain(remark) {
         let space = if codes.is_empty() { "" } else { " " };
         codes.extend([space, code]);
         if let Some(measurand) = measurand.filter(|_| outputs.len() > 1) {

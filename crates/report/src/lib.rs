@@ -25,6 +25,7 @@ mod how;
 mod indices;
 mod joint;
 mod language;
+mod meant;
 mod moments;
 mod number;
 mod phrase;

@@ -4,7 +4,7 @@ use gumption_core::special::student_t_two_sided_quantile;
 use gumption_core::statistics::relative_scatter_of_s;
 use gumption_gum::budget::CoverageRule;
 use gumption_gum::propagate::{
-    Consequence, CoverageBasis, FewReadings, MissingMoments, Reason, Side,
+    Consequence, CoverageBasis, FewReadings, MeasurandResult, MissingMoments, Reason, Side,
 };
 
 use super::Report;
@@ -138,11 +138,11 @@ pub(super) fn in_chinese(reason: &MissingMoments) -> String {
     }
 }
 
-/// What Monte Carlo adds for few readings, and what the statement makes of it.
+/// What few readings do: to ν_eff, where that is small, and to Monte Carlo; and what the statement makes of it.
 pub(super) fn few_readings(
     report: &Report<'_>,
     measurand: Option<usize>,
-    components: &[FewReadings],
+    (components, dof): (&[FewReadings], Option<f64>),
 ) -> String {
     let l = report.language;
     let wider = |few: &FewReadings| {
@@ -162,59 +162,84 @@ pub(super) fn few_readings(
         }
     };
     let named: Vec<String> = components.iter().map(wider).collect();
-    let follows = what_follows(report, measurand, components);
-    l.pick(
+    let drawn = l.pick(
         format!(
-            "Few degrees of freedom: Monte Carlo draws from a t-distribution (JCGM 101, 6.4.9), whose standard deviation is larger than u: {}. {follows} More readings would bring both together.",
+            "Monte Carlo draws from a t-distribution (JCGM 101, 6.4.9), whose standard deviation is larger than u: {}.",
             Language::English.list(&named)
         ),
         format!(
-            "自由度小：蒙特卡洛法取 t 分布（JCGM 101 的 6.4.9），其标准差大于 u：{}。{follows}增加测量次数可使两者接近。",
+            "蒙特卡洛法取 t 分布（JCGM 101 的 6.4.9），其标准差大于 u：{}。",
             named.join("；")
         ),
-    )
+    );
+    let result = measurand.and_then(|m| report.evaluation.results.get(m));
+    let reason = result.map(|result| result.reported(&report.budget.conventions).reason);
+    let refuted = reason.map_or_else(String::new, |reason| of_reason(report, reason));
+    let space = l.pick(" ", "");
+    let parts = match (dof, result) {
+        (Some(dof), _) => [few_degrees(report, measurand, dof), drawn, refuted],
+        (None, result) => {
+            let few = l.pick("Few degrees of freedom:", "自由度小：");
+            let factor = result.filter(|_| refuted.is_empty());
+            let follows = factor.map_or(refuted, |result| of_factor(report, result, components));
+            let more = l.pick(
+                "More readings would bring both together.",
+                "增加测量次数可使两者接近。",
+            );
+            [format!("{few}{space}{drawn}"), follows, more.to_string()]
+        }
+    };
+    let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+    parts.join(space)
 }
 
-/// What the statement takes, and whether its k allows for few degrees of freedom: that follows from how k was made.
-fn what_follows(
-    report: &Report<'_>,
-    measurand: Option<usize>,
-    components: &[FewReadings],
-) -> String {
+/// What the reason why the statement takes its method has to do with few readings; nothing where another finding tells
+/// the reason, or the factor k tells it.
+fn of_reason(report: &Report<'_>, reason: Reason) -> String {
     let l = report.language;
-    let Some(result) = measurand.and_then(|m| report.evaluation.results.get(m)) else {
-        return String::new();
-    };
-    let reported = result.reported(&report.budget.conventions);
-    let coverage = &result.gum.coverage;
-    let of_u = percent(components.iter().map(|few| few.share).sum());
-    let k = exact(coverage.k);
-    match (reported.reason, &coverage.basis) {
-        (Reason::FewReadings | Reason::NotValidatedFewReadings | Reason::MomentsAgree, _) => l.pick(
-            "The profile multiplies u itself (GUM 4.2.3) by its k, and so does the statement.".to_string(),
-            "规范以 u 本身（GUM 4.2.3）乘以 k，证书用语亦然。".to_string(),
+    let p = probability(report.coverage_probability());
+    match reason {
+        Reason::FewReadings => l.pick(
+            format!("The {p} interval of Monte Carlo therefore differs from that of the GUM by more than the tolerance δ (clause 8), while the statement is u itself (GUM 4.2.3) times the k of the profile. Take the Monte Carlo interval wherever a {p} interval is needed."),
+            format!("因此蒙特卡洛法与 GUM 法的 {p} 包含区间之差超过数值容差 δ（JJF 1059.2、JCGM 101 第 8 章），而证书用语为 u 本身（GUM 4.2.3）乘以规范的 k。需要 {p} 包含区间时，应取蒙特卡洛法的区间。"),
         ),
-        (Reason::NotValidated, _) => l.pick(
-            "The statement takes the result of Monte Carlo.".to_string(),
-            "证书用语采用蒙特卡洛法的结果。".to_string(),
-        ),
-        (Reason::NotNegative, _) => l.pick(
+        Reason::NotNegative => l.pick(
             "The statement takes the interval of ISO 11929, which rests on u itself (GUM 4.2.3).".to_string(),
             "证书用语采用 ISO 11929 的区间，该区间由 u 本身（GUM 4.2.3）得到。".to_string(),
         ),
-        (_, CoverageBasis::StudentT { .. }) => l.pick(
+        _ => String::new(),
+    }
+}
+
+/// Whether the k of the GUM result that the statement takes allows for few degrees of freedom: that follows from how k
+/// was made.
+fn of_factor(report: &Report<'_>, result: &MeasurandResult, components: &[FewReadings]) -> String {
+    let l = report.language;
+    let reported = result.reported(&report.budget.conventions);
+    // Where clause 8 refutes the GUM, the finding about that tells what is taken.
+    if !matches!(
+        reported.reason,
+        Reason::NotChecked | Reason::Validated | Reason::Undecided
+    ) {
+        return String::new();
+    }
+    let coverage = &result.gum.coverage;
+    let of_u = percent(components.iter().map(|few| few.share).sum());
+    let k = exact(coverage.k);
+    match &coverage.basis {
+        CoverageBasis::StudentT { .. } => l.pick(
             "The statement takes the GUM result, whose k from the t-distribution allows for the few degrees of freedom.".to_string(),
             "证书用语采用 GUM 法的结果，其 k 按 t 分布取值，已考虑自由度小的影响。".to_string(),
         ),
-        (_, CoverageBasis::Fixed) => l.pick(
+        CoverageBasis::Fixed => l.pick(
             format!("The statement takes the GUM result, whose k = {k} is fixed whatever the degrees of freedom; they are {of_u} % of u²."),
             format!("证书用语采用 GUM 法的结果，其 k = {k} 为约定值，不随自由度改变；这些分量占 u² 的 {of_u} %。"),
         ),
-        (_, CoverageBasis::Normal) => l.pick(
+        CoverageBasis::Normal => l.pick(
             format!("The statement takes the GUM result, whose k is that of a normal distribution; they are {of_u} % of u²."),
             format!("证书用语采用 GUM 法的结果，其 k 按正态分布取值；这些分量占 u² 的 {of_u} %。"),
         ),
-        (_, CoverageBasis::Output { .. }) => l.pick(
+        CoverageBasis::Output { .. } => l.pick(
             format!("The statement takes the GUM result, whose k comes from the components that dominate; they are {of_u} % of u²."),
             format!("证书用语采用 GUM 法的结果，其 k 由占优势的分量确定；这些分量占 u² 的 {of_u} %。"),
         ),

@@ -7,7 +7,7 @@ use gumption_gum::propagate::{EvaluationError, FindingKind, Reason, is_residue};
 use super::fits::{doubtful_fit, test_figures};
 use super::language::Language;
 use super::number::{aligned, exact, freedom, grouped, probability, significant};
-use super::{Report, moments};
+use super::{Report, meant, moments};
 
 /// All findings and the budget's remarks, each one paragraph; what is found alike of several
 /// measurands stands once.
@@ -38,12 +38,15 @@ pub(super) fn remarks(report: &Report<'_>) -> Vec<Remark> {
         remark
     });
     let of_budget = report.budget.remarks.iter().map(|remark| Remark {
-        id: "remark".to_string(),
+        id: REMARK.to_string(),
         severity: Severity::Note,
         text: l.pick(&remark.en, &remark.zh).clone(),
     });
     findings.chain(of_budget).collect()
 }
+
+/// What remarks of the budget are called, for machines.
+pub(super) const REMARK: &str = "remark";
 
 /// A stable name of the kind, for machines.
 pub(super) fn code(kind: &FindingKind) -> &'static str {
@@ -68,6 +71,8 @@ pub(super) fn code(kind: &FindingKind) -> &'static str {
         FindingKind::Unseen { .. } => "unseen",
         FindingKind::LargeUncertainty { .. } => "large_uncertainty",
         FindingKind::BelowReference { .. } => "below_reference",
+        FindingKind::ErrorMeant { .. } => "error_meant",
+        FindingKind::IndicationMeant { .. } => "indication_meant",
         FindingKind::CoarseStep { .. } => "coarse_step",
         FindingKind::Extrapolated { .. } => "extrapolated",
         FindingKind::LackOfFit { .. } => "lack_of_fit",
@@ -122,7 +127,7 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
         ),
         FindingKind::SlopesUnresolved => "The sensitivity coefficients are what rounding left of larger numbers: a change of the estimates in their last digits changes u in the digits that are printed. Write the formula so that large terms do not cancel: write it as a difference.".to_string(),
         FindingKind::MomentsMissing { reason } => moments::in_english(reason),
-        FindingKind::FewReadings { components } => moments::few_readings(report, measurand, components),
+        FindingKind::FewReadings { components, dof } => moments::few_readings(report, measurand, (components, *dof)),
         FindingKind::FailedTrials { failed, trials } => format!(
             "In {} of {} Monte Carlo trials the model had no finite value (for example a division by zero or the root of a negative number). The results leave these trials out. Check whether the distributions of the inputs reach values that are physically impossible.",
             grouped(*failed),
@@ -167,6 +172,7 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             exact(*k),
             amount(report, measurand, significant(*reference, 2)),
         ),
+        FindingKind::ErrorMeant { .. } | FindingKind::IndicationMeant { .. } => meant::sentence(report, measurand, kind),
         FindingKind::CoarseStep { what } => format!(
             "The GUM method replaces a rounding by the straight line through its steps, which leaves out what the rounding does: {}. State the rounding as a component of its own (`step`), or run Monte Carlo, which rounds every trial.",
             what.english(),
@@ -219,7 +225,7 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
         ),
         FindingKind::SlopesUnresolved => "灵敏系数是大数相消后的舍入残余：估计值末位的变动会改变所给 u 的有效数字。请改写公式，避免大数相消，以差值表示。".to_string(),
         FindingKind::MomentsMissing { reason } => moments::in_chinese(reason),
-        FindingKind::FewReadings { components } => moments::few_readings(report, measurand, components),
+        FindingKind::FewReadings { components, dof } => moments::few_readings(report, measurand, (components, *dof)),
         FindingKind::FailedTrials { failed, trials } => format!(
             "{} 次蒙特卡洛试验中有 {} 次模型没有有限值（例如除以零或对负数开方），这些试验未计入结果。请检查输入量的分布是否包含物理上不可能的值。",
             grouped(*trials),
@@ -261,6 +267,7 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             exact(*k),
             amount(report, measurand, significant(*reference, 2)),
         ),
+        FindingKind::ErrorMeant { .. } | FindingKind::IndicationMeant { .. } => meant::sentence(report, measurand, kind),
         FindingKind::CoarseStep { what } => format!(
             "GUM 法以穿过各台阶的直线代替修约，没有计入修约本身的影响（{}）。请把修约作为一个分量给出（`step`），或运行蒙特卡洛法，它对每次试验值进行修约。",
             what.chinese(),
@@ -367,9 +374,6 @@ fn not_validated_in_english(report: &Report<'_>, measurand: Option<usize>) -> St
     );
     let take = format!("Take the Monte Carlo interval wherever a {p} interval is needed.");
     match reported(report, measurand) {
-        Reason::FewReadings => format!(
-            "{differs}, because Monte Carlo gives what has few degrees of freedom a wider distribution. {take}"
-        ),
         Reason::NotValidatedFewReadings => format!(
             "{differs}, and y and u differ also where what has few degrees of freedom has u itself as its standard deviation, because the model is nonlinear. The statement takes y and u of that Monte Carlo run, and the k of the profile. {take}"
         ),
@@ -392,9 +396,6 @@ fn not_validated_in_chinese(report: &Report<'_>, measurand: Option<usize>) -> St
     );
     let take = format!("需要 {p} 包含区间时，应取蒙特卡洛法的区间。");
     match reported(report, measurand) {
-        Reason::FewReadings => {
-            format!("{differs}，原因是蒙特卡洛法对自由度小的分量取更宽的分布。{take}")
-        }
         Reason::NotValidatedFewReadings => format!(
             "{differs}，并且由于模型非线性，自由度小的分量以 u 本身为标准差时 y 和 u 仍不一致。证书用语采用该次蒙特卡洛法的 y 和 u 以及规范的 k。{take}"
         ),

@@ -310,7 +310,7 @@ impl Check<'_> {
             )
             .label(say!("a difference in {}", found.symbol))
             .help(say!(
-                "a correction has `unit = \"{}\"` even if its value is zero: two quantities on the {} scale that are subtracted leave a difference. Or write `unit = \"{}\"` for `{name}`, or add the difference to a point: `0 '{}' + ({text})`{thermodynamic}",
+                "write `unit = \"{}\"` for `{name}` if it is an error or a correction: two quantities on the {} scale that are subtracted leave a difference. If one of the two is a correction, that one has `unit = \"{}\"`, even if its value is zero; or add the difference to a point: `0 '{}' + ({text})`{thermodynamic}",
                 wanted.difference().symbol,
                 wanted.symbol,
                 wanted.difference().symbol,

@@ -129,10 +129,13 @@ fn same_letters<'a>(name: &str, own: &[&'a String]) -> Vec<&'a str> {
     same
 }
 
-/// A product written without a sign: `Nm`, `Pas`, `mVs`. Suggesting a mere change of case, the
+/// A product written without a sign: `Nm`, `Pas`, `mVs`, `gK`, `%mol`. Suggesting a mere change of case, the
 /// nanometre for the first, would be dangerous.
 fn as_product(name: &str, is_known: impl Fn(&str) -> bool) -> Option<Said> {
-    let (first, second) = ["cm", "mm", "km", "m", "s", "h"]
+    if let Some(unit) = name.strip_prefix('%').filter(|unit| is_known(unit)) {
+        return Some(say!("write `% {unit}`, with a space"));
+    }
+    let (first, second) = ["cm", "mm", "km", "m", "s", "h", "K"]
         .iter()
         .find_map(|second| {
             let first = name.strip_suffix(second).filter(|first| is_known(first))?;
@@ -142,7 +145,7 @@ fn as_product(name: &str, is_known: impl Fn(&str) -> bool) -> Option<Said> {
         "s" => say!(
             "units have no plural: write `{first}`, or `{first}·s` for the product with the second"
         ),
-        _ => say!("write `{first}·{second}` for the product"),
+        _ => say!("write `{first}·{second}` for the product, behind a stroke in brackets"),
     })
 }
 

@@ -547,7 +547,15 @@ mod tests {
         assert!(suggestion("HV10").contains("[unit]"));
         assert_eq!(suggestion("meters"), "write `m`");
         assert!(suggestion("arcsecs").contains("`arcsec`"));
-        assert_eq!(suggestion("Nm"), "write `N·m` for the product");
+        assert_eq!(
+            suggestion("Nm"),
+            "write `N·m` for the product, behind a stroke in brackets"
+        );
+        assert_eq!(
+            suggestion("J/gK"),
+            "write `g·K` for the product, behind a stroke in brackets"
+        );
+        assert_eq!(suggestion("%mol/mol"), "write `% mol`, with a space");
         assert!(suggestion("Pas").contains("`Pa·s`"));
         assert!(suggestion("arcmni").contains("`arcmin`"));
         assert!(suggestion("Vrms").contains("`V`"));

@@ -339,10 +339,30 @@ fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
     let rest = body[end..].trim_start();
     let divided = rest.strip_prefix('/').map(str::trim_start);
     let goes_on = rest.starts_with([',', '，', '±', '('])
+        || is_arithmetic(rest)
+        || goes_on_in_a_smaller_unit(rest)
         || rest.starts_with(|c: char| c.is_ascii_digit() || "xX×·⋅*'".contains(c))
             && spelled(body).is_some()
         || divided.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
     (number.is_finite() && !unit.is_empty() && !goes_on).then_some((number, unit))
+}
+
+/// Whether a formula goes on behind a number: `*0.02`, ` µm + 2.5 ppm`. No unit has a sum, or begins with a sign of
+/// multiplication.
+fn is_arithmetic(rest: &str) -> bool {
+    rest.starts_with(['*', '×', '·', '⋅']) || rest.contains(['+', '＋'])
+}
+
+/// `min 0.5 s` behind the 2 of `2 min 0.5 s`.
+fn goes_on_in_a_smaller_unit(rest: &str) -> bool {
+    let words: Vec<&str> = rest.split_whitespace().collect();
+    let is_name = |word: &str| word.chars().all(char::is_alphabetic);
+    match words.as_slice() {
+        [unit, number, smaller] => {
+            is_name(unit) && number.parse::<f64>().is_ok() && is_name(smaller)
+        }
+        _ => false,
+    }
 }
 
 /// The number of `2 (95 %)` or `2, p = 95 %`.
@@ -399,7 +419,17 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
         .filter(|(number, _)| number.trim().parse::<f64>().is_ok())
     {
         fault.help(of_concise(number.trim()))
-    } else if text.contains(['/', '*', '^', '(']) {
+    } else if text
+        .trim()
+        .split_once(' ')
+        .is_some_and(|(_, rest)| goes_on_in_a_smaller_unit(rest))
+    {
+        fault.help(say!("write it in one unit, as \"90 s\" for \"1 min 30 s\""))
+    } else if text.trim_start_matches(['+', '＋']).contains(['+', '＋']) {
+        fault.help(say!(
+            "write the one amount that the sum gives here; parts of an accuracy specification are specification = {{ reading = \"…\", fixed = \"…\" }}, other reasons for doubt entries of `components`"
+        ))
+    } else if text.contains(['/', '*', '×', '·', '⋅', '^', '(']) {
         fault.help(say!(
             "write the number that it gives; formulas stand in a `model`"
         ))

@@ -43,6 +43,8 @@ pub struct Conformity {
     pub measurand: usize,
     /// Tolerance interval: the permissible values of the property.
     pub tolerance: Interval,
+    /// How the file states it.
+    pub stated: StatedTolerance,
     /// The decision rule.
     pub rule: DecisionRule,
     /// What is known of the items before one is measured.
@@ -51,6 +53,20 @@ pub struct Conformity {
     pub carrier: Option<usize>,
     /// Whether nothing has been measured yet: there is no verdict, only limits and risks.
     pub planning: bool,
+}
+
+/// How a tolerance is stated: of a quantity, or of its error of indication.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StatedTolerance {
+    /// By its limits.
+    Limits,
+    /// By the nominal value of the quantity itself and the maximum permissible error.
+    Nominal(f64),
+    /// By the maximum permissible error of an error of indication, and the value at which that is found, where it is stated.
+    Error {
+        /// The value of which the permissible error is a part.
+        of: Option<f64>,
+    },
 }
 
 impl Conformity {

@@ -171,9 +171,11 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
         ) if has("specification") => Some(say!(
             "limits ±a are half_width = …; those of an instrument that depend on its reading specification = {{ reading = \"0.05 %\", counts = 2, step = … }}"
         )),
-        ("certificate", "u_rel" | "urel" | "u_r" | "rel_u" | "relative" | "relative_u") => Some(
-            say!("a relative expanded uncertainty has its unit: U = \"0.1 %\", or \"50 ppm\""),
-        ),
+        ("certificate", "u_rel" | "urel" | "u_r" | "rel_u" | "relative" | "relative_u") => {
+            Some(say!(
+                "a relative expanded uncertainty has its unit: U = \"0.1 %\", or \"50 ppm\"; of a quantity that is itself a ratio write certificate = {{ U = 0.001, k = 2 }}, relative = true"
+            ))
+        }
         (_, "u_rel" | "urel" | "u_r" | "rel_u" | "relative_u" | "relative_uncertainty")
             if has("relative") =>
         {

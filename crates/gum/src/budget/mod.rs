@@ -47,7 +47,7 @@ pub use conventions::{
 };
 pub use decision::{
     Conformity, DecisionRule, Detection, Following, Follows, GlobalRisks, Guard,
-    ISO_14253_PROBABILITY, Interval,
+    ISO_14253_PROBABILITY, Interval, StatedTolerance,
 };
 pub use fit::{
     Fit, FitColumn, FitDoubt, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict,

@@ -183,6 +183,7 @@ impl Pattern {
             && found.groups == budget.groups
             && found.constants == budget.constants
             && found.following == budget.following
+            && found.remarks.is_empty() == budget.remarks.is_empty()
             && found.conformity == budget.conformity
             && found.detection == budget.detection
     }

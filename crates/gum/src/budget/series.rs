@@ -302,6 +302,35 @@ inputs."V.scatter" = { u = 0.5 }
     }
 
     #[test]
+    fn an_amount_keeps_its_unit() {
+        let file = r#"
+[measurand.Y]
+model = "t - t0"
+unit = "K"
+[constant]
+t0 = "20 °C"
+[input.t]
+value = "20.5 °C"
+half_width = "300 mK"
+[conformity]
+mpe = "500 mK"
+rule = "simple"
+[series]
+columns = ["t0", "t", "t.half_width", "conformity.mpe"]
+rows = [[21, 22.5, 600, 4e2], ["294.15 K", "296 K", "0.9 K", "1 K"]]
+"#;
+        let loaded = read(file, "budget.toml", Path::new("")).expect("a budget");
+        let [own, others] = [0, 1].map(|row| &loaded.rows[row].budget);
+        let close = |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-12, "{found}");
+        close(own.constants[0].values[0], 21.0);
+        close(own.inputs[0].estimate, 22.5);
+        close(own.components[0].u, 0.6 / 3f64.sqrt());
+        close(own.conformity[0].tolerance.upper, 0.4);
+        close(others.components[0].u, 0.9 / 3f64.sqrt());
+        close(others.conformity[0].tolerance.upper, 1.0);
+    }
+
+    #[test]
     fn an_unknown_path_is_answered_with_the_nearest() {
         assert!(message(r#""X.dfo""#, "[1]").contains("did you mean `dof`?"));
         assert!(message(r#""x.dof""#, "[1]").contains("did you mean \"X.dof\"?"));

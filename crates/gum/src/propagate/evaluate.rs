@@ -94,17 +94,7 @@ fn both(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationErro
         with_normal_readings(drawn, run, &mut results, options.workers())?;
     }
     let joint = joint::evaluate(budget, &linear, monte_carlo.as_ref());
-    let evidence = findings::Evidence {
-        budget,
-        linear: &linear,
-        results: &results,
-        second_order: &second_order,
-        monte_carlo: monte_carlo.as_ref(),
-        unresolved: &unresolved,
-        moved: vec![OnceCell::new(); budget.inputs.len()],
-    };
-    let findings = evidence.findings();
-    let evidence = decide::Evidence {
+    let decided = decide::Evidence {
         budget: drawn,
         linear: &linear,
         results: &results,
@@ -112,9 +102,20 @@ fn both(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationErro
         workers: options.workers(),
     };
     let decisions = decide::Decisions {
-        conformity: decide::conformity(&evidence),
+        conformity: decide::conformity(&decided),
         detection,
     };
+    let evidence = findings::Evidence {
+        budget,
+        linear: &linear,
+        results: &results,
+        second_order: &second_order,
+        monte_carlo: monte_carlo.as_ref(),
+        conformity: &decisions.conformity,
+        unresolved: &unresolved,
+        moved: vec![OnceCell::new(); budget.inputs.len()],
+    };
+    let findings = evidence.findings();
     let mut figures = budget.figures.clone();
     figures.extend(decisions.figures(budget));
     figures.extend(tolerance::figures(budget, &results, run.as_ref()));

@@ -4,12 +4,14 @@ use std::cell::OnceCell;
 
 use super::gum::Linear;
 use super::monte_carlo::Outcome;
+use super::reported::Reason;
 use super::resolution;
 use super::result::{
-    Basis, Clause8, Finding, FindingKind, Freedom, MeasurandResult, MissingMoments,
+    Basis, Clause8, ConformityResult, Finding, FindingKind, Freedom, MeasurandResult,
+    MissingMoments,
 };
 use super::second_order::{self, SecondOrderOutcome, Terms};
-use super::{few_readings, validation};
+use super::{few_readings, meant, validation};
 use crate::budget::{Budget, FitVerdict, Group, Law, Owner};
 use gumption_core::model::Notice;
 use gumption_core::special::normal_two_sided_quantile;
@@ -60,6 +62,8 @@ pub(super) struct Evidence<'a> {
     pub results: &'a [MeasurandResult],
     pub second_order: &'a [SecondOrderOutcome],
     pub monte_carlo: Option<&'a Outcome>,
+    /// What was found of the assessments of the budget, in its order.
+    pub conformity: &'a [ConformityResult],
     /// Measurands whose trials doubles do not resolve, for which Monte Carlo was left out; how far they are off.
     pub unresolved: &'a [(usize, f64)],
     /// For each input that was asked for, which measurands change with it.
@@ -89,6 +93,10 @@ impl Evidence<'_> {
             kinds.extend(self.of_first_order(measurand));
             kinds.extend(self.of_second_order(measurand, doubtful_model));
             kinds.extend(self.of_monte_carlo(measurand));
+            kinds.extend(self.of_tolerances(measurand));
+            if kinds.iter().any(tells_few_degrees) {
+                kinds.retain(|kind| !matches!(kind, FindingKind::FewDegreesOfFreedom { .. }));
+            }
             findings.extend(kinds.into_iter().map(|kind| Finding {
                 measurand: Some(measurand),
                 kind,
@@ -233,6 +241,15 @@ impl Evidence<'_> {
         })
     }
 
+    /// Assessments whose verdict follows from comparing the value with another one than it seems to be meant for.
+    fn of_tolerances(&self, measurand: usize) -> Vec<FindingKind> {
+        let assessments = self.budget.conformity.iter().zip(self.conformity);
+        assessments
+            .filter(|(stated, _)| stated.measurand == measurand)
+            .filter_map(|(stated, found)| meant::other_value(stated, found))
+            .collect()
+    }
+
     fn of_freedom(&self, measurand: usize) -> Vec<FindingKind> {
         let gum = &self.results[measurand].gum;
         match &gum.freedom {
@@ -363,18 +380,24 @@ impl Evidence<'_> {
         let mut kinds = Vec::new();
         let verdicts = result.validation.as_ref();
         let at_digits = verdicts.map(|both| validation::at(both, digits));
+        let reported = result.reported(&self.budget.conventions);
+        let few = few_readings::behind(self.budget, &result.gum);
+        let explained = reported.u.is_some() && !few.is_empty();
+        let refuted_by_few = explained && reported.reason == Reason::FewReadings;
         match at_digits.map(|found| (found.verdict, found)) {
+            Some((Clause8::NotValidated, _)) if refuted_by_few => {}
             Some((Clause8::NotValidated, _)) => kinds.push(FindingKind::NotValidated),
             Some((Clause8::Undecided, found)) => kinds.push(FindingKind::Undecided {
                 trials: validation::trials_needed(found, outcome.run.trials),
             }),
             Some((Clause8::Validated, _)) | None => {}
         }
-        let reported = result.reported(&self.budget.conventions);
-        let few = few_readings::behind(self.budget, &result.gum);
-        let explained = reported.u.is_some() && !few.is_empty();
         if explained {
-            kinds.push(FindingKind::FewReadings { components: few });
+            let dof = Some(result.gum.freedom.value()).filter(|dof| *dof < FEW);
+            kinds.push(FindingKind::FewReadings {
+                components: few,
+                dof,
+            });
         } else if let Some(Some(reason)) = outcome.moments_missing.get(measurand) {
             kinds.push(FindingKind::MomentsMissing {
                 reason: self.too_few_readings(measurand).unwrap_or(reason.clone()),
@@ -426,6 +449,11 @@ impl Evidence<'_> {
             Owner::Source(_) => component.name.clone(),
         }
     }
+}
+
+/// Whether few effective degrees of freedom are told with what few readings do.
+fn tells_few_degrees(kind: &FindingKind) -> bool {
+    matches!(kind, FindingKind::FewReadings { dof: Some(_), .. })
 }
 
 /// Which order of the expansion sees an input first.

@@ -16,6 +16,7 @@ mod findings;
 mod freedom;
 mod gum;
 mod joint;
+mod meant;
 mod monte_carlo;
 mod one_sided;
 mod options;

@@ -516,3 +516,28 @@ fn an_evaluation_can_be_stopped() {
         assert!(samples(&budget, 1000, &options).is_empty());
     }
 }
+
+#[test]
+fn few_readings_are_told_once() {
+    let findings = |profile: &str, readings: &str| {
+        let text = format!(
+            "profile = \"{profile}\"\n[measurand.y]\nmodel = \"b + d\"\n[input.b]\nreadings = {readings}\n[input.d]\nvalue = 0\nhalf_width = 0.0005\n"
+        );
+        let loaded = crate::budget::read(&text, "b.toml", std::path::Path::new(""));
+        let evaluation = run(&loaded.unwrap().rows[0].budget, MonteCarloChoice::AsBudget);
+        let kinds = evaluation.findings.into_iter().map(|found| found.kind);
+        Vec::from_iter(kinds)
+    };
+    let told = |found: &[FindingKind]| {
+        let [FindingKind::FewReadings { components, dof }] = found else {
+            panic!("{found:?}")
+        };
+        (components[0].dof, *dof)
+    };
+    let (drawn, dof) = told(&findings("JJF", "[10.001, 10.003, 10.002]"));
+    assert_eq!(drawn, 2.0);
+    close(dof.unwrap(), 3.125, 1e-9);
+    // Where ν_eff is not small there is nothing to tell of it.
+    let eight = "[10.001, 10.003, 10.002, 10.001, 10.003, 10.002, 10.002, 10.001]";
+    assert_eq!(told(&findings("JJF", eight)), (7.0, None));
+}

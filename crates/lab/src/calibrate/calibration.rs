@@ -16,6 +16,7 @@ use super::signs::reversed;
 use super::stack::{Readings, Row, Stack};
 use super::swaps::swapped;
 use super::trouble::Trouble;
+use super::unlike::{Unlike, unlike};
 use crate::experiment::Words;
 use gumption_core::least_squares::Solution;
 use gumption_core::special::student_t_sf;
@@ -48,6 +49,8 @@ pub struct Calibration {
     pub apart: Vec<Apart>,
     /// Values at which readings stay that should differ.
     pub limits: Vec<Limit>,
+    /// Responses whose residuals are no scatter although they tell the scatter, where nothing of the above explains it.
+    pub unlike: Vec<Unlike>,
     /// Whether the equations are linear in the parameters.
     pub linear: bool,
     /// Steps of the search; 0 for linear equations.
@@ -219,7 +222,14 @@ fn whole(campaign: &Campaign) -> Result<Calibration, Trouble> {
         true => Vec::new(),
         false => apart(&residuals, &scatters.responses, &campaign.points.names),
     };
+    let told = explained || !apart.is_empty();
+    let tells = scatters.way == Scatter::Residuals && campaign.separately.is_none();
+    let unlike = match told || !tells {
+        true => Vec::new(),
+        false => unlike(&stack, &solution, &gain, &u, &scatters.responses),
+    };
     Ok(Calibration {
+        unlike,
         swapped,
         reversed: reversed(&figures.coefficients, &campaign.same_sign),
         apart,

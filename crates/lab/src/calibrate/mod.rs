@@ -19,7 +19,7 @@
 //! | `gain` | how coefficients follow readings, columns and inputs |
 //! | `scatter`, `cause`, `causes` | what makes the coefficients uncertain |
 //! | `identify` | rank, condition, aliases |
-//! | `swaps`, `signs`, `apart`, `limits` | readings that look exchanged, that stand apart, or look saturated |
+//! | `swaps`, `signs`, `apart`, `limits`, `unlike` | readings that look exchanged, that stand apart, or look saturated; residuals that are no scatter |
 //! | `size` | how much memory that takes |
 //! | `coefficient`, `residual`, `calibration`, `plan` | the results, after and before measuring |
 //! | `budget` | coefficients as measurands of a budget file |
@@ -62,6 +62,7 @@ mod swaps;
 mod tests;
 mod together;
 mod trouble;
+mod unlike;
 
 pub use apart::Apart;
 pub use budget::budget;
@@ -79,3 +80,4 @@ pub use recordings::{Unusable, is_experiment, label, listed, of_recording};
 pub use residual::Residual;
 pub use scatter::{Misfit, ResponseScatter, ScatterTest};
 pub use trouble::Trouble;
+pub use unlike::{Unlike, UnlikeBy};

@@ -201,7 +201,9 @@ impl Scatters {
         let jacobian = stack.jacobian(&solution.parameters, &ones);
         let (known, stated) = (known_u(stack, true), known_u(stack, false));
         let parameters = campaign.experiment.parameters.len();
-        let explained = explained(stack, solution, gain, &jacobian);
+        // One error that acts on all points counts for nothing: it may happen to be small, and what the residuals do not
+        // show of it explains nothing of them.
+        let explained = explained_by(stack, solution, gain, &jacobian, |s| *s != Scope::Common);
         let mut responses = Vec::new();
         for (response, quantity) in campaign.experiment.equations.responses().iter().enumerate() {
             let rows: Vec<usize> = (0..stack.rows.len())
@@ -315,18 +317,18 @@ impl Scatters {
 }
 
 /// The mean square of each row's residual that the stated errors let expect: Σ u²·(d − J·∂β/∂y·d)² over
-/// their errors, each of which changes the misfits by d. One error that acts on all points counts for nothing:
-/// it may happen to be small, and what the residuals do not show of it explains nothing of them.
-fn explained(
+/// those of their errors that count, each of which changes the misfits by d.
+pub(super) fn explained_by(
     stack: &Stack<'_>,
     solution: &Solution,
     gain: &Gain,
     jacobian: &DMatrix<f64>,
+    counts: fn(&Scope) -> bool,
 ) -> Vec<f64> {
     let parameters = solution.parameters.len();
     let mut explained = vec![0.0; stack.rows.len()];
     let doubts = stack.campaign.experiment.doubts.iter();
-    for doubt in doubts.filter(|doubt| doubt.scope != Scope::Common) {
+    for doubt in doubts.filter(|doubt| counts(&doubt.scope)) {
         let mut misfits = vec![0.0; stack.rows.len()];
         for act in &doubt.acts {
             let by = stack.misfit_by(&act.on, &solution.parameters);

@@ -173,6 +173,15 @@ impl<'e> Stack<'e> {
             .collect()
     }
 
+    /// What the equation of a response takes from the columns in a row.
+    pub fn stimuli(&self, row: usize, response: usize) -> Vec<f64> {
+        let symbols = self.symbols(row, &[]);
+        let uses = self.campaign.experiment.equations.uses(response);
+        let columns = uses.iter().filter(|place| **place < self.columns.len());
+        // −0 and 0 are the same stimulus.
+        columns.map(|place| symbols[*place] + 0.0).collect()
+    }
+
     /// ∂f/∂parameter, row by row; with `u` in units of the standard uncertainty of each row.
     pub fn jacobian(&self, parameters: &[f64], u: &[f64]) -> DMatrix<f64> {
         let places = self.campaign.experiment.parameter_places();

@@ -160,10 +160,24 @@ impl Checker<'_> {
         let (true, Some(one)) = (clash, open.first()) else {
             return fault;
         };
+        // Columns and numbers that meet each other clash whatever the parameters are.
+        if fault.help.is_some() && !self.names_one(&fault, open) {
+            return fault;
+        }
         fault.help(say!(
             "the equations do not say in which units {} are: state them, [parameter] {one} = {{ unit = \"…\" }}, or use columns as numbers: value_in(x, 'unit')",
             open.join(", ")
         ))
+    }
+
+    /// Whether what a fault points at has one of these names in it.
+    fn names_one(&self, fault: &Fault, names: &[String]) -> bool {
+        let related = fault.related.iter().map(|(place, _)| place);
+        let places = std::iter::once(&fault.span).chain(related);
+        let texts = places.filter_map(|place| self.source.text.get(place.clone()));
+        let mut words =
+            texts.flat_map(|text| text.split(|c: char| !c.is_alphanumeric() && c != '_'));
+        words.any(|word| names.iter().any(|name| name == word))
     }
 
     fn responses(&self, names: &Names, columns: &[Quantity], doubts: &Doubts) -> Responses {

@@ -165,6 +165,6 @@ fn not_one_way(span: Range<usize>, present: &[&str]) -> Fault {
         ));
     }
     fault
-        .label(say!("stated by {}", present.join(" and ")))
+        .label(say!("stated by {}", present.join(", ")))
         .help(say!("keep one of them"))
 }

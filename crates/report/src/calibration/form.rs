@@ -9,7 +9,7 @@ use gumption_format::machine::{self, Machine, Number, all, form};
 use gumption_lab::calibrate::{
     Alias, Apart, Calibration, Campaign, Cause, Coefficient, Combination, Contribution, Figures,
     Identifiability, Limit, Misfit, NearAlias, Omitted, Origin, Plan, Residual, ResponseScatter,
-    Scatter, ScatterTest,
+    Scatter, ScatterTest, Unlike, UnlikeBy,
 };
 use gumption_lab::experiment::{Scope, Words};
 use gumption_lab::recording::Finding;
@@ -39,6 +39,8 @@ form! {
         apart: Vec<ApartForm<'a>> = all(&found.apart, |one| ApartForm::of(one, l)),
         /// Values at which readings stay that should differ.
         limits: Vec<LimitForm<'a>> = all(&found.limits, |one| LimitForm::of(one, l)),
+        /// Responses whose residuals are no scatter.
+        unlike: Vec<UnlikeForm<'a>> = all(&found.unlike, UnlikeForm::of),
         /// Whether the equations are linear in the parameters.
         linear: bool = found.linear,
         /// Steps of the search; 0 for linear equations.
@@ -287,6 +289,19 @@ form! {
         value: Number = Number(limit.value),
         /// Where it is read.
         points: Vec<&'a str> = all(&limit.points, |point: &Words| said(point, l)),
+    }
+
+    /// A response whose residuals are no scatter.
+    UnlikeForm<'a> of (one: &'a Unlike) {
+        /// The response.
+        response: &'a str = &one.response,
+        /// What tells: `repeats` or `runs`.
+        by: &'static str = match one.by {
+            UnlikeBy::Repeats { .. } => "repeats",
+            UnlikeBy::Runs { .. } => "runs",
+        },
+        /// Probability of residuals like that, were they scatter.
+        p_value: Number = Number(one.p_value),
     }
 
     /// The scatter of a response.

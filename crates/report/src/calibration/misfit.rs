@@ -1,5 +1,6 @@
 //! What the equations leave of the readings, and what a reader must know.
 
+use crate::figures::with_unit;
 use crate::language::{Language, Word};
 use crate::number::{NONE, aligned, freedom, significant};
 use crate::phrase::{section, table};
@@ -11,6 +12,7 @@ use gumption_format::document::{
 };
 use gumption_lab::calibrate::{
     Apart, Calibration, Campaign, Limit, Misfit, Residual, ResponseScatter, Scatter, ScatterTest,
+    Unlike, UnlikeBy,
 };
 use gumption_lab::experiment::Words;
 
@@ -231,6 +233,45 @@ fn stands_apart(one: &Apart, l: Language) -> String {
     )
 }
 
+/// Residuals that are no scatter.
+fn no_scatter(campaign: &Campaign, one: &Unlike, l: Language) -> String {
+    let (response, p) = (&one.response, probability_of(one.p_value));
+    let mut responses = campaign.experiment.equations.responses().iter();
+    let own = responses.find(|other| other.name == *response);
+    let unit = own.map_or(String::new(), |own| symbol(&own.unit));
+    let seen = match one.by {
+        UnlikeBy::Repeats {
+            within,
+            between,
+            f,
+        } => {
+            let f = significant(f, 2);
+            let [within, between] =
+                [within, between].map(|s| with_unit(&significant(s, 2), &unit));
+            l.pick(
+                format!("readings of {response} where all stimuli are equal have the standard deviation {within}, and by the distance of their means from the equation it would be {between} (F = {f}, {p})"),
+                format!("激励相同时 {response} 各读数的标准差为 {within}，而由其平均值与方程之差所得为 {between}（F = {f}，{p}）"),
+            )
+        }
+        UnlikeBy::Runs { runs, readings } => l.pick(
+            format!("those of {response} keep their sign in the order of the readings for longer than by chance ({runs} runs of {readings} residuals, {p})"),
+            format!("按读数顺序，{response} 的残差同号延续过久，并非偶然（{readings} 个残差 {runs} 个游程，{p}）"),
+        ),
+    };
+    l.pick(
+        format!("The residuals are no scatter: {seen}. The equations leave something out (curvature, hysteresis, drift), or reference values are wrong. The uncertainties above take it for scatter that averages away. `gumption diagnose` looks for what it is."),
+        format!("残差不是随机分散：{seen}。方程有遗漏（非线性、滞后、漂移等），或参考值有误；上列不确定度将其当作可以平均掉的分散性。可用 `gumption diagnose` 查找原因。"),
+    )
+}
+
+fn probability_of(p: f64) -> String {
+    const LEAST: f64 = 1e-4;
+    match p < LEAST {
+        true => "p < 0.0001".to_owned(),
+        false => format!("p = {}", significant(p, 2)),
+    }
+}
+
 /// What a reader must know.
 pub(super) fn remarks(
     campaign: &Campaign,
@@ -261,6 +302,7 @@ pub(super) fn remarks(
         items.extend(reversed(&found.reversed, l));
         items.extend(found.apart.iter().map(|one| stands_apart(one, l)));
         items.extend(found.limits.iter().map(|limit| at_limit(limit, l)));
+        items.extend(found.unlike.iter().map(|one| no_scatter(campaign, one, l)));
         if !found.linear {
             items.push(l.pick(
                 "The equations are not linear in the parameters: uncertainties and written budgets are of first order in the errors.",

@@ -336,13 +336,13 @@ fn share_of_what(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) 
 fn ratio_help(context: &Context<'_>, number: f64, fraction: f64, unit: &Unit) -> Said {
     let relative = match context.value {
         Some(value) => say!(
-            "for {} of the value {} write {} with relative = true",
+            "for {} of the value {} write {} with relative = true beside it (of a certificate, behind its braces)",
             show(fraction),
             show(value),
             show(fraction)
         ),
         None => say!(
-            "for a fraction of the value write {} with relative = true",
+            "for a fraction of the value write {} with relative = true beside it (of a certificate, behind its braces)",
             show(fraction)
         ),
     };

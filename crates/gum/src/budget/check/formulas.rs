@@ -7,10 +7,10 @@ use super::checker::Checker;
 use super::draft::show;
 use super::entries::entries;
 use super::register::Register;
-use crate::budget::faults::{NO_MEASURAND, UNUSED};
+use crate::budget::faults::{NAME_TWICE, NO_MEASURAND, UNUSED};
 use crate::budget::tables::{FileTable, MeasurandTable};
 use crate::budget::{Constant, Measurand};
-use gumption_core::model::faults::{NO_MODEL, UNKNOWN_FUNCTION, UNKNOWN_NAME};
+use gumption_core::model::faults::{DEFINED_TWICE, NO_MODEL, UNKNOWN_FUNCTION, UNKNOWN_NAME};
 use gumption_core::model::{MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
@@ -120,6 +120,9 @@ impl Checker<'_> {
                     .into_iter()
                     .filter(|f| !(hidden && is_missing(&f.fault)))
                 {
+                    if self.known_twice(&fault, file) {
+                        continue;
+                    }
                     let placed = self.placed(fault, file, constants.len(), register);
                     self.report(placed);
                 }
@@ -164,6 +167,18 @@ impl Checker<'_> {
                 table.unit.as_ref().and(unit)
             },
         }
+    }
+
+    /// Whether the check of all names has told that a measurand has the name of something else.
+    fn known_twice(&self, found: &ModelFault, file: &FileTable) -> bool {
+        let Place::Entry(index) = found.place else {
+            return false;
+        };
+        let key = entries(&file.measurand)
+            .get(index)
+            .map(|(_, entry)| &entry.key);
+        let told = |fault: &Fault| fault.code == NAME_TWICE && Some(&fault.span) == key;
+        found.fault.code == DEFINED_TWICE && self.messages.faults.iter().any(told)
     }
 
     /// Moves a fault of a formula to its place in the file.

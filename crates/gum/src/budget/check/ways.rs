@@ -231,7 +231,7 @@ impl Checker<'_> {
                     "the uncertainty of {} is stated in {} ways, {}",
                     context.owner,
                     keys.len(),
-                    keys.join(" and "),
+                    keys.join(", "),
                 );
                 let mut fault = Fault::new(TWO_WAYS, second.clone(), message)
                     .label(say!("stated again here"))

@@ -133,26 +133,25 @@ fn is_called(entry: &Raw<'_>, name: &str) -> bool {
 
 fn replace<'t>(slot: Option<&mut Raw<'t>>, cell: &Raw<'t>) -> Result<(), Said> {
     let Some(slot) = slot else { return Ok(()) };
-    // A constant that is a text with a unit keeps its unit.
-    let unit = match (slot.get_ref(), cell.get_ref()) {
-        (DeValue::String(text), DeValue::Integer(_) | DeValue::Float(_)) => {
-            amount_parts(text).map(|(_, unit)| unit.to_string())
-        }
-        _ => None,
-    };
-    *slot = match unit {
-        None => cell.clone(),
-        Some(unit) => {
-            let place = slot.span();
-            let key = |name: &'static str| Spanned::new(place.clone(), DeString::from(name));
-            let mut amount = DeTable::new();
-            amount.insert(key("value"), cell.clone());
-            let unit = DeValue::String(unit.into());
-            amount.insert(key("unit"), Spanned::new(place.clone(), unit));
-            Spanned::new(place, DeValue::Table(amount))
-        }
+    *slot = match slot.get_ref() {
+        DeValue::String(text) => in_unit_of(text, cell).unwrap_or_else(|| cell.clone()),
+        _ => cell.clone(),
     };
     Ok(())
+}
+
+/// A number in the unit of the text with a unit whose place it takes: `0.2` in that of `"0.1 %"`.
+fn in_unit_of<'t>(text: &str, cell: &Raw<'t>) -> Option<Raw<'t>> {
+    let number = match cell.get_ref() {
+        DeValue::Integer(number) if number.radix() == 10 => number.as_str(),
+        DeValue::Float(number) => number.as_str(),
+        _ => return None,
+    };
+    let (_, unit) = amount_parts(text)?;
+    let amount = format!("{} {unit}", number.replace('_', ""));
+    // Not so of an angle in degrees, minutes and seconds.
+    (amount_parts(&amount)?.1 == unit)
+        .then(|| Spanned::new(cell.span(), DeValue::String(amount.into())))
 }
 
 fn set_in_value<'t>(

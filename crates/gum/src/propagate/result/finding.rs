@@ -61,10 +61,13 @@ pub enum FindingKind {
         /// Why.
         reason: MissingMoments,
     },
-    /// Monte Carlo draws means of few readings from t-distributions, which are wider than s/√n of the GUM.
+    /// Monte Carlo draws means of few readings from t-distributions, which are wider than s/√n of the GUM. Few
+    /// effective degrees of freedom are told with it, and that clause 8 refutes the interval of the GUM for nothing else.
     FewReadings {
         /// The components, the one with the fewest degrees of freedom first.
         components: Vec<FewReadings>,
+        /// ν_eff, where it is small.
+        dof: Option<f64>,
     },
     /// Some trials gave no finite value.
     FailedTrials {
@@ -125,6 +128,23 @@ pub enum FindingKind {
         k: f64,
         /// k times its contribution.
         reference: f64,
+    },
+    /// A value that does not conform is compared with its nominal and lies nearer to zero: it may be the error of
+    /// indication, which is compared with zero.
+    ErrorMeant {
+        /// Name of the assessment.
+        assessment: String,
+        /// What the value is compared with.
+        nominal: f64,
+    },
+    /// A value that is compared with zero as an error of indication is so large that it may be the indication itself.
+    IndicationMeant {
+        /// Name of the assessment.
+        assessment: String,
+        /// The value divided by the maximum permissible error.
+        ratio: f64,
+        /// The value at which the error is found, where that is stated.
+        of: Option<f64>,
     },
     /// The distribution of a phase reaches the jump between -π and π; trials are taken on the turn around the estimate.
     PhaseWraps {

@@ -3,6 +3,7 @@
 mod closed_forms;
 mod refusals;
 mod simulations;
+mod unlike;
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};

@@ -11,7 +11,7 @@ use crate::budget::check::register::{Register, no_such_input};
 use crate::budget::check::{Checker, entries};
 use crate::budget::faults::{CLAIM, NAME_TWICE, RELATIVE_UNCLEAR, TOLERANCE};
 use crate::budget::tables::{ConformityTable, FileTable};
-use crate::budget::{Conformity, Interval};
+use crate::budget::{Conformity, Interval, StatedTolerance};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Amount;
@@ -71,7 +71,7 @@ impl Checker<'_> {
         let (name, entry) = entries(&file.measurand).get(measurand)?;
         let unit = self.unit(&entry.value.unit)?;
         let subject = Subject { name, unit: &unit };
-        let tolerance = self.tolerance(stated, &subject);
+        let (tolerance, compared) = self.tolerance(stated, &subject).unzip();
         let rule = self.rule(stated, &subject, tolerance);
         let process = match (&table.process, tolerance) {
             (Some(process), Some(tolerance)) => self.process(process, tolerance).map(Some),
@@ -85,6 +85,7 @@ impl Checker<'_> {
                 .map_or_else(|| name.clone(), |text| text.value.clone()),
             measurand,
             tolerance: tolerance?,
+            stated: compared?,
             rule: rule?,
             process: process?,
             carrier: carrier?,
@@ -96,7 +97,7 @@ impl Checker<'_> {
         &mut self,
         stated: &Stated<ConformityTable>,
         subject: &Subject<'_>,
-    ) -> Option<Interval> {
+    ) -> Option<(Interval, StatedTolerance)> {
         let table = &stated.value;
         if let Some(mpe) = &table.mpe {
             return self.permissible_error(table, mpe, subject);
@@ -145,7 +146,7 @@ impl Checker<'_> {
                 .label(say!("must be above the lower limit"))
                 .related(first.span.clone(), say!("lower limit")),
             ),
-            _ => Some(Interval { lower, upper }),
+            _ => Some((Interval { lower, upper }, StatedTolerance::Limits)),
         }
     }
 
@@ -155,7 +156,7 @@ impl Checker<'_> {
         table: &ConformityTable,
         mpe: &Stated<Amount>,
         subject: &Subject<'_>,
-    ) -> Option<Interval> {
+    ) -> Option<(Interval, StatedTolerance)> {
         if let Some(limit) = table.lower.as_ref().or(table.upper.as_ref()) {
             return self.refuse(
                 Fault::new(
@@ -230,11 +231,16 @@ impl Checker<'_> {
             return self.refuse(part_or_points(mpe, &own, nominal, subject));
         }
         let width = self.deviation(mpe, &context, false)?;
+        let compared = match nominal.filter(|nominal| *nominal != 0.0) {
+            Some(nominal) => StatedTolerance::Nominal(nominal),
+            None => StatedTolerance::Error { of },
+        };
         let nominal = nominal.unwrap_or(0.0);
-        Some(Interval {
+        let interval = Interval {
             lower: nominal - width,
             upper: nominal + width,
-        })
+        };
+        Some((interval, compared))
     }
 
     /// An input by name that moves with the measurand.

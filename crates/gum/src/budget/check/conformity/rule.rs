@@ -71,6 +71,25 @@ impl Guards {
     }
 }
 
+/// Keys that state a decision rule.
+const RULES: [&str; 10] = [
+    "rule",
+    "guard_band",
+    "guard_band_factor",
+    "conformance_probability",
+    "nonconformance_probability",
+    "specific_consumer_risk",
+    "specific_producer_risk",
+    "global_consumer_risk",
+    "global_producer_risk",
+    "acceptance",
+];
+
+fn states_rule(table: &ConformityTable) -> bool {
+    let mut present = table.present.iter();
+    present.any(|(key, _)| RULES.contains(key))
+}
+
 impl Checker<'_> {
     /// The decision rule, from whichever keys state it.
     pub(super) fn rule(
@@ -150,7 +169,8 @@ impl Checker<'_> {
             (Some(inner), Some(outer), None) => Some(DecisionRule::NonBinary { inner, outer }),
             (Some(inner), None, None) => Some(DecisionRule::GuardedAcceptance(inner)),
             (None, Some(outer), None) => Some(DecisionRule::GuardedRejection(outer)),
-            (None, None, None) if stated.value.refused => None,
+            // The key that says it may be the one that was refused.
+            (None, None, None) if stated.value.unknown || states_rule(&stated.value) => None,
             (None, None, _) => self.refuse(no_rule(stated)),
             (_, _, Some(band)) => self.clash(&band.key, BAND_AND_PROBABILITY),
         }
@@ -166,18 +186,6 @@ impl Checker<'_> {
 
     /// Nothing else may state the rule beside keys that are complete by themselves.
     fn alone(&mut self, table: &ConformityTable, keys: &[&str]) -> Option<()> {
-        const RULES: [&str; 10] = [
-            "rule",
-            "guard_band",
-            "guard_band_factor",
-            "conformance_probability",
-            "nonconformance_probability",
-            "specific_consumer_risk",
-            "specific_producer_risk",
-            "global_consumer_risk",
-            "global_producer_risk",
-            "acceptance",
-        ];
         let mut present = table.present.iter();
         let other = present.find(|(key, _)| RULES.contains(key) && !keys.contains(key));
         match other {

@@ -139,7 +139,7 @@ impl Unsolved<'_> {
             .filter_map(|index| self.formula.parameters.get(*index))
             .map(|parameter| parameter.name.as_str())
             .collect();
-        let message = say!("the data do not tell {} apart", names.join(" and "));
+        let message = say!("the data do not tell {} apart", names.join(", "));
         let fault = Fault::new(FIT_INDISTINCT, self.place(), message)
             .label(say!(
                 "they can change together and leave the curve as it is"

@@ -132,6 +132,38 @@ fn specification_resolution_and_bits() {
 }
 
 #[test]
+fn what_a_count_or_a_small_sample_is_taken_for_is_told() {
+    let remarks = |keys: &str| {
+        budget(&format!(
+            "[measurand.Y]\nmodel = \"X\"\n[input.X]\n{keys}\n"
+        ))
+        .remarks
+    };
+    let one = |keys: &str| {
+        let found = remarks(keys);
+        assert_eq!(found.len(), 1, "{keys}");
+        found[0].en.clone()
+    };
+    let counted = one("count = 3");
+    assert!(
+        counted.contains("the estimate is 4 and u² = 4"),
+        "{counted}"
+    );
+    assert!(one("successes = 3\ntrials = 4").contains("= 4 / 6, by"));
+    for prior in ["uniform", "jeffreys", "reciprocal"] {
+        let counted = format!("count = 3\nprior = \"{prior}\"");
+        assert!(remarks(&counted).is_empty(), "{prior}");
+    }
+    // Of 39 values none has 2.5 % beyond it.
+    let sample = |n: usize| {
+        let values: Vec<String> = (0..n).map(|i| i.to_string()).collect();
+        format!("sample = [{}]", values.join(", "))
+    };
+    assert!(one(&sample(39)).contains("39 values of `sample`"));
+    assert!(remarks(&sample(40)).is_empty());
+}
+
+#[test]
 fn asymmetric_limits_move_the_estimate() {
     let budget = budget(&one("value = 10\nplus = 0.4\nminus = 0.2"));
     close(budget.inputs[0].estimate, 10.1);

@@ -81,7 +81,6 @@ struct Seen<'c> {
     /// No effect.
     frame: Frame,
     question: Question<'c>,
-    singles: Singles,
     alone: f64,
     with: f64,
 }
@@ -117,8 +116,7 @@ pub fn contest(
         let frame = space.empty();
         let strongest = Panel::new(&space, &question, &frame).observed(&space, 0.0);
         let gain = strongest.map_or(0.0, |one| one.statistic);
-        let singles = Singles::new(&space, &question);
-        let two = singles.in_turn(&space.components, space.rss());
+        let two = Singles::new(&space, &question).observed(&space);
         Ok(Seen {
             course: &courses[at],
             alone: alone[at],
@@ -126,7 +124,6 @@ pub fn contest(
             space,
             frame,
             question,
-            singles,
         })
     };
     let seen: Vec<Seen<'_>> = side_by_side(courses.len(), see)
@@ -176,7 +173,8 @@ struct Bench<'s> {
     course: &'s Course,
     simulated: Simulated<'s>,
     panel: Panel<'s>,
-    singles: &'s Singles,
+    space: &'s Space,
+    singles: Singles,
 }
 
 impl<'s> Bench<'s> {
@@ -187,7 +185,8 @@ impl<'s> Bench<'s> {
             course: seen.course,
             simulated: Simulated::new(seen.question.baseline, &seen.space, settings.seed, draws),
             panel: Panel::new(&seen.space, &seen.question, &seen.frame),
-            singles: &seen.singles,
+            space: &seen.space,
+            singles: Singles::new(&seen.space, &seen.question),
         }
     }
 
@@ -196,15 +195,17 @@ impl<'s> Bench<'s> {
     fn simulated(&self, chunk: usize) -> Vec<[f64; 2]> {
         let recordings = self.simulated.drawn(chunk);
         let gains = self.panel.simulated(&recordings, None);
-        let both = |(draw, [gain, _]): (usize, [f64; 2])| {
-            let sum = recordings.chi_squared()[draw];
-            let alone = self.course.log_prior + self.course.baseline.log_likelihood_of(sum);
-            let components = recordings.components.row(draw).transpose();
-            let rss = sum + recordings.offsets[draw];
-            let two = self.singles.in_turn(&components, rss);
+        let sums = recordings.chi_squared();
+        let rss: Vec<f64> = (sums.iter().zip(&recordings.offsets))
+            .map(|(sum, offset)| sum + offset)
+            .collect();
+        let pairs = (self.singles).in_turn(self.space, &recordings.components, &rss);
+        let each = sums.iter().zip(gains).zip(pairs);
+        let both = each.map(|((sum, [gain, _]), two)| {
+            let alone = self.course.log_prior + self.course.baseline.log_likelihood_of(*sum);
             [alone, alone + gain.max(two).max(0.0)]
-        };
-        gains.into_iter().enumerate().map(both).collect()
+        });
+        both.collect()
     }
 }
 

@@ -50,7 +50,7 @@ pub(super) fn test(
         };
     };
     let alpha = question.settings.alpha;
-    let in_turn = |pairs: &Pairs| pairs.singles.in_turn(&space.components, space.rss());
+    let in_turn = |pairs: &Pairs| pairs.singles.observed(space);
     let observed = [
         strongest
             .allowed
@@ -205,10 +205,9 @@ impl<'a> Panel<'a> {
         if let Some(pairs) = pairs {
             let rss: Vec<f64> = residuals.iter().map(|r| r.rss).collect();
             let values = pairs.simulated(&recordings.components, &rss);
-            for (lane, place) in out.iter_mut().enumerate() {
-                let own = recordings.components.row(lane).transpose();
-                place[0] = place[0].max(pairs.singles.in_turn(&own, rss[lane]));
-                place[1] = values[lane];
+            let in_turn = (pairs.singles).in_turn(self.beside.space, &recordings.components, &rss);
+            for ((place, value), two) in out.iter_mut().zip(values).zip(in_turn) {
+                *place = [place[0].max(two), value];
             }
         }
         out

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeSet;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::closed_form::{Scale, named};
 use super::question::{Kind, Question};
@@ -22,8 +22,6 @@ const SEEDS: usize = 40;
 /// All one-dimensional named atoms.
 pub(super) struct Singles {
     each: Vec<Single>,
-    /// Their directions.
-    basis: DMatrix<f64>,
     scale: Scale,
 }
 
@@ -55,7 +53,7 @@ impl Singles {
     pub(super) fn new(space: &Space, question: &Question) -> Singles {
         let blocks = space.blocks.iter().enumerate();
         let named = blocks.filter(|(_, block)| block.kind() == Kind::Named);
-        let each: Vec<Single> = named
+        let each = named
             .filter(|(_, block)| block.basis.ncols() == 1)
             .map(|(index, block)| Single {
                 block: index,
@@ -65,37 +63,63 @@ impl Singles {
                 log_odds: block.log_odds,
             })
             .collect();
-        let places: Vec<usize> = each.iter().map(|single| single.place).collect();
         Singles {
             each,
-            basis: space.directions.select_columns(&places),
             scale: space.scale,
         }
     }
 
-    /// The evidence of the best effect with the best one beside it, where the scale of the noise is estimated; the recording
-    /// has these components along the directions of all blocks.
-    pub(super) fn in_turn(&self, components: &DVector<f64>, rss: f64) -> f64 {
-        if self.scale == Scale::Known {
-            return f64::NEG_INFINITY;
+    /// Columns of a matrix that has one for each direction of the space.
+    fn of(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        let places: Vec<usize> = self.each.iter().map(|single| single.place).collect();
+        columns.select_columns(&places)
+    }
+
+    /// The evidence of the best effect with the best one beside it, where the scale of the noise is estimated, for each of
+    /// some recordings: one per row, with their components along the directions of all blocks, and their sums of squares.
+    pub(super) fn in_turn(
+        &self,
+        space: &Space,
+        components: &DMatrix<f64>,
+        rss: &[f64],
+    ) -> Vec<f64> {
+        if self.scale == Scale::Known || self.each.is_empty() {
+            return vec![f64::NEG_INFINITY; rss.len()];
         }
-        let weight = self.weight(rss);
-        let along = |at: usize| components[self.each[at].place];
-        let own = |at: usize| along(at).powi(2) * weight + self.each[at].log_odds;
-        let all = 0..self.each.len();
-        let Some(first) = all.clone().max_by(|a, b| own(*a).total_cmp(&own(*b))) else {
-            return f64::NEG_INFINITY;
+        let along = self.of(components).transpose();
+        let first = |lane: usize| {
+            let weight = self.weight(rss[lane]);
+            let value = |at: usize| along[(at, lane)].powi(2) * weight + self.each[at].log_odds;
+            (0..self.each.len()).fold(
+                0,
+                |best, at| if value(at) > value(best) { at } else { best },
+            )
         };
-        let cosines = self.basis.tr_mul(&self.basis.column(first));
-        let with = |second: usize| {
-            let pair = self.pair(first, second, cosines[second])?;
-            Some((pair.fit(along(first), along(second)), pair.log_odds))
+        let firsts: Vec<usize> = (0..rss.len()).map(first).collect();
+        let basis = self.of(&space.directions);
+        let cosines = basis.tr_mul(&basis.select_columns(&firsts));
+        let evidence = |(lane, first): (usize, &usize)| {
+            let (own, cosines) = (along.column(lane), cosines.column(lane));
+            let weight = self.weight(rss[lane]);
+            let with = |second: usize| {
+                let pair = self.pair(*first, second, cosines[second])?;
+                Some((pair.fit(own[*first], own[second]), pair.log_odds))
+            };
+            let value = |(fit, log_odds): &(f64, f64)| fit * weight + log_odds;
+            let pairs = (0..self.each.len()).filter_map(with);
+            let best = pairs.max_by(|a, b| value(a).total_cmp(&value(b)));
+            best.map_or(f64::NEG_INFINITY, |(fit, log_odds)| {
+                named(2, fit, rss[lane], self.scale) + log_odds
+            })
         };
-        let value = |(fit, log_odds): &(f64, f64)| fit * weight + log_odds;
-        let best = (all.filter_map(with)).max_by(|a, b| value(a).total_cmp(&value(b)));
-        best.map_or(f64::NEG_INFINITY, |(fit, log_odds)| {
-            named(2, fit, rss, self.scale) + log_odds
-        })
+        firsts.iter().enumerate().map(evidence).collect()
+    }
+
+    /// That of the recording itself.
+    pub(super) fn observed(&self, space: &Space) -> f64 {
+        let components =
+            DMatrix::from_row_slice(1, space.components.len(), space.components.as_slice());
+        self.in_turn(space, &components, &[space.rss()])[0]
     }
 
     /// Two that may be there at once and are not one.
@@ -121,7 +145,8 @@ impl Singles {
 impl Pairs {
     pub(super) fn new(space: &Space, question: &Question) -> Pairs {
         let singles = Singles::new(space, question);
-        let gram = singles.basis.transpose() * &singles.basis;
+        let basis = singles.of(&space.directions);
+        let gram = basis.tr_mul(&basis);
         let both = (0..singles.each.len()).flat_map(|b| (0..b).map(move |a| (a, b)));
         let resembling = both.filter(|both| gram[*both].abs() > APART);
         let pairs = resembling.filter_map(|(a, b)| singles.pair(a, b, gram[(a, b)]));
@@ -196,6 +221,8 @@ impl Pair {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::DVector;
+
     use super::super::baseline::{Baseline, Prior};
     use super::super::examine::examine;
     use super::super::findings::Verdict;
@@ -242,7 +269,7 @@ mod tests {
                 settings: Settings::default(),
             };
             let space = Space::new(&question).unwrap();
-            let found = Singles::new(&space, &question).in_turn(&space.components, space.rss());
+            let found = Singles::new(&space, &question).observed(&space);
             let examination = examine(&question, &|_| std::ops::ControlFlow::Continue(()));
             (found, examination.unwrap())
         };
@@ -251,11 +278,5 @@ mod tests {
         let (both, found) = examined(8.0, 9.0);
         assert!(both > 10.0, "{both}");
         assert_eq!(found.slots.len(), 2);
-        let known = Singles {
-            each: Vec::new(),
-            basis: DMatrix::zeros(ROWS, 0),
-            scale: Scale::Known,
-        };
-        assert_eq!(known.in_turn(&DVector::zeros(0), 1.0), f64::NEG_INFINITY);
     }
 }

@@ -101,7 +101,7 @@ fn save_tables(options: &Options) -> Result<(), String> {
          challenge` (docs/challenge.md), on rigs and instruments in turn. λ is the visible strength of an effect in standard \
          deviations of the true noise, κ what its nearest rival leaves of it: both from twin runs of the simulator, with and \
          without the effect. Rivals are every other effect of the simulator, in all its forms, and every wrong candidate of the \
-         catalogue that has at most one coefficient more than the right one. Every case is a line of diagnosis.jsonl. \
+         catalogue that has at most one coefficient more than the right one and is not the right one with a further order. Every case is a line of diagnosis.jsonl. \
          Earlier tables: diagnosis-1.md (four rigs, the catalogue scored by slopes), diagnosis-2.md (noise judged before \
          the explanation), diagnosis-3.md (departures of a form allowed to everything beside it), diagnosis-4.md (a delay written as two terms), \
          diagnosis-5.md (effects on the scale of specimens not looked for, shapes looked for anew in a held-out recording), \
@@ -327,14 +327,25 @@ fn likenesses(trial: &Trial, sealed: &SealedCase, case: &Case) -> Vec<Likeness> 
         let all = stand_ins(case, &own, &others).unwrap_or_default();
         let accepted = |one: &StandIn, effect| grade::accepts(effect, &name(&one.pick));
         let right = all.iter().filter(|one| accepted(one, &effects[at]));
-        let coefficients = right
-            .min_by(|a, b| a.left.total_cmp(&b.left))
-            .map_or(USUAL, |best| best.coefficients);
+        let right: Vec<&StandIn> = right.collect();
+        let best = right.iter().min_by(|a, b| a.left.total_cmp(&b.left));
+        let coefficients = best.map_or(USUAL, |best| best.coefficients);
+        let as_well = best.map_or(0.0, |best| best.left.max(ALIAS));
+        // A right one with a further order beside it is no other answer: it is the same with a size of zero.
+        let extends = |one: &StandIn| {
+            let order = |right: &&StandIn| {
+                one.pick.id.entry().order_of.contains(&right.pick.id)
+                    && one.pick.along == right.pick.along
+                    && one.coefficients > right.coefficients
+                    && (one.left..=as_well).contains(&right.left)
+            };
+            right.iter().any(order)
+        };
         // What bears the name of another effect of the case is no rival either.
         let rivals: Vec<&StandIn> = all
             .iter()
             .filter(|one| !effects.iter().any(|effect| accepted(one, effect)))
-            .filter(|one| one.coefficients <= coefficients.saturating_add(1))
+            .filter(|one| one.coefficients <= coefficients.saturating_add(1) && !extends(one))
             .collect();
         // Where the name was taken out, its alias is its nearest kin and no more.
         let is_whole = trial.ablation == Ablation::Whole;

@@ -5,7 +5,7 @@
 use super::case::Case;
 use super::catalogue::{EffectId, Term, Variation};
 use super::confirm::Estimated;
-use super::evidence::{Alternative, Slot, State, Verdict};
+use super::evidence::{self, Alternative, Likeness, Slot, State, Verdict};
 use super::run::Diagnosis;
 
 /// What a diagnosis says, in one sentence.
@@ -124,6 +124,12 @@ impl Diagnosis {
             (true, true, Some(name)) => Conclusion::Undecided { name, places },
             (true, true, None) => Conclusion::Unexplained { places },
         }
+    }
+
+    /// Why a slot says no more than what its effect acts like.
+    pub fn likeness(&self, slot: &Slot) -> Likeness {
+        let place = |candidate: usize| &self.cells[candidate].place;
+        evidence::likeness(slot, &self.examination.slots, place)
     }
 
     /// Why the names of a slot are to be taken with care; `None` where they hold.

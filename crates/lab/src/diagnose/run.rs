@@ -184,7 +184,9 @@ pub fn diagnose(
         places,
         ..
     } = candidates;
-    if examination.verdict == Verdict::None && claimed.wanders() {
+    let ordered = fitted.clock.column.is_some() && courses.is_some();
+    let as_noise = claimed.wanders() || (claimed.is_estimated() && ordered);
+    if examination.verdict == Verdict::None && as_noise {
         // Two tests, each with half of the probability of a false alarm.
         let p = (2.0 * evidence::unsteadiness(&baseline, settings.seed)).min(1.0);
         if p <= settings.alpha {

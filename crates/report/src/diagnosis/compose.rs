@@ -8,7 +8,7 @@ use gumption_format::document::{
     ColumnKind::{Names as NamesColumn, Numbers},
 };
 use gumption_lab::diagnose::case::Case;
-use gumption_lab::diagnose::evidence::{Alternative, Likeness, Slot, State, likeness};
+use gumption_lab::diagnose::evidence::{Alternative, Likeness, Slot, State};
 use gumption_lab::diagnose::{Diagnosis, Doubt};
 
 use super::labels::spoken;
@@ -203,7 +203,7 @@ fn named(case: &Case, diagnosis: &Diagnosis, slot: &Slot, names: Names<'_>) -> V
             said.push(prose);
         }
         if slot.state == State::Like {
-            let text = only_like(likeness(slot, &diagnosis.examination.slots), names.l);
+            let text = only_like(diagnosis.likeness(slot), names.l);
             blocks.push(Block::Paragraph(text.to_owned()));
         }
         let lines = [names.formula(diagnosis, alternative)].into_iter();
@@ -228,6 +228,10 @@ fn only_like(likeness: Likeness, l: Language) -> &'static str {
         Likeness::Open => l.pick(
             "Something without a name is left beside it, and may have a part of what it explains.",
             "此外还有无法命名的部分，它可能占其所解释的一部分。",
+        ),
+        Likeness::Piece => l.pick(
+            "Another effect beside it follows the same quantity: together they may be pieces of one course that the catalogue does not have.",
+            "另有一种影响随同一量变化：两者合起来可能是目录中没有的某一种变化的各段。",
         ),
         Likeness::Form => l.pick(
             "Nothing else in the catalogue acts like this. The recording departs a little from the form given here: more than noise does, less than would make it another effect.",

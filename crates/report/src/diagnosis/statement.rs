@@ -18,6 +18,12 @@ pub(super) fn verdict(diagnosis: &Diagnosis, l: Language) -> String {
     let at =
         |places: &[&Alternative]| joined(places.iter().map(|one| names.plain(one.candidate)), l);
     match diagnosis.conclusion() {
+        Conclusion::Agreement if diagnosis.noise.is_estimated() && diagnosis.noise.wanders() => l
+            .pick(
+                "Nothing in the catalogue is seen beside noise that wanders from row to row. No noise is claimed that it could be held against: something left out that changes with time would look the same.",
+                "在逐行游走的噪声之外，未见目录中的任何影响。未声明噪声，无从比较：若遗漏了随时间变化的因素，看起来也会如此。",
+            )
+            .to_owned(),
         Conclusion::Agreement if diagnosis.noise.is_estimated() => l
             .pick(
                 "Model and recording agree: nothing is left out that this recording can show. No noise is claimed that its scatter could be held against.",

@@ -163,8 +163,11 @@ fn kink(fitted: &FittedModel<'_>, column: usize) -> Cell {
     let x = fitted.numbers(column);
     let unit = fitted.case().columns[column].unit.typeset();
     let (least, most) = range(x);
-    let knees = (1..PARTS).map(|part| least + part as f64 / PARTS as f64 * (most - least));
-    let knees = fitted.finer.levels(knees.collect());
+    let parts = (1..PARTS).map(|part| least + part as f64 / PARTS as f64 * (most - least));
+    // Beyond the last value but one there is one reading: wrong, or the only one on another slope.
+    let values = levels_of(x);
+    let ends = [values[1], values[values.len() - 2]];
+    let knees = fitted.finer.levels(parts.chain(ends).collect());
     let variants = knees.into_iter().map(|at| {
         let modifier = map(x, |x| (x - at).max(0.0));
         let shown = figure_to(at, LABEL * (most - least));

@@ -1,8 +1,9 @@
 //! Correlated noise as the rival of every effect: what wanders through a recording may be either.
 //!
 //! Each course of the noise (white, forgetting within a time, flickering) has a restricted likelihood of its own, without
-//! an effect and with the best one. The gain by the best effect, both maximised over the courses, is compared with what
-//! recordings have that nothing but noise of the likely courses made: with the same choice of course and effect in each.
+//! an effect and with the best one, or the best two where each is noise to the other. The gain, both maximised over the
+//! courses, is compared with what recordings have that nothing but noise of the likely courses made: with the same choice of
+//! course and effects in each.
 
 use std::sync::Arc;
 
@@ -13,6 +14,7 @@ use super::closed_form::Scale;
 use super::detection::Panel;
 use super::noise::{Covariance, Factor};
 use super::null::{Simulated, side_by_side};
+use super::pairs::Singles;
 use super::question::{Atom, Candidate, Question, Settings};
 use super::refusal::Refusal;
 use super::sequential::{is_settled, look};
@@ -114,10 +116,11 @@ pub fn contest(
         let frame = space.empty();
         let strongest = Panel::new(&space, &question, &frame).observed(&space, 0.0);
         let gain = strongest.map_or(0.0, |one| one.statistic);
+        let two = Singles::new(&space, &question).observed(&space);
         Ok(Seen {
             course: &courses[at],
             alone: alone[at],
-            with: alone[at] + gain.max(0.0),
+            with: alone[at] + gain.max(two).max(0.0),
             space,
             frame,
             question,
@@ -170,6 +173,8 @@ struct Bench<'s> {
     course: &'s Course,
     simulated: Simulated<'s>,
     panel: Panel<'s>,
+    space: &'s Space,
+    singles: Singles,
 }
 
 impl<'s> Bench<'s> {
@@ -180,18 +185,25 @@ impl<'s> Bench<'s> {
             course: seen.course,
             simulated: Simulated::new(seen.question.baseline, &seen.space, settings.seed, draws),
             panel: Panel::new(&seen.space, &seen.question, &seen.frame),
+            space: &seen.space,
+            singles: Singles::new(&seen.space, &seen.question),
         }
     }
 
-    /// Logarithms of the probability of this course without an effect and with the best one, for each recording of a
-    /// chunk.
+    /// Logarithms of the probability of this course without an effect and with the best one or two, for each recording of
+    /// a chunk.
     fn simulated(&self, chunk: usize) -> Vec<[f64; 2]> {
         let recordings = self.simulated.drawn(chunk);
         let gains = self.panel.simulated(&recordings, None);
-        let sums = recordings.chi_squared().iter();
-        let both = sums.zip(gains).map(|(sum, [gain, _])| {
+        let sums = recordings.chi_squared();
+        let rss: Vec<f64> = (sums.iter().zip(&recordings.offsets))
+            .map(|(sum, offset)| sum + offset)
+            .collect();
+        let pairs = (self.singles).in_turn(self.space, &recordings.components, &rss);
+        let each = sums.iter().zip(gains).zip(pairs);
+        let both = each.map(|((sum, [gain, _]), two)| {
             let alone = self.course.log_prior + self.course.baseline.log_likelihood_of(*sum);
-            [alone, alone + gain.max(0.0)]
+            [alone, alone + gain.max(two).max(0.0)]
         });
         both.collect()
     }

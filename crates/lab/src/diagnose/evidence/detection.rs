@@ -50,8 +50,11 @@ pub(super) fn test(
         };
     };
     let alpha = question.settings.alpha;
+    let in_turn = |pairs: &Pairs| pairs.singles.observed(space);
     let observed = [
-        strongest.allowed,
+        strongest
+            .allowed
+            .max(pairs.map_or(f64::NEG_INFINITY, in_turn)),
         pairs.map_or(f64::NEG_INFINITY, |pairs| pairs.observed(space)),
     ];
     let (chunks, look) = (simulated.chunks(), look(alpha));
@@ -202,8 +205,9 @@ impl<'a> Panel<'a> {
         if let Some(pairs) = pairs {
             let rss: Vec<f64> = residuals.iter().map(|r| r.rss).collect();
             let values = pairs.simulated(&recordings.components, &rss);
-            for (place, value) in out.iter_mut().zip(values) {
-                place[1] = value;
+            let in_turn = (pairs.singles).in_turn(self.beside.space, &recordings.components, &rss);
+            for ((place, value), two) in out.iter_mut().zip(values).zip(in_turn) {
+                *place = [place[0].max(two), value];
             }
         }
         out

@@ -56,7 +56,7 @@ pub fn examine(
             None => doubt(&space, question, &named, &mut slots),
         }
     }
-    graded(&mut slots);
+    graded(question, &mut slots);
     for slot in slots
         .iter_mut()
         .filter(|slot| slot.state == State::Unexplained)
@@ -171,8 +171,9 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
 
     use super::super::baseline::{Baseline, Prior};
+    use super::super::grades::{Likeness, likeness};
     use super::super::noise::{Covariance, Noise};
-    use super::super::question::{Atom, Candidate, Settings, Shape};
+    use super::super::question::{Atom, Candidate, Place, Settings, Shape};
     use super::*;
 
     const ROWS: usize = 60;
@@ -227,6 +228,19 @@ mod tests {
         let found = examined(course(|t| t) * 30.0, false);
         assert_eq!(found.verdict, Verdict::Identified);
         assert_eq!(examined(hum() * 0.0, false).verdict, Verdict::None);
+    }
+
+    #[test]
+    fn effects_at_one_place_may_be_pieces_of_one_course() {
+        let square = course(|t| (t - 0.5) * (t - 0.5));
+        let found = examined(course(|t| t) * 30.0 + square * 90.0, false);
+        assert_eq!(found.slots.len(), 2);
+        let places = ["temperature", "time"].map(|along| Place::new("offset", along));
+        let first = |place: &dyn Fn(usize) -> usize| {
+            likeness(&found.slots[0], &found.slots, |one| &places[place(one)])
+        };
+        assert_eq!(first(&|candidate| candidate), Likeness::Form);
+        assert_eq!(first(&|_| 1), Likeness::Piece);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::departure::LIKENESS;
 use super::detection;
 use super::findings::{Slot, State};
 use super::null::Simulated;
-use super::question::Question;
+use super::question::{Place, Question};
 use super::search::Search;
 use super::slots::{Explanation, slots};
 use super::space::{Frame, Space};
@@ -65,17 +65,22 @@ pub enum Likeness {
     Beside,
     /// Something without a name is left, which may have a part of it.
     Open,
+    /// Another effect has the same place: together they may be pieces of one course that no catalogue has.
+    Piece,
     /// Its form is off, by less than makes it another.
     Form,
 }
 
-/// Why one of some slots says no more than what its effect acts like.
-pub fn likeness(slot: &Slot, slots: &[Slot]) -> Likeness {
+/// Why one of some slots says no more than what its effect acts like; `place` is that of a candidate.
+pub fn likeness<'p>(slot: &Slot, slots: &[Slot], place: impl Fn(usize) -> &'p Place) -> Likeness {
     let own = strength(slot);
+    let of = |slot: &Slot| slot.named.first().map(|first| place(first.candidate));
+    let shared = || slots.iter().filter(|other| of(other) == of(slot)).count() > 1;
     match own * LIKENESS >= SEEN {
         false => Likeness::Weak,
         true if own < LIKENESS * strongest(slots) => Likeness::Beside,
         true if !slots.iter().all(Slot::is_explained) => Likeness::Open,
+        true if shared() => Likeness::Piece,
         true => Likeness::Form,
     }
 }
@@ -89,10 +94,11 @@ fn strongest(slots: &[Slot]) -> f64 {
 }
 
 /// A name is more than a likeness where a departure from its shape would have been seen, where it is not the like of what
-/// a stronger effect leaves, and where nothing is left without a name.
-pub(super) fn graded(slots: &mut [Slot]) {
+/// a stronger effect leaves, where nothing is left without a name, and where no other effect may have taken up the departure.
+pub(super) fn graded(question: &Question, slots: &mut [Slot]) {
+    let place = |candidate: usize| &question.candidates[candidate].place;
     let severe: Vec<bool> = (slots.iter())
-        .map(|slot| likeness(slot, slots) == Likeness::Form)
+        .map(|slot| likeness(slot, slots, place) == Likeness::Form)
         .collect();
     for (slot, is_severe) in slots.iter_mut().zip(severe) {
         if slot.state == State::Identified && !is_severe {

@@ -1,29 +1,44 @@
 //! Two effects that mask each other: neither stands out alone, both together do.
+//!
+//! Where the noise is known, two effects hide each other only if they resemble each other. Where its scale is estimated from
+//! what is left, each of two strong effects is noise to the other, whatever their directions: there the best effect with the
+//! best one beside it is tried as well.
 
 use std::collections::BTreeSet;
 
 use nalgebra::DMatrix;
 
-use super::closed_form::Scale;
+use super::closed_form::{Scale, named};
 use super::question::{Kind, Question};
 use super::space::Space;
 
 /// Pairs nearer than this explain no more together than one of them.
 const ALIKE: f64 = 0.995;
-/// Pairs of less correlation than this do not mask each other.
+/// Pairs of less correlation than this do not mask each other by their directions.
 const APART: f64 = 0.3;
 /// The best pairs that the search starts from.
 const SEEDS: usize = 40;
 
-/// All pairs of one-dimensional named atoms that could mask each other.
-pub(super) struct Pairs {
-    /// Index of each one-dimensional atom in the space.
-    blocks: Vec<usize>,
+/// All one-dimensional named atoms.
+pub(super) struct Singles {
+    each: Vec<Single>,
+    scale: Scale,
+}
+
+struct Single {
+    /// Index of its block in the space.
+    block: usize,
     /// The place of its direction among those of all blocks.
-    places: Vec<usize>,
+    place: usize,
+    candidate: usize,
+    repeats: bool,
+    log_odds: f64,
+}
+
+/// All pairs of them that resemble each other.
+pub(super) struct Pairs {
+    pub(super) singles: Singles,
     pairs: Vec<Pair>,
-    /// N where the scale is estimated.
-    total: Option<f64>,
 }
 
 struct Pair {
@@ -34,50 +49,117 @@ struct Pair {
     log_odds: f64,
 }
 
-impl Pairs {
-    pub(super) fn new(space: &Space, question: &Question) -> Pairs {
-        let blocks: Vec<usize> = (0..space.blocks.len())
-            .filter(|i| {
-                let block = &space.blocks[*i];
-                block.kind() == Kind::Named && block.basis.ncols() == 1
+impl Singles {
+    pub(super) fn new(space: &Space, question: &Question) -> Singles {
+        let blocks = space.blocks.iter().enumerate();
+        let named = blocks.filter(|(_, block)| block.kind() == Kind::Named);
+        let each = named
+            .filter(|(_, block)| block.basis.ncols() == 1)
+            .map(|(index, block)| Single {
+                block: index,
+                place: space.places(index).start,
+                candidate: block.candidate,
+                repeats: question.candidates[block.candidate].repeats,
+                log_odds: block.log_odds,
             })
             .collect();
-        let places: Vec<usize> = blocks.iter().map(|b| space.places(*b).start).collect();
-        let basis = space.directions.select_columns(&places);
-        let gram = basis.transpose() * &basis;
-        let mut pairs = Vec::new();
-        for second in 0..blocks.len() {
-            for first in 0..second {
-                let (a, b) = (&space.blocks[blocks[first]], &space.blocks[blocks[second]]);
-                let cosine = gram[(first, second)];
-                let together =
-                    a.candidate != b.candidate || question.candidates[a.candidate].repeats;
-                if together && cosine.abs() > APART && cosine.abs() < ALIKE {
-                    pairs.push(Pair {
-                        first,
-                        second,
-                        cosine,
-                        log_odds: a.log_odds + b.log_odds,
-                    });
-                }
-            }
+        Singles {
+            each,
+            scale: space.scale,
         }
+    }
+
+    /// Columns of a matrix that has one for each direction of the space.
+    fn of(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        let places: Vec<usize> = self.each.iter().map(|single| single.place).collect();
+        columns.select_columns(&places)
+    }
+
+    /// The evidence of the best effect with the best one beside it, where the scale of the noise is estimated, for each of
+    /// some recordings: one per row, with their components along the directions of all blocks, and their sums of squares.
+    pub(super) fn in_turn(
+        &self,
+        space: &Space,
+        components: &DMatrix<f64>,
+        rss: &[f64],
+    ) -> Vec<f64> {
+        if self.scale == Scale::Known || self.each.is_empty() {
+            return vec![f64::NEG_INFINITY; rss.len()];
+        }
+        let along = self.of(components).transpose();
+        let first = |lane: usize| {
+            let weight = self.weight(rss[lane]);
+            let value = |at: usize| along[(at, lane)].powi(2) * weight + self.each[at].log_odds;
+            (0..self.each.len()).fold(
+                0,
+                |best, at| if value(at) > value(best) { at } else { best },
+            )
+        };
+        let firsts: Vec<usize> = (0..rss.len()).map(first).collect();
+        let basis = self.of(&space.directions);
+        let cosines = basis.tr_mul(&basis.select_columns(&firsts));
+        let evidence = |(lane, first): (usize, &usize)| {
+            let (own, cosines) = (along.column(lane), cosines.column(lane));
+            let weight = self.weight(rss[lane]);
+            let with = |second: usize| {
+                let pair = self.pair(*first, second, cosines[second])?;
+                Some((pair.fit(own[*first], own[second]), pair.log_odds))
+            };
+            let value = |(fit, log_odds): &(f64, f64)| fit * weight + log_odds;
+            let pairs = (0..self.each.len()).filter_map(with);
+            let best = pairs.max_by(|a, b| value(a).total_cmp(&value(b)));
+            best.map_or(f64::NEG_INFINITY, |(fit, log_odds)| {
+                named(2, fit, rss[lane], self.scale) + log_odds
+            })
+        };
+        firsts.iter().enumerate().map(evidence).collect()
+    }
+
+    /// That of the recording itself.
+    pub(super) fn observed(&self, space: &Space) -> f64 {
+        let components =
+            DMatrix::from_row_slice(1, space.components.len(), space.components.as_slice());
+        self.in_turn(space, &components, &[space.rss()])[0]
+    }
+
+    /// Two that may be there at once and are not one.
+    fn pair(&self, first: usize, second: usize, cosine: f64) -> Option<Pair> {
+        let (a, b) = (&self.each[first], &self.each[second]);
+        let together = a.candidate != b.candidate || a.repeats;
+        (together && cosine.abs() < ALIKE).then(|| Pair {
+            first,
+            second,
+            cosine,
+            log_odds: a.log_odds + b.log_odds,
+        })
+    }
+
+    fn weight(&self, rss: f64) -> f64 {
+        match self.scale {
+            Scale::Known => 0.5,
+            Scale::Estimated { total } => 0.5 * total / rss,
+        }
+    }
+}
+
+impl Pairs {
+    pub(super) fn new(space: &Space, question: &Question) -> Pairs {
+        let singles = Singles::new(space, question);
+        let basis = singles.of(&space.directions);
+        let gram = basis.tr_mul(&basis);
+        let both = (0..singles.each.len()).flat_map(|b| (0..b).map(move |a| (a, b)));
+        let resembling = both.filter(|both| gram[*both].abs() > APART);
+        let pairs = resembling.filter_map(|(a, b)| singles.pair(a, b, gram[(a, b)]));
         Pairs {
-            blocks,
-            places,
-            pairs,
-            total: match space.scale {
-                Scale::Known => None,
-                Scale::Estimated { total } => Some(total),
-            },
+            pairs: pairs.collect(),
+            singles,
         }
     }
 
     /// The greatest statistic of the recording: half the reduction of χ², with the prior odds.
     pub(super) fn observed(&self, space: &Space) -> f64 {
-        self.values(space)
-            .into_iter()
-            .fold(f64::NEG_INFINITY, f64::max)
+        let values = self.values(space).into_iter();
+        values.fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The best pairs, as blocks of the space: of any two candidates the best of their variants.
@@ -88,7 +170,7 @@ impl Pairs {
         let mut seen = BTreeSet::new();
         let blocks = order.into_iter().map(|i| {
             let pair = &self.pairs[i];
-            [self.blocks[pair.first], self.blocks[pair.second]]
+            [pair.first, pair.second].map(|at| self.singles.each[at].block)
         });
         blocks
             .filter(|pair| seen.insert(pair.map(|block| space.blocks[block].candidate)))
@@ -97,12 +179,11 @@ impl Pairs {
     }
 
     fn values(&self, space: &Space) -> Vec<f64> {
-        let c = space.components.select_rows(&self.places);
-        let weight = self.weight(space.rss());
-        self.pairs
-            .iter()
-            .map(|pair| pair.fit(c[pair.first], c[pair.second]) * weight + pair.log_odds)
-            .collect()
+        let along = |at: usize| space.components[self.singles.each[at].place];
+        let weight = self.singles.weight(space.rss());
+        let value =
+            |pair: &Pair| pair.fit(along(pair.first), along(pair.second)) * weight + pair.log_odds;
+        self.pairs.iter().map(value).collect()
     }
 
     /// The same for simulated recordings, one per row, with their components along the directions of all
@@ -110,9 +191,9 @@ impl Pairs {
     pub(super) fn simulated(&self, components: &DMatrix<f64>, rss: &[f64]) -> Vec<f64> {
         let lanes = components.nrows();
         let mut best = vec![f64::NEG_INFINITY; lanes];
-        let weights: Vec<f64> = rss.iter().map(|rss| self.weight(*rss)).collect();
-        let column = |atom: usize| {
-            let place = self.places[atom];
+        let weights: Vec<f64> = rss.iter().map(|rss| self.singles.weight(*rss)).collect();
+        let column = |single: usize| {
+            let place = self.singles.each[single].place;
             &components.as_slice()[place * lanes..(place + 1) * lanes]
         };
         for pair in &self.pairs {
@@ -129,18 +210,73 @@ impl Pairs {
         }
         best
     }
-
-    fn weight(&self, rss: f64) -> f64 {
-        match self.total {
-            None => 0.5,
-            Some(total) => 0.5 * total / rss,
-        }
-    }
 }
 
 impl Pair {
     /// Reduction of χ² by both.
     fn fit(&self, a: f64, b: f64) -> f64 {
         (a * a + b * b - 2.0 * self.cosine * a * b) / (1.0 - self.cosine * self.cosine)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::DVector;
+
+    use super::super::baseline::{Baseline, Prior};
+    use super::super::examine::examine;
+    use super::super::findings::Verdict;
+    use super::super::noise::{Covariance, Noise};
+    use super::super::question::{Atom, Candidate, Settings, Shape};
+    use super::*;
+
+    /// A wrong reading and a parabola: each is noise to the other while nobody says how large the noise is.
+    #[test]
+    fn what_is_noise_to_each_other_is_seen_together() {
+        const ROWS: usize = 40;
+        let square = |row: usize| (row as f64 / 20.0 - 1.0).powi(2);
+        let outlier = |at: usize| DVector::from_fn(ROWS, |row, _| f64::from(u8::from(row == at)));
+        let noise = |row: usize| 0.9 * libm::sin(37.3 * (row * row) as f64);
+        let mut columns = vec![DVector::from_fn(ROWS, |row, _| square(row))];
+        columns.extend((0..ROWS).map(outlier));
+        let candidates = [
+            Candidate::plain("square", 0),
+            Candidate {
+                repeats: true,
+                ..Candidate::plain("wrong reading", 1)
+            },
+        ];
+        let atoms: Vec<Atom> = (columns.iter().enumerate())
+            .map(|(at, column)| Atom {
+                candidate: at.min(1),
+                variant: String::new(),
+                shape: Shape::Columns(DMatrix::from_columns(std::slice::from_ref(column))),
+                share: 1.0,
+            })
+            .collect();
+        let ones = DMatrix::from_element(ROWS, 1, 1.0);
+        let examined = |parabola: f64, wrong: f64| {
+            let residuals = DVector::from_fn(ROWS, |row, _| noise(row))
+                + &columns[0] * parabola
+                + &columns[18] * wrong;
+            let covariance = Covariance::Diagonal(DVector::from_element(ROWS, 1.0));
+            let noise = Noise::with_scale_dof(covariance, 0.0);
+            let baseline = Baseline::new(&ones, &residuals, &noise, &Prior::none(1)).unwrap();
+            let question = Question {
+                baseline: &baseline,
+                candidates: &candidates,
+                atoms: &atoms,
+                settings: Settings::default(),
+            };
+            let space = Space::new(&question).unwrap();
+            let found = Singles::new(&space, &question).observed(&space);
+            let examination = examine(&question, &|_| std::ops::ControlFlow::Continue(()));
+            (found, examination.unwrap())
+        };
+        let (none, nothing) = examined(0.0, 0.0);
+        assert!(none < 0.0 && nothing.verdict == Verdict::None, "{none}");
+        let (both, found) = examined(8.0, 9.0);
+        assert!(both > 10.0, "{both}");
+        assert_eq!(found.slots.len(), 2);
     }
 }

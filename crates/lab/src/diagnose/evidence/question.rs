@@ -49,12 +49,12 @@ pub struct Candidate {
 
 #[cfg(test)]
 impl Candidate {
-    /// A usual one with a cause of its own.
+    /// A usual one with a cause and a place of its own.
     pub(in crate::diagnose) fn plain(name: &str, cause: usize) -> Candidate {
         Candidate {
             name: name.into(),
             family: String::new(),
-            place: Place::default(),
+            place: Place::new("", cause.to_string()),
             cause,
             typical: None,
             repeats: false,

@@ -14,7 +14,7 @@ use super::space::{Form, Frame, NEAR, Residual, Space, principal};
 
 /// Every block that may join a set, beside it.
 pub(super) struct Remainders<'s> {
-    space: &'s Space,
+    pub(super) space: &'s Space,
     frame: &'s Frame,
     /// A = FᵀU for the directions of all blocks.
     along: DMatrix<f64>,

@@ -130,7 +130,7 @@ impl Singles {
     fn pair(&self, first: usize, second: usize, cosine: f64) -> Option<Pair> {
         let (a, b) = (&self.each[first], &self.each[second]);
         let together = a.candidate != b.candidate || a.repeats;
-        (together && cosine.abs() < ALIKE).then(|| Pair {
+        (together && cosine.abs() < ALIKE).then_some(Pair {
             first,
             second,
             cosine,

@@ -184,9 +184,10 @@ pub fn diagnose(
         places,
         ..
     } = candidates;
-    let ordered = fitted.clock.column.is_some() && courses.is_some();
-    let as_noise = claimed.wanders() || (claimed.is_estimated() && ordered);
-    if examination.verdict == Verdict::None && as_noise {
+    // What nobody claims may be anything.
+    let is_ordered = fitted.clock.column.is_some() && courses.is_some();
+    let is_unclaimed = claimed.wanders() || (claimed.is_estimated() && is_ordered);
+    if examination.verdict == Verdict::None && is_unclaimed {
         // Two tests, each with half of the probability of a false alarm.
         let p = (2.0 * evidence::unsteadiness(&baseline, settings.seed)).min(1.0);
         if p <= settings.alpha {

@@ -38,7 +38,7 @@
 //! | `departure` | how far the form of an effect may depart from that of the catalogue |
 //! | `detection` | the test whether an effect is left |
 //! | `contest` | correlated noise as the rival of every effect |
-//! | `pairs` | two effects that mask each other |
+//! | `pairs` | two effects that mask each other, or are noise to each other |
 //! | `search` | the set of effects that explains a recording |
 //! | `slots` | which candidates could stand for each effect |
 //! | `quiet` | how little noise one of several responses may have |
@@ -49,7 +49,7 @@
 //! | `fit` | estimates, strength, distance to rivals |
 //! | `look_alikes` | effects that are the shape of another, aliases, mixtures |
 //! | `unlisted` | effects outside the catalogue that look like what is in it |
-//! | `unsteady` | whether noise that wanders does so as noise does |
+//! | `unsteady` | whether what is taken for noise is as noise is |
 //! | `locate` | where the mismatch sits |
 //! | `plan` | without data: what an experiment can see and tell apart |
 //! | `separate` | which extra measurement tells rivals apart |

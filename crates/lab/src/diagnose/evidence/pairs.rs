@@ -96,10 +96,14 @@ impl Singles {
             )
         };
         let firsts: Vec<usize> = (0..rss.len()).map(first).collect();
+        let mut distinct = firsts.clone();
+        distinct.sort_unstable();
+        distinct.dedup();
         let basis = self.of(&space.directions);
-        let cosines = basis.tr_mul(&basis.select_columns(&firsts));
+        let cosines = basis.tr_mul(&basis.select_columns(&distinct));
         let evidence = |(lane, first): (usize, &usize)| {
-            let (own, cosines) = (along.column(lane), cosines.column(lane));
+            let at = distinct.partition_point(|other| other < first);
+            let (own, cosines) = (along.column(lane), cosines.column(at));
             let weight = self.weight(rss[lane]);
             let with = |second: usize| {
                 let pair = self.pair(*first, second, cosines[second])?;
@@ -126,7 +130,7 @@ impl Singles {
     fn pair(&self, first: usize, second: usize, cosine: f64) -> Option<Pair> {
         let (a, b) = (&self.each[first], &self.each[second]);
         let together = a.candidate != b.candidate || a.repeats;
-        (together && cosine.abs() < ALIKE).then(|| Pair {
+        (together && cosine.abs() < ALIKE).then_some(Pair {
             first,
             second,
             cosine,

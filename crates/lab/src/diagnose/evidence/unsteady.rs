@@ -1,4 +1,4 @@
-//! Whether noise that wanders does so as noise does. What is new in each row (the residuals, whitened) is then normal: jumps and
+//! Whether what is taken for noise is as noise is. What is new in each row (the residuals, whitened) is then normal: jumps and
 //! bursts have many rows with next to nothing new, and a few with far too much.
 
 use gumption_lanes::LANES;

@@ -112,6 +112,10 @@ const LETTERED: &[&str] = &[
     "pos", "position", "probe", "run", "sensor", "series", "set", "side", "type", "unit",
 ];
 
+/// Endings that are indices behind the symbol of a quantity: `p_s` is the pressure of a standard, `x_m` a mean, `F_N` a
+/// nominal force.
+const INDICES: &[&str] = &["s", "m", "h", "N", "A"];
+
 impl Heading {
     /// Reads `name [unit]`, `name (unit)`, `name/unit`, `name_unit` or a name alone; brackets and solidus may
     /// be those of a Chinese keyboard, `位移（mm）`.
@@ -232,9 +236,9 @@ fn by_ending(text: &str, units: &UnitTable) -> Heading {
     let known = |(ending, unit): (&str, &'static str)| {
         let name = text.strip_suffix(ending)?.strip_suffix('_')?;
         let last = name.rsplit('_').next().unwrap_or_default().to_lowercase();
-        // Behind the symbol of a quantity a letter is an index: `p_s` is the pressure of a standard, `F_N` a nominal force.
         let symbol = last.trim_end_matches(|c: char| c.is_ascii_digit());
-        let indexed = symbol.chars().count() == 1 || LETTERED.contains(&last.as_str());
+        let indexed = symbol.chars().count() == 1 && INDICES.contains(&ending);
+        let indexed = indexed || LETTERED.contains(&last.as_str());
         let lettered = ending.len() == 1 && indexed;
         (!name.is_empty() && !lettered).then_some((name, unit))
     };

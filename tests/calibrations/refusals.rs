@@ -66,7 +66,7 @@ fn what_cannot_be_used_is_refused_with_what_to_write_instead() {
         ),
         (
             EXPERIMENT.to_owned() + "[noise]\nu = \"0.1 mV\"\nreplicates = [\"omega\"]\n",
-            "stated by `u` and `replicates`",
+            "stated by `u`, `replicates`",
         ),
         (
             changed("equations = ", "model = "),
@@ -153,7 +153,7 @@ fn every_command_refuses_the_same_mistakes() {
         ),
         (
             EXPERIMENT.to_owned() + "[noise]\nu = 0.1\nat_rest = { file = \"rest.csv\" }\n",
-            "stated by `u` and `at_rest`",
+            "stated by `u`, `at_rest`",
         ),
         (
             EXPERIMENT.to_owned() + "[noise]\nfrom = \"residuals\"\nwalk = 0.1\n",

@@ -471,9 +471,9 @@ mod tests {
         case.evaluation.results[0].gum.coverage.basis = CoverageBasis::Fixed;
         // t_0.9545(4) = 2.869.
         assert!(of(&case).contains(
-            "k = 2 makes no allowance for that; for 95.45 % the t-distribution has k = 2.87"
+            "k = 2 makes no allowance for that; for 95.45 % that of the t-distribution is 2.87"
         ));
         let chinese = texts(&remarks(&case.report(Language::Chinese)));
-        assert!(chinese.contains("t 分布的 k 为 2.87"), "{chinese}");
+        assert!(chinese.contains("按 t 分布为 2.87"), "{chinese}");
     }
 }

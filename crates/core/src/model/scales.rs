@@ -156,10 +156,12 @@ impl Lowering<'_> {
             Node::Name(name) if self.has_no_unit(name) => {
                 let help = match infix {
                     Infix::Sub => say!(
-                        "state it: `unit = \"{symbol}\"` for a temperature, `unit = \"{difference}\"` for a difference of temperatures"
+                        "state it: `unit = \"{symbol}\"` for a temperature, `unit = \"{difference}\"` for a difference of temperatures; a formula for the number of `{text}` in {symbol} takes `value_in({text}, '{symbol}')`"
                     ),
                     _ => {
-                        say!("state it: `unit = \"{difference}\"` for a difference of temperatures")
+                        say!(
+                            "state it: `unit = \"{difference}\"` for a difference of temperatures; a formula for the number of `{text}` in {symbol} takes `value_in({text}, '{symbol}')`"
+                        )
                     }
                 };
                 self.bare_beside_point(step.expr, point.expr, symbol, help);

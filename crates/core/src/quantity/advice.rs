@@ -39,6 +39,10 @@ pub(super) fn for_unknown<'a>(
     if let Some((_, advice)) = FREQUENT.iter().find(|(wrong, _)| *wrong == name) {
         return advice.clone();
     }
+    // Of all units only the decibel begins so.
+    if name.strip_prefix("dB").is_some_and(|rest| !rest.is_empty()) {
+        return say!("declare the level with its reference in the [unit] table: `{name} = \"dB\"`");
+    }
     if BY_PROCEDURE.contains(&name) {
         return say!(
             "what is counted, or defined by its procedure, is of dimension one: declare it in the [unit] table, `{name} = \"1\"`"
@@ -297,26 +301,6 @@ const FREQUENT: &[(&str, Said)] = &[
     ),
     ("kph", say!("write `km/h`")),
     ("kmh", say!("write `km/h`")),
-    (
-        "dBm",
-        say!("declare the level with its reference in the [unit] table: `dBm = \"dB\"`"),
-    ),
-    (
-        "dBV",
-        say!("declare the level with its reference in the [unit] table: `dBV = \"dB\"`"),
-    ),
-    (
-        "dBµV",
-        say!("declare the level with its reference in the [unit] table: `dBµV = \"dB\"`"),
-    ),
-    (
-        "dBuV",
-        say!("declare the level with its reference in the [unit] table: `dBuV = \"dB\"`"),
-    ),
-    (
-        "dBc",
-        say!("declare the level with its reference in the [unit] table: `dBc = \"dB\"`"),
-    ),
     (
         "FS",
         say!("declare the full scale in the [unit] table, as in `FS = \"10 V\"`"),

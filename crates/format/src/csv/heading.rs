@@ -106,11 +106,15 @@ const ENDINGS: &[(&str, &str)] = &[
     ("percent", "%"),
 ];
 
-/// Things that are told apart by letters: `channel_A` is no current.
+/// Words for things that are told apart by letters: `channel_A` is no current.
 const LETTERED: &[&str] = &[
     "axis", "ch", "channel", "class", "group", "lot", "meter", "mount", "part", "phase", "point",
     "pos", "position", "probe", "run", "sensor", "series", "set", "side", "type", "unit",
 ];
+
+/// Endings that are indices behind the symbol of a quantity: `p_s` is the pressure of a standard, `x_m` a mean, `F_N` a
+/// nominal force.
+const INDICES: &[&str] = &["s", "m", "h", "N", "A"];
 
 impl Heading {
     /// Reads `name [unit]`, `name (unit)`, `name/unit`, `name_unit` or a name alone; brackets and solidus may
@@ -141,6 +145,12 @@ impl Heading {
             (Err(_), Certain::No) => by_ending(text, units),
             (Ok(unit), _) => Heading::new(text, name, Ok(Some(unit))),
         }
+    }
+
+    /// A name without a unit, whatever it ends with.
+    pub fn plain(text: &str) -> Heading {
+        let text = text.trim();
+        Heading::new(text, text, Ok(None))
     }
 
     fn new(text: &str, name: &str, unit: Result<Option<Unit>, UnitError>) -> Heading {
@@ -226,7 +236,10 @@ fn by_ending(text: &str, units: &UnitTable) -> Heading {
     let known = |(ending, unit): (&str, &'static str)| {
         let name = text.strip_suffix(ending)?.strip_suffix('_')?;
         let last = name.rsplit('_').next().unwrap_or_default().to_lowercase();
-        let lettered = ending.len() == 1 && LETTERED.contains(&last.as_str());
+        let symbol = last.trim_end_matches(|c: char| c.is_ascii_digit());
+        let indexed = symbol.chars().count() == 1 && INDICES.contains(&ending);
+        let indexed = indexed || LETTERED.contains(&last.as_str());
+        let lettered = ending.len() == 1 && indexed;
         (!name.is_empty() && !lettered).then_some((name, unit))
     };
     let longest = ENDINGS
@@ -235,7 +248,7 @@ fn by_ending(text: &str, units: &UnitTable) -> Heading {
         .min_by_key(|(name, _)| name.len());
     match longest.and_then(|(name, unit)| Some((name, units.parse(unit).ok()?))) {
         Some((name, unit)) => Heading::new(text, name, Ok(Some(unit))),
-        None => Heading::new(text, text, Ok(None)),
+        None => Heading::plain(text),
     }
 }
 
@@ -315,6 +328,9 @@ mod tests {
             "[m]",
             "load_units",
             "e1_1e10esu",
+            "p_s",
+            "R1_A",
+            "θ_m",
         ] {
             assert_eq!(parts(text), (text.to_string(), None), "{text}");
         }
@@ -330,11 +346,11 @@ mod tests {
     #[test]
     fn every_ending_is_a_unit() {
         for (ending, unit) in ENDINGS {
-            let heading = heading(&format!("x_{ending}"));
+            let heading = heading(&format!("value_{ending}"));
             let expected = UnitTable::default().parse(unit).expect(unit);
             assert_eq!(
                 (heading.name.as_str(), heading.unit),
-                ("x", Ok(Some(expected)))
+                ("value", Ok(Some(expected)))
             );
         }
     }

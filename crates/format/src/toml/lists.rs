@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use toml::de::DeValue;
 
-use super::faults::AMOUNT;
+use super::faults::{AMOUNT, QUOTED_NUMBER};
 use super::matrix::{Matrix, Number, Row};
 use super::table::{FromToml, KeyRow, Raw, Reader, Stated, in_order, inner};
 use gumption_fault::{Fault, Said, say};
@@ -27,8 +27,10 @@ impl<T: FromToml> FromToml for Vec<Stated<T>> {
         if let Some(fault) = decimal_commas(value, list, reader.file) {
             return reader.refuse(fault);
         }
+        let before = reader.faults.len();
         let read: Vec<Option<Stated<T>>> =
             list.iter().map(|item| read_item(item, reader)).collect();
+        tell_quotes_once(&mut reader.faults, before);
         read.into_iter().collect()
     }
 
@@ -39,6 +41,22 @@ impl<T: FromToml> FromToml for Vec<Stated<T>> {
     fn tables(path: &str, rows: &mut Vec<KeyRow>) {
         T::tables(&format!("{path}[]"), rows);
     }
+}
+
+/// Of the numbers in quotes of one list, whose faults begin here, the first stands for all.
+fn tell_quotes_once(faults: &mut Vec<Fault>, before: usize) {
+    let of_list = faults.split_off(before);
+    let (quoted, others): (Vec<Fault>, Vec<Fault>) = of_list
+        .into_iter()
+        .partition(|fault| fault.code == QUOTED_NUMBER);
+    let more = quoted.len().saturating_sub(1);
+    faults.extend(quoted.into_iter().take(1).map(|mut first| {
+        if more > 0 {
+            first.message = say!("{}; so do {more} more of the list", first.message);
+        }
+        first
+    }));
+    faults.extend(others);
 }
 
 type Lists = Vec<Stated<Vec<Stated<f64>>>>;

@@ -100,7 +100,8 @@ impl<'f> BatchFile<'f> {
         }
         let in_table = |faults| Rejection::new(table, sheet.text(), faults);
         let place = |at| sheet.place(sheet.header(), at);
-        let columns = Columns::of(sheet, place).map_err(in_table)?;
+        let names_one = |name: &str| series::names_one(&file, name);
+        let columns = Columns::of(sheet, place, names_one).map_err(in_table)?;
         let mut faults = Vec::new();
         let kept = kept(keep, sheet, &columns.names, &mut faults);
         let names = columns.names.iter().enumerate();

@@ -171,6 +171,14 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
         ) if has("specification") => Some(say!(
             "limits ±a are half_width = …; those of an instrument that depend on its reading specification = {{ reading = \"0.05 %\", counts = 2, step = … }}"
         )),
+        (
+            "[input]" | "[source]",
+            "repeatability" | "reproducibility" | "drift" | "stability" | "calibration"
+            | "temperature" | "linearity" | "hysteresis" | "uniformity" | "重复性" | "复现性"
+            | "漂移" | "稳定性" | "校准" | "温度" | "线性" | "滞后" | "均匀性",
+        ) if has("components") => Some(say!(
+            "reasons for doubt are entries of a list: components = [{{ name = \"{key}\", half_width = … }}, …], what is known of each in its own way"
+        )),
         ("certificate", "u_rel" | "urel" | "u_r" | "rel_u" | "relative" | "relative_u") => {
             Some(say!(
                 "a relative expanded uncertainty has its unit: U = \"0.1 %\", or \"50 ppm\"; of a quantity that is itself a ratio write certificate = {{ U = 0.001, k = 2 }}, relative = true"

@@ -524,6 +524,13 @@ step = 0.1
     }
 
     #[test]
+    fn a_header_that_names_an_input_has_no_unit() {
+        let budget = "[measurand.d]\nmodel = \"pH_x - pH_s\"\n[input]\npH_x = { value = 7, u = 0.01 }\npH_s = { value = 7, u = 0.005 }\n";
+        let table = "pH_x,pH_s,pH_s.u\n4.02,4.003,0.005\n6.88,6.864,0.004\n9.2,9.182,0.005\n";
+        assert_eq!(taken(budget, table), [true]);
+    }
+
+    #[test]
     fn what_is_more_than_a_number_is_read() {
         let table =
             |cells: &[&str]| format!("b,b.u,c\n1,0.1,3\n2,0.2,4\n{}\n3,0.1,5\n", cells.join("\n"));

@@ -42,13 +42,15 @@ pub(super) enum Written {
 }
 
 impl Columns {
-    /// Those of a table; `place` says where each is named.
+    /// Those of a table; `place` says where each is named, `names_one` whether the budget has something of that name,
+    /// which then has no unit behind it: `pH_s` is no pH in seconds.
     ///
     /// # Errors
     /// Units in the headers that are not known, in places of the table.
     pub fn of(
         sheet: &Sheet<'_>,
         place: impl Fn(usize) -> Range<usize>,
+        names_one: impl Fn(&str) -> bool,
     ) -> Result<Columns, Vec<Fault>> {
         let known = UnitTable::default();
         let mut columns = Columns {
@@ -57,7 +59,10 @@ impl Columns {
         };
         let mut faults = Vec::new();
         for (at, field) in sheet.header().fields().enumerate() {
-            let heading = Heading::read(field, &known);
+            let heading = match names_one(field.trim()) {
+                true => Heading::plain(field),
+                false => Heading::read(field, &known),
+            };
             match &heading.unit {
                 Ok(unit) => columns
                     .units
@@ -93,13 +98,15 @@ impl Points {
     pub fn read(
         named: &Stated<String>,
         origin: Origin<'_>,
+        names_one: impl Fn(&str) -> bool,
         faults: &mut Vec<Fault>,
     ) -> Option<Points> {
         let path = origin.directory.join(&named.value);
         let shown = path.display().to_string();
         let files = origin.files;
         let found = text_of(files.files, &path, &shown).and_then(|text| {
-            Points::of(&text, named).map_err(|faults| Rejection::new(&shown, &text, faults))
+            Points::of(&text, named, &names_one)
+                .map_err(|faults| Rejection::new(&shown, &text, faults))
         });
         found
             .map_err(|rejection| {
@@ -114,9 +121,13 @@ impl Points {
             .ok()
     }
 
-    fn of(text: &str, named: &Stated<String>) -> Result<Points, Vec<Fault>> {
+    fn of(
+        text: &str,
+        named: &Stated<String>,
+        names_one: &dyn Fn(&str) -> bool,
+    ) -> Result<Points, Vec<Fault>> {
         let sheet = Sheet::new(text).map_err(|fault| vec![*fault])?;
-        let columns = Columns::of(&sheet, |_| named.span.clone())?;
+        let columns = Columns::of(&sheet, |_| named.span.clone(), names_one)?;
         let mut rows = Vec::new();
         sheet.visit(|row| rows.push(columns.written(row, &sheet)))?;
         Ok(Points {

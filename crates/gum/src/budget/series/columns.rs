@@ -187,6 +187,12 @@ fn segments(path: &str) -> Vec<String> {
     parts
 }
 
+/// Whether a file has an input, a constant or a source of this name.
+pub(in crate::budget) fn names_one(file: &DeTable<'_>, name: &str) -> bool {
+    let mut owners = OWNERS.iter();
+    owners.any(|owner| entry(file, owner, name).is_some())
+}
+
 fn entry<'a, 't>(file: &'a DeTable<'t>, owner: &str, name: &str) -> Option<&'a Raw<'t>> {
     match file.get(owner)?.get_ref() {
         DeValue::Table(table) => table.get(name),

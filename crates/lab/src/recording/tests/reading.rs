@@ -208,18 +208,18 @@ fn told(recording: &Recording, checks: &Checks) -> Vec<Finding> {
 #[test]
 fn times() {
     let checks = Checks {
-        time: Some("t"),
+        time: Some("time"),
         ..NO_CHECKS
     };
-    let findings = told(&column("t_s", &[0.0, 1.0, 1.0, 2.0, 1.5, 3.0]), &checks);
+    let findings = told(&column("time_s", &[0.0, 1.0, 1.0, 2.0, 1.5, 3.0]), &checks);
     let back = Problem::TimeBackwards { from: 2.0, to: 1.5 };
     assert_eq!((&findings[0].problem, findings[0].line), (&back, 6));
     assert_eq!(findings[0].severity(), Severity::Error);
     assert_eq!(findings[1].problem, Problem::TimeRepeated { time: 1.0 });
     let mut even: Vec<f64> = (0..40).map(f64::from).collect();
-    assert_eq!(told(&column("t_s", &even), &checks), []);
+    assert_eq!(told(&column("time_s", &even), &checks), []);
     even.remove(7);
-    let findings = told(&column("t_s", &even), &checks);
+    let findings = told(&column("time_s", &even), &checks);
     let gap = Problem::TimeGap {
         longest: 2.0,
         usual: 1.0,

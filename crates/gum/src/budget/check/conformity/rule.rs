@@ -308,6 +308,17 @@ impl Checker<'_> {
                     .help(say!("the rule says on which side of the tolerance limits it lies; without a guard band write rule = \"simple\"")),
             );
         }
+        if let Some((unit, span)) = &amount.value.unit
+            && matches!(unit.as_str(), "u" | "U")
+        {
+            let number = amount.value.number;
+            let multiple = say!("a guard band in {unit}");
+            return self.refuse(
+                Fault::new(DECISION_RULE, span.clone(), multiple)
+                    .label(say!("no amount of {}", subject.name))
+                    .help(say!("a multiple of U is guard_band_factor = {number}; one of u follows from the probability that it stands for, such as conformance_probability = 0.95 for 1.645 u")),
+            );
+        }
         let w = self.difference(amount, subject.unit, subject.name)?;
         Some(Some(Band {
             guard: Guard::Amount(w),

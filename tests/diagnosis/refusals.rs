@@ -188,7 +188,7 @@ fn noise_that_is_stated_twice_is_told_by_both() {
     let case = format!("{CASE}\n[noise]\nu = \"1 mV\"\nreplicates = [\"x\"]\n");
     let (good, text) = &said(&folder, &case, &recording(|_, _| None))[0];
     assert!(
-        !good && text.contains("stated by `u` and `replicates`"),
+        !good && text.contains("stated by `u`, `replicates`"),
         "{text}"
     );
 }

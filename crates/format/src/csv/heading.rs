@@ -113,7 +113,7 @@ const LETTERED: &[&str] = &[
 ];
 
 /// Endings that are indices behind the symbol of a quantity: `p_s` is the pressure of a standard, `x_m` a mean, `F_N` a
-/// nominal force.
+/// nominal force. Behind t they are units of time, as recorders write them.
 const INDICES: &[&str] = &["s", "m", "h", "N", "A"];
 
 impl Heading {
@@ -237,7 +237,8 @@ fn by_ending(text: &str, units: &UnitTable) -> Heading {
         let name = text.strip_suffix(ending)?.strip_suffix('_')?;
         let last = name.rsplit('_').next().unwrap_or_default().to_lowercase();
         let symbol = last.trim_end_matches(|c: char| c.is_ascii_digit());
-        let indexed = symbol.chars().count() == 1 && INDICES.contains(&ending);
+        let is_time = name == "t" && ["s", "h"].contains(&ending);
+        let indexed = symbol.chars().count() == 1 && INDICES.contains(&ending) && !is_time;
         let indexed = indexed || LETTERED.contains(&last.as_str());
         let lettered = ending.len() == 1 && indexed;
         (!name.is_empty() && !lettered).then_some((name, unit))
@@ -329,12 +330,15 @@ mod tests {
             "load_units",
             "e1_1e10esu",
             "p_s",
+            "T_s",
+            "t_m",
             "R1_A",
             "θ_m",
         ] {
             assert_eq!(parts(text), (text.to_string(), None), "{text}");
         }
         assert_eq!(parts("current_A"), pair("current", "A"));
+        assert_eq!(parts("t_s"), pair("t", "s"));
     }
 
     #[test]

@@ -161,7 +161,8 @@ impl Checker<'_> {
             return fault;
         };
         // Columns and numbers that meet each other clash whatever the parameters are.
-        if fault.help.is_some() && !self.names_one(&fault, open) {
+        let is_known = fault.code != POINT && fault.help.is_some();
+        if is_known && !self.names_one(&fault, open) {
             return fault;
         }
         fault.help(say!(

@@ -387,7 +387,7 @@ impl Worker<'_> {
         }
         let read = match place.part.row(lane) {
             Ok(row) => self.read(&row, sheet, plan),
-            Err(fault) => Err(Failed::Row(fault.clone())),
+            Err(fault) => Err(Failed::Row(Box::new(fault.clone()))),
         };
         let found = read.as_ref();
         let found = found.map(|(budget, found)| (budget, Found::Evaluation(found)));

@@ -22,8 +22,10 @@ pub(super) fn torn(terms: &[NamedTerm]) -> Option<UnitError> {
     };
     terms.windows(2).find_map(|pair| {
         let [first, second] = pair else { return None };
-        let help =
-            whole(&first.name, &second.name).filter(|_| first.exponent == second.exponent)?;
+        let [(one, power), (other, other_power)] =
+            [first, second].map(|term| term.power_behind().unwrap_or((&term.name, 1)));
+        let alike = first.exponent * power == second.exponent * other_power;
+        let help = whole(one, other).filter(|_| alike)?;
         let span = first.span.start..second.span.end;
         let message = say!("`{}` and `{}` would be multiplied", first.name, second.name);
         Some(UnitError::new(UNKNOWN_UNIT, span, message).help(help))

@@ -51,6 +51,17 @@ pub(super) struct NamedTerm {
     pub plain: bool,
 }
 
+impl NamedTerm {
+    /// The letters of the name and the digit behind them, which is a power if the name is no unit: `m3`.
+    pub fn power_behind(&self) -> Option<(&str, i32)> {
+        let name = self.name.as_str();
+        let letters = name.strip_suffix(|c: char| ('2'..='9').contains(&c))?;
+        let power = i32::from(name.as_bytes()[letters.len()] - b'0');
+        let plain = self.plain && !letters.ends_with(|c: char| c.is_ascii_digit());
+        plain.then_some((letters, power))
+    }
+}
+
 /// Which numbers may occur.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Numbers {

@@ -118,7 +118,7 @@ impl UnitTable {
     fn symbol(&self, text: &str, parsed: &Parsed) -> String {
         let mut symbol = text.to_owned();
         let implied = parsed.terms.iter().rev().filter_map(|term| {
-            let (letters, _) = power_behind(term)?;
+            let (letters, _) = term.power_behind()?;
             let digit = term.span.end - (term.name.len() - letters.len());
             self.lookup(&term.name).is_none().then_some(digit)
         });
@@ -271,7 +271,7 @@ fn combine(parsed: &Parsed, lookup: impl Fn(&str) -> Option<Scale>) -> Result<Sc
     let mut result = Scale::coherent(Dimension::NONE, parsed.number);
     for term in &parsed.terms {
         let implied = || {
-            let (letters, power) = power_behind(term)?;
+            let (letters, power) = term.power_behind()?;
             let scale = lookup(letters).filter(|scale| scale.dimension != Dimension::NONE)?;
             Some((scale, power))
         };
@@ -285,15 +285,6 @@ fn combine(parsed: &Parsed, lookup: impl Fn(&str) -> Option<Scale>) -> Result<Sc
         result.origin = scale.origin.filter(|_| parsed.bare && power == 1);
     }
     Ok(result)
-}
-
-/// The letters of a name and the digit behind them, which is a power if the name is no unit: `m3`.
-fn power_behind(term: &NamedTerm) -> Option<(&str, i32)> {
-    let name = term.name.as_str();
-    let letters = name.strip_suffix(|c: char| ('2'..='9').contains(&c))?;
-    let power = i32::from(name.as_bytes()[letters.len()] - b'0');
-    let plain = term.plain && !letters.ends_with(|c: char| c.is_ascii_digit());
-    plain.then_some((letters, power))
 }
 
 /// Checks the name of a unit that a file defines.
@@ -467,7 +458,7 @@ mod tests {
         assert_eq!(dimension("g0"), "m·s^-2");
         assert_eq!(unit(" kg/m3 ").symbol, "kg/m^3");
         // A digit is no exponent beside another one, nor under a root.
-        for text in ["s7^0", "m3²", "m3-1", "√m3"] {
+        for text in ["s7^0", "m3²", "m3-1", "√m3", "°^8 F8"] {
             assert_eq!(error(text).code, UNKNOWN_UNIT, "{text}");
         }
         assert_eq!(error("m^2^3").code, BAD_EXPONENT);

@@ -140,9 +140,12 @@ impl Part<'_> {
         }
     }
 
-    pub(super) fn row(&self, lane: usize) -> Result<Cow<'_, csv::Row<'_>>, &Box<Fault>> {
+    pub(super) fn row(&self, lane: usize) -> Result<Cow<'_, csv::Row<'_>>, &Fault> {
         match self {
-            Part::Lines(rows) => rows[lane].as_ref().map(Cow::Borrowed),
+            Part::Lines(rows) => match &rows[lane] {
+                Ok(row) => Ok(Cow::Borrowed(row)),
+                Err(fault) => Err(fault),
+            },
             Part::Columns(columns, rows) => Ok(Cow::Owned(columns.row(rows.start + lane))),
         }
     }

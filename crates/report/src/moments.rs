@@ -286,12 +286,12 @@ pub(super) fn few_degrees(report: &Report<'_>, measurand: Option<usize>, dof: f6
             };
             l.pick(
                 format!("{first}. k = {k} makes no allowance for that; for {p} that of the t-distribution is {of_t}. More readings of the dominant input would help; coverage_factor_from = \"t\" in [conventions] takes the k of the t-distribution."),
-                format!("{first}。k = {k} 未考虑这一点；p = {p} 时 按 t 分布为 {of_t}。可增加主要输入量的重复测量次数，或在 [conventions] 中写 coverage_factor_from = \"t\"，按 t 分布取 k。"),
+                format!("{first}。k = {k} 未考虑这一点；p = {p} 时按 t 分布为 {of_t}。可增加主要输入量的重复测量次数，或在 [conventions] 中写 coverage_factor_from = \"t\"，按 t 分布取 k。"),
             )
         }
         (CoverageBasis::Normal | CoverageBasis::Output { .. }, _) => l.pick(
             format!("{first}. k, from the distribution of the result, makes no allowance for that; for {p} that of the t-distribution is {of_t}. More readings would help."),
-            format!("{first}。由输出量分布所得的 k 未考虑这一点；p = {p} 时 按 t 分布为 {of_t}。增加重复测量次数可改善。"),
+            format!("{first}。由输出量分布所得的 k 未考虑这一点；p = {p} 时按 t 分布为 {of_t}。增加重复测量次数可改善。"),
         ),
     }
 }

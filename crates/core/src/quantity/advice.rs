@@ -151,7 +151,7 @@ fn as_product(name: &str, is_known: impl Fn(&str) -> bool) -> Option<Said> {
         "s" => say!(
             "units have no plural: write `{first}`, or `{first}·s` for the product with the second"
         ),
-        _ => say!("write `{first}·{second}` for the product, behind a stroke in brackets"),
+        _ => say!("write `{first}·{second}` for the product; below a solidus `({first}·{second})`"),
     })
 }
 

@@ -540,11 +540,11 @@ mod tests {
         assert!(suggestion("arcsecs").contains("`arcsec`"));
         assert_eq!(
             suggestion("Nm"),
-            "write `N·m` for the product, behind a stroke in brackets"
+            "write `N·m` for the product; below a solidus `(N·m)`"
         );
         assert_eq!(
             suggestion("J/gK"),
-            "write `g·K` for the product, behind a stroke in brackets"
+            "write `g·K` for the product; below a solidus `(g·K)`"
         );
         assert_eq!(suggestion("%mol/mol"), "write `% mol`, with a space");
         assert!(suggestion("Pas").contains("`Pa·s`"));

@@ -10,13 +10,13 @@ use super::coefficient::Coefficient;
 use super::gain::Gain;
 use super::identify::{Alias, Identifiability, alias};
 use super::limits::{Limit, limits};
+use super::pattern::{Pattern, patterns};
 use super::residual::Residual;
 use super::scatter::{ResponseScatter, Scatters, weights};
 use super::signs::reversed;
 use super::stack::{Readings, Row, Stack};
 use super::swaps::swapped;
 use super::trouble::Trouble;
-use super::unlike::{Unlike, unlike};
 use crate::experiment::Words;
 use gumption_core::least_squares::Solution;
 use gumption_core::special::student_t_sf;
@@ -50,7 +50,7 @@ pub struct Calibration {
     /// Values at which readings stay that should differ.
     pub limits: Vec<Limit>,
     /// Responses whose residuals are no scatter although they tell the scatter, where nothing of the above explains it.
-    pub unlike: Vec<Unlike>,
+    pub patterns: Vec<Pattern>,
     /// Whether the equations are linear in the parameters.
     pub linear: bool,
     /// Steps of the search; 0 for linear equations.
@@ -224,12 +224,12 @@ fn whole(campaign: &Campaign) -> Result<Calibration, Trouble> {
     };
     let told = explained || !apart.is_empty();
     let tells = scatters.way == Scatter::Residuals && campaign.separately.is_none();
-    let unlike = match told || !tells {
+    let patterns = match told || !tells {
         true => Vec::new(),
-        false => unlike(&stack, &solution, &gain, &u, &scatters.responses),
+        false => patterns(&stack, &solution, &gain, &u, &scatters.responses),
     };
     Ok(Calibration {
-        unlike,
+        patterns,
         swapped,
         reversed: reversed(&figures.coefficients, &campaign.same_sign),
         apart,

@@ -19,7 +19,7 @@
 //! | `gain` | how coefficients follow readings, columns and inputs |
 //! | `scatter`, `cause`, `causes` | what makes the coefficients uncertain |
 //! | `identify` | rank, condition, aliases |
-//! | `swaps`, `signs`, `apart`, `limits`, `unlike` | readings that look exchanged, that stand apart, or look saturated; residuals that are no scatter |
+//! | `swaps`, `signs`, `apart`, `limits`, `pattern` | readings that look exchanged, that stand apart, or look saturated; residuals that are no scatter |
 //! | `size` | how much memory that takes |
 //! | `coefficient`, `residual`, `calibration`, `plan` | the results, after and before measuring |
 //! | `budget` | coefficients as measurands of a budget file |
@@ -48,6 +48,7 @@ mod gain;
 mod identify;
 mod limits;
 mod noise;
+mod pattern;
 mod plan;
 mod points;
 mod recordings;
@@ -62,7 +63,6 @@ mod swaps;
 mod tests;
 mod together;
 mod trouble;
-mod unlike;
 
 pub use apart::Apart;
 pub use budget::budget;
@@ -74,10 +74,10 @@ pub use define::{load, load_from, load_with, read};
 pub use dwells::{Dwelling, DwellsBy};
 pub use identify::{Alias, Combination, Identifiability, NearAlias, Shift, Shifts};
 pub use limits::Limit;
+pub use pattern::{Pattern, PatternTest};
 pub use plan::{Plan, plan};
 pub use points::{PointColumn, PointNames, Points, Reading};
 pub use recordings::{Unusable, is_experiment, label, listed, of_recording};
 pub use residual::Residual;
 pub use scatter::{Misfit, ResponseScatter, ScatterTest};
 pub use trouble::Trouble;
-pub use unlike::{Unlike, UnlikeBy};

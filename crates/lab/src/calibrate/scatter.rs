@@ -98,11 +98,12 @@ pub enum Misfit {
     Smaller,
 }
 
+/// Probability of a statistic as far out, below which residuals are said to be no scatter of the stated size or order.
+pub(super) const RARE: f64 = 0.005;
+
 impl Misfit {
     /// From the probability of a larger χ². Where residuals tell the scatter, they may be larger than stated errors.
     fn of(p_value: f64, way: Scatter, sampled: bool) -> Option<Misfit> {
-        /// Probability of a χ² as far out.
-        const RARE: f64 = 0.005;
         let large = p_value < RARE;
         match way {
             Scatter::Residuals if large && sampled => Some(Misfit::BetweenDwells),

@@ -8,8 +8,8 @@ use gumption_core::quantity::Unit;
 use gumption_format::machine::{self, Machine, Number, all, form};
 use gumption_lab::calibrate::{
     Alias, Apart, Calibration, Campaign, Cause, Coefficient, Combination, Contribution, Figures,
-    Identifiability, Limit, Misfit, NearAlias, Omitted, Origin, Plan, Residual, ResponseScatter,
-    Scatter, ScatterTest, Unlike, UnlikeBy,
+    Identifiability, Limit, Misfit, NearAlias, Omitted, Origin, Pattern, PatternTest, Plan,
+    Residual, ResponseScatter, Scatter, ScatterTest,
 };
 use gumption_lab::experiment::{Scope, Words};
 use gumption_lab::recording::Finding;
@@ -40,7 +40,7 @@ form! {
         /// Values at which readings stay that should differ.
         limits: Vec<LimitForm<'a>> = all(&found.limits, |one| LimitForm::of(one, l)),
         /// Responses whose residuals are no scatter.
-        unlike: Vec<UnlikeForm<'a>> = all(&found.unlike, UnlikeForm::of),
+        residual_patterns: Vec<PatternForm<'a>> = all(&found.patterns, PatternForm::of),
         /// Whether the equations are linear in the parameters.
         linear: bool = found.linear,
         /// Steps of the search; 0 for linear equations.
@@ -292,14 +292,24 @@ form! {
     }
 
     /// A response whose residuals are no scatter.
-    UnlikeForm<'a> of (one: &'a Unlike) {
+    PatternForm<'a> of (one: &'a Pattern) {
         /// The response.
         response: &'a str = &one.response,
         /// What tells: `repeats` or `runs`.
         by: &'static str = match one.by {
-            UnlikeBy::Repeats { .. } => "repeats",
-            UnlikeBy::Runs { .. } => "runs",
+            PatternTest::Repeats { .. } => "repeats",
+            PatternTest::Runs { .. } => "runs",
         },
+        /// Of repeated readings: standard deviation among themselves, in the unit of the response (of unit weight where they have weights); null for runs.
+        within: Option<Number> = repeats(one).map(|[within, ..]| Number(within)),
+        /// The same from their means about the equation.
+        between: Option<Number> = repeats(one).map(|[_, between, _]| Number(between)),
+        /// Ratio of their squares.
+        f: Option<Number> = repeats(one).map(|[.., f]| Number(f)),
+        /// How many runs of equal signs there are; null for repeated readings.
+        runs: Option<usize> = signs(one).map(|[runs, _]| runs),
+        /// Of so many residuals.
+        residuals: Option<usize> = signs(one).map(|[_, residuals]| residuals),
         /// Probability of residuals like that, were they scatter.
         p_value: Number = Number(one.p_value),
     }
@@ -396,6 +406,22 @@ pub fn calibration_schema() -> Value {
 /// JSON Schema of the output of `gumption plan --json` for a calibration.
 pub fn plan_schema() -> Value {
     machine::schema::<PlanForm<'_>>("gumption plan --json")
+}
+
+/// What repeated readings tell: within, between, F.
+fn repeats(one: &Pattern) -> Option<[f64; 3]> {
+    match one.by {
+        PatternTest::Repeats { within, between, f } => Some([within, between, f]),
+        PatternTest::Runs { .. } => None,
+    }
+}
+
+/// What signs tell: how many runs, of how many residuals.
+fn signs(one: &Pattern) -> Option<[usize; 2]> {
+    match one.by {
+        PatternTest::Repeats { .. } => None,
+        PatternTest::Runs { runs, readings } => Some([runs, readings]),
+    }
 }
 
 fn coefficients(figures: &Figures, l: Language) -> Vec<CoefficientForm<'_>> {

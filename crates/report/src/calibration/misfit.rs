@@ -11,12 +11,12 @@ use gumption_format::document::{
     Table,
 };
 use gumption_lab::calibrate::{
-    Apart, Calibration, Campaign, Limit, Misfit, Residual, ResponseScatter, Scatter, ScatterTest,
-    Unlike, UnlikeBy,
+    Apart, Calibration, Campaign, Limit, Misfit, Pattern, PatternTest, Residual, ResponseScatter,
+    Scatter, ScatterTest,
 };
 use gumption_lab::experiment::Words;
 
-use super::sections::{DIGITS, said, shown_u};
+use super::sections::{DIGITS, p_of, said, shown_u};
 use super::trouble::counted;
 
 /// More residuals than these are not listed.
@@ -234,13 +234,13 @@ fn stands_apart(one: &Apart, l: Language) -> String {
 }
 
 /// Residuals that are no scatter.
-fn no_scatter(campaign: &Campaign, one: &Unlike, l: Language) -> String {
-    let (response, p) = (&one.response, probability_of(one.p_value));
+fn no_scatter(campaign: &Campaign, one: &Pattern, l: Language) -> String {
+    let (response, p) = (&one.response, p_of(one.p_value));
     let mut responses = campaign.experiment.equations.responses().iter();
     let own = responses.find(|other| other.name == *response);
     let unit = own.map_or(String::new(), |own| symbol(&own.unit));
     let seen = match one.by {
-        UnlikeBy::Repeats {
+        PatternTest::Repeats {
             within,
             between,
             f,
@@ -253,7 +253,7 @@ fn no_scatter(campaign: &Campaign, one: &Unlike, l: Language) -> String {
                 format!("激励相同时 {response} 各读数的标准差为 {within}，而由其平均值与方程之差所得为 {between}（F = {f}，{p}）"),
             )
         }
-        UnlikeBy::Runs { runs, readings } => l.pick(
+        PatternTest::Runs { runs, readings } => l.pick(
             format!("those of {response} keep their sign in the order of the readings for longer than by chance ({runs} runs of {readings} residuals, {p})"),
             format!("按读数顺序，{response} 的残差同号延续过久，并非偶然（{readings} 个残差 {runs} 个游程，{p}）"),
         ),
@@ -262,14 +262,6 @@ fn no_scatter(campaign: &Campaign, one: &Unlike, l: Language) -> String {
         format!("The residuals are no scatter: {seen}. The equations leave something out (curvature, hysteresis, drift), or reference values are wrong. The uncertainties above take it for scatter that averages away. `gumption diagnose` looks for what it is."),
         format!("残差不是随机分散：{seen}。方程有遗漏（非线性、滞后、漂移等），或参考值有误；上列不确定度将其当作可以平均掉的分散性。可用 `gumption diagnose` 查找原因。"),
     )
-}
-
-fn probability_of(p: f64) -> String {
-    const LEAST: f64 = 1e-4;
-    match p < LEAST {
-        true => "p < 0.0001".to_owned(),
-        false => format!("p = {}", significant(p, 2)),
-    }
 }
 
 /// What a reader must know.
@@ -302,7 +294,12 @@ pub(super) fn remarks(
         items.extend(reversed(&found.reversed, l));
         items.extend(found.apart.iter().map(|one| stands_apart(one, l)));
         items.extend(found.limits.iter().map(|limit| at_limit(limit, l)));
-        items.extend(found.unlike.iter().map(|one| no_scatter(campaign, one, l)));
+        items.extend(
+            found
+                .patterns
+                .iter()
+                .map(|one| no_scatter(campaign, one, l)),
+        );
         if !found.linear {
             items.push(l.pick(
                 "The equations are not linear in the parameters: uncertainties and written budgets are of first order in the errors.",

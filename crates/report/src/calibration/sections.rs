@@ -154,11 +154,15 @@ pub(super) fn shown_u(u: f64) -> String {
     }
 }
 
-fn significance(one: &Coefficient, l: Language) -> String {
-    let p = match one.p_value {
+pub(super) fn p_of(p: f64) -> String {
+    match p {
         p if p < 1e-4 => "p < 0.0001".to_owned(),
         p => format!("p = {}", significant(p, 2)),
-    };
+    }
+}
+
+fn significance(one: &Coefficient, l: Language) -> String {
+    let p = p_of(one.p_value);
     match one.is_significant() {
         None => NONE.to_owned(),
         Some(true) => l.pick(format!("yes, {p}"), format!("显著，{p}")),

@@ -1,9 +1,9 @@
 //! Tests of calibrations against closed forms and simulations.
 
 mod closed_forms;
+mod pattern;
 mod refusals;
 mod simulations;
-mod unlike;
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};

@@ -1,0 +1,171 @@
+//! Residuals that are no scatter. Where they tell the scatter themselves, what the equations leave out makes it larger,
+//! and no χ² shows it: repeated readings that agree better do, and signs that stay.
+
+use super::scatter::{RARE, ResponseScatter, explained_by};
+use super::stack::{Row, Stack};
+use crate::experiment::Scope;
+use gumption_core::least_squares::{Solution, runs};
+use gumption_core::special::{f_sf, normal_two_sided_quantile};
+use nalgebra::DMatrix;
+
+use super::gain::Gain;
+
+/// What says that the residuals of a response are no scatter.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Pattern {
+    /// The response.
+    pub response: String,
+    /// Which test.
+    pub by: PatternTest,
+    /// Probability of a statistic as far out, were they scatter.
+    pub p_value: f64,
+}
+
+/// A test of residuals.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PatternTest {
+    /// Readings where all stimuli are equal agree better than their means with the equation.
+    Repeats {
+        /// Standard deviation of such readings among themselves, in the unit of the response; of unit weight where the
+        /// readings have weights.
+        within: f64,
+        /// The same from their means about the equation.
+        between: f64,
+        /// Ratio of the squares.
+        f: f64,
+    },
+    /// In the order of the readings residuals keep their sign for too long (Wald and Wolfowitz 1940).
+    Runs {
+        /// How many runs of equal signs there are.
+        runs: usize,
+        /// Of so many residuals.
+        readings: usize,
+    },
+}
+
+/// What is found of each response: by repeated readings, or else by the signs.
+pub(super) fn patterns(
+    stack: &Stack<'_>,
+    solution: &Solution,
+    gain: &Gain,
+    u: &[f64],
+    responses: &[ResponseScatter],
+) -> Vec<Pattern> {
+    let ones = vec![1.0; stack.rows.len()];
+    let jacobian: DMatrix<f64> = stack.jacobian(&solution.parameters, &ones);
+    let explained = explained_by(stack, solution, gain, &jacobian, |_: &Scope| true);
+    let found = responses.iter().enumerate().filter_map(|(response, own)| {
+        let rows = stack.rows_of(response);
+        let residuals = Residuals {
+            stack,
+            response,
+            rows: &rows,
+            of: &solution.residuals,
+            u,
+            allowed: &explained,
+            dof: own.dof,
+        };
+        let (by, p_value) = residuals.by_repeats().or_else(|| residuals.by_runs())?;
+        (own.test.is_none_or(|test| test.misfit.is_none())).then(|| Pattern {
+            response: own.response.clone(),
+            by,
+            p_value,
+        })
+    });
+    found.collect()
+}
+
+/// The residuals of one response.
+struct Residuals<'a> {
+    stack: &'a Stack<'a>,
+    response: usize,
+    rows: &'a [usize],
+    /// Of all rows.
+    of: &'a [f64],
+    u: &'a [f64],
+    /// The mean square that all stated errors let expect of each row.
+    allowed: &'a [f64],
+    dof: f64,
+}
+
+impl Residuals<'_> {
+    fn scaled(&self, row: usize) -> f64 {
+        self.of[row] / self.u[row]
+    }
+
+    /// The sum of squares that stated errors and the digits of the readings may make, systematic as they may be.
+    fn harmless(&self) -> f64 {
+        let step = self.step();
+        let limit = normal_two_sided_quantile(1.0 - RARE);
+        let stated = |row: &usize| self.allowed[*row] * limit * limit;
+        let read = (step / 2.0) * (step / 2.0);
+        let rows = self.rows.iter();
+        rows.map(|row| (stated(row) + read) / (self.u[*row] * self.u[*row]))
+            .sum()
+    }
+
+    /// The least difference of two readings: not less than the resolution.
+    fn step(&self) -> f64 {
+        let mut observed: Vec<f64> = self.rows.iter().map(|r| self.stack.observed[*r]).collect();
+        observed.sort_by(f64::total_cmp);
+        let steps = observed.windows(2).map(|pair| pair[1] - pair[0]);
+        let least = steps.filter(|step| *step > 0.0).reduce(f64::min);
+        least.unwrap_or(0.0)
+    }
+
+    fn by_repeats(&self) -> Option<(PatternTest, f64)> {
+        let stimuli = |row: usize| self.stack.stimuli(row, self.response);
+        let mut keyed: Vec<(Vec<f64>, usize)> =
+            self.rows.iter().map(|row| (stimuli(*row), *row)).collect();
+        let compare = |a: &[f64], b: &[f64]| {
+            let pairs = a.iter().zip(b).map(|(a, b)| a.total_cmp(b));
+            pairs.fold(std::cmp::Ordering::Equal, std::cmp::Ordering::then)
+        };
+        keyed.sort_by(|a, b| compare(&a.0, &b.0));
+        let (mut groups, mut inside, mut beside) = (0, 0.0, 0.0);
+        for group in keyed.chunk_by(|a, b| a.0 == b.0) {
+            groups += 1;
+            let count = group.len() as f64;
+            let mean = group.iter().map(|(_, row)| self.scaled(*row)).sum::<f64>() / count;
+            let apart = |(_, row): &(Vec<f64>, usize)| (self.scaled(*row) - mean).powi(2);
+            inside += group.iter().map(apart).sum::<f64>();
+            beside += count * mean * mean;
+        }
+        let inside_dof = (self.rows.len() - groups) as f64;
+        let beside_dof = self.dof - inside_dof;
+        let beside = beside - self.harmless();
+        // Repetitions that are equal to the last digit tell nothing of the scatter.
+        if inside_dof < 1.0 || beside_dof < 0.5 || inside <= 0.0 || beside <= 0.0 {
+            return None;
+        }
+        let [within, between] = [inside / inside_dof, beside / beside_dof];
+        let f = between / within;
+        let p_value = f_sf(f, beside_dof, inside_dof);
+        let by = PatternTest::Repeats {
+            within: within.sqrt(),
+            between: between.sqrt(),
+            f,
+        };
+        (p_value < RARE).then_some((by, p_value))
+    }
+
+    fn by_runs(&self) -> Option<(PatternTest, f64)> {
+        let total: f64 = self.rows.iter().map(|row| self.scaled(*row).powi(2)).sum();
+        let found = runs(self.rows.iter().map(|row| self.of[*row]))?;
+        let by = PatternTest::Runs {
+            runs: found.runs,
+            readings: found.above + found.below,
+        };
+        let rare = found.probability < RARE && total > self.harmless();
+        rare.then_some((by, found.probability))
+    }
+}
+
+impl Stack<'_> {
+    /// The rows of a response.
+    fn rows_of(&self, response: usize) -> Vec<usize> {
+        let of = |row: &usize| matches!(self.rows[*row], Row::Reading { response: own, .. } if own == response);
+        (0..self.rows.len()).filter(of).collect()
+    }
+}

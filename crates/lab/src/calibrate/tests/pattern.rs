@@ -1,0 +1,102 @@
+//! Residuals that are no scatter.
+
+use rand::SeedableRng;
+use rand::rngs::StdRng;
+use rand_distr::{Distribution, Normal};
+
+use super::super::{Pattern, PatternTest, calibrate};
+use super::{campaign, near};
+
+const RATE: &str = "title = \"Rate\"\nequations = [\"U = K*omega*(1 + e) + b\"]\n[parameter]\nK = {}\nb = {}\n[recording]\nfile = \"run.csv\"\n";
+
+/// What is found of readings, with what the file states of errors.
+fn found(errors: &str, readings: &[(f64, f64)]) -> Vec<Pattern> {
+    let lines = readings.iter().map(|(omega, u)| format!("{omega},{u}\n"));
+    let csv = format!("omega [deg/s],U [mV]\n{}", lines.collect::<String>());
+    let campaign = campaign(&format!("{RATE}{errors}"), &csv);
+    calibrate(&campaign).expect("coefficients").patterns
+}
+
+const EXACT: &str = "[input.e]\nvalue = 0\n";
+
+/// Two series, of which readings at the same rate differ by ±d, on a parabola of height a.
+fn parabola(a: f64, d: f64) -> Vec<(f64, f64)> {
+    let series = |sign: f64| {
+        (-2..=2).map(move |i| {
+            let x = f64::from(i);
+            (x, 2.0 * x + a * (x * x - 2.0) + sign * d)
+        })
+    };
+    series(1.0).chain(series(-1.0)).collect()
+}
+
+#[test]
+fn repeats_that_agree_better_than_the_equation_tell() {
+    let all = found(EXACT, &parabola(1.0, 0.001));
+    let [Pattern { by, .. }] = all.as_slice() else {
+        panic!("{all:?}")
+    };
+    let PatternTest::Repeats { within, between, f } = by else {
+        panic!("{by:?}")
+    };
+    // Ten readings at five rates, two parameters: ν = 5 and 3. Σ(x² − 2)² = 2·14; readings differ by no less than
+    // 0.002, which may be their resolution.
+    let apart = (10.0 * 0.001_f64.powi(2) / 5.0).sqrt();
+    near(*within, apart, 1e-6);
+    near(
+        *between,
+        ((28.0 - 10.0 * 0.001_f64.powi(2)) / 3.0).sqrt(),
+        1e-6,
+    );
+    near(*f, (between / within).powi(2), 1e-12);
+}
+
+#[test]
+fn what_is_stated_or_read_so_coarsely_explains_residuals() {
+    let curved = parabola(0.02, 0.001);
+    assert_eq!(found(EXACT, &curved).len(), 1);
+    let each = "[reading.U]\nu = 0.03\n";
+    assert_eq!(found(&format!("{EXACT}{each}"), &curved), []);
+    // A digit of 1 mV makes the same errors at the same rates.
+    let coarse: Vec<(f64, f64)> = (0..40)
+        .map(|i| {
+            let x = f64::from(i % 10) * 1.37;
+            (x, (2.0 * x + if i == 7 { 0.6 } else { 0.0 }).round())
+        })
+        .collect();
+    assert_eq!(found(EXACT, &coarse), []);
+}
+
+#[test]
+fn signs_that_stay_tell() {
+    // A wave over the readings, at rates that do not come back.
+    let wave = |i: usize| {
+        let x = ((i * 37) % 40) as f64;
+        (x, 2.0 * x + (i as f64 / 5.0).sin())
+    };
+    let all = found(EXACT, &(0..40).map(wave).collect::<Vec<_>>());
+    let [Pattern { by, p_value, .. }] = all.as_slice() else {
+        panic!("{all:?}")
+    };
+    assert!(
+        matches!(by, PatternTest::Runs { readings: 40, .. }),
+        "{by:?}"
+    );
+    assert!(*p_value < 0.005);
+}
+
+#[test]
+fn scatter_is_scatter() {
+    let noise = Normal::new(0.0, 1.0).expect("a distribution");
+    let mut random = StdRng::seed_from_u64(1);
+    let mut alarms = 0;
+    for _ in 0..400 {
+        let reading = |i: usize| {
+            let x = (i % 8) as f64;
+            (x, 2.0 * x + noise.sample(&mut random))
+        };
+        alarms += found(EXACT, &(0..24).map(reading).collect::<Vec<_>>()).len();
+    }
+    // Two tests at 0.5 %: four are expected at most, and eleven come about in fewer than one of a thousand cases.
+    assert!(alarms < 11, "{alarms}");
+}

@@ -181,6 +181,7 @@ impl Pattern {
             && found.components.len() == budget.components.len()
             && found.components.iter().zip(&budget.components).all(same)
             && found.groups == budget.groups
+            && found.remarks.is_empty() == budget.remarks.is_empty()
             && found.constants == budget.constants
             && found.following == budget.following
             && found.remarks.is_empty() == budget.remarks.is_empty()

@@ -10,7 +10,7 @@ mod common;
 use common::{median_of, words};
 use gumption_lanes::moments::PowerSums;
 use gumption_lanes::sampler::normal_block;
-use gumption_lanes::triangle::Triangle;
+use gumption_lanes::triangle::{Row, Triangle};
 use gumption_lanes::{Block, Generator, LANES, Level, Sampler, level, ops};
 
 const BLOCKS: usize = 4000;
@@ -179,18 +179,25 @@ fn gauge(level: Level, generators: &mut [Generator], x: &mut [Block], y: &mut Bl
     ops::add(level, a, b, y);
 }
 
-/// Rows of the triangular factor of a correlation matrix with the same r everywhere.
-fn equal_correlation(inputs: usize, r: f64) -> Vec<Vec<f64>> {
-    let mut rows: Vec<Vec<f64>> = Vec::new();
-    for i in 0..inputs {
-        let mut row: Vec<f64> = Vec::new();
-        for before in &rows {
-            let sum: f64 = row.iter().zip(before).map(|(a, b)| a * b).sum();
-            row.push((r - sum) / before[row.len()]);
+/// Rows of the triangular factor of a correlation matrix with the same r everywhere, of inputs 1 with u = 0.01.
+fn equal_correlation(inputs: usize, r: f64) -> Vec<Row> {
+    let mut rows: Vec<Row> = Vec::new();
+    for place in 0..inputs {
+        let mut weights: Vec<f64> = Vec::new();
+        for Row {
+            weights: before, ..
+        } in &rows
+        {
+            let sum: f64 = weights.iter().zip(before).map(|(a, b)| a * b).sum();
+            weights.push((r - sum) / before[weights.len()]);
         }
-        row.push((1.0 - row.iter().map(|a| a * a).sum::<f64>()).sqrt());
-        debug_assert_eq!(row.len(), i + 1);
-        rows.push(row);
+        weights.push((1.0 - weights.iter().map(|a| a * a).sum::<f64>()).sqrt());
+        let scale = [1.0, 0.01, 1.0];
+        rows.push(Row {
+            weights,
+            scale,
+            place,
+        });
     }
     rows
 }
@@ -206,12 +213,12 @@ fn correlated(
     for (generator, z) in generators.iter_mut().zip(normals.iter_mut()) {
         normal_block(level, generator, z);
     }
-    let [b, c, ..] = rest else { return };
-    factor.apply(level, normals);
+    let (inputs, rest) = rest.split_at_mut(count);
+    let [c, ..] = rest else { return };
+    factor.apply(level, normals, inputs);
     ops::fill(level, 0.0, c);
-    for a in normals {
-        ops::affine(level, a, 0.01, 1.0, b);
-        ops::mul_add(level, b, b, c, y);
+    for a in &*inputs {
+        ops::mul_add(level, a, a, c, y);
         ops::copy(level, y, c);
     }
 }

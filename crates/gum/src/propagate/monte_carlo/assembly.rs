@@ -7,39 +7,10 @@ use crate::budget::{Group, Input, Law};
 pub(super) enum Assembly {
     /// One component makes it up that is drawn alone and belongs to no other input.
     Alone(usize),
-    /// Likewise, but the component is drawn with others, which are normal.
+    /// Likewise, but the component is drawn with others, which are normal and make up an input each.
     WithGroup,
     /// The sum of its components.
     Summed,
-}
-
-/// Of all inputs, where it is known which components are drawn alone.
-pub(super) fn assemblies(inputs: &[Input], alone: &[bool], groups: &[Group]) -> Vec<Assembly> {
-    let mut uses = vec![0; alone.len()];
-    for term in inputs.iter().flat_map(|input| &input.terms) {
-        uses[term.component] += 1;
-    }
-    let normal: Vec<&Group> = groups
-        .iter()
-        .filter(|group| matches!(group.law, Law::Normal))
-        .collect();
-    let in_group = |component| {
-        let mut groups = normal.iter();
-        groups.any(|group| group.members.contains(&component))
-    };
-    let assembly = |input: &Input| match input.terms.as_slice() {
-        [term] if uses[term.component] == 1 => {
-            if alone[term.component] {
-                Assembly::Alone(term.component)
-            } else if term.coefficient != 0.0 && in_group(term.component) {
-                Assembly::WithGroup
-            } else {
-                Assembly::Summed
-            }
-        }
-        _ => Assembly::Summed,
-    };
-    inputs.iter().map(assembly).collect()
 }
 
 /// An input that a component makes up alone.
@@ -50,18 +21,49 @@ pub(super) struct Straight {
     pub(super) scale: [f64; 2],
 }
 
-/// Per component, of which there are `components`, the input that it makes up, if it is drawn with others.
-pub(super) fn straight(
-    inputs: &[Input],
-    assemblies: &[Assembly],
-    components: usize,
-) -> Vec<Option<Straight>> {
+/// Per component, of which there are `components`, the input that it makes up, if it belongs to no other.
+pub(super) fn straight(inputs: &[Input], components: usize) -> Vec<Option<Straight>> {
+    let mut uses = vec![0; components];
+    for term in inputs.iter().flat_map(|input| &input.terms) {
+        uses[term.component] += 1;
+    }
     let mut straight = vec![None; components];
-    for ((assembly, input), place) in assemblies.iter().zip(inputs).zip(0..) {
-        if let (Assembly::WithGroup, [term]) = (assembly, input.terms.as_slice()) {
+    for (place, input) in inputs.iter().enumerate() {
+        if let [term] = input.terms.as_slice()
+            && uses[term.component] == 1
+            && term.coefficient != 0.0
+        {
             let scale = [term.coefficient, input.estimate];
             straight[term.component] = Some(Straight { place, scale });
         }
     }
     straight
+}
+
+/// The inputs that the members of a group make up, where they are normal and each makes up one.
+pub(super) fn inputs_of(group: &Group, straight: &[Option<Straight>]) -> Option<Vec<Straight>> {
+    let members = group.members.iter().map(|&member| straight[member]);
+    members
+        .collect::<Option<_>>()
+        .filter(|_| matches!(group.law, Law::Normal))
+}
+
+/// Of all inputs, where it is known which components are drawn alone, and what they make up.
+pub(super) fn assemblies(
+    inputs: &[Input],
+    alone: &[bool],
+    groups: &[Group],
+    straight: &[Option<Straight>],
+) -> Vec<Assembly> {
+    let mut assemblies = vec![Assembly::Summed; inputs.len()];
+    for (component, input) in straight.iter().enumerate() {
+        if let Some(input) = input.filter(|_| alone[component]) {
+            assemblies[input.place] = Assembly::Alone(component);
+        }
+    }
+    let drawn_together = groups.iter().filter_map(|group| inputs_of(group, straight));
+    for input in drawn_together.flatten() {
+        assemblies[input.place] = Assembly::WithGroup;
+    }
+    assemblies
 }

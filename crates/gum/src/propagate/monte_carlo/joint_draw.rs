@@ -11,7 +11,7 @@
 //! | Gaussian copula | G_i⁻¹(Φ((L Z)_i)), L Lᵀ = latent correlation, G_i the member's own distribution |
 
 use gumption_lanes::sampler::{gamma_block, normal_block};
-use gumption_lanes::triangle::Triangle;
+use gumption_lanes::triangle::{Row, Triangle};
 use gumption_lanes::{Block, Generator, Level, Sampler, level, ops};
 use nalgebra::DMatrix;
 
@@ -58,14 +58,14 @@ impl<'b> JointDraw<'b> {
             })
             .collect();
         let drawn_alone: Vec<bool> = alone.iter().map(Option::is_some).collect();
-        let assemblies = assembly::assemblies(inputs, &drawn_alone, groups);
+        let straight = assembly::straight(inputs, components.len());
+        let assemblies = assembly::assemblies(inputs, &drawn_alone, groups, &straight);
         let mut with_input = vec![false; components.len()];
         for assembly in &assemblies {
             if let Assembly::Alone(component) = assembly {
                 with_input[*component] = true;
             }
         }
-        let straight = assembly::straight(inputs, &assemblies, components.len());
         let joint = groups
             .iter()
             .zip(components.len()..)
@@ -170,16 +170,15 @@ pub(super) struct Scratch {
 /// How the members of a group are drawn.
 struct JointSampler {
     members: Vec<usize>,
-    /// The triangular factor.
+    /// Makes the members, or their inputs, of independent standard normals.
     factor: Triangle,
     law: JointLaw,
-    /// Per member the input that it makes up alone.
-    straight: Vec<Option<Straight>>,
+    /// Whether what is made are the inputs.
+    makes_inputs: bool,
 }
 
 enum JointLaw {
-    /// Factor of each member.
-    Normal(Vec<f64>),
+    Normal,
     /// Factor of each member, degrees of freedom, stream of χ².
     StudentT {
         scale: Vec<f64>,
@@ -198,10 +197,7 @@ impl JointSampler {
     ) -> Self {
         let members = || group.members.iter().map(|&member| &components[member]);
         let (law, correlation) = match &group.law {
-            Law::Normal => (
-                JointLaw::Normal(members().map(|c| c.u).collect()),
-                &group.correlation,
-            ),
+            Law::Normal => (JointLaw::Normal, &group.correlation),
             Law::StudentT { dof, scale } => {
                 let law = JointLaw::StudentT {
                     scale: scale.clone(),
@@ -215,11 +211,29 @@ impl JointSampler {
                 latent,
             ),
         };
+        let inputs = assembly::inputs_of(group, straight);
+        let row = |(i, weights): (usize, Vec<f64>)| {
+            let member = group.members[i];
+            let u = match law {
+                JointLaw::Normal => components[member].u,
+                _ => 1.0,
+            };
+            let (place, [coefficient, estimate]) = match &inputs {
+                Some(inputs) => (inputs[i].place, inputs[i].scale),
+                None => (member, [1.0, 0.0]),
+            };
+            Row {
+                weights,
+                scale: [u, coefficient, estimate],
+                place,
+            }
+        };
+        let weights = weights(&lower_factor(correlation)).into_iter();
         JointSampler {
             members: group.members.clone(),
-            factor: Triangle::new(&rows(&lower_factor(correlation))),
+            factor: Triangle::new(&weights.enumerate().map(row).collect::<Vec<_>>()),
             law,
-            straight: group.members.iter().map(|i| straight[*i]).collect(),
+            makes_inputs: inputs.is_some(),
         }
     }
 
@@ -237,30 +251,27 @@ impl JointSampler {
         if let JointLaw::StudentT { dof, stream, .. } = self.law {
             mix(level, &mut generators[stream], dof, mixing);
         }
-        self.factor.apply(level, normals);
-        for (i, (&member, z)) in self.members.iter().zip(normals).enumerate() {
+        let made = match self.makes_inputs {
+            true => inputs,
+            false => errors.as_mut_slice(),
+        };
+        self.factor.apply(level, normals, made);
+        for (i, &member) in self.members.iter().enumerate() {
+            let error = &mut errors[member];
             match &self.law {
-                JointLaw::Normal(u) => ops::scale(level, u[i], z),
+                JointLaw::Normal => {}
                 JointLaw::StudentT { scale, .. } => {
-                    z.0.iter_mut()
-                        .zip(&mixing.0)
-                        .for_each(|(z, w)| *z *= w * scale[i]);
+                    let factors = mixing.0.iter().map(|w| w * scale[i]);
+                    error.0.iter_mut().zip(factors).for_each(|(z, w)| *z *= w);
                 }
-                JointLaw::Copula(margins) => margins[i].apply(level, z),
-            }
-            match (&self.law, self.straight[i]) {
-                (JointLaw::Normal(_), Some(input)) => {
-                    let [coefficient, estimate] = input.scale;
-                    ops::affine(level, z, coefficient, estimate, &mut inputs[input.place]);
-                }
-                _ => errors[member] = *z,
+                JointLaw::Copula(margins) => margins[i].apply(level, error),
             }
         }
     }
 }
 
 /// The rows of a triangular factor, up to the diagonal.
-pub(super) fn rows(factor: &DMatrix<f64>) -> Vec<Vec<f64>> {
+pub(super) fn weights(factor: &DMatrix<f64>) -> Vec<Vec<f64>> {
     let row = |i: usize| (0..=i).map(|k| factor[(i, k)]).collect();
     (0..factor.nrows()).map(row).collect()
 }

@@ -5,13 +5,13 @@
 //! one. Beyond the dimensions that have direction numbers, random numbers take their place.
 
 use super::super::factor::lower_factor;
-use super::super::joint_draw::rows;
+use super::super::joint_draw::weights;
 use super::shapes;
 use super::trial::{Trial, effects, inputs_of};
 use crate::budget::{Budget, Group, Law};
 use gumption_lanes::quantile::{OfScore, Quantile, scores};
 use gumption_lanes::sobol::DIMENSIONS;
-use gumption_lanes::triangle::Triangle;
+use gumption_lanes::triangle::{Row, Triangle};
 use gumption_lanes::{Block, Generator, LANES, Level, Sobol, level, ops};
 
 /// Random numbers beyond the last dimension of the sequence; no trial takes them.
@@ -39,7 +39,7 @@ struct Joint<'b> {
     members: &'b [usize],
     /// Of each member.
     dimensions: Vec<usize>,
-    /// The triangular factor.
+    /// Makes the members of independent standard normals.
     factor: Triangle,
     law: JointLaw,
 }
@@ -243,10 +243,16 @@ impl<'b> Joint<'b> {
                 )
             }
         };
+        let weights = weights(&lower_factor(correlation)).into_iter();
+        let rows = weights.zip(&group.members).map(|(weights, &place)| Row {
+            weights,
+            scale: [1.0, 1.0, 0.0],
+            place,
+        });
         Ok(Joint {
             members: &group.members,
             dimensions: Vec::new(),
-            factor: Triangle::new(&rows(&lower_factor(correlation))),
+            factor: Triangle::new(&rows.collect::<Vec<_>>()),
             law,
         })
     }
@@ -271,10 +277,9 @@ impl<'b> Joint<'b> {
             scores(level, &mut shared);
             mixing.apply(level, &mut shared);
         }
-        self.factor.apply(level, normals);
-        for (i, (member, z)) in self.members.iter().zip(normals).enumerate() {
-            let error = &mut errors[*member];
-            *error = *z;
+        self.factor.apply(level, normals, errors);
+        for (i, &member) in self.members.iter().enumerate() {
+            let error = &mut errors[member];
             match &self.law {
                 JointLaw::Normal(scale) => ops::scale(level, scale[i], error),
                 JointLaw::StudentT { scale, .. } => {

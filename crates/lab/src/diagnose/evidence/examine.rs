@@ -244,7 +244,10 @@ mod tests {
         assert_eq!(first(two, &|_| 1, false), Likeness::Piece);
         // A jump beside a wave, wherever they are; alone it stands.
         assert_eq!(first(two, &|candidate| candidate, true), Likeness::Piece);
-        assert_eq!(first(&two[..1], &|candidate| candidate, true), Likeness::Form);
+        assert_eq!(
+            first(&two[..1], &|candidate| candidate, true),
+            Likeness::Form
+        );
     }
 
     #[test]

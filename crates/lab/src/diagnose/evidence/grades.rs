@@ -87,9 +87,8 @@ pub fn likeness<'p>(
     let alike = |other: &&Slot| {
         (describes(slot) && describes(other)) || of(other).map(|of| of.0) == of(slot).map(|of| of.0)
     };
-    let shared = || {
-        slots.iter().filter(alike).count() > 1 || (describes(slot) && slots.len() > FEW)
-    };
+    let shared =
+        || slots.iter().filter(alike).count() > 1 || (describes(slot) && slots.len() > FEW);
     match own * LIKENESS >= SEEN {
         false => Likeness::Weak,
         true if own < LIKENESS * strongest(slots) => Likeness::Beside,

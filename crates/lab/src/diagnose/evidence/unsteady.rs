@@ -35,7 +35,9 @@ pub fn unsteadiness(
     let Some(first) = courses.first() else {
         return Ok(1.0);
     };
-    let observed = courses.iter().map(|course| kurtosis(course.baseline.residuals().as_slice()));
+    let observed = courses
+        .iter()
+        .map(|course| kurtosis(course.baseline.residuals().as_slice()));
     let observed = observed.fold(0.0, f64::max);
     let laws = factors(noise.laws())?;
     let null = Null::new(&first.baseline, seed, STAGE);
@@ -46,7 +48,11 @@ pub fn unsteadiness(
         // Each law in turn makes some of the recordings.
         let mut errors = DMatrix::zeros(rows, LANES);
         let each = LANES.div_ceil(laws.len());
-        for (at, law) in laws.iter().enumerate().take_while(|(at, _)| at * each < LANES) {
+        for (at, law) in laws
+            .iter()
+            .enumerate()
+            .take_while(|(at, _)| at * each < LANES)
+        {
             let own = at * each..((at + 1) * each).min(LANES);
             let plain = normals.view((0, own.start), (rows, own.len())).into_owned();
             errors.columns_range_mut(own).copy_from(&law.times(&plain));

@@ -128,8 +128,11 @@ impl Diagnosis {
 
     /// Why a slot says no more than what its effect acts like.
     pub fn likeness(&self, slot: &Slot) -> Likeness {
-        let place = |candidate: usize| &self.cells[candidate].place;
-        evidence::likeness(slot, &self.examination.slots, place)
+        let of = |candidate: usize| {
+            let cell = &self.cells[candidate];
+            (&cell.place, cell.effect.pattern.is_some())
+        };
+        evidence::likeness(slot, &self.examination.slots, of)
     }
 
     /// Why the names of a slot are to be taken with care; `None` where they hold.

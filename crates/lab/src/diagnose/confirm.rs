@@ -98,14 +98,8 @@ fn spreads(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Vec<Spread> {
     };
     match baseline(design, fit, &claimed.uncorrelated()) {
         Ok(baseline) => {
-            let noise = claimed.noise();
-            let only = std::slice::from_ref(&noise.covariance);
-            let laws = match noise.draws.as_slice() {
-                [] => only,
-                draws => draws,
-            };
             let spread = |law: &Covariance| sized(baseline.spread(law));
-            laws.iter().map(spread).collect()
+            claimed.noise().laws().iter().map(spread).collect()
         }
         Err(_) => {
             let degrees = degrees(design);

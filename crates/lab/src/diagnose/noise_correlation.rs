@@ -12,6 +12,7 @@ use nalgebra::DMatrix;
 
 use super::blocks::MOST_COMPARED;
 use super::catalogue::FittedModel;
+use super::catalogue::norm::Norm;
 use super::chance::in_proportion;
 use super::design::Design;
 use super::evidence::{self, Correlation, Noise, Refusal};
@@ -96,7 +97,8 @@ pub(super) struct Courses {
 pub(super) fn laws(observations: usize) -> usize {
     match observations > MOST_COMPARED {
         true => 1,
-        false => 1 + SHARES.len() * (CONSTANTS + 1),
+        // On the response, and on the readings of a norm.
+        false => 1 + 2 * SHARES.len() * (CONSTANTS + 1),
     }
 }
 
@@ -121,21 +123,29 @@ impl Courses {
             })
         });
         let flicker = SHARES.map(|share| Memory::Flicker { share });
-        let laws = std::iter::once(Memory::White).chain(fading).chain(flicker);
-        let matrix = |law: Memory| {
+        let wandering: Vec<Memory> = fading.chain(flicker).collect();
+        let matrix = |law: Memory, in_common: Option<&DMatrix<f64>>| {
             let of = |apart: f64| law.correlation(apart, &constants);
             let size = times.len();
             let rows = |i: usize, j: usize| match i == j {
                 true => 1.0,
-                false => of((times[i] - times[j]).abs()),
+                false => {
+                    let share = in_common.map_or(1.0, |in_common| in_common[(i, j)]);
+                    share * of((times[i] - times[j]).abs())
+                }
             };
             let own = DMatrix::from_fn(size, size, rows);
             let whole = of_all(&own, design.case.responses.len());
             (law, Arc::new(Correlation::new(whole)))
         };
+        // What wanders is the response, or each of the readings of which it is the length.
+        let readings = Norm::of(fitted).map(|norm| norm.in_common(fitted));
+        let wherever = std::iter::once(None).chain(readings.iter().map(Some));
+        let each = wherever.flat_map(|own| wandering.iter().map(move |law| (*law, own)));
+        let laws = std::iter::once((Memory::White, None)).chain(each);
         (interval > 0.0).then(|| Courses {
             unit: fitted.time_unit(),
-            all: laws.map(matrix).collect(),
+            all: laws.map(|(law, own)| matrix(law, own)).collect(),
         })
     }
 

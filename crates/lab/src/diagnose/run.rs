@@ -185,13 +185,17 @@ pub fn diagnose(
         ..
     } = candidates;
     // What nobody claims may be anything.
-    let is_ordered = fitted.clock.column.is_some() && courses.is_some();
-    let is_unclaimed = claimed.wanders() || (claimed.is_estimated() && is_ordered);
-    if examination.verdict == Verdict::None && is_unclaimed {
+    let is_unclaimed = claimed.wanders() || claimed.is_estimated();
+    let is_open = examination.verdict == Verdict::None && is_unclaimed;
+    let ordered = courses.filter(|_| is_open && fitted.clock.column.is_some());
+    if let Some(courses) = ordered {
+        let with = |correlated| claimed.noise_with(correlated);
+        let seen = courses.seen(fitted.design, fitted.fit, &with)?;
         // Two tests, each with half of the probability of a false alarm.
-        let p = (2.0 * evidence::unsteadiness(&baseline, settings.seed)).min(1.0);
-        if p <= settings.alpha {
-            examination.unnamed(cells.len(), p);
+        let alpha = 0.5 * settings.alpha;
+        let p = evidence::unsteadiness(&seen, &claimed.noise(), settings.seed, alpha)?;
+        if p <= alpha {
+            examination.unnamed(cells.len(), 2.0 * p);
             cells.push(generics::unsteady(&fitted));
         }
     }

@@ -230,8 +230,8 @@ fn only_like(likeness: Likeness, l: Language) -> &'static str {
             "此外还有无法命名的部分，它可能占其所解释的一部分。",
         ),
         Likeness::Piece => l.pick(
-            "Another effect beside it follows the same quantity: together they may be pieces of one course that the catalogue does not have.",
-            "另有一种影响随同一量变化：两者合起来可能是目录中没有的某一种变化的各段。",
+            "Together with the other effects it may be a piece of one course that the catalogue does not have.",
+            "与并列的其他影响合起来，可能是目录中没有的某一种变化的各段。",
         ),
         Likeness::Form => l.pick(
             "Nothing else in the catalogue acts like this. The recording departs a little from the form given here: more than noise does, less than would make it another effect.",

@@ -42,7 +42,7 @@ mod inputs;
 mod levels;
 mod limits;
 pub(super) mod modifiers;
-mod norm;
+pub(super) mod norm;
 mod parameters;
 mod powers;
 mod readout;

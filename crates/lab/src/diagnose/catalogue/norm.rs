@@ -9,14 +9,14 @@ use super::modifiers::{map2, range, rounded};
 use super::{Cell, Modifier, Term, Variation};
 
 /// The readings of a vector.
-pub(super) struct Norm {
+pub(in crate::diagnose) struct Norm {
     /// Columns, each with the value at which its component is nothing.
     readings: Vec<(usize, f64)>,
 }
 
 impl Norm {
     /// Where the response has the first degree in readings less a centre (Euler: Σ xᵢ·∂f/∂xᵢ = f) with slopes that turn.
-    pub(super) fn of(fitted: &FittedModel<'_>) -> Option<Norm> {
+    pub(in crate::diagnose) fn of(fitted: &FittedModel<'_>) -> Option<Norm> {
         /// What rounding leaves of the response.
         const ROUNDING: f64 = 1e-6;
         if fitted.case().responses.len() != 1 {
@@ -51,6 +51,24 @@ impl Norm {
         is_norm.then(|| Norm {
             readings: columns.into_iter().zip(&centres).map(centre).collect(),
         })
+    }
+
+    /// How far errors of the readings that stay the same from row to row are the same in the response: for each two rows the
+    /// cosine of the angle between their slopes. A vector that is turned takes an error of a reading up in another way.
+    pub(in crate::diagnose) fn in_common(&self, fitted: &FittedModel<'_>) -> DMatrix<f64> {
+        let slope = |(column, _): &(usize, f64)| {
+            let slope = fitted.slope(Node::Column(*column), 0);
+            DVector::from_vec(fitted.design.reduced(&slope))
+        };
+        let slopes: Vec<DVector<f64>> = self.readings.iter().map(slope).collect();
+        let mut slopes = DMatrix::from_columns(&slopes);
+        for mut row in slopes.row_iter_mut() {
+            let length = row.norm();
+            if length > 0.0 {
+                row /= length;
+            }
+        }
+        &slopes * slopes.transpose()
     }
 
     /// Lets effects on the offset and the scale act on the readings as well.

@@ -284,7 +284,7 @@ impl Baseline {
 }
 
 /// Factors of covariance matrices; those that follow their like share its factor.
-fn factors(draws: &[Covariance]) -> Result<Vec<Arc<Factor>>, Refusal> {
+pub(super) fn factors(draws: &[Covariance]) -> Result<Vec<Arc<Factor>>, Refusal> {
     let mut found: Vec<Arc<Factor>> = Vec::new();
     for (at, draw) in draws.iter().enumerate() {
         let like = found.last().filter(|_| draws[at - 1] == *draw);

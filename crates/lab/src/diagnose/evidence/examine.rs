@@ -236,11 +236,18 @@ mod tests {
         let found = examined(course(|t| t) * 30.0 + square * 90.0, false);
         assert_eq!(found.slots.len(), 2);
         let places = ["temperature", "time"].map(|along| Place::new("offset", along));
-        let first = |place: &dyn Fn(usize) -> usize| {
-            likeness(&found.slots[0], &found.slots, |one| &places[place(one)])
+        let first = |slots: &[Slot], place: &dyn Fn(usize) -> usize, describes: bool| {
+            likeness(&slots[0], slots, |one| (&places[place(one)], describes))
         };
-        assert_eq!(first(&|candidate| candidate), Likeness::Form);
-        assert_eq!(first(&|_| 1), Likeness::Piece);
+        let two = &found.slots;
+        assert_eq!(first(two, &|candidate| candidate, false), Likeness::Form);
+        assert_eq!(first(two, &|_| 1, false), Likeness::Piece);
+        // A jump beside a wave, wherever they are; alone it stands.
+        assert_eq!(first(two, &|candidate| candidate, true), Likeness::Piece);
+        assert_eq!(
+            first(&two[..1], &|candidate| candidate, true),
+            Likeness::Form
+        );
     }
 
     #[test]

@@ -65,17 +65,30 @@ pub enum Likeness {
     Beside,
     /// Something without a name is left, which may have a part of it.
     Open,
-    /// Another effect has the same place: together they may be pieces of one course that no catalogue has.
+    /// Another effect has the same place, or both only say what the recording looks like: together they may be pieces of one
+    /// course that no catalogue has.
     Piece,
     /// Its form is off, by less than makes it another.
     Form,
 }
 
-/// Why one of some slots says no more than what its effect acts like; `place` is that of a candidate.
-pub fn likeness<'p>(slot: &Slot, slots: &[Slot], place: impl Fn(usize) -> &'p Place) -> Likeness {
+/// Why one of some slots says no more than what its effect acts like; `of` gives the place of a candidate, and whether it only
+/// says what the recording looks like.
+pub fn likeness<'p>(
+    slot: &Slot,
+    slots: &[Slot],
+    of: impl Fn(usize) -> (&'p Place, bool),
+) -> Likeness {
+    /// More effects are a description.
+    const FEW: usize = 2;
     let own = strength(slot);
-    let of = |slot: &Slot| slot.named.first().map(|first| place(first.candidate));
-    let shared = || slots.iter().filter(|other| of(other) == of(slot)).count() > 1;
+    let of = |slot: &Slot| slot.named.first().map(|first| of(first.candidate));
+    let describes = |slot: &Slot| of(slot).is_some_and(|(_, describes)| describes);
+    let alike = |other: &&Slot| {
+        (describes(slot) && describes(other)) || of(other).map(|of| of.0) == of(slot).map(|of| of.0)
+    };
+    let shared =
+        || slots.iter().filter(alike).count() > 1 || (describes(slot) && slots.len() > FEW);
     match own * LIKENESS >= SEEN {
         false => Likeness::Weak,
         true if own < LIKENESS * strongest(slots) => Likeness::Beside,
@@ -96,9 +109,12 @@ fn strongest(slots: &[Slot]) -> f64 {
 /// A name is more than a likeness where a departure from its shape would have been seen, where it is not the like of what
 /// a stronger effect leaves, where nothing is left without a name, and where no other effect may have taken up the departure.
 pub(super) fn graded(question: &Question, slots: &mut [Slot]) {
-    let place = |candidate: usize| &question.candidates[candidate].place;
+    let of = |candidate: usize| {
+        let candidate = &question.candidates[candidate];
+        (&candidate.place, candidate.describes)
+    };
     let severe: Vec<bool> = (slots.iter())
-        .map(|slot| likeness(slot, slots, place) == Likeness::Form)
+        .map(|slot| likeness(slot, slots, of) == Likeness::Form)
         .collect();
     for (slot, is_severe) in slots.iter_mut().zip(severe) {
         if slot.state == State::Identified && !is_severe {

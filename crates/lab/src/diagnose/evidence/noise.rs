@@ -88,6 +88,14 @@ impl Noise {
             scale_dof,
         }
     }
+
+    /// The covariance matrices that it may have: the draws, or the only one.
+    pub fn laws(&self) -> &[Covariance] {
+        match self.draws.as_slice() {
+            [] => std::slice::from_ref(&self.covariance),
+            draws => draws,
+        }
+    }
 }
 
 impl Covariance {

@@ -243,7 +243,10 @@ fn pages_hold_the_figures_of_the_statement() {
 fn what_users_wrote_is_obeyed_nowhere() {
     let folder = folder("obeyed");
     let rows = "\n[series]\ncolumns = [\"label\", \"x\"]\nrows = [[\"\\u001b[2Ja\", 1], [\"\\u202Eb\", 2]]\n";
-    let budgets = [("one", HOSTILE.to_owned()), ("series", HOSTILE.to_owned() + rows)];
+    let budgets = [
+        ("one", HOSTILE.to_owned()),
+        ("series", HOSTILE.to_owned() + rows),
+    ];
     for (name, text) in budgets {
         let budget = folder.join(format!("{name}.toml"));
         std::fs::write(&budget, text).expect("a budget");

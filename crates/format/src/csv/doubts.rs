@@ -27,11 +27,7 @@ impl Sign {
     }
 
     /// The first of these columns that has a number with this sign.
-    pub(super) fn first_in(
-        self,
-        sheet: &Sheet<'_>,
-        has: impl Fn(usize) -> bool,
-    ) -> Option<usize> {
+    pub(super) fn first_in(self, sheet: &Sheet<'_>, has: impl Fn(usize) -> bool) -> Option<usize> {
         // A table whose commas separate columns has no decimal commas, and most others have no commas at all.
         if !sheet.has_decimal_commas() || !sheet.text().contains(',') {
             return None;
@@ -51,10 +47,12 @@ impl Sign {
 pub(super) fn may_mark_thousands(field: &str) -> bool {
     let unsigned = field.trim_start_matches(['+', '-']);
     let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
-    unsigned.split_once(['.', ',']).is_some_and(|(whole, behind)| {
-        let lengths = (1..=3).contains(&whole.len()) && behind.len() == 3;
-        lengths && digits(whole) && digits(behind) && !whole.starts_with('0')
-    })
+    unsigned
+        .split_once(['.', ','])
+        .is_some_and(|(whole, behind)| {
+            let lengths = (1..=3).contains(&whole.len()) && behind.len() == 3;
+            lengths && digits(whole) && digits(behind) && !whole.starts_with('0')
+        })
 }
 
 /// Columns with decimal points beside columns with decimal commas: one of them is read wrongly, as both also mark

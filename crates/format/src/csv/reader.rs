@@ -6,8 +6,8 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::column_unit::unit_of;
-use super::encoding::{Undecodable, decode};
 use super::doubts::{Sign, may_mark_thousands, mend_of_overload, not_a, same_name, two_signs};
+use super::encoding::{Undecodable, decode};
 use super::faults::{NO_COLUMN, NOT_A_NUMBER, NOT_UTF8, UNIT_CLASH, UNREADABLE};
 use super::field::{Field, Instant, is_like_a_time, is_overload, mend};
 use super::heading::Heading;
@@ -525,11 +525,9 @@ fn find(sheet: &Sheet, headings: &[Heading], wanted: &str) -> Result<usize, Box<
     let span = |i: usize| sheet.place(sheet.header(), i);
     match matching[..] {
         [only] => Ok(only),
-        [first, second, ..] => Err(Box::new(
-            same_name(wanted, span(first), span(second)).help(say!(
-                "give each column a name of its own, or ask for it with its unit"
-            )),
-        )),
+        [first, second, ..] => Err(Box::new(same_name(wanted, span(first), span(second)).help(
+            say!("give each column a name of its own, or ask for it with its unit"),
+        ))),
         [] => {
             let texts: Vec<&str> = headings
                 .iter()

@@ -356,6 +356,26 @@ mod tests {
     use super::*;
 
     #[test]
+    fn values_are_no_overloads_and_have_one_decimal_sign() {
+        let named = Stated {
+            value: "s.csv".to_owned(),
+            span: 0..0,
+            key: 0..0,
+        };
+        let refused = |text: &str| {
+            let found = Points::of(text, &named, &|_| false);
+            let places = |faults: Vec<Fault>| faults.into_iter().map(|fault| fault.span);
+            let refused = found.err().map(places).into_iter().flatten();
+            refused
+                .map(|place| text[place].to_owned())
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(refused("label,V\n9.9e37,9.91E+37\nb,1\n"), ["9.91E+37"]);
+        assert_eq!(refused("label;V;R\n1.1;1.500;100,5\n"), ["R"]);
+        assert_eq!(refused("label;V;R\n1.1;1;100,5\n").len(), 0);
+    }
+
+    #[test]
     fn plain_numbers_are_read_as_by_the_standard_library() {
         let plain = [
             "0",

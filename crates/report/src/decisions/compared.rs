@@ -86,8 +86,14 @@ mod tests {
     #[test]
     fn digits_that_a_verdict_needs() {
         assert_eq!(in_full(100.0124, 100.02, "100.012"), None);
-        assert_eq!(in_full(99.9996, 100.0, "100.000").as_deref(), Some("99.99960"));
-        assert_eq!(in_full(100.01244, 100.01236, "100.012").as_deref(), Some("100.01244"));
+        assert_eq!(
+            in_full(99.9996, 100.0, "100.000").as_deref(),
+            Some("99.99960")
+        );
+        assert_eq!(
+            in_full(100.01244, 100.01236, "100.012").as_deref(),
+            Some("100.01244")
+        );
         // On the limit is within, and what rounds onto it from within as well.
         assert_eq!(in_full(100.0, 100.0, "100.000"), None);
         assert_eq!(in_full(100.0004, 100.0, "100.000"), None);

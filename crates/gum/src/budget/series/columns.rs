@@ -50,7 +50,11 @@ pub(in crate::budget) fn set_twice(
         let fault = Fault::new(
             SERIES,
             name.span.clone(),
-            say!("two columns set the same: {} and {}", names[first].value, name.value),
+            say!(
+                "two columns set the same: {} and {}",
+                names[first].value,
+                name.value
+            ),
         );
         // In a file that the budget names both have its place.
         let fault = match names[first].span == name.span {
@@ -59,7 +63,9 @@ pub(in crate::budget) fn set_twice(
                 .label(say!("the second"))
                 .related(names[first].span.clone(), say!("the first")),
         };
-        Some(fault.help(say!("leave one of them out, or give it the name of what it holds")))
+        Some(fault.help(say!(
+            "leave one of them out, or give it the name of what it holds"
+        )))
     });
     twice.collect()
 }

@@ -439,7 +439,8 @@ mod tests {
             for power in -30..30 {
                 let digits = &"1928374650918273645019283"[..length];
                 let text = format!("{digits}.5e{power}");
-                assert_eq!(plain_number(&text), text.parse().ok(), "{text}");
+                let number = text.parse().ok().filter(|number: &f64| is_settled(*number));
+                assert_eq!(plain_number(&text), number, "{text}");
             }
         }
     }

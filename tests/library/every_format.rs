@@ -224,7 +224,7 @@ fn same_in_every_format(document: &Document, what: &dyn Fn(&str) -> String) -> F
 /// Every line of a formula is set as mathematics, none as it is typed.
 #[track_caller]
 fn formulas_are_set(document: &Document) {
-    for block in &document.blocks {
+    for block in document.blocks() {
         if let Block::Formula(lines) = block {
             let typed: Vec<&String> = lines.iter().filter(|l| Math::of(l).is_none()).collect();
             assert!(typed.is_empty(), "{typed:?}");
@@ -300,7 +300,7 @@ fn no_figure_of_other_commands_differs_between_formats() {
 /// The figures of the sentences of a certificate.
 fn statement(document: &Document) -> Figures {
     use gumption::document::Block;
-    let sentences = document.blocks.iter().filter_map(|block| match block {
+    let sentences = document.blocks().iter().filter_map(|block| match block {
         Block::Statement(sentences) => Some(sentences.join(" ")),
         _ => None,
     });

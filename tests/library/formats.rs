@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::common::{program, root};
+use gumption::fault::is_obeyed;
 use gumption::render::archive;
 
 fn folder(name: &str) -> PathBuf {
@@ -232,6 +233,29 @@ fn pages_hold_the_figures_of_the_statement() {
             let words = squeezed(&String::from_utf8_lossy(&read.stdout));
             for sentence in statement(&budget, language) {
                 assert!(words.contains(&sentence), "{sentence}\nis not in\n{words}");
+            }
+        }
+    }
+}
+
+/// Of a single result, of a series with its labels, and under the head of a certificate.
+#[test]
+fn what_users_wrote_is_obeyed_nowhere() {
+    let folder = folder("obeyed");
+    let rows = "\n[series]\ncolumns = [\"label\", \"x\"]\nrows = [[\"\\u001b[2Ja\", 1], [\"\\u202Eb\", 2]]\n";
+    let budgets = [
+        ("one", HOSTILE.to_owned()),
+        ("series", HOSTILE.to_owned() + rows),
+    ];
+    for (name, text) in budgets {
+        let budget = folder.join(format!("{name}.toml"));
+        std::fs::write(&budget, text).expect("a budget");
+        for language in ["en", "zh", "both"] {
+            for ending in ["txt", "md", "html"] {
+                let file = folder.join(format!("{name}.{ending}"));
+                let text = String::from_utf8(written(&budget, &file, language)).expect("UTF-8");
+                let obeyed = text.chars().find(|c| *c != '\n' && is_obeyed(*c));
+                assert_eq!(obeyed, None, "{name}, {language}:\n{text}");
             }
         }
     }

@@ -88,6 +88,38 @@ fn statements_are_within_the_resolution() {
     }
 }
 
+/// What inputs have in common altogether leaves no uncertainty: the rounding of the computer is none, in either method.
+#[test]
+fn contributions_that_cancel_leave_no_uncertainty() {
+    let correlated = "[input]\na = { value = 1, u = 0.1 }\nb = { value = 2, u = 0.3 }\n\
+         [[correlation]]\nbetween = [\"a\", \"b\"]\nr = 1\n";
+    let shared = "[source.s]\nu = 0.1\n[input]\na = { value = 1.1, source = \"s\", relative = true }\n\
+         b = { value = 2.3, source = \"s\", relative = true }\n";
+    let rounded = "[input]\na = { value = 1 }\nb = { value = 2 }\n[[joint]]\ninputs = [\"a\", \"b\"]\n\
+         covariance = [[1.00e-4, 3.001e-4], [3.001e-4, 9.00e-4]]\n";
+    for (model, inputs) in [
+        ("3*a - b", correlated),
+        ("a/b", shared),
+        ("3*a - b", rounded),
+    ] {
+        let text =
+            format!("[measurand.Y]\nmodel = \"{model}\"\n{inputs}[monte_carlo]\ntrials = 10000\n");
+        let loaded = budget::read(&text, "none.toml", "".as_ref())
+            .unwrap_or_else(|r| panic!("{}", r.render(false)));
+        let evaluation = evaluate(&loaded.rows[0].budget, &Options::default()).expect("a value");
+        let (result, findings) = (&evaluation.results[0], &evaluation.findings);
+        assert_eq!(
+            (result.gum.u, result.monte_carlo.is_none()),
+            (0.0, true),
+            "{text}"
+        );
+        let told = findings.iter().map(|f| &f.kind).collect::<Vec<_>>();
+        assert!(told.contains(&&FindingKind::Cancelled), "{text}{told:?}");
+        let reported = result.reported(&loaded.rows[0].budget.conventions);
+        assert_eq!(reported.expanded(), None, "{text}");
+    }
+}
+
 /// One-sided limits by trials: of the square of a standard normal variable, which is a χ² with one degree of freedom.
 #[test]
 fn one_sided_limits_of_trials_are_quantiles() {

@@ -209,22 +209,23 @@ fn is_freedom(printed: Printed, nu: f64) -> bool {
 /// out.
 fn spoken(document: &Document) -> Document {
     let mut spoken = document.clone();
-    spoken.blocks.retain(|block| match block {
-        Block::Fields(fields) => fields
-            .iter()
-            .any(|(_, text)| text.contains("u_c = ") || text.contains("U = ")),
-        Block::Statement(_) | Block::Paragraph(_) | Block::List(_) | Block::Figures(_) => true,
-        Block::Closing(_) | Block::Findings(_) => true,
-        _ => false,
-    });
-    for block in &mut spoken.blocks {
-        if let Block::Findings(findings) = block {
-            // They speak of the k of a certificate, or of the k that another distribution would have.
-            let own =
-                |id: &str| !["below_reference", "few_degrees_of_freedom", "remark"].contains(&id);
-            findings.retain(|finding| own(&finding.id));
+    spoken.edit(|blocks| {
+        blocks.retain(|block| match block {
+            Block::Fields(fields) => fields
+                .iter()
+                .any(|(_, text)| text.contains("u_c = ") || text.contains("U = ")),
+            Block::Statement(_) | Block::Paragraph(_) | Block::List(_) | Block::Figures(_) => true,
+            Block::Closing(_) | Block::Findings(_) => true,
+            _ => false,
+        });
+        for block in blocks {
+            if let Block::Findings(findings) = block {
+                // They speak of the k of a certificate, or of the k that another distribution would have.
+                let other = ["below_reference", "few_degrees_of_freedom", "remark"];
+                findings.retain(|finding| !other.contains(&finding.id.as_str()));
+            }
         }
-    }
+    });
     spoken
 }
 

@@ -58,6 +58,7 @@ pub(super) fn code(kind: &FindingKind) -> &'static str {
         FindingKind::NeedsMonteCarlo => "needs_monte_carlo",
         FindingKind::TrialsUnresolved { .. } => "trials_unresolved",
         FindingKind::SlopesUnresolved => "slopes_unresolved",
+        FindingKind::Cancelled => "cancelled",
         FindingKind::MomentsMissing { .. } => "moments_missing",
         FindingKind::FewReadings { .. } => "few_readings",
         FindingKind::FailedTrials { .. } => "failed_trials",
@@ -126,6 +127,7 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             amount(report, measurand, significant(*error, 2)),
         ),
         FindingKind::SlopesUnresolved => "The sensitivity coefficients are what rounding left of larger numbers: a change of the estimates in their last digits changes u in the digits that are printed. Write the formula so that large terms do not cancel: write it as a difference.".to_string(),
+        FindingKind::Cancelled => "The contributions of the inputs cancel and leave u = 0. Trials would scatter by the rounding of the computer alone; they are not used. No measurement is without uncertainty: add what the inputs do not have in common, or state a correlation below 1.".to_string(),
         FindingKind::MomentsMissing { reason } => moments::in_english(reason),
         FindingKind::FewReadings { components, dof } => moments::few_readings(report, measurand, (components, *dof)),
         FindingKind::FailedTrials { failed, trials } => format!(
@@ -224,6 +226,7 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             amount(report, measurand, significant(*error, 2)),
         ),
         FindingKind::SlopesUnresolved => "灵敏系数是大数相消后的舍入残余：估计值末位的变动会改变所给 u 的有效数字。请改写公式，避免大数相消，以差值表示。".to_string(),
+        FindingKind::Cancelled => "各输入量的贡献完全抵消，u = 0。此时蒙特卡洛试验的分散只反映计算机的舍入，故不采用。测量不可能没有不确定度：请补充各输入量不共有的分量，或给出小于 1 的相关系数。".to_string(),
         FindingKind::MomentsMissing { reason } => moments::in_chinese(reason),
         FindingKind::FewReadings { components, dof } => moments::few_readings(report, measurand, (components, *dof)),
         FindingKind::FailedTrials { failed, trials } => format!(

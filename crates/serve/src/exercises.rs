@@ -150,7 +150,7 @@ pub(crate) fn practice(
             if shown.show(wanted.kind, seed, number) {
                 let note = say!("The truth of this exercise had been shown before this answer.");
                 let note = Block::Paragraph(note.in_language(language));
-                document.blocks.insert(0, note);
+                document.edit(|blocks| blocks.insert(0, note));
             }
             Ok((document, json!({ "graded": true })))
         }
@@ -254,9 +254,9 @@ impl Exercise {
         let named: BTreeSet<&String> = named.collect();
         let words: Vec<String> = named.iter().filter_map(|name| self.words(name)).collect();
         if !words.is_empty() {
-            document.blocks.push(Block::List(words));
+            document.edit(|blocks| blocks.push(Block::List(words)));
         }
-        document.blocks.insert(0, self.title());
+        document.edit(|blocks| blocks.insert(0, self.title()));
         Ok(document)
     }
 
@@ -315,7 +315,7 @@ impl Exercise {
         let answer = grade::read_answer(answer)?;
         let graded = grade::grade(&self.case().truth, &answer);
         let mut document = grade::document(&graded, self.language);
-        document.blocks.insert(0, self.title());
+        document.edit(|blocks| blocks.insert(0, self.title()));
         Ok(document)
     }
 
@@ -505,7 +505,7 @@ mod tests {
             // The list of kinds is that of the program.
             beside["kinds"] = Value::Null;
             beside["files"] = Value::Null;
-            let sent = format!("{:?}{}{beside}", document.blocks, document.machine.text());
+            let sent = format!("{:?}{}{beside}", document.blocks(), document.machine.text());
             for name in &truth.slips {
                 assert!(!sent.contains(name.as_str()), "{name}");
             }
@@ -525,9 +525,9 @@ mod tests {
         let right = asked(Kind::Budget, Wanted::Grade(answer));
         let (document, _) = found(&right, &shown);
         assert_eq!(document.machine.value()["sheets"][0]["grade"], "exact");
-        assert!(!matches!(document.blocks[0], Block::Paragraph(_)));
+        assert!(!matches!(document.blocks()[0], Block::Paragraph(_)));
         let (again, _) = found(&right, &shown);
-        assert!(matches!(again.blocks[0], Block::Paragraph(_)));
+        assert!(matches!(again.blocks()[0], Block::Paragraph(_)));
     }
 
     #[test]

@@ -12,7 +12,7 @@ use crate::xml::{Element, element, text};
 /// The main part, and the pictures in it.
 pub(super) fn document(document: &Document) -> (Element, Pictures) {
     let mut pictures = Pictures::default();
-    let (language, blocks) = (document.language, &document.blocks);
+    let (language, blocks) = (document.language, document.blocks());
     // Small print stays at the end, behind the plots.
     let is_text = |block: &Block| !matches!(block, Block::Footer(_));
     let end = blocks.iter().rposition(is_text).map_or(0, |last| last + 1);

@@ -26,7 +26,7 @@ pub const FORMAT: Format = Format {
 
 fn render(document: &Document, _: &Page) -> Result<Vec<u8>, Unfit> {
     let unfit = |error: String| Unfit(say!("the document cannot be put together: {error}"));
-    let title = document.blocks.iter().find_map(|block| match block {
+    let title = document.blocks().iter().find_map(|block| match block {
         Block::Title(title) => Some(title.as_str()),
         _ => None,
     });

@@ -14,7 +14,7 @@ const LEADING: f32 = 13.2;
 
 /// Lays a document out.
 pub(super) fn lay(flow: &mut Flow<'_>, document: &Document) {
-    for (at, part) in parts(&document.blocks).iter().enumerate() {
+    for (at, part) in parts(document.blocks()).iter().enumerate() {
         if at > 0 {
             flow.begin_page();
         }

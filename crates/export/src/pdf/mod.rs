@@ -93,7 +93,7 @@ fn written(document: &Document, flow: &Flow<'_>) -> Result<Vec<u8>, Failure> {
         ..SerializeSettings::default()
     };
     let mut pdf = krilla::Document::new_with(settings);
-    let title = document.blocks.iter().find_map(|block| match block {
+    let title = document.blocks().iter().find_map(|block| match block {
         Block::Title(title) => Some(title.clone()),
         _ => None,
     });

@@ -35,7 +35,7 @@ fn render(document: &Document, _: &Page) -> Result<Vec<u8>, Unfit> {
 
 fn workbook(document: &Document) -> Result<Vec<u8>, XlsxError> {
     let mut workbook = Workbook::new();
-    let title = document.blocks.iter().find_map(|block| match block {
+    let title = document.blocks().iter().find_map(|block| match block {
         Block::Title(title) => Some(title.as_str()),
         _ => None,
     });

@@ -33,7 +33,7 @@ pub(super) fn report<'d>(
     let mut heading = language.pick("Table", "表");
     // A heading above nothing but tables is on their sheets.
     let mut waiting: Option<&str> = None;
-    for block in &document.blocks {
+    for block in document.blocks() {
         match block {
             Block::Section(title) => {
                 heading = title;

@@ -33,7 +33,7 @@ impl Instant {
 }
 
 /// What instruments write for a range that was exceeded (SCPI), and for no number.
-pub(super) const OVERLOAD: f64 = 9.9e37;
+pub const OVERLOAD: f64 = 9.9e37;
 
 const MISSING: &[&str] = &[
     "",

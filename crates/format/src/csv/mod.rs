@@ -9,6 +9,7 @@
 //! | `columns` | a table that is in memory already |
 //! | `heading` | names and units in the first line |
 //! | `field` | numbers and times in the rows below |
+//! | `doubts` | what only the table as a whole makes doubtful |
 //! | `reader`, `column_unit` | the columns that somebody asks for; their units |
 //! | `size` | what they take of the memory |
 //!
@@ -34,6 +35,7 @@
 
 mod column_unit;
 mod columns;
+mod doubts;
 mod encoding;
 pub mod faults;
 mod field;
@@ -45,8 +47,9 @@ mod sheet;
 mod size;
 
 pub use columns::{Cells, Columns};
+pub use doubts::{overload, same_name, two_decimal_signs};
 pub use encoding::{Decoded, Encoding, Undecodable, decode};
-pub use field::{days, number};
+pub use field::{OVERLOAD, days, number};
 pub use heading::Heading;
 pub use pieces::{Piece, Pieces};
 pub use reader::{headings, open, text_of};

@@ -6,9 +6,10 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::column_unit::unit_of;
+use super::doubts::{Sign, may_mark_thousands, mend_of_overload, not_a, same_name, two_signs};
 use super::encoding::{Undecodable, decode};
-use super::faults::{NO_COLUMN, NOT_A_NUMBER, NOT_UTF8, SAME_NAME, UNIT_CLASH, UNREADABLE};
-use super::field::{Field, Instant, OVERLOAD, is_like_a_time, is_overload, mend};
+use super::faults::{NO_COLUMN, NOT_A_NUMBER, NOT_UTF8, UNIT_CLASH, UNREADABLE};
+use super::field::{Field, Instant, is_like_a_time, is_overload, mend};
 use super::heading::Heading;
 use super::request::{Content, Request};
 use super::sheet::{Row, SHOWN, Sheet};
@@ -99,7 +100,7 @@ impl Recording {
             }
         });
         faults.extend(visited.err().unwrap_or_default());
-        faults.extend(two_decimal_signs(&drafts));
+        faults.extend(two_decimal_signs(&sheet, &headings, &drafts));
         for draft in &mut drafts {
             draft.settle_clock(units.parse("s").ok());
             faults.extend(draft.take_faults());
@@ -259,6 +260,8 @@ struct Draft<'a> {
     faults: Vec<Fault>,
     refused: usize,
     style: Style,
+    /// Whether every decimal sign so far may mark thousands.
+    only_thousands: bool,
 }
 
 /// How the numbers of a column are written so far.
@@ -293,6 +296,7 @@ impl<'a> Draft<'a> {
             faults: Vec::new(),
             refused: 0,
             style: Style::Unknown,
+            only_thousands: true,
         })
     }
 
@@ -323,6 +327,9 @@ impl<'a> Draft<'a> {
             return;
         }
         let read = Field::read(field, sheet);
+        if read.and_then(Sign::of).is_some() {
+            self.only_thousands &= may_mark_thousands(field);
+        }
         if self.content == Content::Decimals {
             return self.take_decimal(sheet, row, read);
         }
@@ -368,9 +375,7 @@ impl<'a> Draft<'a> {
             let help = if field.is_empty() {
                 say!("every row needs a number there; remove the rows that are empty")
             } else if is_overload(field) {
-                say!(
-                    "instruments write {OVERLOAD:e} for a range that was exceeded: it is no reading; remove the row, or measure again in a higher range"
-                )
+                mend_of_overload()
             } else {
                 match read {
                     Some(_) if number.is_some() => say!("every row needs a number there"),
@@ -387,7 +392,7 @@ impl<'a> Draft<'a> {
 
     fn no_number(&self, sheet: &Sheet, row: &Row, expected: Said, help: Said) -> Fault {
         let (line, column, field) = (row.line, &self.heading.text, row.field(self.place));
-        let message = say!("line {line}, column \"{column}\": \"{field}\" is not {expected}");
+        let message = not_a(column, line, field, &expected);
         Fault::new(NOT_A_NUMBER, sheet.place(row, self.place), message)
             .label(say!("expected {expected}"))
             .related(self.span.clone(), say!("the column"))
@@ -483,22 +488,24 @@ impl<'a> Draft<'a> {
     }
 }
 
-/// Columns with decimal points beside columns with decimal commas: one of them is read wrongly, as commas also
-/// mark thousands.
-fn two_decimal_signs(drafts: &[Draft]) -> Option<Fault> {
-    let styled = |style: Style| drafts.iter().find(|draft| draft.style == style);
-    let (point, comma) = (styled(Style::Point)?, styled(Style::Comma)?);
-    let (points, commas) = (&point.heading.text, &comma.heading.text);
-    let message =
-        say!("column \"{points}\" is written with decimal points, column \"{commas}\" with commas");
-    Some(
-        Fault::new(NOT_A_NUMBER, comma.span.clone(), message)
-            .label(say!("decimal commas, or marks of thousands?"))
-            .related(point.span.clone(), say!("decimal points"))
-            .help(say!(
-                "write all numbers of a table with one decimal sign, and without marks of thousands"
-            )),
-    )
+/// Columns with decimal points beside columns with decimal commas; beside the columns asked for any other of the
+/// table counts where the sign may mark thousands.
+fn two_decimal_signs(sheet: &Sheet, headings: &[Heading], drafts: &[Draft]) -> Option<Fault> {
+    let column = |at: usize| {
+        let text = headings[at].text.as_str();
+        (text, sheet.place(sheet.header(), at))
+    };
+    let asked = |style: Style| Some(drafts.iter().find(|draft| draft.style == style)?.place);
+    let beside = |style: Style, other: Sign| {
+        let doubtful = |draft: &&Draft| draft.style == style && draft.only_thousands;
+        let draft = drafts.iter().find(doubtful)?;
+        Some((draft.place, other.first_in(sheet, |_| true)?))
+    };
+    let both = asked(Style::Point).zip(asked(Style::Comma));
+    let both = both.or_else(|| beside(Style::Point, Sign::Comma));
+    let swapped = || beside(Style::Comma, Sign::Point).map(|(commas, points)| (points, commas));
+    let (points, commas) = both.or_else(swapped)?;
+    Some(two_signs(column(points), column(commas)))
 }
 
 /// The column of a name.
@@ -518,18 +525,9 @@ fn find(sheet: &Sheet, headings: &[Heading], wanted: &str) -> Result<usize, Box<
     let span = |i: usize| sheet.place(sheet.header(), i);
     match matching[..] {
         [only] => Ok(only),
-        [first, second, ..] => Err(Box::new(
-            Fault::new(
-                SAME_NAME,
-                span(second),
-                say!("\"{wanted}\" is the name of two columns"),
-            )
-            .label(say!("the second"))
-            .related(span(first), say!("the first"))
-            .help(say!(
-                "give each column a name of its own, or ask for it with its unit"
-            )),
-        )),
+        [first, second, ..] => Err(Box::new(same_name(wanted, span(first), span(second)).help(
+            say!("give each column a name of its own, or ask for it with its unit"),
+        ))),
         [] => {
             let texts: Vec<&str> = headings
                 .iter()

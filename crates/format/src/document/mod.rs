@@ -35,8 +35,8 @@ pub struct Document {
     pub language: Language,
     /// The language whose words stand beside it, where there are two.
     pub other: Option<Language>,
-    /// What a person reads.
-    pub blocks: Vec<Block>,
+    /// What a person reads: changed by [`edit`](Self::edit) alone.
+    blocks: Vec<Block>,
     /// What a machine reads; exact numbers.
     pub machine: Json,
     /// Plots beside the text, for formats and folders that have room for them.
@@ -51,20 +51,32 @@ impl Document {
     /// A document of blocks and of the structure that says the same to machines.
     ///
     /// Blocks quote what users wrote: here, for every format, it becomes text that is shown and not obeyed.
-    pub fn new<M: Machine>(machine: &M, language: Language, mut blocks: Vec<Block>) -> Self {
-        for block in &mut blocks {
-            block.texts(&mut texts::made_harmless);
-        }
-        Document {
+    pub fn new<M: Machine>(machine: &M, language: Language, blocks: Vec<Block>) -> Self {
+        let mut document = Document {
             kind: M::KIND,
             version: M::VERSION,
             language,
             other: None,
-            blocks,
+            blocks: Vec::new(),
             machine: Json::of(machine),
             beside: Vec::new(),
             sheets: Vec::new(),
             certificate: None,
+        };
+        document.edit(|own| *own = blocks);
+        document
+    }
+
+    /// What a person reads.
+    pub fn blocks(&self) -> &[Block] {
+        &self.blocks
+    }
+
+    /// Changes the blocks. There is no other way, so that none comes in with text that is obeyed.
+    pub fn edit(&mut self, change: impl FnOnce(&mut Vec<Block>)) {
+        change(&mut self.blocks);
+        for block in &mut self.blocks {
+            block.texts(&mut texts::made_harmless);
         }
     }
 

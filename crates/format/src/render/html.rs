@@ -22,7 +22,7 @@ pub const FORMAT: Format = Format {
 
 /// A document as an HTML page. What goes on a certificate stands first in its part; plots beside the text come last.
 fn html(document: &Document) -> String {
-    let parts = parts(&document.blocks);
+    let parts = parts(document.blocks());
     let title = parts
         .iter()
         .find_map(|part| part.title)

@@ -17,7 +17,7 @@ pub const FORMAT: Format = Format {
 
 /// A document as Markdown, a blank line between its blocks.
 pub fn markdown(document: &Document) -> String {
-    let parts: Vec<String> = document.blocks.iter().map(draw_block).collect();
+    let parts: Vec<String> = document.blocks().iter().map(draw_block).collect();
     format!("{}\n", parts.join("\n\n"))
 }
 

@@ -119,7 +119,10 @@ impl<'f> BatchFile<'f> {
             });
             target
         };
-        let targets = names.map(target).collect();
+        let targets: Vec<Option<Column>> = names.map(target).collect();
+        faults.extend(series::set_twice(&columns.names, &targets));
+        let sets = |at: usize| matches!(targets[at], Some(Column::Path(_)));
+        faults.extend(csv::two_decimal_signs(sheet, sets));
         if !faults.is_empty() {
             return Err(in_table(faults));
         }
@@ -300,8 +303,13 @@ impl RowReader<'_> {
             text.push_str(field.text());
             cells.push(field.cell(&|part: Range<usize>| start + part.start..start + part.end));
         }
-        let mut faults = Vec::new();
         let names = &columns.names;
+        let fields = targets.iter().zip(names).zip(&cells).zip(row.fields());
+        let overloads = fields.filter_map(|(((target, name), (cell, _)), field)| {
+            let sets = matches!(target, Some(Column::Path(_)));
+            sets.then(|| csv::overload(&name.value, row.line, field, cell.span.clone()))?
+        });
+        let mut faults: Vec<Fault> = overloads.collect();
         let variant = series::variant(file, names, targets, &cells, &mut faults);
         make(&variant.table, &text, variant.label, faults)
     }

@@ -20,7 +20,7 @@ pub static HINTS: Hints = Hints {
 };
 
 /// Words that people try, and the keys and words that they mean.
-pub const SYNONYMS: [(&str, &str); 105] = [
+pub const SYNONYMS: [(&str, &str); 114] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),
@@ -126,6 +126,15 @@ pub const SYNONYMS: [(&str, &str); 105] = [
     ("常数", "constant"),
     ("说明", "description"),
     ("分量", "components"),
+    ("mu", "mean"),
+    ("mu", "location"),
+    ("std", "sd"),
+    ("stdev", "sd"),
+    ("sigma", "sd"),
+    ("sigma", "scale"),
+    ("alpha", "shape"),
+    ("theta", "scale"),
+    ("df", "dof"),
 ];
 
 /// Keys of an uncertainty that stand in the wrong place.
@@ -201,6 +210,18 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
         }
         (_, shape) if has("distribution") && has_limits(shape) => Some(say!(
             "a shape goes with what it spreads over: half_width = …, distribution = \"{shape}\""
+        )),
+        ("gamma", "rate" | "beta" | "lambda") => Some(say!(
+            "the scale is 1/{key}: gamma = {{ shape = …, scale = … }}, with the mean shape · scale"
+        )),
+        ("exponential", "rate" | "beta" | "lambda") => {
+            Some(say!("the mean is 1/{key}: exponential = {{ mean = … }}"))
+        }
+        ("normal" | "t" | "lognormal", "variance" | "var") => {
+            Some(say!("state its square root, the standard deviation"))
+        }
+        ("lognormal", "mean" | "sd" | "std") => Some(say!(
+            "mu and sigma are mean and standard deviation of the logarithm: for a mean m and a standard deviation s, sigma² = ln(1 + s²/m²) and mu = ln(m) − sigma²/2"
         )),
         ("distribution", "type" | "name" | "kind" | "shape") => Some(say!(
             "the shape that goes with another way is a text: distribution = \"triangular\""

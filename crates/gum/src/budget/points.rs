@@ -8,9 +8,12 @@ use toml::de::DeValue;
 use super::cell::Entry;
 use super::check::Origin;
 use super::faults::CSV;
+use super::series::LABEL;
 use gumption_core::quantity::UnitTable;
 use gumption_fault::{Fault, Rejection, say};
-use gumption_format::csv::{Heading, Row, RowFields, Sheet, text_of};
+use gumption_format::csv::{
+    Heading, OVERLOAD, Row, RowFields, Sheet, overload, text_of, two_decimal_signs,
+};
 use gumption_format::toml::{Raw, Stated};
 use gumption_lanes::twice::TENS;
 
@@ -129,7 +132,19 @@ impl Points {
         let sheet = Sheet::new(text).map_err(|fault| vec![*fault])?;
         let columns = Columns::of(&sheet, |_| named.span.clone(), names_one)?;
         let mut rows = Vec::new();
-        sheet.visit(|row| rows.push(columns.written(row, &sheet)))?;
+        let is_value = |at: usize| columns.names[at].value != LABEL;
+        let mut faults: Vec<Fault> = two_decimal_signs(&sheet, is_value).into_iter().collect();
+        let visited = sheet.visit(|row| {
+            rows.push(columns.written(row, &sheet));
+            faults.extend(row.fields().enumerate().filter_map(|(at, field)| {
+                let (name, place) = (&columns.names[at].value, sheet.place(row, at));
+                is_value(at).then(|| overload(name, row.line, field, place))?
+            }));
+        });
+        faults.extend(visited.err().unwrap_or_default());
+        if !faults.is_empty() {
+            return Err(faults);
+        }
         Ok(Points {
             columns,
             rows,
@@ -245,9 +260,9 @@ fn leading_number(text: &str) -> Option<(f64, usize)> {
     Some((number?, length))
 }
 
-/// Whether there is no doubt what a number puts into a budget.
+/// Whether there is no doubt what a number puts into a budget: no overload of an instrument either.
 pub(super) fn is_settled(number: f64) -> bool {
-    number.is_finite() && (number != 0.0 || number.is_sign_positive())
+    number.abs() < OVERLOAD && (number != 0.0 || number.is_sign_positive())
 }
 
 /// Whether TOML is sure to read a text as the decimal number that it is.
@@ -341,6 +356,26 @@ mod tests {
     use super::*;
 
     #[test]
+    fn values_are_no_overloads_and_have_one_decimal_sign() {
+        let named = Stated {
+            value: "s.csv".to_owned(),
+            span: 0..0,
+            key: 0..0,
+        };
+        let refused = |text: &str| {
+            let found = Points::of(text, &named, &|_| false);
+            let places = |faults: Vec<Fault>| faults.into_iter().map(|fault| fault.span);
+            let refused = found.err().map(places).into_iter().flatten();
+            refused
+                .map(|place| text[place].to_owned())
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(refused("label,V\n9.9e37,9.91E+37\nb,1\n"), ["9.91E+37"]);
+        assert_eq!(refused("label;V;R\n1.1;1.500;100,5\n"), ["R"]);
+        assert_eq!(refused("label;V;R\n1.1;1;100,5\n").len(), 0);
+    }
+
+    #[test]
     fn plain_numbers_are_read_as_by_the_standard_library() {
         let plain = [
             "0",
@@ -348,7 +383,7 @@ mod tests {
             "-1.5",
             "0.1",
             "123456789012345",
-            "1.7976931348623157e308",
+            "9.8e37",
             "4.9e-324",
             "1e22",
             "1e23",
@@ -391,6 +426,8 @@ mod tests {
             "0x1",
             "1234567890123456",
             "1e400",
+            "1.7976931348623157e308",
+            "-9.91E+37",
             "1e99999999999999999999",
             "1.5.2",
         ];
@@ -402,7 +439,8 @@ mod tests {
             for power in -30..30 {
                 let digits = &"1928374650918273645019283"[..length];
                 let text = format!("{digits}.5e{power}");
-                assert_eq!(plain_number(&text), text.parse().ok(), "{text}");
+                let number = text.parse().ok().filter(|number: &f64| is_settled(*number));
+                assert_eq!(plain_number(&text), number, "{text}");
             }
         }
     }

@@ -18,7 +18,7 @@ use gumption_fault::{Fault, say};
 use gumption_format::toml::{Raw, Stated};
 use places::{leave_out, set};
 
-pub(super) use columns::{Column, column, names_one, targets};
+pub(super) use columns::{Column, LABEL, column, names_one, set_twice, targets};
 
 /// Where a row stands, and its cells under the heads of their columns.
 type WrittenRow<'t> = (std::ops::Range<usize>, Vec<(Stated<Entry>, Raw<'t>)>);

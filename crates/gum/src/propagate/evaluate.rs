@@ -69,14 +69,16 @@ fn both(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationErro
             let (scales, outcome) = (scales(&gums), monte_carlo.as_ref());
             monte_carlo::indices(drawn, settings.seed, &scales, outcome, options.threads)
         });
+    let all = second_order.as_slice();
     let mut results: Vec<MeasurandResult> = gums
         .into_iter()
-        .zip(&second_order)
+        .zip(all)
         .enumerate()
         .map(|(measurand, (gum, second_order))| {
             let outputs = monte_carlo.as_ref().map(|mc| &mc.outputs);
+            let cancels = resolution::cancels(&linear, all, measurand);
             let found = outputs.and_then(|outputs| outputs.get(measurand));
-            both_methods(gum, second_order, found)
+            both_methods(gum, second_order, found.filter(|_| !cancels))
         })
         .collect();
     let run = monte_carlo.as_ref().map(|outcome| outcome.run.clone());

@@ -182,7 +182,9 @@ impl Evidence<'_> {
         let trials = trials.map(|(_, error)| FindingKind::TrialsUnresolved { error: *error });
         let lost = resolution::slopes_are_lost(self.budget, self.linear, measurand);
         let slopes = lost.then_some(FindingKind::SlopesUnresolved);
-        trials.into_iter().chain(slopes).collect()
+        let cancels = resolution::cancels(self.linear, self.second_order, measurand);
+        let cancelled = cancels.then_some(FindingKind::Cancelled);
+        trials.into_iter().chain(slopes).chain(cancelled).collect()
     }
 
     fn of_first_order(&self, measurand: usize) -> Vec<FindingKind> {
@@ -272,6 +274,11 @@ impl Evidence<'_> {
             | match &self.second_order[measurand].terms {
                 Terms::Linear => false,
                 Terms::Divergent => true,
+                Terms::Found(_)
+                    if resolution::cancels(self.linear, self.second_order, measurand) =>
+                {
+                    false
+                }
                 Terms::Found(found) => {
                     if found.matters {
                         kinds.push(FindingKind::SecondOrderMatters {

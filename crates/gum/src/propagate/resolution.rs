@@ -68,9 +68,33 @@ pub(super) fn slopes_are_lost(budget: &Budget, linear: &Linear, measurand: usize
     })
 }
 
+/// Whether the contributions cancel, so that trials would scatter by the rounding of the computer alone.
+pub(super) fn cancels(
+    linear: &Linear,
+    second_order: &[SecondOrderOutcome],
+    measurand: usize,
+) -> bool {
+    let (Some(resolved), Some(outcome)) =
+        (linear.resolved.get(measurand), second_order.get(measurand))
+    else {
+        return false;
+    };
+    let mut inputs = linear.inputs.iter().enumerate();
+    let contributes = inputs.any(|(i, input)| linear.gradient[(measurand, i)] * input.u != 0.0);
+    let flat = match &outcome.terms {
+        Terms::Linear => true,
+        Terms::Found(found) => found.u <= resolved.error_of_doubles,
+        Terms::Divergent => false,
+    };
+    linear.measurands[measurand].u == 0.0 && contributes && flat
+}
+
 /// u(y), also where second order alone sees it.
 fn scale(linear: &Linear, second_order: &[SecondOrderOutcome], measurand: usize) -> f64 {
     let first = linear.measurands[measurand].u;
+    if cancels(linear, second_order, measurand) {
+        return first;
+    }
     match second_order.get(measurand).map(|outcome| &outcome.terms) {
         Some(Terms::Found(found)) => first.max(found.u),
         // Nothing is known of the size of u.

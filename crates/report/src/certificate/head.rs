@@ -18,16 +18,14 @@ pub fn certified(
     let head = fields(given, &document);
     let signature = document.words("Signature", "签字");
     let behind_statement = |block: &Block| matches!(block, Block::Statement(_));
-    let behind_statement = document.blocks.iter().position(behind_statement);
+    let behind_statement = document.blocks().iter().position(behind_statement);
     if let (Some(at), Some(signs)) = (behind_statement, given.persons.first()) {
         let line = "_".repeat(SIGNATURE);
         let line = format!("{line}  {}", signs.name);
-        document
-            .blocks
-            .insert(at + 1, Block::Fields(vec![(signature, line)]));
+        document.edit(|blocks| blocks.insert(at + 1, Block::Fields(vec![(signature, line)])));
     }
-    let behind_title = usize::from(matches!(document.blocks.first(), Some(Block::Title(_))));
-    document.blocks.insert(behind_title, Block::Fields(head));
+    let behind_title = usize::from(matches!(document.blocks().first(), Some(Block::Title(_))));
+    document.edit(|blocks| blocks.insert(behind_title, Block::Fields(head)));
     document
 }
 

@@ -1,9 +1,10 @@
 //! One conformity assessment: its section and its sentence.
 
+use super::compared::{Compared, with_unrounded};
 use super::words::{Rows, chance};
 use crate::figures::{Figures, with_unit};
 use crate::language::Language;
-use crate::number::{NONE, TABLE_DIGITS, aligned, exact, significant};
+use crate::number::{NONE, aligned, exact, significant};
 use crate::{Report, symbol};
 use gumption_core::quantity::Unit;
 use gumption_format::document::Block;
@@ -154,15 +155,32 @@ impl Assessment<'_> {
 
     /// A limit that follows from u.
     fn limit(&self, x: f64) -> String {
-        aligned(x, self.found.u, TABLE_DIGITS)
+        aligned(x, self.found.u, self.compared(|compared| compared.digits()))
     }
 
-    /// The result as it is reported.
+    /// The measured value beside all limits of the assessment.
+    fn compared<T>(&self, tell: impl FnOnce(&Compared<'_>) -> T) -> T {
+        let (stated, found) = (self.stated.tolerance, self.found);
+        let acceptance = found.acceptance.unwrap_or(stated);
+        tell(&Compared {
+            value: found.estimate,
+            limits: &[stated, acceptance, found.rejection],
+            print_value: &|digits| aligned(found.estimate, found.u, digits),
+            print_limit: &|limit, digits| match [stated.lower, stated.upper].contains(&limit) {
+                true => exact(limit),
+                false => aligned(limit, found.u, digits),
+            },
+        })
+    }
+
+    /// The result as it is reported, in full beside it where rounding would change the verdict.
     fn measured(&self) -> String {
         let figures = Figures::new(self.report, self.stated.measurand);
         let l = self.l;
         let comma = l.pick(", ", "，");
-        let mut parts = vec![figures.value()];
+        let in_full = self.compared(|compared| compared.in_full(&figures.estimate()));
+        let in_full = in_full.map(|number| figures.of_value(&number));
+        let mut parts = vec![with_unrounded(&figures.value(), in_full.as_deref(), l)];
         if let Some(expanded) = figures.expanded() {
             parts.push(format!("U = {}", figures.amount(&expanded)));
         }

@@ -1,5 +1,6 @@
 //! Characteristic limits of one measurand: their section and their sentence.
 
+use super::compared::{Compared, with_unrounded};
 use super::words::Rows;
 use crate::figures::{Figures, with_unit};
 use crate::language::Language;
@@ -7,7 +8,7 @@ use crate::number::{TABLE_DIGITS, aligned, at_place, exact, print, probability, 
 use crate::{Report, symbol};
 use gumption_core::quantity::Unit;
 use gumption_format::document::Block;
-use gumption_gum::budget::Detection;
+use gumption_gum::budget::{Detection, Interval};
 use gumption_gum::propagate::{DetectionLimit, DetectionResult};
 
 /// Characteristic limits of one measurand.
@@ -27,7 +28,8 @@ impl Limits<'_> {
         let mut rows = Rows::default();
         self.limits(&mut rows);
         self.suitability(&mut rows);
-        rows.add(l.pick("Verdict", "结论"), self.verdict().to_string());
+        let verdict = with_unrounded(self.verdict(), self.in_full().as_deref(), l);
+        rows.add(l.pick("Verdict", "结论"), verdict);
         self.best(&mut rows);
         rows.under(l.pick(
             format!("Characteristic limits of {}", self.name),
@@ -48,7 +50,7 @@ impl Limits<'_> {
             error(self.stated.beta, k_beta),
         );
         let comma = l.pick(", ", "，");
-        let threshold = self.value(limits.decision_threshold);
+        let threshold = self.threshold(limits.decision_threshold);
         let by_trials = self.of_trials(trials.map(|t| t.decision_threshold));
         rows.add(
             label,
@@ -180,7 +182,8 @@ impl Limits<'_> {
     /// The sentence for the certificate.
     pub fn sentence(&self) -> String {
         let (l, best, figures) = (self.l, self.found.best, self.figures());
-        let (name, y) = (self.name, figures.value());
+        let y = with_unrounded(&figures.value(), self.in_full().as_deref(), l);
+        let name = self.name;
         let u_of_y = figures.amount(&figures.u().unwrap_or_default());
         let verdict = self.verdict();
         let limits = self.limits_in_brackets();
@@ -199,10 +202,39 @@ impl Limits<'_> {
         }
     }
 
+    /// The estimate beside the decision threshold.
+    fn compared<T>(&self, threshold: f64, tell: impl FnOnce(&Compared<'_>) -> T) -> T {
+        let reported = &self.figures().reported;
+        let (y, u) = (reported.estimate, reported.u.unwrap_or(self.found.best.u));
+        tell(&Compared {
+            value: y,
+            limits: &[Interval {
+                lower: f64::NEG_INFINITY,
+                upper: threshold,
+            }],
+            print_value: &|digits| aligned(y, u, digits),
+            print_limit: &|limit, digits| significant(limit, digits),
+        })
+    }
+
+    /// The estimate in full, where rounding would change the verdict.
+    fn in_full(&self) -> Option<String> {
+        let threshold = self.found.limits?.decision_threshold;
+        let figures = self.figures();
+        let full = self.compared(threshold, |compared| compared.in_full(&figures.estimate()))?;
+        Some(figures.of_value(&full))
+    }
+
+    /// The decision threshold, with the digits that tell y from it.
+    fn threshold(&self, threshold: f64) -> String {
+        let digits = self.compared(threshold, |compared| compared.digits());
+        with_unit(&significant(threshold, digits), &symbol(self.unit))
+    }
+
     fn limits_in_brackets(&self) -> String {
         let l = self.l;
         self.found.limits.map_or_else(String::new, |limits| {
-            let threshold = self.value(limits.decision_threshold);
+            let threshold = self.threshold(limits.decision_threshold);
             let limit = limits.detection_limit.value().map_or_else(
                 || l.pick("no detection limit", "探测限不存在").to_string(),
                 |y| {

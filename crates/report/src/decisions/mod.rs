@@ -1,6 +1,7 @@
 //! Conformity with a tolerance and characteristic limits: sections of the report, and sentences for the
 //! certificate (ISO/IEC 17025 7.8.6: result, tolerance and decision rule).
 
+mod compared;
 mod conformity;
 mod detection;
 mod risks;

@@ -48,8 +48,11 @@ pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
         blocks.push(Block::Section(Word::Remarks.of(l).to_string()));
         blocks.push(Block::Findings(remarks));
     }
-    blocks.push(Block::Section(Word::Statement.of(l).to_string()));
-    blocks.push(Block::Statement(statement::statement(report)));
+    let sentences = statement::statement(report);
+    if !sentences.is_empty() {
+        blocks.push(Block::Section(Word::Statement.of(l).to_string()));
+        blocks.push(Block::Statement(sentences));
+    }
     blocks.push(Block::Footer(footer(report)));
     blocks
 }

@@ -34,7 +34,7 @@ pub fn evaluations(rows: &[Report<'_>], in_full: usize) -> Option<Document> {
     if rows.len() > 1 {
         let mut series = series::blocks(rows);
         series.extend(certificate::blocks(rows));
-        whole.blocks.splice(0..0, series);
+        whole.edit(|blocks| drop(blocks.splice(0..0, series)));
         whole = whole.with_plots(plots::series(rows));
     }
     let sentences = match rows {

@@ -68,7 +68,16 @@ impl Lowering<'_> {
                         expr: operand,
                     },
                 ),
-                _ => None,
+                (a, b) => {
+                    // What is wrong with one operand is no reason to be silent about the other.
+                    if matches!(infix, Infix::Mul | Infix::Div) {
+                        for (value, expr) in [(&a, first), (&b, operand)] {
+                            let known = value.as_ref().map(|value| Operand { value, expr });
+                            known.and_then(|known| self.difference(known));
+                        }
+                    }
+                    None
+                }
             };
             if let Some(value) = &left
                 && *infix == Infix::Div

@@ -25,7 +25,7 @@ pub const FORMAT: Format = Format {
 
 /// A document as text.
 pub fn text(document: &Document, page: Page) -> String {
-    draw(&document.blocks, page)
+    draw(document.blocks(), page)
 }
 
 impl Page {

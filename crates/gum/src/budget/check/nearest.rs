@@ -5,6 +5,9 @@ use nalgebra::DMatrix;
 /// Alternating projections converge linearly; of a matrix rounded to three digits some tens are enough.
 const STEPS: usize = 500;
 
+/// Coefficients that move less are settled.
+const SETTLED: f64 = 1e-13;
+
 /// The nearest correlation matrix, if none of its coefficients is farther from the stated one than `half`, half a unit of
 /// its last digit. A coefficient that is not known to one decimal is not rounded, but wrong: `None`.
 pub(super) fn within_rounding(stated: &DMatrix<f64>, half: &DMatrix<f64>) -> Option<DMatrix<f64>> {
@@ -32,7 +35,7 @@ fn nearest(stated: &DMatrix<f64>) -> DMatrix<f64> {
         next.fill_diagonal(1.0);
         let moved = (&next - &nearest).amax();
         nearest = next;
-        if moved < 1e-13 {
+        if moved < SETTLED {
             break;
         }
     }
@@ -43,7 +46,14 @@ fn nearest(stated: &DMatrix<f64>) -> DMatrix<f64> {
         nearest = nearest.map(|r| r / raised);
         nearest.fill_diagonal(1.0);
     }
-    nearest
+    // Projections leave a few units of the last place beside ±1, of whose root a difference would make an uncertainty.
+    nearest.map(|r| {
+        if 1.0 - r.abs() < SETTLED {
+            r.signum()
+        } else {
+            r
+        }
+    })
 }
 
 /// The nearest matrix without negative eigenvalues.
@@ -58,6 +68,14 @@ fn without_negative(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_rounded_beyond_one_is_one() {
+        let stated = DMatrix::from_row_slice(2, 2, &[1.0, 1.001, 1.001, 1.0]);
+        let half = DMatrix::from_element(2, 2, 0.002);
+        let nearest = within_rounding(&stated, &half).expect("it is within");
+        assert_eq!(nearest[(0, 1)].to_bits(), 1f64.to_bits());
+    }
 
     /// The example of Higham (2002): 2, −1 … scaled to a matrix of ones and zeros; its nearest correlation matrix.
     #[test]

@@ -9,7 +9,7 @@ use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::{Raw, Stated, Table};
 
 /// What a column sets.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub(in crate::budget) enum Column {
     Label,
     /// Nothing: it goes through to the results.
@@ -17,6 +17,9 @@ pub(in crate::budget) enum Column {
     /// The keys that lead to a value.
     Path(Vec<String>),
 }
+
+/// The column that names the rows.
+pub(in crate::budget) const LABEL: &str = "label";
 
 /// The tables of named entries that a column may leave out: `X` is `input.X.value`.
 pub(super) const OWNERS: [&str; 3] = ["input", "constant", "source"];
@@ -27,8 +30,44 @@ pub(in crate::budget) fn targets(
     names: &[Stated<String>],
     faults: &mut Vec<Fault>,
 ) -> Vec<Option<Column>> {
-    let names = names.iter();
-    names.map(|name| column(file, name, faults)).collect()
+    let targets = names.iter().map(|name| column(file, name, faults));
+    let targets: Vec<Option<Column>> = targets.collect();
+    faults.extend(set_twice(names, &targets));
+    targets
+}
+
+/// Columns that set what another sets already: which of them counts would be a guess.
+pub(in crate::budget) fn set_twice(
+    names: &[Stated<String>],
+    targets: &[Option<Column>],
+) -> Vec<Fault> {
+    let all = names.iter().zip(targets).enumerate();
+    let twice = all.filter_map(|(at, (name, target))| {
+        let sets = |other: &Option<Column>| {
+            !matches!(target, None | Some(Column::Kept)) && other == target
+        };
+        let first = targets[..at].iter().position(sets)?;
+        let fault = Fault::new(
+            SERIES,
+            name.span.clone(),
+            say!(
+                "two columns set the same: {} and {}",
+                names[first].value,
+                name.value
+            ),
+        );
+        // In a file that the budget names both have its place.
+        let fault = match names[first].span == name.span {
+            true => fault.label(say!("its columns")),
+            false => fault
+                .label(say!("the second"))
+                .related(names[first].span.clone(), say!("the first")),
+        };
+        Some(fault.help(say!(
+            "leave one of them out, or give it the name of what it holds"
+        )))
+    });
+    twice.collect()
 }
 
 /// The place that a column names: `label`, an input or a constant, or a path such as `X.dof`,
@@ -39,7 +78,7 @@ pub(in crate::budget) fn column(
     faults: &mut Vec<Fault>,
 ) -> Option<Column> {
     let wanted = name.value.as_str();
-    if wanted == "label" {
+    if wanted == LABEL {
         return Some(Column::Label);
     }
     if let Some(pair) = correlated(wanted) {

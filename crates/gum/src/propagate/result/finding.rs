@@ -54,6 +54,9 @@ pub enum FindingKind {
     },
     /// The derivatives are what rounding left of larger numbers: u is not known to the digits that are printed.
     SlopesUnresolved,
+    /// What the inputs have in common cancels, and they have nothing else: u is zero, and trials would show the
+    /// rounding of the computer.
+    Cancelled,
     /// No Monte Carlo was run and first order is doubtful.
     NeedsMonteCarlo,
     /// Mean or standard deviation do not exist or do not converge; quantiles are given.

@@ -28,7 +28,8 @@ impl Limits<'_> {
         let mut rows = Rows::default();
         self.limits(&mut rows);
         self.suitability(&mut rows);
-        let verdict = with_unrounded(self.verdict(), self.in_full().as_deref(), l);
+        let in_full = self.in_full().map(|number| format!("y = {number}"));
+        let verdict = with_unrounded(self.verdict(), in_full.as_deref(), l);
         rows.add(l.pick("Verdict", "结论"), verdict);
         self.best(&mut rows);
         rows.under(l.pick(

@@ -1,5 +1,6 @@
 //! The exponential distribution with origin, JCGM 101 6.4.10.
 
+use gumption_fault::{Said, say};
 use gumption_lanes::Sampler;
 use gumption_lanes::quantile::Quantile;
 
@@ -34,6 +35,12 @@ impl Univariate for Exponential {
         ORIGIN,
         ParameterRule::number("mean", "Mean above the origin."),
     ];
+
+    fn in_place_of(parameter: &str) -> Option<Said> {
+        ["rate", "beta", "lambda"]
+            .contains(&parameter)
+            .then(|| say!("the mean is 1/{parameter}: exponential = {{ mean = … }}"))
+    }
 
     fn stated(given: &Given) -> Result<Parametric<Self>, ParameterError> {
         let mean = given.number("mean")?;

@@ -1,5 +1,6 @@
 //! The gamma distribution with origin, JCGM 101 6.4.11.
 
+use gumption_fault::{Said, say};
 use gumption_lanes::Sampler;
 
 use super::stating::{Given, ORIGIN, ParameterError, ParameterRule, Parametric, finite, positive};
@@ -40,6 +41,14 @@ impl Univariate for Gamma {
         ParameterRule::number("shape", "Shape."),
         ParameterRule::number("scale", "Scale."),
     ];
+
+    fn in_place_of(parameter: &str) -> Option<Said> {
+        ["rate", "beta", "lambda"].contains(&parameter).then(|| {
+            say!(
+                "the scale is 1/{parameter}: gamma = {{ shape = …, scale = … }}, with the mean shape · scale"
+            )
+        })
+    }
 
     fn stated(given: &Given) -> Result<Parametric<Self>, ParameterError> {
         let (shape, scale) = (given.number("shape")?, given.number("scale")?);

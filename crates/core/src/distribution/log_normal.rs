@@ -1,9 +1,10 @@
 //! The lognormal distribution with origin.
 
+use gumption_fault::{Said, say};
 use gumption_lanes::Sampler;
 use gumption_lanes::quantile::OfScore;
 
-use super::stating::{Given, ORIGIN, ParameterError, ParameterRule, Parametric, finite, positive};
+use super::stating::{Given, ORIGIN, ParameterError, ParameterRule, Parametric, finite, positive, in_place_of_variance};
 use super::univariate::{Kind, Latent, Parameter, Univariate};
 use crate::special::{normal_cdf, normal_quantile, normal_sf};
 
@@ -38,6 +39,15 @@ impl Univariate for LogNormal {
         ParameterRule::number("mu", "Expectation of the logarithm."),
         ParameterRule::number("sigma", "Standard deviation of the logarithm."),
     ];
+
+    fn in_place_of(parameter: &str) -> Option<Said> {
+        let moments = ["mean", "sd", "std"].contains(&parameter).then(|| {
+            say!(
+                "mu and sigma are mean and standard deviation of the logarithm: for a mean m and a standard deviation s, sigma² = ln(1 + s²/m²) and mu = ln(m) − sigma²/2"
+            )
+        });
+        moments.or_else(|| in_place_of_variance(parameter))
+    }
 
     fn stated(given: &Given) -> Result<Parametric<Self>, ParameterError> {
         let (mu, sigma) = (given.number("mu")?, given.number("sigma")?);

@@ -139,6 +139,8 @@ pub struct Entry {
     pub parameters: &'static [ParameterRule],
     /// Whether its name goes beside a width.
     pub word: Word,
+    /// What to write for a parameter that others give it, and it has not.
+    pub in_place_of: fn(parameter: &str) -> Option<Said>,
     stated: fn(&Given) -> Result<Parametric<Distribution>, ParameterError>,
     of_width: fn(Width, f64, &str) -> Result<Spread<Distribution>, ParameterError>,
     between: fn(f64, f64) -> Option<SpreadAndShift>,
@@ -156,6 +158,7 @@ impl Entry {
             kind: &D::KIND,
             parameters: D::PARAMETERS,
             word: D::WORD,
+            in_place_of: D::in_place_of,
             stated: |given| {
                 let found = D::stated(given)?;
                 found.distribution.validate()?;

@@ -1,11 +1,11 @@
 //! The normal distribution, JCGM 101 6.4.7.
 
+use gumption_fault::Said;
 use gumption_lanes::Sampler;
 use gumption_lanes::quantile::OfScore;
 
 use super::stating::{
-    Bell, Given, ParameterError, ParameterRule, Parametric, Word, finite, positive,
-};
+    Bell, Given, ParameterError, ParameterRule, Parametric, Word, finite, positive, in_place_of_variance};
 use super::univariate::{Kind, Parameter, Univariate};
 use crate::special::{normal_cdf, normal_quantile, normal_sf};
 
@@ -40,6 +40,10 @@ impl Univariate for Normal {
     ];
 
     const WORD: Word = Word::Bell(Bell::Normal);
+
+    fn in_place_of(parameter: &str) -> Option<Said> {
+        in_place_of_variance(parameter)
+    }
 
     fn stated(given: &Given) -> Result<Parametric<Self>, ParameterError> {
         let sd = given.number("sd")?;

@@ -54,6 +54,13 @@ pub(super) const HALF_WIDTH: ParameterRule = ParameterRule::number(
 );
 pub(super) const ORIGIN: ParameterRule = ParameterRule::number("origin", "Lower end (default 0).");
 
+/// What to write for the variance of a distribution that is stated by a standard deviation.
+pub(super) fn in_place_of_variance(parameter: &str) -> Option<Said> {
+    ["variance", "var"]
+        .contains(&parameter)
+        .then(|| say!("state its square root, the standard deviation"))
+}
+
 /// The parameters that a file states.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Given {

@@ -2,15 +2,14 @@
 
 use std::sync::Arc;
 
-use gumption_fault::say;
+use gumption_fault::{Said, say};
 use gumption_lanes::Sampler;
 use gumption_lanes::quantile::{Curve, OfScore};
 
 use super::extended;
 use super::score::SCORES;
 use super::stating::{
-    Bell, Given, ParameterError, ParameterRule, Parametric, Takes, Word, allowed, finite, positive,
-};
+    Bell, Given, ParameterError, ParameterRule, Parametric, Takes, Word, allowed, finite, positive, in_place_of_variance};
 use super::univariate::{Kind, Parameter, Univariate};
 use crate::special::{
     normal_cdf, normal_pdf, student_t_cdf, student_t_pdf, student_t_quantile, student_t_sf,
@@ -60,6 +59,10 @@ impl Univariate for StudentT {
     ];
 
     const WORD: Word = Word::Bell(Bell::StudentT);
+
+    fn in_place_of(parameter: &str) -> Option<Said> {
+        in_place_of_variance(parameter)
+    }
 
     fn stated(given: &Given) -> Result<Parametric<Self>, ParameterError> {
         let (scale, dof) = (given.number("scale")?, given.number("dof")?);

@@ -7,7 +7,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use gumption_fault::language::Language;
-use gumption_fault::say;
+use gumption_fault::{Said, say};
 use gumption_lanes::Sampler;
 use gumption_lanes::quantile::{OfScore, Quantile};
 
@@ -109,6 +109,11 @@ pub trait Univariate: fmt::Debug + Clone + Send + Sync + Sized + 'static {
 
     /// The parameters that a file states in `distribution = { NAME = { … } }`; none where it cannot be stated so.
     const PARAMETERS: &'static [ParameterRule] = &[];
+
+    /// What to write for a parameter that others give this distribution, and it has not.
+    fn in_place_of(_parameter: &str) -> Option<Said> {
+        None
+    }
 
     /// Whether its name alone goes beside a width that is stated in another way.
     const WORD: Word = Word::None;

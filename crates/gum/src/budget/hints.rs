@@ -151,6 +151,10 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
         "扩展不确定度",
         "包含因子",
     ];
+    let distribution = Entry::named(table);
+    if let Some(mend) = distribution.and_then(|entry| (entry.in_place_of)(key)) {
+        return Some(mend);
+    }
     if EXPANDED.contains(&key) && known.contains(&"certificate") {
         return Some(say!(
             "an expanded uncertainty stands with its k: certificate = {{ U = …, k = 2 }}"
@@ -210,18 +214,6 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
         }
         (_, shape) if has("distribution") && has_limits(shape) => Some(say!(
             "a shape goes with what it spreads over: half_width = …, distribution = \"{shape}\""
-        )),
-        ("gamma", "rate" | "beta" | "lambda") => Some(say!(
-            "the scale is 1/{key}: gamma = {{ shape = …, scale = … }}, with the mean shape · scale"
-        )),
-        ("exponential", "rate" | "beta" | "lambda") => {
-            Some(say!("the mean is 1/{key}: exponential = {{ mean = … }}"))
-        }
-        ("normal" | "t" | "lognormal", "variance" | "var") => {
-            Some(say!("state its square root, the standard deviation"))
-        }
-        ("lognormal", "mean" | "sd" | "std") => Some(say!(
-            "mu and sigma are mean and standard deviation of the logarithm: for a mean m and a standard deviation s, sigma² = ln(1 + s²/m²) and mu = ln(m) − sigma²/2"
         )),
         ("distribution", "type" | "name" | "kind" | "shape") => Some(say!(
             "the shape that goes with another way is a text: distribution = \"triangular\""

@@ -123,14 +123,14 @@ fn rows<const COUNT: usize>(
             }
         }
     }
-    // Counted, not iterated over, so that the sums need no place in memory.
-    for row in 0..COUNT {
+    // Not side by side with the ends, whose number is not known here: the sums would need places in memory.
+    for (row, sums) in sums.iter().enumerate() {
         let Some(&([s, t, c], place)) = ends.get(row) else {
             return;
         };
         let out = &mut out[place].0.as_chunks_mut::<HELD>().0[part];
         for lane in 0..HELD {
-            out[lane] = f64::mul_add(sums[row][lane] * s, t, c);
+            out[lane] = f64::mul_add(sums[lane] * s, t, c);
         }
     }
 }

@@ -30,7 +30,7 @@ TRIALS = [10**6, 10**7, 10**8]
 #: Runs of one measurement, of which the median counts, as with the others.
 RUNS = {10**6: 9, 10**7: 7, 10**8: 3}
 #: Turns of a model and a number of trials.
-TURNS = {10**6: 5, 10**7: 5, 10**8: 3}
+TURNS = {10**6: 5, 10**7: 3, 10**8: 3}
 #: Most trials of the long models.
 MOST = {"gauge": 10**8, "twenty": 10**7, "thousand": 10**6}
 #: For the table, the script that prints the lines of a baseline, its name in them, and its environment. NumPy asks

@@ -1,10 +1,11 @@
-//! Every command that writes, under faults from outside: the disk takes nothing, the program is killed while it writes,
-//! two of them write at once.
+//! Every command that writes, under faults from outside: the disk takes nothing, the folder takes nothing, the program
+//! is killed while it writes, two of them write at once.
 //!
 //! The limit of the size of a file (`ulimit -f 0`) is a disk that is full: where the signal that comes with it is ignored,
 //! writing fails; where it is not, the program is killed in the middle.
 #![cfg(unix)]
 
+use std::os::unix::fs::PermissionsExt;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
@@ -280,6 +281,49 @@ fn a_disk_that_takes_nothing_leaves_everything_as_it_was() {
         );
         assert_eq!(place.all(), before, "{}", writer.arguments);
     }
+}
+
+#[test]
+fn a_folder_that_is_read_only_stays_as_it_was() {
+    let place = Place::new("closed");
+    let closed = place.0.join("closed");
+    std::fs::create_dir(&closed).expect("a folder");
+    let mode = |mode| {
+        let permissions = std::fs::Permissions::from_mode(mode);
+        std::fs::set_permissions(&closed, permissions).expect("a mode");
+    };
+    mode(0o555);
+    // Modes bind nobody who may do everything, unless he gives that up.
+    let probe = closed.join("probe");
+    let may_do_everything = std::fs::write(&probe, "").is_ok();
+    let _ = std::fs::remove_file(&probe);
+    let gives_up = "setpriv --bounding-set=-dac_override";
+    if may_do_everything
+        && !place
+            .run("--version", &format!("{gives_up} true &&"))
+            .status
+            .success()
+    {
+        eprintln!("skipped: this user may write everywhere, and cannot give that up");
+        return;
+    }
+    let before = place.all();
+    for writer in WRITERS {
+        let arguments = writer.at("closed/new");
+        let without_privileges = match may_do_everything {
+            true => format!("exec {gives_up} \"$0\" {arguments};"),
+            false => String::new(),
+        };
+        let run = place.run(&arguments, &without_privileges);
+        let said = said(&run);
+        assert_eq!(run.status.code(), Some(2), "{arguments}\n{said}");
+        assert!(
+            said.contains("cannot write") || said.contains("cannot create"),
+            "{arguments}\n{said}"
+        );
+        assert_eq!(place.all(), before, "{arguments}");
+    }
+    mode(0o755);
 }
 
 #[test]

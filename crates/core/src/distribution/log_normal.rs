@@ -4,7 +4,10 @@ use gumption_fault::{Said, say};
 use gumption_lanes::Sampler;
 use gumption_lanes::quantile::OfScore;
 
-use super::stating::{Given, ORIGIN, ParameterError, ParameterRule, Parametric, finite, positive, in_place_of_variance};
+use super::stating::{
+    Given, ORIGIN, ParameterError, ParameterRule, Parametric, finite, in_place_of_variance,
+    positive,
+};
 use super::univariate::{Kind, Latent, Parameter, Univariate};
 use crate::special::{normal_cdf, normal_quantile, normal_sf};
 

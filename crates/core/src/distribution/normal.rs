@@ -5,7 +5,9 @@ use gumption_lanes::Sampler;
 use gumption_lanes::quantile::OfScore;
 
 use super::stating::{
-    Bell, Given, ParameterError, ParameterRule, Parametric, Word, finite, positive, in_place_of_variance};
+    Bell, Given, ParameterError, ParameterRule, Parametric, Word, finite, in_place_of_variance,
+    positive,
+};
 use super::univariate::{Kind, Parameter, Univariate};
 use crate::special::{normal_cdf, normal_quantile, normal_sf};
 

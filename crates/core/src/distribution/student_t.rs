@@ -9,7 +9,9 @@ use gumption_lanes::quantile::{Curve, OfScore};
 use super::extended;
 use super::score::SCORES;
 use super::stating::{
-    Bell, Given, ParameterError, ParameterRule, Parametric, Takes, Word, allowed, finite, positive, in_place_of_variance};
+    Bell, Given, ParameterError, ParameterRule, Parametric, Takes, Word, allowed, finite,
+    in_place_of_variance, positive,
+};
 use super::univariate::{Kind, Parameter, Univariate};
 use crate::special::{
     normal_cdf, normal_pdf, student_t_cdf, student_t_pdf, student_t_quantile, student_t_sf,

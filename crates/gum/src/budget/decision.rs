@@ -19,6 +19,13 @@ impl Interval {
         self.lower <= value && value <= self.upper
     }
 
+    /// Likewise as the decimals of value and limits have it, whatever a few roundings have made of them.
+    pub fn contains_decimal(&self, value: f64) -> bool {
+        let same =
+            |limit: f64| limit.is_finite() && (limit - value).abs() <= SAME_DECIMAL * limit.abs();
+        self.contains(value) || same(self.lower) || same(self.upper)
+    }
+
     /// Upper less lower limit, where there are both.
     pub fn width(&self) -> Option<f64> {
         Some(self.upper - self.lower).filter(|width| width.is_finite())
@@ -32,6 +39,10 @@ impl Interval {
         }
     }
 }
+
+/// Two decimals of up to 15 digits that are equal are doubles as near as this, relative, after a few roundings; two
+/// different ones lie 10⁻¹⁵ apart.
+const SAME_DECIMAL: f64 = 4.0 * f64::EPSILON;
 
 /// A conformity assessment (JCGM 106).
 #[derive(Debug, Clone, PartialEq)]

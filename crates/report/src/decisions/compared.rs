@@ -39,8 +39,8 @@ impl Compared<'_> {
             false => limit,
         };
         self.limits.iter().all(|limits| {
-            let printed = [shown(limits.lower), shown(limits.upper)];
-            within(value, printed) == within(self.value, [limits.lower, limits.upper])
+            let [lower, upper] = [limits.lower, limits.upper].map(shown);
+            Interval { lower, upper }.contains_decimal(value) == limits.contains_decimal(self.value)
         })
     }
 }
@@ -54,12 +54,6 @@ pub(super) fn with_unrounded(rounded: &str, in_full: Option<&str>, l: Language) 
             format!("{rounded}（修约前 {full}）"),
         ),
     }
-}
-
-/// Whether a value lies between limits or on one of them, as the verdict of an assessment has it.
-fn within(value: f64, [lower, upper]: [f64; 2]) -> bool {
-    let same = |limit: f64| (value - limit).abs() <= 4.0 * f64::EPSILON * limit.abs();
-    (lower <= value || same(lower)) && (value <= upper || same(upper))
 }
 
 /// A printed number.

@@ -172,17 +172,9 @@ fn u_of_value<'b>(
     }
 }
 
-/// Two decimals of up to 15 digits that are equal are doubles as near as this, relative, after a few roundings; two
-/// different ones lie 10⁻¹⁵ apart.
-const SAME_DECIMAL: f64 = 4.0 * f64::EPSILON;
-
 /// The verdict as the decimals have it: a value on a limit is within it.
 fn verdict(estimate: f64, limits: &Limits) -> Verdict {
-    let same =
-        |limit: f64| limit.is_finite() && (limit - estimate).abs() <= SAME_DECIMAL * limit.abs();
-    let within = |interval: Interval| {
-        interval.contains(estimate) || same(interval.lower) || same(interval.upper)
-    };
+    let within = |interval: Interval| interval.contains_decimal(estimate);
     if limits.acceptance.is_some_and(within) {
         Verdict::Conforming
     } else if within(limits.rejection) && limits.acceptance != Some(limits.rejection) {

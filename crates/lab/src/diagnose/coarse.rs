@@ -194,7 +194,7 @@ mod tests {
         let column = |design: &Design<'_>, fit: &Fit| {
             let fitted = FittedModel::new(design, fit);
             let x = fitted.numbers(1);
-            let late = late(&fitted.clock.values, x, tau);
+            let late = late(&fitted.clock.values, x, &[], tau);
             let lacks = late.iter().zip(x).map(|(late, x)| late - x).collect();
             fitted.column(&Term::new(Node::Column(1), Modifier::unnamed(lacks)))
         };

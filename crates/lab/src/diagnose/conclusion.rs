@@ -158,7 +158,6 @@ impl Diagnosis {
         const LIKELY: f64 = 0.5;
         let unlikely = slot.generic.iter().all(|one| one.probability < UNLIKELY);
         let first = slot.named.first().filter(|one| one.probability > LIKELY);
-        let first = first.filter(|one| !self.describes(one));
         first.filter(|_| !slot.is_explained() && unlikely)
     }
 
@@ -178,14 +177,21 @@ impl Diagnosis {
         first.filter(|one| !self.describes(one))
     }
 
-    /// Where what is unexplained sits: what is likely enough; else, where no name is tentative either, the best
-    /// there is.
+    /// Where what is unexplained sits: what is likely enough; else, where no name is tentative either, the best there is.
     fn places(&self) -> Vec<&Alternative> {
-        let slots = self.examination.slots.iter();
-        let unexplained = slots.filter(|s| !s.is_explained() && self.tentative(s).is_none());
-        let found: Vec<&Alternative> = unexplained.filter_map(|s| s.generic.first()).collect();
-        let likely: Vec<&Alternative> = found.iter().copied().filter(|a| a.weighs()).collect();
-        if likely.is_empty() { found } else { likely }
+        let slots = self
+            .examination
+            .slots
+            .iter()
+            .filter(|slot| !slot.is_explained());
+        let (tentative, nameless): (Vec<&Slot>, Vec<&Slot>) =
+            slots.partition(|slot| self.tentative(slot).is_some());
+        let found = nameless.iter().filter_map(|slot| slot.generic.first());
+        let likely: Vec<&Alternative> = found.clone().filter(|one| one.weighs()).collect();
+        match likely.is_empty() && tentative.is_empty() {
+            true => found.collect(),
+            false => likely,
+        }
     }
 
     /// The most probable variant of an alternative.

@@ -1,7 +1,8 @@
 //! What the forms are built of: cells on the offset or on a node, their words, grids of time constants.
 
 use super::fitted::{FittedModel, Node};
-use super::modifiers::grid;
+use super::modifiers::{Course, grid};
+use super::sharp::best;
 use super::{Cell, EffectId, Modifier, Term, Variants, Variation, Words};
 use crate::diagnose::evidence::Place;
 
@@ -84,10 +85,35 @@ pub(super) fn plain(
     )
 }
 
-/// Time constants from a fraction of the interval of the blocks to a fraction of the recording.
+/// Time constants from a fraction of the interval of the blocks to a fraction of the recording; none where rows have no
+/// times.
 pub(super) fn time_constants(fitted: &FittedModel<'_>) -> Vec<f64> {
+    if !fitted.is_timed() {
+        return Vec::new();
+    }
     let span = fitted.clock.span();
     let blocks = fitted.design.blocks.len().max(2) as f64;
     let least = (span / blocks * 0.5).max(fitted.clock.interval() * 0.5);
     grid(least, span / 3.0, 1.7, 12)
+}
+
+/// The course between the rows of which a lag explains the residuals best, where the rows leave more than one possible; by
+/// default the likelier one.
+pub(super) fn course(
+    fitted: &FittedModel<'_>,
+    x: &[f64],
+    late: &dyn Fn(Course, f64) -> Term,
+) -> Course {
+    let possible = Course::possible(x);
+    if possible.len() == 1 {
+        return possible[0];
+    }
+    let scales = time_constants(fitted);
+    let each = possible
+        .iter()
+        .flat_map(|course| scales.iter().map(|tau| (*course, *tau)));
+    let tried: Vec<(Course, f64)> = each.collect();
+    let mut terms = tried.iter().map(|(course, tau)| late(*course, *tau));
+    let best = best(fitted, &mut terms);
+    best.map_or(possible[0], |at| tried[at].0)
 }

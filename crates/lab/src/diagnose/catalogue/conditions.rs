@@ -3,7 +3,7 @@
 
 use super::building::{on_node, on_outputs, time_constants, words};
 use super::fitted::{FittedModel, Node, varies};
-use super::modifiers::{centred, correlation, figure, lag, levels_of, map, map2, range};
+use super::modifiers::{centred, correlation, figure, late, levels_of, map, map2, range};
 use super::sharp::sharpened;
 use super::{Cell, EffectId, Modifier, Term, Variants, Words};
 use crate::diagnose::case::Role;
@@ -173,8 +173,8 @@ fn delayed(fitted: &FittedModel<'_>, column: usize, node: Node, own: &Modifier) 
     let mut variants = vec![(String::new(), vec![own.clone()])];
     if fitted.is_timed() && !fitted.is_immediate(column) {
         let unit = fitted.time_unit();
-        let late = |tau: f64| lag(&fitted.clock.values, &own.values, tau);
-        let term = |tau: f64| Term::new(node, Modifier::unnamed(late(tau)));
+        let course = |tau: f64| late(&fitted.clock.values, &own.values, &[], tau);
+        let term = |tau: f64| Term::new(node, Modifier::unnamed(course(tau)));
         for tau in fitted
             .finer
             .times(sharpened(fitted, time_constants(fitted), &term))
@@ -187,7 +187,7 @@ fn delayed(fitted: &FittedModel<'_>, column: usize, node: Node, own: &Modifier) 
             let text = format!("lag({inner}, {tau} {unit})", tau = figure(tau));
             variants.push((
                 format!("τ = {tau} {unit}", tau = figure(tau)),
-                vec![Modifier::new(late(tau), text, own.unit.clone())],
+                vec![Modifier::new(course(tau), text, own.unit.clone())],
             ));
         }
     }

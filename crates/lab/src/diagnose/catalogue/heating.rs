@@ -1,9 +1,9 @@
 //! Self-heating: the power of the signal warms what senses it, and warmth needs time.
 
-use super::building::words;
+use super::building::{course, time_constants, words};
 use super::fitted::{FittedModel, Node, varies};
 use super::inputs::Signal;
-use super::modifiers::{figure, grid, lag, largest};
+use super::modifiers::{Course, figure, largest};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
@@ -39,15 +39,16 @@ fn of_signals(fitted: &FittedModel<'_>) -> Cell {
     let responses: Vec<usize> = (0..fitted.case().responses.len())
         .filter(|response| swings(fitted.signal(*response)))
         .collect();
+    let warm = responses.into_iter().map(|response| {
+        let signal = Signal::new(fitted, response);
+        let power = Modifier::number(signal.parts, signal.text).square();
+        late(fitted, Term::new(Node::Gain, power).on(response))
+    });
+    let warm: Vec<_> = warm.collect();
     let mut variants = Vec::new();
-    for tau in fitted.finer.times(scales(fitted)) {
+    for tau in fitted.finer.times(time_constants(fitted)) {
         let label = format!("τ = {} {unit}", figure(tau));
-        let terms = responses.iter().map(|response| {
-            let signal = Signal::new(fitted, *response);
-            let power = Modifier::number(signal.parts, signal.text).square();
-            Term::new(Node::Gain, warmth(fitted, power, tau)).on(*response)
-        });
-        let terms: Vec<Term> = terms.collect();
+        let terms: Vec<Term> = warm.iter().map(|warm| warm(tau)).collect();
         if terms.len() > 1 {
             for term in &terms {
                 let name = term.response.map(|r| &fitted.case().responses[r].name);
@@ -67,12 +68,13 @@ fn of_column(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let name = fitted.label(column);
     let x = fitted.numbers(column).to_vec();
     let power = Modifier::new(x, name, fitted.step_unit(column)).square();
-    let late = fitted.finer.times(scales(fitted)).into_iter().map(|tau| {
+    let warm = late(fitted, Term::new(Node::Output, power.clone()));
+    let scales = fitted.finer.times(time_constants(fitted)).into_iter();
+    let warming = scales.map(|tau| {
         let label = format!("τ = {} {unit}", figure(tau));
-        let term = Term::new(Node::Output, warmth(fitted, power.clone(), tau));
-        Variation::one(label, term).shaped("τ", tau, &unit)
+        Variation::one(label, warm(tau)).shaped("τ", tau, &unit)
     });
-    let mut on_offset: Vec<Variation> = late.collect();
+    let mut on_offset: Vec<Variation> = warming.collect();
     if fitted.in_model(column) || !varies(&power.values) {
         return vec![cell(fitted, Node::Output, name, on_offset)];
     }
@@ -90,14 +92,21 @@ fn of_column(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     cells
 }
 
-/// A power, late.
-fn warmth(fitted: &FittedModel<'_>, power: Modifier, tau: f64) -> Modifier {
-    let (shown, unit) = (figure(tau), fitted.time_unit());
-    Modifier {
-        values: lag(&fitted.clock.values, &power.values, tau).into(),
-        text: format!("lag({}, {shown} {unit})", power.text),
-        ..power
-    }
+/// What a power does at once, late: by the time constant.
+fn late<'f>(fitted: &'f FittedModel<'f>, at_once: Term) -> impl Fn(f64) -> Term + 'f {
+    let power = at_once.modifier.clone();
+    let unit = fitted.time_unit();
+    let late = move |course: Course, tau: f64| {
+        let mut term = at_once.clone();
+        let power = &mut term.modifier;
+        power.values = course
+            .late(&fitted.clock.values, &power.values, &[], tau)
+            .into();
+        power.text = format!("lag({}, {} {unit})", power.text, figure(tau));
+        term
+    };
+    let course = course(fitted, &power.values, &late);
+    move |tau| late(course, tau)
 }
 
 fn cell(fitted: &FittedModel<'_>, node: Node, along: &str, variants: Vec<Variation>) -> Cell {
@@ -108,20 +117,5 @@ fn cell(fitted: &FittedModel<'_>, node: Node, along: &str, variants: Vec<Variati
         words,
         Place::new(fitted.name(node), along),
         variants,
-    )
-}
-
-/// What is quicker than the rows follow one another is a power of the signal.
-fn scales(fitted: &FittedModel<'_>) -> Vec<f64> {
-    if !fitted.is_timed() {
-        return Vec::new();
-    }
-    let span = fitted.clock.span();
-    let blocks = fitted.design.blocks.len().max(2) as f64;
-    grid(
-        (span / blocks).max(fitted.clock.interval()),
-        span / 5.0,
-        2.5,
-        5,
     )
 }

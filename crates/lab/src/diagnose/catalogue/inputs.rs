@@ -9,8 +9,8 @@ use super::fitted::{FittedModel, Node, varies};
 use super::generics::over_signals;
 use super::history::comes_back;
 use super::modifiers::{
-    correlation, creeps, figure, five_digits, held_lag, lag, largest, map, map2, play_from, range,
-    rate, recordings,
+    correlation, creeps, figure, five_digits, largest, late, map, map2, play_from, range, rate,
+    recordings,
 };
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::case::Role;
@@ -374,12 +374,9 @@ fn memory(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
     let scales = time_constants(fitted);
     let lacks = |input: &Input, tau: f64| {
         let own = &input.own;
-        let late = if creeps(own) {
-            lag(&t, own, tau)
-        } else {
-            held_lag(&t, own, &input.came, tau)
-        };
-        let modifier = map2(&late, own, |late, now| late - now);
+        let modifier = map2(&late(&t, own, &input.came, tau), own, |late, now| {
+            late - now
+        });
         let text = format!(
             "(lag({own}, {} {unit}) - {own})",
             figure(tau),

@@ -47,7 +47,7 @@ pub fn mean(x: &[f64]) -> f64 {
 
 /// First-order lag of a piecewise linear course: what a body with time constant `tau` has of `x`. It
 /// begins in balance, and anew where the time goes backwards.
-pub fn lag(t: &[f64], x: &[f64], tau: f64) -> Vec<f64> {
+fn lag(t: &[f64], x: &[f64], tau: f64) -> Vec<f64> {
     let mut out = Vec::with_capacity(x.len());
     for row in 0..x.len() {
         let step = if row == 0 { -1.0 } else { t[row] - t[row - 1] };
@@ -71,7 +71,7 @@ pub fn lag(t: &[f64], x: &[f64], tau: f64) -> Vec<f64> {
 /// First-order lag of a course that moves from dwell to dwell: each value is taken on at once, and held. It
 /// begins in balance. Where `came` says from which value a row was reached, and how long before, the course
 /// was there since the row before.
-pub fn held_lag(t: &[f64], x: &[f64], came: &[Option<(f64, f64)>], tau: f64) -> Vec<f64> {
+fn held_lag(t: &[f64], x: &[f64], came: &[Option<(f64, f64)>], tau: f64) -> Vec<f64> {
     let mut out: Vec<f64> = Vec::with_capacity(x.len());
     let towards = |value: f64, before: f64, time: f64| {
         value + (before - value) * libm::exp(-time.max(0.0) / tau)
@@ -91,13 +91,38 @@ pub fn held_lag(t: &[f64], x: &[f64], came: &[Option<(f64, f64)>], tau: f64) -> 
     out
 }
 
-/// First-order lag, as the course moves: steadily, or from dwell to dwell.
-pub fn late(t: &[f64], x: &[f64], tau: f64) -> Vec<f64> {
-    if creeps(x) {
-        lag(t, x, tau)
-    } else {
-        held_lag(t, x, &[], tau)
+/// How what is recorded row by row moves between the rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Course {
+    /// Along the straight line.
+    Steady,
+    /// At once, to the next value, where it stays.
+    Dwelling,
+}
+
+impl Course {
+    /// What may be, the more likely first. Steps of a good part of the range are from set point to set point. So may small
+    /// ones be where most rows have a value that others have too: a ramp in round numbers looks like a list of set points.
+    pub fn possible(x: &[f64]) -> &'static [Course] {
+        match (creeps(x), 2 * levels_of(x).len() <= x.len()) {
+            (false, _) => &[Course::Dwelling],
+            (true, false) => &[Course::Steady],
+            (true, true) => &[Course::Steady, Course::Dwelling],
+        }
     }
+
+    /// First-order lag behind it; `came` as in [`held_lag`].
+    pub fn late(self, t: &[f64], x: &[f64], came: &[Option<(f64, f64)>], tau: f64) -> Vec<f64> {
+        match self {
+            Course::Steady => lag(t, x, tau),
+            Course::Dwelling => held_lag(t, x, came, tau),
+        }
+    }
+}
+
+/// First-order lag behind the likelier course.
+pub fn late(t: &[f64], x: &[f64], came: &[Option<(f64, f64)>], tau: f64) -> Vec<f64> {
+    Course::possible(x)[0].late(t, x, came, tau)
 }
 
 /// Rows between which the time does not go backwards: another recording begins where it does, with a history of its own.
@@ -293,6 +318,21 @@ pub fn levels_of(x: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn set_points_in_small_steps_may_be_a_ramp_and_a_ramp_of_measured_values_is_no_list_of_set_points()
+     {
+        let list: Vec<f64> = (0..40).map(|row| f64::from(row % 10)).collect();
+        assert_eq!(Course::possible(&list), [Course::Steady, Course::Dwelling]);
+        let ramp: Vec<f64> = (0..40)
+            .map(|row| f64::from(row) + 1e-3 * libm::sin(f64::from(row)))
+            .collect();
+        assert_eq!(Course::possible(&ramp), [Course::Steady]);
+        assert_eq!(
+            Course::possible(&[0.0, 5.0, 10.0, 5.0, 0.0]),
+            [Course::Dwelling]
+        );
+    }
 
     #[test]
     fn a_ramp_is_late_by_the_time_constant() {

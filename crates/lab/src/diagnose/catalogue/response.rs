@@ -1,10 +1,10 @@
 //! How the response to the stimuli may differ from the declared one: powers, modulus, limits, cross terms,
 //! lag.
 
-use super::building::{on_node, on_output, on_outputs, time_constants, words};
+use super::building::{course, on_node, on_output, on_outputs, time_constants, words};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{
-    creeps, delayed, figure, five_digits, grid, late, levels_of, map, map2, mean, range,
+    Course, creeps, delayed, figure, five_digits, grid, levels_of, map, map2, mean, range,
 };
 use super::norm::Norm;
 use super::powers::Power;
@@ -234,14 +234,16 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     } else {
         EffectId::Lag
     };
-    let lacks = |tau: f64| {
-        let modifier = map2(&late(t, x, tau), x, |late, x| late - x);
+    let lacking = |course: Course, tau: f64| {
+        let modifier = map2(&course.late(t, x, &[], tau), x, |late, x| late - x);
         let text = format!("(lag({label}, {tau} {unit}) - {label})", tau = figure(tau));
         Term::new(
             node,
             Modifier::new(modifier, text, fitted.step_unit(column)),
         )
     };
+    let course = course(fitted, x, &lacking);
+    let lacks = |tau: f64| lacking(course, tau);
     let scales = sharpened(fitted, time_constants(fitted), &lacks);
     let singles = fitted.finer.times(scales.clone());
     let single = singles.iter().map(|tau| {

@@ -171,6 +171,8 @@ fn mixed(tried: &[DVector<f64>], target: &DVector<f64>, sigma: f64) -> bool {
 /// Blocks, the strongest first, that are next to nothing beside those before them and all that these may
 /// be mixed to.
 pub(super) fn shapes(space: &Space, question: &Question, strongest_first: &[usize]) -> Vec<usize> {
+    // The noise is what all of them leave: the strongest alone would leave the others in it.
+    let sigma = space.sigma(&space.frame_of(strongest_first));
     let mut basis = DMatrix::zeros(space.z.len(), 0);
     let mut found = Vec::new();
     for (place, &index) in strongest_first.iter().enumerate() {
@@ -179,7 +181,7 @@ pub(super) fn shapes(space: &Space, question: &Question, strongest_first: &[usiz
             true => DESCRIBED_APART,
             false => APART,
         };
-        if place > 0 && lambda(space, block, &basis) < apart {
+        if place > 0 && explained(space, block, &basis) < apart * sigma {
             found.push(index);
             continue;
         }
@@ -195,15 +197,15 @@ pub(super) fn shapes(space: &Space, question: &Question, strongest_first: &[usiz
     found
 }
 
-/// Size of what a block explains beside a basis, over the noise.
-fn lambda(space: &Space, block: &Block, basis: &DMatrix<f64>) -> f64 {
+/// Size of what a block explains beside a basis.
+fn explained(space: &Space, block: &Block, basis: &DMatrix<f64>) -> f64 {
     let left = orthonormal(
         without(&block.basis, basis),
         &vec![1.0; block.basis.ncols()],
         FAINT,
     )
     .0;
-    left.tr_mul(&space.z).norm() / space.sigma(basis.ncols() + left.ncols(), basis, &left)
+    left.tr_mul(&space.z).norm()
 }
 
 /// What the variants of a candidate that resemble one of them span beside a basis.

@@ -212,18 +212,15 @@ impl Space {
 
     /// λ of all that a set explains.
     pub(super) fn strength(&self, frame: &Frame) -> f64 {
-        let nothing = DMatrix::zeros(self.z.len(), 0);
-        frame.fit.sqrt() / self.sigma(frame.basis.ncols(), &frame.basis, &nothing)
+        frame.fit.sqrt() / self.sigma(frame)
     }
 
-    /// Standard deviation of the noise in whitened units when d directions are fitted that reduce χ² by
-    /// what lies along two bases.
-    pub(super) fn sigma(&self, d: usize, one: &DMatrix<f64>, other: &DMatrix<f64>) -> f64 {
-        match self.scale.less(d) {
+    /// Standard deviation of the noise in whitened units, where a set is all there is.
+    pub(super) fn sigma(&self, frame: &Frame) -> f64 {
+        match self.scale.less(frame.basis.ncols()) {
             Scale::Known => 1.0,
             Scale::Estimated { total } => {
-                let fit = one.tr_mul(&self.z).norm_squared() + other.tr_mul(&self.z).norm_squared();
-                ((self.rss() - fit).max(0.0) / total.max(1.0)).sqrt()
+                ((self.rss() - frame.fit).max(0.0) / total.max(1.0)).sqrt()
             }
         }
     }

@@ -22,6 +22,13 @@ pub struct Extended {
     pub effects: Vec<Free>,
 }
 
+impl Extended {
+    /// Whether an unknown is a coefficient that was added.
+    pub(super) fn adds(&self, unknown: &str) -> bool {
+        (self.additions.iter()).any(|addition| addition.parameter == unknown)
+    }
+}
+
 /// What of an effect is free beside the declared parameters. A term that they absorb, but for the rounding of
 /// recorded values, is theirs: a coefficient of its own could take any value.
 #[derive(Debug)]

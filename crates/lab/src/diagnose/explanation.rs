@@ -46,7 +46,7 @@ impl Explanation {
         probability: f64,
     ) -> Explanation {
         let sizes = sizes.map(|x| if x.is_finite() { x } else { 0.0 });
-        let columns = variation.columns(recorded.fitted);
+        let columns = variation.columns(&recorded.candidates.fitted);
         Explanation {
             id: cell.effect.id,
             words: cell.words.clone(),
@@ -84,7 +84,7 @@ impl Explanation {
             let own = seen.columns(begin, end - begin).into_owned();
             let columns = recorded
                 .baseline
-                .project(&variation.columns(recorded.fitted));
+                .project(&variation.columns(&recorded.candidates.fitted));
             likely.push(Likely {
                 label: variation.label.clone(),
                 shape: value(variation),
@@ -108,8 +108,9 @@ impl Explanation {
     }
 
     /// How it stands in the recording.
-    pub(super) fn before(&self, recorded: &Recorded<'_>, cells: &[Cell]) -> Standing {
-        let variants = self.variants(recorded.fitted, cells).into_iter();
+    pub(super) fn before(&self, recorded: &Recorded<'_>) -> Standing {
+        let own = recorded.candidates;
+        let variants = self.variants(&own.fitted, &own.cells).into_iter();
         let seen = |columns: DMatrix<f64>| visible(recorded.baseline, columns);
         Standing {
             effects: side_by_side(self.likely.iter().map(|likely| likely.seen.clone())),
@@ -304,7 +305,7 @@ pub(super) fn likened(
     let seen = &explanation.likely.first()?.seen;
     let columns = recorded
         .baseline
-        .project(&variation.columns(recorded.fitted));
+        .project(&variation.columns(&recorded.candidates.fitted));
     let sizes = fitted(&columns, seen)?;
     // It is not in the list: less probable than whatever is.
     Some(Explanation::new(

@@ -354,6 +354,7 @@ fn stacked(above: DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::fixture::white;
     use super::*;
 
     fn line(prior: &Prior, residuals: &[f64]) -> Result<Baseline, Refusal> {
@@ -469,7 +470,7 @@ mod tests {
         let bad = line(&Prior::none(2), &[1.0, f64::NAN, 2.0]);
         assert_eq!(bad.err(), Some(Refusal::NotFinite { row: 1 }));
         let jacobian = DMatrix::from_element(4, 2, 1.0);
-        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(4, 1.0)));
+        let noise = white(4);
         let twice = Baseline::new(&jacobian, &DVector::zeros(4), &noise, &Prior::none(2));
         assert_eq!(twice.err(), Some(Refusal::Dependent { parameter: 1 }));
     }

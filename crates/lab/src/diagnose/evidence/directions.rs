@@ -147,7 +147,7 @@ mod tests {
     use nalgebra::DVector;
 
     use super::super::baseline::Prior;
-    use super::super::noise::{Covariance, Noise};
+    use super::super::fixture::white;
     use super::*;
 
     #[test]
@@ -156,7 +156,7 @@ mod tests {
         let rounded = |row: usize, digits: f64| (libm::cos(angle(row)) * digits).round() / digits;
         let free = |digits: f64, columns: &DMatrix<f64>| {
             let jacobian = DMatrix::from_fn(20, 1, |row, _| rounded(row, digits));
-            let noise = Noise::known(Covariance::Diagonal(DVector::from_element(20, 1.0)));
+            let noise = white(20);
             let baseline =
                 Baseline::new(&jacobian, &DVector::zeros(20), &noise, &Prior::none(1)).unwrap();
             determined(&baseline, columns)

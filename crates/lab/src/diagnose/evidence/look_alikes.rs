@@ -239,15 +239,11 @@ fn mixture(
 
 #[cfg(test)]
 mod tests {
-    use std::ops::ControlFlow;
-
     use gumption_lanes::{Block as Lanes, Generator, level};
 
-    use super::super::baseline::{Baseline, Prior};
-    use super::super::examine::examine;
     use super::super::findings::{Examination, Slot, State};
-    use super::super::noise::{Covariance, Noise};
-    use super::super::question::{Atom, Candidate, Settings, Shape};
+    use super::super::fixture::{Asked, shape, white};
+    use super::super::question::Candidate;
     use super::*;
     use gumption_core::special::normal_quantile;
 
@@ -278,7 +274,7 @@ mod tests {
     }
 
     /// A constant is fitted; relaxations of one time constant and other courses are on offer.
-    fn with<T>(effect: DVector<f64>, stream: u64, answer: impl Fn(&Question) -> T) -> T {
+    fn asked_of(effect: &DVector<f64>, stream: u64) -> Asked {
         let named = [
             (
                 "relaxation",
@@ -295,46 +291,30 @@ mod tests {
                 vec![column(|t| libm::exp(-t / 6.0) + libm::exp(-t / 2.5))],
             ),
         ];
-        let (mut candidates, mut atoms) = (Vec::new(), Vec::new());
-        for (name, variants) in named {
-            for variant in variants {
-                atoms.push(Atom {
-                    candidate: candidates.len(),
-                    variant: String::new(),
-                    shape: Shape::Columns(DMatrix::from_columns(&[variant])),
-                    share: 1.0,
-                });
-            }
-            candidates.push(Candidate::plain(name, candidates.len()));
-        }
-        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(ROWS, 1.0)));
-        let ones = DMatrix::from_element(ROWS, 1, 1.0);
-        let residuals = effect + errors(stream);
-        let baseline = Baseline::new(&ones, &residuals, &noise, &Prior::none(1)).unwrap();
-        answer(&Question {
-            baseline: &baseline,
-            candidates: &candidates,
-            atoms: &atoms,
-            settings: Settings::default(),
+        let asked = Asked::of(&(effect + errors(stream)), &white(ROWS));
+        let each = named.into_iter().enumerate();
+        each.fold(asked, |asked, (at, (name, variants))| {
+            let shapes = variants.into_iter().map(shape).collect();
+            asked.with(Candidate::plain(name, at), shapes)
         })
     }
 
     /// What is found, and the unique names.
-    fn asked(effect: DVector<f64>, stream: u64) -> (Examination, Vec<String>) {
-        with(effect, stream, |question| {
-            let found = examine(question, &|_| ControlFlow::Continue(())).unwrap();
-            let unique = found.slots.iter().filter(|s| s.state == State::Identified);
-            let name = |slot: &Slot| question.candidates[slot.named[0].candidate].name.clone();
-            let names = unique.map(name).collect();
-            (found, names)
-        })
+    fn asked(effect: &DVector<f64>, stream: u64) -> (Examination, Vec<String>) {
+        let asked = asked_of(effect, stream);
+        let found = asked.examined();
+        let unique = found.slots.iter().filter(|s| s.state == State::Identified);
+        let candidates = asked.question().candidates;
+        let name = |slot: &Slot| candidates[slot.named[0].candidate].name.clone();
+        let names = unique.map(name).collect();
+        (found, names)
     }
 
     #[test]
     fn what_mends_the_shape_of_another_effect_has_no_name_of_its_own() {
         for stream in 0..6 {
             let effect = relaxation(1.7) * 40.0 + relaxation(20.0) * 40.0;
-            let (found, names) = asked(effect, stream);
+            let (found, names) = asked(&effect, stream);
             assert!(found.levels.len() > 2, "one variant does not suffice");
             assert!(names.is_empty() || names == ["relaxation"], "{names:?}");
         }
@@ -343,26 +323,26 @@ mod tests {
     #[test]
     fn a_second_effect_is_no_shape_of_the_first() {
         let effect = relaxation(15.0) * 20.0 + wave() * 4.0;
-        with(effect, 1, |question| {
-            let space = Space::new(question).unwrap();
-            let block = |name: &str| {
-                let named = |b: &Block| question.candidates[b.candidate].name == name;
-                let fit = |b: &Block| b.basis.tr_mul(&space.z).norm();
-                (0..space.blocks.len())
-                    .filter(|b| named(&space.blocks[*b]))
-                    .max_by(|a, b| fit(&space.blocks[*a]).total_cmp(&fit(&space.blocks[*b])))
-                    .unwrap()
-            };
-            let (first, wave, other) = (block("relaxation"), block("sine"), block("inverse"));
-            assert!(shapes(&space, question, &[first, wave]).is_empty());
-            assert_eq!(shapes(&space, question, &[first, wave, other]), [other]);
-        });
+        let asked = asked_of(&effect, 1);
+        let question = asked.question();
+        let space = Space::new(&question).unwrap();
+        let block = |name: &str| {
+            let named = |b: &Block| question.candidates[b.candidate].name == name;
+            let fit = |b: &Block| b.basis.tr_mul(&space.z).norm();
+            (0..space.blocks.len())
+                .filter(|b| named(&space.blocks[*b]))
+                .max_by(|a, b| fit(&space.blocks[*a]).total_cmp(&fit(&space.blocks[*b])))
+                .unwrap()
+        };
+        let (first, wave, other) = (block("relaxation"), block("sine"), block("inverse"));
+        assert!(shapes(&space, &question, &[first, wave]).is_empty());
+        assert_eq!(shapes(&space, &question, &[first, wave, other]), [other]);
     }
 
     #[test]
     fn a_sum_of_two_variants_is_listed_with_their_candidate() {
         let effect = (relaxation(6.0) + relaxation(2.5)) * 20.0;
-        let (found, _) = asked(effect, 1);
+        let (found, _) = asked(&effect, 1);
         let listed: Vec<usize> = found.slots[0].named.iter().map(|n| n.candidate).collect();
         // The sum is a candidate of its own (7) that fits exactly.
         assert!(listed.contains(&7) && listed.contains(&0), "{listed:?}");

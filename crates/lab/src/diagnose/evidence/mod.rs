@@ -70,6 +70,8 @@ mod directions;
 mod examine;
 mod findings;
 mod fit;
+#[cfg(test)]
+pub(super) mod fixture;
 mod grades;
 mod locate;
 mod look_alikes;

@@ -214,7 +214,7 @@ mod tests {
     use nalgebra::DVector;
 
     use super::super::baseline::{Baseline, Prior};
-    use super::super::noise::{Covariance, Noise};
+    use super::super::fixture::white;
     use super::*;
 
     /// Twelve positions in each mount: K2 and encoder eccentricity (1/rev cosine), seen beside the baseline.
@@ -234,7 +234,7 @@ mod tests {
             column(&|a, _| a.sin()),
             column(&|a, _| a.cos()),
         ]);
-        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(n, 1.0)));
+        let noise = white(n);
         let baseline =
             Baseline::new(&jacobian, &DVector::zeros(n), &noise, &Prior::none(3)).unwrap();
         [

@@ -13,7 +13,7 @@ use super::confirm::{self, Estimated, Quality, estimates};
 use super::design::Design;
 use super::evidence::{self, Examination, Located, TRACE, Verdict};
 use super::failure::Failure;
-use super::fit::{ModelVersion, Trouble, Unsettled};
+use super::fit::{Fit, ModelVersion, Trouble, Unsettled};
 use super::held_out::{self, HeldOutQuality};
 use super::noise::{self, Claimed};
 use super::noise_correlation::Courses;
@@ -42,8 +42,8 @@ pub struct Diagnosis {
     pub unknowns: Vec<Estimated>,
     /// The declared model.
     pub before: Quality,
-    /// What the declared model leaves, observation by observation.
-    pub residuals: DVector<f64>,
+    /// Its fit, with what it leaves observation by observation.
+    pub fit: Fit,
     /// The model with the effects in it.
     pub adopted: Option<Adopted>,
     /// Number of means (blocks) and of rows in the recording.
@@ -267,7 +267,7 @@ pub fn diagnose(
         located,
         unknowns,
         before,
-        residuals: fit.residuals.clone(),
+        fit,
         adopted,
         blocks: design.blocks.clone(),
         omitted,

@@ -130,11 +130,8 @@ pub(super) fn noise(space: &Space, set: &Frame) -> (f64, f64) {
     }
 }
 
-/// Coefficients of independent columns, and (AᵀA)⁻¹.
-pub(super) fn least_squares(
-    columns: &DMatrix<f64>,
-    z: &DVector<f64>,
-) -> (DVector<f64>, DMatrix<f64>) {
+/// Coefficients of columns, and (AᵀA)⁻¹; directions that nothing determines have no part in either.
+pub fn least_squares(columns: &DMatrix<f64>, z: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
     // Columns of unit length: their units may be very different.
     let lengths: Vec<f64> = columns.column_iter().map(|c| c.norm()).collect();
     let mut unit = columns.clone();

@@ -79,16 +79,13 @@ pub fn likeness<'p>(
     slots: &[Slot],
     of: impl Fn(usize) -> (&'p Place, bool),
 ) -> Likeness {
-    /// More effects are a description.
-    const FEW: usize = 2;
     let own = strength(slot);
     let of = |slot: &Slot| slot.named.first().map(|first| of(first.candidate));
     let describes = |slot: &Slot| of(slot).is_some_and(|(_, describes)| describes);
     let alike = |other: &&Slot| {
         (describes(slot) && describes(other)) || of(other).map(|of| of.0) == of(slot).map(|of| of.0)
     };
-    let shared =
-        || slots.iter().filter(alike).count() > 1 || (describes(slot) && slots.len() > FEW);
+    let shared = || slots.iter().filter(alike).count() > 1;
     match own * LIKENESS >= SEEN {
         false => Likeness::Weak,
         true if own < LIKENESS * strongest(slots) => Likeness::Beside,

@@ -2,57 +2,55 @@
 
 use super::fitted::{FittedModel, Node};
 use super::modifiers::grid;
-use super::{Cell, EffectId, Modifier, Term, Variants, Variation, Words};
+use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
 
-/// A cell on the offset of the outputs: alike on all responses, and on each of them alone.
-pub(super) fn on_outputs(
-    fitted: &FittedModel<'_>,
-    id: EffectId,
-    words: Words,
-    along: &str,
-    variants: Variants,
-) -> Cell {
-    on_node(fitted, id, words, along, Node::Output, variants)
+/// A variation by what its terms follow, to be put on a node.
+pub(super) fn form(label: impl Into<String>, modifiers: Vec<Modifier>) -> Variation {
+    Variation::of(label, modifiers.into_iter().map(on_output).collect())
 }
 
-/// A cell on a node, with scopes over the responses.
+/// A cell whose forms act on a node along something: on all responses, and on each of them alone.
 pub(super) fn on_node(
     fitted: &FittedModel<'_>,
     id: EffectId,
-    words: Words,
     along: &str,
     node: Node,
-    variants: Variants,
+    forms: impl IntoIterator<Item = Variation>,
 ) -> Cell {
     let responses = &fitted.case().responses;
     let mut all = Vec::new();
-    for (label, modifiers) in variants {
-        let term = |response: Option<usize>| {
-            let terms = modifiers.iter().map(move |modifier| Term {
+    for form in forms {
+        let on = |response: Option<usize>| {
+            let terms = form.terms.iter().cloned();
+            terms.map(move |term| Term {
+                node,
                 response,
-                ..Term::new(node, modifier.clone())
-            });
-            terms.collect::<Vec<Term>>()
+                ..term
+            })
+        };
+        let with = |label: &str, terms: Vec<Term>| Variation {
+            label: label.to_owned(),
+            terms,
+            ..form.clone()
         };
         // An error of a column reaches all responses through the model.
         if responses.len() == 1 || matches!(node, Node::Column(_)) {
-            all.push(Variation::of(label, term(None)));
+            all.push(with(&form.label, on(None).collect()));
             continue;
         }
         for (index, response) in responses.iter().enumerate() {
-            let joined = if label.is_empty() {
-                response.name.clone()
-            } else {
-                format!("{}, {label}", response.name)
-            };
-            all.push(Variation::of(joined, term(Some(index))));
+            let words = [response.name.as_str(), &form.label];
+            let words: Vec<&str> = words.into_iter().filter(|w| !w.is_empty()).collect();
+            all.push(with(&words.join(", "), on(Some(index)).collect()));
         }
-        let each = (0..responses.len())
-            .flat_map(|index| term(Some(index)))
-            .collect();
-        all.push(Variation::of(label, each));
+        let each = (0..responses.len()).flat_map(|index| on(Some(index)));
+        all.push(with(&form.label, each.collect()));
     }
+    let words = Words {
+        p: fitted.name(node),
+        ..words(fitted, along)
+    };
     Cell::new(id, words, Place::new(fitted.name(node), along), all)
 }
 

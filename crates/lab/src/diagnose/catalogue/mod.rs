@@ -197,9 +197,6 @@ impl Modifier {
     }
 }
 
-/// Labels of variants with the modifiers of their terms.
-type Variants = Vec<(String, Vec<Modifier>)>;
-
 /// A disturbance of one node.
 #[derive(Debug, Clone)]
 pub struct Term {

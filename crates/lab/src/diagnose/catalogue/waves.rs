@@ -4,10 +4,10 @@
 
 use std::f64::consts::TAU;
 
-use super::building::{on_outputs, words};
-use super::fitted::FittedModel;
+use super::building::{form, on_node};
+use super::fitted::{FittedModel, Node};
 use super::modifiers::{correlation, figure, map, range, rounded};
-use super::{Cell, EffectId, Modifier, ShapeParameter, Variants};
+use super::{Cell, EffectId, Modifier};
 use crate::diagnose::case::Role;
 
 /// A wave with fewer periods is the business of drifts and smooth curves.
@@ -112,33 +112,19 @@ fn wave(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
         Some(column) => fitted.less(column, least),
         None => fitted.time_less(least),
     };
-    let variants: Variants = periods
-        .iter()
-        .map(|period| {
-            let of =
-                |wave: fn(f64) -> f64| map(&course.values, |x| wave(TAU * (x - least) / period));
-            let shown = format!("{} {}", figure(*period), course.unit);
-            let argument = format!("2*pi*{began}/({})", shown.trim_end());
-            (
-                format!("period {}", shown.trim_end()),
-                vec![
-                    Modifier::number(of(libm::sin), format!("sin({argument})")),
-                    Modifier::number(of(libm::cos), format!("cos({argument})")),
-                ],
-            )
-        })
-        .collect();
-    let words = words(fitted, &course.words);
-    let mut cell = on_outputs(fitted, EffectId::Wave, words, &course.name, variants);
-    // Of each period one for each output, and one for all of them.
-    let scopes = cell.variants.len() / periods.len();
-    for (at, variation) in cell.variants.iter_mut().enumerate() {
-        variation.shape = Some(ShapeParameter {
-            symbol: "P",
-            value: periods[at / scopes],
-            unit: course.unit.clone(),
-        });
-    }
+    let forms = periods.into_iter().map(|period| {
+        let of = |wave: fn(f64) -> f64| map(&course.values, |x| wave(TAU * (x - least) / period));
+        let shown = format!("{} {}", figure(period), course.unit);
+        let argument = format!("2*pi*{began}/({})", shown.trim_end());
+        let terms = vec![
+            Modifier::number(of(libm::sin), format!("sin({argument})")),
+            Modifier::number(of(libm::cos), format!("cos({argument})")),
+        ];
+        let label = format!("period {}", shown.trim_end());
+        form(label, terms).shaped("P", period, &course.unit)
+    });
+    let mut cell = on_node(fitted, EffectId::Wave, &course.name, Node::Output, forms);
+    cell.words.x = course.words.clone();
     Some(cell)
 }
 
@@ -173,19 +159,16 @@ fn lines(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let name = fitted.label(column);
     let shows = |k: &u32| f64::from(*k) * (most - least) > FEWEST_PERIODS * TAU;
     let last = u32::try_from((positions - 1) / 2).ok()?;
-    let variants: Variants = (super::angles::HIGHEST + 1..=last)
-        .filter(shows)
-        .map(|k| {
-            let of = |wave: fn(f64) -> f64| map(&phi, |phi| wave(f64::from(k) * phi));
-            let terms = vec![
-                Modifier::number(of(libm::sin), format!("sin({k}*{name})")),
-                Modifier::number(of(libm::cos), format!("cos({k}*{name})")),
-            ];
-            (format!("{k} per turn"), terms)
-        })
-        .collect();
-    let words = words(fitted, name);
-    Some(on_outputs(fitted, EffectId::Wave, words, name, variants))
+    let forms = (super::angles::HIGHEST + 1..=last).filter(shows).map(|k| {
+        let of = |wave: fn(f64) -> f64| map(&phi, |phi| wave(f64::from(k) * phi));
+        let terms = vec![
+            Modifier::number(of(libm::sin), format!("sin({k}*{name})")),
+            Modifier::number(of(libm::cos), format!("cos({k}*{name})")),
+        ];
+        form(format!("{k} per turn"), terms)
+    });
+    let id = EffectId::Wave;
+    Some(on_node(fitted, id, name, Node::Output, forms))
 }
 
 /// Moves the frequencies next to the highest peaks of the residuals' spectrum onto them: a line between two

@@ -18,40 +18,64 @@ pub(super) fn on_node(
     node: Node,
     forms: impl IntoIterator<Item = Variation>,
 ) -> Cell {
-    let responses = &fitted.case().responses;
-    let mut all = Vec::new();
-    for form in forms {
-        let on = |response: Option<usize>| {
+    let each = |form: Variation| {
+        let on = |response: Option<usize>| -> Vec<Term> {
             let terms = form.terms.iter().cloned();
-            terms.map(move |term| Term {
+            let on = terms.map(|term| Term {
                 node,
                 response,
                 ..term
-            })
-        };
-        let with = |label: &str, terms: Vec<Term>| Variation {
-            label: label.to_owned(),
-            terms,
-            ..form.clone()
+            });
+            on.collect()
         };
         // An error of a column reaches all responses through the model.
-        if responses.len() == 1 || matches!(node, Node::Column(_)) {
-            all.push(with(&form.label, on(None).collect()));
-            continue;
+        if matches!(node, Node::Column(_)) || form.terms.is_empty() {
+            let terms = on(None);
+            return vec![Variation { terms, ..form }];
         }
-        for (index, response) in responses.iter().enumerate() {
-            let words = [response.name.as_str(), &form.label];
-            let words: Vec<&str> = words.into_iter().filter(|w| !w.is_empty()).collect();
-            all.push(with(&words.join(", "), on(Some(index)).collect()));
+        match fitted.case().responses.len() {
+            1 => vec![Variation {
+                terms: on(None),
+                ..form
+            }],
+            count => {
+                let parts = (0..count).map(|response| (response, on(Some(response))));
+                scoped(fitted, &form, parts.collect())
+            }
         }
-        let each = (0..responses.len()).flat_map(|index| on(Some(index)));
-        all.push(with(&form.label, each.collect()));
-    }
+    };
+    let all = forms.into_iter().flat_map(each).collect();
     let words = Words {
         p: fitted.name(node),
         ..words(fitted, along)
     };
     Cell::new(id, words, Place::new(fitted.name(node), along), all)
+}
+
+/// What a form is on some responses: on each of them alone, if there are others, and on all together.
+pub(super) fn scoped(
+    fitted: &FittedModel<'_>,
+    form: &Variation,
+    parts: Vec<(usize, Vec<Term>)>,
+) -> Vec<Variation> {
+    let responses = &fitted.case().responses;
+    let with = |scope: &str, terms: Vec<Term>| {
+        let words = [scope, &form.label].into_iter();
+        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+        let times = terms.len() / form.terms.len().max(1);
+        Variation {
+            label: words.join(", "),
+            terms,
+            spectrum: form.spectrum.as_ref().map(|own| own.repeat(times)),
+            ..form.clone()
+        }
+    };
+    let all = || parts.iter().flat_map(|(_, terms)| terms.clone()).collect();
+    let together = (responses.len() == 1 || parts.len() > 1).then(|| with("", all()));
+    let own = parts.iter().filter(|_| responses.len() > 1);
+    let own = own.map(|(response, terms)| with(&responses[*response].name, terms.clone()));
+    let every = own.chain(together);
+    every.filter(|one| !one.terms.is_empty()).collect()
 }
 
 /// Words for one column.

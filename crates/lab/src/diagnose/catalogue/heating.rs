@@ -1,6 +1,6 @@
 //! Self-heating: the power of the signal warms what senses it, and warmth needs time.
 
-use super::building::words;
+use super::building::{scoped, words};
 use super::fitted::{FittedModel, Node, varies};
 use super::inputs::Signal;
 use super::modifiers::{figure, grid, lag, largest};
@@ -42,22 +42,14 @@ fn of_signals(fitted: &FittedModel<'_>) -> Cell {
     let mut variants = Vec::new();
     for tau in fitted.finer.times(scales(fitted)) {
         let label = format!("τ = {} {unit}", figure(tau));
-        let terms = responses.iter().map(|response| {
+        let parts = responses.iter().map(|response| {
             let signal = Signal::new(fitted, *response);
             let power = Modifier::number(signal.parts, signal.text).square();
-            Term::new(Node::Gain, warmth(fitted, power, tau)).on(*response)
+            let term = Term::new(Node::Gain, warmth(fitted, power, tau)).on(*response);
+            (*response, vec![term])
         });
-        let terms: Vec<Term> = terms.collect();
-        if terms.len() > 1 {
-            for term in &terms {
-                let name = term.response.map(|r| &fitted.case().responses[r].name);
-                let label = format!("{}, {label}", name.map_or("", String::as_str));
-                variants.push(Variation::one(label, term.clone()).shaped("τ", tau, &unit));
-            }
-        }
-        if !terms.is_empty() {
-            variants.push(Variation::of(label, terms).shaped("τ", tau, &unit));
-        }
+        let form = Variation::of(label, Vec::new()).shaped("τ", tau, &unit);
+        variants.extend(scoped(fitted, &form, parts.collect()));
     }
     cell(fitted, Node::Gain, "signal", variants)
 }

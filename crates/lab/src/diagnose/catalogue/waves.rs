@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use super::building::{form, on_node};
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{correlation, figure, map, range, rounded};
+use super::modifiers::{correlation, figure, levels_of, map, range, rounded};
 use super::{Cell, EffectId, Modifier};
 use crate::diagnose::case::Role;
 
@@ -83,9 +83,7 @@ fn courses(fitted: &FittedModel<'_>) -> Vec<Course> {
 fn wave(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
     let blocks = fitted.design.reduced(&course.values);
     let (least, most) = range(&blocks);
-    let mut distinct = blocks.clone();
-    distinct.sort_by(f64::total_cmp);
-    distinct.dedup();
+    let distinct = levels_of(&blocks);
     let span = most - least;
     let values = match course.column {
         Some(_) => set_points(&distinct),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::building::{form, on_node, words};
+use super::building::{form, on_node, wave, words};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{map, range};
 use super::{Cell, EffectId, Modifier, Term, Variation};
@@ -65,18 +65,11 @@ fn harmonics(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     (1..=HIGHEST)
         .filter(shows)
         .map(|k| {
-            let times = f64::from(k);
-            let pair = vec![
-                Modifier::number(
-                    map(&phi, |phi| libm::sin(times * phi)),
-                    format!("sin({k}*{name})"),
-                ),
-                Modifier::number(
-                    map(&phi, |phi| libm::cos(times * phi)),
-                    format!("cos({k}*{name})"),
-                ),
-            ];
-            form(format!("{k} per turn"), pair)
+            let phase = map(&phi, |phi| f64::from(k) * phi);
+            form(
+                format!("{k} per turn"),
+                wave(&phase, &format!("{k}*{name}")),
+            )
         })
         .collect()
 }

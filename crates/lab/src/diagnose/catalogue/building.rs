@@ -1,7 +1,7 @@
 //! What the forms are built of: cells on the offset or on a node, their words, grids of time constants.
 
 use super::fitted::{FittedModel, Node};
-use super::modifiers::grid;
+use super::modifiers::{grid, map};
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
 
@@ -76,6 +76,14 @@ pub(super) fn scoped(
     let own = own.map(|(response, terms)| with(&responses[*response].name, terms.clone()));
     let every = own.chain(together);
     every.filter(|one| !one.terms.is_empty()).collect()
+}
+
+/// Sine and cosine of a phase, each with a size of its own.
+pub(super) fn wave(phase: &[f64], argument: &str) -> Vec<Modifier> {
+    vec![
+        Modifier::number(map(phase, libm::sin), format!("sin({argument})")),
+        Modifier::number(map(phase, libm::cos), format!("cos({argument})")),
+    ]
 }
 
 /// Words for one column.

@@ -1,6 +1,6 @@
 //! Laws of time: drift, ageing, warm-up, season, steps.
 
-use super::building::{form, on_node};
+use super::building::{form, on_node, wave};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, five_digits, grid, map, range};
 use super::sharp::{self, sharpened};
@@ -89,12 +89,8 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
                 } else {
                     "24 h"
                 };
-                let wave =
-                    |f: fn(f64) -> f64| map(&since, |t| f(std::f64::consts::TAU * t / period));
-                let pair = vec![
-                    Modifier::number(wave(libm::sin), format!("sin(2*pi*{began}/({name}))")),
-                    Modifier::number(wave(libm::cos), format!("cos(2*pi*{began}/({name}))")),
-                ];
+                let phase = map(&since, |t| std::f64::consts::TAU * t / period);
+                let pair = wave(&phase, &format!("2*pi*{began}/({name})"));
                 add(&[id], vec![form("", pair)]);
             }
         }

@@ -4,10 +4,10 @@
 
 use std::f64::consts::TAU;
 
-use super::building::{form, on_node};
+use super::building::{form, on_node, wave};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{correlation, figure, levels_of, map, range, rounded};
-use super::{Cell, EffectId, Modifier};
+use super::{Cell, EffectId};
 use crate::diagnose::case::Role;
 
 /// A wave with fewer periods is the business of drifts and smooth curves.
@@ -37,7 +37,7 @@ struct Course {
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let mut cells: Vec<Cell> = courses(fitted)
         .iter()
-        .filter_map(|course| wave(fitted, course))
+        .filter_map(|course| periods(fitted, course))
         .collect();
     let turning = super::angles::angles(fitted).into_iter();
     cells.extend(turning.filter_map(|column| lines(fitted, column)));
@@ -80,7 +80,7 @@ fn courses(fitted: &FittedModel<'_>) -> Vec<Course> {
     courses
 }
 
-fn wave(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
+fn periods(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
     let blocks = fitted.design.reduced(&course.values);
     let (least, most) = range(&blocks);
     let distinct = levels_of(&blocks);
@@ -111,15 +111,11 @@ fn wave(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
         None => fitted.time_less(least),
     };
     let forms = periods.into_iter().map(|period| {
-        let of = |wave: fn(f64) -> f64| map(&course.values, |x| wave(TAU * (x - least) / period));
+        let phase = map(&course.values, |x| TAU * (x - least) / period);
         let shown = format!("{} {}", figure(period), course.unit);
         let argument = format!("2*pi*{began}/({})", shown.trim_end());
-        let terms = vec![
-            Modifier::number(of(libm::sin), format!("sin({argument})")),
-            Modifier::number(of(libm::cos), format!("cos({argument})")),
-        ];
         let label = format!("period {}", shown.trim_end());
-        form(label, terms).shaped("P", period, &course.unit)
+        form(label, wave(&phase, &argument)).shaped("P", period, &course.unit)
     });
     let mut cell = on_node(fitted, EffectId::Wave, &course.name, Node::Output, forms);
     cell.words.x = course.words.clone();
@@ -158,12 +154,11 @@ fn lines(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let shows = |k: &u32| f64::from(*k) * (most - least) > FEWEST_PERIODS * TAU;
     let last = u32::try_from((positions - 1) / 2).ok()?;
     let forms = (super::angles::HIGHEST + 1..=last).filter(shows).map(|k| {
-        let of = |wave: fn(f64) -> f64| map(&phi, |phi| wave(f64::from(k) * phi));
-        let terms = vec![
-            Modifier::number(of(libm::sin), format!("sin({k}*{name})")),
-            Modifier::number(of(libm::cos), format!("cos({k}*{name})")),
-        ];
-        form(format!("{k} per turn"), terms)
+        let phase = map(&phi, |phi| f64::from(k) * phi);
+        form(
+            format!("{k} per turn"),
+            wave(&phase, &format!("{k}*{name}")),
+        )
     });
     let id = EffectId::Wave;
     Some(on_node(fitted, id, name, Node::Output, forms))

@@ -1,9 +1,9 @@
 //! Laws of time: drift, ageing, warm-up, season, steps.
 
+use super::absorbed::best;
 use super::building::{form, on_node, wave};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, five_digits, grid, map, range};
-use super::sharp::{self, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use gumption_core::quantity::Unit;
 
@@ -43,12 +43,8 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     );
     let mut drifts = vec![form("", vec![fitted.centred_time()])];
     if fitted.is_timed() {
-        let slowing = |scale: f64| {
-            let modifier = map(&since, |t| libm::log1p(t / scale));
-            Term::new(Node::Output, Modifier::unnamed(modifier))
-        };
-        let scales = sharpened(fitted, scales.clone(), &slowing);
-        drifts.extend(curved(fitted, &since, &began, &fitted.finer.times(scales)));
+        let scales = fitted.finer.times(scales.clone());
+        drifts.extend(curved(fitted, &since, &began, &scales));
     }
     add(&[EffectId::Drift, EffectId::DriftScale], drifts);
     add(
@@ -62,8 +58,6 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
             let text = format!("exp(-{began}/({} {unit}))", figure(tau));
             Modifier::number(modifier, text)
         };
-        let warming = |tau: f64| Term::new(Node::Output, decay(tau));
-        let scales = sharpened(fitted, scales, &warming);
         let singles = fitted.finer.times(scales.clone());
         let single = singles.iter().map(|tau| {
             let label = format!("τ = {} {unit}", figure(*tau));
@@ -159,9 +153,9 @@ fn between(fitted: &FittedModel<'_>, along: &str, stride: usize) -> Option<Varia
     let starts: Vec<usize> = (2..blocks.len() - 1)
         .map(|block| blocks[block][0])
         .collect();
-    let best = sharp::best(fitted, &mut starts.iter().map(|row| term(*row)))?;
-    let near = starts[best.saturating_sub(1)]..starts[(best + 1).min(starts.len() - 1)];
-    let row = near.start + sharp::best(fitted, &mut near.map(term))?;
+    let middle = best(fitted, starts.iter().map(|row| term(*row)))?;
+    let near = starts[middle.saturating_sub(1)]..starts[(middle + 1).min(starts.len() - 1)];
+    let row = near.start + best(fitted, near.map(term))?;
     let number = fitted.design.recorded(row).start + 1;
     let label = match fitted.clock.column {
         Some(_) => format!(

@@ -111,11 +111,10 @@ impl<'f> Candidates<'f> {
             acts.then(|| (named.candidate, variation.columns(fitted)))
         });
         let (named, columns): (Vec<usize>, Vec<DMatrix<f64>>) = named.unzip();
-        let columns: Vec<_> = columns.iter().flat_map(|own| own.column_iter()).collect();
+        let columns = evidence::all(columns.into_iter());
         if columns.is_empty() {
             return Vec::new();
         }
-        let columns = DMatrix::from_columns(&columns);
         let rows = columns.nrows();
         let model = fitted.fit.jacobian.rows(0, rows).into_owned();
         let (residuals, u) = (fitted.fit.residuals.rows(0, rows), claimed.u.rows(0, rows));
@@ -470,15 +469,9 @@ fn is_explained(
 ) -> bool {
     let before = residuals.component_div(u).norm_squared();
     let (parameters, sizes) = (model.ncols(), effects.ncols());
-    let mut all = model.clone().resize_horizontally(parameters + sizes, 0.0);
-    all.columns_mut(parameters, sizes).copy_from(effects);
+    let all = evidence::all([model, effects].into_iter().cloned());
     let over_noise = DMatrix::from_fn(all.nrows(), all.ncols(), |row, at| all[(row, at)] / u[row]);
-    let found = over_noise
-        .svd(true, true)
-        .solve(&residuals.component_div(u), 1e-12);
-    let Ok(found) = found else {
-        return true;
-    };
+    let found = evidence::inverse(&over_noise) * residuals.component_div(u);
     let left = effects * found.rows(parameters, sizes);
     let rest = residuals - &all * &found;
     let in_units = |row: usize| rest[row] / u[row] * constant / (constant - left[row]);

@@ -175,8 +175,8 @@ pub(super) fn covariance(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> D
             rows[(0, at)] = 1.0 / u;
         }
     }
-    let nothing = DVector::zeros(rows.nrows());
-    evidence::least_squares(&rows, &nothing).1
+    let inverse = evidence::inverse(&rows);
+    &inverse * inverse.transpose()
 }
 
 #[cfg(test)]

@@ -110,7 +110,7 @@ impl Explanation {
         let variants = self.variants(&own.fitted, &own.cells).into_iter();
         let seen = |columns: DMatrix<f64>| visible(recorded.baseline, columns);
         Standing {
-            effects: side_by_side(self.likely.iter().map(|likely| likely.seen.clone())),
+            effects: evidence::all(self.likely.iter().map(|likely| likely.seen.clone())),
             variants: variants.filter_map(seen).collect(),
         }
     }
@@ -146,7 +146,7 @@ impl Explanation {
         let effects: Option<Vec<DMatrix<f64>>> = effects.collect();
         let variants = variants.iter().cloned();
         Some(Standing {
-            effects: side_by_side(effects?.into_iter()),
+            effects: evidence::all(effects?.into_iter()),
             variants: variants
                 .filter_map(|columns| visible(&prolonged.baseline, columns))
                 .collect(),
@@ -217,23 +217,7 @@ pub(super) fn apart(
 
 /// The sizes with which columns come nearest to effects.
 fn fitted(columns: &DMatrix<f64>, effects: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    // Columns of unit length: their units may be very different.
-    let lengths: Vec<f64> = columns.column_iter().map(|c| c.norm()).collect();
-    let most = lengths.iter().copied().fold(0.0, f64::max);
-    if most == 0.0 {
-        return None;
-    }
-    let scale = |length: &f64| if *length > 0.0 { 1.0 / length } else { 0.0 };
-    let scales: Vec<f64> = lengths.iter().map(scale).collect();
-    let mut unit = columns.clone();
-    for (mut column, scale) in unit.column_iter_mut().zip(&scales) {
-        column *= *scale;
-    }
-    let mut sizes = unit.svd(true, true).solve(effects, 1e-9).ok()?;
-    for (mut row, scale) in sizes.row_iter_mut().zip(&scales) {
-        row *= *scale;
-    }
-    Some(sizes)
+    (columns.amax() > 0.0).then(|| evidence::inverse(columns) * effects)
 }
 
 /// Sizes that an estimate allows, itself first: quantiles of a normal distribution, by a Halton sequence.
@@ -279,15 +263,6 @@ fn visible(baseline: &Baseline, columns: DMatrix<f64>) -> Option<DMatrix<f64>> {
         .filter(|column| shares[*column] > ABSORBED)
         .collect();
     (!kept.is_empty()).then(|| baseline.project(&columns.select_columns(&kept)))
-}
-
-fn side_by_side(parts: impl Iterator<Item = DMatrix<f64>>) -> DMatrix<f64> {
-    let parts: Vec<DMatrix<f64>> = parts.collect();
-    let columns: Vec<_> = parts.iter().flat_map(|part| part.column_iter()).collect();
-    if columns.is_empty() {
-        return DMatrix::zeros(0, 0);
-    }
-    DMatrix::from_columns(&columns)
 }
 
 /// A variation that does what an explanation does, as far as it can.

@@ -83,7 +83,7 @@ fn ceiling(fitted: &FittedModel<'_>, response: usize, sign: f64) -> Option<Varia
     if there.len() < ROWS || !moves_on(fitted, response, &observed, there) {
         return None;
     }
-    let model = beside(fitted, response, &observed, &is_at)?;
+    let model = beside(fitted, response, &observed, &is_at);
     let modifier = map(&model, |y| -(sign * (y - level)).max(0.0) * sign);
     let Response { name, unit, .. } = &fitted.case().responses[response];
     let (least, end) = if sign > 0.0 {

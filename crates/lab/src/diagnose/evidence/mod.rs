@@ -95,10 +95,9 @@ mod unsteady;
 
 pub use baseline::{Baseline, Prior, Spread};
 pub use contest::{Contest, Course, contest};
-pub use directions::{TRACE, determined, left, left_beside};
+pub use directions::{TRACE, all, determined, inverse, left, left_beside};
 pub use examine::examine;
 pub use findings::{Alternative, Examination, Fitted, Level, Rival, Slot, State, Variant, Verdict};
-pub use fit::least_squares;
 pub use grades::{Likeness, likeness};
 pub use locate::{Cell, Located, locate};
 pub use noise::{Correlation, Covariance, Noise};

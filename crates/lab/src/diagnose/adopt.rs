@@ -8,7 +8,6 @@ use nalgebra::DVector;
 use super::case::{Case, Column, Data, Parameter, Role};
 use super::catalogue::{FittedModel, Node, Term, Variation};
 use super::evidence::{Baseline, TRACE};
-use gumption_core::equations::{EquationText, Equations, Quantity};
 use gumption_core::quantity::Unit;
 
 /// A case with effects in its model.
@@ -20,6 +19,13 @@ pub struct Extended {
     pub additions: Vec<Addition>,
     /// The effects that were added.
     pub effects: Vec<Free>,
+}
+
+impl Extended {
+    /// Whether an unknown is a coefficient that was added.
+    pub(super) fn adds(&self, unknown: &str) -> bool {
+        (self.additions.iter()).any(|addition| addition.parameter == unknown)
+    }
 }
 
 /// What of an effect is free beside the declared parameters. A term that they absorb, but for the rounding of
@@ -114,17 +120,9 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
                 equation.insert(fitted, term, &product);
             }
         }
-        columns.extend(column.iter().map(|column| Column {
-            name: column.clone(),
-            header: column.clone(),
-            role: Role::Covariate,
-            unit: written.unit.clone(),
-            data: Data::Numbers(fitted.design.spread(&written.values)),
-            u: None,
-            u_common: None,
-            full_scale: None,
-            resolution: None,
-            as_difference: false,
+        columns.extend(column.iter().map(|column| {
+            let data = Data::Numbers(fitted.design.spread(&written.values));
+            Column::new(column, Role::Covariate, &written.unit, data)
         }));
         if is_new {
             case.parameters.push(Parameter {
@@ -152,7 +150,7 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
         .enumerate()
         .map(|(response, equation)| equation.text(fitted, response))
         .collect();
-    case.equations = compiled(&case, &texts)?;
+    case.equations = case.compiled(&texts)?;
     case.model = texts;
     Some(Extended {
         case,
@@ -320,40 +318,6 @@ fn replaced(text: &str, name: &str, with: &str) -> String {
     }
     flush(&mut word, &mut out);
     out
-}
-
-fn compiled(case: &Case, texts: &[String]) -> Option<Equations> {
-    let parameters = case
-        .parameters
-        .iter()
-        .map(|p| (p.name.clone(), p.unit.clone()));
-    let columns = case
-        .columns
-        .iter()
-        .map(|c| (c.name.clone(), c.unit_in_formulas()));
-    let symbols: Vec<Quantity> = parameters
-        .chain(columns)
-        .map(|(name, unit)| Quantity { name, unit })
-        .collect();
-    let responses: Vec<Quantity> = case
-        .responses
-        .iter()
-        .map(|r| Quantity {
-            name: r.name.clone(),
-            unit: r.unit.clone(),
-        })
-        .collect();
-    let constants: Vec<_> = case
-        .constants
-        .iter()
-        .filter(|c| !responses.iter().any(|r| r.name == c.name))
-        .cloned()
-        .collect();
-    let texts: Vec<EquationText<'_>> = texts
-        .iter()
-        .map(|text| EquationText { text, at: 0..0 })
-        .collect();
-    Equations::compile(&texts, &symbols, &responses, &constants, &case.units).ok()
 }
 
 #[cfg(test)]

@@ -1,14 +1,11 @@
 //! The model with the effects in it: its fit, its coefficients, how well it does.
 
-use nalgebra::DVector;
-
 use super::adopt;
-use super::candidates::adopted_fit;
-use super::catalogue::{Cell, FittedModel};
+use super::candidates::{Candidates, baseline};
 use super::confirm::{self, Estimated, Quality, estimates};
 use super::design::Design;
-use super::evidence::{self, Examination};
-use super::fit::{ModelVersion, NoFit, Unsettled};
+use super::evidence::{self, Baseline, Examination};
+use super::fit::{Fit, ModelVersion, NoFit, Unsettled};
 use super::noise::Claimed;
 use super::parts::{self, Confirmation};
 
@@ -25,8 +22,8 @@ pub struct Adopted {
     pub extended: adopt::Extended,
     /// How well it describes the recording.
     pub quality: Quality,
-    /// What it leaves.
-    pub residuals: DVector<f64>,
+    /// The fit of it, with what it leaves.
+    pub fit: Fit,
     /// Further checks.
     pub confirmation: Confirmation,
     /// Whether its fit is one on which a reader should not rely.
@@ -35,13 +32,11 @@ pub struct Adopted {
 
 /// The model with the named effects, and how well it does.
 pub(super) fn adopt_named(
-    fitted: &FittedModel<'_>,
-    cells: &[Cell],
-    places: &[(usize, usize)],
+    candidates: &Candidates<'_>,
     examination: &mut Examination,
     claimed: &Claimed,
 ) -> Result<Option<Adopted>, NoFit> {
-    let refit = adopted_fit(fitted, cells, places, examination, claimed)?;
+    let refit = candidates.adopted_fit(examination, claimed)?;
     let (Some(found), Some((extended, fit))) = (examination.fitted.clone(), refit) else {
         return Ok(None);
     };
@@ -50,30 +45,23 @@ pub(super) fn adopt_named(
     let all = estimates(&design, &fit, claimed);
     let added = extended.additions.len();
     let confirmation = parts::confirmation(&design, &fit, claimed, added, &found);
-    let is_added = |estimated: &Estimated| {
-        extended
-            .additions
-            .iter()
-            .any(|addition| addition.parameter == estimated.name)
-    };
     let (mut coefficients, unknowns): (Vec<Estimated>, Vec<Estimated>) =
-        all.into_iter().partition(is_added);
+        (all.into_iter()).partition(|estimated| extended.adds(&estimated.name));
     let atoms = found.atoms.clone();
     for (estimated, addition) in coefficients.iter_mut().zip(&extended.additions) {
         let (atom, coefficient) = (atoms[addition.effect], addition.coefficient);
         restate(examination, atom, coefficient, estimated);
         widen(estimated, atom, coefficient, examination);
     }
-    let residuals = fit.residuals.clone();
     drop(design);
     Ok(Some(Adopted {
         atoms,
         coefficients,
         unknowns,
         quality,
-        residuals,
         confirmation,
         unsettled: fit.unsettled(ModelVersion::Improved),
+        fit,
         extended,
     }))
 }
@@ -87,8 +75,27 @@ impl Adopted {
             let scaled = quality.held_out.iter().zip(&before.expected);
             scaled.map(|(e, s)| (e / s) * (e / s)).sum()
         };
-        let beyond = libm::exp(QUANTILE * 2.0 / (self.residuals.len() as f64).sqrt());
+        let beyond = libm::exp(QUANTILE * 2.0 / (self.fit.residuals.len() as f64).sqrt());
         squares(&self.quality) > beyond * squares(before)
+    }
+
+    /// The recording reduced to what it leaves, its unknowns in the order of the declared ones and then the adopted
+    /// coefficients.
+    pub(super) fn baseline(&self, claimed: &Claimed) -> Option<Baseline> {
+        let mut design = Design::new(&self.extended.case);
+        let is_added = |at: &usize| self.extended.adds(&design.unknowns[*at].name);
+        let (added, declared): (Vec<usize>, Vec<usize>) =
+            (0..design.unknowns.len()).partition(is_added);
+        let order = [declared, added].concat();
+        design.unknowns = (order.iter())
+            .map(|at| design.unknowns[*at].clone())
+            .collect();
+        let fit = Fit {
+            jacobian: self.fit.jacobian.select_columns(&order),
+            unknowns: self.fit.unknowns.select_rows(&order),
+            ..self.fit.clone()
+        };
+        baseline(&design, &fit, claimed).ok()
     }
 }
 

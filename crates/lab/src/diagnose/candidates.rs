@@ -27,11 +27,14 @@ const CLEAR: f64 = 15.0;
 pub(super) struct Candidates<'f> {
     pub(super) fitted: FittedModel<'f>,
     pub(super) cells: Vec<Cell>,
-    candidates: Vec<Candidate>,
-    atoms: Vec<Atom>,
+    pub(super) candidates: Vec<Candidate>,
+    pub(super) atoms: Vec<Atom>,
     /// Cell and variation of each atom.
     pub(super) places: Vec<(usize, usize)>,
 }
+
+/// The refit with the named effects in the model; nothing where there are none, or where the equations cannot be written.
+pub(super) type Refit = Result<Option<(adopt::Extended, Fit)>, NoFit>;
 
 impl<'f> Candidates<'f> {
     pub(super) fn new(
@@ -66,17 +69,28 @@ impl<'f> Candidates<'f> {
                 settings: settings.clone(),
             };
             let examination = evidence::examine(&question, progress)?;
-            let mut missized = missized(&self.fitted, &self.cells, &self.places, &examination);
+            let mut missized = self.missized(&examination);
             if missized.is_empty() {
                 missized = self.shrinking(&examination, claimed, settings.alpha);
             }
             if missized.is_empty() {
                 return Ok((baseline, examination));
             }
-            self.atoms
-                .retain(|atom| !missized.contains(&atom.candidate));
-            self.places.retain(|(cell, _)| !missized.contains(cell));
+            self.retain(|atom, _| !missized.contains(&atom.candidate));
         }
+    }
+
+    /// Keeps some of the atoms.
+    pub(super) fn retain(&mut self, mut keeps: impl FnMut(&mut Atom, &Cell) -> bool) {
+        let places = std::mem::take(&mut self.places).into_iter();
+        let mut places = places.map(|place| (place, &self.cells[place.0]));
+        let mut kept = Vec::new();
+        self.atoms.retain_mut(|atom| {
+            let place = places.next().filter(|(_, cell)| keeps(atom, cell));
+            kept.extend(place.map(|(place, _)| place));
+            place.is_some()
+        });
+        self.places = kept;
     }
 
     /// Candidates that make the residuals of a constant smaller by making the constant smaller. Residuals of a constant that the model
@@ -92,17 +106,15 @@ impl<'f> Candidates<'f> {
         let acts = |term: &Term| matches!(term.node, Node::Output | Node::Gain);
         let named = examination.slots.iter().filter_map(|slot| {
             let named = slot.named.first()?;
-            let (cell, variation) = self.places[named.variants.first()?.atom];
-            let variation = &self.cells[cell].variants[variation];
+            let variation = self.variation(named.variants.first()?.atom);
             let acts = variation.terms.iter().all(acts);
             acts.then(|| (named.candidate, variation.columns(fitted)))
         });
         let (named, columns): (Vec<usize>, Vec<DMatrix<f64>>) = named.unzip();
-        let columns: Vec<_> = columns.iter().flat_map(|own| own.column_iter()).collect();
+        let columns = evidence::all(columns.into_iter());
         if columns.is_empty() {
             return Vec::new();
         }
-        let columns = DMatrix::from_columns(&columns);
         let rows = columns.nrows();
         let model = fitted.fit.jacobian.rows(0, rows).into_owned();
         let (residuals, u) = (fitted.fit.residuals.rows(0, rows), claimed.u.rows(0, rows));
@@ -138,15 +150,8 @@ impl<'f> Candidates<'f> {
         claimed: &Claimed,
         courses: Option<&Courses>,
     ) -> Claimed {
-        let adopted = adopted_fit(
-            &self.fitted,
-            &self.cells,
-            &self.places,
-            examination,
-            claimed,
-        );
         let left = |design: &Design<'_>, fit: &Fit| noise::refined(design, fit, claimed, courses);
-        match adopted {
+        match self.adopted_fit(examination, claimed) {
             Ok(Some((extended, fit))) => left(&Design::new(&extended.case), &fit),
             Ok(None) | Err(_) => left(self.fitted.design, self.fitted.fit),
         }
@@ -224,15 +229,86 @@ impl<'f> Candidates<'f> {
         for named in strong {
             // The variant with two time constants has none between: one alone may do when it is the right one.
             let found = named.variants.iter().find_map(|variant| {
-                let (cell, variation) = self.places[variant.atom];
-                let variation = &self.cells[cell].variants[variation];
+                let (cell, variation) = (self.cell(variant.atom), self.variation(variant.atom));
                 variation.shape.is_some().then_some((cell, variation))
             });
             if let Some((cell, variation)) = found {
-                new |= finer.add(&self.cells[cell], variation);
+                new |= finer.add(cell, variation);
             }
         }
         new
+    }
+
+    /// The cell of an atom.
+    pub(super) fn cell(&self, atom: usize) -> &Cell {
+        &self.cells[self.places[atom].0]
+    }
+
+    /// The variation of its cell that an atom is.
+    pub(super) fn variation(&self, atom: usize) -> &Variation {
+        &self.cell(atom).variants[self.places[atom].1]
+    }
+
+    /// The refit with the named effects in the model.
+    pub(super) fn adopted_fit(&self, examination: &Examination, claimed: &Claimed) -> Refit {
+        let found = examination.fitted.as_ref();
+        let Some(found) = found.filter(|found| !found.atoms.is_empty()) else {
+            return Ok(None);
+        };
+        let Some((mut extended, open)) = self.with_effects(found, claimed) else {
+            return Ok(None);
+        };
+        // Levels within those of a parameter, such as runs of one specimen: what they have in common is the
+        // parameter's.
+        adopt::scattered(&mut extended, |effect| open.contains(&effect));
+        if let Ok(fit) = refit(&self.fitted, &extended, claimed) {
+            return Ok(Some((extended, fit)));
+        }
+        adopt::scattered(&mut extended, |_| true);
+        let fit = refit(&self.fitted, &extended, claimed)?;
+        Ok(Some((extended, fit)))
+    }
+
+    /// The model with the named effects in it, and those of them that the recording does not determine.
+    fn with_effects(
+        &self,
+        found: &Fitted,
+        claimed: &Claimed,
+    ) -> Option<(adopt::Extended, Vec<usize>)> {
+        let fitted = &self.fitted;
+        let baseline = baseline(fitted.design, fitted.fit, claimed).ok()?;
+        let mut sizes = found.coefficients.as_slice();
+        let mut effects = Vec::new();
+        for atom in &found.atoms {
+            let variation = self.variation(*atom);
+            let (own, rest) = sizes.split_at_checked(variation.coefficients())?;
+            effects.push(Free::of(fitted, &baseline, variation, own));
+            sizes = rest;
+        }
+        let open = undetermined(fitted, &baseline, &effects);
+        Some((adopt::extended(fitted, effects)?, open))
+    }
+
+    /// Candidates that would have to have a size here which they cannot have: a reversal that is not complete, a change of
+    /// the scale that leaves nothing of the response.
+    fn missized(&self, examination: &Examination) -> Vec<usize> {
+        let named = examination.slots.iter().flat_map(|slot| &slot.named);
+        let wrong = named.filter(|named| {
+            let effect = self.cells[named.candidate].effect;
+            let sizes = named.estimate.iter().enumerate();
+            let is_other = sizes
+                .map(|(at, size)| (*size, named.covariance[(at, at)].max(0.0).sqrt()))
+                .any(|(size, u)| !effect.admits(size, u));
+            let takes_all = || {
+                let first = named.variants.first();
+                first.is_some_and(|first| {
+                    let (sizes, rows) = (named.estimate.as_slice(), self.fitted.rows());
+                    takes_all(self.variation(first.atom), sizes, rows)
+                })
+            };
+            is_other || (effect.exact.is_none() && takes_all())
+        });
+        wrong.map(|named| named.candidate).collect()
     }
 }
 
@@ -255,7 +331,7 @@ pub(super) fn baseline(
 }
 
 /// Candidates and atoms, and the cell and variation of each atom.
-pub(super) fn question(
+fn question(
     fitted: &FittedModel<'_>,
     cells: &[Cell],
     claimed: &Claimed,
@@ -356,57 +432,6 @@ fn shape(columns: DMatrix<f64>, variation: &Variation, claimed: &Claimed) -> Opt
     }
 }
 
-/// The refit with the named effects in the model; nothing where there are none, or where the equations
-/// cannot be written.
-///
-/// # Errors
-/// When the model with the effects cannot be fitted.
-pub(super) fn adopted_fit(
-    fitted: &FittedModel<'_>,
-    cells: &[Cell],
-    places: &[(usize, usize)],
-    examination: &Examination,
-    claimed: &Claimed,
-) -> Result<Option<(adopt::Extended, Fit)>, NoFit> {
-    let found = examination.fitted.as_ref();
-    let Some(found) = found.filter(|found| !found.atoms.is_empty()) else {
-        return Ok(None);
-    };
-    let Some((mut extended, open)) = with_effects(fitted, cells, places, found, claimed) else {
-        return Ok(None);
-    };
-    // Levels within those of a parameter, such as runs of one specimen: what they have in common is the
-    // parameter's.
-    adopt::scattered(&mut extended, |effect| open.contains(&effect));
-    if let Ok(fit) = refit(fitted, &extended, claimed) {
-        return Ok(Some((extended, fit)));
-    }
-    adopt::scattered(&mut extended, |_| true);
-    let fit = refit(fitted, &extended, claimed)?;
-    Ok(Some((extended, fit)))
-}
-
-/// The model with the named effects in it, and those of them that the recording does not determine.
-fn with_effects(
-    fitted: &FittedModel<'_>,
-    cells: &[Cell],
-    places: &[(usize, usize)],
-    found: &Fitted,
-    claimed: &Claimed,
-) -> Option<(adopt::Extended, Vec<usize>)> {
-    let baseline = baseline(fitted.design, fitted.fit, claimed).ok()?;
-    let mut sizes = found.coefficients.as_slice();
-    let mut effects = Vec::new();
-    for atom in &found.atoms {
-        let variation = &cells[places[*atom].0].variants[places[*atom].1];
-        let (own, rest) = sizes.split_at_checked(variation.coefficients())?;
-        effects.push(Free::of(fitted, &baseline, variation, own));
-        sizes = rest;
-    }
-    let open = undetermined(fitted, &baseline, &effects);
-    Some((adopt::extended(fitted, effects)?, open))
-}
-
 /// Effects with coefficients that the recording does not determine beside the parameters and one another.
 fn undetermined(fitted: &FittedModel<'_>, baseline: &Baseline, effects: &[Free]) -> Vec<usize> {
     let columns: Vec<DMatrix<f64>> = (effects.iter())
@@ -433,36 +458,6 @@ fn refit(
     fit::near(&design, &claimed.u, start)
 }
 
-/// Candidates that would have to have a size here which they cannot have: a reversal that is not complete, a change of
-/// the scale that leaves nothing of the response.
-fn missized(
-    fitted: &FittedModel<'_>,
-    cells: &[Cell],
-    places: &[(usize, usize)],
-    examination: &Examination,
-) -> Vec<usize> {
-    let named = examination.slots.iter().flat_map(|slot| &slot.named);
-    let wrong = named.filter(|named| {
-        let effect = cells[named.candidate].effect;
-        let sizes = named.estimate.iter().enumerate();
-        let is_other = sizes
-            .map(|(at, size)| (*size, named.covariance[(at, at)].max(0.0).sqrt()))
-            .any(|(size, u)| !effect.admits(size, u));
-        let takes_all = || {
-            named.variants.first().is_some_and(|variant| {
-                let (cell, variation) = places[variant.atom];
-                takes_all(
-                    &cells[cell].variants[variation],
-                    named.estimate.as_slice(),
-                    fitted.rows(),
-                )
-            })
-        };
-        is_other || (effect.exact.is_none() && takes_all())
-    });
-    wrong.map(|named| named.candidate).collect()
-}
-
 /// Whether effects on a constant explain residuals: whether these, in units of what the effects leave of the constant, become smaller than by
 /// chance. `model` and `effects` are derivatives.
 fn is_explained(
@@ -474,15 +469,9 @@ fn is_explained(
 ) -> bool {
     let before = residuals.component_div(u).norm_squared();
     let (parameters, sizes) = (model.ncols(), effects.ncols());
-    let mut all = model.clone().resize_horizontally(parameters + sizes, 0.0);
-    all.columns_mut(parameters, sizes).copy_from(effects);
+    let all = evidence::all([model, effects].into_iter().cloned());
     let over_noise = DMatrix::from_fn(all.nrows(), all.ncols(), |row, at| all[(row, at)] / u[row]);
-    let found = over_noise
-        .svd(true, true)
-        .solve(&residuals.component_div(u), 1e-12);
-    let Ok(found) = found else {
-        return true;
-    };
+    let found = evidence::inverse(&over_noise) * residuals.component_div(u);
     let left = effects * found.rows(parameters, sizes);
     let rest = residuals - &all * &found;
     let in_units = |row: usize| rest[row] / u[row] * constant / (constant - left[row]);

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::candidates::baseline;
 use super::design::{Design, Unknown};
-use super::evidence::{Covariance, Spread};
+use super::evidence::{self, Covariance, Spread};
 use super::fit::Fit;
 use super::noise::Claimed;
 
@@ -139,89 +139,44 @@ pub(super) fn degrees(design: &Design<'_>) -> f64 {
 /// Errors of the predictions of observations that the fit had not seen: tenths of the recording, in short
 /// stretches that are spread over it.
 fn held_out(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> DVector<f64> {
+    let Ok(baseline) = baseline(design, fit, &claimed.uncorrelated()) else {
+        return fit.residuals.clone();
+    };
     let blocks = design.blocks.len();
     let folds = FOLDS.min(blocks);
     let stretch = (blocks / (4 * folds)).max(1);
     let fold = |observation: usize| design.place(observation).1 / stretch % folds;
     let mut errors = DVector::zeros(design.observations());
     for held in 0..folds {
-        let kept: Vec<usize> = (0..design.observations())
-            .filter(|o| fold(*o) != held)
-            .collect();
-        let change = solved(design, fit, claimed, &kept);
-        for observation in (0..design.observations()).filter(|o| fold(*o) == held) {
-            let predicted = fit.jacobian.row(observation).transpose().dot(&change);
-            errors[observation] = fit.residuals[observation] - predicted;
+        let rows = (0..design.observations()).filter(|row| fold(*row) == held);
+        let rows: Vec<usize> = rows.collect();
+        for (row, error) in rows.iter().zip(&baseline.left_out(&rows)) {
+            errors[*row] = error * claimed.u[*row];
         }
     }
     errors
 }
 
-/// Change of the unknowns when only some observations count.
-fn solved(design: &Design<'_>, fit: &Fit, claimed: &Claimed, kept: &[usize]) -> DVector<f64> {
-    if design.unknowns.is_empty() {
-        return DVector::zeros(0);
-    }
-    let (normal, right) = normal(design, fit, claimed, kept);
-    // What these observations do not determine stays as it is.
-    inverse(&normal, 1e-11) * right
-}
-
-fn normal(
-    design: &Design<'_>,
-    fit: &Fit,
-    claimed: &Claimed,
-    kept: &[usize],
-) -> (DMatrix<f64>, DVector<f64>) {
-    let count = design.unknowns.len();
-    let mut jacobian = DMatrix::zeros(kept.len(), count);
-    let mut residuals = DVector::zeros(kept.len());
-    for (row, observation) in kept.iter().enumerate() {
-        let u = claimed.u[*observation];
-        jacobian.set_row(row, &(fit.jacobian.row(*observation) / u));
-        residuals[row] = fit.residuals[*observation] / u;
-    }
-    let mut normal = jacobian.tr_mul(&jacobian);
-    let mut right = jacobian.tr_mul(&residuals);
-    for (at, unknown) in design.unknowns.iter().enumerate() {
-        if let Some((value, u)) = unknown.prior {
-            normal[(at, at)] += 1.0 / (u * u);
-            right[at] += (value - fit.unknowns[at]) / (u * u);
-        }
-    }
-    (normal, right)
-}
-
-/// Covariance matrix of the unknowns with the claimed noise.
+/// Covariance matrix of the unknowns with the claimed noise; what the recording does not determine has no part in it.
 pub(super) fn covariance(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> DMatrix<f64> {
-    // By orthogonal directions: a normal matrix has lost what hardly differs from another unknown.
     if let Ok(baseline) = baseline(design, fit, &claimed.uncorrelated()) {
         return match &claimed.correlated {
             Some(correlated) => baseline.covariance_with(&correlated.expected()),
             None => baseline.covariance(),
         };
     }
-    let all: Vec<usize> = (0..design.observations()).collect();
-    inverse(&normal(design, fit, claimed, &all).0, 1e-13)
-}
-
-/// The inverse, without directions below this part of the largest singular value once the diagonal is one.
-fn inverse(normal: &DMatrix<f64>, least: f64) -> DMatrix<f64> {
-    if normal.is_empty() {
-        return normal.clone();
+    let mut rows = fit.jacobian.clone();
+    for (mut row, u) in rows.row_iter_mut().zip(&claimed.u) {
+        row /= *u;
     }
-    let scale = normal
-        .diagonal()
-        .map(|x| if x > 0.0 { 1.0 / x.sqrt() } else { 0.0 });
-    let scaled = DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| {
-        normal[(i, j)] * scale[i] * scale[j]
-    });
-    let inverse = scaled
-        .pseudo_inverse(least)
-        .unwrap_or_else(|_| DMatrix::zeros(normal.nrows(), normal.ncols()));
-    DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| {
-        inverse[(i, j)] * scale[i] * scale[j]
-    })
+    for (at, unknown) in design.unknowns.iter().enumerate() {
+        if let Some((_, u)) = unknown.prior {
+            rows = rows.insert_row(0, 0.0);
+            rows[(0, at)] = 1.0 / u;
+        }
+    }
+    let inverse = evidence::inverse(&rows);
+    &inverse * inverse.transpose()
 }
 
 #[cfg(test)]

@@ -14,8 +14,6 @@ pub struct Explanation {
     id: EffectId,
     /// What its texts speak of.
     words: Words,
-    /// Whether several of its variants may act at once.
-    repeats: bool,
     /// Its posterior probability.
     probability: f64,
     /// What it may look like, the most probable first.
@@ -46,11 +44,10 @@ impl Explanation {
         probability: f64,
     ) -> Explanation {
         let sizes = sizes.map(|x| if x.is_finite() { x } else { 0.0 });
-        let columns = variation.columns(recorded.fitted);
+        let columns = variation.columns(&recorded.candidates.fitted);
         Explanation {
             id: cell.effect.id,
             words: cell.words.clone(),
-            repeats: cell.effect.repeats,
             probability,
             likely: vec![Likely {
                 label: variation.label.clone(),
@@ -84,7 +81,7 @@ impl Explanation {
             let own = seen.columns(begin, end - begin).into_owned();
             let columns = recorded
                 .baseline
-                .project(&variation.columns(recorded.fitted));
+                .project(&variation.columns(&recorded.candidates.fitted));
             likely.push(Likely {
                 label: variation.label.clone(),
                 shape: value(variation),
@@ -108,13 +105,13 @@ impl Explanation {
     }
 
     /// How it stands in the recording.
-    pub(super) fn before(&self, recorded: &Recorded<'_>, cells: &[Cell]) -> Standing {
-        let variants = self.variants(recorded.fitted, cells).into_iter();
+    pub(super) fn before(&self, recorded: &Recorded<'_>) -> Standing {
+        let own = recorded.candidates;
+        let variants = self.variants(&own.fitted, &own.cells).into_iter();
         let seen = |columns: DMatrix<f64>| visible(recorded.baseline, columns);
         Standing {
-            effects: side_by_side(self.likely.iter().map(|likely| likely.seen.clone())),
+            effects: evidence::all(self.likely.iter().map(|likely| likely.seen.clone())),
             variants: variants.filter_map(seen).collect(),
-            repeats: self.repeats,
         }
     }
 
@@ -149,11 +146,10 @@ impl Explanation {
         let effects: Option<Vec<DMatrix<f64>>> = effects.collect();
         let variants = variants.iter().cloned();
         Some(Standing {
-            effects: side_by_side(effects?.into_iter()),
+            effects: evidence::all(effects?.into_iter()),
             variants: variants
                 .filter_map(|columns| visible(&prolonged.baseline, columns))
                 .collect(),
-            repeats: self.repeats,
         })
     }
 
@@ -221,23 +217,7 @@ pub(super) fn apart(
 
 /// The sizes with which columns come nearest to effects.
 fn fitted(columns: &DMatrix<f64>, effects: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    // Columns of unit length: their units may be very different.
-    let lengths: Vec<f64> = columns.column_iter().map(|c| c.norm()).collect();
-    let most = lengths.iter().copied().fold(0.0, f64::max);
-    if most == 0.0 {
-        return None;
-    }
-    let scale = |length: &f64| if *length > 0.0 { 1.0 / length } else { 0.0 };
-    let scales: Vec<f64> = lengths.iter().map(scale).collect();
-    let mut unit = columns.clone();
-    for (mut column, scale) in unit.column_iter_mut().zip(&scales) {
-        column *= *scale;
-    }
-    let mut sizes = unit.svd(true, true).solve(effects, 1e-9).ok()?;
-    for (mut row, scale) in sizes.row_iter_mut().zip(&scales) {
-        row *= *scale;
-    }
-    Some(sizes)
+    (columns.amax() > 0.0).then(|| evidence::inverse(columns) * effects)
 }
 
 /// Sizes that an estimate allows, itself first: quantiles of a normal distribution, by a Halton sequence.
@@ -285,15 +265,6 @@ fn visible(baseline: &Baseline, columns: DMatrix<f64>) -> Option<DMatrix<f64>> {
     (!kept.is_empty()).then(|| baseline.project(&columns.select_columns(&kept)))
 }
 
-fn side_by_side(parts: impl Iterator<Item = DMatrix<f64>>) -> DMatrix<f64> {
-    let parts: Vec<DMatrix<f64>> = parts.collect();
-    let columns: Vec<_> = parts.iter().flat_map(|part| part.column_iter()).collect();
-    if columns.is_empty() {
-        return DMatrix::zeros(0, 0);
-    }
-    DMatrix::from_columns(&columns)
-}
-
 /// A variation that does what an explanation does, as far as it can.
 pub(super) fn likened(
     recorded: &Recorded<'_>,
@@ -304,7 +275,7 @@ pub(super) fn likened(
     let seen = &explanation.likely.first()?.seen;
     let columns = recorded
         .baseline
-        .project(&variation.columns(recorded.fitted));
+        .project(&variation.columns(&recorded.candidates.fitted));
     let sizes = fitted(&columns, seen)?;
     // It is not in the list: less probable than whatever is.
     Some(Explanation::new(
@@ -314,9 +285,6 @@ pub(super) fn likened(
 
 /// The most that an explanation has which is not listed.
 const UNLISTED: f64 = 0.01;
-
-/// Candidates that leave more do not come to stand beside an explanation by rule.
-const FAR: f64 = 8.0;
 
 /// What a candidate that is not in a list leaves of each explanation of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -361,14 +329,11 @@ pub(super) fn unlisted(
         let finite = columns.filter(|c| c.ncols() > 0 && c.iter().all(|x| x.is_finite()));
         let seen: Vec<DMatrix<f64>> = finite.filter_map(|c| visible(baseline, c)).collect();
         let kappas = evidence::left(&effects, seen.iter().cloned());
-        let near = kappas
-            .iter()
-            .zip(standing)
-            .map(|(kappa, one)| *kappa < FAR && !cell.effect.repeats && one.keeps(&seen));
+        let stays = standing.iter().map(|one| one.keeps(&seen));
         Unlisted {
             id: cell.effect.id,
             words: cell.words.clone(),
-            stays: near.collect(),
+            stays: stays.collect(),
             kappas,
         }
     };

@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::adopt::stands_alone;
 use super::adopted::Adopted;
+use super::candidates::Candidates;
 use super::case::Data;
 use super::catalogue::{self, Cell, FittedModel, Pattern, Term, modifiers};
 use super::coarse::Coarse;
@@ -65,9 +66,7 @@ impl HeldOutQuality {
 /// Predicts the held-out recording of a case, if there is one.
 pub(super) fn held_out(
     known: &Known<'_>,
-    fitted: &FittedModel<'_>,
-    cells: &[Cell],
-    places: &[(usize, usize)],
+    candidates: &Candidates<'_>,
     unknowns: &[Estimated],
     adopted: Option<&Adopted>,
 ) -> Option<HeldOutQuality> {
@@ -83,7 +82,7 @@ pub(super) fn held_out(
     };
     let fit = model.at(&design);
     let claimed = noise_of(known, &design, &fit, 0);
-    let after = adopted.and_then(|adopted| improved(known, fitted, cells, places, adopted));
+    let after = adopted.and_then(|adopted| improved(known, candidates, adopted));
     Some(HeldOutQuality {
         file: held.file.clone(),
         observations: design.observations(),
@@ -213,9 +212,7 @@ impl Scatter {
 
 fn improved(
     known: &Known<'_>,
-    fitted: &FittedModel<'_>,
-    cells: &[Cell],
-    places: &[(usize, usize)],
+    candidates: &Candidates<'_>,
     adopted: &Adopted,
 ) -> Option<Prediction> {
     let held = known.case.held_out.as_ref()?;
@@ -224,16 +221,15 @@ fn improved(
     let fit = fit::at(&design, super::prolonged::unknowns(known, &design));
     let coarse = Coarse::of(&design, &fit);
     let seen = coarse.design();
-    let found = || adopted.atoms.iter().map(|atom| places[*atom]);
-    let mut finer = fitted.finer.clone();
-    for (cell, variation) in found() {
-        finer.keep(&cells[cell], &cells[cell].variants[variation]);
+    let mut finer = candidates.fitted.finer.clone();
+    for atom in &adopted.atoms {
+        finer.keep(candidates.cell(*atom), candidates.variation(*atom));
     }
     let wide = FittedModel::new(&seen, &coarse.fit).refined(finer);
     let others = catalogue::cells(&wide);
     let mut rows = held.rows.clone();
-    for ((cell, _), free) in found().zip(&adopted.extended.effects) {
-        let cell = &cells[cell];
+    for (atom, free) in adopted.atoms.iter().zip(&adopted.extended.effects) {
+        let cell = candidates.cell(*atom);
         let is_jump = matches!(
             cell.effect.pattern,
             Some(Pattern::Jump | Pattern::ScaleJump)
@@ -246,7 +242,7 @@ fn improved(
         let alike = |other: &&Cell| other.effect.id == cell.effect.id && other.words == cell.words;
         let alike: Vec<&Cell> = others.iter().filter(alike).collect();
         let all: Vec<&Cell> = others.iter().collect();
-        let designs = [fitted.design, &seen];
+        let designs = [candidates.fitted.design, &seen];
         let terms = free.variation.terms.iter();
         for term in terms.filter(|term| !stands_alone(term)) {
             let modifier = continued(term, &alike, designs, LIKE)
@@ -256,19 +252,8 @@ fn improved(
     }
     let extended = &adopted.extended.case;
     let fitted = Design::new(extended);
-    let values: Vec<Estimated> = adopted
-        .unknowns
-        .iter()
-        .chain(&adopted.coefficients)
-        .cloned()
-        .collect();
-    let value = |name: &str| {
-        let own = values.iter().find(|value| value.name == name);
-        own.map_or(0.0, |own| own.value)
-    };
-    let at = fitted.unknowns.iter().map(|unknown| value(&unknown.name));
-    let at = fit::at(&fitted, DVector::from_iterator(fitted.unknowns.len(), at));
-    let covariance = confirm::covariance(&fitted, &at, known.claimed);
+    let values = [&adopted.unknowns[..], &adopted.coefficients].concat();
+    let covariance = confirm::covariance(&fitted, &adopted.fit, known.claimed);
     let model = Model {
         names: fitted.unknowns.iter().map(|u| &u.name).collect(),
         values: &values,

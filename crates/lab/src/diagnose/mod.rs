@@ -26,7 +26,7 @@
 //! | `coarse` | the same for the catalogue: a few means in every block of a long recording |
 //! | `fit` | the declared model fitted to the recording |
 //! | `noise` | what is claimed about the noise, or estimated |
-//! | [`at_rest`], `replicates`, `noise_growth`, `noise_correlation` | noise from a recording at rest, from rows that agree; noise that grows with the reading, or is correlated in time |
+//! | `replicates`, `noise_growth`, `noise_correlation` | noise from rows that agree; noise that grows with the reading, or is correlated in time |
 //! | [`catalogue`] | the effects, and what they do to the rows of a case |
 //! | `candidates` | cells and recording as matrices, asked of `evidence` |
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
@@ -50,7 +50,6 @@
 
 mod adopt;
 mod adopted;
-pub mod at_rest;
 mod blocks;
 mod candidates;
 pub mod case;

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::at_rest;
 use super::case::{Case, NoiseClaim, NoiseOrigin, RestReadings, Role, hours};
 use super::design::Design;
 use super::evidence::{self, Correlation, Covariance, Noise};
@@ -12,6 +11,7 @@ use super::fit::{self, Fit, NoFit};
 use super::noise_correlation::{Correlated, Courses, Memory};
 use super::noise_growth::{self, Growth, Spread};
 use super::replicates::{self, Scatter};
+use crate::recording::at_rest;
 
 /// The noise of the observations.
 #[derive(Debug, Clone, PartialEq)]

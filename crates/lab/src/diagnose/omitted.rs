@@ -2,16 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::adopted::Adopted;
-use super::candidates::baseline;
-use super::case::{Case, Role};
+use super::candidates::Candidates;
+use super::case::Role;
 use super::catalogue::modifiers::range;
 use super::catalogue::{Cell, FittedModel, Kind, Variation};
 use super::declared_form;
-use super::design::Design;
 use super::evidence::{self, Baseline};
-use super::fit;
-use super::noise::Claimed;
 use super::typical;
 
 /// An effect of the catalogue that is not in the model.
@@ -64,13 +60,13 @@ const VARIANTS: usize = 24;
 /// The lines of all candidates but those in `adopted`, the dearest first. `u` holds the standard
 /// uncertainties of the unknowns without them.
 pub(super) fn lines(
-    fitted: &FittedModel<'_>,
-    cells: &[Cell],
+    candidates: &Candidates<'_>,
     declared: &Baseline,
     improved: Option<&Baseline>,
     adopted: &[usize],
     u: &[f64],
 ) -> Vec<Omitted> {
+    let (fitted, cells) = (&candidates.fitted, &candidates.cells);
     let scales = typical::full_scales(fitted);
     let line = |(index, number): (usize, usize), held: &[usize]| {
         let (cell, baselines) = (&cells[index], (declared, improved));
@@ -203,15 +199,13 @@ fn largest(gain: &DMatrix<f64>) -> Vec<f64> {
 /// What it costs that a slot has several explanations: for each unknown the root of Σ p·d², d being how
 /// far the other explanations move it from where the adopted one leaves it.
 pub(super) fn choice(
-    fitted: &FittedModel<'_>,
-    cells: &[Cell],
-    places: &[(usize, usize)],
+    candidates: &Candidates<'_>,
     declared: &Baseline,
     slot: &evidence::Slot,
 ) -> Vec<f64> {
     let moved = |alternative: &evidence::Alternative| -> Option<DVector<f64>> {
-        let (cell, variation) = places[alternative.variants.first()?.atom];
-        let columns = cells[cell].variants[variation].columns(fitted);
+        let variation = candidates.variation(alternative.variants.first()?.atom);
+        let columns = variation.columns(&candidates.fitted);
         let size = alternative
             .estimate
             .map(|x| if x.is_finite() { x } else { 0.0 });
@@ -229,38 +223,4 @@ pub(super) fn choice(
         squares += (other - &adopted).map(|d| probability * d * d);
     }
     squares.iter().map(|square: &f64| square.sqrt()).collect()
-}
-
-/// The recording reduced to what the improved model leaves, its unknowns in the order of the declared
-/// ones and then the adopted coefficients.
-pub(super) fn improved_baseline(
-    case: &Case,
-    adopted: &Adopted,
-    claimed: &Claimed,
-) -> Option<Baseline> {
-    let extended = &adopted.extended.case;
-    let design = Design::new(extended);
-    let estimates = adopted.unknowns.iter().chain(&adopted.coefficients);
-    let value = |name: &str| {
-        let found = estimates.clone().find(|estimate| estimate.name == name);
-        found.map(|estimate| estimate.value)
-    };
-    let values: Option<Vec<f64>> = design.unknowns.iter().map(|u| value(&u.name)).collect();
-    let mut fit = fit::at(&design, DVector::from_vec(values?));
-    let declared = Design::new(case);
-    let known = declared.unknowns.iter().map(|u| u.name.as_str());
-    let added = adopted.coefficients.iter().map(|c| c.name.as_str());
-    let order: Option<Vec<usize>> = known
-        .chain(added)
-        .map(|name| design.unknowns.iter().position(|u| u.name == name))
-        .collect();
-    let order = order?;
-    let mut design = design;
-    design.unknowns = order
-        .iter()
-        .map(|at| design.unknowns[*at].clone())
-        .collect();
-    fit.jacobian = fit.jacobian.select_columns(&order);
-    fit.unknowns = fit.unknowns.select_rows(&order);
-    baseline(&design, &fit, claimed).ok()
 }

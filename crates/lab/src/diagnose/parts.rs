@@ -223,7 +223,8 @@ fn divided(design: &Design<'_>) -> Vec<(String, Vec<usize>)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::evidence::{Baseline, Covariance, Noise, Prior};
+    use super::super::evidence::fixture::white;
+    use super::super::evidence::{Baseline, Prior};
     use super::*;
 
     #[test]
@@ -233,7 +234,7 @@ mod tests {
         let baseline = Baseline::new(
             &jacobian,
             &DVector::from_row_slice(&[0.0, 0.0, 0.0, 0.0, 3.0, 3.0, 5.0]),
-            &Noise::known(Covariance::Diagonal(DVector::from_element(7, 1.0))),
+            &white(7),
             &Prior::none(1),
         )
         .unwrap();
@@ -268,7 +269,7 @@ mod tests {
         let baseline = Baseline::new(
             &jacobian,
             &DVector::zeros(rows),
-            &Noise::known(Covariance::Diagonal(DVector::from_element(rows, 1.0))),
+            &white(rows),
             &Prior::none(1),
         )
         .unwrap();

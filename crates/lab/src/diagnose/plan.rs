@@ -5,13 +5,13 @@ use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::candidates::{baseline, question};
+use super::candidates::{Candidates, baseline};
 use super::case::Case;
-use super::catalogue::{self, Cell, FittedModel, Kind};
+use super::catalogue::{Cell, FittedModel, Kind};
 use super::coarse::Coarse;
 use super::confirm::{Estimated, estimates};
 use super::design::Design;
-use super::evidence::{self, Atom, Refusal, Shape};
+use super::evidence::{self, Refusal, Shape};
 use super::explanation::{self, Explanation};
 use super::extra::{Extra, extras};
 use super::failure::Failure;
@@ -104,16 +104,15 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
     let coarse = Coarse::of(&design, &fit);
     let seen = coarse.design();
     let fitted = FittedModel::new(&seen, &coarse.fit);
-    let cells = catalogue::cells(&fitted);
     let baseline = baseline(&design, &fit, &claimed)?;
-    let (candidates, atoms, places) = question(&fitted, &cells, &claimed, &baseline);
-    let (atoms, places, unified) = named(&cells, atoms, places);
+    let mut candidates = Candidates::new(fitted, &claimed, &baseline);
+    let unified = named(&mut candidates);
     step(progress, 0.1)?;
-    let found = evidence::visibility(&baseline, &candidates, &atoms)?;
-    let effects = prospects(&fitted, &cells, (&atoms, &places, &unified), &found);
+    let found = evidence::visibility(&baseline, &candidates.candidates, &candidates.atoms)?;
+    let effects = prospects(&candidates, &unified, &found);
     let unknowns = estimates(&design, &fit, &claimed);
     let u: Vec<f64> = unknowns.iter().map(|unknown| unknown.u).collect();
-    let omitted = omitted::lines(&fitted, &cells, &baseline, None, &[], &u);
+    let omitted = omitted::lines(&candidates, &baseline, None, &[], &u);
     step(progress, 0.4)?;
     let pairs = pairs(&effects);
     let known = Known {
@@ -124,20 +123,20 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
     };
     let recorded = Recorded {
         known: &known,
-        fitted: &fitted,
+        candidates: &candidates,
         baseline: &baseline,
     };
     let explanations = Explanations {
         sets: pairs
             .iter()
-            .map(|pair| explanations(&recorded, &cells, &effects, *pair))
+            .map(|pair| explanations(&recorded, &effects, *pair))
             .collect(),
         hidden: omitted.iter().filter(|line| line.is_invisible()).collect(),
     };
     let mut promises = Vec::new();
     let all = extras(case);
     for (at, extra) in all.iter().enumerate() {
-        promises.extend(explanations.promise(&recorded, &cells, extra));
+        promises.extend(explanations.promise(&recorded, extra));
         step(progress, 0.4 + 0.6 * (at + 1) as f64 / all.len() as f64)?;
     }
     let worth = |promise: &Promise| {
@@ -151,11 +150,11 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
         observations: design.observations(),
         unknowns,
         effects,
-        classes: classes(&cells, &places, &found.classes),
+        classes: classes(&candidates, &found.classes),
         omitted,
         extras: promises,
         pairs,
-        cells,
+        cells: candidates.cells,
     })
 }
 
@@ -188,38 +187,34 @@ fn assumed(design: &Design<'_>) -> Result<(Fit, Claimed, Vec<String>), Failure> 
     Ok((fit, claimed, open))
 }
 
-type Places = Vec<(usize, usize)>;
-
-/// Named atoms of free size, in units of their largest shift.
-fn named(cells: &[Cell], atoms: Vec<Atom>, places: Places) -> (Vec<Atom>, Places, Vec<Unified>) {
-    let mut kept = (Vec::new(), Vec::new(), Vec::new());
-    for (mut atom, place) in atoms.into_iter().zip(places) {
+/// Keeps the named atoms of free size, in units of their largest shift.
+fn named(candidates: &mut Candidates<'_>) -> Vec<Unified> {
+    let mut all = Vec::new();
+    candidates.retain(|atom, cell| {
         let Shape::Columns(columns) = &atom.shape else {
-            continue;
+            return false;
         };
-        if cells[place.0].effect.exact.is_some() {
-            continue;
-        }
-        if let Some(unified) = typical::unified(columns.clone()) {
-            atom.shape = Shape::Columns(unified.columns.clone());
-            kept.0.push(atom);
-            kept.1.push(place);
-            kept.2.push(unified);
-        }
-    }
-    kept
+        let unified = typical::unified(columns.clone()).filter(|_| cell.effect.exact.is_none());
+        let Some(unified) = unified else {
+            return false;
+        };
+        atom.shape = Shape::Columns(unified.columns.clone());
+        all.push(unified);
+        true
+    });
+    all
 }
 
 /// One prospect for each candidate that has a visible variant.
 fn prospects(
-    fitted: &FittedModel<'_>,
-    cells: &[Cell],
-    (atoms, places, unified): (&[Atom], &[(usize, usize)], &[Unified]),
+    candidates: &Candidates<'_>,
+    unified: &[Unified],
     found: &evidence::Plan,
 ) -> Vec<Prospect> {
+    let (fitted, atoms) = (&candidates.fitted, &candidates.atoms);
     let scales = typical::full_scales(fitted);
     let mut prospects = Vec::new();
-    for (cell, of) in cells.iter().enumerate() {
+    for (cell, of) in candidates.cells.iter().enumerate() {
         let mut own: Vec<(&evidence::Seen, f64)> = found
             .seen
             .iter()
@@ -232,7 +227,7 @@ fn prospects(
             continue;
         };
         let pair = found.pairs.iter().find(|pair| pair.atom == seen.atom);
-        let variation = places[seen.atom].1;
+        let variation = candidates.places[seen.atom].1;
         prospects.push(Prospect {
             cell,
             variation,
@@ -253,12 +248,13 @@ fn prospects(
 }
 
 /// Candidates that share a class, each class once.
-fn classes(cells: &[Cell], places: &[(usize, usize)], atoms: &[Vec<usize>]) -> Vec<Vec<usize>> {
+fn classes(candidates: &Candidates<'_>, atoms: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let mut classes: Vec<Vec<usize>> = Vec::new();
     for class in atoms {
-        let mut of: Vec<usize> = class.iter().map(|atom| places[*atom].0).collect();
+        let of = class.iter().map(|atom| candidates.places[*atom].0);
         // A single row or a jump is an alias of much in few rows.
-        of.retain(|cell| cells[*cell].effect.kind != Kind::Record);
+        let is_alias = |cell: &usize| candidates.cells[*cell].effect.kind == Kind::Record;
+        let mut of: Vec<usize> = of.filter(|cell| !is_alias(cell)).collect();
         of.sort_unstable();
         of.dedup();
         if of.len() > 1 && !classes.contains(&of) {
@@ -294,25 +290,19 @@ fn pairs(effects: &[Prospect]) -> Vec<(usize, usize)> {
 /// Both of a pair, with sizes that have the same strength in the experiment as it is.
 fn explanations(
     recorded: &Recorded<'_>,
-    cells: &[Cell],
     effects: &[Prospect],
     (a, b): (usize, usize),
 ) -> Vec<Explanation> {
     let of = |cell: usize| {
         let effect = effects.iter().find(|effect| effect.cell == cell)?;
-        let variation = &cells[cell].variants[effect.variation];
-        let columns = variation.columns(recorded.fitted);
+        let cell = &recorded.candidates.cells[cell];
+        let variation = &cell.variants[effect.variation];
+        let columns = variation.columns(&recorded.candidates.fitted);
         let count = columns.ncols();
         let sum = recorded.baseline.project(&columns).column_sum().norm();
         let size = if sum > 0.0 { STRENGTH / sum } else { 0.0 };
         let sizes = DMatrix::from_element(count, 1, size);
-        Some(Explanation::new(
-            recorded,
-            &cells[cell],
-            variation,
-            &sizes,
-            EVEN,
-        ))
+        Some(Explanation::new(recorded, cell, variation, &sizes, EVEN))
     };
     [a, b].into_iter().filter_map(of).collect()
 }
@@ -324,14 +314,15 @@ struct Explanations<'o> {
 }
 
 impl Explanations<'_> {
-    fn promise(&self, recorded: &Recorded<'_>, cells: &[Cell], extra: &Extra) -> Option<Promise> {
+    fn promise(&self, recorded: &Recorded<'_>, extra: &Extra) -> Option<Promise> {
         let asked: Vec<Explanation> = self
             .hidden
             .iter()
             .map(|line| {
-                let variation = &cells[line.cell].variants[line.variation];
+                let cell = &recorded.candidates.cells[line.cell];
+                let variation = &cell.variants[line.variation];
                 let sizes = DMatrix::from_element(variation.coefficients(), 1, 1.0);
-                Explanation::new(recorded, &cells[line.cell], variation, &sizes, EVEN)
+                Explanation::new(recorded, cell, variation, &sizes, EVEN)
             })
             .collect();
         let told = |apart: Option<evidence::Separability>| {

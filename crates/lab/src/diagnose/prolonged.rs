@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::candidates::baseline;
+use super::candidates::{Candidates, baseline};
 use super::case::{Case, NoiseClaim};
 use super::catalogue::{self, Cell, FittedModel};
 use super::coarse::Coarse;
@@ -23,7 +23,7 @@ pub(super) struct Known<'k> {
 /// A recording with what its residuals are examined by.
 pub(super) struct Recorded<'r> {
     pub known: &'r Known<'r>,
-    pub fitted: &'r FittedModel<'r>,
+    pub candidates: &'r Candidates<'r>,
     pub baseline: &'r Baseline,
 }
 
@@ -54,7 +54,8 @@ pub(super) fn examined<R>(
     };
     let coarse = Coarse::of(&design, &fit);
     let seen = coarse.design();
-    let fitted = FittedModel::new(&seen, &coarse.fit).refined(recorded.fitted.finer.clone());
+    let fitted =
+        FittedModel::new(&seen, &coarse.fit).refined(recorded.candidates.fitted.finer.clone());
     let cells = catalogue::cells(&fitted);
     let noise = noise_of(known, &design, &fit, known.design.blocks.len());
     let baseline = baseline(&design, &fit, &noise).ok()?;

@@ -6,12 +6,10 @@
 
 use std::fmt::Write;
 
-use nalgebra::{DMatrix, DVector};
-
 use super::case::Case;
 use super::confirm::{self, Estimated};
 use super::design::{Design, UnknownKind};
-use super::fit;
+use super::fit::Fit;
 use super::omitted::Omitted;
 use super::run::Diagnosis;
 use gumption_core::quantity::Unit;
@@ -23,14 +21,11 @@ const MATTERS: f64 = 0.01;
 /// The budget file of the parameters of a diagnosed case, with the adopted physics in the model if there
 /// is any.
 pub fn budget(case: &Case, diagnosis: &Diagnosis) -> String {
-    let declared = diagnosis.unknowns.as_slice();
-    let (model, estimates, all) = match &diagnosis.adopted {
-        Some(adopted) => {
-            let all: Vec<Estimated> = [&adopted.unknowns[..], &adopted.coefficients].concat();
-            (&adopted.extended.case, &adopted.unknowns[..], all)
-        }
-        None => (case, declared, declared.to_vec()),
+    let (model, fit) = match &diagnosis.adopted {
+        Some(adopted) => (&adopted.extended.case, &adopted.fit),
+        None => (case, &diagnosis.fit),
     };
+    let estimates = diagnosis.estimates();
     let design = Design::new(model);
     let results = results(&design, estimates);
     // What correlates has degrees of freedom in common: the fewest.
@@ -52,7 +47,7 @@ pub fn budget(case: &Case, diagnosis: &Diagnosis) -> String {
             quoted(&line.description)
         );
     }
-    text + &correlations(&design, diagnosis, &all, &results)
+    text + &correlations(&design, fit, diagnosis, &results)
 }
 
 /// A parameter that is reported.
@@ -213,19 +208,12 @@ fn unit_line(unit: &Unit) -> String {
 /// Correlations of the fitted parameters.
 fn correlations(
     design: &Design<'_>,
+    fit: &Fit,
     diagnosis: &Diagnosis,
-    all: &[Estimated],
     results: &[ResultOf<'_>],
 ) -> String {
     let place = |name: &str| design.unknowns.iter().position(|u| u.name == name);
-    let mut values = DVector::zeros(design.unknowns.len());
-    for estimate in all {
-        if let Some(at) = place(&estimate.name) {
-            values[at] = estimate.value;
-        }
-    }
-    let fit = fit::at(design, values);
-    let covariance: DMatrix<f64> = confirm::covariance(design, &fit, &diagnosis.noise);
+    let covariance = confirm::covariance(design, fit, &diagnosis.noise);
     let mut text = String::new();
     for (at, a) in results.iter().enumerate() {
         for b in &results[at + 1..] {

@@ -13,7 +13,7 @@ use super::confirm::{self, Estimated, Quality, estimates};
 use super::design::Design;
 use super::evidence::{self, Examination, Located, TRACE, Verdict};
 use super::failure::Failure;
-use super::fit::{ModelVersion, Trouble, Unsettled};
+use super::fit::{Fit, ModelVersion, Trouble, Unsettled};
 use super::held_out::{self, HeldOutQuality};
 use super::noise::{self, Claimed};
 use super::noise_correlation::Courses;
@@ -42,8 +42,8 @@ pub struct Diagnosis {
     pub unknowns: Vec<Estimated>,
     /// The declared model.
     pub before: Quality,
-    /// What the declared model leaves, observation by observation.
-    pub residuals: DVector<f64>,
+    /// Its fit, with what it leaves observation by observation.
+    pub fit: Fit,
     /// The model with the effects in it.
     pub adopted: Option<Adopted>,
     /// Number of means (blocks) and of rows in the recording.
@@ -178,31 +178,27 @@ pub fn diagnose(
             (baseline, examination) = candidates.ask(&claimed, &settings, &part)?;
         }
     }
-    let Candidates {
-        fitted,
-        mut cells,
-        places,
-        ..
-    } = candidates;
     // What nobody claims may be anything.
     let is_unclaimed = claimed.wanders() || claimed.is_estimated();
     let is_open = examination.verdict == Verdict::None && is_unclaimed;
-    let ordered = courses.filter(|_| is_open && fitted.clock.column.is_some());
+    let ordered = courses.filter(|_| is_open && candidates.fitted.clock.column.is_some());
     if let Some(courses) = ordered {
         let with = |correlated| claimed.noise_with(correlated);
-        let seen = courses.seen(fitted.design, fitted.fit, &with)?;
+        let seen = courses.seen(&seen, &coarse.fit, &with)?;
         // Two tests, each with half of the probability of a false alarm.
         let alpha = 0.5 * settings.alpha;
         let p = evidence::unsteadiness(&seen, &claimed.noise(), settings.seed, alpha)?;
         if p <= alpha {
-            examination.unnamed(cells.len(), 2.0 * p);
-            cells.push(generics::unsteady(&fitted));
+            examination.unnamed(candidates.cells.len(), 2.0 * p);
+            candidates
+                .cells
+                .push(generics::unsteady(&candidates.fitted));
         }
     }
     let located = if examination.verdict == Verdict::None {
         Vec::new()
     } else {
-        let mut levels = regions::cells(&fitted);
+        let mut levels = regions::cells(&candidates.fitted);
         let columns: Vec<DVector<f64>> = levels.iter().map(|cell| cell.column.clone()).collect();
         if !columns.is_empty() {
             let shares = white.visibilities(&DMatrix::from_columns(&columns));
@@ -217,7 +213,7 @@ pub fn diagnose(
     };
     let before = confirm::quality(&design, &fit, &claimed, &claimed);
     let mut unsettled: Vec<Unsettled> = fit.unsettled(ModelVersion::Declared).into_iter().collect();
-    let mut adopted = match adopt_named(&fitted, &cells, &places, &mut examination, &claimed) {
+    let mut adopted = match adopt_named(&candidates, &mut examination, &claimed) {
         Ok(adopted) => adopted,
         Err(why) => {
             unsettled.push(Unsettled {
@@ -238,16 +234,9 @@ pub fn diagnose(
         fit: &fit,
         claimed: &claimed,
     };
-    let held_out = held_out::held_out(
-        &known,
-        &fitted,
-        &cells,
-        &places,
-        &unknowns,
-        adopted.as_ref(),
-    );
+    let held_out = held_out::held_out(&known, &candidates, &unknowns, adopted.as_ref());
     let recurs = |adopted: &Adopted| {
-        let mut patterns = (adopted.atoms.iter()).map(|atom| cells[places[*atom].0].effect.pattern);
+        let mut patterns = (adopted.atoms.iter()).map(|atom| candidates.cell(*atom).effect.pattern);
         patterns.all(|pattern| pattern.is_none_or(Pattern::recurs))
     };
     if adopted.as_ref().is_some_and(recurs)
@@ -256,31 +245,29 @@ pub fn diagnose(
         examination.withdraw();
     }
     unsettled.extend((adopted.iter()).filter_map(|adopted| adopted.unsettled.clone()));
-    let improved = adopted
-        .as_ref()
-        .and_then(|adopted| omitted::improved_baseline(case, adopted, &claimed));
+    let improved = (adopted.as_ref()).and_then(|adopted| adopted.baseline(&claimed));
     let listed = examination.slots.iter().filter(|_| adopted.is_some());
     let named: Vec<usize> = listed
         .clone()
         .flat_map(|slot| slot.named.iter().map(|named| named.candidate))
         .collect();
     let choices = listed
-        .map(|slot| omitted::choice(&fitted, &cells, &places, &baseline, slot))
+        .map(|slot| omitted::choice(&candidates, &baseline, slot))
         .collect();
     let u: Vec<f64> = unknowns.iter().map(|unknown| unknown.u).collect();
-    let omitted = omitted::lines(&fitted, &cells, &baseline, improved.as_ref(), &named, &u);
+    let omitted = omitted::lines(&candidates, &baseline, improved.as_ref(), &named, &u);
     let recorded = Recorded {
         known: &known,
-        fitted: &fitted,
+        candidates: &candidates,
         baseline: &baseline,
     };
-    let separating = separation::separating(&recorded, &cells, &places, &examination);
+    let separating = separation::separating(&recorded, &examination);
     Ok(Diagnosis {
         examination,
         located,
         unknowns,
         before,
-        residuals: fit.residuals.clone(),
+        fit,
         adopted,
         blocks: design.blocks.clone(),
         omitted,
@@ -288,9 +275,9 @@ pub fn diagnose(
         separating,
         held_out,
         choices,
-        cells,
-        atoms: places,
-        steady: fitted.is_steady(),
+        steady: candidates.fitted.is_steady(),
+        cells: candidates.cells,
+        atoms: candidates.places,
         noise: claimed,
     })
 }

@@ -1,6 +1,6 @@
 //! What further measurements tell apart.
 
-use super::catalogue::{Cell, Variation};
+use super::catalogue::Variation;
 use super::evidence::{self, Examination, Prospects, Separability, Standing, Worth};
 use super::explanation::{Explanation, Unlisted, likened, sizes, standing, unlisted};
 use super::extra::Extra;
@@ -28,23 +28,16 @@ const CLOSE: f64 = 4.0;
 
 /// For each slot with several explanations, or with one that has a close rival, the further measurements
 /// that tell them apart.
-pub(super) fn separating(
-    recorded: &Recorded<'_>,
-    cells: &[Cell],
-    places: &[(usize, usize)],
-    examination: &Examination,
-) -> Vec<Separating> {
-    let of_atom = |atom: usize| {
-        let (cell, variation) = places[atom];
-        (cell, &cells[cell].variants[variation])
-    };
+pub(super) fn separating(recorded: &Recorded<'_>, examination: &Examination) -> Vec<Separating> {
+    let candidates = recorded.candidates;
+    let cells = &candidates.cells;
     let mut found = Vec::new();
     for (slot, of) in examination.slots.iter().enumerate() {
         let mut rivals = Vec::new();
         let mut set: Vec<Explanation> = Vec::new();
         for alternative in of.named.iter().take(CONTENDERS) {
             let variants: Vec<(&Variation, f64)> = (alternative.variants.iter())
-                .map(|variant| (of_atom(variant.atom).1, variant.share))
+                .map(|variant| (candidates.variation(variant.atom), variant.share))
                 .collect();
             let Some((variation, _)) = variants.first() else {
                 continue;
@@ -58,9 +51,12 @@ pub(super) fn separating(
         }
         let nearest = of.named.first().and_then(|first| first.nearest.as_ref());
         if let (1, Some(rival)) = (set.len(), nearest.filter(|r| r.alias || r.kappa < CLOSE)) {
-            let (cell, variation) = of_atom(rival.atom);
-            set.extend(likened(recorded, &set[0], &cells[cell], variation));
-            rivals.push(cell);
+            let (cell, variation) = (
+                candidates.cell(rival.atom),
+                candidates.variation(rival.atom),
+            );
+            set.extend(likened(recorded, &set[0], cell, variation));
+            rivals.push(rival.candidate);
         }
         if set.len() < 2 {
             continue;
@@ -83,15 +79,20 @@ pub(super) fn separating(
     let lists: Vec<List> = found
         .into_iter()
         .filter_map(|(slot, rivals, kappa, set, share)| {
-            let standing: Vec<Standing> =
-                set.iter().map(|one| one.before(recorded, cells)).collect();
+            let standing: Vec<Standing> = set.iter().map(|one| one.before(recorded)).collect();
             Some(List {
                 slot,
                 rivals,
                 kappa,
                 share,
                 before: evidence::apart(&standing).ok()?,
-                outside: unlisted(recorded.fitted, cells, recorded.baseline, &set, &standing),
+                outside: unlisted(
+                    &candidates.fitted,
+                    cells,
+                    recorded.baseline,
+                    &set,
+                    &standing,
+                ),
                 set,
             })
         })

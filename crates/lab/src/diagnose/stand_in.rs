@@ -3,11 +3,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::candidates::{baseline, question};
+use super::candidates::{Candidates, baseline};
 use super::case::Case;
-use super::catalogue::{self, EffectId, FittedModel};
+use super::catalogue::{EffectId, FittedModel};
 use super::design::Design;
-use super::evidence::Shape;
+use super::evidence::{Atom, Shape};
 use super::failure::Failure;
 use super::noise;
 
@@ -54,10 +54,8 @@ pub fn stand_ins(
         return Ok(Vec::new());
     }
     let (fit, claimed) = noise::settle(&design)?;
-    let fitted = FittedModel::new(&design, &fit);
-    let cells = catalogue::cells(&fitted);
     let baseline = baseline(&design, &fit, &claimed)?;
-    let (_, atoms, places) = question(&fitted, &cells, &claimed, &baseline);
+    let candidates = Candidates::new(FittedModel::new(&design, &fit), &claimed, &baseline);
     let seen = |column: &DVector<f64>| {
         let column = DMatrix::from_column_slice(column.len(), 1, column.as_slice());
         baseline.project(&column).column(0).into_owned()
@@ -78,7 +76,7 @@ pub fn stand_ins(
     if absorbed || whole.is_nan() || whole * whole <= DEPENDENT * alone * alone {
         return Ok(Vec::new());
     }
-    let of = |(atom, place): (&super::evidence::Atom, &(usize, usize))| {
+    let of = |(at, atom): (usize, &Atom)| {
         let Shape::Columns(columns) = &atom.shape else {
             return None;
         };
@@ -91,7 +89,7 @@ pub fn stand_ins(
             }
         }
         let own = &directions[adopted.len()..];
-        let cell = &cells[place.0];
+        let cell = candidates.cell(at);
         let size = match (own, seen.column_iter().next()) {
             ([direction], Some(column)) if seen.ncols() == 1 => {
                 Some(direction.dot(&rest) / direction.dot(&column))
@@ -103,13 +101,15 @@ pub fn stand_ins(
                 id: cell.effect.id,
                 along: cell.place.along.clone(),
             },
-            label: cell.variants[place.1].label.clone(),
+            label: candidates.variation(at).label.clone(),
             coefficients: own.len(),
             size,
             left: beside(rest.clone(), own).norm() / whole,
         })
     };
-    Ok(atoms.iter().zip(&places).filter_map(of).collect())
+    Ok((candidates.atoms.iter().enumerate())
+        .filter_map(of)
+        .collect())
 }
 
 /// Adds what is left of a column to orthonormal directions, if anything.

@@ -10,6 +10,7 @@
 //! | `allan` | Allan deviation, overlapping, with confidence intervals |
 //! | `power_law` | covariances of Allan variances for noise of a power law |
 //! | `noise` | white noise, bias instability and rate random walk from an Allan deviation |
+//! | [`at_rest`] | white noise, flicker and random walk by their likelihood, and the covariance matrix that other readings have by them |
 //!
 //! What makes a recording unreadable is a [`Fault`](gumption_fault::Fault) in a
 //! [`Rejection`](gumption_fault::Rejection), drawn under the user's own lines; what makes it doubtful is
@@ -44,6 +45,7 @@
 //! ```
 
 mod allan;
+pub mod at_rest;
 mod average;
 mod checks;
 mod noise;

@@ -221,10 +221,6 @@ fn only_like(likeness: Likeness, l: Language) -> &'static str {
             "Nothing else in the catalogue acts like this. Something unlisted of similar shape would look the same at this strength.",
             "目录中没有其他影响有此表现；但在此强度下，目录之外形状相近的影响看起来会相同。",
         ),
-        Likeness::Beside => l.pick(
-            "Nothing else in the catalogue acts like this. The stronger effect beside it, if its form were a little different, could leave as much.",
-            "目录中没有其他影响有此表现；但与之并存的较强影响若形式略有不同，也可能留下同样大小的残差。",
-        ),
         Likeness::Open => l.pick(
             "Something without a name is left beside it, and may have a part of what it explains.",
             "此外还有无法命名的部分，它可能占其所解释的一部分。",

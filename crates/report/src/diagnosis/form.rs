@@ -48,7 +48,7 @@ form! {
         /// Rows of the recording.
         rows: usize = case.rows,
         /// Rows, or means of rows, of all outputs.
-        observations: usize = d.residuals.len(),
+        observations: usize = d.fit.residuals.len(),
         /// Probability of a false alarm that was asked for.
         alpha: Number = Number(case.settings.alpha),
         /// Seed of the random numbers.

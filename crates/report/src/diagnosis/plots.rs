@@ -56,8 +56,12 @@ fn panels(case: &Case, diagnosis: &Diagnosis, x: &Axis, at: &[f64], l: Language)
         let before = l.pick("with the declared model", "声明的模型");
         let after = l.pick("with the physics that was left out", "加入遗漏效应后");
         let mut layers = vec![layer("", Tone::Quiet, Marks::Level(0.0))];
-        layers.push(layer(before, Tone::Contrast, points(&diagnosis.residuals)));
-        layers.extend(adopted.map(|one| layer(after, Tone::Main, points(&one.residuals))));
+        layers.push(layer(
+            before,
+            Tone::Contrast,
+            points(&diagnosis.fit.residuals),
+        ));
+        layers.extend(adopted.map(|one| layer(after, Tone::Main, points(&one.fit.residuals))));
         Panel {
             title: match adopted {
                 Some(_) => l.pick("Residuals before and after", "加入效应前后的残差"),

@@ -58,16 +58,12 @@ impl Checker<'_> {
             let full_scale = amount(|t| &t.full_scale);
             let resolution = amount(|t| &t.resolution);
             columns.push(Column {
-                name: w.name.clone(),
                 header: column.map_or_else(|| w.header.clone(), |c| c.header.clone()),
-                role: w.role,
-                unit,
-                data,
                 u,
                 u_common,
                 full_scale,
                 resolution,
-                as_difference: false,
+                ..Column::new(&w.name, w.role, &unit, data)
             });
         }
         (columns, complete.len(), all - complete.len())
@@ -75,20 +71,25 @@ impl Checker<'_> {
 }
 
 impl Column {
-    /// A stimulus that no instrument recorded.
-    pub(super) fn applied(name: &str, unit: &Unit, values: Vec<f64>) -> Column {
+    /// A column of which nothing else is stated.
+    pub(in crate::diagnose) fn new(name: &str, role: RoleWord, unit: &Unit, data: Data) -> Column {
         Column {
             name: name.to_owned(),
             header: name.to_owned(),
-            role: RoleWord::Stimulus,
+            role,
             unit: unit.clone(),
-            data: Data::Numbers(values),
+            data,
             u: None,
             u_common: None,
             full_scale: None,
             resolution: None,
             as_difference: false,
         }
+    }
+
+    /// A stimulus that no instrument recorded.
+    pub(super) fn applied(name: &str, unit: &Unit, values: Vec<f64>) -> Column {
+        Column::new(name, RoleWord::Stimulus, unit, Data::Numbers(values))
     }
 
     /// A quantity that positions give.

@@ -1,13 +1,14 @@
 //! The declared model: parameters, what they are held against, and the equations over parameters and columns.
 
-use super::{Column, Data, Observed, Parameter, Response};
+use super::{Case, Column, Data, Observed, Parameter, Response};
 use crate::diagnose::faults::{LEFT_SIDE, ROLE, START};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::names::Names;
 use crate::experiment::{Experiment, Observed as Of};
-use gumption_core::equations::{Equations, Quantity};
+use gumption_core::equations::{EquationText, Equations, Quantity};
 use gumption_core::model::{Role, Symbol};
+use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
 
 /// The declared model of a case.
@@ -43,9 +44,7 @@ impl Checker<'_> {
             return None;
         }
         let quantities = experiment.equations.responses();
-        let is_response = |symbol: &&Symbol| quantities.iter().any(|r| r.name == symbol.name);
-        let others = constants.iter().filter(|symbol| !is_response(symbol));
-        let others: Vec<Symbol> = others.cloned().collect();
+        let others = constants_beside(quantities, constants);
         let symbols = symbols(&parameters, columns);
         let equations = match self.compiled(&symbols, quantities, &others) {
             Ok(equations) => equations,
@@ -125,14 +124,36 @@ fn startable(parameters: &[Parameter]) -> bool {
     parameters.iter().filter(|p| p.start.is_none()).count() <= 3
 }
 
+/// Constants that no equation has on its left.
+fn constants_beside(responses: &[Quantity], constants: &[Symbol]) -> Vec<Symbol> {
+    let is_response = |symbol: &&Symbol| responses.iter().any(|r| r.name == symbol.name);
+    let others = constants.iter().filter(|symbol| !is_response(symbol));
+    others.cloned().collect()
+}
+
 /// Parameters and columns, in the order of the vector of their values.
 fn symbols(parameters: &[Parameter], columns: &[Column]) -> Vec<Quantity> {
-    let parameters = parameters.iter().map(|p| (p.name.clone(), p.unit.clone()));
-    let columns = columns
-        .iter()
-        .map(|c| (c.name.clone(), c.unit_in_formulas()));
-    parameters
-        .chain(columns)
-        .map(|(name, unit)| Quantity { name, unit })
-        .collect()
+    let parameters = parameters.iter().map(|p| (&p.name, p.unit.clone()));
+    let columns = columns.iter().map(|c| (&c.name, c.unit_in_formulas()));
+    let quantity = |(name, unit): (&String, Unit)| Quantity {
+        name: name.clone(),
+        unit,
+    };
+    parameters.chain(columns).map(quantity).collect()
+}
+
+impl Case {
+    /// Other equations over its parameters and columns; nothing where they are none.
+    pub(in crate::diagnose) fn compiled(&self, texts: &[String]) -> Option<Equations> {
+        let responses = self.responses.iter().map(|response| Quantity {
+            name: response.name.clone(),
+            unit: response.unit.clone(),
+        });
+        let responses: Vec<Quantity> = responses.collect();
+        let symbols = symbols(&self.parameters, &self.columns);
+        let others = constants_beside(&responses, &self.constants);
+        let text = |text| EquationText { text, at: 0..0 };
+        let texts: Vec<EquationText<'_>> = texts.iter().map(|own| text(own.as_str())).collect();
+        Equations::compile(&texts, &symbols, &responses, &others, &self.units).ok()
+    }
 }

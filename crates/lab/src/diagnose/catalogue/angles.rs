@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::building::{on_node, words};
+use super::building::{form, on_node, wave, words};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{map, range};
-use super::{Cell, EffectId, Modifier, Term, Variants, Variation};
+use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 use gumption_core::quantity::UnitTable;
@@ -34,11 +34,7 @@ fn of_angle(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let variants = harmonics(fitted, column);
     // Harmonics are independent of one another: each is a candidate of its own.
     let each = |id: EffectId, node: Node| -> Vec<Cell> {
-        let one = |variant: &(String, Vec<Modifier>)| {
-            let mut words = words(fitted, name);
-            words.p = fitted.name(node);
-            on_node(fitted, id, words, name, node, vec![variant.clone()])
-        };
+        let one = |form: &Variation| on_node(fitted, id, name, node, [form.clone()]);
         variants.iter().map(one).collect()
     };
     let mut cells = Vec::new();
@@ -58,7 +54,7 @@ fn of_angle(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
 }
 
 /// Sine and cosine of the multiples of an angle that its positions can tell apart.
-fn harmonics(fitted: &FittedModel<'_>, column: usize) -> Variants {
+fn harmonics(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     let name = fitted.label(column);
     let phi = radians(fitted, column);
     let (least, most) = range(&phi);
@@ -69,18 +65,11 @@ fn harmonics(fitted: &FittedModel<'_>, column: usize) -> Variants {
     (1..=HIGHEST)
         .filter(shows)
         .map(|k| {
-            let times = f64::from(k);
-            let pair = vec![
-                Modifier::number(
-                    map(&phi, |phi| libm::sin(times * phi)),
-                    format!("sin({k}*{name})"),
-                ),
-                Modifier::number(
-                    map(&phi, |phi| libm::cos(times * phi)),
-                    format!("cos({k}*{name})"),
-                ),
-            ];
-            (format!("{k} per turn"), pair)
+            let phase = map(&phi, |phi| f64::from(k) * phi);
+            form(
+                format!("{k} per turn"),
+                wave(&phase, &format!("{k}*{name}")),
+            )
         })
         .collect()
 }

@@ -1,60 +1,90 @@
 //! What the forms are built of: cells on the offset or on a node, their words, grids of time constants.
 
+use super::absorbed::best;
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{Course, grid};
-use super::sharp::best;
-use super::{Cell, EffectId, Modifier, Term, Variants, Variation, Words};
+use super::modifiers::{Course, grid, map};
+use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
 
-/// A cell on the offset of the outputs: alike on all responses, and on each of them alone.
-pub(super) fn on_outputs(
-    fitted: &FittedModel<'_>,
-    id: EffectId,
-    words: Words,
-    along: &str,
-    variants: Variants,
-) -> Cell {
-    on_node(fitted, id, words, along, Node::Output, variants)
+/// A variation by what its terms follow, to be put on a node.
+pub(super) fn form(label: impl Into<String>, modifiers: Vec<Modifier>) -> Variation {
+    Variation::of(label, modifiers.into_iter().map(on_output).collect())
 }
 
-/// A cell on a node, with scopes over the responses.
+/// A cell whose forms act on a node along something: on all responses, and on each of them alone.
 pub(super) fn on_node(
     fitted: &FittedModel<'_>,
     id: EffectId,
-    words: Words,
     along: &str,
     node: Node,
-    variants: Variants,
+    forms: impl IntoIterator<Item = Variation>,
 ) -> Cell {
-    let responses = &fitted.case().responses;
-    let mut all = Vec::new();
-    for (label, modifiers) in variants {
-        let term = |response: Option<usize>| {
-            let terms = modifiers.iter().map(move |modifier| Term {
+    let each = |form: Variation| {
+        let on = |response: Option<usize>| -> Vec<Term> {
+            let terms = form.terms.iter().cloned();
+            let on = terms.map(|term| Term {
+                node,
                 response,
-                ..Term::new(node, modifier.clone())
+                ..term
             });
-            terms.collect::<Vec<Term>>()
+            on.collect()
         };
         // An error of a column reaches all responses through the model.
-        if responses.len() == 1 || matches!(node, Node::Column(_)) {
-            all.push(Variation::of(label, term(None)));
-            continue;
+        if matches!(node, Node::Column(_)) || form.terms.is_empty() {
+            let terms = on(None);
+            return vec![Variation { terms, ..form }];
         }
-        for (index, response) in responses.iter().enumerate() {
-            let joined = if label.is_empty() {
-                response.name.clone()
-            } else {
-                format!("{}, {label}", response.name)
-            };
-            all.push(Variation::of(joined, term(Some(index))));
+        match fitted.case().responses.len() {
+            1 => vec![Variation {
+                terms: on(None),
+                ..form
+            }],
+            count => {
+                let parts = (0..count).map(|response| (response, on(Some(response))));
+                scoped(fitted, &form, parts.collect())
+            }
         }
-        let each = (0..responses.len())
-            .flat_map(|index| term(Some(index)))
-            .collect();
-        all.push(Variation::of(label, each));
-    }
+    };
+    let all = forms.into_iter().flat_map(each).collect();
+    let words = Words {
+        p: fitted.name(node),
+        ..words(fitted, along)
+    };
     Cell::new(id, words, Place::new(fitted.name(node), along), all)
+}
+
+/// What a form is on some responses: on each of them alone, if there are others, and on all together.
+pub(super) fn scoped(
+    fitted: &FittedModel<'_>,
+    form: &Variation,
+    parts: Vec<(usize, Vec<Term>)>,
+) -> Vec<Variation> {
+    let responses = &fitted.case().responses;
+    let with = |scope: &str, terms: Vec<Term>| {
+        let words = [scope, &form.label].into_iter();
+        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+        let times = terms.len() / form.terms.len().max(1);
+        Variation {
+            label: words.join(", "),
+            terms,
+            spectrum: form.spectrum.as_ref().map(|own| own.repeat(times)),
+            ..form.clone()
+        }
+    };
+    let all = || parts.iter().flat_map(|(_, terms)| terms.clone()).collect();
+    let together = (responses.len() == 1 || parts.len() > 1).then(|| with("", all()));
+    let own = parts.iter().filter(|_| responses.len() > 1);
+    let own = own.map(|(response, terms)| with(&responses[*response].name, terms.clone()));
+    let every = own.chain(together);
+    every.filter(|one| !one.terms.is_empty()).collect()
+}
+
+/// Sine and cosine of a phase, each with a size of its own.
+pub(super) fn wave(phase: &[f64], argument: &str) -> Vec<Modifier> {
+    vec![
+        Modifier::number(map(phase, libm::sin), format!("sin({argument})")),
+        Modifier::number(map(phase, libm::cos), format!("cos({argument})")),
+    ]
 }
 
 /// Words for one column.
@@ -113,7 +143,7 @@ pub(super) fn course(
         .iter()
         .flat_map(|course| scales.iter().map(|tau| (*course, *tau)));
     let tried: Vec<(Course, f64)> = each.collect();
-    let mut terms = tried.iter().map(|(course, tau)| late(*course, *tau));
-    let best = best(fitted, &mut terms);
+    let terms = tried.iter().map(|(course, tau)| late(*course, *tau));
+    let best = best(fitted, terms);
     best.map_or(possible[0], |at| tried[at].0)
 }

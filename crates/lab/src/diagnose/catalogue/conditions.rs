@@ -1,11 +1,12 @@
 //! What recorded conditions may do that the model leaves out: on the offset, on the scale, with a lag,
 //! squared, as a rate, inversely, and together.
 
-use super::building::{on_node, on_outputs, time_constants, words};
+use super::building::{form, on_node, on_output, time_constants};
 use super::fitted::{FittedModel, Node, varies};
-use super::modifiers::{centred, correlation, figure, late, levels_of, map, map2, range};
-use super::sharp::sharpened;
-use super::{Cell, EffectId, Modifier, Term, Variants, Words};
+use super::modifiers::{
+    centred, correlation, figure, five_digits, late, levels_of, map, map2, range,
+};
+use super::{Cell, EffectId, Modifier, Variation, Words};
 use crate::diagnose::case::Role;
 use gumption_core::quantity::Unit;
 
@@ -49,49 +50,35 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         (_, true) => EffectId::CrossSensitivity,
         _ => EffectId::Sensitivity,
     };
-    let on = |node: Node| delayed(fitted, column, node, &own);
-    let linear = |delayed: &Variants| -> Variants {
-        let leading = leading(fitted, column, &own);
-        delayed.iter().cloned().chain(leading).collect()
-    };
-    let delayed = on(Node::Output);
-    let words = words(fitted, &label);
-    cells.push(on_outputs(
-        fitted,
-        bias,
-        words.clone(),
-        &label,
-        linear(&delayed),
-    ));
-    let square: Variants = delayed
-        .iter()
-        .map(|(variant, modifiers)| {
-            let squares = modifiers.iter().take(1).map(Modifier::square);
-            (variant.clone(), squares.collect())
-        })
-        .collect();
-    let square = square.into_iter().chain(squares(fitted, column)).collect();
+    let delayed = delayed(fitted, column, &own);
+    let leading = leading(fitted, column, &own);
+    let linear: Vec<Variation> = delayed.iter().cloned().chain(leading).collect();
+    let offset =
+        |id: EffectId, forms: Vec<Variation>| on_node(fitted, id, &label, Node::Output, forms);
+    cells.push(offset(bias, linear.clone()));
+    let square = delayed.iter().map(|late| {
+        let squares = late.terms.iter().map(|term| term.modifier.square());
+        Variation {
+            terms: squares.map(on_output).collect(),
+            ..late.clone()
+        }
+    });
+    let square = square.chain(squares(fitted, column)).collect();
     let second = if temperature {
         EffectId::TempcoQuadratic
     } else {
         EffectId::SensitivityQuadratic
     };
-    cells.push(on_outputs(fitted, second, words.clone(), &label, square));
-    for (node, id) in scale_nodes(fitted, temperature) {
-        let variants = linear(&on(node));
-        let mut cell = on_node(fitted, id, words.clone(), &label, node, variants);
-        cell.words.p = fitted.name(node);
-        cells.push(cell);
+    cells.push(offset(second, square));
+    if fitted.has_signal() {
+        let id = match temperature {
+            true => EffectId::TempcoScale,
+            false => EffectId::SensitivityScale,
+        };
+        cells.push(on_node(fitted, id, &label, Node::Gain, linear.clone()));
+        let id = EffectId::SensitivityScaleQuadratic;
         let squares = squares(fitted, column);
-        let words = cells[cells.len() - 1].words.clone();
-        cells.push(on_node(
-            fitted,
-            EffectId::SensitivityScaleQuadratic,
-            words,
-            &label,
-            node,
-            squares,
-        ));
+        cells.push(on_node(fitted, id, &label, Node::Gain, squares));
     }
     if fitted.is_timed() {
         let id = if temperature {
@@ -99,13 +86,10 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         } else {
             EffectId::SensitivityRate
         };
-        let variants = vec![(String::new(), vec![fitted.rate(column)])];
-        cells.push(on_outputs(fitted, id, words, &label, variants));
+        cells.push(offset(id, vec![form("", vec![fitted.rate(column)])]));
     }
     if !stimulus && stands_for_temperature(fitted, column) {
-        let words = cells[0].words.clone();
-        let id = EffectId::UnrecordedTemperature;
-        cells.push(on_outputs(fitted, id, words, &label, linear(&delayed)));
+        cells.push(offset(EffectId::UnrecordedTemperature, linear.clone()));
     }
     let odds = if stimulus || !is_of_air(fitted, column) {
         1.0
@@ -113,7 +97,6 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         AIR
     };
     for cell in &mut cells {
-        shape(fitted, cell);
         cell.odds = match cell.effect.id {
             EffectId::UnrecordedTemperature => 1.0,
             _ if cell.effect.is_higher => odds * HIGHER,
@@ -147,7 +130,7 @@ fn stands_for_temperature(fitted: &FittedModel<'_>, column: usize) -> bool {
 
 /// The square alone, unless the numbers vary so little that it is a line, and the square about their middle with a linear
 /// part; nothing where they are the same up to their sign.
-fn squares(fitted: &FittedModel<'_>, column: usize) -> Variants {
+fn squares(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     /// Through so many values a square with a line goes anyhow.
     const FEW: usize = 3;
     let (x, label) = (fitted.numbers(column), fitted.label(column));
@@ -158,87 +141,45 @@ fn squares(fitted: &FittedModel<'_>, column: usize) -> Variants {
     let mut variants = Vec::new();
     if correlation(&square, x).abs() <= 0.995 {
         let own = Modifier::new(x.to_vec(), label, fitted.step_unit(column));
-        variants.push(("square alone".to_owned(), vec![own.square()]));
+        variants.push(form("square alone", vec![own.square()]));
     }
     if levels_of(x).len() > FEW {
         let own = fitted.centred(column);
-        variants.push(("with a linear part".to_owned(), vec![own.square(), own]));
+        variants.push(form("with a linear part", vec![own.square(), own]));
     }
     variants
 }
 
 /// The modifier without a lag, and with each of a series of time constants where it has to get through
 /// something first.
-fn delayed(fitted: &FittedModel<'_>, column: usize, node: Node, own: &Modifier) -> Variants {
-    let mut variants = vec![(String::new(), vec![own.clone()])];
+fn delayed(fitted: &FittedModel<'_>, column: usize, own: &Modifier) -> Vec<Variation> {
+    let mut variants = vec![form("", vec![own.clone()])];
     if fitted.is_timed() && !fitted.is_immediate(column) {
         let unit = fitted.time_unit();
         let course = |tau: f64| late(&fitted.clock.values, &own.values, &[], tau);
-        let term = |tau: f64| Term::new(node, Modifier::unnamed(course(tau)));
-        for tau in fitted
-            .finer
-            .times(sharpened(fitted, time_constants(fitted), &term))
-        {
-            let text = &own.text;
-            let inner = text
-                .strip_prefix('(')
-                .and_then(|text| text.strip_suffix(')'));
-            let inner = inner.unwrap_or(text);
-            let text = format!("lag({inner}, {tau} {unit})", tau = figure(tau));
-            variants.push((
-                format!("τ = {tau} {unit}", tau = figure(tau)),
-                vec![Modifier::new(course(tau), text, own.unit.clone())],
-            ));
-        }
+        let inner = own.text.strip_prefix('(');
+        let inner = inner.and_then(|text| text.strip_suffix(')'));
+        let inner = inner.unwrap_or(&own.text);
+        let scales = fitted.finer.times(time_constants(fitted));
+        variants.extend(scales.into_iter().map(|tau| {
+            let shown = format!("{} {unit}", figure(tau));
+            let text = format!("lag({inner}, {shown})");
+            let modifier = Modifier::new(course(tau), text, own.unit.clone());
+            let form = form(format!("τ = {shown}"), vec![modifier]);
+            form.shaped("τ", five_digits(tau), &unit)
+        }));
     }
     variants
 }
 
 /// The modifier and its rate of change, each with a size of its own: the sensor follows before or behind
 /// the instrument that shows the condition, by less than a lag can be told.
-fn leading(
-    fitted: &FittedModel<'_>,
-    column: usize,
-    own: &Modifier,
-) -> Option<(String, Vec<Modifier>)> {
+fn leading(fitted: &FittedModel<'_>, column: usize, own: &Modifier) -> Option<Variation> {
     let late = fitted.is_timed() && !fitted.is_immediate(column);
     late.then(|| {
-        (
-            "with its rate of change".to_owned(),
-            vec![own.clone(), fitted.rate(column)],
-        )
+        let both = vec![own.clone(), fitted.rate(column)];
+        form("with its rate of change", both)
     })
-}
-
-/// Notes the time constant of delayed variants.
-fn shape(fitted: &FittedModel<'_>, cell: &mut Cell) {
-    let unit = fitted.time_unit();
-    for variation in &mut cell.variants {
-        let Some((_, rest)) = variation.label.split_once("τ = ") else {
-            continue;
-        };
-        if let Some(tau) = rest
-            .split(' ')
-            .next()
-            .and_then(|number| number.parse().ok())
-        {
-            *variation = variation.clone().shaped("τ", tau, &unit);
-        }
-    }
-}
-
-/// The nodes that stand for the scale: parameters whose effect varies from row to row, or the whole signal.
-pub(super) fn scale_nodes(fitted: &FittedModel<'_>, temperature: bool) -> Vec<(Node, EffectId)> {
-    let id = if temperature {
-        EffectId::TempcoScale
-    } else {
-        EffectId::SensitivityScale
-    };
-    if fitted.has_signal() {
-        vec![(Node::Gain, id)]
-    } else {
-        Vec::new()
-    }
 }
 
 /// Whether a quantity with a true zero varies by so much that its inverse is no line.
@@ -256,44 +197,46 @@ fn reciprocal(fitted: &FittedModel<'_>, column: usize) -> Cell {
         format!("1/{label}"),
         Unit::one().quotient(&fitted.step_unit(column)),
     );
-    let variants = vec![(String::new(), vec![modifier])];
-    let node = scale_or_offset(fitted);
-    on_node(
+    on_scale(
         fitted,
         EffectId::Reciprocal,
-        words(fitted, &label),
         &label,
-        node,
-        variants,
+        [form("", vec![modifier])],
     )
 }
 
-fn scale_or_offset(fitted: &FittedModel<'_>) -> Node {
-    if fitted.has_signal() {
-        Node::Gain
-    } else {
-        Node::Output
-    }
+/// A cell on the scale, or on the offset where that is one.
+fn on_scale(
+    fitted: &FittedModel<'_>,
+    id: EffectId,
+    along: &str,
+    forms: impl IntoIterator<Item = Variation>,
+) -> Cell {
+    let node = match fitted.has_signal() {
+        true => Node::Gain,
+        false => Node::Output,
+    };
+    on_node(fitted, id, along, node, forms)
 }
 
 fn of_pair(fitted: &FittedModel<'_>, x: usize, z: usize) -> Vec<Cell> {
     let name = |column: usize| fitted.case().columns[column].name.clone();
     let along = format!("{}, {}", name(x), name(z));
-    let pair = Words {
-        z: name(z),
-        ..words(fitted, &name(x))
+    let pair = |cell: Cell| Cell {
+        words: Words {
+            x: name(x),
+            z: name(z),
+            ..cell.words
+        },
+        ..cell
     };
     let mut cells = Vec::new();
     if meet(fitted, x, z) {
+        let product = form("", vec![fitted.centred_product(x, z)]);
+        let (id, node) = (EffectId::Interaction, Node::Output);
         cells.push(Cell {
             odds: HIGHER,
-            ..on_outputs(
-                fitted,
-                EffectId::Interaction,
-                pair.clone(),
-                &along,
-                vec![(String::new(), vec![fitted.centred_product(x, z)])],
-            )
+            ..pair(on_node(fitted, id, &along, node, [product]))
         });
     }
     let (of_x, of_z) = (fitted.numbers(x), fitted.numbers(z));
@@ -312,19 +255,10 @@ fn of_pair(fitted: &FittedModel<'_>, x: usize, z: usize) -> Vec<Cell> {
         } else {
             EffectId::ReciprocalProduct
         };
-        let node = scale_or_offset(fitted);
-        cells.push(on_node(
-            fitted,
-            id,
-            pair,
-            &along,
-            node,
-            // Large corrections are curved.
-            vec![
-                (String::new(), vec![inverse.clone()]),
-                ("with its square".to_owned(), vec![inverse, square]),
-            ],
-        ));
+        // Large corrections are curved.
+        let curved = form("with its square", vec![inverse.clone(), square]);
+        let forms = [form("", vec![inverse]), curved];
+        cells.push(pair(on_scale(fitted, id, &along, forms)));
     }
     cells
 }
@@ -335,9 +269,4 @@ fn meet(fitted: &FittedModel<'_>, x: usize, z: usize) -> bool {
     let applied = |c: usize| fitted.case().columns[c].role == Role::Stimulus;
     let of_air = |c: usize| fitted.is_temperature(c) || is_of_air(fitted, c);
     applied(x) || applied(z) || of_air(x) && of_air(z)
-}
-
-/// Variants of the same modifiers; for other chapters.
-pub(super) fn single(label: &str, modifier: Modifier) -> Variants {
-    vec![(label.to_owned(), vec![modifier])]
 }

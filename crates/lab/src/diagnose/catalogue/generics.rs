@@ -4,13 +4,12 @@
 use std::f64::consts::PI;
 
 use super::angles::angles;
-use super::building::words;
+use super::building::{on_node, on_output};
 use super::fitted::{FittedModel, Node};
 use super::levels::{indicator, present};
-use super::modifiers::{map, range};
+use super::modifiers::{levels_of, map, range};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::{NoiseClaim, Role};
-use crate::diagnose::evidence::Place;
 
 /// Correlation length of smooth curves, as a part of the range.
 const LENGTH: f64 = 0.2;
@@ -63,7 +62,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         }
     }
     if !matches!(fitted.case().noise, NoiseClaim::Estimated) {
-        let mut scatter = generic(fitted, EffectId::Scatter, Node::Output, "row", &[]);
+        let mut scatter = generic(fitted, EffectId::Scatter, Node::Output, "row", &[&[]]);
         scatter.place.along = String::new();
         cells.push(scatter);
     }
@@ -72,13 +71,8 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
 
 /// What wanders like noise but jumps or comes in bursts.
 pub(in crate::diagnose) fn unsteady(fitted: &FittedModel<'_>) -> Cell {
-    generic(
-        fitted,
-        EffectId::Unsteady,
-        Node::Output,
-        &fitted.along_time(),
-        &[],
-    )
+    let (id, along) = (EffectId::Unsteady, fitted.along_time());
+    generic(fitted, id, Node::Output, &along, &[&[]])
 }
 
 /// What a smooth curve may follow.
@@ -100,25 +94,18 @@ fn courses(fitted: &FittedModel<'_>) -> Vec<(String, Vec<f64>)> {
         .collect()
 }
 
-fn distinct(x: &[f64]) -> Vec<f64> {
-    let mut values = x.to_vec();
-    values.sort_by(f64::total_cmp);
-    values.dedup();
-    values
-}
-
 /// A feature: what it multiplies, and the variance of its coefficient relative to the others.
 type Feature = (Modifier, f64);
 
 fn smooth(fitted: &FittedModel<'_>, node: Node, name: &str, course: &[f64]) -> Option<Cell> {
     let features = waves(course);
-    (features.len() >= LEAST).then(|| generic(fitted, EffectId::Smooth, node, name, &features))
+    (features.len() >= LEAST).then(|| generic(fitted, EffectId::Smooth, node, name, &[&features]))
 }
 
 /// Cosines over the range of a course, fewer where it has few values.
 fn waves(course: &[f64]) -> Vec<Feature> {
     let (least, most) = range(course);
-    let count = COSINES.min(distinct(course).len() - 1);
+    let count = COSINES.min(levels_of(course).len() - 1);
     let feature = |k: usize| {
         let wave = |x: f64| libm::cos(PI * k as f64 * (x - least) / (most - least));
         // Spectrum of a Gaussian process with a squared exponential kernel on the unit interval.
@@ -132,7 +119,7 @@ fn waves(course: &[f64]) -> Vec<Feature> {
 /// A value of its own at each value of a column that comes again and again.
 fn values(fitted: &FittedModel<'_>, node: Node, column: usize) -> Option<Cell> {
     let x = fitted.numbers(column);
-    let values = distinct(x);
+    let values = levels_of(x);
     // Before the features: a course that never comes back would have one for each row.
     if values.len() < 4 || values.len() * 2 > fitted.design.blocks.len() {
         return None;
@@ -166,20 +153,11 @@ fn labels(fitted: &FittedModel<'_>, node: Node, column: usize) -> Option<Cell> {
 fn at_levels(fitted: &FittedModel<'_>, node: Node, name: &str, features: &[Feature]) -> Cell {
     /// More levels are not looked at one by one.
     const MOST: usize = 24;
-    let mut cell = generic(fitted, EffectId::Levels, node, name, features);
-    if (3..=MOST).contains(&features.len()) {
-        for feature in features {
-            let single = generic(
-                fitted,
-                EffectId::Levels,
-                node,
-                name,
-                std::slice::from_ref(feature),
-            );
-            cell.variants.extend(single.variants);
-        }
-    }
-    cell
+    let single = features
+        .chunks(1)
+        .filter(|_| (3..=MOST).contains(&features.len()));
+    let forms: Vec<&[Feature]> = [features].into_iter().chain(single).collect();
+    generic(fitted, EffectId::Levels, node, name, &forms)
 }
 
 /// A smooth curve over the signal of each of some responses: errors of shape that no power has.
@@ -224,31 +202,13 @@ fn generic(
     id: EffectId,
     node: Node,
     along: &str,
-    features: &[Feature],
+    forms: &[&[Feature]],
 ) -> Cell {
-    let term = |(modifier, _): &Feature| Term::new(node, modifier.clone());
-    let variances = features.iter().map(|(_, variance)| *variance);
-    let on = |response: usize| features.iter().map(move |f| term(f).on(response));
-    let responses = &fitted.case().responses;
-    let mut variants = Vec::new();
-    let mut add = |label: &str, terms: Vec<Term>, spectrum: Vec<f64>| {
-        variants.push(unnamed(label, terms, spectrum));
+    let form = |features: &&[Feature]| {
+        let (terms, spectrum) = (features.iter())
+            .map(|(modifier, variance)| (on_output(modifier.clone()), *variance))
+            .unzip();
+        unnamed("", terms, spectrum)
     };
-    if responses.len() == 1 || matches!(node, Node::Column(_)) || features.is_empty() {
-        add("", features.iter().map(term).collect(), variances.collect());
-    } else {
-        for (index, response) in responses.iter().enumerate() {
-            add(
-                &response.name,
-                on(index).collect(),
-                variances.clone().collect(),
-            );
-        }
-        let terms = (0..responses.len()).flat_map(on).collect();
-        let spectrum = responses.iter().flat_map(|_| variances.clone()).collect();
-        add("", terms, spectrum);
-    }
-    let mut words = words(fitted, along);
-    words.p = fitted.name(node);
-    Cell::new(id, words, Place::new(fitted.name(node), along), variants)
+    on_node(fitted, id, along, node, forms.iter().map(form))
 }

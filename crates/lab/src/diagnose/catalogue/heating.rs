@@ -1,6 +1,6 @@
 //! Self-heating: the power of the signal warms what senses it, and warmth needs time.
 
-use super::building::{course, time_constants, words};
+use super::building::{course, scoped, time_constants, words};
 use super::fitted::{FittedModel, Node, varies};
 use super::inputs::Signal;
 use super::modifiers::{Course, figure, largest};
@@ -42,23 +42,18 @@ fn of_signals(fitted: &FittedModel<'_>) -> Cell {
     let warm = responses.into_iter().map(|response| {
         let signal = Signal::new(fitted, response);
         let power = Modifier::number(signal.parts, signal.text).square();
-        late(fitted, Term::new(Node::Gain, power).on(response))
+        let at_once = Term::new(Node::Gain, power).on(response);
+        (response, late(fitted, at_once))
     });
     let warm: Vec<_> = warm.collect();
     let mut variants = Vec::new();
     for tau in fitted.finer.times(time_constants(fitted)) {
         let label = format!("τ = {} {unit}", figure(tau));
-        let terms: Vec<Term> = warm.iter().map(|warm| warm(tau)).collect();
-        if terms.len() > 1 {
-            for term in &terms {
-                let name = term.response.map(|r| &fitted.case().responses[r].name);
-                let label = format!("{}, {label}", name.map_or("", String::as_str));
-                variants.push(Variation::one(label, term.clone()).shaped("τ", tau, &unit));
-            }
-        }
-        if !terms.is_empty() {
-            variants.push(Variation::of(label, terms).shaped("τ", tau, &unit));
-        }
+        let parts = warm
+            .iter()
+            .map(|(response, warm)| (*response, vec![warm(tau)]));
+        let form = Variation::of(label, Vec::new()).shaped("τ", tau, &unit);
+        variants.extend(scoped(fitted, &form, parts.collect()));
     }
     cell(fitted, Node::Gain, "signal", variants)
 }

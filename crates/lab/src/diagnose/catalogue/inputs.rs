@@ -4,7 +4,7 @@
 //! The signal of a response, what its model gives besides constant terms, is the input of its axis in units
 //! of the output. Here it is a part of the largest signal, so that all sizes are parts of the range.
 
-use super::building::time_constants;
+use super::building::{scoped, time_constants};
 use super::fitted::{FittedModel, Node, varies};
 use super::generics::over_signals;
 use super::history::comes_back;
@@ -188,36 +188,20 @@ impl<'l> Shaped<'l> {
 
 /// A cell whose effect may be on one axis, or on all of them, on each with a size of its own.
 fn cell(fitted: &FittedModel<'_>, inputs: &[Input], id: EffectId, laws: Vec<Shaped<'_>>) -> Cell {
-    let case = fitted.case();
     let mut variants = Vec::new();
     for Shaped { label, shape, law } in laws {
-        let terms = |input: &Input| -> Vec<Term> {
+        let part = |input: &Input| -> (usize, Vec<Term>) {
             let modifiers = law(input).into_iter();
             let moving = modifiers.filter(|modifier| varies(&modifier.values));
-            moving
-                .map(|modifier| Term::new(Node::Output, modifier).on(input.response))
-                .collect()
+            let terms = moving.map(|modifier| Term::new(Node::Output, modifier).on(input.response));
+            (input.response, terms.collect())
         };
-        let mut add = |scope: &str, terms: Vec<Term>| {
-            if terms.is_empty() {
-                return;
-            }
-            let words = [scope, &label];
-            let label: Vec<&str> = words.into_iter().filter(|w| !w.is_empty()).collect();
-            let variation = Variation::of(label.join(", "), terms);
-            variants.push(match &shape {
-                Some((symbol, value, unit)) => variation.shaped(symbol, *value, unit),
-                None => variation,
-            });
+        let form = Variation::of(label, Vec::new());
+        let form = match &shape {
+            Some((symbol, value, unit)) => form.shaped(symbol, *value, unit),
+            None => form,
         };
-        if case.responses.len() > 1 {
-            for input in inputs {
-                add(&case.responses[input.response].name, terms(input));
-            }
-        }
-        if case.responses.len() == 1 || inputs.len() > 1 {
-            add("", inputs.iter().flat_map(terms).collect());
-        }
+        variants.extend(scoped(fitted, &form, inputs.iter().map(part).collect()));
     }
     let (words, place) = (words(fitted, inputs), place(fitted));
     Cell::new(id, words, place, variants)

@@ -1,9 +1,9 @@
 //! Levels of factors: runs, instruments, operators, mounts, directions.
 
-use super::building::{on_node, words};
+use super::building::{form, on_node};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::map;
-use super::{Cell, EffectId, Modifier, Variants};
+use super::{Cell, EffectId, Modifier, Variation};
 use crate::diagnose::case::Role;
 use crate::recording::Labels;
 
@@ -81,16 +81,13 @@ fn shifts(
         )
     };
     // Differences to the first level: the mean is the model's own.
-    let all = (
-        String::new(),
-        levels[1..].iter().map(|level| column(*level)).collect(),
-    );
+    let all = form("", levels[1..].iter().map(|level| column(*level)).collect());
     let one = |level: &u32| {
         let label = format!("{name} {}", text(labels, *level));
-        (label, vec![column(*level)])
+        form(label, vec![column(*level)])
     };
     // With two levels a shift of one is a shift between both.
-    let alone: Variants = match levels.len() {
+    let alone: Vec<Variation> = match levels.len() {
         2 => Vec::new(),
         _ => levels.iter().map(one).collect(),
     };
@@ -100,34 +97,32 @@ fn shifts(
         Vec::new()
     };
     // Each kind is as likely as the others, however many variants it has.
-    let kinds = [vec![all], alone, onwards];
-    let weights = kinds
-        .iter()
-        .flat_map(|kind| kind.iter().map(|_| 1.0 / kind.len() as f64));
-    let weights: Vec<f64> = weights.collect();
-    let variants: Variants = kinds.into_iter().flatten().collect();
-    let nodes = [
-        (Node::Output, EffectId::LevelShift),
-        (Node::Gain, EffectId::LevelScale),
-    ];
-    nodes
-        .into_iter()
-        .filter(|(node, _)| *node == Node::Output || fitted.has_signal())
-        .map(|(node, id)| {
-            let words = words(fitted, name);
-            let mut cell = on_node(fitted, id, words, name, node, variants.clone());
-            // Each variant on all outputs, and on each of them.
-            let scopes = cell.variants.len() / weights.len();
-            for (number, variation) in cell.variants.iter_mut().enumerate() {
-                variation.weight = weights[number / scopes];
-            }
-            cell
+    let weighted = |kind: Vec<Variation>| {
+        let weight = 1.0 / kind.len() as f64;
+        let own = kind.into_iter();
+        own.map(move |variation| Variation {
+            weight,
+            ..variation
         })
-        .collect()
+    };
+    let kinds = [vec![all], alone, onwards].into_iter();
+    let forms: Vec<Variation> = kinds.flat_map(weighted).collect();
+    let mut cells = vec![on_node(
+        fitted,
+        EffectId::LevelShift,
+        name,
+        Node::Output,
+        forms.clone(),
+    )];
+    if fitted.has_signal() {
+        let id = EffectId::LevelScale;
+        cells.push(on_node(fitted, id, name, Node::Gain, forms));
+    }
+    cells
 }
 
 /// From one level on, with more than one level on both sides.
-fn changes(name: &str, labels: &Labels, levels: &[u32]) -> Variants {
+fn changes(name: &str, labels: &Labels, levels: &[u32]) -> Vec<Variation> {
     levels[2..levels.len() - 1]
         .iter()
         .map(|first| {
@@ -136,13 +131,8 @@ fn changes(name: &str, labels: &Labels, levels: &[u32]) -> Variants {
                 .iter()
                 .map(|of| f64::from(u8::from(of >= first)));
             let label = text(labels, *first);
-            (
-                format!("from {name} {label} on"),
-                vec![Modifier::number(
-                    modifier.collect(),
-                    format!("[{name} >= {label}]"),
-                )],
-            )
+            let since = Modifier::number(modifier.collect(), format!("[{name} >= {label}]"));
+            form(format!("from {name} {label} on"), vec![since])
         })
         .collect()
 }
@@ -150,16 +140,8 @@ fn changes(name: &str, labels: &Labels, levels: &[u32]) -> Variants {
 fn directions(fitted: &FittedModel<'_>, name: &str, labels: &Labels, levels: &[u32]) -> Vec<Cell> {
     let last = indicator(labels, levels[levels.len() - 1]);
     let modifier = map(&last, |x| 2.0 * x - 1.0);
-    let variants: Variants = vec![(
-        String::new(),
-        vec![Modifier::number(modifier, format!("direction({name})"))],
-    )];
-    vec![on_node(
-        fitted,
-        EffectId::Hysteresis,
-        words(fitted, name),
-        name,
-        Node::Output,
-        variants,
-    )]
+    let way = Modifier::number(modifier, format!("direction({name})"));
+    let form = form("", vec![way]);
+    let id = EffectId::Hysteresis;
+    vec![on_node(fitted, id, name, Node::Output, [form])]
 }

@@ -1,12 +1,11 @@
 //! Ends of the range and dead zones of a column: saturation, a change of slope, a band around zero in which
 //! nothing happens.
 
-use super::building::{on_node, on_output, plain, words};
+use super::building::{form, on_node, on_output, plain};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{figure, figure_to, five_digits, largest, levels_of, map, range, rounded};
-use super::sharp::sharpened;
 use super::stuck::{beside, moves_on};
-use super::{Cell, EffectId, Modifier, Term, Variants, Variation};
+use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Response;
 
 /// Rounding of knees in formulas, as a share of the range: whoever writes the formula into a model has the
@@ -84,7 +83,7 @@ fn ceiling(fitted: &FittedModel<'_>, response: usize, sign: f64) -> Option<Varia
     if there.len() < ROWS || !moves_on(fitted, response, &observed, there) {
         return None;
     }
-    let model = beside(fitted, response, &observed, &is_at)?;
+    let model = beside(fitted, response, &observed, &is_at);
     let modifier = map(&model, |y| -(sign * (y - level)).max(0.0) * sign);
     let Response { name, unit, .. } = &fitted.case().responses[response];
     let (least, end) = if sign > 0.0 {
@@ -106,32 +105,17 @@ fn dead_band(fitted: &FittedModel<'_>, column: usize) -> Cell {
     let (x, name) = (fitted.numbers(column), fitted.label(column));
     let unit = fitted.case().columns[column].unit.typeset();
     let most = largest(x);
-    let step = (
-        String::new(),
-        vec![Modifier::number(
-            map(x, |x| if x == 0.0 { 0.0 } else { x.signum() }),
-            format!("sign({name})"),
-        )],
-    );
+    let sign = map(x, |x| if x == 0.0 { 0.0 } else { x.signum() });
+    let step = form("", vec![Modifier::number(sign, format!("sign({name})"))]);
     let bands = [0.05, 0.1, 0.2].map(|share| {
         let width = five_digits(share * most);
         let modifier = map(x, |x| (x / width).clamp(-1.0, 1.0));
         let text = format!("clamp({name}/({}), -1, 1)", fitted.figure(column, width));
-        (
-            format!("within {width} {unit}"),
-            vec![Modifier::number(modifier, text)],
-        )
+        let label = format!("within {width} {unit}");
+        form(label, vec![Modifier::number(modifier, text)])
     });
-    let variants: Variants = [step].into_iter().chain(bands).collect();
-    let words = words(fitted, name);
-    on_node(
-        fitted,
-        EffectId::ZeroStep,
-        words,
-        name,
-        Node::Output,
-        variants,
-    )
+    let forms = [step].into_iter().chain(bands);
+    on_node(fitted, EffectId::ZeroStep, name, Node::Output, forms)
 }
 
 /// Both ends bend alike.
@@ -146,9 +130,7 @@ fn soft_limit(fitted: &FittedModel<'_>, column: usize) -> Cell {
         on_output(Modifier::new(modifier, text, fitted.step_unit(column)))
     };
     let limits = [0.5, 0.6, 0.7, 0.8, 0.9].map(|share| share * most);
-    let limits = fitted
-        .finer
-        .levels(sharpened(fitted, limits.into(), &beyond));
+    let limits = fitted.finer.levels(limits.into());
     let variants = limits.into_iter().map(|limit| {
         let label = format!("above {} {unit}", figure(limit));
         Variation::one(label, beyond(limit)).shaped("x₀", limit, &unit)

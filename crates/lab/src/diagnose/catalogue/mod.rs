@@ -11,7 +11,6 @@
 //! | `modifiers` | what a disturbance may follow, computed row by row |
 //! | `building` | what the forms are built of: cells, words, grids of time constants |
 //! | `absorbed` | what the parameters take away from a regressor |
-//! | `sharp` | grids of time constants and knees, with the best value exactly |
 //! | `fitted` | the fitted model: slopes of the nodes, and which columns can be what |
 //! | `response`, `powers`, `limits`, `history` | what a stimulus does otherwise than declared |
 //! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
@@ -48,7 +47,6 @@ mod powers;
 mod readout;
 mod response;
 mod rows;
-mod sharp;
 mod stem;
 mod stuck;
 mod time;
@@ -196,9 +194,6 @@ impl Modifier {
         )
     }
 }
-
-/// Labels of variants with the modifiers of their terms.
-type Variants = Vec<(String, Vec<Modifier>)>;
 
 /// A disturbance of one node.
 #[derive(Debug, Clone)]

@@ -1,7 +1,7 @@
 //! What makes a parameter of the model another one from row to row: a condition, the time, the run. Offset
 //! and scale have chapters of their own; this is about time constants, exponents, angles, coefficients.
 
-use super::building::{on_node, words};
+use super::building::{form, on_node};
 use super::fitted::{FittedModel, Node, varies};
 use super::levels::{indicator, present};
 use super::modifiers::largest;
@@ -50,10 +50,7 @@ fn of_parameter(fitted: &FittedModel<'_>, node: Node) -> Vec<Cell> {
     let case = fitted.case();
     let mut cells = Vec::new();
     let mut add = |id: EffectId, along: &str, modifiers: Vec<Modifier>| {
-        let variants = vec![(String::new(), modifiers)];
-        let mut cell = on_node(fitted, id, words(fitted, along), along, node, variants);
-        cell.words.p = fitted.name(node);
-        cells.push(cell);
+        cells.push(on_node(fitted, id, along, node, [form("", modifiers)]));
     };
     for column in fitted.numeric() {
         if fitted.in_model(column) {

@@ -1,14 +1,13 @@
 //! How the response to the stimuli may differ from the declared one: powers, modulus, limits, cross terms,
 //! lag.
 
-use super::building::{course, on_node, on_output, on_outputs, time_constants, words};
+use super::building::{course, form, on_node, on_output, time_constants, words};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{
     Course, creeps, delayed, figure, five_digits, grid, levels_of, map, map2, mean, range,
 };
 use super::norm::Norm;
 use super::powers::Power;
-use super::sharp::{best_pair, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
@@ -66,8 +65,8 @@ fn aside(fitted: &FittedModel<'_>, factors: &[usize]) -> Vec<Cell> {
             Role::Stimulus => EffectId::CrossSensitivity,
             _ => EffectId::Sensitivity,
         };
-        let variants = vec![(String::new(), each.collect())];
-        on_outputs(fitted, id, words(fitted, &names), &names, variants)
+        let form = form("", each.collect());
+        on_node(fitted, id, &names, Node::Output, [form])
     };
     vectors.iter().map(of_vector).collect()
 }
@@ -97,15 +96,9 @@ fn exponent(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let middle = five_digits(libm::exp(mean(&map(x, libm::log))));
     let modifier = map(x, |x| libm::log(x / middle));
     let text = format!("ln({label}/({}))", fitted.figure(column, middle));
-    let variants = vec![(String::new(), vec![Modifier::number(modifier, text)])];
-    Some(on_node(
-        fitted,
-        EffectId::Exponent,
-        words(fitted, label),
-        label,
-        Node::Gain,
-        variants,
-    ))
+    let form = form("", vec![Modifier::number(modifier, text)]);
+    let id = EffectId::Exponent;
+    Some(on_node(fitted, id, label, Node::Gain, [form]))
 }
 
 /// Curvature of the response to a factor of a product of quantities of different kinds, such as current times
@@ -133,9 +126,8 @@ fn bends(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
             _ => format!("{label}*({label}/({shown}))^{}", exponent - 1),
         };
         let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
-        let variants = vec![(String::new(), vec![modifier])];
-        let node = Node::Column(column);
-        on_node(fitted, id, words(fitted, label), label, node, variants)
+        let form = form("", vec![modifier]);
+        on_node(fitted, id, label, Node::Column(column), [form])
     };
     vec![power(EffectId::Quadratic, 2), power(EffectId::Cubic, 3)]
 }
@@ -159,15 +151,9 @@ fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     if fitted.passes_zero(column) {
         let text = format!("abs({label})");
         let modulus = Modifier::new(map(x, f64::abs), text, fitted.step_unit(column));
-        let variants = vec![(String::new(), vec![modulus])];
-        let words = words(fitted, label);
-        cells.push(on_outputs(
-            fitted,
-            EffectId::Asymmetry,
-            words,
-            label,
-            variants,
-        ));
+        let form = form("", vec![modulus]);
+        let id = EffectId::Asymmetry;
+        cells.push(on_node(fitted, id, label, Node::Output, [form]));
     } else if !fitted.is_temperature(column) {
         cells[0].variants.extend(levelling(fitted, column));
     }
@@ -175,16 +161,9 @@ fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
 }
 
 fn power(fitted: &FittedModel<'_>, column: usize, id: EffectId, power: Power) -> Cell {
+    let term = on_output(power.searched).written_as(power.written);
     let label = name(fitted, column);
-    let variants = vec![(String::new(), vec![power.searched])];
-    let mut cell = on_outputs(fitted, id, words(fitted, label), label, variants);
-    for variation in &mut cell.variants {
-        let terms = std::mem::take(&mut variation.terms).into_iter();
-        variation.terms = terms
-            .map(|term| term.written_as(power.written.clone()))
-            .collect();
-    }
-    cell
+    on_node(fitted, id, label, Node::Output, [Variation::one("", term)])
 }
 
 /// A square that levels off, as counting losses of a dead time do, and detectors near their limit.
@@ -244,7 +223,7 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     };
     let course = course(fitted, x, &lacking);
     let lacks = |tau: f64| lacking(course, tau);
-    let scales = sharpened(fitted, time_constants(fitted), &lacks);
+    let scales = time_constants(fitted);
     let singles = fitted.finer.times(scales.clone());
     let single = singles.iter().map(|tau| {
         let label = format!("τ = {} {unit}", figure(*tau));
@@ -259,10 +238,6 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
             Variation::of(label, vec![lacks(*tau), lacks(slow)])
         })
     });
-    let free = best_pair(fitted, &scales, &lacks).map(|(quick, slow)| {
-        let label = format!("τ = {} and {} {unit}", figure(quick), figure(slow));
-        Variation::of(label, vec![lacks(quick), lacks(slow)])
-    });
     // What the recording begins with was on its way already.
     let began = t.first().copied().unwrap_or(0.0);
     let unbalanced = scales.iter().filter(|_| creeps(x)).map(|tau| {
@@ -274,7 +249,7 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         let label = format!("τ = {shown} {unit}, not in balance at the start");
         Variation::of(label, vec![lacks(*tau), start]).shaped("τ", *tau, &unit)
     });
-    let variants = single.chain(double).chain(free).chain(unbalanced);
+    let variants = single.chain(double).chain(unbalanced);
     let lagged = Cell::new(
         id,
         words(fitted, label),
@@ -322,8 +297,7 @@ fn delays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     let instant = Term::new(Node::Column(column), fitted.rate(column).negated());
     let mut variants = vec![Variation::one("", instant)];
     for sign in [1.0, -1.0] {
-        let sizes = sharpened(fitted, sizes.clone(), &|size| late(sign * size));
-        variants.extend(fitted.finer.times(sizes).into_iter().map(|size| {
+        variants.extend(fitted.finer.times(sizes.clone()).into_iter().map(|size| {
             let by = sign * size;
             let label = format!("by about {} {unit}", figure(by));
             Variation::one(label, late(by)).shaped("δ", size, &unit)
@@ -333,17 +307,22 @@ fn delays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
 }
 
 fn interaction(fitted: &FittedModel<'_>, x: usize, z: usize) -> Cell {
-    let variants = vec![(String::new(), vec![fitted.centred_product(x, z)])];
-    let (x, z) = (name(fitted, x).to_owned(), name(fitted, z).to_owned());
-    let words = Words {
-        z: z.clone(),
-        ..words(fitted, &x)
-    };
-    on_outputs(
+    let product = form("", vec![fitted.centred_product(x, z)]);
+    let (x, z) = (name(fitted, x), name(fitted, z));
+    let along = format!("{x}, {z}");
+    let cell = on_node(
         fitted,
         EffectId::Interaction,
-        words,
-        &format!("{x}, {z}"),
-        variants,
-    )
+        &along,
+        Node::Output,
+        [product],
+    );
+    Cell {
+        words: Words {
+            x: x.to_owned(),
+            z: z.to_owned(),
+            ..cell.words
+        },
+        ..cell
+    }
 }

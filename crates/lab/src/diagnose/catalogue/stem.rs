@@ -1,9 +1,9 @@
 //! Loss along the stem of a probe, which dies away with the depth of immersion.
 
-use super::building::{on_node, words};
+use super::building::{form, on_node};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, five_digits, levels_of, map, range};
-use super::{Cell, EffectId, Modifier, Variants};
+use super::{Cell, EffectId, Modifier};
 
 /// Cells of columns that may be depths.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
@@ -20,27 +20,17 @@ fn stem(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     }
     let name = fitted.label(column);
     let unit = fitted.case().columns[column].unit.typeset();
-    let variants: Variants = [0.1, 0.2, 0.4, 0.8]
-        .map(|part| {
-            let depth = five_digits(part * (most - least));
-            let shown = figure(depth);
-            let modifier = map(x, |x| libm::exp(-(x - least) / depth));
-            let text = format!(
-                "exp(-{}/({}))",
-                fitted.less(column, least),
-                fitted.figure(column, depth)
-            );
-            let modifier = Modifier::number(modifier, text);
-            (format!("over {shown} {unit}"), vec![modifier])
-        })
-        .into();
-    let words = words(fitted, name);
-    Some(on_node(
-        fitted,
-        EffectId::Immersion,
-        words,
-        name,
-        Node::Gain,
-        variants,
-    ))
+    let forms = [0.1, 0.2, 0.4, 0.8].map(|part| {
+        let depth = five_digits(part * (most - least));
+        let modifier = map(x, |x| libm::exp(-(x - least) / depth));
+        let text = format!(
+            "exp(-{}/({}))",
+            fitted.less(column, least),
+            fitted.figure(column, depth)
+        );
+        let label = format!("over {} {unit}", figure(depth));
+        form(label, vec![Modifier::number(modifier, text)])
+    });
+    let id = EffectId::Immersion;
+    Some(on_node(fitted, id, name, Node::Gain, forms))
 }

@@ -1,12 +1,13 @@
 //! Readings that stand still while the model moves on: a logger that repeats its last value, a frozen channel,
 //! a lock that was left on.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::building::{on_output, plain};
-use super::fitted::{FittedModel, Node, varies};
-use super::modifiers::{range, typical_step};
+use super::fitted::FittedModel;
+use super::modifiers::{map2, range, typical_step};
 use super::{Cell, EffectId, Modifier, Variation};
+use crate::diagnose::evidence;
 
 /// Fewer readings in a row are alike by chance.
 const ROWS: usize = 5;
@@ -37,9 +38,8 @@ fn of_response(fitted: &FittedModel<'_>, response: usize) -> Vec<Variation> {
     let held = found.into_iter().take(STRETCHES);
     let unit = fitted.case().responses[response].unit.difference();
     held.filter_map(|(first, last)| {
-        let model = beside(fitted, response, &observed, &|row| {
-            (first..last).contains(&row)
-        })?;
+        let is_such = |row: usize| (first..last).contains(&row);
+        let model = beside(fitted, response, &observed, &is_such);
         let modifier: Vec<f64> = (0..observed.len())
             .map(|row| match (first..last).contains(&row) {
                 true => observed[first] - model[row],
@@ -104,31 +104,17 @@ pub(super) fn beside(
     response: usize,
     observed: &[f64],
     is_such: &dyn Fn(usize) -> bool,
-) -> Option<Vec<f64>> {
+) -> Vec<f64> {
     let model = &fitted.fit.linear.values[response];
-    let slopes: Vec<Vec<f64>> = (0..fitted.case().parameters.len())
-        .map(|parameter| fitted.slope(Node::Parameter(parameter), response))
-        .filter(|slope| varies(slope) || slope.iter().any(|s| *s != 0.0))
-        .collect();
-    if slopes.is_empty() {
-        return Some(model.clone());
-    }
+    let parameters = fitted.case().parameters.len();
+    let slopes = fitted.fit.linear.slopes[response].columns(0, parameters);
     let others: Vec<usize> = (0..observed.len()).filter(|row| !is_such(*row)).collect();
-    let design = DMatrix::from_fn(others.len(), slopes.len(), |row, at| {
-        slopes[at][others[row]]
-    });
     let rest = DVector::from_fn(others.len(), |row, _| {
         observed[others[row]] - model[others[row]]
     });
-    let change = design.svd(true, true).solve(&rest, 1e-12).ok()?;
-    let of_row = |row: usize| -> f64 {
-        let moved = slopes.iter().zip(change.iter());
-        model[row]
-            + moved
-                .map(|(slope, change)| slope[row] * change)
-                .sum::<f64>()
-    };
-    Some((0..observed.len()).map(of_row).collect())
+    let change = evidence::inverse(&slopes.select_rows(&others)) * rest;
+    let moved = slopes * change;
+    map2(model, moved.as_slice(), |model, moved| model + moved)
 }
 
 #[cfg(test)]

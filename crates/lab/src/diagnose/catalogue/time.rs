@@ -1,11 +1,10 @@
 //! Laws of time: drift, ageing, warm-up, season, steps.
 
-use super::building::{on_node, words};
-use super::conditions::single;
+use super::absorbed::best;
+use super::building::{form, on_node, wave};
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{figure, grid, map, range};
-use super::sharp::{self, sharpened};
-use super::{Cell, EffectId, Modifier, Term, Variants};
+use super::modifiers::{figure, five_digits, grid, map, range};
+use super::{Cell, EffectId, Modifier, Term, Variation};
 use gumption_core::quantity::Unit;
 
 /// More steps than that are not scanned.
@@ -31,44 +30,26 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         vec![Node::Output]
     };
     let mut cells = Vec::new();
-    let mut add = |ids: &[EffectId], variants: Variants, symbol: Option<&'static str>| {
+    let mut add = |ids: &[EffectId], forms: Vec<Variation>| {
         for (node, id) in nodes.iter().zip(ids) {
-            let mut cell = on_node(
-                fitted,
-                *id,
-                words(fitted, &along),
-                &along,
-                *node,
-                variants.clone(),
-            );
-            cell.words.p = fitted.name(*node);
-            if let Some(symbol) = symbol {
-                shaped(fitted, &mut cell, symbol);
-            }
-            cells.push(cell);
+            cells.push(on_node(fitted, *id, &along, *node, forms.clone()));
         }
     };
-    let steady = single("", fitted.centred_time());
     let scales = grid(
         (span * 3e-3).max(fitted.clock.interval()),
         span / 3.0,
         2.2,
         7,
     );
-    let mut drifts = steady;
+    let mut drifts = vec![form("", vec![fitted.centred_time()])];
     if fitted.is_timed() {
-        let slowing = |scale: f64| {
-            let modifier = map(&since, |t| libm::log1p(t / scale));
-            Term::new(Node::Output, Modifier::unnamed(modifier))
-        };
-        let scales = sharpened(fitted, scales.clone(), &slowing);
-        drifts.extend(curved(fitted, &since, &began, &fitted.finer.times(scales)));
+        let scales = fitted.finer.times(scales.clone());
+        drifts.extend(curved(fitted, &since, &began, &scales));
     }
-    add(&[EffectId::Drift, EffectId::DriftScale], drifts, Some("t₀"));
+    add(&[EffectId::Drift, EffectId::DriftScale], drifts);
     add(
         &[EffectId::Step, EffectId::StepScale],
         steps(fitted, &along),
-        None,
     );
     if fitted.is_timed() {
         let unit = fitted.time_unit();
@@ -77,24 +58,18 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
             let text = format!("exp(-{began}/({} {unit}))", figure(tau));
             Modifier::number(modifier, text)
         };
-        let warming = |tau: f64| Term::new(Node::Output, decay(tau));
-        let scales = sharpened(fitted, scales, &warming);
         let singles = fitted.finer.times(scales.clone());
         let single = singles.iter().map(|tau| {
             let label = format!("τ = {} {unit}", figure(*tau));
-            (label, vec![decay(*tau)])
+            form(label, vec![decay(*tau)]).shaped("τ", five_digits(*tau), &unit)
         });
         // A small body warms in a large one.
         let double = scales.iter().step_by(2).map(|tau| {
             let label = format!("τ = {} and {} {unit}", figure(*tau), figure(4.0 * tau));
-            (label, vec![decay(*tau), decay(4.0 * tau)])
+            form(label, vec![decay(*tau), decay(4.0 * tau)])
         });
         let decays = single.chain(double).collect();
-        add(
-            &[EffectId::WarmUp, EffectId::WarmUpScale],
-            decays,
-            Some("τ"),
-        );
+        add(&[EffectId::WarmUp, EffectId::WarmUpScale], decays);
         for (id, period, least, most) in [
             (EffectId::Season, 365.2422 * 86_400.0, 0.75, 60.0),
             (EffectId::Daily, 86_400.0, 1.0, 60.0),
@@ -108,13 +83,9 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
                 } else {
                     "24 h"
                 };
-                let wave =
-                    |f: fn(f64) -> f64| map(&since, |t| f(std::f64::consts::TAU * t / period));
-                let pair = vec![
-                    Modifier::number(wave(libm::sin), format!("sin(2*pi*{began}/({name}))")),
-                    Modifier::number(wave(libm::cos), format!("cos(2*pi*{began}/({name}))")),
-                ];
-                add(&[id], vec![(String::new(), pair)], None);
+                let phase = map(&since, |t| std::f64::consts::TAU * t / period);
+                let pair = wave(&phase, &format!("2*pi*{began}/({name})"));
+                add(&[id], vec![form("", pair)]);
             }
         }
     }
@@ -123,44 +94,28 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
 
 /// Drifts that are not steady: bent, and slowing down with the logarithm of time, as where many processes
 /// relax, or with its root, as where something diffuses.
-fn curved(fitted: &FittedModel<'_>, since: &[f64], began: &str, scales: &[f64]) -> Variants {
+fn curved(fitted: &FittedModel<'_>, since: &[f64], began: &str, scales: &[f64]) -> Vec<Variation> {
     let unit = fitted.time_unit();
     let logarithms = scales.iter().map(|scale| {
         let shown = figure(*scale);
-        (
-            format!("slowing down, t₀ = {shown} {unit}"),
-            vec![Modifier::number(
-                map(since, |t| libm::log1p(t / scale)),
-                format!("ln(1 + {began}/({shown} {unit}))"),
-            )],
-        )
+        let slowing = Modifier::number(
+            map(since, |t| libm::log1p(t / scale)),
+            format!("ln(1 + {began}/({shown} {unit}))"),
+        );
+        let label = format!("slowing down, t₀ = {shown} {unit}");
+        form(label, vec![slowing]).shaped("t₀", five_digits(*scale), &unit)
     });
     let per_root = fitted.clock_unit().powr(1, 2).unwrap_or_else(Unit::one);
     let root = Modifier::new(map(since, libm::sqrt), format!("sqrt({began})"), per_root);
-    let root = ("with the root of time".to_owned(), vec![root]);
+    let root = form("with the root of time", vec![root]);
     let linear = fitted.centred_time();
     let square = linear.square();
-    let bent = ("bent".to_owned(), vec![linear, square]);
+    let bent = form("bent", vec![linear, square]);
     logarithms.chain([root, bent]).collect()
 }
 
-/// Notes the continuous parameter that stands in the labels.
-fn shaped(fitted: &FittedModel<'_>, cell: &mut Cell, symbol: &'static str) {
-    let unit = fitted.time_unit();
-    for variation in &mut cell.variants {
-        // Two time constants are not one.
-        let single = !variation.label.contains(" and ");
-        let number = variation.label.split("= ").nth(1);
-        let number = number.and_then(|rest| rest.split(' ').next());
-        let value = number.and_then(|number| number.parse().ok());
-        if let Some(value) = value.filter(|_| single) {
-            *variation = variation.clone().shaped(symbol, value, &unit);
-        }
-    }
-}
-
 /// Steps before each block, or before some of them evenly.
-fn steps(fitted: &FittedModel<'_>, along: &str) -> Variants {
+fn steps(fitted: &FittedModel<'_>, along: &str) -> Vec<Variation> {
     let blocks = &fitted.design.blocks;
     let stride = blocks.len().div_ceil(MOST_STEPS);
     let t = &fitted.clock.values;
@@ -173,27 +128,18 @@ fn steps(fitted: &FittedModel<'_>, along: &str) -> Variants {
             Some(_) => format!("at {along} = {} {unit}", figure(t[first])),
             None => format!("at row {}", number(first)),
         };
-        (
-            label,
-            vec![Modifier::number(
-                modifier.collect(),
-                format!("[row >= {}]", number(first)),
-            )],
-        )
+        let text = format!("[row >= {}]", number(first));
+        form(label, vec![Modifier::number(modifier.collect(), text)])
     };
     let first = stride.max(2);
     let scanned = (first..blocks.len().saturating_sub(1)).step_by(stride);
-    let mut variants: Variants = scanned.map(at).collect();
+    let mut variants: Vec<Variation> = scanned.map(at).collect();
     variants.extend(between(fitted, along, stride));
     variants
 }
 
 /// The best row for a step, where blocks are skipped or hold several rows; nothing where the others have it.
-fn between(
-    fitted: &FittedModel<'_>,
-    along: &str,
-    stride: usize,
-) -> Option<(String, Vec<Modifier>)> {
+fn between(fitted: &FittedModel<'_>, along: &str, stride: usize) -> Option<Variation> {
     let blocks = &fitted.design.blocks;
     let from = |row: usize| -> Vec<f64> {
         let after = |at: usize| f64::from(u8::from(at >= row));
@@ -207,9 +153,9 @@ fn between(
     let starts: Vec<usize> = (2..blocks.len() - 1)
         .map(|block| blocks[block][0])
         .collect();
-    let best = sharp::best(fitted, &mut starts.iter().map(|row| term(*row)))?;
-    let near = starts[best.saturating_sub(1)]..starts[(best + 1).min(starts.len() - 1)];
-    let row = near.start + sharp::best(fitted, &mut near.map(term))?;
+    let middle = best(fitted, starts.iter().map(|row| term(*row)))?;
+    let near = starts[middle.saturating_sub(1)]..starts[(middle + 1).min(starts.len() - 1)];
+    let row = near.start + best(fitted, near.map(term))?;
     let number = fitted.design.recorded(row).start + 1;
     let label = match fitted.clock.column {
         Some(_) => format!(
@@ -219,8 +165,6 @@ fn between(
         ),
         None => format!("at row {number}"),
     };
-    Some((
-        label,
-        vec![Modifier::number(from(row), format!("[row >= {number}]"))],
-    ))
+    let text = format!("[row >= {number}]");
+    Some(form(label, vec![Modifier::number(from(row), text)]))
 }

@@ -4,10 +4,10 @@
 
 use std::f64::consts::TAU;
 
-use super::building::{on_outputs, words};
-use super::fitted::FittedModel;
-use super::modifiers::{correlation, figure, map, range, rounded};
-use super::{Cell, EffectId, Modifier, ShapeParameter, Variants};
+use super::building::{form, on_node, wave};
+use super::fitted::{FittedModel, Node};
+use super::modifiers::{correlation, figure, levels_of, map, range, rounded};
+use super::{Cell, EffectId};
 use crate::diagnose::case::Role;
 
 /// A wave with fewer periods is the business of drifts and smooth curves.
@@ -18,9 +18,6 @@ const FREE: usize = 3;
 
 /// Up to so many values the frequencies are half a period per range apart, beyond it a whole one.
 const FINE: usize = 130;
-
-/// Highest peaks of the residuals' spectrum, to which the nearest frequency is moved.
-const PEAKS: usize = 3;
 
 /// What a wave may follow.
 struct Course {
@@ -37,7 +34,7 @@ struct Course {
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let mut cells: Vec<Cell> = courses(fitted)
         .iter()
-        .filter_map(|course| wave(fitted, course))
+        .filter_map(|course| periods(fitted, course))
         .collect();
     let turning = super::angles::angles(fitted).into_iter();
     cells.extend(turning.filter_map(|column| lines(fitted, column)));
@@ -80,12 +77,10 @@ fn courses(fitted: &FittedModel<'_>) -> Vec<Course> {
     courses
 }
 
-fn wave(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
+fn periods(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
     let blocks = fitted.design.reduced(&course.values);
     let (least, most) = range(&blocks);
-    let mut distinct = blocks.clone();
-    distinct.sort_by(f64::total_cmp);
-    distinct.dedup();
+    let distinct = levels_of(&blocks);
     let span = most - least;
     let values = match course.column {
         Some(_) => set_points(&distinct),
@@ -101,44 +96,23 @@ fn wave(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
         return None;
     }
     let count = ((highest - FEWEST_PERIODS) / step).floor() as usize;
-    let mut frequencies: Vec<f64> = (0..=count)
-        .map(|k| (FEWEST_PERIODS + step * k as f64) / span)
-        .collect();
-    move_to_peaks(fitted, &blocks, &mut frequencies, step / span);
-    let periods = frequencies.iter().map(|frequency| 1.0 / frequency);
+    let frequencies = (0..=count).map(|k| (FEWEST_PERIODS + step * k as f64) / span);
+    let periods = frequencies.map(|frequency| 1.0 / frequency);
     let periods = fitted.finer.times(periods.collect());
     let least = rounded(least, 1e-4 * span);
     let began = match course.column {
         Some(column) => fitted.less(column, least),
         None => fitted.time_less(least),
     };
-    let variants: Variants = periods
-        .iter()
-        .map(|period| {
-            let of =
-                |wave: fn(f64) -> f64| map(&course.values, |x| wave(TAU * (x - least) / period));
-            let shown = format!("{} {}", figure(*period), course.unit);
-            let argument = format!("2*pi*{began}/({})", shown.trim_end());
-            (
-                format!("period {}", shown.trim_end()),
-                vec![
-                    Modifier::number(of(libm::sin), format!("sin({argument})")),
-                    Modifier::number(of(libm::cos), format!("cos({argument})")),
-                ],
-            )
-        })
-        .collect();
-    let words = words(fitted, &course.words);
-    let mut cell = on_outputs(fitted, EffectId::Wave, words, &course.name, variants);
-    // Of each period one for each output, and one for all of them.
-    let scopes = cell.variants.len() / periods.len();
-    for (at, variation) in cell.variants.iter_mut().enumerate() {
-        variation.shape = Some(ShapeParameter {
-            symbol: "P",
-            value: periods[at / scopes],
-            unit: course.unit.clone(),
-        });
-    }
+    let forms = periods.into_iter().map(|period| {
+        let phase = map(&course.values, |x| TAU * (x - least) / period);
+        let shown = format!("{} {}", figure(period), course.unit);
+        let argument = format!("2*pi*{began}/({})", shown.trim_end());
+        let label = format!("period {}", shown.trim_end());
+        form(label, wave(&phase, &argument)).shaped("P", period, &course.unit)
+    });
+    let mut cell = on_node(fitted, EffectId::Wave, &course.name, Node::Output, forms);
+    cell.words.x = course.words.clone();
     Some(cell)
 }
 
@@ -173,85 +147,13 @@ fn lines(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let name = fitted.label(column);
     let shows = |k: &u32| f64::from(*k) * (most - least) > FEWEST_PERIODS * TAU;
     let last = u32::try_from((positions - 1) / 2).ok()?;
-    let variants: Variants = (super::angles::HIGHEST + 1..=last)
-        .filter(shows)
-        .map(|k| {
-            let of = |wave: fn(f64) -> f64| map(&phi, |phi| wave(f64::from(k) * phi));
-            let terms = vec![
-                Modifier::number(of(libm::sin), format!("sin({k}*{name})")),
-                Modifier::number(of(libm::cos), format!("cos({k}*{name})")),
-            ];
-            (format!("{k} per turn"), terms)
-        })
-        .collect();
-    let words = words(fitted, name);
-    Some(on_outputs(fitted, EffectId::Wave, words, name, variants))
-}
-
-/// Moves the frequencies next to the highest peaks of the residuals' spectrum onto them: a line between two
-/// frequencies of the grid would leave a part of itself to further explanations.
-fn move_to_peaks(fitted: &FittedModel<'_>, x: &[f64], frequencies: &mut [f64], step: f64) {
-    let power = |frequency: f64| power(fitted, x, frequency);
-    let heights: Vec<f64> = frequencies.iter().map(|f| power(*f)).collect();
-    let mut peaks: Vec<usize> = (0..heights.len())
-        .filter(|k| {
-            (*k == 0 || heights[*k] >= heights[*k - 1])
-                && heights.get(*k + 1).is_none_or(|next| heights[*k] >= *next)
-        })
-        .collect();
-    peaks.sort_by(|a, b| heights[*b].total_cmp(&heights[*a]));
-    for peak in peaks.into_iter().take(PEAKS) {
-        frequencies[peak] = summit(power, frequencies[peak], step / 2.0);
-    }
-}
-
-/// The highest point within `reach`, by ever narrower scans.
-fn summit(power: impl Fn(f64) -> f64, start: f64, reach: f64) -> f64 {
-    let (mut best, mut height, mut reach) = (start, power(start), reach);
-    for _ in 0..6 {
-        let centre = best;
-        for side in [-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0] {
-            let at = centre + side * reach;
-            let here = power(at);
-            if here > height {
-                (best, height) = (at, here);
-            }
-        }
-        reach /= 3.0;
-    }
-    best
-}
-
-/// Power of the residuals at a frequency: the sum of squares that a sine and a cosine take away (Lomb and
-/// Scargle), over all responses.
-fn power(fitted: &FittedModel<'_>, x: &[f64], frequency: f64) -> f64 {
-    let first = x[0];
-    let waves: Vec<(f64, f64)> = x
-        .iter()
-        .map(|x| {
-            let phase = TAU * frequency * (x - first);
-            (libm::sin(phase), libm::cos(phase))
-        })
-        .collect();
-    let sum = |f: &dyn Fn(&(f64, f64)) -> f64| waves.iter().map(f).sum::<f64>();
-    let (ss, cc, sc) = (
-        sum(&|w| w.0 * w.0),
-        sum(&|w| w.1 * w.1),
-        sum(&|w| w.0 * w.1),
-    );
-    let determinant = ss * cc - sc * sc;
-    if determinant <= 1e-6 * ss * cc {
-        return 0.0;
-    }
-    let residuals = fitted.fit.residuals.as_slice();
-    residuals
-        .chunks(x.len())
-        .map(|of_response| {
-            let along = |f: fn(&(f64, f64)) -> f64| -> f64 {
-                waves.iter().zip(of_response).map(|(w, r)| f(w) * r).sum()
-            };
-            let (s, c) = (along(|w| w.0), along(|w| w.1));
-            (cc * s * s - 2.0 * sc * s * c + ss * c * c) / determinant
-        })
-        .sum()
+    let forms = (super::angles::HIGHEST + 1..=last).filter(shows).map(|k| {
+        let phase = map(&phi, |phi| f64::from(k) * phi);
+        form(
+            format!("{k} per turn"),
+            wave(&phase, &format!("{k}*{name}")),
+        )
+    });
+    let id = EffectId::Wave;
+    Some(on_node(fitted, id, name, Node::Output, forms))
 }

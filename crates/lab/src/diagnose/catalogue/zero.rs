@@ -2,9 +2,9 @@
 //! factor of a stimulus, an angle or a time.
 
 use super::absorbed::Absorbed;
-use super::building::{on_node, words};
+use super::building::{form, on_node, words};
 use super::fitted::{FittedModel, Node};
-use super::{Cell, EffectId, Modifier};
+use super::{Cell, EffectId, Modifier, Words};
 use crate::diagnose::case::Role;
 
 /// Cells of the outputs and of the columns that the model uses; those that its parameters absorb are left
@@ -43,9 +43,13 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
 }
 
 fn cell(fitted: &FittedModel<'_>, id: EffectId, node: Node, modifier: Modifier) -> Cell {
-    let name = fitted.name(node);
-    let variants = vec![(String::new(), vec![modifier])];
-    let mut cell = on_node(fitted, id, words(fitted, &name), "", node, variants);
-    cell.words.p = name;
-    cell
+    let cell = on_node(fitted, id, "", node, [form("", vec![modifier])]);
+    let words = words(fitted, &fitted.name(node));
+    Cell {
+        words: Words {
+            p: fitted.name(node),
+            ..words
+        },
+        ..cell
+    }
 }

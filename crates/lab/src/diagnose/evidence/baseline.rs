@@ -204,6 +204,22 @@ impl Baseline {
         }
     }
 
+    /// Errors of the predictions of some whitened rows by a fit without them, (1 − QQᵀ)⁻¹z in these rows; a direction that
+    /// only they determine is predicted as it is.
+    pub fn left_out(&self, rows: &[usize]) -> DVector<f64> {
+        /// Part of a direction that the other rows determine at least.
+        const DETERMINED: f64 = 1e-9;
+        let own = self.absorbed.select_rows(rows);
+        let kept = DMatrix::identity(rows.len(), rows.len()) - &own * own.transpose();
+        let axes = kept.symmetric_eigen();
+        let along = axes.eigenvectors.tr_mul(&self.left.select_rows(rows));
+        let errors = along.zip_map(&axes.eigenvalues, |left, kept| match kept > DETERMINED {
+            true => left / kept,
+            false => 0.0,
+        });
+        axes.eigenvectors * errors
+    }
+
     /// PWH: what columns of output units leave in the space of z.
     pub fn project(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
         let whitened = self.whiten(columns);
@@ -354,6 +370,7 @@ fn stacked(above: DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::fixture::white;
     use super::*;
 
     fn line(prior: &Prior, residuals: &[f64]) -> Result<Baseline, Refusal> {
@@ -377,6 +394,16 @@ mod tests {
         assert!(baseline.project(&slope).norm() < 1e-12);
         let gain = baseline.gain(&slope);
         assert!((gain[(1, 0)] + 1.0).abs() < 1e-12 && gain[(0, 0)].abs() < 1e-12);
+    }
+
+    #[test]
+    fn rows_are_predicted_by_the_others() {
+        let baseline = line(&Prior::none(2), &[0.0, 0.0, 0.0, 6.0]).unwrap();
+        // The line through the first three says zero; σ = 2.
+        assert!((baseline.left_out(&[3])[0] - 3.0).abs() < 1e-9);
+        // Without three of four rows there is no line: one of two directions is told by nothing else.
+        let alone = baseline.left_out(&[1, 2, 3]);
+        assert!(alone.iter().all(|error| error.abs() < 6.0));
     }
 
     #[test]
@@ -469,7 +496,7 @@ mod tests {
         let bad = line(&Prior::none(2), &[1.0, f64::NAN, 2.0]);
         assert_eq!(bad.err(), Some(Refusal::NotFinite { row: 1 }));
         let jacobian = DMatrix::from_element(4, 2, 1.0);
-        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(4, 1.0)));
+        let noise = white(4);
         let twice = Baseline::new(&jacobian, &DVector::zeros(4), &noise, &Prior::none(2));
         assert_eq!(twice.err(), Some(Refusal::Dependent { parameter: 1 }));
     }

@@ -92,59 +92,27 @@ fn block_of(space: &Space, atom: usize) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    use std::ops::ControlFlow;
-
-    use nalgebra::DMatrix;
-
-    use super::super::baseline::{Baseline, Prior};
-    use super::super::examine::examine;
     use super::super::findings::Examination;
-    use super::super::noise::{Covariance, Noise};
-    use super::super::question::{Atom, Candidate, Settings, Shape};
+    use super::super::fixture::{Asked, course, white};
     use super::*;
 
     const ROWS: usize = 60;
 
-    /// A course over the rows, without its mean: the constant is fitted.
-    fn course(f: impl Fn(f64) -> f64) -> DVector<f64> {
-        let column = DVector::from_fn(ROWS, |row, _| f(row as f64 / ROWS as f64));
-        let mean = column.mean();
-        column.add_scalar(-mean)
-    }
-
     fn wave() -> DVector<f64> {
-        course(|t| libm::sin(14.0 * t))
+        course(ROWS, |t| libm::sin(14.0 * t))
     }
 
     /// Two courses that are hard to tell apart, the second of which has a part of the wave in it.
     fn twins() -> [DVector<f64>; 2] {
-        let one = course(|t| t);
-        let other = &one + wave() * 0.08 + course(|t| t * t) * 0.2;
+        let one = course(ROWS, |t| t);
+        let other = &one + wave() * 0.08 + course(ROWS, |t| t * t) * 0.2;
         [one, other]
     }
 
     fn examined(residuals: &DVector<f64>) -> Examination {
         let [one, other] = twins();
-        let (mut candidates, mut atoms) = (Vec::new(), Vec::new());
-        for column in [wave(), one, other] {
-            atoms.push(Atom {
-                candidate: candidates.len(),
-                variant: String::new(),
-                shape: Shape::Columns(DMatrix::from_columns(&[column])),
-                share: 1.0,
-            });
-            candidates.push(Candidate::plain("", candidates.len()));
-        }
-        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(ROWS, 1.0)));
-        let ones = DMatrix::from_element(ROWS, 1, 1.0);
-        let baseline = Baseline::new(&ones, residuals, &noise, &Prior::none(1)).unwrap();
-        let question = Question {
-            baseline: &baseline,
-            candidates: &candidates,
-            atoms: &atoms,
-            settings: Settings::default(),
-        };
-        examine(&question, &|_| ControlFlow::Continue(())).unwrap()
+        let asked = Asked::of(residuals, &white(ROWS));
+        asked.with_each([wave(), one, other]).examined()
     }
 
     /// First of two coefficients with its variance, by the normal equations.

@@ -134,6 +134,33 @@ pub(super) fn without(columns: &DMatrix<f64>, basis: &DMatrix<f64>) -> DMatrix<f
     columns - basis * basis.tr_mul(columns)
 }
 
+/// Matrices side by side; nothing of none.
+pub fn all(parts: impl Iterator<Item = DMatrix<f64>>) -> DMatrix<f64> {
+    let all = parts.reduce(|left, right| joined(&left, &right));
+    all.unwrap_or_else(|| DMatrix::zeros(0, 0))
+}
+
+/// A⁻¹ by least squares: coefficients of columns are A⁻¹z, and their covariance matrix is A⁻¹A⁻ᵀ where z has unit variance.
+/// Directions that nothing determines have no part in either.
+pub fn inverse(columns: &DMatrix<f64>) -> DMatrix<f64> {
+    /// Directions that columns of unit length reach no further have none.
+    const FLAT: f64 = 1e-10;
+    // Units of columns may be very different.
+    let lengths: Vec<f64> = columns.column_iter().map(|c| c.norm()).collect();
+    let scale = |length: &f64| if *length > 0.0 { 1.0 / length } else { 0.0 };
+    let scales: Vec<f64> = lengths.iter().map(scale).collect();
+    let mut unit = columns.clone();
+    for (mut column, scale) in unit.column_iter_mut().zip(&scales) {
+        column *= *scale;
+    }
+    let nothing = || DMatrix::zeros(columns.ncols(), columns.nrows());
+    let mut inverse = unit.pseudo_inverse(FLAT).unwrap_or_else(|_| nothing());
+    for (mut row, scale) in inverse.row_iter_mut().zip(&scales) {
+        row *= *scale;
+    }
+    inverse
+}
+
 pub(super) fn joined(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
     let mut out = DMatrix::zeros(right.nrows(), left.ncols() + right.ncols());
     out.columns_mut(0, left.ncols()).copy_from(left);
@@ -147,7 +174,7 @@ mod tests {
     use nalgebra::DVector;
 
     use super::super::baseline::Prior;
-    use super::super::noise::{Covariance, Noise};
+    use super::super::fixture::white;
     use super::*;
 
     #[test]
@@ -156,7 +183,7 @@ mod tests {
         let rounded = |row: usize, digits: f64| (libm::cos(angle(row)) * digits).round() / digits;
         let free = |digits: f64, columns: &DMatrix<f64>| {
             let jacobian = DMatrix::from_fn(20, 1, |row, _| rounded(row, digits));
-            let noise = Noise::known(Covariance::Diagonal(DVector::from_element(20, 1.0)));
+            let noise = white(20);
             let baseline =
                 Baseline::new(&jacobian, &DVector::zeros(20), &noise, &Prior::none(1)).unwrap();
             determined(&baseline, columns)

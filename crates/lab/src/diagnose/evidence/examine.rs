@@ -44,14 +44,14 @@ pub fn examine(
     search.discount(&again);
     let generic_probability = search.generic_probability();
     let explanation = explanation(&search, generic_probability);
-    let mut slots = slots(&space, question, &search, &explanation, &again);
+    let mut slots = slots(&space, question, &explanation, &again);
     let is_adequate = search.complete.is_some()
         && generic_probability < NAMED_STANDS
         && beats_unlisted(&space, &explanation.named, &simulated)
         && slots.iter().all(Slot::is_explained);
     let mut named = explanation.named;
     if !is_adequate {
-        match alike(&space, question, &search, &named, &again, &simulated) {
+        match alike(&space, question, &named, &again, &simulated) {
             Some(likenesses) => (named, slots) = likenesses,
             None => doubt(&space, question, &named, &mut slots),
         }
@@ -170,18 +170,15 @@ fn verdict(slots: &[Slot]) -> Verdict {
 mod tests {
     use nalgebra::{DMatrix, DVector};
 
-    use super::super::baseline::{Baseline, Prior};
+    use super::super::fixture::{Asked, shape, white};
     use super::super::grades::{Likeness, likeness};
-    use super::super::noise::{Covariance, Noise};
-    use super::super::question::{Atom, Candidate, Place, Settings, Shape};
+    use super::super::question::{Candidate, Place, Shape};
     use super::*;
 
     const ROWS: usize = 60;
 
     fn course(f: impl Fn(f64) -> f64) -> DVector<f64> {
-        let column = DVector::from_fn(ROWS, |row, _| f(row as f64 / ROWS as f64));
-        let mean = column.mean();
-        column.add_scalar(-mean)
+        super::super::fixture::course(ROWS, f)
     }
 
     fn hum() -> DVector<f64> {
@@ -196,31 +193,16 @@ mod tests {
             features: DMatrix::from_columns(&fast),
             spectrum: vec![1.0; 4],
         };
-        let shapes = named.map(|column| Shape::Columns(DMatrix::from_columns(&[column])));
-        let (mut candidates, mut atoms) = (Vec::new(), Vec::new());
-        for shape in shapes.into_iter().chain([smooth]) {
-            let candidate = candidates.len();
-            candidates.push(Candidate {
+        let shapes = named.map(shape).into_iter().chain([smooth]);
+        let asked = Asked::of(&residuals, &white(ROWS));
+        let asked = shapes.enumerate().fold(asked, |asked, (at, shape)| {
+            let candidate = Candidate {
                 describes,
-                ..Candidate::plain("", candidate)
-            });
-            atoms.push(Atom {
-                candidate,
-                variant: String::new(),
-                shape,
-                share: 1.0,
-            });
-        }
-        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(ROWS, 1.0)));
-        let ones = DMatrix::from_element(ROWS, 1, 1.0);
-        let baseline = Baseline::new(&ones, &residuals, &noise, &Prior::none(1)).unwrap();
-        let question = Question {
-            baseline: &baseline,
-            candidates: &candidates,
-            atoms: &atoms,
-            settings: Settings::default(),
-        };
-        examine(&question, &|_| ControlFlow::Continue(())).unwrap()
+                ..Candidate::plain("", at)
+            };
+            asked.with(candidate, vec![shape])
+        });
+        asked.examined()
     }
 
     #[test]

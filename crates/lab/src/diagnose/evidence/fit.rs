@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::closed_form::Scale;
-use super::directions::without;
+use super::directions::{all, inverse, without};
 use super::findings::{Fitted, Rival};
 use super::question::{Kind, Question, Shape};
 use super::remainders::Remainders;
@@ -35,7 +35,8 @@ pub(super) fn estimate(space: &Space, question: &Question, rest: &Frame, block: 
     let (sigma, dof) = with
         .as_ref()
         .map_or((1.0, f64::INFINITY), |frame| noise(space, frame));
-    let (found, spread) = least_squares(&columns, &space.z);
+    let inverse = inverse(&columns);
+    let (found, spread) = (&inverse * &space.z, &inverse * inverse.transpose());
     let visible = &columns * &found;
     let width = width(question, atom.atom);
     let mut coefficients = DVector::from_element(width, f64::NAN);
@@ -103,8 +104,8 @@ pub(super) fn resolved(kappa: f64) -> f64 {
 /// All effects of a set together.
 pub(super) fn fitted(space: &Space, question: &Question, set: &Frame) -> Fitted {
     let atoms: Vec<usize> = set.blocks.iter().map(|b| space.blocks[*b].atom).collect();
-    let columns = side_by_side(set.blocks.iter().map(|b| space.blocks[*b].determined()));
-    let (found, _) = least_squares(&columns, &space.z);
+    let columns = set.blocks.iter().map(|b| space.blocks[*b].determined());
+    let found = inverse(&all(columns)) * &space.z;
     let mut found = found.iter();
     let mut coefficients = Vec::new();
     for block in set.blocks.iter().map(|b| &space.blocks[*b]) {
@@ -130,49 +131,10 @@ pub(super) fn noise(space: &Space, set: &Frame) -> (f64, f64) {
     }
 }
 
-/// Coefficients of independent columns, and (AᵀA)⁻¹.
-pub(super) fn least_squares(
-    columns: &DMatrix<f64>,
-    z: &DVector<f64>,
-) -> (DVector<f64>, DMatrix<f64>) {
-    // Columns of unit length: their units may be very different.
-    let lengths: Vec<f64> = columns.column_iter().map(|c| c.norm()).collect();
-    let mut unit = columns.clone();
-    for (mut column, length) in unit.column_iter_mut().zip(&lengths) {
-        if *length > 0.0 {
-            column /= *length;
-        }
-    }
-    let svd = unit.svd(true, true);
-    let inverse = svd
-        .pseudo_inverse(1e-10)
-        .unwrap_or_else(|_| DMatrix::zeros(columns.ncols(), columns.nrows()));
-    let mut found = &inverse * z;
-    let mut spread = &inverse * inverse.transpose();
-    for (i, length) in lengths.iter().enumerate().filter(|(_, l)| **l > 0.0) {
-        found[i] /= length;
-        spread.row_mut(i).scale_mut(1.0 / length);
-        spread.column_mut(i).scale_mut(1.0 / length);
-    }
-    (found, spread)
-}
-
 /// Number of coefficients of an atom.
 fn width(question: &Question, atom: usize) -> usize {
     match &question.atoms[atom].shape {
         Shape::Columns(columns) => columns.ncols(),
         Shape::Smooth { .. } | Shape::Scatter => 0,
     }
-}
-
-fn side_by_side(parts: impl Iterator<Item = DMatrix<f64>>) -> DMatrix<f64> {
-    let parts: Vec<DMatrix<f64>> = parts.collect();
-    let rows = parts.first().map_or(0, DMatrix::nrows);
-    let mut out = DMatrix::zeros(rows, parts.iter().map(DMatrix::ncols).sum());
-    let mut start = 0;
-    for part in parts {
-        out.columns_mut(start, part.ncols()).copy_from(&part);
-        start += part.ncols();
-    }
-    out
 }

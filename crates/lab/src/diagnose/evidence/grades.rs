@@ -5,7 +5,6 @@ use super::detection;
 use super::findings::{Slot, State};
 use super::null::Simulated;
 use super::question::{Place, Question};
-use super::search::Search;
 use super::slots::{Explanation, slots};
 use super::space::{Frame, Space};
 use super::unlisted::Restated;
@@ -18,7 +17,6 @@ const SEEN: f64 = 4.0;
 pub(super) fn alike(
     space: &Space,
     question: &Question,
-    search: &Search,
     named: &[usize],
     again: &Restated,
     simulated: &Simulated,
@@ -44,7 +42,7 @@ pub(super) fn alike(
         named: core.clone(),
         generic: None,
     };
-    let mut slots = slots(space, question, search, &explanation, again);
+    let mut slots = slots(space, question, &explanation, again);
     for slot in &mut slots {
         if slot.state != State::Ambiguous && !slot.named.is_empty() {
             slot.state = match slot.named.len() {
@@ -61,8 +59,6 @@ pub(super) fn alike(
 pub enum Likeness {
     /// A departure that makes the effect another would not have been seen.
     Weak,
-    /// It may be what a stronger effect leaves by a departure from its form.
-    Beside,
     /// Something without a name is left, which may have a part of it.
     Open,
     /// Another effect has the same place, or both only say what the recording looks like: together they may be pieces of one
@@ -79,35 +75,23 @@ pub fn likeness<'p>(
     slots: &[Slot],
     of: impl Fn(usize) -> (&'p Place, bool),
 ) -> Likeness {
-    /// More effects are a description.
-    const FEW: usize = 2;
-    let own = strength(slot);
+    let strength = slot.named.first().map_or(0.0, |first| first.lambda);
     let of = |slot: &Slot| slot.named.first().map(|first| of(first.candidate));
     let describes = |slot: &Slot| of(slot).is_some_and(|(_, describes)| describes);
     let alike = |other: &&Slot| {
         (describes(slot) && describes(other)) || of(other).map(|of| of.0) == of(slot).map(|of| of.0)
     };
-    let shared =
-        || slots.iter().filter(alike).count() > 1 || (describes(slot) && slots.len() > FEW);
-    match own * LIKENESS >= SEEN {
+    let shared = || slots.iter().filter(alike).count() > 1;
+    match strength * LIKENESS >= SEEN {
         false => Likeness::Weak,
-        true if own < LIKENESS * strongest(slots) => Likeness::Beside,
         true if !slots.iter().all(Slot::is_explained) => Likeness::Open,
         true if shared() => Likeness::Piece,
         true => Likeness::Form,
     }
 }
 
-fn strength(slot: &Slot) -> f64 {
-    slot.named.first().map_or(0.0, |first| first.lambda)
-}
-
-fn strongest(slots: &[Slot]) -> f64 {
-    slots.iter().map(strength).fold(0.0, f64::max)
-}
-
-/// A name is more than a likeness where a departure from its shape would have been seen, where it is not the like of what
-/// a stronger effect leaves, where nothing is left without a name, and where no other effect may have taken up the departure.
+/// A name is more than a likeness where a departure from its shape would have been seen, where nothing is left without a
+/// name, and where no other effect may have taken up the departure.
 pub(super) fn graded(question: &Question, slots: &mut [Slot]) {
     let of = |candidate: usize| {
         let candidate = &question.candidates[candidate];

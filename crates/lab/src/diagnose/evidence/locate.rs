@@ -153,7 +153,7 @@ fn squares(columns: &DMatrix<f64>) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::super::baseline::Prior;
-    use super::super::noise::{Covariance, Noise};
+    use super::super::fixture::white;
     use super::*;
 
     /// Twelve positions, bias and scale fitted: an angle error at one position is found there, although
@@ -193,7 +193,7 @@ mod tests {
                 0.1 * (row as f64 * 1.7).sin()
             }
         });
-        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(rows, 1.0)));
+        let noise = white(rows);
         let baseline = Baseline::new(&jacobian, &residuals, &noise, &Prior::none(3)).unwrap();
         let settings = Settings {
             draws: 512,

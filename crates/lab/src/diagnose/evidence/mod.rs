@@ -70,6 +70,8 @@ mod directions;
 mod examine;
 mod findings;
 mod fit;
+#[cfg(test)]
+pub(super) mod fixture;
 mod grades;
 mod locate;
 mod look_alikes;
@@ -93,7 +95,7 @@ mod unsteady;
 
 pub use baseline::{Baseline, Prior, Spread};
 pub use contest::{Contest, Course, contest};
-pub use directions::{TRACE, determined, left, left_beside};
+pub use directions::{TRACE, all, determined, inverse, left, left_beside};
 pub use examine::examine;
 pub use findings::{Alternative, Examination, Fitted, Level, Rival, Slot, State, Variant, Verdict};
 pub use grades::{Likeness, likeness};

@@ -227,55 +227,30 @@ impl Pair {
 mod tests {
     use nalgebra::DVector;
 
-    use super::super::baseline::{Baseline, Prior};
-    use super::super::examine::examine;
     use super::super::findings::Verdict;
-    use super::super::noise::{Covariance, Noise};
-    use super::super::question::{Atom, Candidate, Settings, Shape};
+    use super::super::fixture::{Asked, estimated, shape};
+    use super::super::question::Candidate;
     use super::*;
 
     /// A wrong reading and a parabola: each is noise to the other while nobody says how large the noise is.
     #[test]
     fn what_is_noise_to_each_other_is_seen_together() {
         const ROWS: usize = 40;
-        let square = |row: usize| (row as f64 / 20.0 - 1.0).powi(2);
+        let square = DVector::from_fn(ROWS, |row, _| (row as f64 / 20.0 - 1.0).powi(2));
         let outlier = |at: usize| DVector::from_fn(ROWS, |row, _| f64::from(u8::from(row == at)));
-        let noise = |row: usize| 0.9 * libm::sin(37.3 * (row * row) as f64);
-        let mut columns = vec![DVector::from_fn(ROWS, |row, _| square(row))];
-        columns.extend((0..ROWS).map(outlier));
-        let candidates = [
-            Candidate::plain("square", 0),
-            Candidate {
+        let noise = DVector::from_fn(ROWS, |row, _| 0.9 * libm::sin(37.3 * (row * row) as f64));
+        let examined = |parabola: f64, wrong: f64| {
+            let residuals = &noise + &square * parabola + outlier(17) * wrong;
+            let repeats = Candidate {
                 repeats: true,
                 ..Candidate::plain("wrong reading", 1)
-            },
-        ];
-        let atoms: Vec<Atom> = (columns.iter().enumerate())
-            .map(|(at, column)| Atom {
-                candidate: at.min(1),
-                variant: String::new(),
-                shape: Shape::Columns(DMatrix::from_columns(std::slice::from_ref(column))),
-                share: 1.0,
-            })
-            .collect();
-        let ones = DMatrix::from_element(ROWS, 1, 1.0);
-        let examined = |parabola: f64, wrong: f64| {
-            let residuals = DVector::from_fn(ROWS, |row, _| noise(row))
-                + &columns[0] * parabola
-                + &columns[18] * wrong;
-            let covariance = Covariance::Diagonal(DVector::from_element(ROWS, 1.0));
-            let noise = Noise::with_scale_dof(covariance, 0.0);
-            let baseline = Baseline::new(&ones, &residuals, &noise, &Prior::none(1)).unwrap();
-            let question = Question {
-                baseline: &baseline,
-                candidates: &candidates,
-                atoms: &atoms,
-                settings: Settings::default(),
             };
-            let space = Space::new(&question).unwrap();
-            let found = Singles::new(&space, &question).observed(&space);
-            let examination = examine(&question, &|_| std::ops::ControlFlow::Continue(()));
-            (found, examination.unwrap())
+            let asked = Asked::of(&residuals, &estimated(ROWS))
+                .with_each([square.clone()])
+                .with(repeats, (0..ROWS).map(|at| shape(outlier(at))).collect());
+            let space = Space::new(&asked.question()).unwrap();
+            let found = Singles::new(&space, &asked.question()).observed(&space);
+            (found, asked.examined())
         };
         let (none, nothing) = examined(0.0, 0.0);
         assert!(none < 0.0 && nothing.verdict == Verdict::None, "{none}");

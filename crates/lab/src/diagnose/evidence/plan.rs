@@ -170,7 +170,7 @@ mod tests {
     use nalgebra::DVector;
 
     use super::super::baseline::Prior;
-    use super::super::noise::{Covariance, Noise};
+    use super::super::fixture::white;
     use super::*;
 
     /// Cosines and sines of the sensor angle and of the head angle, degrees.
@@ -209,7 +209,7 @@ mod tests {
             Baseline::new(
                 &DMatrix::from_columns(&columns),
                 &DVector::zeros(n),
-                &Noise::known(Covariance::Diagonal(DVector::from_element(n, 1.0))),
+                &white(n),
                 &Prior::none(3),
             )
             .unwrap()

@@ -54,8 +54,7 @@ mod tests {
     use nalgebra::DVector;
 
     use super::super::baseline::Prior;
-    use super::super::noise::{Covariance, Noise};
-    use super::super::question::Shape;
+    use super::super::fixture::{shape, white};
     use super::*;
 
     /// Two responses of 40 rows with an offset each; a wave of six standard deviations in the second.
@@ -79,19 +78,17 @@ mod tests {
         let atoms: Vec<Atom> = (1..12)
             .map(|k| {
                 let both = [0, 1].map(|at| of(at, &|row| libm::sin(0.3 * f64::from(k) * row)));
-                let columns = DMatrix::from_columns(&[&both[0] + &both[1]]);
-                let shape = Shape::Columns(columns);
                 Atom {
                     candidate: 0,
                     variant: String::new(),
-                    shape,
+                    shape: shape(&both[0] + &both[1]),
                     share: 1.0,
                 }
             })
             .collect();
         let part = |size: f64| {
             let residuals = of(0, &noise) + of(1, &noise) + of(1, &wave) * size;
-            let known = Noise::known(Covariance::Diagonal(DVector::from_element(80, 1.0)));
+            let known = white(80);
             let none = Prior::none(2);
             let seen = Baseline::new(&offsets, &residuals, &known, &none).unwrap();
             [quiet(&seen, &atoms, 0..40), quiet(&seen, &atoms, 40..80)]

@@ -205,27 +205,6 @@ impl Search {
         }
     }
 
-    /// Named sets that do without a cause: their probability among all named sets, and the best of them.
-    pub(super) fn without(
-        &self,
-        space: &Space,
-        question: &Question,
-        candidate: usize,
-    ) -> Option<(f64, &Visited)> {
-        let named = || {
-            let sets = self.visited.iter().filter(|set| set.generic.is_none());
-            sets.filter(|set| !set.named.is_empty())
-        };
-        let lacks = |set: &&Visited| {
-            let mut blocks = set.named.iter();
-            blocks.all(|block| !question.same_cause(space.blocks[*block].candidate, candidate))
-        };
-        let best = (named().filter(lacks)).max_by(|a, b| a.score.total_cmp(&b.score))?;
-        let sum = log_sum(named().filter(lacks).map(|set| set.score));
-        let whole = log_sum(named().map(|set| set.score));
-        Some((libm::exp(sum - whole), best))
-    }
-
     /// Takes from the odds of sets with generics what these lose.
     pub(super) fn discount(&mut self, again: &Restated) {
         for set in &mut self.visited {
@@ -263,11 +242,9 @@ impl Search {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{DMatrix, DVector};
+    use nalgebra::DVector;
 
-    use super::super::baseline::{Baseline, Prior};
-    use super::super::noise::{Covariance, Noise};
-    use super::super::question::{Atom, Candidate, Settings, Shape};
+    use super::super::fixture::{Asked, white};
     use super::*;
 
     #[test]
@@ -276,24 +253,8 @@ mod tests {
         let wave = |k: f64| DVector::from_fn(ROWS, |row, _| libm::sin(k * (row as f64 + 0.5)));
         let (one, other, none) = (wave(0.31), wave(0.73), wave(1.37));
         let columns = [one.clone(), other.clone(), &one + &other + &none * 0.5];
-        let candidates = [0, 1, 2].map(|at| Candidate::plain("", at));
-        let atoms = [0, 1, 2].map(|candidate: usize| Atom {
-            candidate,
-            variant: String::new(),
-            shape: Shape::Columns(DMatrix::from_columns(&columns[candidate..=candidate])),
-            share: 1.0,
-        });
-        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(ROWS, 1.0)));
-        let ones = DMatrix::from_element(ROWS, 1, 1.0);
-        let residuals = one * 5.0 + other * 5.0;
-        let baseline = Baseline::new(&ones, &residuals, &noise, &Prior::none(1)).unwrap();
-        let question = Question {
-            baseline: &baseline,
-            candidates: &candidates,
-            atoms: &atoms,
-            settings: Settings::default(),
-        };
-        let space = Space::new(&question).unwrap();
+        let asked = Asked::of(&(one * 5.0 + other * 5.0), &white(ROWS)).with_each(columns);
+        let space = Space::new(&asked.question()).unwrap();
         assert_eq!(needed(&space, space.frame_of(&[0, 1, 2])), [0, 1]);
         assert_eq!(needed(&space, space.frame_of(&[2])), [2]);
     }

@@ -17,8 +17,6 @@ pub struct Standing {
     pub effects: DMatrix<f64>,
     /// Columns of each of its variants: with these it takes up what another does.
     pub variants: Vec<DMatrix<f64>>,
-    /// Whether several of its variants may act at once, so that mixtures of them say nothing.
-    pub repeats: bool,
 }
 
 impl Standing {
@@ -111,7 +109,7 @@ pub fn apart(contenders: &[Standing]) -> Result<Separability, Refusal> {
             .map(|own| {
                 contenders
                     .iter()
-                    .map(|rival| !rival.repeats && own.keeps(&rival.variants))
+                    .map(|rival| own.keeps(&rival.variants))
                     .collect()
             })
             .collect(),
@@ -214,7 +212,7 @@ mod tests {
     use nalgebra::DVector;
 
     use super::super::baseline::{Baseline, Prior};
-    use super::super::noise::{Covariance, Noise};
+    use super::super::fixture::white;
     use super::*;
 
     /// Twelve positions in each mount: K2 and encoder eccentricity (1/rev cosine), seen beside the baseline.
@@ -234,7 +232,7 @@ mod tests {
             column(&|a, _| a.sin()),
             column(&|a, _| a.cos()),
         ]);
-        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(n, 1.0)));
+        let noise = white(n);
         let baseline =
             Baseline::new(&jacobian, &DVector::zeros(n), &noise, &Prior::none(3)).unwrap();
         [
@@ -248,7 +246,6 @@ mod tests {
         let of = |column: &DMatrix<f64>| Standing {
             effects: column * DMatrix::from_row_slice(1, sizes.len(), sizes),
             variants: vec![column.clone()],
-            repeats: false,
         };
         let standing: Vec<Standing> = columns.iter().map(of).collect();
         apart(&standing).unwrap()
@@ -295,7 +292,6 @@ mod tests {
             let standing = |column: &DMatrix<f64>, variants| Standing {
                 effects: 5.0 * column,
                 variants,
-                repeats: false,
             };
             let both = [
                 standing(&own, vec![own.clone()]),

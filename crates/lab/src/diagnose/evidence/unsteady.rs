@@ -84,14 +84,12 @@ mod tests {
     use nalgebra::DVector;
 
     use super::super::baseline::{Baseline, Prior};
-    use super::super::noise::Covariance;
+    use super::super::fixture::estimated;
     use super::*;
 
     fn p(residuals: &[f64]) -> f64 {
-        let rows = residuals.len();
-        let noise =
-            Noise::with_scale_dof(Covariance::Diagonal(DVector::from_element(rows, 1.0)), 0.0);
-        let ones = DMatrix::from_element(rows, 1, 1.0);
+        let noise = estimated(residuals.len());
+        let ones = DMatrix::from_element(residuals.len(), 1, 1.0);
         let residuals = DVector::from_column_slice(residuals);
         let baseline = Baseline::new(&ones, &residuals, &noise, &Prior::none(1)).unwrap();
         let course = Course::new(baseline, &noise.covariance, 0.0).unwrap();

@@ -1,0 +1,86 @@
+//! Small questions for tests: courses as candidates, beside a constant.
+
+use std::ops::ControlFlow;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::baseline::{Baseline, Prior};
+use super::examine::examine;
+use super::findings::Examination;
+use super::noise::{Covariance, Noise};
+use super::question::{Atom, Candidate, Question, Settings, Shape};
+
+/// Independent rows with a standard deviation of one.
+pub(in crate::diagnose) fn white(rows: usize) -> Noise {
+    Noise::known(Covariance::Diagonal(DVector::from_element(rows, 1.0)))
+}
+
+/// The same where nobody says how large the noise is.
+pub(in crate::diagnose) fn estimated(rows: usize) -> Noise {
+    Noise::with_scale_dof(white(rows).covariance, 0.0)
+}
+
+/// What is asked of some residuals.
+pub(super) struct Asked {
+    baseline: Baseline,
+    candidates: Vec<Candidate>,
+    atoms: Vec<Atom>,
+}
+
+impl Asked {
+    /// Of residuals to which a constant was fitted, with such a noise.
+    pub(super) fn of(residuals: &DVector<f64>, noise: &Noise) -> Asked {
+        let ones = DMatrix::from_element(residuals.len(), 1, 1.0);
+        Asked {
+            baseline: Baseline::new(&ones, residuals, noise, &Prior::none(1)).unwrap(),
+            candidates: Vec::new(),
+            atoms: Vec::new(),
+        }
+    }
+
+    /// With a candidate whose variants are these shapes.
+    pub(super) fn with(mut self, candidate: Candidate, variants: Vec<Shape>) -> Asked {
+        let own = self.candidates.len();
+        self.atoms.extend((variants.into_iter()).map(|shape| Atom {
+            candidate: own,
+            variant: String::new(),
+            shape,
+            share: 1.0,
+        }));
+        self.candidates.push(candidate);
+        self
+    }
+
+    /// With a usual candidate for each of these courses.
+    pub(super) fn with_each(self, courses: impl IntoIterator<Item = DVector<f64>>) -> Asked {
+        courses.into_iter().fold(self, |asked, course| {
+            let usual = Candidate::plain("", asked.candidates.len());
+            asked.with(usual, vec![shape(course)])
+        })
+    }
+
+    pub(super) fn question(&self) -> Question<'_> {
+        Question {
+            baseline: &self.baseline,
+            candidates: &self.candidates,
+            atoms: &self.atoms,
+            settings: Settings::default(),
+        }
+    }
+
+    pub(super) fn examined(&self) -> Examination {
+        examine(&self.question(), &|_| ControlFlow::Continue(())).unwrap()
+    }
+}
+
+/// An effect with this course.
+pub(super) fn shape(course: DVector<f64>) -> Shape {
+    Shape::Columns(DMatrix::from_columns(&[course]))
+}
+
+/// A course over the time from 0 to 1, without its mean.
+pub(super) fn course(rows: usize, f: impl Fn(f64) -> f64) -> DVector<f64> {
+    let column = DVector::from_fn(rows, |row, _| f(row as f64 / rows as f64));
+    let mean = column.mean();
+    column.add_scalar(-mean)
+}

@@ -20,5 +20,5 @@ mod noise;
 mod reading;
 mod recordings;
 mod refusals;
-mod set_points;
 mod sizes;
+mod warmth;

@@ -177,3 +177,32 @@ fn simulated_noise_walks_where_it_is_claimed_to() {
     let step = (steps.sum::<f64>() / 199.0).sqrt();
     assert!((0.8..1.25).contains(&(step * 60.0)), "{step}");
 }
+
+/// The noise in which a wrong reading is seen is not made of the other wrong readings, and what is listed is what is said.
+#[test]
+fn three_wrong_readings_beside_a_drift_are_all_told() {
+    let mut noise = Noise(72);
+    let mut rows = "time [s],mass [g],display [mg]\n".to_owned();
+    for row in 0..60 {
+        let (time, mass) = (
+            f64::from(row) * 30.0,
+            [10.0, 50.0, 100.0, 200.0][row as usize % 4],
+        );
+        let wrong = match row {
+            17 => 5.0,
+            25 => -4.5,
+            45 => 6.5,
+            _ => 0.0,
+        };
+        let display = 0.5 + 1000.0 * mass + 6e-4 * time + wrong + 0.25 * noise.normal();
+        let _ = writeln!(rows, "{time},{mass},{display:.2}");
+    }
+    let case = "equations = \"display = z + k*mass\"\n[columns]\ntime = \"time\"\nmass = \"stimulus\"\ndisplay = \"output\"\n";
+    let found = diagnosed_with("bursts", &rows, case);
+    let statement = found["statement"].as_str().unwrap_or_default();
+    for row in ["row 18", "row 26", "row 46"] {
+        assert!(statement.contains(row), "{statement}");
+    }
+    assert!(statement.contains("drift"), "{statement}");
+    assert!(!statement.contains("smoothly"), "{statement}");
+}

@@ -18,10 +18,11 @@ pub(super) fn spoken(label: &str, language: Language) -> String {
 }
 
 /// Labels that are always the same.
-const FIXED: [(&str, &str); 25] = [
+const FIXED: [(&str, &str); 26] = [
     ("not in balance at the start", "起始时未平衡"),
     ("levelling off", "趋于饱和"),
     ("at once", "即时"),
+    ("in proportion to the signal", "与信号成比例"),
     ("one row late", "晚一行"),
     ("one row early", "早一行"),
     ("two widths", "两种宽度"),
@@ -67,7 +68,8 @@ const FORMS: [([&str; 2], [&str; 2]); 16] = [
 ];
 
 /// Words in the formulas of effects, phrases before the words in them.
-const WORDS: [(&str, &str); 13] = [
+const WORDS: [(&str, &str); 14] = [
+    ("on a temperature of the model", "作用于模型中的温度时"),
     (
         "times the signal where it acts on the scale",
         "作用于标度时再乘以信号",

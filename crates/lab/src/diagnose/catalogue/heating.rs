@@ -3,13 +3,13 @@
 use super::building::{course, scoped, time_constants, words};
 use super::fitted::{FittedModel, Node, varies};
 use super::inputs::Signal;
-use super::modifiers::{Course, figure, largest};
+use super::modifiers::{Course, figure, largest, map2};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 
-/// On the scale, by the power of the signal, as in the resistor through which a current is read; and on the
-/// offset, by the power of a current or voltage that is applied, as in a thermometer.
+/// On the scale, by the power of the signal, as in the resistor through which a current is read; on the offset, by the power of
+/// a current or voltage that is applied, as in a thermometer; and on a temperature of the model.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
     if fitted.is_timed() && fitted.has_signal() {
@@ -84,7 +84,28 @@ fn of_column(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     if fitted.has_signal() {
         cells.push(cell(fitted, Node::Gain, name, vec![at_once(Node::Gain)]));
     }
+    let sensed = |other: &usize| fitted.in_model(*other) && fitted.is_temperature(*other);
+    let sensed = fitted.numeric().into_iter().filter(sensed);
+    cells.extend(sensed.map(|sensed| {
+        let node = Node::Column(sensed);
+        let alike = Variation::one("at once", Term::new(node, power.clone()));
+        let variants = std::iter::once(alike).chain(by_resistance(fitted, node, &power));
+        cell(fitted, node, name, variants.collect())
+    }));
     cells
+}
+
+/// The temperature that the model knows is that of the bath; a thermistor is warmer by the power of the current, I²·R, where
+/// the output is its resistance.
+fn by_resistance(fitted: &FittedModel<'_>, node: Node, power: &Modifier) -> Option<Variation> {
+    if fitted.case().responses.len() != 1 || !fitted.has_signal() {
+        return None;
+    }
+    let signal = Signal::new(fitted, 0);
+    let values = map2(&power.values, &signal.parts, |power, part| power * part);
+    let text = format!("{}*{}", power.text, signal.text);
+    let term = Term::new(node, Modifier::new(values, text, power.unit.clone()));
+    Some(Variation::one("in proportion to the signal", term))
 }
 
 /// What a power does at once, late: by the time constant.

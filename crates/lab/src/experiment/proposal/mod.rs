@@ -2,7 +2,7 @@
 //!
 //! Names and units come from the first line. Roles are told by how the numbers behave, which decides nothing: the file says of each column what is in
 //! it, and that its role is a guess. Without a procedure the equation is a straight line, the least that has a coefficient to calibrate; along
-//! several axes that are set, the sum of one for each.
+//! several axes that are set, the sum of one for each; around a turn, a wave.
 
 mod roles;
 
@@ -17,7 +17,7 @@ use gumption_format::toml::writing::{key, quoted};
 
 use super::entries::RoleWord;
 use super::procedure::Procedure;
-use roles::{followed, is_kin, roles, stretches};
+use roles::{followed, goes_around, is_kin, roles, stretches};
 
 /// Rows from which on a recording has to say whether they are samples or averages.
 const MANY: usize = 100;
@@ -131,7 +131,7 @@ fn source(file: &str, columns: &[Guess<'_>], rows: usize) -> String {
         Data::Numbers(numbers) => guess.role == RoleWord::Position && is_dwell(stretches(numbers)),
     });
     let stepped = columns.iter().filter(|guess| match &guess.column.data {
-        Data::Numbers(numbers) => guess.role == RoleWord::Stimulus && is_dwell(stretches(numbers)),
+        Data::Numbers(numbers) => is_set(guess.role) && is_dwell(stretches(numbers)),
         Data::Labels(_) => false,
     });
     let stepped: Vec<String> = stepped.map(|guess| quoted(&guess.name)).collect();
@@ -146,11 +146,15 @@ fn source(file: &str, columns: &[Guess<'_>], rows: usize) -> String {
     }
 }
 
-/// For each output a straight line along what is set; along its other axes, too.
+fn is_set(role: RoleWord) -> bool {
+    matches!(role, RoleWord::Stimulus | RoleWord::Angle)
+}
+
+/// For each output a straight line along what is set; along its other axes, too. Around with an angle it is a wave.
 fn by_line(columns: &[Guess<'_>]) -> String {
     let of = |role| columns.iter().filter(move |guess| guess.role == role);
     let outputs: Vec<&Guess<'_>> = of(RoleWord::Output).collect();
-    let mut set: Vec<&Guess<'_>> = of(RoleWord::Stimulus).collect();
+    let mut set: Vec<&Guess<'_>> = columns.iter().filter(|guess| is_set(guess.role)).collect();
     if set.is_empty() {
         set.extend(of(RoleWord::Time));
     }
@@ -178,7 +182,13 @@ fn by_line(columns: &[Guess<'_>]) -> String {
                 true => format!("b{number}{axis}"),
                 false => format!("b{number}"),
             });
-            format!(" + {slope}*{}", along.name)
+            match goes_around(output.column, along.column) {
+                true => {
+                    let across = coefficient(format!("c{number}"));
+                    format!(" + {slope}*sin({0}) + {across}*cos({0})", along.name)
+                }
+                false => format!(" + {slope}*{}", along.name),
+            }
         });
         let terms: String = terms.collect();
         format!("{} = {constant}{terms}", output.name)
@@ -425,6 +435,32 @@ mod tests {
             1,-100,10,-2001\n1,100,10,2003\n-1,-100,40,-2004\n-1,100,40,2000\n");
         assert_eq!(role(&table, "T"), "covariate");
         assert_eq!(table["equations"].as_str(), Some("out = a + b*rate"));
+    }
+
+    /// A tumbled accelerometer goes around with the angle, an encoder along it.
+    #[test]
+    fn angles_are_turned_or_read() {
+        let rows = |of: &dyn Fn(f64) -> f64| -> String {
+            let angles = (0..12).map(|place| f64::from(30 * place));
+            angles
+                .map(|angle| format!("{angle},{:.5}\n", of(angle)))
+                .collect()
+        };
+        let table = of(&format!(
+            "head [deg],U [V]\n{}",
+            rows(&|x| 0.01 + libm::sin(x.to_radians()))
+        ));
+        assert_eq!(role(&table, "head"), "angle");
+        assert_eq!(
+            table["equations"].as_str(),
+            Some("U = a + b*sin(head) + c*cos(head)")
+        );
+        let table = of(&format!(
+            "ref [deg],enc [deg]\n{}",
+            rows(&|x| x + 0.003 * libm::cos(x.to_radians()))
+        ));
+        assert_eq!(role(&table, "ref"), "angle");
+        assert_eq!(table["equations"].as_str(), Some("enc = a + b*ref"));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use gumption_core::quantity::UnitTable;
+use gumption_core::quantity::{Unit, UnitTable};
 use gumption_format::csv::{self, Column, Data, Labels};
 
 use crate::experiment::entries::RoleWord;
@@ -38,6 +38,7 @@ pub(super) fn roles(columns: &[Column]) -> Vec<RoleWord> {
         let is_followed = best == Some(at) && is_set(column);
         let is_stimulus = are_conditions || is_followed || !is_condition(column);
         roles[at] = Some(match is_stimulus {
+            true if in_turns(column).is_some() => RoleWord::Angle,
             true => RoleWord::Stimulus,
             false => RoleWord::Covariate,
         });
@@ -64,14 +65,17 @@ fn in_time(mut roles: Vec<RoleWord>) -> Vec<RoleWord> {
     roles
 }
 
-/// The place of the column that an output follows best along a straight line; of equal ones the first.
+/// The place of the column that an output follows best, along a straight line or around a turn; of equal ones the first.
 pub(super) fn followed<'r>(
     output: &Column,
     among: impl Iterator<Item = &'r Column>,
 ) -> Option<usize> {
     // In hundredths: what noise makes of equal ones does not decide.
     let strength = |column: &Column| match (&column.data, &output.data) {
-        (Data::Numbers(x), Data::Numbers(y)) => (100.0 * determination(x, y)).round() as i64,
+        (Data::Numbers(x), Data::Numbers(y)) => {
+            let turned = in_turns(column).map_or(0.0, |angles| of_turns(&angles, y));
+            (100.0 * determination(x, y).max(turned)).round() as i64
+        }
         _ => -1,
     };
     let strengths: Vec<i64> = among.map(strength).collect();
@@ -79,27 +83,66 @@ pub(super) fn followed<'r>(
     strengths.iter().position(|strength| strength == best)
 }
 
+/// Whether an output goes around with an angle rather than along it: a tumbled accelerometer, and no potentiometer.
+pub(super) fn goes_around(output: &Column, angle: &Column) -> bool {
+    let (Data::Numbers(x), Data::Numbers(y)) = (&angle.data, &output.data) else {
+        return false;
+    };
+    in_turns(angle).is_some_and(|angles| of_turns(&angles, y) > determination(x, y))
+}
+
+/// The numbers of a column in radian, where it is an angle that passes half a turn.
+fn in_turns(column: &Column) -> Option<Vec<f64>> {
+    let Data::Numbers(numbers) = &column.data else {
+        return None;
+    };
+    // A count is of dimension one, too.
+    let is_angle = |unit: &&Unit| ["°", "deg", "rad"].contains(&unit.symbol.as_str());
+    let unit = column.unit.as_ref().filter(is_angle)?;
+    let radian = UnitTable::default().parse("rad").ok()?;
+    let factor = unit.conversion_to(&radian)?.factor;
+    let angles: Vec<f64> = numbers.iter().map(|x| factor * x).collect();
+    let known = || angles.iter().copied().filter(|x| x.is_finite());
+    let span = known().fold(f64::NEG_INFINITY, f64::max) - known().fold(f64::INFINITY, f64::min);
+    (span > std::f64::consts::PI).then_some(angles)
+}
+
 /// R² of a straight line through the rows in which both are numbers.
 fn determination(x: &[f64], y: &[f64]) -> f64 {
-    let pairs = || {
-        let pairs = x.iter().zip(y).map(|(x, y)| (*x, *y));
-        pairs.filter(|(x, y)| x.is_finite() && y.is_finite())
-    };
-    let count = pairs().count() as f64;
-    let (x_mean, y_mean) = (
-        pairs().map(|(x, _)| x).sum::<f64>() / count,
-        pairs().map(|(_, y)| y).sum::<f64>() / count,
-    );
-    let product = |of: &dyn Fn(f64, f64) -> f64| -> f64 {
-        pairs().map(|(x, y)| of(x - x_mean, y - y_mean)).sum()
-    };
-    let (xx, yy) = (product(&|x, _| x * x), product(&|_, y| y * y));
-    let xy = product(&|x, y| x * y);
-    if xx > 0.0 && yy > 0.0 {
-        xy * xy / (xx * yy)
-    } else {
-        0.0
+    let [x, y] = centred([x.to_vec(), y.to_vec()]);
+    let (xx, yy) = (product(&x, &x), product(&y, &y));
+    match xx > 0.0 && yy > 0.0 {
+        true => product(&x, &y).powi(2) / (xx * yy),
+        false => 0.0,
     }
+}
+
+/// R² of y = a + b sin φ + c cos φ.
+fn of_turns(angles: &[f64], y: &[f64]) -> f64 {
+    let of = |function: fn(f64) -> f64| angles.iter().map(|angle| function(*angle)).collect();
+    let [s, c, y] = centred([of(libm::sin), of(libm::cos), y.to_vec()]);
+    let (ss, cc, sc) = (product(&s, &s), product(&c, &c), product(&s, &c));
+    let (sy, cy, yy) = (product(&s, &y), product(&c, &y), product(&y, &y));
+    let determinant = ss * cc - sc * sc;
+    // Angles of which the sine tells the cosine leave one of the two open.
+    match determinant > 1e-9 * ss * cc && yy > 0.0 {
+        true => (sy * (sy * cc - cy * sc) + cy * (cy * ss - sy * sc)) / (determinant * yy),
+        false => 0.0,
+    }
+}
+
+/// The rows in which all are numbers, less the mean of each.
+fn centred<const N: usize>(columns: [Vec<f64>; N]) -> [Vec<f64>; N] {
+    let is_whole = |row: &usize| columns.iter().all(|column| column[*row].is_finite());
+    let rows: Vec<usize> = (0..columns[0].len()).filter(is_whole).collect();
+    columns.each_ref().map(|column| {
+        let mean = rows.iter().map(|row| column[*row]).sum::<f64>() / rows.len() as f64;
+        rows.iter().map(|row| column[*row] - mean).collect()
+    })
+}
+
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// The role of a column that shows it without the others.

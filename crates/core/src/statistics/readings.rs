@@ -98,7 +98,7 @@ impl Series {
             weights += 1.0 - k / n;
             let left = 1.0 + 2.0 * (sum - weights) / n;
             factor = match left > 0.0 {
-                true => ((1.0 + 2.0 * sum) / left).clamp(1.0, n),
+                true => ((1.0 + 2.0 * sum) / left).max(1.0).min(n),
                 false => n,
             };
             if k >= WINDOW * factor / 2.0 {

@@ -1,6 +1,6 @@
 //! What is known from readings: their standard deviation, how many they were, and how many are behind the value.
 
-use crate::claim::Stated;
+use crate::claim::{Stated, range_factor};
 use crate::printed::Printed;
 use crate::read::words::{count_after, count_before, figure_after, find, has, trailing_count};
 
@@ -111,7 +111,7 @@ pub(super) fn range(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     let n = count(text, e)?;
     let range = e.figure_or_used(&["range method", "range r", "range", "极差法", "极差"])?;
     // Where words leave open whether the mean is reported, the laboratory's own u says it: R/C of one reading, R/(C√n) of n.
-    let s = range.value / crate::calculate::range_factor(n).0;
+    let s = range.value / range_factor(n).0;
     let is_u = |u: &&Printed| {
         u.unit == range.unit && (s / libm::sqrt(n) - u.value).abs() <= u.half_of_digits()
     };

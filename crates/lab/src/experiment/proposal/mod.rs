@@ -155,7 +155,8 @@ fn by_line(columns: &[Guess<'_>]) -> String {
     let of = |role| columns.iter().filter(move |guess| guess.role == role);
     let outputs: Vec<&Guess<'_>> = of(RoleWord::Output).collect();
     let mut set: Vec<&Guess<'_>> = columns.iter().filter(|guess| is_set(guess.role)).collect();
-    if set.is_empty() {
+    // What differs from position to position is no drift.
+    if set.is_empty() && of(RoleWord::Position).next().is_none() {
         set.extend(of(RoleWord::Time));
     }
     let columns_set = set.iter().map(|guess| guess.column);

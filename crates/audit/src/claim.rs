@@ -193,6 +193,24 @@ pub enum Stated {
     },
 }
 
+/// C(n) of the range method for n = 2 … 9 and the degrees of freedom (JJF 1059.1-2012, table 1).
+pub const RANGE: [(f64, f64); 8] = [
+    (1.13, 0.9),
+    (1.69, 1.8),
+    (2.06, 2.7),
+    (2.33, 3.6),
+    (2.53, 4.5),
+    (2.70, 5.3),
+    (2.85, 6.0),
+    (2.97, 6.8),
+];
+
+/// C(n) and ν of the range method; those of 9 beyond the table.
+pub fn range_factor(n: f64) -> (f64, f64) {
+    let place = (n as usize).clamp(2, 9) - 2;
+    RANGE[place]
+}
+
 /// Distribution of limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shape {

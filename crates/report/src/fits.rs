@@ -436,7 +436,13 @@ fn farthest(l: Language, fit: &Fit) -> Option<String> {
             format!("{} = {}{gap}{unit}", c.name, exact(c.values[point]))
         })
         .collect();
-    let place = place.join(", ");
+    let place = match place.is_empty() {
+        true => String::new(),
+        false => l.pick(
+            format!(" ({})", place.join(", ")),
+            format!("（{}）", place.join(", ")),
+        ),
+    };
     let number = point + 1;
     let distance = significant(distance.abs(), 2);
     let what = if fit.weighted {
@@ -445,7 +451,7 @@ fn farthest(l: Language, fit: &Fit) -> Option<String> {
         l.pick("residual standard deviations", "倍残差标准差")
     };
     Some(l.pick(
-        format!("Point {number} ({place}) lies farthest from the curve: {distance} {what}."),
-        format!("第 {number} 点（{place}）离曲线最远：{distance} {what}。"),
+        format!("Point {number}{place} lies farthest from the curve: {distance} {what}."),
+        format!("第 {number} 点{place}离曲线最远：{distance} {what}。"),
     ))
 }

@@ -13,10 +13,13 @@ use super::number::{exact, freedom, print, probability, significant};
 
 /// In English, with what to do.
 pub(super) fn in_english(reason: &MissingMoments) -> String {
-    const GIVEN: &str = "Monte Carlo gives median and coverage interval instead.";
+    let given = match reason.leave_a_mean() {
+        true => "Monte Carlo gives mean and coverage interval, and no u.",
+        false => "Monte Carlo gives median and coverage interval instead.",
+    };
     match reason {
         MissingMoments::HeavyComponent { name, dof, power } => {
-            let missing = if *dof > *power {
+            let missing = if reason.leave_a_mean() {
                 "no standard deviation"
             } else {
                 "neither a mean nor a standard deviation"
@@ -27,7 +30,7 @@ pub(super) fn in_english(reason: &MissingMoments) -> String {
                 false => format!("grows like its power {}", exponent(*power)),
             };
             format!(
-                "The distribution of the output has {missing}: `{name}` has a t-distribution with {nu} {degrees} of freedom, which has moments of order below {nu} only, and the output {grows} as far as the trials reach. {GIVEN} More readings behind `{name}` would help; a standard deviation exists above {} degrees of freedom.",
+                "The distribution of the output has {missing}: `{name}` has a t-distribution with {nu} {degrees} of freedom, which has moments of order below {nu} only, and the output {grows} as far as the trials reach. {given} More readings behind `{name}` would help; a standard deviation exists above {} degrees of freedom.",
                 exponent(2.0 * power),
                 nu = freedom(*dof),
             )
@@ -35,13 +38,13 @@ pub(super) fn in_english(reason: &MissingMoments) -> String {
         MissingMoments::JointReadings { inputs, readings } => {
             let (n, many) = (readings, inputs.len());
             let names = Language::English.list(inputs);
-            let missing = if n - many.min(*n) > 1 {
+            let missing = if reason.leave_a_mean() {
                 "no standard deviation"
             } else {
                 "neither a mean nor a standard deviation"
             };
             format!(
-                "The distribution of the output has {missing}: {n} simultaneous readings of {many} inputs ({names}) leave ν = n − N = {n} − {many} = {} for their multivariate t-distribution in Monte Carlo (JCGM 102, 5.3.2), which has no standard deviation for ν ≤ 2. {GIVEN} More simultaneous readings would help; a standard deviation exists from {} on.",
+                "The distribution of the output has {missing}: {n} simultaneous readings of {many} inputs ({names}) leave ν = n − N = {n} − {many} = {} for their multivariate t-distribution in Monte Carlo (JCGM 102, 5.3.2), which has no standard deviation for ν ≤ 2. {given} More simultaneous readings would help; a standard deviation exists from {} on.",
                 n - many.min(*n),
                 many + 3
             )
@@ -66,12 +69,12 @@ pub(super) fn in_english(reason: &MissingMoments) -> String {
                 }
             };
             format!(
-                "The {side} tail of the Monte Carlo trials falls off like the power −{} of the distance from the median, so that {then}. {GIVEN} Check whether an input with very few degrees of freedom, or a divisor that may be zero, is meant.",
+                "The {side} tail of the Monte Carlo trials falls off like the power −{} of the distance from the median, so that {then}. {given} Check whether an input with very few degrees of freedom, or a divisor that may be zero, is meant.",
                 exponent(*index)
             )
         }
         MissingMoments::FewTrials { relative_error } => format!(
-            "A handful of far trials decides the standard deviation of the Monte Carlo result (its own relative standard error is {} %), so that another seed would give another u. {GIVEN} Check whether a divisor comes close to zero, or an input has very few degrees of freedom.",
+            "A handful of far trials decides the standard deviation of the Monte Carlo result (its own relative standard error is {} %), so that another seed would give another u. {given} Check whether a divisor comes close to zero, or an input has very few degrees of freedom.",
             percent(*relative_error)
         ),
     }
@@ -79,10 +82,13 @@ pub(super) fn in_english(reason: &MissingMoments) -> String {
 
 /// In Chinese.
 pub(super) fn in_chinese(reason: &MissingMoments) -> String {
-    const GIVEN: &str = "因此蒙特卡洛法给出中位数和包含区间。";
+    let given = match reason.leave_a_mean() {
+        true => "因此蒙特卡洛法给出均值和包含区间，不给出 u。",
+        false => "因此蒙特卡洛法给出中位数和包含区间。",
+    };
     match reason {
         MissingMoments::HeavyComponent { name, dof, power } => {
-            let missing = if *dof > *power {
+            let missing = if reason.leave_a_mean() {
                 "标准差不存在"
             } else {
                 "均值和标准差均不存在"
@@ -92,7 +98,7 @@ pub(super) fn in_chinese(reason: &MissingMoments) -> String {
                 false => format!("按其 {} 次幂增长", exponent(*power)),
             };
             format!(
-                "输出量分布的{missing}：`{name}` 服从自由度为 {nu} 的 t 分布，该分布只有阶数小于 {nu} 的矩，而在试验值所及范围内输出量{grows}。{GIVEN}增加 `{name}` 的测量次数可改善；自由度大于 {} 时标准差才存在。",
+                "输出量分布的{missing}：`{name}` 服从自由度为 {nu} 的 t 分布，该分布只有阶数小于 {nu} 的矩，而在试验值所及范围内输出量{grows}。{given}增加 `{name}` 的测量次数可改善；自由度大于 {} 时标准差才存在。",
                 exponent(2.0 * power),
                 nu = freedom(*dof),
             )
@@ -100,13 +106,13 @@ pub(super) fn in_chinese(reason: &MissingMoments) -> String {
         MissingMoments::JointReadings { inputs, readings } => {
             let (n, many) = (readings, inputs.len());
             let names = Language::Chinese.list(inputs);
-            let missing = if n - many.min(*n) > 1 {
+            let missing = if reason.leave_a_mean() {
                 "标准差不存在"
             } else {
                 "均值和标准差均不存在"
             };
             format!(
-                "输出量分布的{missing}：{many} 个输入量（{names}）同时重复测量 {n} 次，蒙特卡洛法所用的多元 t 分布的自由度为 ν = n − N = {n} − {many} = {}（JCGM 102 的 5.3.2），ν ≤ 2 时其标准差不存在。{GIVEN}增加同时测量的次数可改善；不少于 {} 次时标准差才存在。",
+                "输出量分布的{missing}：{many} 个输入量（{names}）同时重复测量 {n} 次，蒙特卡洛法所用的多元 t 分布的自由度为 ν = n − N = {n} − {many} = {}（JCGM 102 的 5.3.2），ν ≤ 2 时其标准差不存在。{given}增加同时测量的次数可改善；不少于 {} 次时标准差才存在。",
                 n - many.min(*n),
                 many + 3
             )
@@ -127,12 +133,12 @@ pub(super) fn in_chinese(reason: &MissingMoments) -> String {
                 Consequence::SlowDeviation => "标准差不收敛（试验次数增至十倍，其误差也不能减半）",
             };
             format!(
-                "蒙特卡洛试验值分布的{side}尾部按与中位数之距的 −{} 次幂衰减，{then}，{GIVEN}请检查是否有自由度极小的输入量，或可能为零的除数。",
+                "蒙特卡洛试验值分布的{side}尾部按与中位数之距的 −{} 次幂衰减，{then}，{given}请检查是否有自由度极小的输入量，或可能为零的除数。",
                 exponent(*index)
             )
         }
         MissingMoments::FewTrials { relative_error } => format!(
-            "蒙特卡洛结果的标准差由少数远离中心的试验决定（其自身的相对标准误差为 {} %），更换种子将得到不同的 u，{GIVEN}请检查除数是否可能接近零，或输入量的自由度是否过小。",
+            "蒙特卡洛结果的标准差由少数远离中心的试验决定（其自身的相对标准误差为 {} %），更换种子将得到不同的 u，{given}请检查除数是否可能接近零，或输入量的自由度是否过小。",
             percent(*relative_error)
         ),
     }

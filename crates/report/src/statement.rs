@@ -449,7 +449,7 @@ fn correlations(report: &Report<'_>) -> Option<String> {
     let method = which.method(l);
     Some(match pairs.len() > MOST {
         true => l.pick(
-            format!("The estimates are correlated; the correlation coefficients{method} are given in the table of the joint result."),
+            format!("The estimates are correlated; the table of the joint result gives the correlation coefficients{method}."),
             format!("各估计值相关，相关系数{method}见联合结果表。"),
         ),
         false => l.pick(

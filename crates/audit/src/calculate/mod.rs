@@ -17,5 +17,5 @@ pub use calculation::{
     welch,
 };
 pub use case::{Case, factors};
-pub use known::{RANGE, range_factor, shape_of};
+pub use known::shape_of;
 pub(crate) use model::{formula, unit_of_y};

@@ -98,6 +98,8 @@ enum How {
     Is,
     /// The head begins with them.
     Begins,
+    /// The head ends with them.
+    Ends,
 }
 
 /// In this order: the first that fits decides. Words are compact ones.
@@ -116,8 +118,10 @@ const WORDS: &[(Role, How, &[&str])] = &[
     (Role::C, How::Has, &["sensitivity", "sens.", "sensitivität", "empfindlichkeit", "sensibilité", "灵敏", "敏感系数", "传播系数", "partial", "∂", "coefficient", "传递系数"]),
     (Role::C, How::Is, &["c", "ci", "|ci|", "|c|", "c_i", "sens"]),
     (Role::C, How::Begins, &["ci(", "ci/", "ci["]),
-    (Role::Distribution, How::Has, &["distribution", "verteilung", "分布类型", "概率分布", "pdf", "shape"]),
-    (Role::Distribution, How::Is, &["distr", "distr.", "dist", "dist.", "分布", "prob.", "probability", "loi"]),
+    (Role::Distribution, How::Has, &["distribution", "verteilung", "分布类型", "分布形式", "分布情况", "分布规律", "概率分布", "pdf", "shape"]),
+    // `分布因子` and `分布及包含因子` are divisors.
+    (Role::Distribution, How::Ends, &["分布"]),
+    (Role::Distribution, How::Is, &["distr", "distr.", "dist", "dist.", "prob.", "probability", "loi"]),
     (Role::Divisor, How::Has, &["divisor", "teiler", "diviseur", "divideby", "dividedby", "除数", "分布因子", "置信因子", "包含因子", "coveragefactor", "kfactor"]),
     (Role::Divisor, How::Is, &["k", "ki", "k值", "ki值", "div", "div.", "因子", "b", "factor"]),
     (Role::U, How::Has, &["standarduncertainty", "standardunsicherheit", "standardmessunsicherheit", "incertitude-type", "incertitudetype", "标准不确定度", "stdunc", "std.unc", "stduncertainty", "u(x", "u(", "standardunc", "std.uncertainty", "标准不确定"]),
@@ -163,7 +167,8 @@ fn of(head: &str) -> Option<Role> {
     match head.trim().replace(['_', ' '], "").as_str() {
         "" => return None,
         "Xi" | "X" | "量Xi" | "量X" | "输入量Xi" => return Some(Role::Symbol),
-        "U" | "W" => return Some(Role::Used),
+        // A capital letter is an expanded uncertainty (GUM 2.3.5), a small one a standard uncertainty.
+        "U" | "W" | "Urel" | "Ur" | "Wrel" | "U95" => return Some(Role::Used),
         _ => {}
     }
     // `u_i(R_X)` is a contribution to u of R_X; `u(x_i)`, `u_i(x)` are the inputs' own.
@@ -176,6 +181,7 @@ fn of(head: &str) -> Option<Role> {
         How::Has => text.contains(word),
         How::Is => text == word,
         How::Begins => text.starts_with(word),
+        How::Ends => text.ends_with(word),
     };
     let entry = WORDS
         .iter()

@@ -35,8 +35,11 @@ mod turned;
 mod words;
 
 pub use columns::Role;
+pub(crate) use footer::Whole;
 pub use mapping::Mapping;
-pub(crate) use words::{count_before, figure_after, figures_with_units, has_symbol, symbol_at};
+pub(crate) use words::{
+    count_before, figure_after, figures_with_units, has, has_symbol, symbol_at,
+};
 
 use std::ops::Range;
 

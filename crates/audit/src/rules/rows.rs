@@ -2,6 +2,7 @@
 
 use crate::claim::{Row, Shape, Stated};
 use crate::printed::Printed;
+use crate::read::has;
 
 use super::{Hit, Seen};
 use crate::calculate::Line;
@@ -271,3 +272,47 @@ pub(super) fn hidden(seen: &Seen<'_>) -> Vec<Hit> {
     });
     hidden.chain(stale).collect()
 }
+
+/// A step of indication that stands in an earlier row already, where neither row says that it is of another reading or
+/// instrument.
+pub(super) fn step_again(seen: &Seen<'_>) -> Vec<Hit> {
+    let steps: Vec<(usize, &Row, &Printed)> = rows(seen)
+        .filter_map(|(at, row, _)| match &row.stated {
+            Stated::Step { step } if !has(&row.words.to_lowercase(), APART) => {
+                Some((at, row, step))
+            }
+            _ => None,
+        })
+        .collect();
+    let again = steps
+        .iter()
+        .enumerate()
+        .filter_map(|(later, (at, row, step))| {
+            let same = |other: &Printed| other.value == step.value && other.unit == step.unit;
+            let (_, first, _) = steps[..later].iter().find(|(_, _, other)| same(other))?;
+            let numbers = format!("{}, {}: {}", first.label(), row.label(), step.as_read());
+            Some(Hit::of(Some(*at), numbers))
+        });
+    again.collect()
+}
+
+/// What parts one reading, or one instrument, from another.
+const APART: &[&str] = &[
+    "standard",
+    "reference",
+    "zero",
+    "tare",
+    "initial",
+    "final",
+    "first",
+    "second",
+    "before",
+    "after",
+    "标准",
+    "参考",
+    "零",
+    "初",
+    "末",
+    "起",
+    "止",
+];

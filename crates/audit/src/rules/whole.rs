@@ -3,6 +3,7 @@
 use crate::calculate::{Factor, t};
 use crate::claim::{Correlation, Coverage, Stated};
 use crate::printed::Printed;
+use crate::read::Whole;
 
 use super::{Hit, Seen};
 
@@ -171,7 +172,13 @@ pub(super) fn factor_alone(seen: &Seen<'_>) -> Vec<Hit> {
         seen.claimed.coverage,
         Coverage::StudentT(_) | Coverage::Rectangle | Coverage::OfRectangle
     );
-    let text = seen.claimed.words.to_lowercase();
+    // `U (k = 2, 95 %)` says it beside the figure, a note below the table.
+    let of_whole = [Whole::Factor, Whole::Expanded].map(Whole::name);
+    let labels = seen.claimed.understood.iter();
+    let labels = labels.filter(|one| of_whole.contains(&one.role));
+    let text = labels.fold(seen.claimed.words.to_lowercase(), |text, one| {
+        text + "\n" + &one.text.to_lowercase()
+    });
     let level = [
         "95",
         "99",
@@ -228,7 +235,35 @@ fn is_positive(mut matrix: Vec<Vec<f64>>) -> bool {
 }
 
 /// Rows that name the same certificate, and are not correlated.
-pub(super) fn common_certificate(seen: &Seen<'_>) -> Vec<Hit> {
+/// Rows of which one says that it rests on the same standard as another, in a sheet that states no correlation.
+pub(super) fn common_reference(seen: &Seen<'_>) -> Vec<Hit> {
+    let mut hits = common_certificate(seen);
+    if hits.is_empty() && seen.claimed.correlations.is_empty() {
+        let rows = seen.claimed.rows.iter().enumerate();
+        hits.extend(rows.filter_map(|(at, row)| {
+            let lower = row.words.to_lowercase();
+            let said = SAME.iter().find(|words| lower.contains(**words))?;
+            Some(Hit::of(Some(at), format!("{}: {said}", row.label())))
+        }));
+    }
+    hits
+}
+
+/// What says that two rows have a cause in common.
+const SAME: &[&str] = &[
+    "same standard",
+    "same reference",
+    "same certificate",
+    "same instrument",
+    "same gauge",
+    "同一标准",
+    "同一台标准",
+    "同一块标准",
+    "同一参考",
+    "同一证书",
+];
+
+fn common_certificate(seen: &Seen<'_>) -> Vec<Hit> {
     let number = |words: &str| {
         let lower = words.to_lowercase();
         let at = [

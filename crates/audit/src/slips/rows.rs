@@ -1,7 +1,7 @@
 //! Slips in a row: from what is stated to its contribution.
 
-use crate::calculate::{Case, Combined, RANGE};
-use crate::claim::{Figure, Relative, Row, Shape, Stated};
+use crate::calculate::{Case, Combined};
+use crate::claim::{Figure, RANGE, Relative, Row, Shape, Stated, range_factor};
 use crate::printed::Printed;
 use crate::units;
 
@@ -149,7 +149,7 @@ pub(super) const SLIPS: &[Slip] = &[
         en: "the standard deviation of single readings was used although a mean is reported",
         zh: "报告的是平均值，却用了单次测量的标准偏差",
         acts: |case| u(case, |row| match &row.stated {
-            Stated::Range { range, n, .. } => vec![range.value / crate::calculate::range_factor(*n).0],
+            Stated::Range { range, n, .. } => vec![range.value / range_factor(*n).0],
             _ => deviation(row, |s, _, _| vec![s]),
         }) },
     Slip { id: "s-over-n", rule: "21", weight: Error,
@@ -170,7 +170,7 @@ pub(super) const SLIPS: &[Slip] = &[
         acts: |case| u(case, |row| match &row.stated {
             Stated::Range { range, m, n } => {
                 // A neighbour in the table, or another row of it.
-                let own = crate::calculate::range_factor(*n).0;
+                let own = range_factor(*n).0;
                 RANGE.iter().filter(|(c, _)| *c != own).map(|(c, _)| range.value / c / libm::sqrt(*m)).collect()
             }
             _ => Vec::new(),

@@ -205,3 +205,27 @@ fn coefficients_may_convert() {
         R,limits ±60 Ω,60,Ω,rectangular,√3,34.6,-0.0004,0.01386\nu_c,0.0165,mA/g\nU (k = 2),0.033,mA/g\n";
     is_sound("sheet.csv", volts);
 }
+
+/// A relative budget whose heads differ by the size of a letter alone: U of the sources, u of their quotients.
+#[test]
+fn a_capital_letter_is_an_expanded_uncertainty() {
+    let sheet = |expanded: &str| {
+        format!(
+            "Flow calibration\nNo.,Source,Urel (%),k,urel (%)\n1,Weighing,0.05,2,0.025\n2,Timer,0.02,√3,0.012\n\
+             3,Density,0.03,2,0.015\n4,Repeatability,,,0.021\n,Combined,,,0.038\n,Expanded U_rel (k=2),,,{expanded}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.076"));
+    assert_eq!(first("sheet.csv", &sheet("0.038")), "k-forgotten");
+}
+
+/// `测量结果的分布` is a column of distributions, and a range whose u is R/(C√n) is that of a mean.
+#[test]
+fn heads_end_in_the_distribution() {
+    is_sound(
+        "sheet.csv",
+        "力传感器\n标准不确定度分量,不确定度来源,测量结果的分布,标准不确定度值,单位,灵敏系数\n\
+         u1,\"力标准机 (Urel=0.02%, k=2)\",正态,0.010,%,1\nu2,\"重复性(3次, 极差法 R=0.03%, C=1.69)\",正态,0.010,%,1\n\
+         u3,方位误差 ±0.03%,反正弦,0.021,%,1\nu4,分辨力 0.01%,均匀,0.0029,%,1\nuc,,,0.026,%,\nU,k=2,,0.052,%,\n",
+    );
+}

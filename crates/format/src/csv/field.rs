@@ -94,8 +94,13 @@ pub fn days(text: &str) -> Option<f64> {
     const SECONDS_OF_A_DAY: f64 = 86_400.0;
     let date = text.split(['T', ' ']).next()?;
     days_of(date)?;
+    Some(time(text)? / SECONDS_OF_A_DAY)
+}
+
+/// Seconds of a time of the calendar, since the beginning of 1970, or of one of the day.
+pub fn time(text: &str) -> Option<f64> {
     let instant = instant(text)?;
-    Some((instant.whole as f64 + instant.rest) / SECONDS_OF_A_DAY)
+    Some(instant.whole as f64 + instant.rest)
 }
 
 /// Whether a field says that a range was exceeded.

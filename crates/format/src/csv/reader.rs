@@ -175,9 +175,11 @@ pub fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejectio
     }
     let bytes = files.read(path).map_err(|error| {
         let mut fault = unreadable(files, path, name, &error);
-        fault = fault.help(say!(
-            "the path starts from the folder of the file that names it"
-        ));
+        if fault.help.is_none() {
+            fault = fault.help(say!(
+                "the path starts from the folder of the file that names it"
+            ));
+        }
         Rejection::new(name, "", vec![fault])
     })?;
     let decoded = decode(&bytes).map_err(|error| {
@@ -223,7 +225,12 @@ fn unreadable(files: Files<'_>, path: &Path, name: &str, error: &Error) -> Fault
         ErrorKind::PermissionDenied => say!("{name} may not be read"),
         _ => say!("{name} cannot be read: {error}"),
     };
-    Fault::new(UNREADABLE, 0..0, message)
+    let fault = Fault::new(UNREADABLE, 0..0, message);
+    let near = (error.kind() == ErrorKind::NotFound).then(|| files.near(path));
+    match near.flatten() {
+        Some(near) => fault.help(say!("did you mean \"{near}\"?")),
+        None => fault,
+    }
 }
 
 /// Whether a text may be a table of values; nothing is quoted of one that cannot be, as it may be anything.

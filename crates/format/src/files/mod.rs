@@ -26,6 +26,8 @@ pub use ledger::{reads, remember_reads, was_read_as};
 use std::io::{Error, ErrorKind, Read, Result};
 use std::path::{Component, Path, PathBuf};
 
+use gumption_fault::nearest;
+
 /// Most bytes of a file that are read: ten million rows of eight columns. What is read is in memory as a whole,
 /// and its numbers beside it.
 pub(crate) const MOST_BYTES: u64 = 1 << 30;
@@ -63,6 +65,19 @@ impl Folder<'_> {
             false => Err(Error::from(ErrorKind::NotFound)),
         }
     }
+}
+
+/// The names of the files in a folder of the computer.
+fn names_in(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let paths = entries
+        .map(|entry| entry.path())
+        .filter(|path| path.is_file());
+    paths.filter_map(|path| name_of(&path)).collect()
+}
+
+fn name_of(path: &Path) -> Option<String> {
+    Some(path.file_name()?.to_str()?.to_owned())
 }
 
 /// The content among some that are in memory.
@@ -158,6 +173,27 @@ impl<'a> Files<'a> {
             }
             Files::Folder(folder) => folder.place(path).is_ok_and(|place| place.is_dir()),
         }
+    }
+
+    /// The file beside a missing one that may be meant: of the same ending, and of nearly the same name.
+    pub fn near(&self, missing: &Path) -> Option<String> {
+        let folder = missing.parent().filter(|folder| *folder != Path::new(""));
+        let folder = folder.unwrap_or(Path::new("."));
+        let mut names: Vec<String> = match self {
+            Files::Disk => names_in(folder),
+            Files::Library(files) => {
+                let beside = plain(missing);
+                let paths = files.iter().map(|(name, _)| Path::new(name));
+                let paths = paths.filter(|path| path.parent() == beside.parent());
+                paths.filter_map(name_of).collect()
+            }
+            Files::Folder(of) => of
+                .place(folder)
+                .map_or_else(|_| Vec::new(), |place| names_in(&place)),
+        };
+        names.retain(|name| Path::new(name).extension() == missing.extension());
+        names.sort_unstable();
+        nearest(&name_of(missing)?, names.iter().map(String::as_str)).map(str::to_owned)
     }
 
     /// The same for every way to write the path of one file.

@@ -153,6 +153,29 @@ fn unquoted_key(span: Range<usize>, marked: &str, text: &str, synonyms: &Synonym
     .help(help)
 }
 
+/// What to write for a header that stands a second time: tables of one name are a list, or one of them is another.
+fn of_second_header(line: &str, before: &str) -> Said {
+    let name = line
+        .trim_start_matches('[')
+        .split(']')
+        .next()
+        .unwrap_or(line);
+    let (single, listed) = (format!("[{name}]"), format!("[[{name}]]"));
+    let stood = |header: &str| before.lines().any(|line| line.trim().starts_with(header));
+    match line.starts_with(&listed) {
+        true => say!(
+            "of several tables each has the header {listed}: write so for the first {single}, too"
+        ),
+        false if stood(&listed) => {
+            say!("of several tables each has the header {listed}: write so here, too")
+        }
+        false if name.contains('.') => say!(
+            "a table has one header: put these keys below the first {single}, or give this one another name"
+        ),
+        false => say!("a table has one header: put these keys below the first {single}"),
+    }
+}
+
 fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fault {
     let end = text.len();
     let span = error.span().unwrap_or(end..end);
@@ -172,7 +195,7 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
     if says("duplicate key") {
         let line = text[line_of(span.start, text)].trim();
         let help = match line.starts_with('[') {
-            true => say!("a table has one header: put these keys below the first {line}"),
+            true => of_second_header(line, &text[..span.start]),
             false => {
                 say!("a key can be stated once in a table; several components stand in a list")
             }

@@ -318,7 +318,11 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
                 "data of a certificate stand in a file of their own: --certificate FILE; the U and k of a reference stand with its input, certificate = {{ U = …, k = 2 }}"
             ))
         }
-        _ if has("conventions") => header_of(key),
+        _ if has("conventions") => header_of(key).or_else(|| {
+            let is_budget = has("measurand");
+            is_budget.then(|| of_an_input(key, known)).flatten()
+        }),
+        ("[measurand]", _) => of_an_input(key, known),
         _ => None,
     };
     if elsewhere.is_some() {
@@ -461,4 +465,20 @@ fn parts_of(specification: &str) -> String {
         }
     });
     keys.collect::<Vec<_>>().join(", ")
+}
+
+/// A name that resembles no key is that of an input, whose header is missing.
+fn of_an_input(key: &str, known: &[&'static str]) -> Option<Said> {
+    let plain = key.to_lowercase().replace(['-', ' '], "_");
+    let is_key = FileTable::keys().contains(&key)
+        || SYNONYMS
+            .iter()
+            .any(|(word, meant)| *word == plain && known.contains(meant))
+        || nearest(&plain, known.iter().copied()).is_some();
+    (!is_key).then(|| {
+        say!(
+            "an input stands below a header of its own: [input.{key}]; known keys: {}",
+            known.join(", ")
+        )
+    })
 }

@@ -112,6 +112,10 @@ fn unreadable(files: Files<'_>, path: &Path, error: &std::io::Error) -> Fault {
             path.join("*.toml").display()
         ));
     }
+    let near = (error.kind() == ErrorKind::NotFound).then(|| files.near(path));
+    if let Some(near) = near.flatten() {
+        return fault(say!("there is no file {name}")).help(say!("did you mean \"{near}\"?"));
+    }
     match error.kind() {
         ErrorKind::NotFound => fault(say!("there is no file {name}"))
             .help(say!("check the name and the folder; `gumption new` writes a budget to start from, with --recording or --procedure an experiment")),

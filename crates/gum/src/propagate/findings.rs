@@ -19,6 +19,9 @@ use gumption_core::special::normal_two_sided_quantile;
 /// Poles and ends of domains are looked for within this many standard uncertainties.
 pub(super) const REACH: f64 = 4.0;
 
+/// Standard uncertainties to either side up to which an input is changed to see whether the measurand follows.
+const PROBES: i32 = 3;
+
 /// Fewer effective degrees of freedom than this are worth a remark.
 const FEW: f64 = 10.0;
 
@@ -369,11 +372,19 @@ impl Evidence<'_> {
                 x[input] += change;
                 self.budget.model.values(&x)
             };
-            let by = self.linear.inputs[input].u;
-            let sides = at(by).into_iter().zip(at(-by));
-            let all = sides.zip(&self.linear.values);
-            all.map(|((above, below), here)| above != *here || below != *here)
-                .collect()
+            let u = self.linear.inputs[input].u;
+            // One trial of twenty lies beyond 2 u: the smallest of several readings becomes the middle one there.
+            let changes =
+                (1..=PROBES).flat_map(|count| [f64::from(count) * u, f64::from(-count) * u]);
+            let mut moved = vec![false; self.linear.values.len()];
+            for change in changes {
+                for ((moved, there), here) in
+                    moved.iter_mut().zip(at(change)).zip(&self.linear.values)
+                {
+                    *moved |= there != *here && there.is_finite();
+                }
+            }
+            moved
         });
         moved[measurand]
     }

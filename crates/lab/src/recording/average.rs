@@ -26,7 +26,7 @@ pub struct Average {
     /// Autocorrelation coefficient of successive readings; 0 where all are equal.
     pub autocorrelation: f64,
     /// The number of independent readings that are worth as much: n over
-    /// 1 + 2 Σ (1 − k/n) ρ_k, the sum over the lags with evident correlation ([`Series::serial`]).
+    /// 1 + 2 Σ (1 − k/n) ρ_k ([`Series::serial_factor`]).
     pub effective: f64,
     /// Standard uncertainty of the mean (GUM 4.2.3, with serial correlation after 4.2.7): √(σ²/effective)
     /// with σ² = Σ(x − x̄)²/(n − n/effective). 0 where all readings are equal: their resolution is
@@ -221,7 +221,8 @@ impl Scatter {
         let series = exact(readings);
         let n = readings.len() as f64;
         let independent = |count: f64, series: &Series| match series.squares() > 0.0 {
-            true => count / series.serial().factor,
+            // Two readings at least, or there would be no scatter.
+            true => (count / series.serial_factor()).max(2.0_f64.min(count)),
             false => count,
         };
         if readings.len() <= LONGEST {

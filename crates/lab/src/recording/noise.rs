@@ -75,15 +75,17 @@ impl Coefficient {
     }
 }
 
-/// A part of the variance is identified if it is this many times its standard uncertainty.
-const EVIDENT: f64 = 2.0;
+/// A part of the variance is identified if the deviations without it are less likely by this much in −2 ln L: as much as two
+/// standard uncertainties.
+const EVIDENT: f64 = 4.0;
 /// The weights follow the coefficients; they settle in a few rounds.
 const ROUNDS: usize = 25;
 
 impl Allan {
     /// The noises that the Allan deviation shows, by generalised least squares on the variances with
-    /// the covariances of theory. Those that are not evident (less than twice their standard uncertainty,
-    /// as squares) are left out one after another.
+    /// the covariances of theory. Those that are not evident are left out one after another. A noise scatters its own
+    /// estimate, so that its square over u says little: without a random walk the covariances of long averaging times are
+    /// far smaller, and what was hidden in its scatter is refuted.
     ///
     /// `None` for readings that are all equal, or with fewer than four averaging times.
     pub fn noises(&self) -> Option<Noises> {
@@ -91,17 +93,11 @@ impl Allan {
             return None;
         }
         let problem = Variances::new(self);
-        let mut laws: Vec<PowerLaw> = PowerLaw::ALL.to_vec();
-        let fit = loop {
-            let fit = problem.fit(&laws);
-            let weakest = fit.as_ref().and_then(Fit::weakest);
-            match weakest {
-                Some((place, ratio)) if ratio < EVIDENT && laws.len() > 1 => {
-                    laws.remove(place);
-                }
-                _ => break fit?,
-            }
-        };
+        let mut fit = problem.fit(&PowerLaw::ALL)?;
+        while let Some(less) = problem.without_the_least(&fit) {
+            fit = less;
+        }
+        let laws = fit.laws.clone();
         let coefficient = |law: PowerLaw| -> Option<Coefficient> {
             // From variances per interval to those per unit of time.
             let scale = law.allan_variance(1.0) / law.allan_variance(self.interval);
@@ -142,17 +138,23 @@ struct Fit {
     squares: DVector<f64>,
     covariance: DMatrix<f64>,
     chi_squared: f64,
-    /// Inverse of the covariance matrix of the variances.
-    weights: DMatrix<f64>,
+    weights: Weights,
 }
 
 impl Fit {
-    /// The coefficient that is least evident, and by how much it is.
-    fn weakest(&self) -> Option<(usize, f64)> {
-        (0..self.laws.len())
-            .map(|i| (i, self.squares[i] / self.covariance[(i, i)].sqrt()))
-            .min_by(|a, b| a.1.total_cmp(&b.1))
+    /// −2 ln L of normal variances, but for a constant.
+    fn deviance(&self) -> f64 {
+        self.chi_squared + self.weights.log_determinant
     }
+}
+
+/// How exactly the variances are known.
+#[derive(Clone)]
+struct Weights {
+    /// Inverse of their covariance matrix.
+    inverse: DMatrix<f64>,
+    /// Logarithm of the determinant of that matrix.
+    log_determinant: f64,
 }
 
 impl Variances {
@@ -182,7 +184,14 @@ impl Variances {
     /// Least squares whose weights follow from the coefficients that it finds.
     fn fit(&self, laws: &[PowerLaw]) -> Option<Fit> {
         let relative = self.observed.map(|v| 1.0 / (v * v));
-        let mut fit = self.solve(laws, DMatrix::from_diagonal(&relative))?;
+        let first = Weights {
+            inverse: DMatrix::from_diagonal(&relative),
+            log_determinant: -relative
+                .iter()
+                .map(|weight| libm::log(*weight))
+                .sum::<f64>(),
+        };
+        let mut fit = self.solve(laws, first)?;
         for _ in 0..ROUNDS {
             let Some(weights) = self.weights(&fit) else {
                 break;
@@ -190,6 +199,25 @@ impl Variances {
             fit = self.solve(laws, weights)?;
         }
         Some(self.in_units(fit))
+    }
+
+    /// The fit without the noise that is least evident, if any is not: one with a negative square before all others.
+    fn without_the_least(&self, fit: &Fit) -> Option<Fit> {
+        if fit.laws.len() < 2 {
+            return None;
+        }
+        let costs = (0..fit.laws.len()).filter_map(|place| {
+            let mut laws = fit.laws.clone();
+            laws.remove(place);
+            let less = self.fit(&laws)?;
+            let cost = match fit.squares[place] > 0.0 {
+                true => less.deviance() - fit.deviance(),
+                false => f64::NEG_INFINITY,
+            };
+            Some((cost, less))
+        });
+        let (cost, less) = costs.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (cost < EVIDENT).then_some(less)
     }
 
     /// The upper limit of the square of a coefficient that a fit does without: twice, because the scatter
@@ -210,15 +238,15 @@ impl Variances {
         Some(first.max(second) * self.unit)
     }
 
-    fn solve(&self, laws: &[PowerLaw], weights: DMatrix<f64>) -> Option<Fit> {
+    fn solve(&self, laws: &[PowerLaw], weights: Weights) -> Option<Fit> {
         let design = DMatrix::from_fn(self.taus.len(), laws.len(), |i, j| {
             laws[j].allan_variance(self.taus[i])
         });
-        let weighted = design.transpose() * &weights;
+        let weighted = design.transpose() * &weights.inverse;
         let covariance = (&weighted * &design).try_inverse()?;
         let squares = &covariance * (weighted * &self.observed);
         let residuals = &self.observed - &design * &squares;
-        let chi_squared = (residuals.transpose() * &weights * &residuals)[(0, 0)];
+        let chi_squared = (residuals.transpose() * &weights.inverse * &residuals)[(0, 0)];
         Some(Fit {
             laws: laws.to_vec(),
             squares,
@@ -228,8 +256,8 @@ impl Variances {
         })
     }
 
-    /// Inverse of the covariance matrix that the coefficients of a fit imply.
-    fn weights(&self, fit: &Fit) -> Option<DMatrix<f64>> {
+    /// Those that the coefficients of a fit imply.
+    fn weights(&self, fit: &Fit) -> Option<Weights> {
         let mut c = [0.0; 3];
         for (law, square) in fit.laws.iter().zip(fit.squares.iter()) {
             c[*law as usize] = square.max(0.0);
@@ -241,7 +269,12 @@ impl Variances {
                 .flat_map(|p| (0..3).map(move |q| c[p] * c[q] * terms[p][q]))
                 .sum()
         });
-        Some(covariance.cholesky()?.inverse())
+        let factor = covariance.cholesky()?;
+        let diagonal = factor.l_dirty().diagonal();
+        Some(Weights {
+            inverse: factor.inverse(),
+            log_determinant: 2.0 * diagonal.iter().map(|x| libm::log(*x)).sum::<f64>(),
+        })
     }
 
     fn in_units(&self, mut fit: Fit) -> Fit {

@@ -45,7 +45,15 @@ pub(super) fn limits(e: &Evidence<'_>, text: &str) -> Option<Stated> {
                 "无置信",
             ],
         );
-    let shape = shape(text).or_else(|| level.then(|| Shape::Normal(normal_factor(e, text))));
+    // A column of distributions that makes u larger than nothing but limits would (arcsine) needs no reason; one that makes
+    // it smaller does.
+    let cautious = || {
+        let of_column = shape(&e.columns.to_lowercase());
+        of_column.filter(|shape| shape.divisor() < Shape::Rectangular.divisor())
+    };
+    let shape = shape(text)
+        .or_else(|| level.then(|| Shape::Normal(normal_factor(e, text))))
+        .or_else(cautious);
     Some(Stated::Limits {
         half_width,
         shape: shape.unwrap_or(Shape::Rectangular),

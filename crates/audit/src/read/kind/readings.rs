@@ -1,6 +1,6 @@
 //! What is known from readings: their standard deviation, how many they were, and how many are behind the value.
 
-use crate::claim::Stated;
+use crate::claim::{Stated, range_factor};
 use crate::printed::Printed;
 use crate::read::words::{count_after, count_before, figure_after, find, has, trailing_count};
 
@@ -109,11 +109,19 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
 
 pub(super) fn range(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     let n = count(text, e)?;
-    Some(Stated::Range {
-        range: e.figure_or_used(&["range method", "range r", "range", "极差法", "极差"])?,
-        n,
-        m: behind(text, e, Some(n)).unwrap_or(1.0),
-    })
+    let range = e.figure_or_used(&["range method", "range r", "range", "极差法", "极差"])?;
+    // Where words leave open whether the mean is reported, the laboratory's own u says it: R/C of one reading, R/(C√n) of n.
+    let s = range.value / range_factor(n).0;
+    let is_u = |u: &&Printed| {
+        u.unit == range.unit && (s / libm::sqrt(n) - u.value).abs() <= u.half_of_digits()
+    };
+    let by_u = || {
+        e.u.filter(is_u)
+            .filter(|_| !reports_single(text))
+            .map(|_| n)
+    };
+    let m = behind(text, e, Some(n)).or_else(by_u).unwrap_or(1.0);
+    Some(Stated::Range { range, n, m })
 }
 
 /// No scatter: what is left is the step of the indication, which the words have.

@@ -127,3 +127,37 @@ fn questions_are_no_errors_and_slips_have_figures() {
         "{slip:?}"
     );
 }
+
+/// What two rows have in common is asked; the probability may stand beside U.
+#[test]
+fn rows_that_repeat_one_cause_are_asked_about() {
+    let fired = |sheet: &str| -> Vec<u8> {
+        let grids = grid::grids("sheet.csv", sheet.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        let all = findings(&audit(&claims[0]).found);
+        all.iter().map(|finding| finding.rule).collect()
+    };
+    let sheet = |second: &str, third: &str, expanded: &str| {
+        format!(
+            "Source,Half-width (hPa),Divisor,Standard uncertainty (hPa)\nReference (k=2),0.10,2,0.050\n{second},0.05,1.732,0.029\n\
+             {third},0.05,1.732,0.029\nCombined standard uncertainty,,,0.065\n\"{expanded}\",,,0.13\n"
+        )
+    };
+    let twice = fired(&sheet(
+        "resolution 0.1 hPa",
+        "reading error from the resolution 0.1 hPa",
+        "U (k=2)",
+    ));
+    assert!(twice.contains(&32) && twice.contains(&45), "{twice:?}");
+    let apart = fired(&sheet(
+        "resolution 0.1 hPa",
+        "resolution of the standard 0.1 hPa",
+        "U (k=2, 95 %)",
+    ));
+    assert!(!apart.contains(&32) && !apart.contains(&45), "{apart:?}");
+    let common = fired(
+        "Model: R = R1 + R2\nQuantity,Estimate,Std uncertainty,c\nR1 (compared with standard S),1000.000 Ω,0.5 mΩ,1\n\
+         R2 (compared with the same standard S),1000.000 Ω,0.5 mΩ,1\nR,2000.000 Ω,0.71 mΩ,\nU (k=2),,1.4 mΩ,\n",
+    );
+    assert!(common.contains(&56), "{common:?}");
+}

@@ -395,7 +395,7 @@ impl Checker<'_> {
         Some((s, dof))
     }
 
-    /// u of the mean of serially correlated readings (GUM 4.2.7): see [`Series::serial`]. ν is that of
+    /// u of the mean of serially correlated readings (GUM 4.2.7): see [`Series::serial_factor`]. ν is that of
     /// so many independent readings.
     fn autocorrelated(
         &mut self,
@@ -434,7 +434,7 @@ impl Checker<'_> {
         }
         let n = numbers.len() as f64;
         let series = Series::new(numbers);
-        let factor = series.serial().factor;
+        let factor = series.serial_factor();
         let effective = n / factor;
         if effective < 2.0 {
             return self.refuse(
@@ -456,7 +456,7 @@ impl Checker<'_> {
             u: sigma / effective.sqrt(),
             dof: effective - 1.0,
             how: format!(
-                "s/√n_eff, s = {}, n = {n}, n_eff = {}",
+                "σ/√n_eff, σ = {}, n = {n}, n_eff = {}",
                 show(sigma),
                 show(effective)
             ),

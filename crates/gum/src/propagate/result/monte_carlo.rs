@@ -113,6 +113,20 @@ pub enum MissingMoments {
     },
 }
 
+impl MissingMoments {
+    /// Whether the standard deviation alone is missing, and a mean is given.
+    pub fn leave_a_mean(&self) -> bool {
+        match self {
+            MissingMoments::HeavyComponent { dof, power, .. } => dof > power,
+            MissingMoments::JointReadings { inputs, readings } => *readings > inputs.len() + 1,
+            MissingMoments::Tail { consequence, .. } => {
+                !matches!(consequence, Consequence::NoMean | Consequence::SlowMean)
+            }
+            MissingMoments::FewTrials { .. } => true,
+        }
+    }
+}
+
 /// Which end of the distribution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Side {

@@ -345,3 +345,24 @@ fn what_has_no_allan_deviation() {
         Err(Unsuitable::Interval(_))
     ));
 }
+
+/// A random walk that is just above the white noise: it is in the recording, and is not called something else.
+#[test]
+fn a_weak_random_walk_is_no_riddle() {
+    let (count, recordings) = (20_000, 12);
+    let mut shown = 0;
+    for seed in 0..recordings {
+        let (white, steps) = (normals(100 + seed, count), normals(500 + seed, count));
+        let mut walk = 0.0;
+        let readings = white.iter().zip(&steps).map(|(white, step)| {
+            walk += 3e-5 * step;
+            0.02 * white + walk
+        });
+        let readings: Vec<f64> = readings.collect();
+        let allan = Allan::of(&readings, 0.01, 0.95).expect("readings");
+        let noises = allan.noises().expect("noises");
+        assert!(noises.p_value > 1e-4, "{noises:?}");
+        shown += usize::from(noises.rate_random_walk.value().is_some());
+    }
+    assert!(2 * shown > recordings as usize, "{shown} of {recordings}");
+}

@@ -284,11 +284,13 @@ impl Solved {
             })
             .collect();
         let columns = columns.iter().zip(&self.u).zip(&self.common);
-        let columns = columns
+        let columns: Vec<_> = columns
             .map(|((column, u), common)| fit_column(column, u.clone(), common, register))
             .collect();
         let solution = self.solution;
         let text = |stated: &Slot<String>| stated.as_ref().map(|text| text.value.clone());
+        // A constant alone has nothing to determine the response by.
+        let has_predictors = columns.len() > 1;
         Fit {
             name: name.to_string(),
             description: text(&stated.value.description),
@@ -302,7 +304,10 @@ impl Solved {
             dof: solution.dof,
             chi_squared: solution.chi_squared,
             residual_sd: (solution.dof > 0).then_some(solution.residual_sd),
-            r_squared: solution.r_squared,
+            r_squared: match has_predictors {
+                true => solution.r_squared,
+                false => f64::NAN,
+            },
             normalised: self.normalised,
             lack_of_fit: self.lack_of_fit,
             doubts: self.doubts,

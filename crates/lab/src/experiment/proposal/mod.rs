@@ -2,7 +2,9 @@
 //!
 //! Names and units come from the first line. Roles are told by how the numbers behave, which decides nothing: the file says of each column what is in
 //! it, and that its role is a guess. Without a procedure the equation is a straight line, the least that has a coefficient to calibrate; along
-//! several axes that are set, the sum of one for each.
+//! several axes that are set, the sum of one for each; around a turn, a wave.
+
+mod roles;
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -10,11 +12,12 @@ use std::path::Path;
 use gumption_core::model::{is_reserved, names};
 use gumption_core::quantity::{UnitTable, show};
 use gumption_fault::Rejection;
-use gumption_format::csv::{Column, Data, Labels, Recording};
+use gumption_format::csv::{Column, Data, Recording};
 use gumption_format::toml::writing::{key, quoted};
 
 use super::entries::RoleWord;
 use super::procedure::Procedure;
+use roles::{followed, goes_around, is_kin, roles, stretches};
 
 /// Rows from which on a recording has to say whether they are samples or averages.
 const MANY: usize = 100;
@@ -67,8 +70,6 @@ struct Guess<'r> {
     role: RoleWord,
 }
 
-// ---- roles -----------------------------------------------------------------------------------------------------
-
 fn guessed(table: &Recording) -> Vec<Guess<'_>> {
     let mut taken = BTreeSet::new();
     let roles = roles(&table.columns);
@@ -80,163 +81,6 @@ fn guessed(table: &Recording) -> Vec<Guess<'_>> {
             role,
         })
         .collect()
-}
-
-fn roles(columns: &[Column]) -> Vec<RoleWord> {
-    let mut roles: Vec<Option<RoleWord>> = columns.iter().map(by_itself).collect();
-    let open: Vec<usize> = (0..columns.len())
-        .filter(|at| roles[*at].is_none())
-        .collect();
-    // What is set takes few values, what is read many; of several that are read the last that is no condition is the output, and with it
-    // those that differ by their axis.
-    let last = |is: &dyn Fn(&Column) -> bool| open.iter().rev().find(|at| is(&columns[**at]));
-    let output = last(&|column| !is_set(column) && !is_condition(column))
-        .or_else(|| last(&|column| !is_condition(column)))
-        .or(open.last())
-        .copied();
-    for at in &open {
-        if output.is_some_and(|output| *at == output || is_kin(&columns[*at], &columns[output])) {
-            roles[*at] = Some(RoleWord::Output);
-        }
-    }
-    let rest: Vec<usize> = open.into_iter().filter(|at| roles[*at].is_none()).collect();
-    let are_conditions = rest.iter().all(|at| is_condition(&columns[*at]));
-    for at in rest {
-        let is_stimulus = are_conditions || !is_condition(&columns[at]);
-        roles[at] = Some(match is_stimulus {
-            true => RoleWord::Stimulus,
-            false => RoleWord::Covariate,
-        });
-    }
-    // Of times one is the time.
-    let mut times = 0;
-    let roles = roles.into_iter().map(|role| match role {
-        Some(RoleWord::Time) if times > 0 => RoleWord::Covariate,
-        Some(RoleWord::Time) => {
-            times += 1;
-            RoleWord::Time
-        }
-        role => role.unwrap_or(RoleWord::Ignore),
-    });
-    roles.collect()
-}
-
-/// The role of a column that shows it without the others.
-fn by_itself(column: &Column) -> Option<RoleWord> {
-    let numbers = match &column.data {
-        Data::Labels(labels) => return Some(of_labels(column, labels)),
-        Data::Numbers(numbers) => numbers,
-    };
-    let known: Vec<f64> = numbers.iter().copied().filter(|x| x.is_finite()).collect();
-    if known.is_empty() {
-        return Some(RoleWord::Ignore);
-    }
-    if is_clock(column) {
-        // Of several runs one after the other it is told by none.
-        return Some(match known.is_sorted() {
-            true => RoleWord::Time,
-            false => RoleWord::Ignore,
-        });
-    }
-    if let Some(role) = by_name(column).filter(|_| known.iter().all(|x| x.fract() == 0.0)) {
-        return Some(role);
-    }
-    let name = column.name.to_lowercase();
-    if ["sd", "std", "stdev", "s_", "u_"]
-        .iter()
-        .any(|start| name.starts_with(start))
-    {
-        return Some(RoleWord::Ignore);
-    }
-    let is_constant = known.iter().all(|x| *x == known[0]);
-    (is_constant && known.len() > 1).then_some(RoleWord::Covariate)
-}
-
-/// What is numbered or labelled, by its name.
-fn by_name(column: &Column) -> Option<RoleWord> {
-    let name = column.name.to_lowercase();
-    let known = match name.as_str() {
-        "position" | "pos" | "pose" | "point" | "位置" => RoleWord::Position,
-        "direction" | "dir" | "方向" | "行程" => RoleWord::Direction,
-        "axis" | "轴" => RoleWord::Axis,
-        "run" | "series" | "mount" | "cycle" | "序列" => RoleWord::Run,
-        "unit" | "instrument" | "operator" | "device" | "lot" | "lab" | "probe" | "仪器"
-        | "人员" => RoleWord::Factor,
-        "n" | "no" | "no." | "nr" | "index" | "row" | "n_samples" | "samples" | "序号" => {
-            RoleWord::Ignore
-        }
-        _ => return None,
-    };
-    Some(known)
-}
-
-fn of_labels(column: &Column, labels: &Labels) -> RoleWord {
-    if labels.levels.len() == labels.of_row.len() {
-        return RoleWord::Ignore;
-    }
-    if let Some(role) = by_name(column) {
-        return role;
-    }
-    // What was repeated as a whole comes once each.
-    match stretches(&labels.of_row) == labels.levels.len() {
-        true => RoleWord::Run,
-        false => RoleWord::Factor,
-    }
-}
-
-/// Whether it says when, by its name and by its unit where it has one: a period is in seconds, too.
-fn is_clock(column: &Column) -> bool {
-    let name = column.name.to_lowercase();
-    let is_named = name == "t"
-        || ["t_", "time", "时间"]
-            .iter()
-            .any(|start| name.starts_with(start));
-    let second = UnitTable::default().parse("s");
-    let (Some(unit), Ok(second)) = (&column.unit, second) else {
-        return is_named;
-    };
-    is_named && unit.conversion_to(&second).is_some()
-}
-
-/// Whether its numbers come back: each at least twice, on average.
-fn is_set(column: &Column) -> bool {
-    let Data::Numbers(numbers) = &column.data else {
-        return false;
-    };
-    let different: BTreeSet<u64> = numbers.iter().map(|x| x.to_bits()).collect();
-    2 * different.len() <= numbers.len()
-}
-
-/// Whether it is a condition by its unit or name: a temperature, a pressure, a humidity.
-fn is_condition(column: &Column) -> bool {
-    const WORDS: [&str; 8] = [
-        "temp", "press", "humid", "supply", "温度", "气压", "压力", "湿度",
-    ];
-    let units = UnitTable::default();
-    let name = column.name.to_lowercase();
-    let is_temperature = || {
-        let kelvin = units.parse("K").ok()?;
-        column.unit.as_ref()?.difference().conversion_to(&kelvin)
-    };
-    WORDS.iter().any(|word| name.contains(word)) || is_temperature().is_some()
-}
-
-/// Whether two columns are the same but for their axis, as `ax` and `ay`.
-fn is_kin(one: &Column, other: &Column) -> bool {
-    let stem = |column: &Column| -> String {
-        let is_axis = |c: char| matches!(c, 'x' | 'y' | 'z' | 'X' | 'Y' | 'Z') || c.is_numeric();
-        column.name.chars().filter(|c| !is_axis(*c)).collect()
-    };
-    one.unit == other.unit && !stem(one).is_empty() && stem(one) == stem(other)
-}
-
-/// How many stretches of equal values there are.
-fn stretches<T: PartialEq>(values: &[T]) -> usize {
-    let changes = values
-        .iter()
-        .zip(values.iter().skip(1))
-        .filter(|(a, b)| a != b);
-    changes.count() + usize::from(!values.is_empty())
 }
 
 // ---- the text --------------------------------------------------------------------------------------------------
@@ -287,7 +131,7 @@ fn source(file: &str, columns: &[Guess<'_>], rows: usize) -> String {
         Data::Numbers(numbers) => guess.role == RoleWord::Position && is_dwell(stretches(numbers)),
     });
     let stepped = columns.iter().filter(|guess| match &guess.column.data {
-        Data::Numbers(numbers) => guess.role == RoleWord::Stimulus && is_dwell(stretches(numbers)),
+        Data::Numbers(numbers) => is_set(guess.role) && is_dwell(stretches(numbers)),
         Data::Labels(_) => false,
     });
     let stepped: Vec<String> = stepped.map(|guess| quoted(&guess.name)).collect();
@@ -302,15 +146,28 @@ fn source(file: &str, columns: &[Guess<'_>], rows: usize) -> String {
     }
 }
 
-/// For each output a straight line along what is set; along its other axes, too.
+fn is_set(role: RoleWord) -> bool {
+    matches!(role, RoleWord::Stimulus | RoleWord::Angle)
+}
+
+/// For each output a straight line along what is set; along its other axes, too. Around with an angle it is a wave.
 fn by_line(columns: &[Guess<'_>]) -> String {
     let of = |role| columns.iter().filter(move |guess| guess.role == role);
-    let first = of(RoleWord::Stimulus).chain(of(RoleWord::Time)).next();
-    let kin = of(RoleWord::Stimulus).filter(|guess| {
-        first.is_some_and(|first| first.name != guess.name && is_kin(first.column, guess.column))
-    });
-    let along: Vec<&Guess<'_>> = first.into_iter().chain(kin).collect();
     let outputs: Vec<&Guess<'_>> = of(RoleWord::Output).collect();
+    let mut set: Vec<&Guess<'_>> = columns.iter().filter(|guess| is_set(guess.role)).collect();
+    // What differs from position to position is no drift.
+    if set.is_empty() && of(RoleWord::Position).next().is_none() {
+        set.extend(of(RoleWord::Time));
+    }
+    let columns_set = set.iter().map(|guess| guess.column);
+    let best = outputs
+        .first()
+        .and_then(|output| followed(output.column, columns_set));
+    let best = set.get(best.unwrap_or(0)).copied();
+    let is_along = |guess: &&Guess<'_>| {
+        best.is_some_and(|best| best.name == guess.name || is_kin(best.column, guess.column))
+    };
+    let along: Vec<&Guess<'_>> = set.iter().copied().filter(is_along).collect();
     let along_axes = along.len() > 1;
     let mut taken: BTreeSet<String> = columns.iter().map(|guess| guess.name.clone()).collect();
     // Numbered: a name that is nearly that of a column would be taken for a slip of the pen.
@@ -326,7 +183,13 @@ fn by_line(columns: &[Guess<'_>]) -> String {
                 true => format!("b{number}{axis}"),
                 false => format!("b{number}"),
             });
-            format!(" + {slope}*{}", along.name)
+            match goes_around(output.column, along.column) {
+                true => {
+                    let across = coefficient(format!("c{number}"));
+                    format!(" + {slope}*sin({0}) + {across}*cos({0})", along.name)
+                }
+                false => format!(" + {slope}*{}", along.name),
+            }
         });
         let terms: String = terms.collect();
         format!("{} = {constant}{terms}", output.name)
@@ -542,6 +405,63 @@ mod tests {
         let numbered = rows(&|i| format!("{},", i / 20 + 1));
         let table = of(&format!("position,gx,gy,gz,Ux,Uy\n{numbered}"));
         assert_eq!(table["recording"]["dwells"][0].as_str(), Some("position"));
+    }
+
+    /// Times as a clock writes them, voltages that are called U, a reference in a condition's unit, cycles and ways in words.
+    #[test]
+    fn columns_are_such_as_laboratories_write() {
+        let table = of("Time,U_ref [V],lab [°C],U_out [V]\n\
+            2026-03-02 09:00:00,0,21.1,0.01\n2026-03-02 09:00:30,1,21.3,1.02\n2026-03-02 09:01:00,0,21.2,0.02\n\
+            2026-03-02 09:01:30,1,21.6,1.01\n");
+        let roles = ["Time", "U_ref", "lab", "U_out"].map(|name| role(&table, name));
+        assert_eq!(roles, ["time", "stimulus", "covariate", "output"]);
+        assert_eq!(table["equations"].as_str(), Some("U_out = a + b*U_ref"));
+
+        let table = of("循环,过程,标准压力（kPa）,输出（mA）\n\
+            1,升压,0,4.001\n1,升压,50,12.002\n1,降压,0,4.003\n2,升压,0,4.000\n2,升压,50,12.001\n2,降压,0,4.004\n");
+        let roles = ["循环", "过程", "标准压力", "输出"].map(|name| role(&table, name));
+        assert_eq!(roles, ["run", "direction", "stimulus", "output"]);
+        assert_eq!(table["equations"].as_str(), Some("输出 = a + b*标准压力"));
+    }
+
+    /// A temperature that is set is what a thermometer follows; where a rate is, it is a condition.
+    #[test]
+    fn the_output_follows_what_it_is_calibrated_against() {
+        let table = of("no.,I [mA],T [°C],R [ohm]\n\
+            1,1,0,100.1\n2,2,0,100.3\n3,1,50,119.4\n4,2,50,119.5\n5,1,100,138.5\n6,2,100,138.6\n");
+        let roles = ["no", "I", "T", "R"].map(|name| role(&table, name));
+        assert_eq!(roles, ["order", "stimulus", "stimulus", "output"]);
+        assert_eq!(table["equations"].as_str(), Some("R = a + b*T"));
+        let table = of("gx,rate [deg/s],T [°C],out [mV]\n\
+            1,-100,10,-2001\n1,100,10,2003\n-1,-100,40,-2004\n-1,100,40,2000\n");
+        assert_eq!(role(&table, "T"), "covariate");
+        assert_eq!(table["equations"].as_str(), Some("out = a + b*rate"));
+    }
+
+    /// A tumbled accelerometer goes around with the angle, an encoder along it.
+    #[test]
+    fn angles_are_turned_or_read() {
+        let rows = |of: &dyn Fn(f64) -> f64| -> String {
+            let angles = (0..12).map(|place| f64::from(30 * place));
+            angles
+                .map(|angle| format!("{angle},{:.5}\n", of(angle)))
+                .collect()
+        };
+        let table = of(&format!(
+            "head [deg],U [V]\n{}",
+            rows(&|x| 0.01 + libm::sin(x.to_radians()))
+        ));
+        assert_eq!(role(&table, "head"), "angle");
+        assert_eq!(
+            table["equations"].as_str(),
+            Some("U = a + b*sin(head) + c*cos(head)")
+        );
+        let table = of(&format!(
+            "ref [deg],enc [deg]\n{}",
+            rows(&|x| x + 0.003 * libm::cos(x.to_radians()))
+        ));
+        assert_eq!(role(&table, "ref"), "angle");
+        assert_eq!(table["equations"].as_str(), Some("enc = a + b*ref"));
     }
 
     #[test]

@@ -1,0 +1,319 @@
+//! What the columns of a recording may be, by how their numbers behave and by their names.
+
+use std::collections::BTreeSet;
+
+use gumption_core::quantity::{Unit, UnitTable};
+use gumption_format::csv::{self, Column, Data, Labels};
+
+use crate::experiment::entries::RoleWord;
+
+pub(super) fn roles(columns: &[Column]) -> Vec<RoleWord> {
+    let mut roles: Vec<Option<RoleWord>> = columns
+        .iter()
+        .map(|column| by_itself(column, columns))
+        .collect();
+    let open: Vec<usize> = (0..columns.len())
+        .filter(|at| roles[*at].is_none())
+        .collect();
+    // What is set takes few values, what is read many; of several that are read the last that is no condition is the output, and with it
+    // those that differ by their axis.
+    let last = |is: &dyn Fn(&Column) -> bool| open.iter().rev().find(|at| is(&columns[**at]));
+    let output = last(&|column| !is_set(column) && !is_condition(column))
+        .or_else(|| last(&|column| !is_condition(column)))
+        .or(open.last())
+        .copied();
+    for at in &open {
+        if output.is_some_and(|output| *at == output || is_kin(&columns[*at], &columns[output])) {
+            roles[*at] = Some(RoleWord::Output);
+        }
+    }
+    let rest: Vec<usize> = open.into_iter().filter(|at| roles[*at].is_none()).collect();
+    let are_conditions = rest.iter().all(|at| is_condition(&columns[*at]));
+    // A temperature is a condition, unless it is set and the output follows it best of all.
+    let candidates = rest.iter().map(|at| &columns[*at]);
+    let best = output.and_then(|output| followed(&columns[output], candidates));
+    let best = best.map(|place| rest[place]);
+    for at in rest {
+        let column = &columns[at];
+        let is_followed = best == Some(at) && is_set(column);
+        let is_stimulus = are_conditions || is_followed || !is_condition(column);
+        roles[at] = Some(match is_stimulus {
+            true if in_turns(column).is_some() => RoleWord::Angle,
+            true => RoleWord::Stimulus,
+            false => RoleWord::Covariate,
+        });
+    }
+    let roles = roles
+        .into_iter()
+        .map(|role| role.unwrap_or(RoleWord::Ignore));
+    in_time(roles.collect())
+}
+
+/// Of times one is the time; where there is none, a number of the row says which was first.
+fn in_time(mut roles: Vec<RoleWord>) -> Vec<RoleWord> {
+    let is_time = |role: &RoleWord| *role == RoleWord::Time;
+    let first = roles.iter().position(is_time);
+    let is_order = |role: &RoleWord| *role == RoleWord::Order;
+    let order = roles.iter().position(is_order).filter(|_| first.is_none());
+    for (at, role) in roles.iter_mut().enumerate() {
+        *role = match *role {
+            RoleWord::Time if first != Some(at) => RoleWord::Covariate,
+            RoleWord::Order if order != Some(at) => RoleWord::Ignore,
+            role => role,
+        };
+    }
+    roles
+}
+
+/// The place of the column that an output follows best, along a straight line or around a turn; of equal ones the first.
+pub(super) fn followed<'r>(
+    output: &Column,
+    among: impl Iterator<Item = &'r Column>,
+) -> Option<usize> {
+    // In hundredths: what noise makes of equal ones does not decide.
+    let strength = |column: &Column| match (&column.data, &output.data) {
+        (Data::Numbers(x), Data::Numbers(y)) => {
+            let turned = in_turns(column).map_or(0.0, |angles| of_turns(&angles, y));
+            (100.0 * determination(x, y).max(turned)).round() as i64
+        }
+        _ => -1,
+    };
+    let strengths: Vec<i64> = among.map(strength).collect();
+    let best = strengths.iter().max()?;
+    strengths.iter().position(|strength| strength == best)
+}
+
+/// Whether an output goes around with an angle rather than along it: a tumbled accelerometer, and no potentiometer.
+pub(super) fn goes_around(output: &Column, angle: &Column) -> bool {
+    let (Data::Numbers(x), Data::Numbers(y)) = (&angle.data, &output.data) else {
+        return false;
+    };
+    in_turns(angle).is_some_and(|angles| of_turns(&angles, y) > determination(x, y))
+}
+
+/// The numbers of a column in radian, where it is an angle that passes half a turn.
+fn in_turns(column: &Column) -> Option<Vec<f64>> {
+    let Data::Numbers(numbers) = &column.data else {
+        return None;
+    };
+    // A count is of dimension one, too.
+    let is_angle = |unit: &&Unit| ["°", "deg", "rad"].contains(&unit.symbol.as_str());
+    let unit = column.unit.as_ref().filter(is_angle)?;
+    let radian = UnitTable::default().parse("rad").ok()?;
+    let factor = unit.conversion_to(&radian)?.factor;
+    let angles: Vec<f64> = numbers.iter().map(|x| factor * x).collect();
+    let known = || angles.iter().copied().filter(|x| x.is_finite());
+    let span = known().fold(f64::NEG_INFINITY, f64::max) - known().fold(f64::INFINITY, f64::min);
+    (span > std::f64::consts::PI).then_some(angles)
+}
+
+/// R² of a straight line through the rows in which both are numbers.
+fn determination(x: &[f64], y: &[f64]) -> f64 {
+    let [x, y] = centred([x.to_vec(), y.to_vec()]);
+    let (xx, yy) = (product(&x, &x), product(&y, &y));
+    match xx > 0.0 && yy > 0.0 {
+        true => product(&x, &y).powi(2) / (xx * yy),
+        false => 0.0,
+    }
+}
+
+/// R² of y = a + b sin φ + c cos φ.
+fn of_turns(angles: &[f64], y: &[f64]) -> f64 {
+    let of = |function: fn(f64) -> f64| angles.iter().map(|angle| function(*angle)).collect();
+    let [s, c, y] = centred([of(libm::sin), of(libm::cos), y.to_vec()]);
+    let (ss, cc, sc) = (product(&s, &s), product(&c, &c), product(&s, &c));
+    let (sy, cy, yy) = (product(&s, &y), product(&c, &y), product(&y, &y));
+    let determinant = ss * cc - sc * sc;
+    // Angles of which the sine tells the cosine leave one of the two open.
+    match determinant > 1e-9 * ss * cc && yy > 0.0 {
+        true => (sy * (sy * cc - cy * sc) + cy * (cy * ss - sy * sc)) / (determinant * yy),
+        false => 0.0,
+    }
+}
+
+/// The rows in which all are numbers, less the mean of each.
+fn centred<const N: usize>(columns: [Vec<f64>; N]) -> [Vec<f64>; N] {
+    let is_whole = |row: &usize| columns.iter().all(|column| column[*row].is_finite());
+    let rows: Vec<usize> = (0..columns[0].len()).filter(is_whole).collect();
+    columns.each_ref().map(|column| {
+        let mean = rows.iter().map(|row| column[*row]).sum::<f64>() / rows.len() as f64;
+        rows.iter().map(|row| column[*row] - mean).collect()
+    })
+}
+
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The role of a column that shows it without the others.
+fn by_itself(column: &Column, columns: &[Column]) -> Option<RoleWord> {
+    let numbers = match &column.data {
+        Data::Labels(labels) => return Some(of_labels(column, labels)),
+        Data::Numbers(numbers) => numbers,
+    };
+    let known: Vec<f64> = numbers.iter().copied().filter(|x| x.is_finite()).collect();
+    if known.is_empty() {
+        return Some(RoleWord::Ignore);
+    }
+    if is_clock(column) {
+        // Of several runs one after the other it is told by none.
+        return Some(match known.is_sorted() {
+            true => RoleWord::Time,
+            false => RoleWord::Ignore,
+        });
+    }
+    if let Some(role) = by_name(column).filter(|_| known.iter().all(|x| x.fract() == 0.0)) {
+        let rises = known.is_sorted_by(|a, b| a < b);
+        return Some(match role {
+            RoleWord::Order if !rises => RoleWord::Ignore,
+            role => role,
+        });
+    }
+    if is_scatter(column, columns) {
+        return Some(RoleWord::Ignore);
+    }
+    let is_constant = known.iter().all(|x| *x == known[0]);
+    (is_constant && known.len() > 1).then_some(RoleWord::Covariate)
+}
+
+/// Whether it is a standard deviation, or the u of another column: `u_T` beside `T`, while `U_ref` is a voltage.
+fn is_scatter(column: &Column, columns: &[Column]) -> bool {
+    let name = column.name.to_lowercase();
+    let named = ["sd", "std", "stdev"];
+    let of = column
+        .name
+        .strip_prefix("u_")
+        .or_else(|| column.name.strip_prefix("s_"));
+    named.iter().any(|start| name.starts_with(start))
+        || of.is_some_and(|of| columns.iter().any(|other| other.name == of))
+}
+
+/// What is numbered or labelled, by its name.
+fn by_name(column: &Column) -> Option<RoleWord> {
+    let name = column.name.to_lowercase();
+    let known = match name.as_str() {
+        "position" | "pos" | "pose" | "point" | "位置" | "测点" | "点号" => {
+            RoleWord::Position
+        }
+        "direction" | "dir" | "方向" | "行程" => RoleWord::Direction,
+        "axis" | "轴" => RoleWord::Axis,
+        "run" | "series" | "mount" | "cycle" | "repeat" | "rep" | "序列" | "循环" | "循环次数"
+        | "次数" | "测量次数" | "组" | "组号" | "轮次" => RoleWord::Run,
+        "unit" | "instrument" | "operator" | "device" | "lot" | "lab" | "probe" | "仪器"
+        | "人员" | "操作者" => RoleWord::Factor,
+        "no" | "no." | "nr" | "nr." | "index" | "row" | "序号" | "编号" => RoleWord::Order,
+        "n" | "n_samples" | "samples" => RoleWord::Ignore,
+        _ => return None,
+    };
+    Some(known)
+}
+
+fn of_labels(column: &Column, labels: &Labels) -> RoleWord {
+    let times = labels.levels.iter().filter(|text| !text.is_empty());
+    if times.clone().count() > 1 && times.clone().all(|text| csv::time(text).is_some()) {
+        let of_rows = labels
+            .of_row
+            .iter()
+            .map(|level| &labels.levels[*level as usize]);
+        return match of_rows.filter_map(|text| csv::time(text)).is_sorted() {
+            true => RoleWord::Time,
+            false => RoleWord::Ignore,
+        };
+    }
+    if labels.levels.len() == labels.of_row.len() {
+        return RoleWord::Ignore;
+    }
+    if let Some(role) = by_name(column) {
+        return role;
+    }
+    if labels.levels.iter().all(|label| is_way(label)) {
+        return RoleWord::Direction;
+    }
+    // What was repeated as a whole comes once each.
+    match stretches(&labels.of_row) == labels.levels.len() {
+        true => RoleWord::Run,
+        false => RoleWord::Factor,
+    }
+}
+
+/// Whether a label says from where a point was reached.
+fn is_way(label: &str) -> bool {
+    const WAYS: [&str; 20] = [
+        "up",
+        "down",
+        "increasing",
+        "decreasing",
+        "rising",
+        "falling",
+        "loading",
+        "unloading",
+        "cw",
+        "ccw",
+        "升",
+        "降",
+        "升压",
+        "降压",
+        "升温",
+        "降温",
+        "进程",
+        "回程",
+        "加载",
+        "卸载",
+    ];
+    WAYS.contains(&label.to_lowercase().as_str())
+}
+
+/// Whether it says when, by its name and by its unit where it has one: a period is in seconds, too.
+fn is_clock(column: &Column) -> bool {
+    let name = column.name.to_lowercase();
+    let is_named = name == "t"
+        || ["t_", "time", "时间"]
+            .iter()
+            .any(|start| name.starts_with(start));
+    let second = UnitTable::default().parse("s");
+    let (Some(unit), Ok(second)) = (&column.unit, second) else {
+        return is_named;
+    };
+    is_named && unit.conversion_to(&second).is_some()
+}
+
+/// Whether its numbers come back: each at least twice, on average.
+fn is_set(column: &Column) -> bool {
+    let Data::Numbers(numbers) = &column.data else {
+        return false;
+    };
+    let different: BTreeSet<u64> = numbers.iter().map(|x| x.to_bits()).collect();
+    2 * different.len() <= numbers.len()
+}
+
+/// Whether it is a condition by its unit or name: a temperature, a pressure, a humidity.
+fn is_condition(column: &Column) -> bool {
+    const WORDS: [&str; 8] = [
+        "temp", "press", "humid", "supply", "温度", "气压", "压力", "湿度",
+    ];
+    let units = UnitTable::default();
+    let name = column.name.to_lowercase();
+    let is_temperature = || {
+        let kelvin = units.parse("K").ok()?;
+        column.unit.as_ref()?.difference().conversion_to(&kelvin)
+    };
+    WORDS.iter().any(|word| name.contains(word)) || is_temperature().is_some()
+}
+
+/// Whether two columns are the same but for their axis, as `ax` and `ay`.
+pub(super) fn is_kin(one: &Column, other: &Column) -> bool {
+    let stem = |column: &Column| -> String {
+        let is_axis = |c: char| matches!(c, 'x' | 'y' | 'z' | 'X' | 'Y' | 'Z') || c.is_numeric();
+        column.name.chars().filter(|c| !is_axis(*c)).collect()
+    };
+    one.unit == other.unit && !stem(one).is_empty() && stem(one) == stem(other)
+}
+
+/// How many stretches of equal values there are.
+pub(super) fn stretches<T: PartialEq>(values: &[T]) -> usize {
+    let changes = values
+        .iter()
+        .zip(values.iter().skip(1))
+        .filter(|(a, b)| a != b);
+    changes.count() + usize::from(!values.is_empty())
+}

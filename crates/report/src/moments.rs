@@ -83,7 +83,7 @@ pub(super) fn in_english(reason: &MissingMoments) -> String {
 /// In Chinese.
 pub(super) fn in_chinese(reason: &MissingMoments) -> String {
     let given = match reason.leave_a_mean() {
-        true => "因此蒙特卡洛法给出均值和包含区间，不给出 u。",
+        true => "因此蒙特卡洛法给出均值和包含区间，不给出标准不确定度。",
         false => "因此蒙特卡洛法给出中位数和包含区间。",
     };
     match reason {

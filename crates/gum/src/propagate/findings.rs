@@ -378,10 +378,13 @@ impl Evidence<'_> {
                 (1..=PROBES).flat_map(|count| [f64::from(count) * u, f64::from(-count) * u]);
             let mut moved = vec![false; self.linear.values.len()];
             for change in changes {
-                for ((moved, there), here) in
-                    moved.iter_mut().zip(at(change)).zip(&self.linear.values)
+                let there = at(change).into_iter().zip(&self.linear.values);
+                for ((moved, (there, here)), result) in
+                    moved.iter_mut().zip(there).zip(self.results)
                 {
-                    *moved |= there != *here && there.is_finite();
+                    // What a sum rounds off is no change.
+                    let (by, rounding) = ((there - here).abs(), 16.0 * f64::EPSILON * here.abs());
+                    *moved |= by.is_finite() && by > rounding && !is_residue(by, result.gum.u);
                 }
             }
             moved

@@ -47,7 +47,7 @@ fn of_signals(fitted: &FittedModel<'_>) -> Cell {
     });
     let warm: Vec<_> = warm.collect();
     let mut variants = Vec::new();
-    for tau in fitted.finer.times(time_constants(fitted)) {
+    for tau in fitted.finer.times(scales(fitted)) {
         let label = format!("τ = {} {unit}", figure(tau));
         let parts = warm
             .iter()
@@ -64,7 +64,7 @@ fn of_column(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let x = fitted.numbers(column).to_vec();
     let power = Modifier::new(x, name, fitted.step_unit(column)).square();
     let warm = late(fitted, Term::new(Node::Output, power.clone()));
-    let scales = fitted.finer.times(time_constants(fitted)).into_iter();
+    let scales = fitted.finer.times(scales(fitted)).into_iter();
     let warming = scales.map(|tau| {
         let label = format!("τ = {} {unit}", figure(tau));
         Variation::one(label, warm(tau)).shaped("τ", tau, &unit)
@@ -134,4 +134,12 @@ fn cell(fitted: &FittedModel<'_>, node: Node, along: &str, variants: Vec<Variati
         Place::new(fitted.name(node), along),
         variants,
     )
+}
+
+/// What is quicker than the rows follow one another is a power of the signal.
+fn scales(fitted: &FittedModel<'_>) -> Vec<f64> {
+    let scales = time_constants(fitted).into_iter();
+    scales
+        .filter(|tau| *tau >= fitted.clock.interval())
+        .collect()
 }

@@ -4,7 +4,7 @@ use super::absorbed::best;
 use super::building::{form, on_node, wave};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, five_digits, grid, map, range};
-use super::{Cell, EffectId, Modifier, Term, Variation};
+use super::{Cell, EffectId, Modifier, Variation};
 use gumption_core::quantity::Unit;
 
 /// More steps than that are not scanned.
@@ -118,53 +118,39 @@ fn curved(fitted: &FittedModel<'_>, since: &[f64], began: &str, scales: &[f64]) 
 fn steps(fitted: &FittedModel<'_>, along: &str) -> Vec<Variation> {
     let blocks = &fitted.design.blocks;
     let stride = blocks.len().div_ceil(MOST_STEPS);
-    let t = &fitted.clock.values;
-    let unit = fitted.time_unit();
-    let number = |row: usize| fitted.design.recorded(row).start + 1;
-    let at = |block: usize| {
-        let first = blocks[block][0];
-        let modifier = (0..fitted.rows()).map(|row| if row >= first { 1.0 } else { 0.0 });
-        let label = match fitted.clock.column {
-            Some(_) => format!("at {along} = {} {unit}", figure(t[first])),
-            None => format!("at row {}", number(first)),
-        };
-        let text = format!("[row >= {}]", number(first));
-        form(label, vec![Modifier::number(modifier.collect(), text)])
+    let scanned = (stride.max(2)..blocks.len().saturating_sub(1)).step_by(stride);
+    let scanned = scanned.map(|block| step(fitted, along, blocks[block][0]));
+    scanned.chain(between(fitted, along, stride)).collect()
+}
+
+/// A step from a row on.
+fn step(fitted: &FittedModel<'_>, along: &str, row: usize) -> Variation {
+    let number = fitted.design.recorded(row).start + 1;
+    let label = match fitted.clock.column {
+        Some(_) => {
+            let time = figure(fitted.clock.values[row]);
+            format!("at {along} = {time} {}", fitted.time_unit())
+        }
+        None => format!("at row {number}"),
     };
-    let first = stride.max(2);
-    let scanned = (first..blocks.len().saturating_sub(1)).step_by(stride);
-    let mut variants: Vec<Variation> = scanned.map(at).collect();
-    variants.extend(between(fitted, along, stride));
-    variants
+    let after = (0..fitted.rows()).map(|at| f64::from(u8::from(at >= row)));
+    let after = Modifier::number(after.collect(), format!("[row >= {number}]"));
+    form(label, vec![after])
 }
 
 /// The best row for a step, where blocks are skipped or hold several rows; nothing where the others have it.
 fn between(fitted: &FittedModel<'_>, along: &str, stride: usize) -> Option<Variation> {
     let blocks = &fitted.design.blocks;
-    let from = |row: usize| -> Vec<f64> {
-        let after = |at: usize| f64::from(u8::from(at >= row));
-        (0..fitted.rows()).map(after).collect()
-    };
-    let term = |row: usize| Term::new(Node::Output, Modifier::unnamed(from(row)));
     let whole = blocks.iter().all(|rows| rows.len() == 1);
     if whole && stride == 1 || blocks.len() < 4 {
         return None;
     }
+    let terms = |row: usize| step(fitted, along, row).terms;
     let starts: Vec<usize> = (2..blocks.len() - 1)
         .map(|block| blocks[block][0])
         .collect();
-    let middle = best(fitted, starts.iter().map(|row| term(*row)))?;
+    let middle = best(fitted, starts.iter().flat_map(|row| terms(*row)))?;
     let near = starts[middle.saturating_sub(1)]..starts[(middle + 1).min(starts.len() - 1)];
-    let row = near.start + best(fitted, near.map(term))?;
-    let number = fitted.design.recorded(row).start + 1;
-    let label = match fitted.clock.column {
-        Some(_) => format!(
-            "at {along} = {} {}",
-            figure(fitted.clock.values[row]),
-            fitted.time_unit()
-        ),
-        None => format!("at row {number}"),
-    };
-    let text = format!("[row >= {number}]");
-    Some(form(label, vec![Modifier::number(from(row), text)]))
+    let row = near.start + best(fitted, near.flat_map(terms))?;
+    Some(step(fitted, along, row))
 }

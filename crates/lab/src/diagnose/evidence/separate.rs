@@ -209,37 +209,18 @@ fn decided(odds: f64, gain: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::DVector;
-
-    use super::super::baseline::{Baseline, Prior};
-    use super::super::fixture::white;
+    use super::super::fixture::Tumble;
     use super::*;
 
     /// Twelve positions in each mount: K2 and encoder eccentricity (1/rev cosine), seen beside the baseline.
     fn design(mounts: &[f64]) -> [DMatrix<f64>; 2] {
-        let mut angles = Vec::new();
-        for mount in mounts {
-            angles.extend((0..12).map(|k| {
-                let head = f64::from(k) * std::f64::consts::PI / 6.0;
-                (head + mount.to_radians(), head)
-            }));
-        }
-        let n = angles.len();
-        let column =
-            |f: &dyn Fn(f64, f64) -> f64| DVector::from_fn(n, |i, _| f(angles[i].0, angles[i].1));
-        let jacobian = DMatrix::from_columns(&[
-            column(&|_, _| 1.0),
-            column(&|a, _| a.sin()),
-            column(&|a, _| a.cos()),
-        ]);
-        let noise = white(n);
-        let baseline =
-            Baseline::new(&jacobian, &DVector::zeros(n), &noise, &Prior::none(3)).unwrap();
-        [
-            column(&|a, _| a.sin().powi(2)),
-            column(&|a, h| a.cos() * h.cos()),
-        ]
-        .map(|effect| baseline.project(&DMatrix::from_columns(&[effect])))
+        let tumble = Tumble::new(12, mounts);
+        let effects = [
+            tumble.column(|a, _| a.sin().powi(2)),
+            tumble.column(|a, h| a.cos() * h.cos()),
+        ];
+        let baseline = tumble.baseline();
+        effects.map(|effect| baseline.project(&DMatrix::from_columns(&[effect])))
     }
 
     fn held(columns: &[DMatrix<f64>], sizes: &[f64]) -> Separability {

@@ -17,6 +17,8 @@ pub struct Standing {
     pub effects: DMatrix<f64>,
     /// Columns of each of its variants: with these it takes up what another does.
     pub variants: Vec<DMatrix<f64>>,
+    /// Whether several of its variants may act at once, so that mixtures of them say nothing.
+    pub repeats: bool,
 }
 
 impl Standing {
@@ -109,7 +111,7 @@ pub fn apart(contenders: &[Standing]) -> Result<Separability, Refusal> {
             .map(|own| {
                 contenders
                     .iter()
-                    .map(|rival| own.keeps(&rival.variants))
+                    .map(|rival| !rival.repeats && own.keeps(&rival.variants))
                     .collect()
             })
             .collect(),
@@ -227,6 +229,7 @@ mod tests {
         let of = |column: &DMatrix<f64>| Standing {
             effects: column * DMatrix::from_row_slice(1, sizes.len(), sizes),
             variants: vec![column.clone()],
+            repeats: false,
         };
         let standing: Vec<Standing> = columns.iter().map(of).collect();
         apart(&standing).unwrap()
@@ -273,6 +276,7 @@ mod tests {
             let standing = |column: &DMatrix<f64>, variants| Standing {
                 effects: 5.0 * column,
                 variants,
+                repeats: false,
             };
             let both = [
                 standing(&own, vec![own.clone()]),

@@ -79,8 +79,13 @@ pub(super) fn test(
     }
 }
 
-/// The draws in which the better placed of two statistics is placed as well, with the observation itself: ranks are exact,
-/// however the two depend on each other.
+/// Probability that the better placed of the two statistics is placed as well, by ranks among the
+/// draws and the observation: exact, however the two depend on each other.
+pub(super) fn combined(observed: [f64; 2], draws: &[[f64; 2]]) -> f64 {
+    as_well_placed(observed, draws) as f64 / (draws.len() + 1) as f64
+}
+
+/// The draws in which the better placed of the two is placed as well, with the observation itself.
 fn as_well_placed(observed: [f64; 2], draws: &[[f64; 2]]) -> usize {
     let pool = || std::iter::once(&observed).chain(draws);
     let ranks: Vec<Vec<usize>> = (0..2)
@@ -218,7 +223,7 @@ mod tests {
         let draws: Vec<[f64; 2]> = (0..99).map(|i| [f64::from(i), f64::from(98 - i)]).collect();
         // First of 100 in one statistic: two draws are as well placed or better (first in the other,
         // second in this).
-        assert_eq!(as_well_placed([200.0, -1.0], &draws), 2);
-        assert_eq!(as_well_placed([-1.0, -1.0], &draws), 100);
+        assert_eq!(combined([200.0, -1.0], &draws), 0.02);
+        assert_eq!(combined([-1.0, -1.0], &draws), 1.0);
     }
 }

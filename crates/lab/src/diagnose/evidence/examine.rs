@@ -8,15 +8,18 @@ use super::grades::{alike, graded};
 use super::null::Simulated;
 use super::question::Question;
 use super::refusal::Refusal;
-use super::restated::Restated;
 use super::search::{Search, search};
 use super::slots::{Explanation, LISTED, slots};
 use super::space::Space;
+use super::unlisted::{Restated, Rivalry, leftover, unlisted};
 
 /// Up to this probability of generics the named set is adequate.
 const NAMED_STANDS: f64 = 0.3;
 /// Beyond this one it is not even the set whose names come near.
 const REFUTED: f64 = 0.9;
+
+/// Less than this probability of what is left beside named effects means that something is left.
+const LEFT: f64 = 0.01;
 
 /// Examines a recording: detection, naming, verdict.
 ///
@@ -44,6 +47,7 @@ pub fn examine(
     let mut slots = slots(&space, question, &explanation, &again);
     let is_adequate = search.complete.is_some()
         && generic_probability < NAMED_STANDS
+        && beats_unlisted(&space, &explanation.named, &simulated)
         && slots.iter().all(Slot::is_explained);
     let mut named = explanation.named;
     if !is_adequate {
@@ -126,6 +130,14 @@ fn unnamed(generic: Vec<Alternative>) -> Slot {
         generic_share: 1.0,
         family: None,
     }
+}
+
+/// Whether a set is better than an effect that no catalogue lists, and leaves nothing that one would be seen in.
+fn beats_unlisted(space: &Space, named: &[usize], simulated: &Simulated) -> bool {
+    unlisted(space).is_none_or(|other| {
+        Rivalry::new(space, named, &other).stands(named.len())
+            && leftover(space, named, &other, simulated) >= LEFT
+    })
 }
 
 fn explanation(search: &Search, generic_probability: f64) -> Explanation {

@@ -5,9 +5,9 @@ use super::detection;
 use super::findings::{Slot, State};
 use super::null::Simulated;
 use super::question::{Place, Question};
-use super::restated::Restated;
 use super::slots::{Explanation, slots};
 use super::space::{Frame, Space};
+use super::unlisted::Restated;
 
 /// A departure that makes an effect another is seen from so many standard deviations on.
 const SEEN: f64 = 4.0;

@@ -47,7 +47,7 @@
 //! | `selection` | what sizes owe to having been found |
 //! | `fit` | estimates, strength, distance to rivals |
 //! | `look_alikes` | effects that are the shape of another, aliases, mixtures |
-//! | `restated` | competitors without a name that say again what named effects say |
+//! | `unlisted` | effects outside the catalogue that look like what is in it |
 //! | `unsteady` | whether what is taken for noise is as noise is |
 //! | `locate` | where the mismatch sits |
 //! | `plan` | without data: what an experiment can see and tell apart |
@@ -82,13 +82,13 @@ mod plan;
 mod question;
 mod refusal;
 mod remainders;
-mod restated;
 mod search;
 mod selection;
 mod separate;
 mod sequential;
 mod slots;
 mod space;
+mod unlisted;
 mod unsteady;
 
 pub use baseline::{Baseline, Prior, Spread};

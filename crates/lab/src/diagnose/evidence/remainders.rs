@@ -52,7 +52,7 @@ impl<'s> Remainders<'s> {
                     (block.form.clone(), DMatrix::identity(a.ncols(), a.ncols()))
                 }
                 Form::Smooth(ladder) => {
-                    let (ladder, turn) = scaled(&ladder.roots(), gram)?;
+                    let (ladder, turn) = narrowed(ladder, gram)?;
                     (Form::Smooth(ladder), turn)
                 }
             };
@@ -105,10 +105,16 @@ impl<'s> Remainders<'s> {
 
     /// The same for recordings one per row: a column for each direction.
     pub(super) fn turned(&self, rest: &Remainder, recordings: &DMatrix<f64>) -> DMatrix<f64> {
+        let own = recordings.columns_range(self.space.places(rest.block));
+        self.turned_own(rest, &own.into_owned())
+    }
+
+    /// As [`Remainders::turned`], with the components along the directions of the block alone.
+    pub(super) fn turned_own(&self, rest: &Remainder, own: &DMatrix<f64>) -> DMatrix<f64> {
         if rest.turn.nrows() == 0 {
-            return DMatrix::zeros(recordings.nrows(), 0);
+            return DMatrix::zeros(own.nrows(), 0);
         }
-        recordings.columns_range(self.space.places(rest.block)) * rest.turn.transpose()
+        own * rest.turn.transpose()
     }
 
     /// Adds the squared components of recordings, one per row, along the directions of a rest.
@@ -237,8 +243,12 @@ impl Remainder {
     }
 }
 
-/// Eigenvalues and components for features that are directions times the roots of their variances, of which only this is
-/// left of the matrix of products of the directions.
+/// A smooth discrepancy of which only this is left of the matrix of products of its directions.
+fn narrowed(ladder: &Ladder, gram: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
+    scaled(&ladder.roots(), gram)
+}
+
+/// Eigenvalues and components for features that are directions times the roots of their variances.
 fn scaled(roots: &[f64], gram: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
     let features = DMatrix::from_fn(gram.nrows(), gram.ncols(), |i, j| {
         roots[i] * gram[(i, j)] * roots[j]

@@ -12,8 +12,8 @@ use super::pairs::Pairs;
 use super::question::{Kind, Question};
 use super::refusal::Refusal;
 use super::remainders::Remainders;
-use super::restated::Restated;
 use super::space::{Frame, Space};
+use super::unlisted::Restated;
 
 /// Logarithm of the odds by which a pair has to beat the best single effect for the search to go on
 /// although nothing stands out beside the single effect.

@@ -11,8 +11,8 @@ use super::fit::{estimate, nearest};
 use super::look_alikes;
 use super::question::{Kind, Question};
 use super::remainders::{Remainder, Remainders};
-use super::restated::Restated;
 use super::space::{Frame, Space};
+use super::unlisted::Restated;
 
 /// Probability of a credible list.
 const CREDIBLE: f64 = 0.95;

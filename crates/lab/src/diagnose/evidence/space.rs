@@ -268,6 +268,44 @@ impl Block {
         }
     }
 
+    /// Logarithm of the Bayes factor against none, from the components of the residuals along the
+    /// directions of the block.
+    pub(super) fn evidence(
+        &self,
+        components: impl Iterator<Item = f64> + Clone,
+        residual: &Residual,
+    ) -> f64 {
+        let squares = components.map(|c| c * c);
+        self.form.evidence(self.basis.ncols(), squares, residual)
+    }
+
+    /// The block with everything along a basis taken out; `None` if nothing is left.
+    pub(super) fn beside(&self, basis: &DMatrix<f64>) -> Option<Block> {
+        if basis.ncols() == 0 {
+            return Some(self.clone());
+        }
+        let (form, directions) = match &self.form {
+            Form::Scatter => (Form::Scatter, self.basis.clone()),
+            Form::Named => (Form::Named, self.directions_beside(basis)),
+            Form::Smooth(_) => {
+                let (ladder, directions) = smooth(without(&self.columns, basis))?;
+                (Form::Smooth(ladder), directions)
+            }
+        };
+        if directions.ncols() == 0 && !matches!(form, Form::Scatter) {
+            return None;
+        }
+        Some(Block {
+            atom: self.atom,
+            candidate: self.candidate,
+            log_odds: self.log_odds,
+            form,
+            basis: directions,
+            columns: DMatrix::zeros(basis.nrows(), 0),
+            kept: self.kept.clone(),
+        })
+    }
+
     fn directions_beside(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
         if basis.ncols() == 0 {
             return self.basis.clone();

@@ -1,0 +1,266 @@
+//! The open-set guard: an effect that is not in the catalogue, but looks like what is.
+//!
+//! With the true effect missing from the catalogue, its next of kin explains most of it, or two others
+//! together do. What an unlisted effect may look like is told by the catalogue itself: a discrepancy
+//! whose covariance matrix is the average of AAᵀ over all named atoms (each of unit length, candidates
+//! alike). A named set has to be better by far than this competitor, alone or with a part of the set.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::closed_form::Scale;
+use super::departure::{self, FORM};
+use super::detection::combined;
+use super::directions::{joined, without};
+use super::fit::estimate;
+use super::null::{Simulated, side_by_side};
+use super::question::{Kind, Question};
+use super::remainders::Remainders;
+use super::space::{Block, Form, Frame, Residual, Space, smooth};
+
+/// Simulated recordings behind a probability.
+const DRAWS: usize = 2048;
+/// Share of an effect (squared) that a generic has to hold to be able to say it again.
+const HELD: f64 = 0.9;
+/// Logarithm of the Bayes factor from which on a generic says more than the named effects.
+const MORE: f64 = 1.0;
+/// Logarithm of the odds that a generic loses that says nothing more, for each effect that it says again.
+const DISCOUNT: f64 = 3.0;
+/// Directions of the competitor.
+const DIRECTIONS: usize = 40;
+/// Directions with less than this share of the variance are left out.
+const FAINT: f64 = 1e-4;
+
+/// The competitor that resembles the named atoms; `None` if there are none.
+pub(super) fn unlisted(space: &Space) -> Option<Block> {
+    let most = (space.blocks.iter())
+        .filter(|block| block.kind() == Kind::Named)
+        .map(|block| block.log_odds)
+        .fold(f64::NEG_INFINITY, f64::max);
+    let mut weights = DVector::zeros(space.directions.ncols());
+    for (index, block) in space.blocks.iter().enumerate() {
+        if block.kind() == Kind::Named {
+            let share = libm::exp(block.log_odds - most) / block.basis.ncols() as f64;
+            let places = space.places(index);
+            weights.rows_mut(places.start, places.len()).fill(share);
+        }
+    }
+    let whole = weights.sum();
+    if !(whole > 0.0) {
+        return None;
+    }
+    let columns = condensed(&space.directions, &(weights / whole));
+    let (ladder, basis) = smooth(columns.clone())?;
+    Some(Block {
+        atom: usize::MAX,
+        candidate: usize::MAX,
+        log_odds: 0.0,
+        form: Form::Smooth(ladder),
+        basis,
+        columns,
+        kept: Vec::new(),
+    })
+}
+
+/// Few columns M with nearly MMᵀ = Σ w uuᵀ for unit directions u with weights: coordinates along the
+/// directions in which most of them lie.
+fn condensed(directions: &DMatrix<f64>, weights: &DVector<f64>) -> DMatrix<f64> {
+    // What is left of the squared length of each column.
+    let mut left = weights.clone();
+    let mut basis = DMatrix::zeros(directions.nrows(), 0);
+    // Components of all columns along the basis, one row each.
+    let mut coordinates: Vec<DVector<f64>> = Vec::new();
+    while coordinates.len() < DIRECTIONS.min(directions.nrows()) {
+        let (best, size) = left.argmax();
+        if !(size > FAINT / DIRECTIONS as f64) {
+            break;
+        }
+        let column = directions.columns_range(best..best + 1).into_owned();
+        let mut direction = without(&without(&column, &basis), &basis);
+        let length = direction.norm();
+        if !(length > 0.0) {
+            break;
+        }
+        direction /= length;
+        let along = directions.tr_mul(&direction).column(0).into_owned();
+        left.zip_zip_apply(weights, &along, |left, w, a| *left -= w * a * a);
+        left[best] = 0.0;
+        basis = joined(&basis, &direction);
+        coordinates.push(along.zip_map(weights, |a, w| a * w.sqrt()));
+    }
+    // M Mᵀ ≈ B C Cᵀ Bᵀ: its root has as many columns as directions.
+    let products = DMatrix::from_fn(coordinates.len(), coordinates.len(), |i, j| {
+        coordinates[i].dot(&coordinates[j])
+    });
+    let root = nalgebra::SymmetricEigen::new(products);
+    let mut half = root.eigenvectors.clone();
+    for (mut column, e) in half.column_iter_mut().zip(root.eigenvalues.iter()) {
+        column *= e.max(0.0).sqrt();
+    }
+    basis * half
+}
+
+/// A named set against the competitor with the best part of the set.
+#[derive(Debug, Default)]
+pub(super) struct Rivalry {
+    /// By how much the set is better: logarithm of the odds, without prior odds of the competitor. Infinite
+    /// where nothing competes.
+    pub(super) margin: Option<f64>,
+}
+
+impl Rivalry {
+    pub(super) fn new(space: &Space, named: &[usize], competitor: &Block) -> Rivalry {
+        let Some(whole) = space.frame(named) else {
+            return Rivalry::default();
+        };
+        let own = space.score(&whole);
+        let count = named.len();
+        let rivals = (0..(1_usize << count) - 1).filter_map(|subset| {
+            let part = (0..count).filter(|i| subset & (1 << i) != 0);
+            let part: Vec<usize> = part.map(|i| named[i]).collect();
+            let frame = space.frame(&part)?;
+            Some(space.score(&frame) + beside(space, &frame, competitor)?)
+        });
+        Rivalry {
+            margin: rivals.max_by(f64::total_cmp).map(|score| own - score),
+        }
+    }
+
+    /// Whether a set of so many effects stands. Several effects have to be better than one that is not
+    /// listed; a single one that is worse would not have passed the gate as complete, and where it is one of
+    /// a list, the list and not the set would have to be compared.
+    pub(super) fn stands(&self, effects: usize) -> bool {
+        effects < 2 || self.margin.is_none_or(|margin| margin >= 0.0)
+    }
+}
+
+/// Probability that as much is left beside a set as there is, if the set is all there is: of the
+/// competitor's evidence and of χ² as a whole, the less probable of the two.
+///
+/// The gate looks everywhere and pays for it. These two look at one thing each: directions that the
+/// catalogue cares for, and everything.
+pub(super) fn leftover(
+    space: &Space,
+    named: &[usize],
+    competitor: &Block,
+    simulated: &Simulated,
+) -> f64 {
+    let Some(frame) = space.frame(named) else {
+        return 1.0;
+    };
+    let Some(block) = competitor.beside(&frame.basis) else {
+        return 1.0;
+    };
+    let residual = space.residual(&frame);
+    let components = block.basis.tr_mul(&space.z);
+    let in_form = Residual {
+        chi_squared: residual.chi_squared - FORM * FORM * frame.fit,
+        rss: residual.rss - FORM * FORM * frame.fit,
+        ..residual
+    };
+    let observed = [
+        block.evidence(components.iter().copied(), &residual)
+            - departure::left(FORM, space.strength(&frame)),
+        excess(&in_form),
+    ];
+    let chunks = simulated.chunks().clamp(1, DRAWS / gumption_lanes::LANES);
+    let draws: Vec<[f64; 2]> = side_by_side(chunks, |index| {
+        let recordings = simulated.chunk(index);
+        let components = &recordings.errors * &block.basis;
+        let set = &recordings.errors * &frame.basis;
+        let residuals = recordings.residuals(&set, residual);
+        let one = |(lane, residual): (usize, &Residual)| {
+            let own = components.row(lane);
+            [
+                block.evidence(own.iter().copied(), residual),
+                excess(residual),
+            ]
+        };
+        residuals.iter().enumerate().map(one).collect::<Vec<_>>()
+    })
+    .into_iter()
+    .flatten()
+    .collect();
+    combined(observed, &draws)
+}
+
+/// Generics that only say again what named effects say: a curve over the supply contains the straight
+/// line, and where the line fits, the line is meant. What they gain where the form of an effect is not quite that of the
+/// catalogue is no reason for them either.
+///
+/// For each of them, what is taken from the logarithm of its odds.
+#[derive(Debug, Default)]
+pub(super) struct Restated(BTreeMap<usize, f64>);
+
+impl Restated {
+    /// Beside a set that explains the recording.
+    pub(super) fn of(space: &Space, question: &Question, named: &[usize]) -> Restated {
+        let Some(frame) = space.frame(named) else {
+            return Restated::default();
+        };
+        let effects: Vec<DVector<f64>> = named
+            .iter()
+            .map(|block| {
+                let others: Vec<usize> = named.iter().copied().filter(|b| b != block).collect();
+                let rest = space.frame_of(&others);
+                estimate(space, question, &rest, *block).visible
+            })
+            .collect();
+        let beside = Remainders::new(space, question, &frame);
+        let observed = beside.observed();
+        let says_more = |generic: usize| {
+            let rest = beside.rests.iter().find(|rest| rest.block == generic);
+            rest.is_some_and(|rest| {
+                let components = beside.components(rest, &observed);
+                let squares = components.iter().map(|c| c * c);
+                rest.evidence(squares, &beside.residual) > MORE
+            })
+        };
+        let generics =
+            (space.blocks.iter().enumerate()).filter(|(_, block)| block.kind() == Kind::Generic);
+        let of_form = departure::left(FORM, space.strength(&frame));
+        let again = generics.map(|(index, block)| {
+            let holds = |effect: &&DVector<f64>| {
+                let held = block.basis.tr_mul(*effect).norm_squared();
+                held > HELD * effect.norm_squared()
+            };
+            let held = effects.iter().filter(holds).count();
+            let only_again = held > 0 && !says_more(index);
+            let of_effects = if only_again {
+                DISCOUNT * held as f64
+            } else {
+                0.0
+            };
+            (index, of_form + of_effects)
+        });
+        Restated(again.collect())
+    }
+
+    /// What is taken from the logarithm of the odds of a block.
+    pub(super) fn discount(&self, block: usize) -> f64 {
+        self.0.get(&block).copied().unwrap_or(0.0)
+    }
+}
+
+/// χ² over what is known of its scale; the same for all if nothing is.
+fn excess(residual: &Residual) -> f64 {
+    match residual.scale {
+        Scale::Known => residual.chi_squared,
+        Scale::Estimated { .. } => {
+            let known = residual.rss - residual.chi_squared;
+            if known > 0.0 {
+                residual.chi_squared / known
+            } else {
+                0.0
+            }
+        }
+    }
+}
+
+fn beside(space: &Space, frame: &Frame, competitor: &Block) -> Option<f64> {
+    let block = competitor.beside(&frame.basis)?;
+    let residual = space.residual(frame);
+    let components = block.basis.tr_mul(&space.z);
+    Some(block.evidence(components.iter().copied(), &residual))
+}

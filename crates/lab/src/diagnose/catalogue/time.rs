@@ -1,10 +1,10 @@
 //! Laws of time: drift, ageing, warm-up, season, steps.
 
-use super::absorbed::best;
 use super::building::{form, on_node, wave};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, five_digits, grid, map, range};
-use super::{Cell, EffectId, Modifier, Variation};
+use super::sharp::{self, sharpened};
+use super::{Cell, EffectId, Modifier, Term, Variation};
 use gumption_core::quantity::Unit;
 
 /// More steps than that are not scanned.
@@ -43,8 +43,12 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     );
     let mut drifts = vec![form("", vec![fitted.centred_time()])];
     if fitted.is_timed() {
-        let scales = fitted.finer.times(scales.clone());
-        drifts.extend(curved(fitted, &since, &began, &scales));
+        let slowing = |scale: f64| {
+            let modifier = map(&since, |t| libm::log1p(t / scale));
+            Term::new(Node::Output, Modifier::unnamed(modifier))
+        };
+        let scales = sharpened(fitted, scales.clone(), &slowing);
+        drifts.extend(curved(fitted, &since, &began, &fitted.finer.times(scales)));
     }
     add(&[EffectId::Drift, EffectId::DriftScale], drifts);
     add(
@@ -58,6 +62,8 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
             let text = format!("exp(-{began}/({} {unit}))", figure(tau));
             Modifier::number(modifier, text)
         };
+        let warming = |tau: f64| Term::new(Node::Output, decay(tau));
+        let scales = sharpened(fitted, scales, &warming);
         let singles = fitted.finer.times(scales.clone());
         let single = singles.iter().map(|tau| {
             let label = format!("τ = {} {unit}", figure(*tau));
@@ -149,8 +155,8 @@ fn between(fitted: &FittedModel<'_>, along: &str, stride: usize) -> Option<Varia
     let starts: Vec<usize> = (2..blocks.len() - 1)
         .map(|block| blocks[block][0])
         .collect();
-    let middle = best(fitted, starts.iter().flat_map(|row| terms(*row)))?;
+    let middle = sharp::best(fitted, &mut starts.iter().flat_map(|row| terms(*row)))?;
     let near = starts[middle.saturating_sub(1)]..starts[(middle + 1).min(starts.len() - 1)];
-    let row = near.start + best(fitted, near.flat_map(terms))?;
+    let row = near.start + sharp::best(fitted, &mut near.flat_map(terms))?;
     Some(step(fitted, along, row))
 }

@@ -128,21 +128,6 @@ impl<'f> Candidates<'f> {
         if explains { Vec::new() } else { named }
     }
 
-    /// What estimated noise may be where an effect is taken for it.
-    pub(super) fn other_noise(&self, claimed: &Claimed) -> Vec<Claimed> {
-        let (design, fit) = (self.fitted.design, self.fitted.fit);
-        let blocks = design.blocks.len();
-        noise::otherwise(design, fit, claimed, |plain| {
-            let seen = baseline(design, fit, plain);
-            let part = |response: usize| {
-                let rows = response * blocks..(response + 1) * blocks;
-                let seen = seen.as_ref();
-                seen.map_or(1.0, |seen| evidence::quiet(seen, &self.atoms, rows))
-            };
-            (0..design.case.responses.len()).map(part).collect()
-        })
-    }
-
     /// The noise that is left when the named effects are in the model.
     pub(super) fn noise(
         &self,

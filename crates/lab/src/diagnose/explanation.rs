@@ -14,6 +14,8 @@ pub struct Explanation {
     id: EffectId,
     /// What its texts speak of.
     words: Words,
+    /// Whether several of its variants may act at once.
+    repeats: bool,
     /// Its posterior probability.
     probability: f64,
     /// What it may look like, the most probable first.
@@ -48,6 +50,7 @@ impl Explanation {
         Explanation {
             id: cell.effect.id,
             words: cell.words.clone(),
+            repeats: cell.effect.repeats,
             probability,
             likely: vec![Likely {
                 label: variation.label.clone(),
@@ -112,6 +115,7 @@ impl Explanation {
         Standing {
             effects: evidence::all(self.likely.iter().map(|likely| likely.seen.clone())),
             variants: variants.filter_map(seen).collect(),
+            repeats: self.repeats,
         }
     }
 
@@ -150,6 +154,7 @@ impl Explanation {
             variants: variants
                 .filter_map(|columns| visible(&prolonged.baseline, columns))
                 .collect(),
+            repeats: self.repeats,
         })
     }
 
@@ -286,6 +291,9 @@ pub(super) fn likened(
 /// The most that an explanation has which is not listed.
 const UNLISTED: f64 = 0.01;
 
+/// Candidates that leave more do not come to stand beside an explanation by rule.
+const FAR: f64 = 8.0;
+
 /// What a candidate that is not in a list leaves of each explanation of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Unlisted {
@@ -329,11 +337,14 @@ pub(super) fn unlisted(
         let finite = columns.filter(|c| c.ncols() > 0 && c.iter().all(|x| x.is_finite()));
         let seen: Vec<DMatrix<f64>> = finite.filter_map(|c| visible(baseline, c)).collect();
         let kappas = evidence::left(&effects, seen.iter().cloned());
-        let stays = standing.iter().map(|one| one.keeps(&seen));
+        let near = kappas
+            .iter()
+            .zip(standing)
+            .map(|(kappa, one)| *kappa < FAR && !cell.effect.repeats && one.keeps(&seen));
         Unlisted {
             id: cell.effect.id,
             words: cell.words.clone(),
-            stays: stays.collect(),
+            stays: near.collect(),
             kappas,
         }
     };

@@ -537,30 +537,10 @@ pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
     claimed
 }
 
-/// What estimated noise may be where something else is taken for it: noise that does not grow with the reading although it
-/// seems to, and of such noise, in each response, the part that `quiet` says.
-pub fn otherwise(
-    design: &Design<'_>,
-    fit: &Fit,
-    claimed: &Claimed,
-    quiet: impl Fn(&Claimed) -> Vec<f64>,
-) -> Vec<Claimed> {
-    let mut others = Vec::new();
-    if !claimed.is_estimated() {
-        return others;
-    }
-    let plain = estimated(design, fit);
-    if design.case.responses.len() > 1 {
-        let blocks = design.blocks.len();
-        let parts = quiet(&plain);
-        let u = DVector::from_fn(plain.u.len(), |at, _| plain.u[at] * parts[at / blocks]);
-        let less = parts.iter().any(|part| *part < 1.0);
-        others.extend(less.then(|| Claimed { u, ..plain.clone() }));
-    }
-    if claimed.growth.iter().any(Option::is_some) {
-        others.push(plain);
-    }
-    others
+/// Estimated noise that does not grow with the reading, where it seems to: what grows may be something else.
+pub fn plain(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Option<Claimed> {
+    let grows = claimed.is_estimated() && claimed.growth.iter().any(Option::is_some);
+    grows.then(|| estimated(design, fit))
 }
 
 /// Root mean square of the residuals of one response, which share the degrees of freedom of all.

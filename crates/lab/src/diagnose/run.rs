@@ -99,18 +99,16 @@ pub fn diagnose(
     let mut candidates = Candidates::new(FittedModel::new(&seen, &coarse.fit), &claimed, &white);
     let part = |from: f64, to: f64| move |share: f64| progress(from + (to - from) * share);
     let (mut baseline, mut examination) = candidates.ask(&claimed, &settings, &part(0.0, 0.4))?;
-    // What the model leaves out may look like noise that grows, or like that of the one response that has it.
-    let others = candidates.other_noise(&claimed);
+    // What the model leaves out may look like noise that grows.
+    let plain = noise::plain(&seen, &coarse.fit, &claimed);
     let courses = Courses::of(&candidates.fitted)
-        .or_else(|| (!others.is_empty()).then(Courses::white))
+        .or_else(|| plain.is_some().then(Courses::white))
         .filter(|_| claimed.correlated.is_none());
     let is_open = claimed.is_estimated() || courses.is_some();
     let mut begun = claimed.clone();
-    for other in &others {
-        if examination.verdict == Verdict::None {
-            begun = other.clone();
-            (baseline, examination) = candidates.ask(&begun, &settings, &part(0.4, 0.4))?;
-        }
+    if let Some(plain) = (plain.as_ref()).filter(|_| examination.verdict == Verdict::None) {
+        begun = plain.clone();
+        (baseline, examination) = candidates.ask(&begun, &settings, &part(0.4, 0.4))?;
     }
     if let Some(courses) = courses
         .as_ref()
@@ -119,7 +117,7 @@ pub fn diagnose(
         claimed = noise::refined(&design, &fit, &claimed, Some(courses));
         baseline = self::baseline(&design, &fit, &claimed)?;
     } else if is_open {
-        let mut starts: Vec<Claimed> = [claimed.clone()].into_iter().chain(others).collect();
+        let mut starts: Vec<Claimed> = [claimed.clone()].into_iter().chain(plain).collect();
         if let Some(courses) = &courses {
             let (p, likeliest) = candidates.against(courses, &starts, &settings)?;
             settings.by_noise = p;

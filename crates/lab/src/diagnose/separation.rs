@@ -31,7 +31,7 @@ const CLOSE: f64 = 4.0;
 pub(super) fn separating(recorded: &Recorded<'_>, examination: &Examination) -> Vec<Separating> {
     let candidates = recorded.candidates;
     let cells = &candidates.cells;
-    let mut found = Vec::new();
+    let mut lists = Vec::new();
     for (slot, of) in examination.slots.iter().enumerate() {
         let mut rivals = Vec::new();
         let mut set: Vec<Explanation> = Vec::new();
@@ -61,42 +61,33 @@ pub(super) fn separating(recorded: &Recorded<'_>, examination: &Examination) -> 
         if set.len() < 2 {
             continue;
         }
-        let kappa = nearest.map_or(0.0, |rival| rival.kappa);
-        let listed: f64 = of
-            .named
-            .iter()
-            .map(|alternative| alternative.probability)
-            .sum();
+        let listed: f64 = of.named.iter().map(|named| named.probability).sum();
         // Of what a list holds beside these nothing is promised.
         let examined: f64 = set.iter().map(Explanation::probability).sum();
-        let share = (examined / listed).min(1.0);
-        found.push((slot, rivals, kappa, set, share));
+        let standing: Vec<Standing> = set.iter().map(|one| one.before(recorded)).collect();
+        let Ok(before) = evidence::apart(&standing) else {
+            continue;
+        };
+        lists.push(List {
+            slot,
+            rivals,
+            kappa: nearest.map_or(0.0, |rival| rival.kappa),
+            share: (examined / listed).min(1.0),
+            before,
+            outside: unlisted(
+                &candidates.fitted,
+                cells,
+                recorded.baseline,
+                &set,
+                &standing,
+            ),
+            set,
+        });
     }
-    if found.is_empty() {
+    if lists.is_empty() {
         return Vec::new();
     }
     let all = super::extra::extras(recorded.known.case);
-    let lists: Vec<List> = found
-        .into_iter()
-        .filter_map(|(slot, rivals, kappa, set, share)| {
-            let standing: Vec<Standing> = set.iter().map(|one| one.before(recorded)).collect();
-            Some(List {
-                slot,
-                rivals,
-                kappa,
-                share,
-                before: evidence::apart(&standing).ok()?,
-                outside: unlisted(
-                    &candidates.fitted,
-                    cells,
-                    recorded.baseline,
-                    &set,
-                    &standing,
-                ),
-                set,
-            })
-        })
-        .collect();
     let after: Vec<Option<Vec<Option<After>>>> = all
         .iter()
         .map(|extra| {

@@ -1,8 +1,8 @@
 //! What the forms are built of: cells on the offset or on a node, their words, grids of time constants.
 
-use super::absorbed::best;
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{Course, grid, map};
+use super::sharp::best;
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
 
@@ -143,7 +143,7 @@ pub(super) fn course(
         .iter()
         .flat_map(|course| scales.iter().map(|tau| (*course, *tau)));
     let tried: Vec<(Course, f64)> = each.collect();
-    let terms = tried.iter().map(|(course, tau)| late(*course, *tau));
-    let best = best(fitted, terms);
+    let mut terms = tried.iter().map(|(course, tau)| late(*course, *tau));
+    let best = best(fitted, &mut terms);
     best.map_or(possible[0], |at| tried[at].0)
 }

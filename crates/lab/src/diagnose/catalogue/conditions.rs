@@ -6,7 +6,8 @@ use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
     centred, correlation, figure, five_digits, late, levels_of, map, map2, range,
 };
-use super::{Cell, EffectId, Modifier, Variation, Words};
+use super::sharp::sharpened;
+use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::case::Role;
 use gumption_core::quantity::Unit;
 
@@ -50,12 +51,15 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         (_, true) => EffectId::CrossSensitivity,
         _ => EffectId::Sensitivity,
     };
-    let delayed = delayed(fitted, column, &own);
-    let leading = leading(fitted, column, &own);
-    let linear: Vec<Variation> = delayed.iter().cloned().chain(leading).collect();
+    let on = |node: Node| delayed(fitted, column, node, &own);
+    let linear = |delayed: &[Variation]| -> Vec<Variation> {
+        let leading = leading(fitted, column, &own);
+        delayed.iter().cloned().chain(leading).collect()
+    };
+    let delayed = on(Node::Output);
     let offset =
         |id: EffectId, forms: Vec<Variation>| on_node(fitted, id, &label, Node::Output, forms);
-    cells.push(offset(bias, linear.clone()));
+    cells.push(offset(bias, linear(&delayed)));
     let square = delayed.iter().map(|late| {
         let squares = late.terms.iter().map(|term| term.modifier.square());
         Variation {
@@ -75,7 +79,8 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
             true => EffectId::TempcoScale,
             false => EffectId::SensitivityScale,
         };
-        cells.push(on_node(fitted, id, &label, Node::Gain, linear.clone()));
+        let forms = linear(&on(Node::Gain));
+        cells.push(on_node(fitted, id, &label, Node::Gain, forms));
         let id = EffectId::SensitivityScaleQuadratic;
         let squares = squares(fitted, column);
         cells.push(on_node(fitted, id, &label, Node::Gain, squares));
@@ -89,7 +94,7 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         cells.push(offset(id, vec![form("", vec![fitted.rate(column)])]));
     }
     if !stimulus && stands_for_temperature(fitted, column) {
-        cells.push(offset(EffectId::UnrecordedTemperature, linear.clone()));
+        cells.push(offset(EffectId::UnrecordedTemperature, linear(&delayed)));
     }
     let odds = if stimulus || !is_of_air(fitted, column) {
         1.0
@@ -152,16 +157,17 @@ fn squares(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
 
 /// The modifier without a lag, and with each of a series of time constants where it has to get through
 /// something first.
-fn delayed(fitted: &FittedModel<'_>, column: usize, own: &Modifier) -> Vec<Variation> {
+fn delayed(fitted: &FittedModel<'_>, column: usize, node: Node, own: &Modifier) -> Vec<Variation> {
     let mut variants = vec![form("", vec![own.clone()])];
     if fitted.is_timed() && !fitted.is_immediate(column) {
         let unit = fitted.time_unit();
         let course = |tau: f64| late(&fitted.clock.values, &own.values, &[], tau);
+        let term = |tau: f64| Term::new(node, Modifier::unnamed(course(tau)));
         let inner = own.text.strip_prefix('(');
         let inner = inner.and_then(|text| text.strip_suffix(')'));
         let inner = inner.unwrap_or(&own.text);
-        let scales = fitted.finer.times(time_constants(fitted));
-        variants.extend(scales.into_iter().map(|tau| {
+        let scales = sharpened(fitted, time_constants(fitted), &term);
+        variants.extend(fitted.finer.times(scales).into_iter().map(|tau| {
             let shown = format!("{} {unit}", figure(tau));
             let text = format!("lag({inner}, {shown})");
             let modifier = Modifier::new(course(tau), text, own.unit.clone());

@@ -4,6 +4,7 @@
 use super::building::{form, on_node, on_output, plain};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{figure, figure_to, five_digits, largest, levels_of, map, range, rounded};
+use super::sharp::sharpened;
 use super::stuck::{beside, moves_on};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Response;
@@ -130,7 +131,9 @@ fn soft_limit(fitted: &FittedModel<'_>, column: usize) -> Cell {
         on_output(Modifier::new(modifier, text, fitted.step_unit(column)))
     };
     let limits = [0.5, 0.6, 0.7, 0.8, 0.9].map(|share| share * most);
-    let limits = fitted.finer.levels(limits.into());
+    let limits = fitted
+        .finer
+        .levels(sharpened(fitted, limits.into(), &beyond));
     let variants = limits.into_iter().map(|limit| {
         let label = format!("above {} {unit}", figure(limit));
         Variation::one(label, beyond(limit)).shaped("x₀", limit, &unit)

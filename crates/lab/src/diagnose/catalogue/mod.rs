@@ -11,6 +11,7 @@
 //! | `modifiers` | what a disturbance may follow, computed row by row |
 //! | `building` | what the forms are built of: cells, words, grids of time constants |
 //! | `absorbed` | what the parameters take away from a regressor |
+//! | `sharp` | grids of time constants and knees, with the best value exactly |
 //! | `fitted` | the fitted model: slopes of the nodes, and which columns can be what |
 //! | `response`, `powers`, `limits`, `history` | what a stimulus does otherwise than declared |
 //! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
@@ -47,6 +48,7 @@ mod powers;
 mod readout;
 mod response;
 mod rows;
+mod sharp;
 mod stem;
 mod stuck;
 mod time;

@@ -8,6 +8,7 @@ use super::modifiers::{
 };
 use super::norm::Norm;
 use super::powers::Power;
+use super::sharp::{best_pair, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
@@ -223,7 +224,7 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     };
     let course = course(fitted, x, &lacking);
     let lacks = |tau: f64| lacking(course, tau);
-    let scales = time_constants(fitted);
+    let scales = sharpened(fitted, time_constants(fitted), &lacks);
     let singles = fitted.finer.times(scales.clone());
     let single = singles.iter().map(|tau| {
         let label = format!("τ = {} {unit}", figure(*tau));
@@ -238,6 +239,10 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
             Variation::of(label, vec![lacks(*tau), lacks(slow)])
         })
     });
+    let free = best_pair(fitted, &scales, &lacks).map(|(quick, slow)| {
+        let label = format!("τ = {} and {} {unit}", figure(quick), figure(slow));
+        Variation::of(label, vec![lacks(quick), lacks(slow)])
+    });
     // What the recording begins with was on its way already.
     let began = t.first().copied().unwrap_or(0.0);
     let unbalanced = scales.iter().filter(|_| creeps(x)).map(|tau| {
@@ -249,7 +254,7 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         let label = format!("τ = {shown} {unit}, not in balance at the start");
         Variation::of(label, vec![lacks(*tau), start]).shaped("τ", *tau, &unit)
     });
-    let variants = single.chain(double).chain(unbalanced);
+    let variants = single.chain(double).chain(free).chain(unbalanced);
     let lagged = Cell::new(
         id,
         words(fitted, label),
@@ -297,7 +302,8 @@ fn delays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     let instant = Term::new(Node::Column(column), fitted.rate(column).negated());
     let mut variants = vec![Variation::one("", instant)];
     for sign in [1.0, -1.0] {
-        variants.extend(fitted.finer.times(sizes.clone()).into_iter().map(|size| {
+        let sizes = sharpened(fitted, sizes.clone(), &|size| late(sign * size));
+        variants.extend(fitted.finer.times(sizes).into_iter().map(|size| {
             let by = sign * size;
             let label = format!("by about {} {unit}", figure(by));
             Variation::one(label, late(by)).shaped("δ", size, &unit)

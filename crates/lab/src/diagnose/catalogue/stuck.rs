@@ -37,7 +37,7 @@ fn of_response(fitted: &FittedModel<'_>, response: usize) -> Vec<Variation> {
     found.sort_by_key(|(first, last)| std::cmp::Reverse(last - first));
     let held = found.into_iter().take(STRETCHES);
     let unit = fitted.case().responses[response].unit.difference();
-    held.filter_map(|(first, last)| {
+    held.map(|(first, last)| {
         let is_such = |row: usize| (first..last).contains(&row);
         let model = beside(fitted, response, &observed, &is_such);
         let modifier: Vec<f64> = (0..observed.len())
@@ -54,7 +54,7 @@ fn of_response(fitted: &FittedModel<'_>, response: usize) -> Vec<Variation> {
             unit.clone(),
         ))
         .on(response);
-        Some(Variation::one(label, term))
+        Variation::one(label, term)
     })
     .collect()
 }

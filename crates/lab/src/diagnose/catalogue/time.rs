@@ -1,9 +1,9 @@
 //! Laws of time: drift, ageing, warm-up, season, steps.
 
-use super::absorbed::best;
 use super::building::{form, on_node, wave};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, five_digits, grid, map, range};
+use super::sharp::{self, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use gumption_core::quantity::Unit;
 
@@ -43,8 +43,12 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     );
     let mut drifts = vec![form("", vec![fitted.centred_time()])];
     if fitted.is_timed() {
-        let scales = fitted.finer.times(scales.clone());
-        drifts.extend(curved(fitted, &since, &began, &scales));
+        let slowing = |scale: f64| {
+            let modifier = map(&since, |t| libm::log1p(t / scale));
+            Term::new(Node::Output, Modifier::unnamed(modifier))
+        };
+        let scales = sharpened(fitted, scales.clone(), &slowing);
+        drifts.extend(curved(fitted, &since, &began, &fitted.finer.times(scales)));
     }
     add(&[EffectId::Drift, EffectId::DriftScale], drifts);
     add(
@@ -58,6 +62,8 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
             let text = format!("exp(-{began}/({} {unit}))", figure(tau));
             Modifier::number(modifier, text)
         };
+        let warming = |tau: f64| Term::new(Node::Output, decay(tau));
+        let scales = sharpened(fitted, scales, &warming);
         let singles = fitted.finer.times(scales.clone());
         let single = singles.iter().map(|tau| {
             let label = format!("τ = {} {unit}", figure(*tau));
@@ -118,53 +124,39 @@ fn curved(fitted: &FittedModel<'_>, since: &[f64], began: &str, scales: &[f64]) 
 fn steps(fitted: &FittedModel<'_>, along: &str) -> Vec<Variation> {
     let blocks = &fitted.design.blocks;
     let stride = blocks.len().div_ceil(MOST_STEPS);
-    let t = &fitted.clock.values;
-    let unit = fitted.time_unit();
-    let number = |row: usize| fitted.design.recorded(row).start + 1;
-    let at = |block: usize| {
-        let first = blocks[block][0];
-        let modifier = (0..fitted.rows()).map(|row| if row >= first { 1.0 } else { 0.0 });
-        let label = match fitted.clock.column {
-            Some(_) => format!("at {along} = {} {unit}", figure(t[first])),
-            None => format!("at row {}", number(first)),
-        };
-        let text = format!("[row >= {}]", number(first));
-        form(label, vec![Modifier::number(modifier.collect(), text)])
+    let scanned = (stride.max(2)..blocks.len().saturating_sub(1)).step_by(stride);
+    let scanned = scanned.map(|block| step(fitted, along, blocks[block][0]));
+    scanned.chain(between(fitted, along, stride)).collect()
+}
+
+/// A step from a row on.
+fn step(fitted: &FittedModel<'_>, along: &str, row: usize) -> Variation {
+    let number = fitted.design.recorded(row).start + 1;
+    let label = match fitted.clock.column {
+        Some(_) => {
+            let time = figure(fitted.clock.values[row]);
+            format!("at {along} = {time} {}", fitted.time_unit())
+        }
+        None => format!("at row {number}"),
     };
-    let first = stride.max(2);
-    let scanned = (first..blocks.len().saturating_sub(1)).step_by(stride);
-    let mut variants: Vec<Variation> = scanned.map(at).collect();
-    variants.extend(between(fitted, along, stride));
-    variants
+    let after = (0..fitted.rows()).map(|at| f64::from(u8::from(at >= row)));
+    let after = Modifier::number(after.collect(), format!("[row >= {number}]"));
+    form(label, vec![after])
 }
 
 /// The best row for a step, where blocks are skipped or hold several rows; nothing where the others have it.
 fn between(fitted: &FittedModel<'_>, along: &str, stride: usize) -> Option<Variation> {
     let blocks = &fitted.design.blocks;
-    let from = |row: usize| -> Vec<f64> {
-        let after = |at: usize| f64::from(u8::from(at >= row));
-        (0..fitted.rows()).map(after).collect()
-    };
-    let term = |row: usize| Term::new(Node::Output, Modifier::unnamed(from(row)));
     let whole = blocks.iter().all(|rows| rows.len() == 1);
     if whole && stride == 1 || blocks.len() < 4 {
         return None;
     }
+    let terms = |row: usize| step(fitted, along, row).terms;
     let starts: Vec<usize> = (2..blocks.len() - 1)
         .map(|block| blocks[block][0])
         .collect();
-    let middle = best(fitted, starts.iter().map(|row| term(*row)))?;
+    let middle = sharp::best(fitted, &mut starts.iter().flat_map(|row| terms(*row)))?;
     let near = starts[middle.saturating_sub(1)]..starts[(middle + 1).min(starts.len() - 1)];
-    let row = near.start + best(fitted, near.map(term))?;
-    let number = fitted.design.recorded(row).start + 1;
-    let label = match fitted.clock.column {
-        Some(_) => format!(
-            "at {along} = {} {}",
-            figure(fitted.clock.values[row]),
-            fitted.time_unit()
-        ),
-        None => format!("at row {number}"),
-    };
-    let text = format!("[row >= {number}]");
-    Some(form(label, vec![Modifier::number(from(row), text)]))
+    let row = near.start + sharp::best(fitted, &mut near.flat_map(terms))?;
+    Some(step(fitted, along, row))
 }

@@ -19,6 +19,9 @@ const FREE: usize = 3;
 /// Up to so many values the frequencies are half a period per range apart, beyond it a whole one.
 const FINE: usize = 130;
 
+/// Highest peaks of the residuals' spectrum, to which the nearest frequency is moved.
+const PEAKS: usize = 3;
+
 /// What a wave may follow.
 struct Course {
     name: String,
@@ -96,8 +99,11 @@ fn periods(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
         return None;
     }
     let count = ((highest - FEWEST_PERIODS) / step).floor() as usize;
-    let frequencies = (0..=count).map(|k| (FEWEST_PERIODS + step * k as f64) / span);
-    let periods = frequencies.map(|frequency| 1.0 / frequency);
+    let mut frequencies: Vec<f64> = (0..=count)
+        .map(|k| (FEWEST_PERIODS + step * k as f64) / span)
+        .collect();
+    move_to_peaks(fitted, &blocks, &mut frequencies, step / span);
+    let periods = frequencies.iter().map(|frequency| 1.0 / frequency);
     let periods = fitted.finer.times(periods.collect());
     let least = rounded(least, 1e-4 * span);
     let began = match course.column {
@@ -156,4 +162,72 @@ fn lines(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     });
     let id = EffectId::Wave;
     Some(on_node(fitted, id, name, Node::Output, forms))
+}
+
+/// Moves the frequencies next to the highest peaks of the residuals' spectrum onto them: a line between two
+/// frequencies of the grid would leave a part of itself to further explanations.
+fn move_to_peaks(fitted: &FittedModel<'_>, x: &[f64], frequencies: &mut [f64], step: f64) {
+    let power = |frequency: f64| power(fitted, x, frequency);
+    let heights: Vec<f64> = frequencies.iter().map(|f| power(*f)).collect();
+    let mut peaks: Vec<usize> = (0..heights.len())
+        .filter(|k| {
+            (*k == 0 || heights[*k] >= heights[*k - 1])
+                && heights.get(*k + 1).is_none_or(|next| heights[*k] >= *next)
+        })
+        .collect();
+    peaks.sort_by(|a, b| heights[*b].total_cmp(&heights[*a]));
+    for peak in peaks.into_iter().take(PEAKS) {
+        frequencies[peak] = summit(power, frequencies[peak], step / 2.0);
+    }
+}
+
+/// The highest point within `reach`, by ever narrower scans.
+fn summit(power: impl Fn(f64) -> f64, start: f64, reach: f64) -> f64 {
+    let (mut best, mut height, mut reach) = (start, power(start), reach);
+    for _ in 0..6 {
+        let centre = best;
+        for side in [-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0] {
+            let at = centre + side * reach;
+            let here = power(at);
+            if here > height {
+                (best, height) = (at, here);
+            }
+        }
+        reach /= 3.0;
+    }
+    best
+}
+
+/// Power of the residuals at a frequency: the sum of squares that a sine and a cosine take away (Lomb and
+/// Scargle), over all responses.
+fn power(fitted: &FittedModel<'_>, x: &[f64], frequency: f64) -> f64 {
+    let first = x[0];
+    let waves: Vec<(f64, f64)> = x
+        .iter()
+        .map(|x| {
+            let phase = TAU * frequency * (x - first);
+            (libm::sin(phase), libm::cos(phase))
+        })
+        .collect();
+    let sum = |f: &dyn Fn(&(f64, f64)) -> f64| waves.iter().map(f).sum::<f64>();
+    let (ss, cc, sc) = (
+        sum(&|w| w.0 * w.0),
+        sum(&|w| w.1 * w.1),
+        sum(&|w| w.0 * w.1),
+    );
+    let determinant = ss * cc - sc * sc;
+    if determinant <= 1e-6 * ss * cc {
+        return 0.0;
+    }
+    let residuals = fitted.fit.residuals.as_slice();
+    residuals
+        .chunks(x.len())
+        .map(|of_response| {
+            let along = |f: fn(&(f64, f64)) -> f64| -> f64 {
+                waves.iter().zip(of_response).map(|(w, r)| f(w) * r).sum()
+            };
+            let (s, c) = (along(|w| w.0), along(|w| w.1));
+            (cc * s * s - 2.0 * sc * s * c + ss * c * c) / determinant
+        })
+        .sum()
 }

@@ -84,3 +84,41 @@ pub(super) fn course(rows: usize, f: impl Fn(f64) -> f64) -> DVector<f64> {
     let mean = column.mean();
     column.add_scalar(-mean)
 }
+
+/// Positions on a head in each of some mountings of a sensor, whose offset, scale and misalignment are fitted.
+pub(super) struct Tumble {
+    /// Angles of the sensor and of the head.
+    angles: Vec<(f64, f64)>,
+}
+
+impl Tumble {
+    pub(super) fn new(positions: u32, mounts: &[f64]) -> Tumble {
+        let step = std::f64::consts::TAU / f64::from(positions);
+        let heads = |mount: &f64| {
+            let mount = mount.to_radians();
+            (0..positions).map(move |k| (f64::from(k) * step + mount, f64::from(k) * step))
+        };
+        Tumble {
+            angles: mounts.iter().flat_map(heads).collect(),
+        }
+    }
+
+    /// A function of both angles. Rounding of cos 90° is removed.
+    pub(super) fn column(&self, f: impl Fn(f64, f64) -> f64) -> DVector<f64> {
+        DVector::from_fn(self.angles.len(), |i, _| {
+            let value = f(self.angles[i].0, self.angles[i].1);
+            if value.abs() < 1e-9 { 0.0 } else { value }
+        })
+    }
+
+    pub(super) fn baseline(&self) -> Baseline {
+        let columns = [
+            self.column(|_, _| 1.0),
+            self.column(|a, _| a.sin()),
+            self.column(|a, _| a.cos()),
+        ];
+        let (jacobian, rows) = (DMatrix::from_columns(&columns), self.angles.len());
+        let nothing = DVector::zeros(rows);
+        Baseline::new(&jacobian, &nothing, &white(rows), &Prior::none(3)).unwrap()
+    }
+}

@@ -114,17 +114,13 @@ fn simulated(baseline: &Baseline, seen: &DMatrix<f64>, settings: &Settings) -> V
     let null = Null::new(baseline, settings.seed, STAGE);
     let chunks = settings.draws.div_ceil(gumption_lanes::LANES).max(1);
     side_by_side(chunks, |index| {
-        let chunk = null.chunk(index);
-        let components = &chunk.errors * seen;
-        let absorbed = &chunk.errors * baseline.absorbed();
-        (0..chunk.errors.nrows())
-            .map(|lane| {
-                let chi_squared =
-                    chunk.errors.row(lane).norm_squared() - absorbed.row(lane).norm_squared();
-                let top = components.row(lane).amax();
-                top * top / scale(baseline, chi_squared, chunk.offsets[lane])
-            })
-            .collect::<Vec<f64>>()
+        let recordings = null.along(index, seen);
+        let each = recordings.components.row_iter().enumerate();
+        let most = each.map(|(lane, components)| {
+            let chi_squared = recordings.chi_squared()[lane];
+            components.amax().powi(2) / scale(baseline, chi_squared, recordings.offsets[lane])
+        });
+        most.collect::<Vec<f64>>()
     })
     .into_iter()
     .flatten()

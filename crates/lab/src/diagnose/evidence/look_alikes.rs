@@ -7,8 +7,6 @@
 //! rival of which two variants together are what was found belongs on the list; and so does every alias,
 //! whatever the odds say.
 
-use std::collections::BTreeMap;
-
 use nalgebra::{DMatrix, DVector};
 
 use super::directions::{joined, left, orthonormal, without};
@@ -21,10 +19,16 @@ use super::space::{Block, Form, Frame, Space};
 const ALIAS: f64 = 0.99;
 /// … unless the effect is so strong that what a rival leaves of it has this many standard deviations.
 const TOLD_APART: f64 = 8.0;
+/// A mixture of two variants is a rival if it leaves less than this many standard deviations …
+const KIN: f64 = 2.0;
+/// … and no more than this share of the effect (squared).
+const KIN_SHARE: f64 = 0.04;
 /// What is left (squared) of an effect by an explanation that has it as a part: rounding.
 const HELD: f64 = 1e-8;
 /// Variants that have less than this in common with an effect (cosine squared) are no part of it.
 const PART: f64 = 0.25;
+/// Variants of a candidate that are tried in pairs.
+const PAIRED: usize = 10;
 /// Directions that a mixture adds for each coefficient.
 const DIRECTIONS: usize = 4;
 /// A direction of a mixture of which less than this (squared) is left is not counted.
@@ -47,32 +51,40 @@ pub(super) fn listed(
     let whole = estimate.visible.norm_squared();
     let own = &space.blocks[winner];
     let place = &question.candidates[own.candidate].place;
-    // The best share that each candidate's variants explain, with the variant.
-    let mut shares: BTreeMap<usize, (f64, usize)> = BTreeMap::new();
+    // The best share that each candidate's variants explain, with those variants.
+    let mut shares: std::collections::BTreeMap<usize, Vec<(f64, usize)>> = Default::default();
     for rival in beside.rests.iter().filter(|rest| rest.kind == Kind::Named) {
         let candidate = space.blocks[rival.block].candidate;
         if !question.same_cause(candidate, own.candidate) {
             let share = beside.components(rival, &along).norm_squared() / whole;
-            let best = shares.entry(candidate).or_insert((share, rival.block));
-            if share > best.0 {
-                *best = (share, rival.block);
+            if share > PART {
+                shares
+                    .entry(candidate)
+                    .or_default()
+                    .push((share, rival.block));
             }
         }
     }
-    let is_alias = |(candidate, (share, block)): &(usize, (f64, usize))| {
+    let mut found = Vec::new();
+    for (candidate, mut variants) in shares {
+        variants.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let (best, block) = variants[0];
         // A candidate at the same place with more coefficients that has a variant as a part is the same, more general;
         // one with many more, such as a value of its own for each level, holds anything.
-        let (more, few) = (space.blocks[*block].basis.ncols(), own.basis.ncols());
-        let left = (1.0 - share).max(0.0) * whole;
+        let (more, few) = (space.blocks[block].basis.ncols(), own.basis.ncols());
+        let left = (1.0 - best).max(0.0) * whole;
         let near = left < (TOLD_APART * estimate.sigma).powi(2);
         let general = || {
-            let same = more > few && question.candidates[*candidate].place == *place;
-            more > few + 1 || (same && has_as_part(space, &beside, rest, *block, own.candidate))
+            let same = more > few && question.candidates[candidate].place == *place;
+            more > few + 1 || (same && has_as_part(space, &beside, rest, block, own.candidate))
         };
-        *share > ALIAS && near && !general()
-    };
-    let aliases = shares.into_iter().filter(is_alias);
-    aliases.map(|(candidate, _)| candidate).collect()
+        let alias = best > ALIAS && near && !general();
+        let mixes = !question.candidates[candidate].repeats && variants.len() > 1;
+        if alias || (mixes && kin(space, rest, &variants, estimate)) {
+            found.push(candidate);
+        }
+    }
+    found
 }
 
 /// Whether a block explains all of some variant of a candidate: a square with a line has the line as a part.
@@ -102,10 +114,58 @@ fn has_as_part(
 /// Whether a rival, given by the columns of its variants, stays on the list of an effect of `own` coefficients
 /// whatever the odds say; all is seen beside the parameters, over the noise.
 pub(super) fn stays(effect: &DVector<f64>, own: usize, variants: &[DMatrix<f64>]) -> bool {
-    let few = variants.iter().filter(|columns| columns.ncols() <= own + 1);
+    let whole = effect.norm_squared();
     let as_one = DMatrix::from_columns(std::slice::from_ref(effect));
-    let left = left(&as_one, few.cloned())[0];
-    left < TOLD_APART && left * left < (1.0 - ALIAS) * effect.norm_squared()
+    let few = variants.iter().filter(|columns| columns.ncols() <= own + 1);
+    let shares = few.map(|columns| {
+        let left = left(&as_one, [columns.clone()])[0].powi(2);
+        (1.0 - left / whole, columns)
+    });
+    let mut near: Vec<(f64, &DMatrix<f64>)> = shares.filter(|(share, _)| *share > PART).collect();
+    near.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let alias = |(share, _): &(f64, _)| {
+        *share > ALIAS && (1.0 - share).max(0.0) * whole < TOLD_APART * TOLD_APART
+    };
+    let single = near.iter().filter(|(_, columns)| columns.ncols() == 1);
+    let tried: Vec<DVector<f64>> = single
+        .take(PAIRED)
+        .map(|(_, columns)| columns.column(0).into_owned())
+        .collect();
+    near.first().is_some_and(alias) || mixed(&tried, effect, 1.0)
+}
+
+/// Whether two variants together are what was found, neither with a negative share.
+fn kin(space: &Space, rest: &Frame, variants: &[(f64, usize)], estimate: &Estimate) -> bool {
+    let tried: Vec<DVector<f64>> = variants
+        .iter()
+        .filter(|(_, block)| space.blocks[*block].basis.ncols() == 1)
+        .take(PAIRED)
+        .map(|(_, block)| without(&space.blocks[*block].determined(), &rest.basis))
+        .map(|column| column.column(0).into_owned())
+        .collect();
+    mixed(&tried, &estimate.visible, estimate.sigma)
+}
+
+/// Whether two columns together are as good as an effect, neither with a negative share.
+fn mixed(tried: &[DVector<f64>], target: &DVector<f64>, sigma: f64) -> bool {
+    let whole = target.norm_squared();
+    let least = (KIN * sigma).powi(2).min(KIN_SHARE * whole);
+    (0..tried.len()).any(|j| {
+        (0..j).any(|i| {
+            let (a, b) = (&tried[i], &tried[j]);
+            let (aa, bb, ab) = (a.norm_squared(), b.norm_squared(), a.dot(b));
+            let (at, bt) = (a.dot(target), b.dot(target));
+            let determinant = aa * bb - ab * ab;
+            if !(determinant > FAINT * aa * bb) {
+                return false;
+            }
+            let (x, y) = (
+                (at * bb - bt * ab) / determinant,
+                (bt * aa - at * ab) / determinant,
+            );
+            x * y >= 0.0 && whole - x * at - y * bt < least
+        })
+    })
 }
 
 /// Blocks, the strongest first, that are next to nothing beside those before them and all that these may
@@ -279,5 +339,14 @@ mod tests {
         let (first, wave, other) = (block("relaxation"), block("sine"), block("inverse"));
         assert!(shapes(&space, &question, &[first, wave]).is_empty());
         assert_eq!(shapes(&space, &question, &[first, wave, other]), [other]);
+    }
+
+    #[test]
+    fn a_sum_of_two_variants_is_listed_with_their_candidate() {
+        let effect = (relaxation(6.0) + relaxation(2.5)) * 20.0;
+        let (found, _) = asked(&effect, 1);
+        let listed: Vec<usize> = found.slots[0].named.iter().map(|n| n.candidate).collect();
+        // The sum is a candidate of its own (7) that fits exactly.
+        assert!(listed.contains(&7) && listed.contains(&0), "{listed:?}");
     }
 }

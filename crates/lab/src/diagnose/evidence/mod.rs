@@ -41,7 +41,6 @@
 //! | `pairs` | two effects that mask each other, or are noise to each other |
 //! | `search` | the set of effects that explains a recording |
 //! | `slots` | which candidates could stand for each effect |
-//! | `quiet` | how little noise one of several responses may have |
 //! | `grades` | whether a name is more than a likeness |
 //! | `choice` | what sizes owe to the choice between explanations of the others |
 //! | `sequential` | simulated tests that end when they are settled |
@@ -81,7 +80,6 @@ mod omitted;
 mod pairs;
 mod plan;
 mod question;
-mod quiet;
 mod refusal;
 mod remainders;
 mod search;
@@ -104,7 +102,6 @@ pub use noise::{Correlation, Covariance, Noise};
 pub use omitted::omitted;
 pub use plan::{Pair, Plan, Seen, visibility};
 pub use question::{Atom, Candidate, Kind, Place, Question, Settings, Shape};
-pub use quiet::quiet;
 pub use refusal::Refusal;
 pub use separate::{Prospects, Separability, Standing, Worth, apart, doubt};
 pub use unsteady::unsteadiness;

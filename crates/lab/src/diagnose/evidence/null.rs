@@ -73,12 +73,27 @@ impl<'a> Null<'a> {
         }
         Chunk { errors, offsets }
     }
+
+    /// A chunk with its components along some directions.
+    pub(super) fn along(&self, index: usize, directions: &DMatrix<f64>) -> Recordings {
+        let Chunk { errors, offsets } = self.chunk(index);
+        let mut chi_squared = squares(&errors);
+        let absorbed = squares(&(&errors * self.baseline.absorbed()));
+        for (whole, part) in chi_squared.iter_mut().zip(absorbed) {
+            *whole = (*whole - part).max(0.0);
+        }
+        Recordings {
+            components: &errors * directions,
+            errors,
+            chi_squared,
+            offsets,
+        }
+    }
 }
 
 /// Simulated recordings with their components along the directions of all blocks; each chunk is computed
 /// when it is first needed, and serves all tests of an examination.
 pub(super) struct Simulated<'a> {
-    baseline: &'a Baseline,
     space: &'a Space,
     null: Null<'a>,
     chunks: Vec<OnceLock<Recordings>>,
@@ -101,7 +116,6 @@ impl<'a> Simulated<'a> {
     pub(super) fn new(baseline: &'a Baseline, space: &'a Space, seed: u64, draws: usize) -> Self {
         let chunks = draws.div_ceil(LANES).max(1);
         Simulated {
-            baseline,
             space,
             null: Null::new(baseline, seed, 0),
             chunks: (0..chunks).map(|_| OnceLock::new()).collect(),
@@ -119,18 +133,7 @@ impl<'a> Simulated<'a> {
 
     /// A chunk that is needed once, and not kept.
     pub(super) fn drawn(&self, index: usize) -> Recordings {
-        let chunk = self.null.chunk(index);
-        let mut chi_squared = squares(&chunk.errors);
-        let absorbed = squares(&(&chunk.errors * self.baseline.absorbed()));
-        for (whole, part) in chi_squared.iter_mut().zip(absorbed) {
-            *whole = (*whole - part).max(0.0);
-        }
-        Recordings {
-            components: &chunk.errors * &self.space.directions,
-            errors: chunk.errors,
-            chi_squared,
-            offsets: chunk.offsets,
-        }
+        self.null.along(index, &self.space.directions)
     }
 }
 

@@ -167,54 +167,8 @@ fn same(a: &Block, b: &Block) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::DVector;
-
-    use super::super::baseline::Prior;
-    use super::super::fixture::white;
+    use super::super::fixture::{Tumble, shape};
     use super::*;
-
-    /// Cosines and sines of the sensor angle and of the head angle, degrees.
-    struct Tumble {
-        head: Vec<f64>,
-        mount: Vec<f64>,
-    }
-
-    impl Tumble {
-        fn new(positions: usize, mounts: &[f64]) -> Tumble {
-            let (mut head, mut mount) = (Vec::new(), Vec::new());
-            for m in mounts {
-                for k in 0..positions {
-                    head.push((k as f64 * 360.0 / positions as f64).to_radians());
-                    mount.push(m.to_radians());
-                }
-            }
-            Tumble { head, mount }
-        }
-
-        /// A function of the sensor angle α and the head angle φ. Rounding of cos 90° is removed.
-        fn column(&self, f: impl Fn(f64, f64) -> f64) -> DVector<f64> {
-            DVector::from_fn(self.head.len(), |i, _| {
-                let value = f(self.head[i] + self.mount[i], self.head[i]);
-                if value.abs() < 1e-9 { 0.0 } else { value }
-            })
-        }
-
-        fn baseline(&self) -> Baseline {
-            let columns = [
-                self.column(|_, _| 1.0),
-                self.column(|a, _| a.sin()),
-                self.column(|a, _| a.cos()),
-            ];
-            let n = self.head.len();
-            Baseline::new(
-                &DMatrix::from_columns(&columns),
-                &DVector::zeros(n),
-                &white(n),
-                &Prior::none(3),
-            )
-            .unwrap()
-        }
-    }
 
     type Law = (&'static str, fn(f64, f64) -> f64);
     const LAWS: [Law; 9] = [
@@ -241,7 +195,7 @@ mod tests {
             .map(|(candidate, (_, law))| Atom {
                 candidate,
                 variant: String::new(),
-                shape: Shape::Columns(DMatrix::from_columns(&[tumble.column(law)])),
+                shape: shape(tumble.column(law)),
                 share: 1.0,
             })
             .collect();

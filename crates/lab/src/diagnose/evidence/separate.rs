@@ -17,6 +17,8 @@ pub struct Standing {
     pub effects: DMatrix<f64>,
     /// Columns of each of its variants: with these it takes up what another does.
     pub variants: Vec<DMatrix<f64>>,
+    /// Whether several of its variants may act at once, so that mixtures of them say nothing.
+    pub repeats: bool,
 }
 
 impl Standing {
@@ -109,7 +111,7 @@ pub fn apart(contenders: &[Standing]) -> Result<Separability, Refusal> {
             .map(|own| {
                 contenders
                     .iter()
-                    .map(|rival| own.keeps(&rival.variants))
+                    .map(|rival| !rival.repeats && own.keeps(&rival.variants))
                     .collect()
             })
             .collect(),
@@ -209,43 +211,25 @@ fn decided(odds: f64, gain: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::DVector;
-
-    use super::super::baseline::{Baseline, Prior};
-    use super::super::fixture::white;
+    use super::super::fixture::Tumble;
     use super::*;
 
     /// Twelve positions in each mount: K2 and encoder eccentricity (1/rev cosine), seen beside the baseline.
     fn design(mounts: &[f64]) -> [DMatrix<f64>; 2] {
-        let mut angles = Vec::new();
-        for mount in mounts {
-            angles.extend((0..12).map(|k| {
-                let head = f64::from(k) * std::f64::consts::PI / 6.0;
-                (head + mount.to_radians(), head)
-            }));
-        }
-        let n = angles.len();
-        let column =
-            |f: &dyn Fn(f64, f64) -> f64| DVector::from_fn(n, |i, _| f(angles[i].0, angles[i].1));
-        let jacobian = DMatrix::from_columns(&[
-            column(&|_, _| 1.0),
-            column(&|a, _| a.sin()),
-            column(&|a, _| a.cos()),
-        ]);
-        let noise = white(n);
-        let baseline =
-            Baseline::new(&jacobian, &DVector::zeros(n), &noise, &Prior::none(3)).unwrap();
-        [
-            column(&|a, _| a.sin().powi(2)),
-            column(&|a, h| a.cos() * h.cos()),
-        ]
-        .map(|effect| baseline.project(&DMatrix::from_columns(&[effect])))
+        let tumble = Tumble::new(12, mounts);
+        let effects = [
+            tumble.column(|a, _| a.sin().powi(2)),
+            tumble.column(|a, h| a.cos() * h.cos()),
+        ];
+        let baseline = tumble.baseline();
+        effects.map(|effect| baseline.project(&DMatrix::from_columns(&[effect])))
     }
 
     fn held(columns: &[DMatrix<f64>], sizes: &[f64]) -> Separability {
         let of = |column: &DMatrix<f64>| Standing {
             effects: column * DMatrix::from_row_slice(1, sizes.len(), sizes),
             variants: vec![column.clone()],
+            repeats: false,
         };
         let standing: Vec<Standing> = columns.iter().map(of).collect();
         apart(&standing).unwrap()
@@ -292,6 +276,7 @@ mod tests {
             let standing = |column: &DMatrix<f64>, variants| Standing {
                 effects: 5.0 * column,
                 variants,
+                repeats: false,
             };
             let both = [
                 standing(&own, vec![own.clone()]),

@@ -1,0 +1,179 @@
+//! Grids of a shape parameter with one value moved to where it explains the residuals best: a time constant
+//! between two values of the grid would leave a part of itself to further explanations.
+
+use nalgebra::DVector;
+
+use super::Term;
+use super::absorbed::Absorbed;
+use super::fitted::FittedModel;
+
+/// Ratio of variances from which on an effect shows.
+const SHOWS: f64 = 16.0;
+
+/// What the residuals say of regressors.
+struct Residuals<'g, 'f> {
+    fitted: &'g FittedModel<'f>,
+    absorbed: Absorbed,
+    rest: DVector<f64>,
+}
+
+impl<'g, 'f> Residuals<'g, 'f> {
+    /// Outputs of several axes have laws of their own and are left alone.
+    fn of(fitted: &'g FittedModel<'f>) -> Option<Residuals<'g, 'f>> {
+        if fitted.case().responses.len() != 1 {
+            return None;
+        }
+        let absorbed = Absorbed::by_parameters(fitted);
+        let rest = absorbed.rest(&fitted.fit.residuals);
+        Some(Residuals {
+            fitted,
+            absorbed,
+            rest,
+        })
+    }
+
+    fn power(&self, term: &Term) -> f64 {
+        power(&self.absorbed, &self.rest, &self.fitted.column(term))
+    }
+
+    fn shows(&self, power: f64) -> bool {
+        let left = self.rest.norm_squared() - power;
+        let used = self.absorbed.directions() + 1;
+        let degrees = self.rest.len().saturating_sub(used) as f64;
+        power * degrees > SHOWS * left
+    }
+}
+
+/// Moves the value next to the best one onto it, where an effect of this kind shows at all.
+pub(super) fn sharpened(
+    fitted: &FittedModel<'_>,
+    mut grid: Vec<f64>,
+    term: &dyn Fn(f64) -> Term,
+) -> Vec<f64> {
+    if grid.len() < 2 || grid.iter().any(|value| *value <= 0.0) {
+        return grid;
+    }
+    let Some(residuals) = Residuals::of(fitted) else {
+        return grid;
+    };
+    let power = |value: f64| residuals.power(&term(value));
+    let powers: Vec<f64> = grid.iter().map(|value| power(*value)).collect();
+    let best = largest_at(&powers);
+    if !residuals.shows(powers[best]) {
+        return grid;
+    }
+    let low = grid[best.saturating_sub(1)];
+    let high = grid[(best + 1).min(grid.len() - 1)];
+    grid[best] = highest(&power, low, grid[best], high);
+    grid
+}
+
+/// The best of many terms, where an effect of this kind shows at all.
+pub(super) fn best(
+    fitted: &FittedModel<'_>,
+    terms: &mut dyn Iterator<Item = Term>,
+) -> Option<usize> {
+    let residuals = Residuals::of(fitted)?;
+    let powers: Vec<f64> = terms.map(|term| residuals.power(&term)).collect();
+    let best = largest_at(&powers);
+    powers
+        .get(best)
+        .is_some_and(|power| residuals.shows(*power))
+        .then_some(best)
+}
+
+/// The two values of a grid of which the terms together explain the residuals best, where they do so clearly
+/// better than one alone.
+pub(super) fn best_pair(
+    fitted: &FittedModel<'_>,
+    grid: &[f64],
+    term: &dyn Fn(f64) -> Term,
+) -> Option<(f64, f64)> {
+    /// Values nearer to one another are one.
+    const APART: f64 = 2.5;
+    let residuals = Residuals::of(fitted)?;
+    let rests: Vec<DVector<f64>> = grid
+        .iter()
+        .map(|value| residuals.absorbed.rest(&fitted.column(&term(*value))))
+        .collect();
+    let single = |at: usize| along(&rests[at], &residuals.rest);
+    let alone = (0..grid.len()).map(single).fold(0.0, f64::max);
+    let mut found = None;
+    let mut most = 0.0;
+    for j in 0..grid.len() {
+        for i in (0..j).filter(|i| grid[j] > APART * grid[*i]) {
+            // What the second adds to the first.
+            let size = rests[i].norm_squared();
+            let second = &rests[j] - &rests[i] * (rests[j].dot(&rests[i]) / size);
+            let together = single(i) + along(&second, &residuals.rest);
+            if together > most {
+                (most, found) = (together, Some((grid[i], grid[j])));
+            }
+        }
+    }
+    let gain = most - alone;
+    let left = residuals.rest.norm_squared() - most;
+    let degrees = residuals.rest.len() as f64;
+    found.filter(|_| gain * degrees > SHOWS * left)
+}
+
+fn along(column: &DVector<f64>, residuals: &DVector<f64>) -> f64 {
+    let size = column.norm_squared();
+    let along = column.dot(residuals);
+    if size > 0.0 {
+        along * along / size
+    } else {
+        0.0
+    }
+}
+
+fn largest_at(powers: &[f64]) -> usize {
+    (0..powers.len())
+        .max_by(|a, b| powers[*a].total_cmp(&powers[*b]))
+        .unwrap_or(0)
+}
+
+/// Sum of squares that a regressor takes away from the residuals.
+fn power(absorbed: &Absorbed, residuals: &DVector<f64>, column: &DVector<f64>) -> f64 {
+    /// A regressor of which the parameters leave less than this (squared) is invisible.
+    const LEAST: f64 = 1e-10;
+    let rest = absorbed.rest(column);
+    let size = rest.norm_squared();
+    let along = rest.dot(residuals);
+    if size > LEAST * column.norm_squared() && along.is_finite() {
+        along * along / size
+    } else {
+        0.0
+    }
+}
+
+/// The highest point between two values, on a logarithmic scale, by ever narrower scans around a start.
+fn highest(power: &dyn Fn(f64) -> f64, low: f64, start: f64, high: f64) -> f64 {
+    const SCANS: usize = 5;
+    let (mut best, mut height) = (start, power(start));
+    let mut reach = libm::log(high / low) / 2.0;
+    for _ in 0..SCANS {
+        let centre = best;
+        for side in [-0.75, -0.5, -0.25, 0.25, 0.5, 0.75] {
+            let at = (centre * libm::exp(side * reach)).max(low).min(high);
+            let here = power(at);
+            if here > height {
+                (best, height) = (at, here);
+            }
+        }
+        reach /= 3.0;
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_summit_is_found() {
+        let hill = |x: f64| -libm::pow(libm::log(x / 2.345), 2.0);
+        let found = highest(&hill, 1.5, 2.0, 4.0);
+        assert!((found / 2.345 - 1.0).abs() < 0.01, "{found}");
+    }
+}

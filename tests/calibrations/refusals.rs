@@ -84,6 +84,19 @@ fn what_cannot_be_used_is_refused_with_what_to_write_instead() {
     }
 }
 
+/// Where it is named, by every command, with the file that may be meant.
+#[test]
+fn a_recording_that_is_not_there_is_a_fault_of_the_experiment() {
+    for said in both(&changed("rate.csv", "rte.csv")) {
+        let Err(said) = said else {
+            panic!("there is no such file");
+        };
+        assert!(said.contains("there is no file"), "{said}");
+        assert!(said.contains("recording = { file = \"rte.csv\""), "{said}");
+        assert!(said.contains("did you mean \"rate.csv\"?"), "{said}");
+    }
+}
+
 #[test]
 fn what_only_a_diagnosis_uses_is_remarked_on() {
     assert_eq!(said(EXPERIMENT), "");

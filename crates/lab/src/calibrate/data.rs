@@ -63,12 +63,12 @@ fn no_data(purpose: Purpose) -> Fault {
     }
 }
 
-/// Whether the first line of the recording can be read, where a file names one.
-pub(super) fn readable(checker: &Checker<'_>) -> Result<(), Box<Rejection>> {
+/// Whether the first line of the recording can be read, where a file names one; that it cannot is told.
+pub(super) fn readable(checker: &mut Checker<'_>) -> Result<bool, Box<Rejection>> {
     let recording = checker.source.table.recording.as_ref();
     match recording.and_then(|recording| recording.value.0.file.as_ref()) {
-        Some(file) => checker.headings(file).map(|_| ()),
-        None => Ok(()),
+        Some(file) => Ok(checker.headings(file)?.is_some()),
+        None => Ok(true),
     }
 }
 
@@ -77,7 +77,9 @@ fn recorded(
     names: &Names,
     file: &Stated<String>,
 ) -> Result<Option<Points>, Box<Rejection>> {
-    let found = checker.headings(file)?;
+    let Some(found) = checker.headings(file)? else {
+        return Ok(None);
+    };
     let Some(stated) = checker.source.table.recording.as_ref() else {
         return Ok(None);
     };

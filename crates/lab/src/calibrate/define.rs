@@ -155,7 +155,9 @@ impl Checker<'_> {
         contrary::check(self);
         if entries(&table.parameter).is_empty() {
             // Parameters that are not listed follow from the recording: without it, that is what is wrong.
-            data::readable(self)?;
+            if !data::readable(self)? {
+                return Ok(None);
+            }
             self.faults.push(
                 Fault::new(
                     NO_PARAMETERS,

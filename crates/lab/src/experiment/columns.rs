@@ -48,13 +48,35 @@ impl Column<'_> {
 }
 
 impl<'s> Checker<'s> {
-    /// The first line of a recording.
-    pub fn headings(&self, file: &Stated<String>) -> Result<Vec<Heading>, Box<Rejection>> {
+    /// The first line of a recording. That there is no such file, or none that can be read, is a fault of the experiment,
+    /// where it is named.
+    ///
+    /// # Errors
+    /// Something is wrong in the recording.
+    pub fn headings(
+        &mut self,
+        file: &Stated<String>,
+    ) -> Result<Option<Vec<Heading>>, Box<Rejection>> {
         let path = self.folder.join(&file.value);
         let shown = path.display().to_string();
-        let text = text_of(self.files, &path, &shown)?;
-        headings(&text, &self.units)
-            .map_err(|fault| Box::new(Rejection::new(&shown, &text, vec![*fault])))
+        let text = match text_of(self.files, &path, &shown) {
+            Ok(text) => text,
+            Err(rejection) if rejection.text.is_empty() => {
+                let faults = rejection.faults.into_iter();
+                let placed = faults.map(|fault| Fault {
+                    span: file.span.clone(),
+                    label: say!("expected a CSV file"),
+                    ..fault
+                });
+                self.faults.extend(placed);
+                return Ok(None);
+            }
+            Err(rejection) => return Err(Box::new(rejection)),
+        };
+        match headings(&text, &self.units) {
+            Ok(headings) => Ok(Some(headings)),
+            Err(fault) => Err(Box::new(Rejection::new(&shown, &text, vec![*fault]))),
+        }
     }
 
     /// The columns that the file declares, and those that only equations or other keys name, as far as the

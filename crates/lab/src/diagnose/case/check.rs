@@ -62,7 +62,9 @@ impl Checker<'_> {
             self.faults.push(fault.label(say!("`file` is missing")));
             return Ok(None);
         };
-        let headings = self.headings(csv)?;
+        let Some(headings) = self.headings(csv)? else {
+            return Ok(None);
+        };
         // They need no column: what is wrong in them is told beside wrong columns.
         let settings = self.settings(file);
         let Some(names) = Names::of(self) else {

@@ -118,13 +118,17 @@ pub(super) fn plain(
 /// Time constants from a fraction of the interval of the blocks to a fraction of the recording; none where rows have no
 /// times.
 pub(super) fn time_constants(fitted: &FittedModel<'_>) -> Vec<f64> {
-    if !fitted.is_timed() {
-        return Vec::new();
-    }
-    let span = fitted.clock.span();
     let blocks = fitted.design.blocks.len().max(2) as f64;
-    let least = (span / blocks * 0.5).max(fitted.clock.interval() * 0.5);
-    grid(least, span / 3.0, 1.7, 12)
+    let least = (fitted.clock.span() / blocks).max(fitted.clock.interval());
+    time_constants_from(fitted, 0.5 * least)
+}
+
+/// The same from another one on.
+pub(super) fn time_constants_from(fitted: &FittedModel<'_>, least: f64) -> Vec<f64> {
+    match fitted.is_timed() {
+        true => grid(least, fitted.clock.span() / 3.0, 1.7, 12),
+        false => Vec::new(),
+    }
 }
 
 /// The course between the rows of which a lag explains the residuals best, where the rows leave more than one possible; by

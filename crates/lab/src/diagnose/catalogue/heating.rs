@@ -1,6 +1,6 @@
 //! Self-heating: the power of the signal warms what senses it, and warmth needs time.
 
-use super::building::{course, scoped, time_constants, words};
+use super::building::{course, scoped, time_constants_from, words};
 use super::fitted::{FittedModel, Node, varies};
 use super::inputs::Signal;
 use super::modifiers::{Course, figure, largest, map2};
@@ -138,8 +138,5 @@ fn cell(fitted: &FittedModel<'_>, node: Node, along: &str, variants: Vec<Variati
 
 /// What is quicker than the rows follow one another is a power of the signal.
 fn scales(fitted: &FittedModel<'_>) -> Vec<f64> {
-    let scales = time_constants(fitted).into_iter();
-    scales
-        .filter(|tau| *tau >= fitted.clock.interval())
-        .collect()
+    time_constants_from(fitted, fitted.clock.interval())
 }

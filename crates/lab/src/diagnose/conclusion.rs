@@ -158,11 +158,11 @@ impl Diagnosis {
         const LIKELY: f64 = 0.5;
         let unlikely = slot.generic.iter().all(|one| one.probability < UNLIKELY);
         let first = slot.named.first().filter(|one| one.probability > LIKELY);
+        let first = first.filter(|one| !self.describes(one));
         first.filter(|_| !slot.is_explained() && unlikely)
     }
 
-    /// Whether a name only tells how the recording looks, which is no name beside something unexplained. A shift from
-    /// one level of a factor to another tells more: where to look.
+    /// Whether a name only tells how the recording looks, which is no name beside something unexplained.
     fn describes(&self, one: &Alternative) -> bool {
         let effect = self.cells[one.candidate].effect;
         effect.only_describes()

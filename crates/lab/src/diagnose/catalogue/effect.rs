@@ -141,9 +141,10 @@ impl Effect {
         self.repeats || self.exact.is_some()
     }
 
-    /// Whether it only says how the recording looks, which is no name beside something unexplained.
+    /// Whether it only says how the recording looks, which is no name beside something unexplained. What happened once, to a
+    /// row or from one on, tells where to look.
     pub fn only_describes(&self) -> bool {
-        self.pattern.is_some_and(|pattern| !pattern.tells_where())
+        self.pattern.is_some_and(Pattern::recurs)
     }
 
     /// Whether a fitted size may belong to this effect: any, unless its size is known.
@@ -163,13 +164,6 @@ impl Text {
     /// The text in a language.
     pub fn of(&self, language: Language) -> &str {
         language.pick(&self.en, &self.zh)
-    }
-}
-
-impl Pattern {
-    /// Whether it tells where to look: at a level of a factor.
-    pub fn tells_where(self) -> bool {
-        matches!(self, Pattern::Level | Pattern::ScaleLevel)
     }
 }
 

@@ -35,7 +35,7 @@ pub struct Fit {
     pub chi_squared: f64,
     /// √(χ²/ν), in the unit of the response where the sum is plain; `None` for ν = 0.
     pub residual_sd: Option<f64>,
-    /// Share of the scatter of the response that the curve describes.; not a number where there is no predictor.
+    /// Share of the scatter of the response that the curve describes; not a number where there is no predictor.
     pub r_squared: f64,
     /// f at the adjusted predictors, for every point.
     pub fitted: Vec<f64>,

@@ -16,6 +16,7 @@ use super::evidence::{
 };
 use super::failure::Failure;
 use super::fit::{self, Fit, NoFit};
+use super::inquiry::Answer;
 use super::noise::{self, Claimed};
 use super::noise_correlation::Courses;
 use super::reduced::reduced;
@@ -56,11 +57,11 @@ impl<'f> Candidates<'f> {
     /// Effects that are seen with a size which they cannot have are something else: without them, again.
     pub(super) fn ask(
         &mut self,
-        claimed: &Claimed,
+        claimed: Claimed,
         settings: &evidence::Settings,
         progress: &dyn Fn(f64) -> ControlFlow<()>,
-    ) -> Result<(Baseline, Examination), Failure> {
-        let baseline = baseline(self.fitted.design, self.fitted.fit, claimed)?;
+    ) -> Result<Answer, Failure> {
+        let baseline = baseline(self.fitted.design, self.fitted.fit, &claimed)?;
         loop {
             let question = Question {
                 baseline: &baseline,
@@ -71,10 +72,14 @@ impl<'f> Candidates<'f> {
             let examination = evidence::examine(&question, progress)?;
             let mut missized = self.missized(&examination);
             if missized.is_empty() {
-                missized = self.shrinking(&examination, claimed, settings.alpha);
+                missized = self.shrinking(&examination, &claimed, settings.alpha);
             }
             if missized.is_empty() {
-                return Ok((baseline, examination));
+                return Ok(Answer {
+                    claimed,
+                    baseline,
+                    examination,
+                });
             }
             self.retain(|atom, _| !missized.contains(&atom.candidate));
         }
@@ -172,37 +177,6 @@ impl<'f> Candidates<'f> {
             ..spread.clone()
         });
         Ok((contest.p, claimed.unwrap_or_else(|| spreads[0].clone())))
-    }
-
-    /// What is found when noise and effects are estimated in turn, from this noise on and what is found with it, and the noise
-    /// in the end.
-    ///
-    /// # Errors
-    /// When the work was stopped.
-    pub(super) fn in_turn(
-        &mut self,
-        mut claimed: Claimed,
-        (mut baseline, mut examination): (Baseline, Examination),
-        settings: &evidence::Settings,
-        courses: Option<&Courses>,
-        progress: &dyn Fn(f64) -> ControlFlow<()>,
-    ) -> Result<(Baseline, Examination, Claimed), Failure> {
-        /// So often.
-        const ROUNDS: u8 = 3;
-        for _ in 0..ROUNDS {
-            let atoms = |of: &Examination| of.fitted.as_ref().map(|fitted| fitted.atoms.clone());
-            let before = atoms(&examination);
-            let then = self.noise(&examination, &claimed, courses);
-            if then == claimed {
-                break;
-            }
-            claimed = then;
-            (baseline, examination) = self.ask(&claimed, settings, progress)?;
-            if atoms(&examination) == before {
-                break;
-            }
-        }
-        Ok((baseline, examination, claimed))
     }
 
     /// Adds values about the parameters of strong effects; whether there are any that were not tried.

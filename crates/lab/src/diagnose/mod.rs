@@ -31,6 +31,7 @@
 //! | `candidates` | cells and recording as matrices, asked of `evidence` |
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
 //! | `reduced` | a recording reduced to its residuals |
+//! | `inquiry` | the recording asked in stages, noise and effects in turn |
 //! | `run` | a diagnosis from end to end |
 //! | `adopt`, `adopted` | the model with effects in it: its equations, its fit |
 //! | `confirm`, `parts`, `held_out` | how well a model describes the recording, its parts, and a recording that the fit has not seen |
@@ -69,6 +70,7 @@ pub mod faults;
 mod fit;
 mod held_out;
 mod improved;
+mod inquiry;
 mod noise;
 mod noise_correlation;
 mod noise_growth;

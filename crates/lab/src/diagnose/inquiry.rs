@@ -1,0 +1,264 @@
+//! What a recording answers when it is asked for effects: with the noise that is claimed; with noise and effects in turn,
+//! where the noise is open; more closely, where the parameter of an effect lies between two values of its grid; and where
+//! nothing is found, whether the noise itself changes.
+
+use std::ops::ControlFlow;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::candidates::{Candidates, baseline, settings};
+use super::case::Case;
+use super::catalogue::{Finer, FittedModel, generics};
+use super::design::Design;
+use super::evidence::{self, Baseline, Examination, Located, Settings, TRACE, Verdict};
+use super::failure::Failure;
+use super::fit::Fit;
+use super::noise::{self, Claimed};
+use super::noise_correlation::Courses;
+use super::regions;
+
+/// So often the values about the parameter of an effect are brought closer together.
+const REFINEMENTS: u8 = 3;
+/// So often noise and effects are estimated in turn.
+const TURNS: u8 = 3;
+
+/// The declared model of a case at its best.
+#[derive(Clone, Copy)]
+pub(super) struct Declared<'d> {
+    pub case: &'d Case,
+    pub design: &'d Design<'d>,
+    pub fit: &'d Fit,
+    /// Both as the catalogue sees them.
+    pub coarse: (&'d Design<'d>, &'d Fit),
+    /// The residuals with the noise of that fit.
+    pub white: &'d Baseline,
+}
+
+/// What was found, and with which noise.
+#[derive(Clone)]
+pub(super) struct Answer {
+    /// The noise.
+    pub claimed: Claimed,
+    /// The residuals with it.
+    pub baseline: Baseline,
+    /// What they show.
+    pub examination: Examination,
+}
+
+/// A recording that has answered.
+pub(super) struct Inquiry<'i> {
+    pub candidates: Candidates<'i>,
+    pub answer: Answer,
+    pub settings: Settings,
+    declared: Declared<'i>,
+    /// What the noise may be, where it is open how it is correlated or whether it grows.
+    courses: Option<Courses>,
+    progress: &'i dyn Fn(f64) -> ControlFlow<()>,
+}
+
+impl<'i> Inquiry<'i> {
+    /// Asks for every effect of the catalogue; `claimed` is the noise to begin with.
+    ///
+    /// # Errors
+    /// When the recording does not determine the parameters, or the work was stopped.
+    pub(super) fn of(
+        declared: Declared<'i>,
+        claimed: Claimed,
+        progress: &'i dyn Fn(f64) -> ControlFlow<()>,
+    ) -> Result<Inquiry<'i>, Failure> {
+        let settings = settings(declared.case);
+        let (design, fit) = declared.coarse;
+        let fitted = FittedModel::new(design, fit);
+        let mut candidates = Candidates::new(fitted, &claimed, declared.white);
+        let answer = candidates.ask(claimed.clone(), &settings, &part(progress, 0.0, 0.4))?;
+        // What the model leaves out may look like noise that grows.
+        let plain = noise::plain(design, fit, &claimed);
+        let courses = Courses::of(&candidates.fitted)
+            .or_else(|| plain.is_some().then(Courses::white))
+            .filter(|_| claimed.correlated.is_none());
+        let mut inquiry = Inquiry {
+            candidates,
+            answer,
+            settings,
+            declared,
+            courses,
+            progress,
+        };
+        let starts: Vec<Claimed> = [claimed].into_iter().chain(plain).collect();
+        inquiry.begin(starts)?;
+        inquiry.sharpen()?;
+        inquiry.look_for_unsteady_noise()?;
+        Ok(inquiry)
+    }
+
+    /// Settles the noise, with one of these to begin with.
+    fn begin(&mut self, starts: Vec<Claimed>) -> Result<(), Failure> {
+        if let [_, plain] = starts.as_slice()
+            && self.found_nothing()
+        {
+            self.answer = self.asked(plain.clone(), 0.4, 0.4)?;
+        }
+        match &self.courses {
+            Some(courses) if self.found_nothing() => {
+                let Declared { design, fit, .. } = self.declared;
+                let answer = &mut self.answer;
+                answer.claimed = noise::refined(design, fit, &starts[0], Some(courses));
+                answer.baseline = baseline(design, fit, &answer.claimed)?;
+                Ok(())
+            }
+            _ if starts[0].is_estimated() || self.courses.is_some() => self.compete(starts),
+            _ => Ok(()),
+        }
+    }
+
+    /// Noise and effects are estimated in turn: what an effect explains is no noise. Where noise may explain as well what an
+    /// effect does, the two are begun with in turn, and the likelier end stays.
+    fn compete(&mut self, mut starts: Vec<Claimed>) -> Result<(), Failure> {
+        if let Some(courses) = &self.courses {
+            let (p, likeliest) = self.candidates.against(courses, &starts, &self.settings)?;
+            self.settings.by_noise = p;
+            match p > self.settings.alpha {
+                true => starts = vec![likeliest],
+                false if likeliest.correlated.is_some() => starts.push(likeliest),
+                false => {}
+            }
+        }
+        let stands = self.settings.by_noise <= self.settings.alpha;
+        let (begun, share) = (self.answer.clone(), 0.3 / starts.len() as f64);
+        let (mut best, mut atoms) = (f64::NEG_INFINITY, self.candidates.places.len());
+        for (at, start) in starts.into_iter().enumerate() {
+            let from = 0.4 + share * at as f64;
+            let first = match stands && start == begun.claimed {
+                true => begun.clone(),
+                false => self.asked(start, from, from + share)?,
+            };
+            let found = self.in_turn(first, from, from + share)?;
+            let score = found.log_posterior();
+            if score > best {
+                (best, atoms) = (score, self.candidates.places.len());
+                self.answer = found;
+            }
+        }
+        if atoms != self.candidates.places.len() {
+            // What cannot have its size with one noise was left out: atoms have other numbers now.
+            self.answer = self.asked(self.answer.claimed.clone(), 0.7, 0.7)?;
+        }
+        self.answer.examination.doubted(self.settings.by_noise);
+        Ok(())
+    }
+
+    /// What is found when noise and effects are estimated in turn.
+    fn in_turn(&mut self, mut answer: Answer, from: f64, to: f64) -> Result<Answer, Failure> {
+        let atoms = |of: &Examination| of.fitted.as_ref().map(|fitted| fitted.atoms.clone());
+        for _ in 0..TURNS {
+            let then = self.noise_beside(&answer);
+            if then == answer.claimed {
+                break;
+            }
+            let before = atoms(&answer.examination);
+            answer = self.asked(then, from, to)?;
+            if atoms(&answer.examination) == before {
+                break;
+            }
+        }
+        Ok(answer)
+    }
+
+    /// Shapes that lie between the steps of a grid: closer and closer.
+    fn sharpen(&mut self) -> Result<(), Failure> {
+        let is_open = self.answer.claimed.is_estimated() || self.courses.is_some();
+        let mut finer = Finer::default();
+        for round in 0..REFINEMENTS {
+            if !(self.candidates).refine(&mut finer, &self.answer.examination) {
+                break;
+            }
+            let claimed = self.answer.claimed.clone();
+            let (design, fit) = self.declared.coarse;
+            let fitted = FittedModel::new(design, fit).refined(finer.clone());
+            self.candidates = Candidates::new(fitted, &claimed, self.declared.white);
+            let from = 0.7 + 0.1 * f64::from(round);
+            self.answer = self.asked(claimed, from, from + 0.05)?;
+            if is_open {
+                let then = self.noise_beside(&self.answer);
+                if !then.weighs_alike(&self.answer.claimed) {
+                    self.answer = self.asked(then, from + 0.05, from + 0.1)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What nobody claims may be anything: where nothing was found, whether the noise changes.
+    fn look_for_unsteady_noise(&mut self) -> Result<(), Failure> {
+        let claimed = &self.answer.claimed;
+        let is_unclaimed = claimed.wanders() || claimed.is_estimated();
+        let is_ordered = self.candidates.fitted.clock.column.is_some();
+        let is_asked = self.found_nothing() && is_unclaimed && is_ordered;
+        let Some(courses) = self.courses.as_ref().filter(|_| is_asked) else {
+            return Ok(());
+        };
+        let (design, fit) = self.declared.coarse;
+        let with = |correlated| claimed.noise_with(correlated);
+        let seen = courses.seen(design, fit, &with)?;
+        // Two tests, each with half of the probability of a false alarm.
+        let alpha = 0.5 * self.settings.alpha;
+        let p = evidence::unsteadiness(&seen, &claimed.noise(), self.settings.seed, alpha)?;
+        if p <= alpha {
+            let cells = &mut self.candidates.cells;
+            self.answer.examination.unnamed(cells.len(), 2.0 * p);
+            cells.push(generics::unsteady(&self.candidates.fitted));
+        }
+        Ok(())
+    }
+
+    /// Where the mismatch sits, the most conspicuous first.
+    ///
+    /// # Errors
+    /// When the work was stopped.
+    pub(super) fn located(&self) -> Result<Vec<(evidence::Cell, Located)>, Failure> {
+        if self.found_nothing() {
+            return Ok(Vec::new());
+        }
+        let mut levels = regions::cells(&self.candidates.fitted);
+        let columns: Vec<DVector<f64>> = levels.iter().map(|cell| cell.column.clone()).collect();
+        if !columns.is_empty() {
+            let shares = (self.declared.white).visibilities(&DMatrix::from_columns(&columns));
+            let mut shares = shares.into_iter();
+            levels.retain(|_| shares.next().is_some_and(|share| share > TRACE));
+        }
+        let found = evidence::locate(&self.answer.baseline, &levels, &self.settings)?;
+        let with_cell = |located: Located| (levels[located.cell].clone(), located);
+        Ok(found.into_iter().map(with_cell).collect())
+    }
+
+    fn found_nothing(&self) -> bool {
+        self.answer.examination.verdict == Verdict::None
+    }
+
+    fn asked(&mut self, claimed: Claimed, from: f64, to: f64) -> Result<Answer, Failure> {
+        let part = part(self.progress, from, to);
+        self.candidates.ask(claimed, &self.settings, &part)
+    }
+
+    /// The noise that is left when what was found is in the model.
+    fn noise_beside(&self, answer: &Answer) -> Claimed {
+        let courses = self.courses.as_ref();
+        (self.candidates).noise(&answer.examination, &answer.claimed, courses)
+    }
+}
+
+impl Answer {
+    /// Logarithm of its probability, but for a constant.
+    fn log_posterior(&self) -> f64 {
+        self.examination.score + self.baseline.log_likelihood() + self.claimed.log_prior()
+    }
+}
+
+/// Progress between two shares of the whole.
+fn part<'p>(
+    progress: &'p dyn Fn(f64) -> ControlFlow<()>,
+    from: f64,
+    to: f64,
+) -> impl Fn(f64) -> ControlFlow<()> + 'p {
+    move |share| progress(from + (to - from) * share)
+}

@@ -44,14 +44,14 @@ pub fn examine(
     search.discount(&again);
     let generic_probability = search.generic_probability();
     let explanation = explanation(&search, generic_probability);
-    let mut slots = slots(&space, question, &explanation, &again);
+    let mut slots = slots(&space, question, &search, &explanation, &again);
     let is_adequate = search.complete.is_some()
         && generic_probability < NAMED_STANDS
         && beats_unlisted(&space, &explanation.named, &simulated)
         && slots.iter().all(Slot::is_explained);
     let mut named = explanation.named;
     if !is_adequate {
-        match alike(&space, question, &named, &again, &simulated) {
+        match alike(&space, question, &search, &named, &again, &simulated) {
             Some(likenesses) => (named, slots) = likenesses,
             None => doubt(&space, question, &named, &mut slots),
         }

@@ -5,6 +5,7 @@ use super::detection;
 use super::findings::{Slot, State};
 use super::null::Simulated;
 use super::question::{Place, Question};
+use super::search::Search;
 use super::slots::{Explanation, slots};
 use super::space::{Frame, Space};
 use super::unlisted::Restated;
@@ -17,6 +18,7 @@ const SEEN: f64 = 4.0;
 pub(super) fn alike(
     space: &Space,
     question: &Question,
+    search: &Search,
     named: &[usize],
     again: &Restated,
     simulated: &Simulated,
@@ -42,7 +44,7 @@ pub(super) fn alike(
         named: core.clone(),
         generic: None,
     };
-    let mut slots = slots(space, question, &explanation, again);
+    let mut slots = slots(space, question, search, &explanation, again);
     for slot in &mut slots {
         if slot.state != State::Ambiguous && !slot.named.is_empty() {
             slot.state = match slot.named.len() {

@@ -205,6 +205,27 @@ impl Search {
         }
     }
 
+    /// Named sets that do without a cause: their probability among all named sets, and the best of them.
+    pub(super) fn without(
+        &self,
+        space: &Space,
+        question: &Question,
+        candidate: usize,
+    ) -> Option<(f64, &Visited)> {
+        let named = || {
+            let sets = self.visited.iter().filter(|set| set.generic.is_none());
+            sets.filter(|set| !set.named.is_empty())
+        };
+        let lacks = |set: &&Visited| {
+            let mut blocks = set.named.iter();
+            blocks.all(|block| !question.same_cause(space.blocks[*block].candidate, candidate))
+        };
+        let best = (named().filter(lacks)).max_by(|a, b| a.score.total_cmp(&b.score))?;
+        let sum = log_sum(named().filter(lacks).map(|set| set.score));
+        let whole = log_sum(named().map(|set| set.score));
+        Some((libm::exp(sum - whole), best))
+    }
+
     /// Takes from the odds of sets with generics what these lose.
     pub(super) fn discount(&mut self, again: &Restated) {
         for set in &mut self.visited {

@@ -11,6 +11,7 @@ use super::fit::{estimate, nearest};
 use super::look_alikes;
 use super::question::{Kind, Question};
 use super::remainders::{Remainder, Remainders};
+use super::search::Search;
 use super::space::{Frame, Space};
 use super::unlisted::Restated;
 
@@ -40,6 +41,7 @@ pub(super) struct Explanation {
 pub(super) fn slots(
     space: &Space,
     question: &Question,
+    search: &Search,
     explanation: &Explanation,
     again: &Restated,
 ) -> Vec<Slot> {
@@ -54,7 +56,10 @@ pub(super) fn slots(
                 Member::Named(block) => Some(block),
                 Member::Generic(_) => None,
             };
-            let slot = slot(space, question, named, generic, member, again);
+            let mut slot = slot(space, question, named, generic, member, again);
+            if block.is_some() {
+                contest(space, question, search, named, &mut slot);
+            }
             (block, slot)
         })
         .collect();
@@ -232,6 +237,48 @@ fn listed(space: &Space, question: &Question, rest: &Frame, ranked: Vec<Ranked>)
         })
         .map(|(_, candidate)| candidate)
         .collect()
+}
+
+/// Puts beside a unique name what other sets have instead of it: two effects together may do what one does.
+fn contest(space: &Space, question: &Question, search: &Search, named: &[usize], slot: &mut Slot) {
+    let unique = slot
+        .named
+        .first()
+        .filter(|_| slot.state == State::Identified);
+    let Some(own) = unique.map(|unique| unique.candidate) else {
+        return;
+    };
+    let Some((probability, set)) = search.without(space, question, own) else {
+        return;
+    };
+    if probability < 1.0 - ALONE {
+        return;
+    }
+    let other = |block: &usize| {
+        let candidate = space.blocks[*block].candidate;
+        (named.iter()).all(|b| !question.same_cause(space.blocks[*b].candidate, candidate))
+    };
+    for block in set.named.iter().copied().filter(other) {
+        let rest: Vec<usize> = set.named.iter().copied().filter(|b| *b != block).collect();
+        let variant = Variant {
+            atom: space.blocks[block].atom,
+            share: 1.0,
+        };
+        let ranked = Ranked {
+            candidate: space.blocks[block].candidate,
+            probability,
+            blocks: vec![(block, variant)],
+        };
+        let rest = space.frame_of(&rest);
+        let shared = 1.0 - slot.generic_share;
+        slot.named
+            .push(alternative(space, question, &rest, ranked, shared));
+        slot.state = State::Ambiguous;
+    }
+    if slot.state == State::Ambiguous {
+        slot.named[0].probability *= 1.0 - probability;
+        (slot.named).sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    }
 }
 
 fn family(question: &Question, ranked: &[Ranked]) -> Option<(String, f64)> {

@@ -19,6 +19,7 @@ mod memory;
 mod noise;
 mod reading;
 mod recordings;
+mod records;
 mod refusals;
 mod sizes;
 mod warmth;

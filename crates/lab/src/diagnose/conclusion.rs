@@ -73,6 +73,20 @@ impl Slot {
         self.state == State::Ambiguous && first.is_none_or(|first| first.probability < LEADS)
     }
 
+    /// The probability that something without a name stands here instead of names that hold; `None` where that is out of the
+    /// question.
+    pub fn doubted(&self) -> Option<f64> {
+        /// Below it something without a name is.
+        const UNLIKELY: f64 = 0.05;
+        let share = Some(self.generic_share).filter(|share| *share >= UNLIKELY);
+        share.filter(|_| self.is_explained())
+    }
+
+    /// Whether its names say no more than what the effect acts like.
+    pub fn acts_like(&self) -> bool {
+        self.state == State::Like || (self.state == State::Ambiguous && self.doubted().is_some())
+    }
+
     /// Whether it has names that hold.
     pub fn is_explained(&self) -> bool {
         self.state != State::Unexplained

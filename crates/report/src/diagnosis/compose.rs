@@ -211,7 +211,18 @@ fn named(case: &Case, diagnosis: &Diagnosis, slot: &Slot, names: Names<'_>) -> V
         let lines = lines.chain(amplitude(case, diagnosis, alternative, names.l));
         blocks.push(Block::Formula(lines.collect()));
     }
+    blocks.extend(unlisted(slot, names).map(Block::Paragraph));
     blocks
+}
+
+/// What no catalogue lists, in place of names that hold.
+fn unlisted(slot: &Slot, names: Names<'_>) -> Option<String> {
+    let p = chance(slot.doubted()?);
+    let place = names.plain(slot.generic.first()?.candidate);
+    Some(names.l.pick(
+        format!("A form that no catalogue lists is not excluded either ({p} %): {place}."),
+        format!("目录之外的某种形式也不能排除（{p} %）：{place}。"),
+    ))
 }
 
 /// Why a name says no more than what the effect acts like.

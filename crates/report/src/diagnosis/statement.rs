@@ -1,7 +1,7 @@
 //! The verdict of a diagnosis in one sentence.
 
 use crate::language::Language;
-use gumption_lab::diagnose::evidence::{Alternative, Slot, State};
+use gumption_lab::diagnose::evidence::{Alternative, Slot};
 use gumption_lab::diagnose::{Conclusion, Diagnosis};
 
 use super::names::Names;
@@ -116,8 +116,8 @@ fn joined(texts: impl Iterator<Item = String>, l: Language) -> String {
 /// The names of a slot: joined by "or", unless one of them leads.
 fn slot_name(diagnosis: &Diagnosis, slot: &Slot, names: Names<'_>) -> String {
     let list = names.slot(diagnosis, slot);
-    if slot.state == State::Like {
-        let name = names.l.either(&list);
+    if slot.acts_like() {
+        let name = names.l.either(&shortened(list, names.l));
         return names.l.pick(
             format!("something that acts like {name}"),
             format!("表现如同“{name}”的影响"),

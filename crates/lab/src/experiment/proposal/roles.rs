@@ -312,12 +312,17 @@ fn is_way(label: &str) -> bool {
 fn is_clock(column: &Column) -> bool {
     let name = column.name.to_lowercase();
     let is_named = name == "t"
-        || ["t_", "time", "时间"]
+        || ["t_", "time", "when", "时间", "时刻"]
             .iter()
             .any(|start| name.starts_with(start));
+    // A unit that stands for the name.
+    const UNITS: [&str; 8] = [
+        "sec", "seconds", "min", "minutes", "hours", "秒", "分钟", "小时",
+    ];
+    let is_unit = UNITS.contains(&name.as_str());
     let second = UnitTable::default().parse("s");
     let (Some(unit), Ok(second)) = (&column.unit, second) else {
-        return is_named;
+        return is_named || is_unit;
     };
     is_named && unit.conversion_to(&second).is_some()
 }

@@ -84,8 +84,9 @@ pub fn unknown_function(l: &mut Lowering<'_>, name: &Name) {
             ("radians" | "degrees" | "deg2rad" | "rad2deg", _) => say!(
                 "angles carry their unit, and functions take any: `sin(phi)` with phi in °; the number of degrees is `value_in(phi, '°')`"
             ),
-            (_, Some(near)) => say!("did you mean `{near}`?"),
-            (_, None) => {
+            // A single letter is near to every short name, and is a quantity.
+            (_, Some(near)) if text.chars().count() > 1 => say!("did you mean `{near}`?"),
+            _ => {
                 say!("define it above, `{text}(x) = …`; for a product write `{text} * (…)`")
             }
         };

@@ -210,7 +210,7 @@ fn whole(campaign: &Campaign) -> Result<Calibration, Trouble> {
         });
     }
     let (solution, u, scatters) = solved(&stack)?;
-    let gain = Gain::of_solution(&stack, &solution);
+    let gain = Gain::of_solution(&stack, &solution, &u);
     let causes = causes(&stack, &gain, &scatters, &u);
     let jacobian = stack.jacobian(&solution.parameters, &u);
     let swapped = swapped(&stack, &solution, &gain, &scatters);
@@ -263,7 +263,7 @@ fn solved(stack: &Stack<'_>) -> Result<(Solution, Vec<f64>, Scatters), Trouble> 
     let mut rounds = 0;
     loop {
         let solution = stack.solve(&u, start)?;
-        let gain = Gain::of_solution(stack, &solution);
+        let gain = Gain::of_solution(stack, &solution, &u);
         let scatters = Scatters::of(stack, &solution, &gain, &u)?;
         rounds += 1;
         if !couples || scatters.way != Scatter::Residuals || rounds == ROUNDS {

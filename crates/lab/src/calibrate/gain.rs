@@ -19,10 +19,23 @@ pub(super) struct Gain {
 }
 
 impl Gain {
-    /// The derivatives of the estimator, as the solver found them.
-    pub fn of_solution(stack: &Stack<'_>, solution: &Solution) -> Gain {
+    /// The derivatives of the estimator, as the solver found them for rows of these standard uncertainties. Those by the
+    /// readings are taken where the equations hold (Gauss–Newton, (JᵀC⁻¹J)⁻¹JᵀC⁻¹): curvature comes in with the residuals, which are
+    /// zero in the mean. So the covariance of the coefficients is that of `[fit]` in a budget and of certified fits.
+    pub fn of_solution(stack: &Stack<'_>, solution: &Solution, u: &[f64]) -> Gain {
+        let by_observed = match stack.is_linear() {
+            true => solution.by_y.clone(),
+            false => {
+                let weighted = stack.jacobian(&solution.parameters, u).transpose();
+                let mut gain = &solution.covariance * weighted;
+                for (mut column, u) in gain.column_iter_mut().zip(u) {
+                    column /= *u;
+                }
+                gain
+            }
+        };
         let parts = Gain {
-            by_observed: solution.by_y.clone(),
+            by_observed,
             by_doubted: solution.by_x[1..].to_vec(),
             direct: DMatrix::zeros(0, 0),
         };

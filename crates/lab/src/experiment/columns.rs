@@ -318,6 +318,11 @@ fn no_column(
     let names: Vec<&str> = headings.iter().map(|h| h.name.as_str()).collect();
     let texts = headings.iter().map(|h| h.text.as_str());
     let help = match nearest(header, names.iter().copied().chain(texts)) {
+        Some(near) if header == name => say!(
+            "did you mean \"{near}\"? To call it {name}, write {} = {{ role = \"{}\", column = \"{near}\" }}",
+            key(name),
+            role.word()
+        ),
         Some(near) => say!("did you mean \"{near}\"?"),
         None if header != name => say!("its columns are: {}", names.join(", ")),
         None => say!(

@@ -64,9 +64,13 @@ pub(crate) fn complete(source: &mut Source, units: &UnitTable, files: Files<'_>,
     table.value.entries.extend(found);
 }
 
-/// Whether a name of some length is nearly a known one, by a slip of the pen: `temp0` beside `temp` is none, nor are
-/// names that differ by their numbers.
+/// Whether a name of some length is nearly a known one, by a slip of the pen, or is it but for capitals: `temp0` beside `temp` is
+/// none, nor are names that differ by their numbers, nor `t` beside `T`.
 fn is_slip(name: &str, known: &[String]) -> bool {
+    let small = name.to_lowercase();
+    if name.chars().count() > 1 && known.iter().any(|known| known.to_lowercase() == small) {
+        return true;
+    }
     let letters = |name: &str| name.replace(|c: char| c.is_numeric(), "");
     let near = nearest(name, known.iter().map(String::as_str));
     near.is_some_and(|near| {

@@ -18,7 +18,8 @@ pub(super) fn spoken(label: &str, language: Language) -> String {
 }
 
 /// Labels that are always the same.
-const FIXED: [(&str, &str); 26] = [
+const FIXED: [(&str, &str); 27] = [
+    ("anew in each run", "每次运行重新开始"),
     ("not in balance at the start", "起始时未平衡"),
     ("levelling off", "趋于饱和"),
     ("at once", "即时"),

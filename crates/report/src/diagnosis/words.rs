@@ -115,8 +115,8 @@ pub fn failure(case: &Case, failure: &Failure, l: Language) -> String {
             "未找到参数的极小值；请给出更接近的起始值：[parameter] 名称 = { start = … }".to_owned(),
         ),
         Failure::Fit(NoFit::Undetermined(name)) => l.pick(
-            format!("the recording does not determine the parameter {name}: other parameters do the same to every row. Remove it, make it a [constant], or state what is known of it: value and u"),
-            format!("记录不能确定参数 {name}：其他参数对每一行的作用与之相同。请删除它、改为 [constant]，或给出先验 value 和 u"),
+            format!("the recording does not determine the parameter {name}: other parameters do the same to every row (`gumption calibrate` says which). Remove it, make it a [constant], or state what is known of it: value and u"),
+            format!("记录不能确定参数 {name}：其他参数对每一行的作用与之相同（`gumption calibrate` 指出是哪些）。请删除它、改为 [constant]，或给出先验 value 和 u"),
         ),
         Failure::Fit(NoFit::TooFew { observations, unknowns }) => l.pick(
             format!("{observations} observations leave nothing to examine beside {unknowns} unknown parameters"),

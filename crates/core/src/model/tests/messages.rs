@@ -37,6 +37,7 @@ const CASES: &[(&str, &str, &str, &str, &str)] = &[
     ("aa + bb1", "", "M0201", "aa", "did you mean `a`?"),
     ("omega * a", "", "M0201", "omega", "[input.omega]"),
     ("sine(a)", "", "M0202", "sine", "did you mean `sin`?"),
+    ("S(a - 7)", "", "M0202", "S", "`S * (…)`"),
     ("log(a)", "", "M0202", "log", "`ln` for the natural"),
     ("atan2(a)", "", "M0203", "atan2(a)", "atan2(y, x)"),
     ("f(x, y) = x; f(a)", "", "M0203", "f(a)", "f(x, y)"),

@@ -461,3 +461,30 @@ fn correlated_inputs_add_or_cancel() {
     near(of_errors(-0.999_999_999), 2e-4, 1e-6);
     near(of_errors(0.5), (1e-8_f64 + 9e-8 + 3e-8).sqrt(), 1e-12);
 }
+
+#[test]
+fn a_curve_has_the_certified_uncertainties() {
+    // NIST Statistical Reference Datasets, BoxBOD: residuals of a tenth of the readings, of which the curvature would make
+    // a fifth more of u(b1).
+    let campaign = campaign(
+        r#"
+title = "BoxBOD"
+equations = ["y = b1*(1 - exp(-b2*x))"]
+[parameter]
+b1 = { start = 1 }
+b2 = { start = 1 }
+[recording]
+file = "run.csv"
+average = "none"
+"#,
+        "x,y\n1,109\n2,149\n3,149\n5,191\n7,213\n10,224\n",
+    );
+    let found = calibrate(&campaign).expect("coefficients");
+    let certified = [(213.80940889, 12.354515176), (0.54723748542, 0.10455993237)];
+    for (coefficient, (value, u)) in found.figures.coefficients.iter().zip(certified) {
+        near(coefficient.value, value, 1e-9);
+        near(coefficient.u, u, 1e-9);
+    }
+    near(found.responses[0].s, 17.088072423, 1e-9);
+    near(found.responses[0].dof, 4.0, 1e-9);
+}

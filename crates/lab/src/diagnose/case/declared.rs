@@ -7,7 +7,7 @@ use crate::experiment::entries::RoleWord;
 use crate::experiment::names::Names;
 use crate::experiment::{Experiment, Observed as Of};
 use gumption_core::equations::{EquationText, Equations, Quantity};
-use gumption_core::model::{Role, Symbol};
+use gumption_core::model::{Role, Symbol, is_reserved};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
 
@@ -131,14 +131,16 @@ fn constants_beside(responses: &[Quantity], constants: &[Symbol]) -> Vec<Symbol>
     others.cloned().collect()
 }
 
-/// Parameters and columns, in the order of the vector of their values.
+/// Parameters and columns, in the order of the vector of their values. A column that is called like a function, such as a time in
+/// minutes `min`, has a name that no equation can write.
 fn symbols(parameters: &[Parameter], columns: &[Column]) -> Vec<Quantity> {
-    let parameters = parameters.iter().map(|p| (&p.name, p.unit.clone()));
-    let columns = columns.iter().map(|c| (&c.name, c.unit_in_formulas()));
-    let quantity = |(name, unit): (&String, Unit)| Quantity {
-        name: name.clone(),
-        unit,
+    let parameters = parameters.iter().map(|p| (p.name.clone(), p.unit.clone()));
+    let named = |column: &Column| match is_reserved(&column.name) {
+        true => format!("column {}", column.name),
+        false => column.name.clone(),
     };
+    let columns = columns.iter().map(|c| (named(c), c.unit_in_formulas()));
+    let quantity = |(name, unit): (String, Unit)| Quantity { name, unit };
     parameters.chain(columns).map(quantity).collect()
 }
 

@@ -148,6 +148,14 @@ fn others(fitted: &FittedModel<'_>, response: usize) -> Vec<Modifier> {
             .quotient(&fitted.step_unit(angle));
         return vec![part(&slope, &name, &unit)];
     }
+    // Along one column there is no other axis: the slopes by the parameters are the course of the model itself.
+    let inputs = (0..case.columns.len()).filter(|c| {
+        let role = case.columns[*c].role;
+        matches!(role, Role::Stimulus | Role::Angle) && fitted.in_model(*c)
+    });
+    if inputs.count() < 2 {
+        return Vec::new();
+    }
     let signal = fitted.signal(response);
     let is_other = |parameter: &usize| {
         /// What correlates so far with the signal is the input of the own axis.

@@ -57,48 +57,90 @@ pub(super) fn of_outputs(fitted: &FittedModel<'_>, columns: &[usize]) -> Vec<Cel
     let responses = 0..fitted.case().responses.len();
     let explicit = responses.filter(|response| !fitted.is_implicit(*response));
     let cells = explicit.filter_map(|response| {
-        let ends = [1.0, -1.0].into_iter();
-        let ends: Vec<_> = ends
-            .filter_map(|sign| ceiling(fitted, response, sign))
-            .collect();
         let name = &fitted.case().responses[response].name;
+        let ends = ceilings(fitted, response);
         (!ends.is_empty()).then(|| plain(fitted, EffectId::Saturation, name, ends))
     });
     cells.collect()
 }
 
-/// The limit at the upper end of the readings of a response, or with a sign of −1 at the lower end.
-fn ceiling(fitted: &FittedModel<'_>, response: usize, sign: f64) -> Option<Variation> {
-    /// Two readings are alike by chance.
-    const ROWS: usize = 3;
+/// The readings of a response at one of its ends.
+struct Pile {
+    /// 1 at the upper end, −1 at the lower one.
+    sign: f64,
+    level: f64,
+    rows: Vec<usize>,
+}
+
+impl Pile {
+    fn of(observed: &[f64], sign: f64) -> Option<Pile> {
+        /// Two readings are alike by chance.
+        const ROWS: usize = 3;
+        let most = observed.iter().map(|y| sign * y);
+        let level = sign * most.fold(f64::NEG_INFINITY, f64::max);
+        let rows: Vec<usize> = (0..observed.len())
+            .filter(|row| observed[*row] == level)
+            .collect();
+        (rows.len() >= ROWS).then_some(Pile { sign, level, rows })
+    }
+}
+
+/// The limit at either end of the readings of a response, and at both: where a converter ends on one side, readings that pile up on
+/// the other need not be of several stimuli.
+fn ceilings(fitted: &FittedModel<'_>, response: usize) -> Vec<Variation> {
     let observed = fitted.design.observed(response);
     if observed.len() < fitted.rows() {
-        return None;
+        return Vec::new();
     }
-    let level = sign
-        * observed
-            .iter()
-            .fold(f64::NEG_INFINITY, |most, y| most.max(sign * y));
-    let is_at = |row: usize| observed[row] == level;
-    let there: Vec<usize> = (0..observed.len()).filter(|row| is_at(*row)).collect();
-    if there.len() < ROWS || !moves_on(fitted, response, &observed, there) {
-        return None;
-    }
-    let model = beside(fitted, response, &observed, &is_at);
-    let modifier = map(&model, |y| -(sign * (y - level)).max(0.0) * sign);
-    let Response { name, unit, .. } = &fitted.case().responses[response];
-    let (least, end) = if sign > 0.0 {
-        ("min", "above")
-    } else {
-        ("max", "below")
+    let piles = [1.0, -1.0].map(|sign| Pile::of(&observed, sign));
+    let certain = |pile: &&Pile| moves_on(fitted, response, &observed, pile.rows.iter().copied());
+    let ends: Vec<&Pile> = piles.iter().flatten().filter(certain).collect();
+    let each = ends.iter().map(|end| vec![*end]);
+    let both = match (&piles, ends.is_empty()) {
+        ([Some(upper), Some(lower)], false) => Some(vec![upper, lower]),
+        _ => None,
     };
-    let shown = match unit.is_one() {
+    let all = each.chain(both);
+    all.map(|piles| ceiling(fitted, response, &observed, &piles))
+        .collect()
+}
+
+/// What the model gives beyond the ends, taken away.
+fn ceiling(
+    fitted: &FittedModel<'_>,
+    response: usize,
+    observed: &[f64],
+    piles: &[&Pile],
+) -> Variation {
+    let is_there = |row: usize| piles.iter().any(|pile| pile.rows.contains(&row));
+    let model = beside(fitted, response, observed, &is_there);
+    let within = |y: f64| {
+        let ends = piles.iter();
+        ends.fold(y, |y, Pile { sign, level, .. }| {
+            sign * (sign * y).min(sign * level)
+        })
+    };
+    let modifier = map(&model, |y| within(y) - y);
+    let Response { name, unit, .. } = &fitted.case().responses[response];
+    let shown = |level: f64| match unit.is_one() {
         true => level.to_string(),
         false => format!("{level} {}", unit.typeset()),
     };
-    let text = format!("({least}({name}, {shown}) - {name})");
+    let [mut text, mut label] = [name.clone(), String::new()];
+    for Pile { sign, level, .. } in piles {
+        let shown = shown(*level);
+        let (least, end) = if *sign > 0.0 {
+            ("min", "above")
+        } else {
+            ("max", "below")
+        };
+        text = format!("{least}({text}, {shown})");
+        let before = if label.is_empty() { "" } else { ", " };
+        label = format!("{label}{before}{end} {shown}");
+    }
+    let text = format!("({text} - {name})");
     let term = on_output(Modifier::new(modifier, text, unit.difference())).on(response);
-    Some(Variation::one(format!("{end} {shown}"), term))
+    Variation::one(label, term)
 }
 
 /// A step at zero, and bands of several widths around it.

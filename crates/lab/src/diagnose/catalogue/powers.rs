@@ -14,23 +14,35 @@ pub(super) struct Power {
     pub written: Modifier,
 }
 
-/// The square and the cube of a column.
-pub(super) fn of(fitted: &FittedModel<'_>, column: usize) -> [Power; 2] {
+/// The square and the cube of a column; without those that a model has, beside an offset that it takes as exact, about its own
+/// zero: `R_0*(1 + A*T + B*T^2)` with R_0 known.
+pub(super) fn of(fitted: &FittedModel<'_>, column: usize) -> [Option<Power>; 2] {
     let lines = absorbs(fitted, column, 1);
+    let declared = |exponent| !lines && declares(fitted, column, exponent);
     let [searched, zero] = match lines {
         true => [search_zero(fitted, column), own_zero(fitted, column)],
+        false if declared(1) => [own_zero(fitted, column); 2],
         false => [free_zero(fitted, column); 2],
     };
     // A power about another zero differs by the lower powers.
     let squares = lines && absorbs(fitted, column, 2);
     let near = is_within(fitted.numbers(column), zero, FAR);
-    [(2, lines), (3, squares)].map(|(exponent, absorbed)| Power {
-        searched: about(fitted, column, searched, exponent),
-        written: match absorbed && near {
-            true => about(fitted, column, zero, exponent),
-            false => about(fitted, column, searched, exponent),
-        },
+    [(2, lines), (3, squares)].map(|(exponent, absorbed)| {
+        let power = || Power {
+            searched: about(fitted, column, searched, exponent),
+            written: match absorbed && near {
+                true => about(fitted, column, zero, exponent),
+                false => about(fitted, column, searched, exponent),
+            },
+        };
+        (!declared(exponent)).then(power)
     })
+}
+
+/// Whether a power about the model's own zero is a free parameter of every output.
+fn declares(fitted: &FittedModel<'_>, column: usize, exponent: i32) -> bool {
+    let zero = own_zero(fitted, column);
+    absorbs_all(fitted, &[about(fitted, column, zero, exponent)])
 }
 
 /// Powers about a zero that is farther away than the range over this are lines and constants up to the
@@ -59,15 +71,20 @@ fn about(fitted: &FittedModel<'_>, column: usize, zero: f64, exponent: i32) -> M
 
 /// Whether the powers of a column up to an exponent are free parameters of every output.
 fn absorbs(fitted: &FittedModel<'_>, column: usize, exponent: i32) -> bool {
+    let centre = middle(fitted.numbers(column));
+    let powers: Vec<Modifier> = (0..=exponent)
+        .map(|exponent| about(fitted, column, centre, exponent))
+        .collect();
+    absorbs_all(fitted, &powers)
+}
+
+/// Whether what follows these is a free parameter of every output.
+fn absorbs_all(fitted: &FittedModel<'_>, powers: &[Modifier]) -> bool {
     let case = fitted.case();
     if case.parameters.iter().any(|p| p.prior.is_some()) {
         return false;
     }
     let absorbed = Absorbed::by_parameters(fitted);
-    let centre = middle(fitted.numbers(column));
-    let powers: Vec<Modifier> = (0..=exponent)
-        .map(|exponent| about(fitted, column, centre, exponent))
-        .collect();
     (0..case.responses.len()).all(|response| {
         powers.iter().all(|power| {
             let term = Term::new(Node::Output, power.clone()).on(response);

@@ -4,6 +4,8 @@ use std::f64::consts::PI;
 
 use super::building::{on_output, plain};
 use super::fitted::{FittedModel, varies};
+use super::sharp::nearly_all;
+use super::stuck::beside;
 use super::{Cell, EffectId, Modifier, Variation, tied};
 
 /// Cells of the readout.
@@ -210,21 +212,51 @@ fn shifted(fitted: &FittedModel<'_>) -> Option<Cell> {
         return None;
     }
     let last = fitted.rows() - 1;
-    let variant = |label: &str, other: &dyn Fn(usize) -> usize| {
-        let terms = (0..fitted.case().responses.len()).map(|response| {
-            let model = &fitted.fit.linear.values[response];
-            let modifier = (0..=last).map(|row| model[other(row)] - model[row]);
+    let models = &fitted.fit.linear.values;
+    let of = |model: &[f64], first: usize, late: bool| -> Vec<f64> {
+        let other = |row: usize| match (row < first, late) {
+            (true, _) => row,
+            (false, true) => row.saturating_sub(1),
+            (false, false) => (row + 1).min(last),
+        };
+        (0..=last)
+            .map(|row| model[other(row)] - model[row])
+            .collect()
+    };
+    let variant = |label: &str, modifiers: Vec<Vec<f64>>| {
+        let terms = modifiers.into_iter().enumerate();
+        let terms = terms.map(|(response, modifier)| {
             let unit = fitted.case().responses[response].unit.difference();
             let text = format!("outputs {label}");
-            on_output(Modifier::new(modifier.collect(), text, unit)).on(response)
+            on_output(Modifier::new(modifier, text, unit)).on(response)
         });
         let terms = terms.filter(|term| varies(&term.modifier.values));
         Variation::of(label, tied(terms.collect()))
     };
-    let variants = vec![
-        variant("one row late", &|row| row.saturating_sub(1)),
-        variant("one row early", &|row| (row + 1).min(last)),
-    ];
+    let ways = [("one row late", true), ("one row early", false)];
+    let whole = ways.map(|(label, late)| {
+        let modifiers = models.iter().map(|model| of(model, 0, late));
+        variant(label, modifiers.collect())
+    });
+    let mut variants = whole.to_vec();
+    if let [model] = &models[..] {
+        // A reading that was dropped or taken twice: from then on.
+        let from: Vec<_> = (3..last - 2)
+            .flat_map(|first| ways.map(|way| (first, way)))
+            .collect();
+        let mut terms = from
+            .iter()
+            .map(|(first, (_, late))| on_output(Modifier::unnamed(of(model, *first, *late))));
+        variants.extend(nearly_all(fitted, &mut terms).map(|place| {
+            let (first, (label, late)) = from[place];
+            let observed = fitted.design.observed(0);
+            // The rows in the wrong line have bent the fit.
+            let model = beside(fitted, 0, &observed, &|row| row >= first);
+            let number = fitted.design.recorded(first).start + 1;
+            let label = format!("{label}, from row {number} on");
+            variant(&label, vec![of(&model, first, late)])
+        }));
+    }
     Some(plain(fitted, EffectId::Shifted, "row", variants))
 }
 

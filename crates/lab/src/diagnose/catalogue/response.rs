@@ -8,7 +8,7 @@ use super::modifiers::{
 };
 use super::norm::Norm;
 use super::powers::Power;
-use super::sharp::{best_pair, sharpened};
+use super::sharp::{best_pair, sharpened, size_of};
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
@@ -161,10 +161,11 @@ fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     cells
 }
 
-fn power(fitted: &FittedModel<'_>, column: usize, id: EffectId, power: Power) -> Cell {
-    let term = on_output(power.searched).written_as(power.written);
+fn power(fitted: &FittedModel<'_>, column: usize, id: EffectId, power: Option<Power>) -> Cell {
+    let term = power.map(|power| on_output(power.searched).written_as(power.written));
     let label = name(fitted, column);
-    on_node(fitted, id, label, Node::Output, [Variation::one("", term)])
+    let form = term.map(|term| Variation::one("", term));
+    on_node(fitted, id, label, Node::Output, form)
 }
 
 /// A square that levels off, as counting losses of a dead time do, and detectors near their limit.
@@ -173,23 +174,24 @@ fn levelling(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     const HALF: [f64; 3] = [0.5, 1.0, 3.0];
     let (x, label) = (fitted.numbers(column), name(fitted, column));
     let most = super::modifiers::largest(x);
-    let of = |part: f64| {
-        let half = five_digits(part * most);
+    let term = |half: f64| {
         let modifier = map(x, |x| x * x / (1.0 + x.abs() / half));
         let shown = fitted.figure(column, half);
         let text = format!("{label}^2/(1 + abs({label})/({shown}))");
         let unit = fitted.step_unit(column);
-        let modifier = Modifier::new(modifier, text, unit.product(&unit));
-        Variation::one(
-            format!("levelling off, half at {shown}"),
-            on_output(modifier),
-        )
+        on_output(Modifier::new(modifier, text, unit.product(&unit)))
     };
-    if x.iter().all(|x| *x >= 0.0) && least_share(x) < 0.3 {
-        HALF.map(of).into()
-    } else {
-        Vec::new()
+    if x.iter().any(|x| *x < 0.0) || least_share(x) >= 0.3 {
+        return Vec::new();
     }
+    let halves = sharpened(fitted, HALF.map(|part| part * most).into(), &term);
+    let unit = fitted.case().columns[column].unit.typeset();
+    let halves = fitted.finer.times(halves).into_iter().map(five_digits);
+    let variant = |half: f64| {
+        let label = format!("levelling off, half at {} {unit}", figure(half));
+        Variation::one(label, term(half)).shaped("x½", half, &unit)
+    };
+    halves.map(variant).collect()
 }
 
 /// The smallest value as a share of the largest.
@@ -303,7 +305,13 @@ fn delays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     let mut variants = vec![Variation::one("", instant)];
     for sign in [1.0, -1.0] {
         let sizes = sharpened(fitted, sizes.clone(), &|size| late(sign * size));
-        variants.extend(fitted.finer.times(sizes).into_iter().map(|size| {
+        let sizes = fitted.finer.times(sizes).into_iter();
+        // What the recording says to be another delay is none of this size, however alike their courses are.
+        let of_size = sizes.filter(|size| {
+            let found = size_of(fitted, &late(sign * size));
+            found.is_none_or(|found| (0.5..=2.0).contains(&(found / (sign * size))))
+        });
+        variants.extend(of_size.map(|size| {
             let by = sign * size;
             let label = format!("by about {} {unit}", figure(by));
             Variation::one(label, late(by)).shaped("δ", size, &unit)

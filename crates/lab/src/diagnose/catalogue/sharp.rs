@@ -82,6 +82,28 @@ pub(super) fn best(
         .then_some(best)
 }
 
+/// The size of a term by itself, where an effect of this kind shows at all.
+pub(super) fn size_of(fitted: &FittedModel<'_>, term: &Term) -> Option<f64> {
+    let residuals = Residuals::of(fitted)?;
+    let rest = residuals.absorbed.rest(&fitted.column(term));
+    let shows = residuals.shows(residuals.power(term));
+    shows.then(|| rest.dot(&residuals.rest) / rest.norm_squared())
+}
+
+/// The best of many terms, where it alone explains nearly all of the residuals.
+pub(super) fn nearly_all(
+    fitted: &FittedModel<'_>,
+    terms: &mut dyn Iterator<Item = Term>,
+) -> Option<usize> {
+    /// Of their sum of squares: no noise is explained so far by one stretch of rows, nor a part of a course.
+    const SHARE: f64 = 0.9;
+    let residuals = Residuals::of(fitted)?;
+    let powers: Vec<f64> = terms.map(|term| residuals.power(&term)).collect();
+    let best = largest_at(&powers);
+    let power = *powers.get(best)?;
+    (residuals.shows(power) && power > SHARE * residuals.rest.norm_squared()).then_some(best)
+}
+
 /// The two values of a grid of which the terms together explain the residuals best, where they do so clearly
 /// better than one alone.
 pub(super) fn best_pair(

@@ -3,8 +3,9 @@
 use super::building::{form, on_node, wave};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, five_digits, grid, map, range};
-use super::sharp::{self, sharpened};
+use super::sharp::{self, nearly_all, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variation};
+use crate::diagnose::case::Role;
 use gumption_core::quantity::Unit;
 
 /// More steps than that are not scanned.
@@ -29,7 +30,10 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     } else {
         vec![Node::Output]
     };
-    let mut cells = Vec::new();
+    let stretches = [EffectId::Stretch, EffectId::StretchScale].into_iter();
+    let stretches = nodes.iter().zip(stretches);
+    let stretches = stretches.filter_map(|(node, id)| stretch(fitted, &along, *node, id));
+    let mut cells: Vec<Cell> = stretches.collect();
     let mut add = |ids: &[EffectId], forms: Vec<Variation>| {
         for (node, id) in nodes.iter().zip(ids) {
             cells.push(on_node(fitted, *id, &along, *node, forms.clone()));
@@ -74,7 +78,22 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
             let label = format!("τ = {} and {} {unit}", figure(*tau), figure(4.0 * tau));
             form(label, vec![decay(*tau), decay(4.0 * tau)])
         });
-        let decays = single.chain(double).collect();
+        let since_start = started(fitted);
+        let anew = since_start.iter().flat_map(|since| {
+            let unit = &unit;
+            scales.iter().map(move |tau| {
+                let shown = figure(*tau);
+                let modifier = map(since, |t| libm::exp(-t / tau));
+                let text = format!("exp(-(time since the start of the run)/({shown} {unit}))");
+                let label = format!("τ = {shown} {unit}, anew in each run");
+                form(label, vec![Modifier::number(modifier, text)]).shaped(
+                    "τ",
+                    five_digits(*tau),
+                    unit,
+                )
+            })
+        });
+        let decays = single.chain(double).chain(anew).collect();
         add(&[EffectId::WarmUp, EffectId::WarmUpScale], decays);
         for (id, period, least, most) in [
             (EffectId::Season, 365.2422 * 86_400.0, 0.75, 60.0),
@@ -96,6 +115,63 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         }
     }
     cells
+}
+
+/// The time since the start of each run, where the instrument was off before it for longer than it then was on; nothing where it was
+/// not, or where there is one run.
+fn started(fitted: &FittedModel<'_>) -> Option<Vec<f64>> {
+    let case = fitted.case();
+    let runs = case.with_role(Role::Run).next()?;
+    let labels = case.columns[runs].labels()?;
+    let t = &fitted.clock.values;
+    let mut since = Vec::with_capacity(t.len());
+    let (mut start, mut count) = (*t.first()?, 1);
+    for row in 0..t.len() {
+        if row > 0 && labels.of_row[row] != labels.of_row[row - 1] {
+            let (pause, on) = (t[row] - t[row - 1], t[row - 1] - start);
+            if pause <= on {
+                return None;
+            }
+            start = t[row];
+            count += 1;
+        }
+        since.push(t[row] - start);
+    }
+    (count > 1).then_some(since)
+}
+
+/// A stretch of rows that alone is nearly all that is left.
+fn stretch(fitted: &FittedModel<'_>, along: &str, node: Node, id: EffectId) -> Option<Cell> {
+    /// Of fewer blocks, rows are wrong one by one.
+    const LEAST: usize = 3;
+    let blocks = &fitted.design.blocks;
+    if blocks.len() > MOST_STEPS {
+        return None;
+    }
+    let ends = |first: usize| (first + LEAST..blocks.len() - 1).map(move |end| (first, end));
+    let all: Vec<(usize, usize)> = (2..blocks.len().saturating_sub(LEAST + 1))
+        .flat_map(ends)
+        .collect();
+    let within = |(first, end): (usize, usize)| {
+        let (from, to) = (blocks[first][0], blocks[end][0]);
+        let values = (0..fitted.rows()).map(|at| f64::from(u8::from((from..to).contains(&at))));
+        let [number, last] = [from, to - 1].map(|row| fitted.design.recorded(row));
+        let label = format!("rows {} to {}", number.start + 1, last.end);
+        let modifier = Modifier::number(values.collect(), format!("[{label}]"));
+        (label, modifier)
+    };
+    let mut terms = all
+        .iter()
+        .map(|stretch| Term::new(node, within(*stretch).1));
+    let found = all[nearly_all(fitted, &mut terms)?];
+    let (label, modifier) = within(found);
+    Some(on_node(
+        fitted,
+        id,
+        along,
+        node,
+        [form(label, vec![modifier])],
+    ))
 }
 
 /// Drifts that are not steady: bent, and slowing down with the logarithm of time, as where many processes

@@ -1,5 +1,5 @@
-//! Zero and scale errors of what the model takes as exact: a constant that the output adds, a shift or a
-//! factor of a stimulus, an angle or a time.
+//! Zero and scale errors of what the model takes as exact: a constant that the output adds, a factor of the output, a shift or
+//! a factor of a stimulus, an angle or a time.
 
 use super::absorbed::Absorbed;
 use super::building::{form, on_node, words};
@@ -39,7 +39,32 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         });
     }
     cells.retain(|cell| !cell.variants.is_empty());
+    cells.extend(of_output(fitted, &absorbed, &cells));
     cells
+}
+
+/// A factor of the output, where it is not that of a stimulus: that has a name already.
+fn of_output(fitted: &FittedModel<'_>, absorbed: &Absorbed, others: &[Cell]) -> Option<Cell> {
+    /// Correlation from which on two are one.
+    const SAME: f64 = 0.999;
+    if fitted.case().responses.len() != 1 || !fitted.has_signal() {
+        return None;
+    }
+    let factor = Modifier::number(vec![1.0; fitted.rows()], "1");
+    let cell = cell(fitted, EffectId::Factor, Node::Gain, factor);
+    let column = |cell: &Cell| fitted.column(&cell.variants[0].terms[0]);
+    let own = column(&cell);
+    let rest = absorbed.rest(&own);
+    let is_such = |other: &Cell| {
+        let other = absorbed.rest(&column(other));
+        let both = rest.dot(&other).abs();
+        other.norm() > 0.0 && both > SAME * rest.norm() * other.norm()
+    };
+    let factors = others
+        .iter()
+        .filter(|cell| cell.effect.id == EffectId::FactorOf);
+    let told = factors.into_iter().any(is_such);
+    (!told && absorbed.leaves(&own)).then_some(cell)
 }
 
 fn cell(fitted: &FittedModel<'_>, id: EffectId, node: Node, modifier: Modifier) -> Cell {

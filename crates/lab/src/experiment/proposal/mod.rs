@@ -2,8 +2,9 @@
 //!
 //! Names and units come from the first line. Roles are told by how the numbers behave, which decides nothing: the file says of each column what is in
 //! it, and that its role is a guess. Without a procedure the equation is a straight line, the least that has a coefficient to calibrate; along
-//! several axes that are set, the sum of one for each; around a turn, a wave.
+//! several axes that are set, the sum of one for each, and of axes that labels turn up and down likewise; around a turn, a wave.
 
+mod positions;
 mod roles;
 
 use std::collections::BTreeSet;
@@ -17,6 +18,7 @@ use gumption_format::toml::writing::{key, quoted};
 
 use super::entries::RoleWord;
 use super::procedure::Procedure;
+use positions::Positions;
 use roles::{followed, goes_around, is_kin, roles, stretches};
 
 /// Rows from which on a recording has to say whether they are samples or averages.
@@ -167,9 +169,28 @@ fn by_line(columns: &[Guess<'_>]) -> String {
     let is_along = |guess: &&Guess<'_>| {
         best.is_some_and(|best| best.name == guess.name || is_kin(best.column, guess.column))
     };
-    let along: Vec<&Guess<'_>> = set.iter().copied().filter(is_along).collect();
-    let along_axes = along.len() > 1;
     let mut taken: BTreeSet<String> = columns.iter().map(|guess| guess.name.clone()).collect();
+    let turned = columns
+        .iter()
+        .filter(|_| set.iter().all(|guess| guess.role == RoleWord::Time));
+    let turned = turned.filter_map(|guess| Some((guess, Positions::of(guess.column)?)));
+    let positions = turned.map(|(guess, positions)| {
+        let names = positions.axes().into_iter();
+        let names = names.map(|axis| identifier(&format!("n{axis}"), &mut taken));
+        let names: Vec<String> = names.collect();
+        let table = positions.table(&guess.name, &names);
+        (names, table)
+    });
+    let (along, positions) = match positions.into_iter().next() {
+        Some((names, table)) => (names.into_iter().map(|name| (name, None)).collect(), table),
+        None => {
+            let along = set.iter().copied().filter(is_along);
+            let along = along.map(|guess| (guess.name.clone(), Some(guess.column)));
+            (along.collect(), String::new())
+        }
+    };
+    let along: Vec<(String, Option<&Column>)> = along;
+    let along_axes = along.len() > 1;
     // Numbered: a name that is nearly that of a column would be taken for a slip of the pen.
     let equations = outputs.iter().zip(1..).map(|(output, number)| {
         let number = match outputs.len() {
@@ -178,17 +199,17 @@ fn by_line(columns: &[Guess<'_>]) -> String {
         };
         let mut coefficient = |name: String| identifier(&name, &mut taken);
         let constant = coefficient(format!("a{number}"));
-        let terms = along.iter().zip(1..).map(|(along, axis)| {
+        let terms = along.iter().zip(1..).map(|((along, column), axis)| {
             let slope = coefficient(match along_axes {
                 true => format!("b{number}{axis}"),
                 false => format!("b{number}"),
             });
-            match goes_around(output.column, along.column) {
+            match column.is_some_and(|column| goes_around(output.column, column)) {
                 true => {
                     let across = coefficient(format!("c{number}"));
-                    format!(" + {slope}*sin({0}) + {across}*cos({0})", along.name)
+                    format!(" + {slope}*sin({along}) + {across}*cos({along})")
                 }
-                false => format!(" + {slope}*{}", along.name),
+                false => format!(" + {slope}*{along}"),
             }
         });
         let terms: String = terms.collect();
@@ -201,7 +222,7 @@ fn by_line(columns: &[Guess<'_>]) -> String {
         several => format!("equations = [\n    {},\n]", several.join(",\n    ")),
     };
     let columns: String = columns.iter().map(declared).collect();
-    format!("{equations}\n\n[columns]\n{columns}")
+    format!("{equations}\n\n[columns]\n{columns}{positions}")
 }
 
 fn declared(guess: &Guess<'_>) -> String {
@@ -213,12 +234,20 @@ fn declared(guess: &Guess<'_>) -> String {
             quoted(&guess.column.header)
         ),
     };
-    format!("{name} = {value}   # {}\n", within(guess.column))
+    format!("{name} = {value}   # {}\n", within(guess))
 }
 
 /// What is in a column, in one line.
-fn within(column: &Column) -> String {
+fn within(Guess { column, role, .. }: &Guess<'_>) -> String {
     match &column.data {
+        Data::Labels(labels) if *role == RoleWord::Time => {
+            let rows = [labels.of_row.first(), labels.of_row.last()]
+                .into_iter()
+                .flatten();
+            let texts = rows.filter_map(|level| labels.levels.get(*level as usize));
+            let texts: Vec<&str> = texts.map(String::as_str).collect();
+            texts.join(" to ")
+        }
         Data::Labels(labels) => {
             let shown: Vec<String> = labels
                 .levels
@@ -501,6 +530,58 @@ mod tests {
             "{text}"
         );
         text.parse::<toml::Table>().expect("well-formed");
+    }
+
+    /// A time in the last column is what was measured, where all else is set.
+    #[test]
+    fn a_time_of_fall_is_an_output() {
+        let table = of("h [m],t [s]\n0.2,0.205\n0.2,0.204\n0.4,0.288\n0.4,0.289\n");
+        assert_eq!(table["equations"].as_str(), Some("t = a + b*h"));
+        let table = of("t [s],x [mm],y [V]\n0,1,0.5\n1,2,1\n2,1,0.5\n3,2,1\n");
+        let roles = ["t", "x", "y"].map(|name| role(&table, name));
+        assert_eq!(roles, ["time", "stimulus", "output"]);
+    }
+
+    /// What counts the rows is their order, unless it is all there is; what is read beside something that is set is a condition.
+    #[test]
+    fn rows_are_counted_and_conditions_are_read() {
+        let table = of(
+            "k,V [cm^3],rho [kg/m^3],T_bath [°C],dm [mg]\n1,20,1.18,20,0.1\n2,90,1.19,30,0.5\n3,20,1.2,20,0.2\n4,90,1.21,30,0.6\n",
+        );
+        let roles = ["k", "V", "rho", "T_bath", "dm"].map(|name| role(&table, name));
+        assert_eq!(
+            roles,
+            ["order", "stimulus", "covariate", "covariate", "output"]
+        );
+        let table = of("x,y\n1,16.08\n2,33.83\n3,65.8\n");
+        assert_eq!(role(&table, "x"), "stimulus");
+        let table = of("位置 [mm],示值 [mm]\n0,0.001\n10,10.002\n20,20.001\n");
+        assert_eq!(role(&table, "位置"), "stimulus");
+        let table =
+            of("t_bath [°C],t_room [°C],R [ohm]\n0,22,100\n50,23,119.4\n0,22,100.1\n50,23,119.5\n");
+        assert_eq!(role(&table, "t_room"), "covariate");
+        assert_eq!(table["equations"].as_str(), Some("R = a + b*t_bath"));
+    }
+
+    /// Six positions without columns of what acts along the axes: the labels say it.
+    #[test]
+    fn labels_turn_axes_up_and_down() {
+        let labels = ["X+", "X-", "Y+", "Y-"];
+        let rows: String = (0..8)
+            .map(|i| format!("{},{}.5,{}.25\n", labels[i / 2], i, i * i))
+            .collect();
+        let table = of(&format!("pos,ax [V],ay [V]\n{rows}"));
+        let equations = table["equations"].as_array().expect("a list");
+        assert_eq!(equations[0].as_str(), Some("ax = a1 + b11*nx + b12*ny"));
+        let positions = &table["positions"];
+        assert_eq!(positions["column"].as_str(), Some("pos"));
+        let down: Vec<i64> = positions["at"]["Y-"]
+            .as_array()
+            .expect("values")
+            .iter()
+            .filter_map(toml::Value::as_integer)
+            .collect();
+        assert_eq!(down, [0, -1]);
     }
 
     #[test]

@@ -8,10 +8,12 @@ use gumption_format::csv::{self, Column, Data, Labels};
 use crate::experiment::entries::RoleWord;
 
 pub(super) fn roles(columns: &[Column]) -> Vec<RoleWord> {
-    let mut roles: Vec<Option<RoleWord>> = columns
-        .iter()
-        .map(|column| by_itself(column, columns))
-        .collect();
+    let measured = measured_time(columns);
+    let of_column = |(at, column)| match measured == Some(at) {
+        true => None,
+        false => by_itself(column, columns),
+    };
+    let mut roles: Vec<Option<RoleWord>> = columns.iter().enumerate().map(of_column).collect();
     let open: Vec<usize> = (0..columns.len())
         .filter(|at| roles[*at].is_none())
         .collect();
@@ -29,14 +31,19 @@ pub(super) fn roles(columns: &[Column]) -> Vec<RoleWord> {
     }
     let rest: Vec<usize> = open.into_iter().filter(|at| roles[*at].is_none()).collect();
     let are_conditions = rest.iter().all(|at| is_condition(&columns[*at]));
-    // A temperature is a condition, unless it is set and the output follows it best of all.
+    let are_read = rest.iter().all(|at| !is_set(&columns[*at]));
+    // A temperature is a condition, unless it is set, or nothing else is there, and the output follows it best of all. What is read
+    // while something else is set is one, too, unless the output follows it.
     let candidates = rest.iter().map(|at| &columns[*at]);
     let best = output.and_then(|output| followed(&columns[output], candidates));
     let best = best.map(|place| rest[place]);
     for at in rest {
         let column = &columns[at];
-        let is_followed = best == Some(at) && is_set(column);
-        let is_stimulus = are_conditions || is_followed || !is_condition(column);
+        let is_followed = best.is_some_and(|best| best == at || is_kin(column, &columns[best]));
+        let is_stimulus = match is_condition(column) {
+            true => best == Some(at) && (are_conditions || is_set(column)),
+            false => are_read || is_followed || is_set(column),
+        };
         roles[at] = Some(match is_stimulus {
             true if in_turns(column).is_some() => RoleWord::Angle,
             true => RoleWord::Stimulus,
@@ -47,6 +54,36 @@ pub(super) fn roles(columns: &[Column]) -> Vec<RoleWord> {
         .into_iter()
         .map(|role| role.unwrap_or(RoleWord::Ignore));
     in_time(roles.collect())
+}
+
+/// The last column where it is a time and all others are set or conditions: how long a body fell or swung was measured.
+fn measured_time(columns: &[Column]) -> Option<usize> {
+    let (last, others) = columns.split_last()?;
+    let is_read = |column: &&Column| {
+        let is_number = matches!(column.data, Data::Numbers(_));
+        is_number
+            && !is_set(column)
+            && !is_condition(column)
+            && !is_clock(column)
+            && !counts(column)
+    };
+    let is_measured = matches!(last.data, Data::Numbers(_)) && is_clock(last) && !is_set(last);
+    let something_set = others
+        .iter()
+        .any(|column| is_set(column) && !is_condition(column));
+    (is_measured && something_set && !others.iter().any(|column| is_read(&column)))
+        .then_some(columns.len() - 1)
+}
+
+/// Whether it counts the rows: whole numbers without a unit, one more in each row.
+fn counts(column: &Column) -> bool {
+    let Data::Numbers(numbers) = &column.data else {
+        return false;
+    };
+    column.unit.is_none()
+        && numbers.len() > 1
+        && numbers.windows(2).all(|pair| pair[1] - pair[0] == 1.0)
+        && numbers[0].fract() == 0.0
 }
 
 /// Of times one is the time; where there is none, a number of the row says which was first.
@@ -162,7 +199,12 @@ fn by_itself(column: &Column, columns: &[Column]) -> Option<RoleWord> {
             false => RoleWord::Ignore,
         });
     }
-    if let Some(role) = by_name(column).filter(|_| known.iter().all(|x| x.fract() == 0.0)) {
+    // Something else is set: what counts along is the number of the row, whatever its name.
+    if counts(column) && columns.iter().any(is_set) {
+        return Some(RoleWord::Order);
+    }
+    let is_numbering = column.unit.is_none() && known.iter().all(|x| x.fract() == 0.0);
+    if let Some(role) = by_name(column).filter(|_| is_numbering) {
         let rises = known.is_sorted_by(|a, b| a < b);
         return Some(match role {
             RoleWord::Order if !rises => RoleWord::Ignore,
@@ -197,10 +239,12 @@ fn by_name(column: &Column) -> Option<RoleWord> {
         }
         "direction" | "dir" | "方向" | "行程" => RoleWord::Direction,
         "axis" | "轴" => RoleWord::Axis,
-        "run" | "series" | "mount" | "cycle" | "repeat" | "rep" | "序列" | "循环" | "循环次数"
-        | "次数" | "测量次数" | "组" | "组号" | "轮次" => RoleWord::Run,
-        "unit" | "instrument" | "operator" | "device" | "lot" | "lab" | "probe" | "仪器"
-        | "人员" | "操作者" => RoleWord::Factor,
+        "run" | "series" | "mount" | "cycle" | "repeat" | "rep" | "运行" | "序列" | "循环"
+        | "循环次数" | "次数" | "测量次数" | "组" | "组号" | "轮次" => RoleWord::Run,
+        "unit" | "instrument" | "operator" | "device" | "lot" | "lab" | "probe" | "serial"
+        | "serial no" | "s/n" | "sn" | "仪器" | "人员" | "操作者" | "出厂编号" => {
+            RoleWord::Factor
+        }
         "no" | "no." | "nr" | "nr." | "index" | "row" | "序号" | "编号" => RoleWord::Order,
         "n" | "n_samples" | "samples" => RoleWord::Ignore,
         _ => return None,
@@ -223,7 +267,8 @@ fn of_labels(column: &Column, labels: &Labels) -> RoleWord {
     if labels.levels.len() == labels.of_row.len() {
         return RoleWord::Ignore;
     }
-    if let Some(role) = by_name(column) {
+    // What numbers the rows has another value in each.
+    if let Some(role) = by_name(column).filter(|role| *role != RoleWord::Order) {
         return role;
     }
     if labels.levels.iter().all(|label| is_way(label)) {
@@ -267,12 +312,17 @@ fn is_way(label: &str) -> bool {
 fn is_clock(column: &Column) -> bool {
     let name = column.name.to_lowercase();
     let is_named = name == "t"
-        || ["t_", "time", "时间"]
+        || ["t_", "time", "when", "时间", "时刻"]
             .iter()
             .any(|start| name.starts_with(start));
+    // A unit that stands for the name.
+    const UNITS: [&str; 8] = [
+        "sec", "seconds", "min", "minutes", "hours", "秒", "分钟", "小时",
+    ];
+    let is_unit = UNITS.contains(&name.as_str());
     let second = UnitTable::default().parse("s");
     let (Some(unit), Ok(second)) = (&column.unit, second) else {
-        return is_named;
+        return is_named || is_unit;
     };
     is_named && unit.conversion_to(&second).is_some()
 }

@@ -167,6 +167,14 @@ impl Unit {
     pub fn typeset(&self) -> String {
         Composer::typeset(&self.symbol)
     }
+
+    /// The same as it stands after a number: nothing for the unit one.
+    pub fn after_number(&self) -> String {
+        match self.is_one() {
+            true => String::new(),
+            false => self.typeset(),
+        }
+    }
 }
 
 /// `K` for `°C` and `mK` for `m°C`; `Δ°F` for a scale without a unit of its own for differences.

@@ -1,15 +1,13 @@
 //! What is asked of a recording: candidates as columns, the recording as residuals, and the effects that were
 //! found in the model.
 
-use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use gumption_core::special::f_sf;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::adopt::{self, Free};
-use super::case::{Case, Observed};
-use super::catalogue::{self, Cell, Finer, FittedModel, Node, Term, Variation};
+use super::case::Case;
+use super::catalogue::{self, Cell, Finer, FittedModel, Variation};
 use super::design::Design;
 use super::evidence::{
     self, Atom, Baseline, Candidate, Examination, Fitted, Question, Refusal, Shape, TRACE,
@@ -19,6 +17,7 @@ use super::fit::{self, Fit, NoFit};
 use super::inquiry::Answer;
 use super::noise::{self, Claimed};
 use super::noise_correlation::Courses;
+use super::possible;
 use super::reduced::reduced;
 
 /// λ from which on it matters that the parameter of an effect lies between the steps of its grid.
@@ -70,10 +69,7 @@ impl<'f> Candidates<'f> {
                 settings: settings.clone(),
             };
             let examination = evidence::examine(&question, progress)?;
-            let mut missized = self.missized(&examination);
-            if missized.is_empty() {
-                missized = self.shrinking(&examination, &claimed, settings.alpha);
-            }
+            let missized = possible::missized(self, &examination, &claimed, settings.alpha);
             if missized.is_empty() {
                 return Ok(Answer {
                     claimed,
@@ -96,41 +92,6 @@ impl<'f> Candidates<'f> {
             place.is_some()
         });
         self.places = kept;
-    }
-
-    /// Candidates that make the residuals of a constant smaller by making the constant smaller. Residuals of a constant that the model
-    /// should give, such as a norm, are in units of what is left of it: in these they have to become smaller, or nothing is explained.
-    fn shrinking(&self, examination: &Examination, claimed: &Claimed, alpha: f64) -> Vec<usize> {
-        let fitted = &self.fitted;
-        let [response] = fitted.case().responses.as_slice() else {
-            return Vec::new();
-        };
-        let Observed::Constant(constant) = response.observed else {
-            return Vec::new();
-        };
-        let acts = |term: &Term| matches!(term.node, Node::Output | Node::Gain);
-        let named = examination.slots.iter().filter_map(|slot| {
-            let named = slot.named.first()?;
-            let variation = self.variation(named.variants.first()?.atom);
-            let acts = variation.terms.iter().all(acts);
-            acts.then(|| (named.candidate, variation.columns(fitted)))
-        });
-        let (named, columns): (Vec<usize>, Vec<DMatrix<f64>>) = named.unzip();
-        let columns = evidence::all(columns.into_iter());
-        if columns.is_empty() {
-            return Vec::new();
-        }
-        let rows = columns.nrows();
-        let model = fitted.fit.jacobian.rows(0, rows).into_owned();
-        let (residuals, u) = (fitted.fit.residuals.rows(0, rows), claimed.u.rows(0, rows));
-        let explains = is_explained(
-            &residuals.into_owned(),
-            &u.into_owned(),
-            [&model, &columns],
-            constant,
-            alpha,
-        );
-        if explains { Vec::new() } else { named }
     }
 
     /// The noise that is left when the named effects are in the model.
@@ -246,28 +207,6 @@ impl<'f> Candidates<'f> {
         }
         let open = undetermined(fitted, &baseline, &effects);
         Some((adopt::extended(fitted, effects)?, open))
-    }
-
-    /// Candidates that would have to have a size here which they cannot have: a reversal that is not complete, a change of
-    /// the scale that leaves nothing of the response.
-    fn missized(&self, examination: &Examination) -> Vec<usize> {
-        let named = examination.slots.iter().flat_map(|slot| &slot.named);
-        let wrong = named.filter(|named| {
-            let effect = self.cells[named.candidate].effect;
-            let sizes = named.estimate.iter().enumerate();
-            let is_other = sizes
-                .map(|(at, size)| (*size, named.covariance[(at, at)].max(0.0).sqrt()))
-                .any(|(size, u)| !effect.admits(size, u));
-            let takes_all = || {
-                let first = named.variants.first();
-                first.is_some_and(|first| {
-                    let (sizes, rows) = (named.estimate.as_slice(), self.fitted.rows());
-                    takes_all(self.variation(first.atom), sizes, rows)
-                })
-            };
-            is_other || (effect.exact.is_none() && takes_all())
-        });
-        wrong.map(|named| named.candidate).collect()
     }
 }
 
@@ -415,89 +354,4 @@ fn refit(
     let design = Design::new(&extended.case);
     let start = adopt::start(fitted, &design, &extended.effects);
     fit::near(&design, &claimed.u, start)
-}
-
-/// Whether effects on a constant explain residuals: whether these, in units of what the effects leave of the constant, become smaller than by
-/// chance. `model` and `effects` are derivatives.
-fn is_explained(
-    residuals: &DVector<f64>,
-    u: &DVector<f64>,
-    [model, effects]: [&DMatrix<f64>; 2],
-    constant: f64,
-    alpha: f64,
-) -> bool {
-    let before = residuals.component_div(u).norm_squared();
-    let (parameters, sizes) = (model.ncols(), effects.ncols());
-    let all = evidence::all([model, effects].into_iter().cloned());
-    let over_noise = DMatrix::from_fn(all.nrows(), all.ncols(), |row, at| all[(row, at)] / u[row]);
-    let found = evidence::inverse(&over_noise) * residuals.component_div(u);
-    let left = effects * found.rows(parameters, sizes);
-    let rest = residuals - &all * &found;
-    let in_units = |row: usize| rest[row] / u[row] * constant / (constant - left[row]);
-    let after: f64 = (0..rest.len()).map(|row| in_units(row).powi(2)).sum();
-    let free = rest.len().saturating_sub(all.ncols()).max(1) as f64;
-    let gain = (before - after) / sizes as f64 / (after / free);
-    f_sf(gain.max(0.0), sizes as f64, free) < alpha
-}
-
-/// Whether sizes leave nothing of a response in some row: a relative change of its scale of −1 or beyond.
-fn takes_all(variation: &Variation, sizes: &[f64], rows: usize) -> bool {
-    let mut changes = BTreeMap::new();
-    let mut coefficient = 0;
-    for (number, term) in variation.terms.iter().enumerate() {
-        coefficient += usize::from(number > 0 && !term.tied);
-        let size = sizes
-            .get(coefficient)
-            .copied()
-            .filter(|size| size.is_finite());
-        if let (Node::Gain, Some(size)) = (term.node, size) {
-            let change = changes
-                .entry(term.response)
-                .or_insert_with(|| vec![0.0; rows]);
-            for (change, x) in change.iter_mut().zip(term.modifier.values.iter()) {
-                *change += size * x;
-            }
-        }
-    }
-    changes.values().flatten().any(|change| *change <= -1.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::catalogue::Modifier;
-    use super::*;
-
-    /// The norm of a magnetometer with a scale that is free: a step from row 4 on goes with the scale, and both take the residuals with them. A
-    /// step in the middle is seen.
-    #[test]
-    fn what_only_makes_a_constant_smaller_explains_nothing() {
-        let noise = |row: usize| 0.1 * libm::sin(7.3 * row as f64);
-        let judged = |from: usize, size: f64| {
-            let step = DMatrix::from_fn(60, 1, |row, _| if row >= from { 1.0 } else { 0.0 });
-            let signal = DVector::from_fn(60, |row, _| 1.0 + noise(row) + size * step[row]);
-            let scale = signal.dot(&DVector::from_element(60, 1.0)) / signal.norm_squared();
-            let residuals = signal.map(|x| 1.0 - scale * x);
-            let model = DMatrix::from_columns(&[signal]);
-            let u = DVector::from_element(60, 0.1);
-            is_explained(&residuals, &u, [&model, &step], 1.0, 0.01)
-        };
-        assert!(!judged(3, 0.0));
-        assert!(!judged(30, 0.0));
-        assert!(judged(30, 0.3));
-    }
-
-    #[test]
-    fn a_scale_that_is_taken_away_is_no_effect() {
-        let step = |node: Node| {
-            let modifier = Modifier::number(vec![0.0, 0.0, 1.0], "from row 3 on");
-            Variation::one("", Term::new(node, modifier))
-        };
-        assert!(takes_all(&step(Node::Gain), &[-1.0], 3));
-        assert!(!takes_all(&step(Node::Gain), &[-0.5], 3));
-        assert!(!takes_all(&step(Node::Output), &[-3.0], 3));
-        // Each response has a scale of its own.
-        let half = |response: usize| step(Node::Gain).terms[0].clone().on(response);
-        let both = Variation::of("", vec![half(0), half(1)]);
-        assert!(!takes_all(&both, &[-0.6, -0.6], 3));
-    }
 }

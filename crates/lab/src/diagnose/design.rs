@@ -177,12 +177,7 @@ impl<'c> Design<'c> {
 
     /// The unit of an unknown as text.
     pub fn unit(&self, unknown: usize) -> String {
-        let unit = self.unit_of(&self.unknowns[unknown]);
-        if unit.is_one() {
-            String::new()
-        } else {
-            unit.typeset()
-        }
+        self.unit_of(&self.unknowns[unknown]).after_number()
     }
 
     /// The value of every symbol in a row: parameters, then columns.

@@ -30,6 +30,7 @@
 //! | [`catalogue`] | the effects, and what they do to the rows of a case |
 //! | `candidates` | cells and recording as matrices, asked of `evidence` |
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
+//! | `possible` | sizes that an effect cannot have |
 //! | `reduced` | a recording reduced to its residuals |
 //! | `inquiry` | the recording asked in stages, noise and effects in turn |
 //! | `run` | a diagnosis from end to end |
@@ -77,6 +78,7 @@ mod noise_growth;
 mod omitted;
 mod parts;
 mod plan;
+mod possible;
 mod prolonged;
 mod reduced;
 mod regions;

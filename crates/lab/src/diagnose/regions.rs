@@ -34,7 +34,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         } else if let (Some(numbers), Role::Stimulus | Role::Covariate | Role::Angle) =
             (column.numbers(), column.role)
         {
-            regions.extend(ranges(&column.name, &column.unit.typeset(), numbers));
+            regions.extend(ranges(&column.name, &column.unit.after_number(), numbers));
         }
     }
     regions.extend(spans(fitted));

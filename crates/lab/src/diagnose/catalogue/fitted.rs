@@ -320,12 +320,7 @@ impl<'f> FittedModel<'f> {
 
     /// The unit of a column as text; nothing for a number.
     pub fn unit(&self, column: usize) -> String {
-        let unit = &self.case().columns[column].unit;
-        if unit.is_one() {
-            String::new()
-        } else {
-            unit.typeset()
-        }
+        self.case().columns[column].unit.after_number()
     }
 
     /// Whether the order of the rows says something that no column says: it was recorded, or the rows are neither

@@ -22,7 +22,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         loops(fitted, column, &way),
     )];
     let (least, most) = range(x);
-    let unit = fitted.case().columns[column].unit.typeset();
+    let unit = fitted.unit(column);
     let step = typical_step(x);
     let widths = grid((most - least) * 1e-3, (most - least) * 0.3, 3.0, 6);
     let widths = widths
@@ -125,7 +125,7 @@ fn plays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     const WIDTHS: [f64; 5] = [0.05, 0.15, 0.3, 0.5, 0.75];
     let (x, label) = (fitted.numbers(column), fitted.label(column));
     let (least, most) = range(x);
-    let unit = fitted.case().columns[column].unit.typeset();
+    let unit = fitted.unit(column);
     let widths = WIDTHS.map(|part| five_digits(part * (most - least)));
     let behind = |width: f64| {
         let played = play(&fitted.clock.values, x, width);

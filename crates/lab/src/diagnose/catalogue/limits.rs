@@ -122,9 +122,10 @@ fn ceiling(
     };
     let modifier = map(&model, |y| within(y) - y);
     let Response { name, unit, .. } = &fitted.case().responses[response];
-    let shown = |level: f64| match unit.is_one() {
-        true => level.to_string(),
-        false => format!("{level} {}", unit.typeset()),
+    let shown = |level: f64| {
+        format!("{level} {}", unit.after_number())
+            .trim_end()
+            .to_owned()
     };
     let [mut text, mut label] = [name.clone(), String::new()];
     for Pile { sign, level, .. } in piles {
@@ -146,7 +147,7 @@ fn ceiling(
 /// A step at zero, and bands of several widths around it.
 fn dead_band(fitted: &FittedModel<'_>, column: usize) -> Cell {
     let (x, name) = (fitted.numbers(column), fitted.label(column));
-    let unit = fitted.case().columns[column].unit.typeset();
+    let unit = fitted.unit(column);
     let most = largest(x);
     let sign = map(x, |x| if x == 0.0 { 0.0 } else { x.signum() });
     let step = form("", vec![Modifier::number(sign, format!("sign({name})"))]);
@@ -164,7 +165,7 @@ fn dead_band(fitted: &FittedModel<'_>, column: usize) -> Cell {
 /// Both ends bend alike.
 fn soft_limit(fitted: &FittedModel<'_>, column: usize) -> Cell {
     let (x, name) = (fitted.numbers(column), fitted.label(column));
-    let unit = fitted.case().columns[column].unit.typeset();
+    let unit = fitted.unit(column);
     let most = largest(x);
     let beyond = |limit: f64| {
         let modifier = map(x, |x| -(x.abs() - limit).max(0.0) * x.signum());
@@ -188,7 +189,7 @@ fn kink(fitted: &FittedModel<'_>, column: usize) -> Cell {
     /// Parts into which the range is divided.
     const PARTS: usize = 16;
     let x = fitted.numbers(column);
-    let unit = fitted.case().columns[column].unit.typeset();
+    let unit = fitted.unit(column);
     let (least, most) = range(x);
     let parts = (1..PARTS).map(|part| least + part as f64 / PARTS as f64 * (most - least));
     // Beyond the last value but one there is one reading: wrong, or the only one on another slope.
@@ -246,7 +247,7 @@ fn at_end(
     ) else {
         return Vec::new();
     };
-    let unit = fitted.case().columns[column].unit.typeset();
+    let unit = fitted.unit(column);
     let (least, most) = range(x);
     let (inside, outside) = (x[order[first - 1]], x[order[first]]);
     let away = (outside - inside).signum();

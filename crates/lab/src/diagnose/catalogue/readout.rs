@@ -48,7 +48,7 @@ fn quantisation(fitted: &FittedModel<'_>, response: usize) -> Option<Cell> {
             }
         };
         let term = on_output(Modifier::new(modifier, text, unit.difference()));
-        let label = format!("step {shown}{noise} {}", unit.typeset());
+        let label = format!("step {shown}{noise} {}", unit.after_number());
         Variation::one(label, term.on(response))
     };
     // What the declared model leaves is noise, and perhaps something else.

@@ -185,7 +185,7 @@ fn levelling(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
         return Vec::new();
     }
     let halves = sharpened(fitted, HALF.map(|part| part * most).into(), &term);
-    let unit = fitted.case().columns[column].unit.typeset();
+    let unit = fitted.unit(column);
     let halves = fitted.finer.times(halves).into_iter().map(five_digits);
     let variant = |half: f64| {
         let label = format!("levelling off, half at {} {unit}", figure(half));

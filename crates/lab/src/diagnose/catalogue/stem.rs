@@ -19,7 +19,7 @@ fn stem(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
         return None;
     }
     let name = fitted.label(column);
-    let unit = fitted.case().columns[column].unit.typeset();
+    let unit = fitted.unit(column);
     let forms = [0.1, 0.2, 0.4, 0.8].map(|part| {
         let depth = five_digits(part * (most - least));
         let modifier = map(x, |x| libm::exp(-(x - least) / depth));

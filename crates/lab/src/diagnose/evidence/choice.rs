@@ -86,7 +86,8 @@ fn explanations(space: &Space, slot: &Slot) -> Vec<(usize, f64)> {
         .collect()
 }
 
-fn block_of(space: &Space, atom: usize) -> Option<usize> {
+/// The block of an atom.
+pub(super) fn block_of(space: &Space, atom: usize) -> Option<usize> {
     space.blocks.iter().position(|block| block.atom == atom)
 }
 

@@ -9,7 +9,7 @@ use super::null::Simulated;
 use super::question::Question;
 use super::refusal::Refusal;
 use super::search::{Search, search};
-use super::slots::{Explanation, LISTED, slots};
+use super::slots::{Explanation, Found, LISTED, slots};
 use super::space::Space;
 use super::unlisted::{Restated, Rivalry, leftover, unlisted};
 
@@ -44,18 +44,19 @@ pub fn examine(
     search.discount(&again);
     let generic_probability = search.generic_probability();
     let explanation = explanation(&search, generic_probability);
-    let mut slots = slots(&space, question, &search, &explanation, &again);
+    let mut found = slots(&space, question, &search, &explanation, &again);
     let is_adequate = search.complete.is_some()
         && generic_probability < NAMED_STANDS
         && beats_unlisted(&space, &explanation.named, &simulated)
-        && slots.iter().all(Slot::is_explained);
-    let mut named = explanation.named;
+        && found.slots.iter().all(Slot::is_explained);
     if !is_adequate {
-        match alike(&space, question, &search, &named, &again, &simulated) {
-            Some(likenesses) => (named, slots) = likenesses,
-            None => doubt(&space, question, &named, &mut slots),
+        let named = &explanation.named;
+        match alike(&space, question, &search, named, &again, &simulated) {
+            Some(likenesses) => found = likenesses,
+            None => doubt(&space, question, &mut found),
         }
     }
+    let Found { named, mut slots } = found;
     graded(question, &mut slots);
     for slot in slots
         .iter_mut()
@@ -105,7 +106,7 @@ impl Examination {
 
 /// Makes names tentative in an explanation that is not adequate: something that no candidate is may be any part of what they
 /// explain. The one that is more than all the rest together stands, if it says what is there and not only what it looks like.
-fn doubt(space: &Space, question: &Question, named: &[usize], slots: &mut Vec<Slot>) {
+fn doubt(space: &Space, question: &Question, Found { named, slots }: &mut Found) {
     let (sigma, _) = noise(space, &space.frame_of(named));
     let excess = space.z.norm_squared() / (sigma * sigma) - space.dof as f64;
     let stands = |first: &Alternative| {

@@ -6,7 +6,7 @@ use super::findings::{Slot, State};
 use super::null::Simulated;
 use super::question::{Place, Question};
 use super::search::Search;
-use super::slots::{Explanation, slots};
+use super::slots::{Explanation, Found, slots};
 use super::space::{Frame, Space};
 use super::unlisted::Restated;
 
@@ -22,7 +22,7 @@ pub(super) fn alike(
     named: &[usize],
     again: &Restated,
     simulated: &Simulated,
-) -> Option<(Vec<usize>, Vec<Slot>)> {
+) -> Option<Found> {
     let best = |count: usize| {
         let subsets =
             (0..1_usize << named.len()).filter(|subset| subset.count_ones() as usize == count);
@@ -41,11 +41,11 @@ pub(super) fn alike(
     let mut sets = [2, 1].into_iter().filter_map(best);
     let core = sets.find(departs_little)?.blocks;
     let explanation = Explanation {
-        named: core.clone(),
+        named: core,
         generic: None,
     };
-    let mut slots = slots(space, question, search, &explanation, again);
-    for slot in &mut slots {
+    let mut found = slots(space, question, search, &explanation, again);
+    for slot in &mut found.slots {
         if slot.state != State::Ambiguous && !slot.named.is_empty() {
             slot.state = match slot.named.len() {
                 1 => State::Like,
@@ -53,7 +53,7 @@ pub(super) fn alike(
             };
         }
     }
-    (slots.iter().all(Slot::is_explained)).then_some((core, slots))
+    (found.slots.iter().all(Slot::is_explained)).then_some(found)
 }
 
 /// Why a name that stands alone says no more than what it acts like.

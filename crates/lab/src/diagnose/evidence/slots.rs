@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::DVector;
 
-use super::choice;
+use super::choice::{self, block_of};
 use super::closed_form::log_sum;
 use super::findings::{ALONE, Alternative, Slot, State, Variant};
 use super::fit::{estimate, nearest};
@@ -37,6 +37,12 @@ pub(super) struct Explanation {
     pub(super) generic: Option<usize>,
 }
 
+/// What is found: slots, and the blocks of which the adopted model is made.
+pub(super) struct Found {
+    pub(super) named: Vec<usize>,
+    pub(super) slots: Vec<Slot>,
+}
+
 /// The slots of an explanation.
 pub(super) fn slots(
     space: &Space,
@@ -44,7 +50,7 @@ pub(super) fn slots(
     search: &Search,
     explanation: &Explanation,
     again: &Restated,
-) -> Vec<Slot> {
+) -> Found {
     let (named, generic) = (&explanation.named[..], explanation.generic);
     let members = named
         .iter()
@@ -63,7 +69,8 @@ pub(super) fn slots(
             (block, slot)
         })
         .collect();
-    choice::complete(space, question, named, &mut slots);
+    let named = adopted(space, question, &mut slots);
+    choice::complete(space, question, &named, &mut slots);
     // The strongest effect first, what has no name last.
     let strength = |slot: &Slot| match (slot.state, slot.named.first()) {
         (State::Unexplained, _) | (_, None) => f64::NEG_INFINITY,
@@ -80,7 +87,51 @@ pub(super) fn slots(
             slot.state = State::Unexplained;
         }
     }
-    slots.into_iter().map(|(_, slot)| slot).collect()
+    let slots = slots.into_iter().map(|(_, slot)| slot).collect();
+    Found { named, slots }
+}
+
+/// The blocks of the adopted model: of every slot its first name, in the most probable variant. A name that cannot stand beside
+/// the others gives way to the one that does, which is then the first.
+fn adopted(space: &Space, question: &Question, slots: &mut [(Option<usize>, Slot)]) -> Vec<usize> {
+    let mut named: Vec<usize> = slots.iter().filter_map(|(block, _)| *block).collect();
+    let members = (slots.iter_mut()).filter_map(|(block, slot)| Some((block.as_mut()?, slot)));
+    for (at, (block, slot)) in members.enumerate() {
+        let first = slot.named.first().and_then(|first| first.variants.first());
+        let Some(first) = first.and_then(|variant| block_of(space, variant.atom)) else {
+            continue;
+        };
+        let candidate = space.blocks[first].candidate;
+        let repeats = question.candidates[candidate].repeats;
+        let is_it = |other: &usize| question.same_cause(space.blocks[*other].candidate, candidate);
+        let others: Vec<usize> = named
+            .iter()
+            .copied()
+            .filter(|other| other != block)
+            .collect();
+        named[at] = first;
+        let stands = repeats || !others.iter().any(is_it);
+        if stands && space.frame(&named).is_some() {
+            *block = first;
+        } else {
+            named[at] = *block;
+            first_is(space, question, &space.frame_of(&others), slot, *block);
+        }
+    }
+    named
+}
+
+/// Puts the name and the variant of a block first in a slot.
+fn first_is(space: &Space, question: &Question, rest: &Frame, slot: &mut Slot, block: usize) {
+    let atom = space.blocks[block].atom;
+    let has = |one: &Alternative| one.variants.iter().position(|own| own.atom == atom);
+    let mut names = slot.named.iter().enumerate();
+    if let Some((name, variant)) = names.find_map(|(name, one)| Some((name, has(one)?))) {
+        slot.named[..=name].rotate_right(1);
+        let first = &mut slot.named[0];
+        first.variants[..=variant].rotate_right(1);
+        first.stated(space, question, rest, block);
+    }
 }
 
 /// The slot of one member of a set (`named` blocks and perhaps a generic beside them).
@@ -302,22 +353,24 @@ fn alternative(
     named: f64,
 ) -> Alternative {
     let block = ranked.blocks[0].0;
-    let estimate = estimate(space, question, rest, block);
-    let nearest = nearest(space, question, rest, block, &estimate);
-    Alternative {
-        candidate: ranked.candidate,
+    let variants = ranked.blocks.into_iter().map(|(_, variant)| variant);
+    let mut alternative = Alternative {
         probability: ranked.probability * named,
-        variants: ranked
-            .blocks
-            .into_iter()
-            .map(|(_, variant)| variant)
-            .collect(),
-        choice: DVector::zeros(estimate.coefficients.len()),
-        estimate: estimate.coefficients,
-        covariance: estimate.covariance,
-        dof: estimate.dof,
-        lambda: estimate.lambda,
-        nearest,
+        variants: variants.collect(),
+        ..Alternative::unnamed(ranked.candidate)
+    };
+    alternative.stated(space, question, rest, block);
+    alternative
+}
+
+impl Alternative {
+    /// With the sizes of one of its blocks beside a set.
+    fn stated(&mut self, space: &Space, question: &Question, rest: &Frame, block: usize) {
+        let estimate = estimate(space, question, rest, block);
+        self.nearest = nearest(space, question, rest, block, &estimate);
+        self.choice = DVector::zeros(estimate.coefficients.len());
+        (self.estimate, self.covariance) = (estimate.coefficients, estimate.covariance);
+        (self.dof, self.lambda) = (estimate.dof, estimate.lambda);
     }
 }
 

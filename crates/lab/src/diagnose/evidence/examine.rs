@@ -45,11 +45,13 @@ pub fn examine(
     let generic_probability = search.generic_probability();
     let explanation = explanation(&search, generic_probability);
     let mut found = slots(&space, question, &search, &explanation, &again);
+    // Beside nothing there is nothing to doubt: the test of the first level has decided.
+    let found_nothing = search.complete.as_ref().is_some_and(Vec::is_empty);
     let is_adequate = search.complete.is_some()
         && generic_probability < NAMED_STANDS
         && beats_unlisted(&space, &explanation.named, &simulated)
         && found.slots.iter().all(Slot::is_explained);
-    if !is_adequate {
+    if !found_nothing && !is_adequate {
         let named = &explanation.named;
         match alike(&space, question, &search, named, &again, &simulated) {
             Some(likenesses) => found = likenesses,

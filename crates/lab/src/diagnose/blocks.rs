@@ -49,13 +49,10 @@ fn chosen(case: &Case) -> usize {
         return 1;
     }
     let mut size = case.rows.div_ceil(MOST_BLOCKS);
-    let parameters = case.parameters.len();
     // What was applied: effects that are added to a model as columns leave its blocks as they are.
     let used = (0..case.columns.len()).filter(|column| {
         let role = case.columns[*column].role;
-        matches!(role, Role::Stimulus | Role::Angle)
-            && (0..case.responses.len())
-                .any(|r| case.equations.uses(r).contains(&(parameters + column)))
+        matches!(role, Role::Stimulus | Role::Angle) && case.uses(*column)
     });
     let used: Vec<&[f64]> = used.filter_map(|c| case.columns[c].numbers()).collect();
     while size > 1 && !used.iter().all(|numbers| kept(numbers, size) >= KEPT) {

@@ -81,7 +81,7 @@ pub fn extras(case: &Case) -> Vec<Extra> {
         };
         let name = column.name.clone();
         match (&column.data, column.role) {
-            (Data::Numbers(numbers), Role::Angle | Role::Stimulus) if used(case, index) => {
+            (Data::Numbers(numbers), Role::Angle | Role::Stimulus) if case.uses(index) => {
                 let levels = levels(numbers);
                 if is_angle(column) && levels.len() <= MOUNTS {
                     for value in mountings(case, index, &levels) {
@@ -136,11 +136,6 @@ fn is_angle(column: &Column) -> bool {
         || ["°", "deg", "rad"]
             .iter()
             .any(|unit| symbol.ends_with(unit))
-}
-
-fn used(case: &Case, column: usize) -> bool {
-    let place = case.parameters.len() + column;
-    (0..case.responses.len()).any(|response| case.equations.uses(response).contains(&place))
 }
 
 /// Different values in ascending order.

@@ -12,15 +12,8 @@ const PARTS: usize = 10;
 /// All cells of the scan.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let case = fitted.case();
-    let mut nodes = vec![Node::Output];
-    if fitted.has_signal() {
-        nodes.push(Node::Gain);
-    }
-    nodes.extend(
-        case.with_role(Role::Angle)
-            .filter(|c| fitted.in_model(*c))
-            .map(Node::Column),
-    );
+    let mut nodes = fitted.offset_and_scale();
+    nodes.extend(fitted.used(Role::Angle).map(Node::Column));
     let mut regions: Vec<(String, String, Vec<f64>)> = Vec::new();
     for column in &case.columns {
         if let Some(labels) = column.labels() {

@@ -303,6 +303,12 @@ impl Case {
         (0..self.columns.len()).filter(move |i| self.columns[*i].role == role)
     }
 
+    /// Whether an equation uses a column.
+    pub fn uses(&self, column: usize) -> bool {
+        let symbol = self.parameters.len() + column;
+        (0..self.responses.len()).any(|response| self.equations.uses(response).contains(&symbol))
+    }
+
     /// The model line by line, statements that all equations see once.
     pub fn model_lines(&self) -> Vec<&str> {
         let equations = self.model.iter().map(|text| text.lines());

@@ -1,13 +1,13 @@
 //! Harmonics of angles: errors of the angle itself, and what repeats with each turn; play of what sets it.
 
+use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
 
-use super::building::{form, on_node, wave, words};
+use super::building::{cell, form, on_node, wave};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{map, range};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
-use crate::diagnose::evidence::Place;
 use gumption_core::quantity::UnitTable;
 
 /// Highest harmonic.
@@ -27,6 +27,13 @@ pub(super) fn angles(fitted: &FittedModel<'_>) -> Vec<usize> {
     angles
         .filter(|c| fitted.case().columns[*c].numbers().is_some_and(varies))
         .collect()
+}
+
+/// Those of them that the model uses.
+pub(super) fn turning(fitted: &FittedModel<'_>) -> Vec<usize> {
+    let mut turning = angles(fitted);
+    turning.retain(|column| fitted.in_model(*column));
+    turning
 }
 
 fn of_angle(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
@@ -76,13 +83,8 @@ fn harmonics(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
 
 /// Different places on the circle, to a ten-thousandth of a turn.
 pub(super) fn positions(phi: &[f64]) -> usize {
-    let mut places: Vec<i64> = phi
-        .iter()
-        .map(|phi| (phi / TAU * 1e4).round() as i64 % 10_000)
-        .map(|place| place.rem_euclid(10_000))
-        .collect();
-    places.sort_unstable();
-    places.dedup();
+    let places = phi.iter().map(|phi| (phi / TAU * 1e4).round() as i64);
+    let places: BTreeSet<i64> = places.map(|place| place.rem_euclid(10_000)).collect();
     places.len()
 }
 
@@ -90,11 +92,8 @@ pub(super) fn positions(phi: &[f64]) -> usize {
 pub(super) fn radians(fitted: &FittedModel<'_>, column: usize) -> Vec<f64> {
     let numbers = fitted.numbers(column);
     let unit = &fitted.case().columns[column].unit;
-    let conversion = UnitTable::default()
-        .parse("rad")
-        .ok()
-        .and_then(|rad| unit.conversion_to(&rad));
-    match conversion {
+    let radian = UnitTable::default().parse("rad").ok();
+    match radian.and_then(|radian| unit.conversion_to(&radian)) {
         Some(conversion) => map(numbers, |x| conversion.apply(x)),
         None => numbers.to_vec(),
     }
@@ -109,13 +108,9 @@ fn play(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     }
     let modifier = map(&side, |side| -side / 2.0);
     let modifier = Modifier::number(modifier, format!("-direction({name})/2"));
-    let term = Term::new(Node::Column(column), modifier);
-    Some(Cell::new(
-        EffectId::Play,
-        words(fitted, name),
-        Place::new(name, name),
-        vec![Variation::one("", term)],
-    ))
+    let node = Node::Column(column);
+    let form = Variation::one("", Term::new(node, modifier));
+    Some(cell(fitted, EffectId::Play, node, name, vec![form]))
 }
 
 /// The side from which each angle was reached, +1 or −1. Between runs a head goes back behind the first
@@ -152,11 +147,7 @@ fn starts(fitted: &FittedModel<'_>) -> Vec<usize> {
 
 /// The angle that turns in one direction through every run, with the rows in which runs begin.
 pub(super) fn runs_of_turns(fitted: &FittedModel<'_>) -> Option<(usize, Vec<usize>)> {
-    let turning: Vec<usize> = angles(fitted)
-        .into_iter()
-        .filter(|c| fitted.in_model(*c))
-        .collect();
-    let ([angle], true) = (&turning[..], fitted.is_timed()) else {
+    let ([angle], true) = (&turning(fitted)[..], fitted.is_timed()) else {
         return None;
     };
     let x = fitted.numbers(*angle);

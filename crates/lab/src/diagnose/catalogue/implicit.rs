@@ -1,6 +1,6 @@
 //! Models that hold a constant against several columns, such as |a| = g for a triad at rest.
 
-use super::building::words;
+use super::absorbed::Absorbed;
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{map, range, rounded};
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
@@ -11,17 +11,7 @@ use gumption_core::quantity::Unit;
 pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
     let term = |column: usize, modifier: Modifier| Term::new(Node::Column(column), modifier);
     let cell = |id: EffectId, variants: Vec<Variation>| {
-        let names: Vec<&str> = used.iter().map(|c| fitted.label(*c)).collect();
-        let joined = names.join(", ");
-        Cell::new(
-            id,
-            Words {
-                p: joined.clone(),
-                ..words(fitted, &joined)
-            },
-            Place::new("axes", joined),
-            variants,
-        )
+        of_axes(fitted, id, used, fitted.names(used), variants)
     };
     let mut cells = Vec::new();
     let mut pairs = Vec::new();
@@ -41,11 +31,10 @@ pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
         (label, term(*column, own))
     });
     let mut scales = cell(EffectId::AxisScale, singles_and_all(own.collect()));
-    let absorbed = super::absorbed::Absorbed::by_parameters(fitted);
-    scales.variants.retain(|variation| {
-        let columns = variation.columns(fitted);
-        let mut columns = columns.column_iter();
-        columns.all(|column| absorbed.leaves(&column.into_owned()))
+    let absorbed = Absorbed::by_parameters(fitted);
+    (scales.variants).retain(|variation| {
+        let left = absorbed.leaves_of(fitted, variation);
+        left.into_iter().all(|some| some)
     });
     cells.push(scales);
     type Law = fn(f64) -> f64;
@@ -66,6 +55,24 @@ pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
         cells.push(cell(id, singles_and_all(own.collect())));
     }
     cells
+}
+
+/// A cell of several axes together.
+pub(super) fn of_axes(
+    fitted: &FittedModel<'_>,
+    id: EffectId,
+    axes: &[usize],
+    disturbed: String,
+    variants: Vec<Variation>,
+) -> Cell {
+    let names = fitted.names(axes);
+    let words = Words {
+        x: names.clone(),
+        y: fitted.output(),
+        p: disturbed,
+        ..Words::default()
+    };
+    Cell::new(id, words, Place::new("axes", names), variants)
 }
 
 /// The middle of the range, where a sensor that turned through all positions has its zero.

@@ -301,6 +301,11 @@ pub fn map(x: &[f64], f: impl Fn(f64) -> f64) -> Vec<f64> {
     x.iter().map(|x| f(*x)).collect()
 }
 
+/// 1 where something is so.
+pub fn flag(is_so: bool) -> f64 {
+    f64::from(u8::from(is_so))
+}
+
 /// Whether numbers go well to both sides of zero.
 pub fn crosses_zero(x: &[f64]) -> bool {
     let (least, most) = range(x);

@@ -100,7 +100,9 @@ pub fn left_beside(columns: &DMatrix<f64>, others: &DMatrix<f64>) -> Vec<f64> {
 /// Length of what the best of some variants leaves of each effect, all of them seen beside the parameters.
 pub fn left(effects: &DMatrix<f64>, variants: impl IntoIterator<Item = DMatrix<f64>>) -> Vec<f64> {
     let mut least: Vec<f64> = effects.column_iter().map(|e| e.norm_squared()).collect();
-    for basis in variants.into_iter().map(basis) {
+    /// Directions that columns of unit length reach no further have none.
+    const FLAT: f64 = 1e-7;
+    for basis in (variants.into_iter()).map(|columns| span(columns, FLAT)) {
         let rest = effects - &basis * basis.tr_mul(effects);
         for (least, rest) in least.iter_mut().zip(rest.column_iter()) {
             *least = least.min(rest.norm_squared());
@@ -109,10 +111,8 @@ pub fn left(effects: &DMatrix<f64>, variants: impl IntoIterator<Item = DMatrix<f
     least.into_iter().map(f64::sqrt).collect()
 }
 
-/// Orthonormal columns of the same span.
-fn basis(mut columns: DMatrix<f64>) -> DMatrix<f64> {
-    /// Directions that columns of unit length reach no further have none.
-    const FLAT: f64 = 1e-7;
+/// Orthonormal columns of the same span, without directions that columns of unit length reach no further than `flat`.
+pub fn span(mut columns: DMatrix<f64>, flat: f64) -> DMatrix<f64> {
     for mut column in columns.column_iter_mut() {
         let length = column.norm();
         if length > 0.0 {
@@ -121,7 +121,7 @@ fn basis(mut columns: DMatrix<f64>) -> DMatrix<f64> {
     }
     let svd = columns.svd(true, false);
     let kept: Vec<usize> = (0..svd.singular_values.len())
-        .filter(|k| svd.singular_values[*k] > FLAT)
+        .filter(|k| svd.singular_values[*k] > flat)
         .collect();
     svd.u.unwrap_or_default().select_columns(&kept)
 }

@@ -69,16 +69,15 @@ fn harmonics(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     // A wave shows by half of it, and by two positions.
     let shows =
         |k: &u32| f64::from(*k) * (most - least) > 0.9 * PI && 2 * (*k as usize) <= positions;
-    (1..=HIGHEST)
-        .filter(shows)
-        .map(|k| {
-            let phase = map(&phi, |phi| f64::from(k) * phi);
-            form(
-                format!("{k} per turn"),
-                wave(&phase, &format!("{k}*{name}")),
-            )
-        })
-        .collect()
+    let each = (1..=HIGHEST).filter(shows);
+    each.map(|k| harmonic(&phi, name, k)).collect()
+}
+
+/// So many waves in each turn of an angle.
+pub(super) fn harmonic(phi: &[f64], name: &str, k: u32) -> Variation {
+    let phase = map(phi, |phi| f64::from(k) * phi);
+    let waves = wave(&phase, &format!("{k}*{name}"));
+    form(format!("{k} per turn"), waves)
 }
 
 /// Different places on the circle, to a ten-thousandth of a turn.

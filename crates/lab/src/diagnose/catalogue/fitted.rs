@@ -294,12 +294,7 @@ impl<'f> FittedModel<'f> {
 
     /// The product of two columns less their middles.
     pub fn centred_product(&self, x: usize, z: usize) -> Modifier {
-        let (x, z) = (self.centred(x), self.centred(z));
-        Modifier::new(
-            map2(&x.values, &z.values, |x, z| x * z),
-            format!("{}*{}", x.text, z.text),
-            x.unit.product(&z.unit),
-        )
+        self.centred(x).times(&self.centred(z))
     }
 
     /// The rate of change of a column.

@@ -3,7 +3,7 @@
 use super::building::{self, course, scoped, time_constants_from, timed};
 use super::fitted::{FittedModel, Node, varies};
 use super::inputs::Signal;
-use super::modifiers::{Course, figure, largest, map, map2, range};
+use super::modifiers::{Course, figure, largest, map, range};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 
@@ -93,9 +93,8 @@ fn by_resistance(fitted: &FittedModel<'_>, node: Node, power: &Modifier) -> Opti
         return None;
     }
     let signal = Signal::new(fitted, 0);
-    let values = map2(&power.values, &signal.parts, |power, part| power * part);
-    let text = format!("{}*{}", power.text, signal.text);
-    let term = Term::new(node, Modifier::new(values, text, power.unit.clone()));
+    let modifier = power.times(&Modifier::number(signal.parts, signal.text));
+    let term = Term::new(node, modifier);
     Some(Variation::one("in proportion to the signal", term))
 }
 

@@ -34,12 +34,8 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         }
         cells.push(kink(fitted, column));
     } else {
-        cells.push(plain(
-            fitted,
-            EffectId::Saturation,
-            fitted.label(column),
-            ends,
-        ));
+        let (id, name) = (EffectId::Saturation, fitted.label(column));
+        cells.push(plain(fitted, id, name, ends));
     }
     cells
 }
@@ -48,19 +44,15 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
 /// last digit although the model moves on, and what it gives beyond them is missing. Where they pile up along one of the
 /// `columns`, that limit is a limit of the column.
 pub(super) fn of_outputs(fitted: &FittedModel<'_>, columns: &[usize]) -> Vec<Cell> {
-    if columns
-        .iter()
-        .any(|column| !plateaus(fitted, *column).is_empty())
-    {
+    let has_plateau = |column: &usize| !plateaus(fitted, *column).is_empty();
+    if columns.iter().any(has_plateau) {
         return Vec::new();
     }
     let responses = 0..fitted.case().responses.len();
     let explicit = responses.filter(|response| !fitted.is_implicit(*response));
     let cells = explicit.filter_map(|response| {
-        let ends = [1.0, -1.0].into_iter();
-        let ends: Vec<_> = ends
-            .filter_map(|sign| ceiling(fitted, response, sign))
-            .collect();
+        let ends = [1.0, -1.0].map(|sign| ceiling(fitted, response, sign));
+        let ends: Vec<Variation> = ends.into_iter().flatten().collect();
         let name = &fitted.case().responses[response].name;
         (!ends.is_empty()).then(|| plain(fitted, EffectId::Saturation, name, ends))
     });
@@ -75,10 +67,7 @@ fn ceiling(fitted: &FittedModel<'_>, response: usize, sign: f64) -> Option<Varia
     if observed.len() < fitted.rows() {
         return None;
     }
-    let level = sign
-        * observed
-            .iter()
-            .fold(f64::NEG_INFINITY, |most, y| most.max(sign * y));
+    let level = sign * range(&map(&observed, |y| sign * y)).1;
     let is_at = |row: usize| observed[row] == level;
     let there: Vec<usize> = (0..observed.len()).filter(|row| is_at(*row)).collect();
     if there.len() < ROWS || !moves_on(fitted, response, &observed, there) {
@@ -87,10 +76,9 @@ fn ceiling(fitted: &FittedModel<'_>, response: usize, sign: f64) -> Option<Varia
     let model = beside(fitted, response, &observed, &is_at);
     let modifier = map(&model, |y| -(sign * (y - level)).max(0.0) * sign);
     let Response { name, unit, .. } = &fitted.case().responses[response];
-    let (least, end) = if sign > 0.0 {
-        ("min", "above")
-    } else {
-        ("max", "below")
+    let (least, end) = match sign > 0.0 {
+        true => ("min", "above"),
+        false => ("max", "below"),
     };
     let shown = match unit.is_one() {
         true => level.to_string(),
@@ -161,12 +149,8 @@ fn kink(fitted: &FittedModel<'_>, column: usize) -> Cell {
         let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
         Variation::one(format!("at {shown} {unit}"), on_output(modifier)).shaped("x₀", at, &unit)
     });
-    plain(
-        fitted,
-        EffectId::Kink,
-        fitted.label(column),
-        variants.collect(),
-    )
+    let (id, name) = (EffectId::Kink, fitted.label(column));
+    plain(fitted, id, name, variants.collect())
 }
 
 /// Ends of the range at which the readings pile up at one value although the model moves on: what is
@@ -196,12 +180,8 @@ fn at_end(
     /// Knees that are tried within the last step before the plateau.
     const KNEES: usize = 8;
     let (x, name) = (fitted.numbers(column), fitted.label(column));
-    let Some(first) = plateau(
-        &fitted.design.observed(response),
-        fitted.signal(response),
-        x,
-        order,
-    ) else {
+    let (observed, signal) = (fitted.design.observed(response), fitted.signal(response));
+    let Some(first) = plateau(&observed, signal, x, order) else {
         return Vec::new();
     };
     let unit = fitted.case().columns[column].unit.typeset();
@@ -220,14 +200,14 @@ fn at_end(
         let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
         let term: Term = on_output(modifier);
         let label = format!("{side} {shown} {unit}");
-        let (label, term) = match &fitted.case().responses[..] {
-            [_] => (label, term),
-            many => (
-                format!("{}, {label}", many[response].name),
-                term.on(response),
-            ),
+        let form = match &fitted.case().responses[..] {
+            [_] => Variation::one(label, term),
+            many => {
+                let label = format!("{}, {label}", many[response].name);
+                Variation::one(label, term.on(response))
+            }
         };
-        Variation::one(label, term).shaped("x₀", knee, &unit)
+        form.shaped("x₀", knee, &unit)
     });
     knees
         .filter(|v| varies(&v.terms[0].modifier.values))

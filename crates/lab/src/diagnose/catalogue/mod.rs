@@ -188,6 +188,14 @@ impl Modifier {
         Modifier::new(values, format!("-{}", self.text), self.unit.clone())
     }
 
+    fn times(&self, other: &Modifier) -> Modifier {
+        Modifier::new(
+            modifiers::map2(&self.values, &other.values, |x, z| x * z),
+            format!("{}*{}", self.text, other.text),
+            self.unit.product(&other.unit),
+        )
+    }
+
     fn square(&self) -> Modifier {
         Modifier::new(
             modifiers::map(&self.values, |x| x * x),

@@ -129,12 +129,9 @@ pub fn late(t: &[f64], x: &[f64], came: &[Option<(f64, f64)>], tau: f64) -> Vec<
 pub fn recordings(t: &[f64]) -> Vec<Range<usize>> {
     let begins = (1..t.len()).filter(|row| t[*row] < t[*row - 1]);
     let begins: Vec<usize> = std::iter::once(0).chain(begins).collect();
-    let ends = begins.iter().copied().skip(1).chain([t.len()]);
-    begins
-        .iter()
-        .zip(ends)
-        .map(|(from, to)| *from..to)
-        .collect()
+    let ends = begins[1..].iter().copied().chain([t.len()]);
+    let both = begins.iter().zip(ends);
+    both.map(|(from, to)| *from..to).collect()
 }
 
 /// The course a time `delay` earlier, along straight lines between the rows; where the recording had not
@@ -265,6 +262,13 @@ pub fn typical_step(x: &[f64]) -> f64 {
     let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
     steps.sort_by(f64::total_cmp);
     steps.get(steps.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// The least distance of different values; infinite where all are the same.
+pub fn spacing(x: &[f64]) -> f64 {
+    let values = levels_of(x);
+    let gaps = values.windows(2).map(|pair| pair[1] - pair[0]);
+    gaps.fold(f64::INFINITY, f64::min)
 }
 
 /// Whether a course moves by small steps, so that it has a rate of change; from dwell to dwell it has none.

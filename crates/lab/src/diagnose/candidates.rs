@@ -330,7 +330,6 @@ fn question(
             family: cell.effect.family.clone(),
             place: cell.place.clone(),
             cause: cause(cells, index),
-            typical: cell.typical,
             repeats: cell.effect.repeats,
             describes: cell.effect.pattern.is_some(),
             odds: cell.odds,
@@ -346,7 +345,6 @@ fn question(
         for ((number, shape), _) in shapes.into_iter().zip(shown).filter(|(_, shown)| *shown) {
             atoms.push(Atom {
                 candidate: index,
-                variant: cell.variants[number].label.clone(),
                 shape,
                 share: cell.variants[number].weight,
             });

@@ -103,8 +103,7 @@ impl Explanation {
 
     /// Share of it that the parameters do not absorb in another design.
     pub(super) fn visibility(&self, prolonged: &Prolonged<'_>) -> Option<f64> {
-        let shares = prolonged.baseline.visibilities(&self.columns(prolonged)?);
-        Some(shares.into_iter().fold(1.0, f64::min))
+        Some(prolonged.baseline.visibility(&self.columns(prolonged)?))
     }
 
     /// How it stands in the recording.

@@ -160,8 +160,7 @@ fn line(
 ) -> Option<Omitted> {
     let unified = typical::unified(columns)?;
     let columns = &unified.columns;
-    let each = |j: usize| declared.visibility(&columns.column(j).into_owned());
-    let visibility = (0..columns.ncols()).map(each).fold(1.0, f64::min);
+    let visibility = declared.visibility(columns);
     let shift = typical::shift(fitted, cell, variation, &unified, scales);
     let unknowns = declared.parameters();
     let cost = |baseline: &Baseline| {

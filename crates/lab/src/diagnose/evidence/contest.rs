@@ -17,7 +17,7 @@ use super::null::{Simulated, side_by_side};
 use super::pairs::Singles;
 use super::question::{Atom, Candidate, Question, Settings};
 use super::refusal::Refusal;
-use super::sequential::{is_settled, look};
+use super::sequential;
 use super::space::{Frame, Space};
 use crate::diagnose::chance::in_proportion;
 
@@ -141,14 +141,12 @@ pub fn contest(
 
 /// Probability that the best effect gains as much in recordings with nothing but noise, the course chosen anew in each.
 fn probability(benches: &[Bench<'_>], observed: f64, settings: &Settings) -> f64 {
-    let look = look(settings.alpha);
     let chunks = settings.draws.min(DRAWS).div_ceil(LANES).max(1);
-    let (mut as_much, mut draws) = (0, 0);
-    for start in (0..chunks).step_by(look) {
-        let count = look.min(chunks - start);
+    let mut as_much = 0;
+    let (p, _) = sequential::probability(chunks, settings.alpha, |next| {
         // All courses of one chunk, then those of the next.
-        let each = side_by_side(count * benches.len(), |at| {
-            benches[at % benches.len()].simulated(start + at / benches.len())
+        let each = side_by_side(next.len() * benches.len(), |at| {
+            benches[at % benches.len()].simulated(next.start + at / benches.len())
         });
         for chunk in each.chunks(benches.len()) {
             let gain = |draw: usize| {
@@ -159,13 +157,10 @@ fn probability(benches: &[Bench<'_>], observed: f64, settings: &Settings) -> f64
                 best(1) - best(0)
             };
             as_much += (0..LANES).filter(|draw| gain(*draw) >= observed).count();
-            draws += LANES;
         }
-        if is_settled(as_much, draws, settings.alpha) {
-            break;
-        }
-    }
-    (as_much + 1) as f64 / (draws + 1) as f64
+        as_much
+    });
+    p
 }
 
 /// A course with recordings to try it on.

@@ -11,7 +11,7 @@ use super::null::{Recordings, Simulated, side_by_side};
 use super::pairs::Pairs;
 use super::question::{Kind, Question};
 use super::remainders::Remainders;
-use super::sequential::{is_settled, look};
+use super::sequential::probability;
 use super::space::{Frame, Space};
 
 /// What the test says.
@@ -51,31 +51,24 @@ pub(super) fn test(
     };
     let alpha = question.settings.alpha;
     let in_turn = |pairs: &Pairs| pairs.singles.observed(space);
+    let of_pairs = |of: &dyn Fn(&Pairs) -> f64| pairs.map_or(f64::NEG_INFINITY, of);
     let observed = [
-        strongest
-            .allowed
-            .max(pairs.map_or(f64::NEG_INFINITY, in_turn)),
-        pairs.map_or(f64::NEG_INFINITY, |pairs| pairs.observed(space)),
+        strongest.allowed.max(of_pairs(&in_turn)),
+        of_pairs(&|pairs| pairs.observed(space)),
     ];
-    let (chunks, look) = (simulated.chunks(), look(alpha));
-    let mut draws: Vec<[f64; 2]> = Vec::new();
-    let mut p = 1.0;
-    for start in (0..chunks).step_by(look) {
-        let count = look.min(chunks - start);
-        let found = side_by_side(count, |i| {
-            panel.simulated(simulated.chunk(start + i), pairs)
+    let mut seen: Vec<[f64; 2]> = Vec::new();
+    let (p, draws) = probability(simulated.chunks(), alpha, |next| {
+        let found = side_by_side(next.len(), |i| {
+            panel.simulated(simulated.chunk(next.start + i), pairs)
         });
-        draws.extend(found.into_iter().flatten());
-        let as_well = as_well_placed(observed, &draws);
-        p = as_well as f64 / (draws.len() + 1) as f64;
-        if is_settled(as_well - 1, draws.len(), alpha) {
-            break;
-        }
-    }
+        seen.extend(found.into_iter().flatten());
+        // Without the observation itself.
+        as_well_placed(observed, &seen) - 1
+    });
     Outcome {
         strongest: Some(strongest.block),
         p,
-        draws: draws.len(),
+        draws,
     }
 }
 

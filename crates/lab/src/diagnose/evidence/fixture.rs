@@ -43,7 +43,6 @@ impl Asked {
         let own = self.candidates.len();
         self.atoms.extend((variants.into_iter()).map(|shape| Atom {
             candidate: own,
-            variant: String::new(),
             shape,
             share: 1.0,
         }));

@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::baseline::Baseline;
 use super::closed_form::Scale;
+use super::directions::{INVISIBLE, visible};
 use super::null::{Null, side_by_side};
 use super::question::Settings;
 use super::refusal::Refusal;
@@ -43,10 +44,6 @@ pub struct Located {
     pub p: f64,
 }
 
-/// A cell with less than this share of its whitened length (squared) left by the parameters is
-/// invisible.
-const INVISIBLE: f64 = 1e-6;
-
 /// An effect of less than this share of the greatest of its kind is rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -67,11 +64,10 @@ pub fn locate(
     for (mut column, cell) in columns.column_iter_mut().zip(cells) {
         column.copy_from(&cell.column);
     }
-    let whole: Vec<f64> = squares(&baseline.whiten(&columns));
-    let mut seen = baseline.project(&columns);
-    let lengths: Vec<f64> = squares(&seen);
+    let (mut seen, whole) = visible(baseline, &columns);
+    let lengths: Vec<f64> = seen.column_iter().map(|c| c.norm_squared()).collect();
     let visible: Vec<usize> = (0..cells.len())
-        .filter(|c| lengths[*c] > INVISIBLE * whole[*c] && excited(cells, *c))
+        .filter(|c| lengths[*c] > INVISIBLE * whole[*c] * whole[*c] && excited(cells, *c))
         .collect();
     for cell in &visible {
         seen.column_mut(*cell)
@@ -79,24 +75,24 @@ pub fn locate(
     }
     let seen = seen.select_columns(&visible);
     let components = seen.tr_mul(baseline.residuals());
-    let scale = scale(baseline, baseline.chi_squared(), nu(baseline));
+    // With a known scale nothing is added.
+    let scale = scale(baseline, baseline.chi_squared(), baseline.scale_dof());
     let null = simulated(baseline, &seen, settings);
-    let mut located: Vec<Located> = visible
-        .iter()
-        .enumerate()
-        .map(|(place, &cell)| {
-            let component = components[place];
-            let statistic = component * component / scale;
-            let above = null.iter().filter(|top| **top >= statistic).count();
-            Located {
-                cell,
-                size: component / lengths[cell].sqrt(),
-                u: (scale / lengths[cell]).sqrt(),
-                chi_squared: component * component,
-                p: (1 + above) as f64 / (1 + null.len()) as f64,
-            }
-        })
-        .collect();
+    let of = |(cell, component): (&usize, &f64)| {
+        let chi_squared = component * component;
+        let above = null
+            .iter()
+            .filter(|top| **top >= chi_squared / scale)
+            .count();
+        Located {
+            cell: *cell,
+            size: component / lengths[*cell].sqrt(),
+            u: (scale / lengths[*cell]).sqrt(),
+            chi_squared,
+            p: (1 + above) as f64 / (1 + null.len()) as f64,
+        }
+    };
+    let mut located: Vec<Located> = visible.iter().zip(&components).map(of).collect();
     located.sort_by(|a, b| b.chi_squared.total_cmp(&a.chi_squared));
     Ok(located)
 }
@@ -133,17 +129,6 @@ fn scale(baseline: &Baseline, chi_squared: f64, offset: f64) -> f64 {
         Scale::Known => 1.0,
         Scale::Estimated { total } => (chi_squared + offset) / total,
     }
-}
-
-fn nu(baseline: &Baseline) -> f64 {
-    match Scale::new(baseline.dof(), baseline.scale_dof()) {
-        Scale::Known => 0.0,
-        Scale::Estimated { .. } => baseline.scale_dof(),
-    }
-}
-
-fn squares(columns: &DMatrix<f64>) -> Vec<f64> {
-    columns.column_iter().map(|c| c.norm_squared()).collect()
 }
 
 #[cfg(test)]

@@ -69,47 +69,34 @@ pub fn visibility(
         settings: Settings::default(),
     };
     let space = Space::new(&question)?;
-    let named: Vec<&Block> = space
-        .blocks
-        .iter()
-        .filter(|block| block.kind() == Kind::Named)
-        .collect();
-    let seen = atoms
-        .iter()
-        .enumerate()
-        .filter_map(|(index, atom)| match &atom.shape {
-            Shape::Columns(columns) => Some(seen(baseline, index, columns)),
-            Shape::Smooth { .. } | Shape::Scatter => None,
-        })
-        .collect();
-    let pairs: Vec<Pair> = named
-        .iter()
-        .filter_map(|block| {
-            named
-                .iter()
-                .filter(|rival| rival.candidate != block.candidate)
-                .filter(|rival| !extends(candidates, rival, block))
-                .map(|rival| pair(block, rival))
-                .max_by(|a, b| a.cosine.total_cmp(&b.cosine))
-        })
-        .collect();
+    let blocks = space.blocks.iter();
+    let named: Vec<&Block> = blocks.filter(|block| block.kind() == Kind::Named).collect();
+    let seen = |(index, atom): (usize, &Atom)| match &atom.shape {
+        Shape::Columns(columns) => Some(seen(baseline, index, columns)),
+        Shape::Smooth { .. } | Shape::Scatter => None,
+    };
+    let nearest = |block: &&Block| {
+        let is_rival = |rival: &&&Block| {
+            rival.candidate != block.candidate && !extends(candidates, rival, block)
+        };
+        let rivals = named
+            .iter()
+            .filter(is_rival)
+            .map(|rival| pair(block, rival));
+        rivals.max_by(|a, b| a.cosine.total_cmp(&b.cosine))
+    };
     Ok(Plan {
-        seen,
+        seen: atoms.iter().enumerate().filter_map(seen).collect(),
         classes: classes(&named),
-        pairs,
+        pairs: named.iter().filter_map(nearest).collect(),
     })
 }
 
 fn seen(baseline: &Baseline, atom: usize, columns: &DMatrix<f64>) -> Seen {
-    let each = |j: usize| columns.column(j).into_owned();
-    let visibility = (0..columns.ncols())
-        .map(|j| baseline.visibility(&each(j)))
-        .fold(1.0, f64::min);
-    let shortest = baseline
-        .project(columns)
-        .column_iter()
-        .map(|c| c.norm())
-        .fold(f64::INFINITY, f64::min);
+    let visibility = baseline.visibility(columns);
+    let seen = baseline.project(columns);
+    let lengths = seen.column_iter().map(|column| column.norm());
+    let shortest = lengths.fold(f64::INFINITY, f64::min);
     Seen {
         atom,
         visibility,
@@ -184,21 +171,17 @@ mod tests {
     ];
 
     fn plan(tumble: &Tumble) -> Plan {
-        let candidates: Vec<Candidate> = LAWS
-            .iter()
-            .enumerate()
-            .map(|(index, (name, _))| Candidate::plain(name, index))
-            .collect();
-        let atoms: Vec<Atom> = LAWS
-            .iter()
-            .enumerate()
-            .map(|(candidate, (_, law))| Atom {
-                candidate,
-                variant: String::new(),
-                shape: shape(tumble.column(law)),
-                share: 1.0,
-            })
-            .collect();
+        let laws = LAWS.iter().enumerate();
+        let candidates = laws
+            .clone()
+            .map(|(index, (name, _))| Candidate::plain(name, index));
+        let candidates: Vec<Candidate> = candidates.collect();
+        let atoms = laws.map(|(candidate, (_, law))| Atom {
+            candidate,
+            shape: shape(tumble.column(law)),
+            share: 1.0,
+        });
+        let atoms: Vec<Atom> = atoms.collect();
         visibility(&tumble.baseline(), &candidates, &atoms).unwrap()
     }
 

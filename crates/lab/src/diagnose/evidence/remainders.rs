@@ -52,7 +52,8 @@ impl<'s> Remainders<'s> {
                     (block.form.clone(), DMatrix::identity(a.ncols(), a.ncols()))
                 }
                 Form::Smooth(ladder) => {
-                    let (ladder, turn) = narrowed(ladder, gram)?;
+                    // Only this is left of the matrix of products of its directions.
+                    let (ladder, turn) = scaled(&ladder.roots(), gram)?;
                     (Form::Smooth(ladder), turn)
                 }
             };
@@ -105,16 +106,10 @@ impl<'s> Remainders<'s> {
 
     /// The same for recordings one per row: a column for each direction.
     pub(super) fn turned(&self, rest: &Remainder, recordings: &DMatrix<f64>) -> DMatrix<f64> {
-        let own = recordings.columns_range(self.space.places(rest.block));
-        self.turned_own(rest, &own.into_owned())
-    }
-
-    /// As [`Remainders::turned`], with the components along the directions of the block alone.
-    pub(super) fn turned_own(&self, rest: &Remainder, own: &DMatrix<f64>) -> DMatrix<f64> {
         if rest.turn.nrows() == 0 {
-            return DMatrix::zeros(own.nrows(), 0);
+            return DMatrix::zeros(recordings.nrows(), 0);
         }
-        own * rest.turn.transpose()
+        recordings.columns_range(self.space.places(rest.block)) * rest.turn.transpose()
     }
 
     /// Adds the squared components of recordings, one per row, along the directions of a rest.
@@ -163,12 +158,7 @@ impl<'s> Remainders<'s> {
             Kind::Named => {
                 let d = self.frame.basis.ncols() + components.len();
                 let fit = self.frame.fit + components.norm_squared();
-                let prior: f64 = self
-                    .frame
-                    .blocks
-                    .iter()
-                    .map(|b| space.blocks[*b].log_odds)
-                    .sum();
+                let prior = space.prior(self.frame);
                 (d <= space.room()).then(|| named(d, fit, space.rss(), space.scale) + prior + own)
             }
             Kind::Generic => {
@@ -241,11 +231,6 @@ impl Remainder {
     pub(super) fn at_most(&self, sum_of_squares: f64, residual: &Residual) -> f64 {
         self.form.at_most(sum_of_squares, residual)
     }
-}
-
-/// A smooth discrepancy of which only this is left of the matrix of products of its directions.
-fn narrowed(ladder: &Ladder, gram: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
-    scaled(&ladder.roots(), gram)
 }
 
 /// Eigenvalues and components for features that are directions times the roots of their variances.

@@ -46,8 +46,6 @@ pub struct Separability {
 pub struct Worth {
     /// Separability of the two contenders that stay most alike, at their most probable sizes.
     pub kappa: f64,
-    /// These two.
-    pub pair: (usize, usize),
     /// Probability that the truth then stands alone, with a posterior of 99 %.
     pub resolved: f64,
     /// How often it has to be done for κ = 5; ∞ if it never helps.
@@ -104,17 +102,15 @@ pub fn apart(contenders: &[Standing]) -> Result<Separability, Refusal> {
         let own = |left: &Vec<f64>| left[a * draws..(a + 1) * draws].to_vec();
         by_rival.iter().map(own).collect()
     };
+    let stays = |own: &Standing| -> Vec<bool> {
+        let rivals = contenders.iter();
+        rivals
+            .map(|rival| !rival.repeats && own.keeps(&rival.variants))
+            .collect()
+    };
     Ok(Separability {
         left: (0..contenders.len()).map(of).collect(),
-        stays: contenders
-            .iter()
-            .map(|own| {
-                contenders
-                    .iter()
-                    .map(|rival| !rival.repeats && own.keeps(&rival.variants))
-                    .collect()
-            })
-            .collect(),
+        stays: contenders.iter().map(stays).collect(),
         whole: contenders.iter().map(lengths).collect(),
     })
 }
@@ -139,15 +135,13 @@ impl Separability {
     /// If `a` is the truth, what is still to be recorded adds to its log odds over `b` on average half of what
     /// κ² gains, with a variance of the whole of it.
     pub fn worth(&self, prospects: &Prospects<'_>) -> Worth {
-        let mut nearest = (f64::INFINITY, (0, 1));
+        let mut kappa = f64::INFINITY;
         let (mut resolved, mut whole) = (0.0, 0.0);
         for a in 0..self.left.len() {
             let mut doubts = vec![prospects.outside[a]; self.whole[a].len()];
             for b in (0..self.left.len()).filter(|b| prospects.classes[a] != prospects.classes[*b])
             {
-                if self.left[a][b][0] < nearest.0 {
-                    nearest = (self.left[a][b][0], (a, b));
-                }
+                kappa = kappa.min(self.left[a][b][0]);
                 let odds = log_odds(prospects.probabilities[a], prospects.probabilities[b]);
                 let kappas = self.left[a][b].iter().zip(&prospects.before.left[a][b]);
                 for (doubt, (after, before)) in doubts.iter_mut().zip(kappas) {
@@ -162,10 +156,8 @@ impl Separability {
             resolved += prospects.probabilities[a] * sure / doubts.len() as f64;
             whole += prospects.probabilities[a];
         }
-        let kappa = nearest.0;
         Worth {
             kappa,
-            pair: nearest.1,
             resolved: if whole > 0.0 { resolved / whole } else { 0.0 },
             repeats: if kappa > NOTHING {
                 (SEPARATED / kappa).powi(2).max(1.0)
@@ -329,19 +321,12 @@ mod tests {
         let three = [own.clone(), -&own, other];
         let apart = held(&three, &[4.0]);
         assert!(apart.alike(0, 1) && !apart.alike(0, 2));
-        let before = held(
-            &[
-                design(&[0.0])[0].clone(),
-                -&design(&[0.0])[0],
-                design(&[0.0])[1].clone(),
-            ],
-            &[4.0],
-        );
+        let [own, other] = design(&[0.0]);
+        let before = held(&[own.clone(), -&own, other], &[4.0]);
         let resolved = |classes: &[usize]| {
-            let probabilities = [0.3, 0.3, 0.4];
             let prospects = Prospects {
                 before: &before,
-                probabilities: &probabilities,
+                probabilities: &[0.3, 0.3, 0.4],
                 classes,
                 outside: &[0.0; 3],
             };

@@ -64,8 +64,7 @@ pub(super) struct Block {
     pub(super) form: Form,
     /// N × d orthonormal directions; none for scatter.
     pub(super) basis: DMatrix<f64>,
-    /// PWH, N × all columns of a named atom; features times the roots of their variances for a smooth
-    /// one.
+    /// PWH, N × all columns; none but for a named atom.
     pub(super) columns: DMatrix<f64>,
     /// Columns of a named atom that are determined.
     pub(super) kept: Vec<usize>,
@@ -109,11 +108,9 @@ impl Space {
             blocks: Vec::new(),
             scale: Scale::new(baseline.dof(), baseline.scale_dof()),
             dof: baseline.dof(),
-            offset: if baseline.scale_dof().is_finite() {
-                baseline.scale_dof()
-            } else {
-                0.0
-            },
+            offset: Some(baseline.scale_dof())
+                .filter(|nu| nu.is_finite())
+                .unwrap_or(0.0),
             directions: DMatrix::zeros(0, 0),
             starts: vec![0],
             components: DVector::zeros(0),
@@ -206,8 +203,13 @@ impl Space {
         if frame.blocks.is_empty() {
             return 0.0;
         }
-        let prior: f64 = frame.blocks.iter().map(|b| self.blocks[*b].log_odds).sum();
-        named(frame.basis.ncols(), frame.fit, self.rss(), self.scale) + prior
+        let directions = frame.basis.ncols();
+        named(directions, frame.fit, self.rss(), self.scale) + self.prior(frame)
+    }
+
+    /// Logarithm of the prior odds of a set.
+    pub(super) fn prior(&self, frame: &Frame) -> f64 {
+        frame.blocks.iter().map(|b| self.blocks[*b].log_odds).sum()
     }
 
     /// λ of all that a set explains.
@@ -265,54 +267,13 @@ impl Block {
         }
     }
 
-    /// Logarithm of the Bayes factor against none, from the components of the residuals along the
-    /// directions of the block.
-    pub(super) fn evidence(
-        &self,
-        components: impl Iterator<Item = f64> + Clone,
-        residual: &Residual,
-    ) -> f64 {
-        let squares = components.map(|c| c * c);
-        self.form.evidence(self.basis.ncols(), squares, residual)
-    }
-
-    /// The block with everything along a basis taken out; `None` if nothing is left.
-    pub(super) fn beside(&self, basis: &DMatrix<f64>) -> Option<Block> {
-        if basis.ncols() == 0 {
-            return Some(self.clone());
-        }
-        let (form, directions) = match &self.form {
-            Form::Scatter => (Form::Scatter, self.basis.clone()),
-            Form::Named => (Form::Named, self.directions_beside(basis)),
-            Form::Smooth(_) => {
-                let (ladder, directions) = smooth(without(&self.columns, basis))?;
-                (Form::Smooth(ladder), directions)
-            }
-        };
-        if directions.ncols() == 0 && !matches!(form, Form::Scatter) {
-            return None;
-        }
-        Some(Block {
-            atom: self.atom,
-            candidate: self.candidate,
-            log_odds: self.log_odds,
-            form,
-            basis: directions,
-            columns: DMatrix::zeros(basis.nrows(), 0),
-            kept: self.kept.clone(),
-        })
-    }
-
+    /// Its directions beside an orthonormal basis.
     fn directions_beside(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
         if basis.ncols() == 0 {
             return self.basis.clone();
         }
-        orthonormal(
-            without(&self.basis, basis),
-            &vec![1.0; self.basis.ncols()],
-            NEAR,
-        )
-        .0
+        let lengths = vec![1.0; self.basis.ncols()];
+        orthonormal(without(&self.basis, basis), &lengths, NEAR).0
     }
 
     /// The determined columns, as they are.
@@ -361,13 +322,9 @@ fn block(
     lengths: &[f64],
 ) -> Option<Block> {
     let rows = columns.nrows();
+    let nothing = || DMatrix::zeros(rows, 0);
     let (form, basis, columns, kept) = match &atom.shape {
-        Shape::Scatter => (
-            Form::Scatter,
-            DMatrix::zeros(rows, 0),
-            DMatrix::zeros(rows, 0),
-            Vec::new(),
-        ),
+        Shape::Scatter => (Form::Scatter, nothing(), nothing(), Vec::new()),
         Shape::Columns(_) => {
             let (basis, kept) = own(columns.clone(), lengths.to_vec());
             if kept.is_empty() {
@@ -385,8 +342,8 @@ fn block(
             }
             // In units in which the whole discrepancy has the size s.
             columns /= columns.norm();
-            let (ladder, basis) = smooth(columns.clone())?;
-            (Form::Smooth(ladder), basis, columns, Vec::new())
+            let (ladder, basis) = smooth(columns)?;
+            (Form::Smooth(ladder), basis, nothing(), Vec::new())
         }
     };
     Some(Block {

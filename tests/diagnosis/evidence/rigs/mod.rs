@@ -264,6 +264,6 @@ impl Timeline<'_> {
             }
         }
         let scatter = c.candidate("?scatter", "?", "output", "");
-        c.atom(scatter, String::new(), Shape::Scatter);
+        c.atom(scatter, Shape::Scatter);
     }
 }

@@ -82,9 +82,7 @@ fn cut(case: &Case, size: usize) -> Vec<Vec<usize>> {
         Blocks::Dwells(columns) => (columns.iter())
             .filter_map(|column| case.columns[*column].labels())
             .collect(),
-        _ => (case.columns.iter())
-            .filter_map(|column| column.labels())
-            .collect(),
+        _ => case.labels().collect(),
     };
     let same = |a: usize, b: usize| labels.iter().all(|l| l.of_row[a] == l.of_row[b]);
     let mut blocks: Vec<Vec<usize>> = Vec::new();

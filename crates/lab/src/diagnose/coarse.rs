@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
-use super::case::{Case, Data, Rows};
+use super::case::{Case, Rows};
 use super::design::{Design, Linear, Whole};
 use super::fit::Fit;
 use crate::recording::Labels;
@@ -49,13 +49,9 @@ impl<'c> Coarse<'c> {
                 .map(|slopes| means_of_columns(&pieces, slopes))
                 .collect(),
         };
-        let data = design.case.columns.iter().map(|column| match &column.data {
-            Data::Numbers(numbers) => Data::Numbers(means(&pieces, numbers)),
-            Data::Labels(labels) => Data::Labels(Labels {
-                levels: labels.levels.clone(),
-                of_row: pieces.iter().map(|p| labels.of_row[p.start]).collect(),
-            }),
-            Data::Absent => Data::Absent,
+        let data = design.case.columns.iter().map(|column| {
+            let first = |labels: &Labels| pieces.iter().map(|p| labels.of_row[p.start]).collect();
+            column.data.map(|numbers| means(&pieces, numbers), first)
         });
         let rows = Rows {
             count: pieces.len(),
@@ -96,11 +92,8 @@ fn block_of(design: &Design<'_>) -> Vec<Option<usize>> {
 
 /// About how many means there are of a design.
 pub(super) fn pieces_of(design: &Design<'_>) -> usize {
-    design
-        .case
-        .rows
-        .div_ceil(longest(design))
-        .max(design.blocks.len())
+    let pieces = design.case.rows.div_ceil(longest(design));
+    pieces.max(design.blocks.len())
 }
 
 /// Rows in a mean, at most.
@@ -112,9 +105,7 @@ fn longest(design: &Design<'_>) -> usize {
 /// Successive rows of one block, with the same labels.
 fn pieces(design: &Design<'_>, block_of: &[Option<usize>]) -> Vec<Range<usize>> {
     let most = longest(design);
-    let labels: Vec<&Labels> = (design.case.columns.iter())
-        .filter_map(|column| column.labels())
-        .collect();
+    let labels: Vec<&Labels> = design.case.labels().collect();
     let alike = |a: usize, b: usize| {
         block_of[a] == block_of[b] && labels.iter().all(|l| l.of_row[a] == l.of_row[b])
     };

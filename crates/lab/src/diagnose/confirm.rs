@@ -128,12 +128,7 @@ fn mixed(spreads: &[Spread], at: usize) -> (f64, f64) {
 
 /// Observations and priors less unknowns.
 pub(super) fn degrees(design: &Design<'_>) -> f64 {
-    let priors = design
-        .unknowns
-        .iter()
-        .filter(|unknown| unknown.prior.is_some())
-        .count();
-    (design.observations() + priors) as f64 - design.unknowns.len() as f64
+    (design.observations() + design.priors()) as f64 - design.unknowns.len() as f64
 }
 
 /// Errors of the predictions of observations that the fit had not seen: tenths of the recording, in short

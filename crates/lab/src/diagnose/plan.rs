@@ -168,12 +168,6 @@ fn step(progress: &dyn Fn(f64) -> ControlFlow<()>, share: f64) -> Result<(), Fai
 /// The model at the values that the case states; where it does not state all, at those that fit the
 /// outputs; where these are not recorded, at one.
 fn assumed(design: &Design<'_>) -> Result<(Fit, Claimed, Vec<String>), Failure> {
-    let open: Vec<String> = design
-        .unknowns
-        .iter()
-        .filter(|unknown| unknown.start.is_none() && unknown.prior.is_none())
-        .map(|unknown| unknown.name.clone())
-        .collect();
     if design.case.is_recorded()
         && let Ok((fit, claimed)) = noise::settle_spread_out(design)
     {
@@ -184,6 +178,8 @@ fn assumed(design: &Design<'_>) -> Result<(Fit, Claimed, Vec<String>), Failure> 
         return Ok((fit, known, Vec::new()));
     }
     let (fit, claimed) = noise::stated(design)?;
+    let open = (design.unknowns.iter()).filter(|unknown| unknown.stated().is_none());
+    let open = open.map(|unknown| unknown.name.clone()).collect();
     Ok((fit, claimed, open))
 }
 

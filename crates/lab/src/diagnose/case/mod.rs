@@ -303,6 +303,11 @@ impl Case {
         (0..self.columns.len()).filter(move |i| self.columns[*i].role == role)
     }
 
+    /// All labels of the rows.
+    pub fn labels(&self) -> impl Iterator<Item = &Labels> {
+        self.columns.iter().filter_map(Column::labels)
+    }
+
     /// Whether an equation uses a column.
     pub fn uses(&self, column: usize) -> bool {
         let symbol = self.parameters.len() + column;

@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::blocks::blocks;
 use super::case::{Case, Observed, Role, interval};
-use super::catalogue::modifiers::range;
+use super::catalogue::modifiers::{mean, range};
 use gumption_core::quantity::Unit;
 
 /// The numbers of a case.
@@ -158,6 +158,25 @@ impl<'c> Design<'c> {
     /// Number of observations.
     pub fn observations(&self) -> usize {
         self.case.responses.len() * self.blocks.len()
+    }
+
+    /// The unknown of a name.
+    pub fn named(&self, name: &str) -> Option<usize> {
+        self.unknowns
+            .iter()
+            .position(|unknown| unknown.name == name)
+    }
+
+    /// Values of its unknowns for another design; a label that is new there has the mean of those that were seen.
+    pub fn carried(&self, values: &DVector<f64>, to: &Design<'_>) -> DVector<f64> {
+        let stem = |name: &str| name.split('[').next().map(str::to_owned);
+        let value = |name: &str| {
+            let alike = |at: &usize| stem(&self.unknowns[*at].name) == stem(name);
+            let alike = (0..values.len()).filter(alike).map(|at| values[at]);
+            (self.named(name)).map_or_else(|| mean(&alike.collect::<Vec<f64>>()), |at| values[at])
+        };
+        let values = to.unknowns.iter().map(|unknown| value(&unknown.name));
+        DVector::from_vec(values.collect())
     }
 
     /// Number of unknowns of which something is known beforehand.

@@ -8,9 +8,10 @@ use super::adopt::stands_alone;
 use super::adopted::Adopted;
 use super::candidates::Candidates;
 use super::case::Data;
-use super::catalogue::{self, Cell, FittedModel, Pattern, Term, modifiers};
+use super::catalogue::modifiers::{self, mean};
+use super::catalogue::{self, Cell, FittedModel, Pattern, Term};
 use super::coarse::Coarse;
-use super::confirm::{self, Estimated};
+use super::confirm;
 use super::design::Design;
 use super::fit::{self, Fit};
 use super::noise::Claimed;
@@ -67,21 +68,17 @@ impl HeldOutQuality {
 pub(super) fn held_out(
     known: &Known<'_>,
     candidates: &Candidates<'_>,
-    unknowns: &[Estimated],
     adopted: Option<&Adopted>,
 ) -> Option<HeldOutQuality> {
     let held = known.case.held_out.as_ref()?;
     let case = known.case.with(&held.rows);
     let design = Design::new(&case);
-    let covariance = confirm::covariance(known.design, known.fit, known.claimed);
     let model = Model {
-        names: known.design.unknowns.iter().map(|u| &u.name).collect(),
-        values: unknowns,
-        covariance: &covariance,
-        noise: Scatter::of(known.claimed, confirm::degrees(known.design)),
+        design: known.design,
+        fit: known.fit,
+        known,
     };
-    let fit = model.at(&design);
-    let claimed = noise_of(known, &design, &fit, 0);
+    let (fit, claimed) = model.at(&design);
     let after = adopted.and_then(|adopted| improved(known, candidates, adopted));
     Some(HeldOutQuality {
         file: held.file.clone(),
@@ -94,48 +91,31 @@ pub(super) fn held_out(
 
 /// A fitted model, to be evaluated on other rows.
 struct Model<'m> {
-    names: Vec<&'m String>,
-    values: &'m [Estimated],
-    covariance: &'m DMatrix<f64>,
-    noise: Scatter,
+    design: &'m Design<'m>,
+    fit: &'m Fit,
+    known: &'m Known<'m>,
 }
 
 impl Model<'_> {
-    /// The value of an unknown; for a label that was not seen the mean of those that were.
-    fn value(&self, name: &str) -> f64 {
-        if let Some(own) = self.values.iter().find(|value| value.name == name) {
-            return own.value;
-        }
-        let stem = |name: &str| name.split('[').next().map(str::to_owned);
-        let alike = self.values.iter().filter(|v| stem(&v.name) == stem(name));
-        let (sum, count) = alike.fold((0.0, 0), |(sum, count), v| (sum + v.value, count + 1));
-        if count > 0 {
-            sum / f64::from(count)
-        } else {
-            0.0
-        }
-    }
-
-    fn at(&self, design: &Design<'_>) -> Fit {
-        let values = design.unknowns.iter().map(|u| self.value(&u.name));
-        fit::at(
-            design,
-            DVector::from_iterator(design.unknowns.len(), values),
-        )
+    /// On other rows, with the noise that these have.
+    fn at(&self, design: &Design<'_>) -> (Fit, Claimed) {
+        let fit = fit::at(design, self.design.carried(&self.fit.unknowns, design));
+        let claimed = noise_of(self.known, design, &fit, 0);
+        (fit, claimed)
     }
 
     fn prediction(&self, design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Prediction {
-        let places: Vec<Option<usize>> = design
+        let own = confirm::covariance(self.design, self.fit, self.known.claimed);
+        let places = design
             .unknowns
             .iter()
-            .map(|unknown| self.names.iter().position(|name| **name == unknown.name))
-            .collect();
+            .map(|unknown| self.design.named(&unknown.name));
+        let places: Vec<Option<usize>> = places.collect();
         let covariance = |a: usize, b: usize| match (places[a], places[b]) {
-            (Some(a), Some(b)) => self.covariance[(a, b)],
+            (Some(a), Some(b)) => own[(a, b)],
             _ => 0.0,
         };
-        let count = places.len();
-        let covariance = DMatrix::from_fn(count, count, covariance);
+        let covariance = DMatrix::from_fn(places.len(), places.len(), covariance);
         let mut slopes = fit.jacobian.clone();
         for (mut row, u) in slopes.row_iter_mut().zip(&claimed.u) {
             row /= *u;
@@ -149,13 +129,19 @@ impl Model<'_> {
         }
     }
 
-    /// Probability of a χ² of so many observations by chance; with noise that was estimated it is Fisher's.
+    /// Probability of a χ² of so many observations by chance, with noise that was estimated Fisher's; of correlated noise nobody
+    /// knows how the single rows scatter.
     fn chance(&self, chi_squared: f64, observations: f64) -> Option<f64> {
-        match self.noise {
-            Scatter::Known => Some(chi_squared_sf(chi_squared, observations)),
-            Scatter::Estimated(dof) => Some(f_sf(chi_squared / observations, observations, dof)),
-            Scatter::Correlated => None,
-        }
+        let claimed = self.known.claimed;
+        let dof = match claimed.is_estimated() {
+            true => confirm::degrees(self.design),
+            false => claimed.dof,
+        };
+        let p = match dof.is_finite() {
+            true => f_sf(chi_squared / observations, observations, dof.max(1.0)),
+            false => chi_squared_sf(chi_squared, observations),
+        };
+        claimed.correlated.is_none().then_some(p)
     }
 }
 
@@ -183,33 +169,6 @@ fn chi_squared(errors: &DVector<f64>, mut slopes: DMatrix<f64>, covariance: &DMa
     (errors.norm_squared() - taken).max(0.0)
 }
 
-/// What is known of the noise of single rows.
-#[derive(Clone, Copy)]
-enum Scatter {
-    Known,
-    /// From so many degrees of freedom.
-    Estimated(f64),
-    Correlated,
-}
-
-impl Scatter {
-    /// Of a recording of which a fit leaves so many degrees of freedom.
-    fn of(claimed: &Claimed, left: f64) -> Scatter {
-        if claimed.correlated.is_some() {
-            return Scatter::Correlated;
-        }
-        let dof = if claimed.is_estimated() {
-            left
-        } else {
-            claimed.dof
-        };
-        match dof.is_finite() {
-            true => Scatter::Estimated(dof.max(1.0)),
-            false => Scatter::Known,
-        }
-    }
-}
-
 fn improved(
     known: &Known<'_>,
     candidates: &Candidates<'_>,
@@ -218,7 +177,7 @@ fn improved(
     let held = known.case.held_out.as_ref()?;
     let both = known.case.followed_by(&held.rows);
     let design = Design::new(&both);
-    let fit = fit::at(&design, super::prolonged::unknowns(known, &design));
+    let fit = fit::at(&design, known.design.carried(&known.fit.unknowns, &design));
     let coarse = Coarse::of(&design, &fit);
     let seen = coarse.design();
     let mut finer = candidates.fitted.finer.clone();
@@ -252,28 +211,22 @@ fn improved(
     }
     let extended = &adopted.extended.case;
     let fitted = Design::new(extended);
-    let values = [&adopted.unknowns[..], &adopted.coefficients].concat();
-    let covariance = confirm::covariance(&fitted, &adopted.fit, known.claimed);
     let model = Model {
-        names: fitted.unknowns.iter().map(|u| &u.name).collect(),
-        values: &values,
-        covariance: &covariance,
-        noise: Scatter::of(known.claimed, confirm::degrees(&fitted)),
+        design: &fitted,
+        fit: &adopted.fit,
+        known,
     };
     let case = extended.with(&rows);
     let design = Design::new(&case);
-    let fit = model.at(&design);
-    let claimed = noise_of(known, &design, &fit, 0);
+    let (fit, claimed) = model.at(&design);
     Some(model.prediction(&design, &fit, &claimed))
 }
 
 /// Whether the rows behind the first ones were recorded after them: what jumped stays where it is. At another time nobody knows
 /// whether it has happened.
 fn follows(both: &FittedModel<'_>, rows: usize) -> bool {
-    let (own, rest) = both
-        .clock
-        .values
-        .split_at(rows.min(both.clock.values.len()));
+    let times = &both.clock.values;
+    let (own, rest) = times.split_at(rows.min(times.len()));
     modifiers::range(own).1 <= modifiers::range(rest).0
 }
 
@@ -309,8 +262,6 @@ fn continued(
 /// The straight line from `x` to `y`, and what it leaves of the variance of `y`; a `y` without variance is
 /// followed by its own value.
 fn line_through(x: &[f64], y: &[f64]) -> (f64, f64, f64) {
-    let count = x.len().max(1) as f64;
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / count;
     let (mean_x, mean_y) = (mean(x), mean(y));
     let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
     for (x, y) in x.iter().zip(y) {

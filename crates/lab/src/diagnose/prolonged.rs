@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::candidates::{Candidates, baseline};
 use super::case::{Case, NoiseClaim};
-use super::catalogue::{self, Cell, FittedModel};
+use super::catalogue::{self, Cell, FittedModel, Variation};
 use super::coarse::Coarse;
 use super::design::Design;
 use super::evidence::Baseline;
@@ -44,7 +44,7 @@ pub(super) fn examined<R>(
     let case = known.case.followed_by(&extra.rows);
     let mut design = Design::new(&case);
     design.blocks = blocks(known, extra);
-    let fit = fit::at(&design, unknowns(known, &design));
+    let fit = fit::at(&design, known.design.carried(&known.fit.unknowns, &design));
     if !fit.jacobian.iter().all(|x| x.is_finite()) {
         return None;
     }
@@ -64,6 +64,14 @@ pub(super) fn examined<R>(
         cells,
         baseline,
     }))
+}
+
+impl Recorded<'_> {
+    /// Columns of a variation, as they are seen beside the parameters.
+    pub(super) fn seen(&self, variation: &Variation) -> DMatrix<f64> {
+        let columns = variation.columns(&self.candidates.fitted);
+        self.baseline.project(&columns)
+    }
 }
 
 impl Prolonged<'_> {
@@ -86,22 +94,6 @@ fn blocks(known: &Known<'_>, extra: &Extra) -> Vec<Vec<usize>> {
     known.design.blocks.iter().cloned().chain(further).collect()
 }
 
-/// Values of the unknowns in another design; a label that is new there begins with the value of the first.
-pub(super) fn unknowns(known: &Known<'_>, design: &Design<'_>) -> DVector<f64> {
-    let own = &known.design.unknowns;
-    let value = |name: &str| {
-        let stem = name.split('[').next().unwrap_or(name);
-        let same = own.iter().position(|unknown| unknown.name == name);
-        let alike = || {
-            own.iter()
-                .position(|u| u.name.split('[').next() == Some(stem))
-        };
-        same.or_else(alike).map_or(0.0, |at| known.fit.unknowns[at])
-    };
-    let values = design.unknowns.iter().map(|unknown| value(&unknown.name));
-    DVector::from_iterator(design.unknowns.len(), values)
-}
-
 /// The noise of another design, of which so many blocks at the beginning are those of the recording: what is
 /// claimed, or for each response what the rows at hand have.
 pub(super) fn noise_of(
@@ -115,10 +107,10 @@ pub(super) fn noise_of(
             noise::planned(design, fit)
         }
         NoiseClaim::Estimated | NoiseClaim::Replicates(_) => {
-            let (own, blocks) = (known.design.blocks.len(), design.blocks.len());
+            let own = known.design.blocks.len();
             let rms = known.design.root_mean_squares(&known.claimed.u);
             let u = DVector::from_fn(design.observations(), |at, _| {
-                let (response, block) = (at / blocks, at % blocks);
+                let (response, block) = design.place(at);
                 if block < recorded {
                     known.claimed.u[response * own + block]
                 } else {

@@ -65,11 +65,7 @@ impl Diagnosis {
     /// The standard uncertainties of the unknowns with everything that may be there unseen, and with the
     /// choice between explanations: of the declared model, or of the one with the adopted physics in it.
     pub fn u_with_unseen(&self) -> Vec<f64> {
-        let estimates = match &self.adopted {
-            Some(adopted) => &adopted.unknowns,
-            None => &self.unknowns,
-        };
-        let of = estimates.iter().enumerate().map(|(at, estimate)| {
+        let of = self.estimates().iter().enumerate().map(|(at, estimate)| {
             let lines = self.omitted.iter().map(|line| line.after.u.get(at));
             let choices = self.choices.iter().map(|choice| choice.get(at));
             let squares = lines.chain(choices).flatten().map(|u| u * u);
@@ -203,11 +199,9 @@ pub fn diagnose(
             let mut shares = shares.into_iter();
             levels.retain(|_| shares.next().is_some_and(|share| share > TRACE));
         }
-        let found = evidence::locate(&baseline, &levels, &settings)?;
-        found
-            .into_iter()
-            .map(|located| (levels[located.cell].clone(), located))
-            .collect()
+        let found = evidence::locate(&baseline, &levels, &settings)?.into_iter();
+        let with_cell = found.map(|located| (levels[located.cell].clone(), located));
+        with_cell.collect()
     };
     let before = confirm::quality(&design, &fit, &claimed, &claimed);
     let mut unsettled: Vec<Unsettled> = fit.unsettled(ModelVersion::Declared).into_iter().collect();
@@ -232,7 +226,7 @@ pub fn diagnose(
         fit: &fit,
         claimed: &claimed,
     };
-    let held_out = held_out::held_out(&known, &candidates, &unknowns, adopted.as_ref());
+    let held_out = held_out::held_out(&known, &candidates, adopted.as_ref());
     let recurs = |adopted: &Adopted| {
         let mut patterns = (adopted.atoms.iter()).map(|atom| candidates.cell(*atom).effect.pattern);
         patterns.all(|pattern| pattern.is_none_or(Pattern::recurs))

@@ -56,10 +56,8 @@ pub fn stand_ins(
     let (fit, claimed) = noise::settle(&design)?;
     let baseline = baseline(&design, &fit, &claimed)?;
     let candidates = Candidates::new(FittedModel::new(&design, &fit), &claimed, &baseline);
-    let seen = |column: &DVector<f64>| {
-        let column = DMatrix::from_column_slice(column.len(), 1, column.as_slice());
-        baseline.project(&column).column(0).into_owned()
-    };
+    let column = |of: &DVector<f64>| DMatrix::from_columns(std::slice::from_ref(of));
+    let seen = |of: &DVector<f64>| baseline.project(&column(of)).column(0).into_owned();
     let mut adopted = Vec::new();
     for other in others {
         add(&mut adopted, seen(other));
@@ -68,11 +66,7 @@ pub fn stand_ins(
     let alone = own.norm();
     let rest = beside(own, &adopted);
     let whole = rest.norm();
-    let column = DMatrix::from_column_slice(trace.len(), 1, trace.as_slice());
-    let absorbed = baseline
-        .visibilities(&column)
-        .iter()
-        .all(|share| *share <= DEPENDENT);
+    let absorbed = baseline.visibility(&column(trace)) <= DEPENDENT;
     if absorbed || whole.is_nan() || whole * whole <= DEPENDENT * alone * alone {
         return Ok(Vec::new());
     }
@@ -107,9 +101,8 @@ pub fn stand_ins(
             left: beside(rest.clone(), own).norm() / whole,
         })
     };
-    Ok((candidates.atoms.iter().enumerate())
-        .filter_map(of)
-        .collect())
+    let atoms = candidates.atoms.iter().enumerate();
+    Ok(atoms.filter_map(of).collect())
 }
 
 /// Adds what is left of a column to orthonormal directions, if anything.

@@ -9,6 +9,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::adopt::{self, Free};
 use super::case::{Case, Observed};
+use super::catalogue::modifiers::map2;
 use super::catalogue::{self, Cell, Finer, FittedModel, Node, Term, Variation};
 use super::design::Design;
 use super::evidence::{
@@ -117,15 +118,12 @@ impl<'f> Candidates<'f> {
         }
         let rows = columns.nrows();
         let model = fitted.fit.jacobian.rows(0, rows).into_owned();
-        let (residuals, u) = (fitted.fit.residuals.rows(0, rows), claimed.u.rows(0, rows));
-        let explains = is_explained(
-            &residuals.into_owned(),
-            &u.into_owned(),
-            [&model, &columns],
-            constant,
-            alpha,
-        );
-        if explains { Vec::new() } else { named }
+        let [residuals, u] =
+            [&fitted.fit.residuals, &claimed.u].map(|of| of.rows(0, rows).into_owned());
+        match is_explained(&residuals, &u, [&model, &columns], constant, alpha) {
+            true => Vec::new(),
+            false => named,
+        }
     }
 
     /// The noise that is left when the named effects are in the model.
@@ -155,9 +153,10 @@ impl<'f> Candidates<'f> {
         settings: &evidence::Settings,
     ) -> Result<(f64, Claimed), Refusal> {
         let (design, fit) = (self.fitted.design, self.fitted.fit);
-        let seen = spreads
-            .iter()
-            .map(|spread| courses.seen(design, fit, &|correlated| spread.noise_with(correlated)));
+        let with = |spread: &Claimed| {
+            courses.seen(design, fit, &|correlated| spread.noise_with(correlated))
+        };
+        let seen = spreads.iter().map(with);
         let seen = seen.collect::<Result<Vec<_>, _>>()?.concat();
         let contest = evidence::contest(&seen, &self.candidates, &self.atoms, settings)?;
         let log_posterior = match contest.p <= settings.alpha {
@@ -207,11 +206,12 @@ impl<'f> Candidates<'f> {
 
     /// Adds values about the parameters of strong effects; whether there are any that were not tried.
     pub(super) fn refine(&self, finer: &mut Finer, examination: &Examination) -> bool {
-        let strong = (examination.slots.iter())
-            .filter_map(|slot| slot.named.first())
-            .filter(|named| named.lambda >= CLEAR);
+        let firsts = examination
+            .slots
+            .iter()
+            .filter_map(|slot| slot.named.first());
         let mut new = false;
-        for named in strong {
+        for named in firsts.filter(|named| named.lambda >= CLEAR) {
             // The variant with two time constants has none between: one alone may do when it is the right one.
             let found = named.variants.iter().find_map(|variant| {
                 let (cell, variation) = (self.cell(variant.atom), self.variation(variant.atom));
@@ -280,17 +280,18 @@ impl<'f> Candidates<'f> {
         let named = examination.slots.iter().flat_map(|slot| &slot.named);
         let wrong = named.filter(|named| {
             let effect = self.cells[named.candidate].effect;
-            let sizes = named.estimate.iter().enumerate();
-            let is_other = sizes
-                .map(|(at, size)| (*size, named.covariance[(at, at)].max(0.0).sqrt()))
-                .any(|(size, u)| !effect.admits(size, u));
-            let takes_all = || {
-                let first = named.variants.first();
-                first.is_some_and(|first| {
-                    let (sizes, rows) = (named.estimate.as_slice(), self.fitted.rows());
-                    takes_all(self.variation(first.atom), sizes, rows)
-                })
-            };
+            let u = named
+                .covariance
+                .diagonal()
+                .map(|variance| variance.max(0.0).sqrt());
+            let mut sizes = named.estimate.iter().zip(&u);
+            let is_other = sizes.any(|(size, u)| !effect.admits(*size, *u));
+            let variation = named
+                .variants
+                .first()
+                .map(|first| self.variation(first.atom));
+            let (sizes, rows) = (named.estimate.as_slice(), self.fitted.rows());
+            let takes_all = || variation.is_some_and(|own| takes_all(own, sizes, rows));
             is_other || (effect.exact.is_none() && takes_all())
         });
         wrong.map(|named| named.candidate).collect()
@@ -371,26 +372,23 @@ fn cause(cells: &[Cell], index: usize) -> usize {
 /// part at all is kept: it is listed as invisible.
 fn showing<'s>(baseline: &Baseline, shapes: impl Iterator<Item = &'s Shape>) -> Vec<bool> {
     const NOTHING: f64 = 1e-6;
+    let named = |shape: &'s Shape| match shape {
+        Shape::Columns(columns) => Some(columns),
+        Shape::Smooth { .. } | Shape::Scatter => None,
+    };
     let shapes: Vec<&Shape> = shapes.collect();
-    let columns: Vec<_> = (shapes.iter())
-        .filter_map(|shape| match shape {
-            Shape::Columns(columns) => Some(columns),
-            Shape::Smooth { .. } | Shape::Scatter => None,
-        })
-        .flat_map(|columns| columns.column_iter())
-        .collect();
+    let columns = shapes.iter().filter_map(|shape| named(shape));
+    let columns: Vec<_> = columns.flat_map(|columns| columns.column_iter()).collect();
     if columns.is_empty() {
         return vec![true; shapes.len()];
     }
-    let mut shares = baseline
-        .visibilities(&DMatrix::from_columns(&columns))
-        .into_iter();
-    let shown = |shape: &&Shape| match shape {
-        Shape::Columns(columns) => {
+    let shares = baseline.visibilities(&DMatrix::from_columns(&columns));
+    let mut shares = shares.into_iter();
+    let shown = |shape: &&'s Shape| {
+        named(shape).is_none_or(|columns| {
             let most = (shares.by_ref().take(columns.ncols())).fold(0.0, f64::max);
             !(NOTHING..TRACE).contains(&most)
-        }
-        Shape::Smooth { .. } | Shape::Scatter => true,
+        })
     };
     shapes.iter().map(shown).collect()
 }
@@ -408,25 +406,20 @@ fn shape(columns: DMatrix<f64>, variation: &Variation, claimed: &Claimed) -> Opt
             features: columns,
             spectrum: spectrum.clone(),
         }),
-        None => columns
-            .iter()
-            .any(|x| *x != 0.0)
-            .then_some(Shape::Columns(columns)),
+        None => (columns.amax() > 0.0).then_some(Shape::Columns(columns)),
     }
 }
 
 /// Effects with coefficients that the recording does not determine beside the parameters and one another.
 fn undetermined(fitted: &FittedModel<'_>, baseline: &Baseline, effects: &[Free]) -> Vec<usize> {
-    let columns: Vec<DMatrix<f64>> = (effects.iter())
-        .map(|free| free.variation.columns(fitted))
-        .collect();
-    let all: Vec<_> = columns.iter().flat_map(|own| own.column_iter()).collect();
+    let columns = effects.iter().map(|free| free.variation.columns(fitted));
+    let all = evidence::all(columns);
     if all.is_empty() {
         return Vec::new();
     }
-    let kept = evidence::determined(baseline, &DMatrix::from_columns(&all));
-    let of = columns.iter().enumerate();
-    let of = of.flat_map(|(effect, own)| std::iter::repeat_n(effect, own.ncols()));
+    let kept = evidence::determined(baseline, &all);
+    let of = effects.iter().enumerate();
+    let of = of.flat_map(|(at, own)| std::iter::repeat_n(at, own.variation.coefficients()));
     let open = of.enumerate().filter(|(at, _)| !kept.contains(at));
     open.map(|(_, effect)| effect).collect()
 }
@@ -466,21 +459,14 @@ fn is_explained(
 
 /// Whether sizes leave nothing of a response in some row: a relative change of its scale of −1 or beyond.
 fn takes_all(variation: &Variation, sizes: &[f64], rows: usize) -> bool {
-    let mut changes = BTreeMap::new();
-    let mut coefficient = 0;
-    for (number, term) in variation.terms.iter().enumerate() {
-        coefficient += usize::from(number > 0 && !term.tied);
-        let size = sizes
-            .get(coefficient)
-            .copied()
-            .filter(|size| size.is_finite());
+    let mut changes: BTreeMap<Option<usize>, Vec<f64>> = BTreeMap::new();
+    for (coefficient, term) in variation.numbered() {
+        let size = sizes.get(coefficient).filter(|size| size.is_finite());
         if let (Node::Gain, Some(size)) = (term.node, size) {
             let change = changes
                 .entry(term.response)
                 .or_insert_with(|| vec![0.0; rows]);
-            for (change, x) in change.iter_mut().zip(term.modifier.values.iter()) {
-                *change += size * x;
-            }
+            *change = map2(change, &term.modifier.values, |change, x| change + size * x);
         }
     }
     changes.values().flatten().any(|change| *change <= -1.0)

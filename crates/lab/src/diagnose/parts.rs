@@ -12,6 +12,7 @@ use super::design::Design;
 use super::evidence::Fitted;
 use super::fit::Fit;
 use super::noise::Claimed;
+use crate::recording::Labels;
 use gumption_core::special::{chi_squared_sf, f_sf};
 
 /// Checks of an adopted effect.
@@ -141,8 +142,8 @@ impl Separability {
                 0.0
             }
         };
-        let units =
-            DMatrix::from_diagonal(&DVector::from_iterator(parts, self.whole.iter().map(unit)));
+        let units = DVector::from_iterator(parts, self.whole.iter().map(unit));
+        let units = DMatrix::from_diagonal(&units);
         let mut information = self.columns.tr_mul(&self.columns);
         let mut pull = self.columns.tr_mul(&self.residuals);
         for part in 0..parts {
@@ -151,11 +152,11 @@ impl Separability {
         }
         let eigen = SymmetricEigen::new(&units * &information * &units);
         let (mut inverse, mut open) = (DMatrix::zeros(parts, parts), DVector::zeros(parts));
-        for (value, direction) in eigen
+        let axes = eigen
             .eigenvalues
             .iter()
-            .zip(eigen.eigenvectors.column_iter())
-        {
+            .zip(eigen.eigenvectors.column_iter());
+        for (value, direction) in axes {
             if *value > NOTHING {
                 inverse += direction * direction.transpose() / *value;
             } else {
@@ -184,60 +185,39 @@ fn spread(values: &DVector<f64>, covariance: &DMatrix<f64>) -> Option<f64> {
 
 /// Parts of the observations: runs where there are a few, else halves.
 fn divided(design: &Design<'_>) -> Vec<(String, Vec<usize>)> {
-    let all = 0..design.observations();
-    let runs = design.case.with_role(Role::Run).find(|column| {
-        design.case.columns[*column]
-            .labels()
-            .is_some_and(|labels| (2..=12).contains(&labels.levels.len()))
-    });
-    if let Some(column) = runs
-        && let Some(labels) = design.case.columns[column].labels()
-    {
-        return (0..labels.levels.len())
-            .map(|level| {
-                let inside = |o: &usize| {
-                    labels.of_row[design.blocks[design.place(*o).1][0]] as usize == level
-                };
-                (
-                    format!(
-                        "{} {}",
-                        design.case.columns[column].name, labels.levels[level]
-                    ),
-                    all.clone().filter(inside).collect(),
-                )
-            })
-            .collect();
+    let members = |is_inside: &dyn Fn(usize) -> bool| -> Vec<usize> {
+        let all = 0..design.observations();
+        all.filter(|at| is_inside(design.place(*at).1)).collect()
+    };
+    for column in design.case.with_role(Role::Run) {
+        let column = &design.case.columns[column];
+        let few = |labels: &&Labels| (2..=12).contains(&labels.levels.len());
+        let Some(labels) = column.labels().filter(few) else {
+            continue;
+        };
+        let run = |(level, text): (usize, &String)| {
+            let inside = |block: usize| labels.of_row[design.blocks[block][0]] as usize == level;
+            (format!("{} {text}", column.name), members(&inside))
+        };
+        return labels.levels.iter().enumerate().map(run).collect();
     }
     let half = design.blocks.len() / 2;
     vec![
-        (
-            "first half".to_owned(),
-            all.clone().filter(|o| design.place(*o).1 < half).collect(),
-        ),
-        (
-            "second half".to_owned(),
-            all.filter(|o| design.place(*o).1 >= half).collect(),
-        ),
+        ("first half".to_owned(), members(&|block| block < half)),
+        ("second half".to_owned(), members(&|block| block >= half)),
     ]
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::evidence::fixture::white;
-    use super::super::evidence::{Baseline, Prior};
+    use super::super::evidence::fixture::{beside_constant, white};
     use super::*;
 
     #[test]
     fn a_part_learns_the_parameters_from_the_others() {
         // An offset, seen in four rows before a step; the step in two parts of two rows and of one row.
-        let jacobian = DMatrix::from_row_slice(7, 1, &[1.0; 7]);
-        let baseline = Baseline::new(
-            &jacobian,
-            &DVector::from_row_slice(&[0.0, 0.0, 0.0, 0.0, 3.0, 3.0, 5.0]),
-            &white(7),
-            &Prior::none(1),
-        )
-        .unwrap();
+        let rows = DVector::from_row_slice(&[0.0, 0.0, 0.0, 0.0, 3.0, 3.0, 5.0]);
+        let baseline = beside_constant(&rows, &white(7));
         let members = |row: usize, part: usize| match (row, part) {
             (4 | 5, 1) | (6, 2) => 1.0,
             _ => 0.0,
@@ -264,23 +244,12 @@ mod tests {
     #[test]
     fn what_no_part_determines_is_not_shown() {
         // An effect that is constant in each part, beside an offset: only their differences are determined.
-        let rows = 6;
-        let jacobian = DMatrix::from_element(rows, 1, 1.0);
-        let baseline = Baseline::new(
-            &jacobian,
-            &DVector::zeros(rows),
-            &white(rows),
-            &Prior::none(1),
-        )
-        .unwrap();
+        let baseline = beside_constant(&DVector::zeros(6), &white(6));
         let level = [1.0, 2.0, 4.0];
-        let columns = DMatrix::from_fn(
-            rows,
-            3,
-            |row, part| {
-                if row / 2 == part { level[part] } else { 0.0 }
-            },
-        );
+        let columns = DMatrix::from_fn(6, 3, |row, part| match row / 2 == part {
+            true => level[part],
+            false => 0.0,
+        });
         let apart = Separability {
             start: 0.0,
             known: (0.0, 0.0),

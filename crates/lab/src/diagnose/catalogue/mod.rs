@@ -306,11 +306,8 @@ impl Variation {
     /// The label for a reader: a time constant is the best of some that were tried, and has three digits. A
     /// knee may need more, where the range is far from zero, and so may a period, where there are many.
     pub fn short_label(&self) -> String {
-        let Some(shape) = self
-            .shape
-            .as_ref()
-            .filter(|shape| !matches!(shape.symbol, "x₀" | "P"))
-        else {
+        let many = |shape: &&ShapeParameter| matches!(shape.symbol, "x₀" | "P");
+        let Some(shape) = self.shape.as_ref().filter(|shape| !many(shape)) else {
             return self.label.clone();
         };
         let exact = modifiers::figure(shape.value);
@@ -319,6 +316,14 @@ impl Variation {
         let words = self.label.split(' ');
         let words = words.map(|word| if word == exact { &short } else { word });
         words.collect::<Vec<&str>>().join(" ")
+    }
+
+    /// Its terms, each with the number of its coefficient.
+    pub fn numbered(&self) -> impl Iterator<Item = (usize, &Term)> {
+        self.terms.iter().scan(0, |count, term| {
+            *count += usize::from(!term.tied || *count == 0);
+            Some((*count - 1, term))
+        })
     }
 
     /// Number of coefficients.
@@ -369,10 +374,7 @@ pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let wanted = |cell: &Cell| {
         let effect = cell.effect;
         let named = |word: &String| *word == effect.id.as_str() || *word == effect.family;
-        let chosen = settings
-            .catalogue
-            .as_ref()
-            .is_none_or(|list| list.iter().any(named));
+        let chosen = (settings.catalogue.as_ref()).is_none_or(|list| list.iter().any(named));
         (chosen || effect.kind == Kind::Own) && !settings.exclude.iter().any(named)
     };
     cells.retain(|cell| !cell.variants.is_empty() && wanted(cell));

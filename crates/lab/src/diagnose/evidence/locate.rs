@@ -133,49 +133,39 @@ fn scale(baseline: &Baseline, chi_squared: f64, offset: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::baseline::Prior;
-    use super::super::fixture::white;
+    use std::f64::consts::PI;
+
+    use super::super::fixture::Tumble;
     use super::*;
 
     /// Twelve positions, bias and scale fitted: an angle error at one position is found there, although
     /// the fit smears it.
     #[test]
     fn a_local_disturbance_is_found_in_its_cell() {
-        let rows = 36;
-        let angle = |row: usize| (row % 12) as f64 * std::f64::consts::PI / 6.0;
-        let jacobian = DMatrix::from_fn(rows, 3, |row, j| match j {
-            0 => 1.0,
-            1 => angle(row).sin(),
-            _ => angle(row).cos(),
-        });
-        let node = |name: &str, level: usize, slope: &dyn Fn(f64) -> f64| Cell {
+        let tumble = Tumble::new(12, &[0.0; 3]);
+        // With the rounding of cos 90°.
+        let at = |row: usize, slope: fn(f64) -> f64| slope((row % 12) as f64 * PI / 6.0);
+        let node = |name: &str, level: usize, slope: fn(f64) -> f64| Cell {
             node: name.into(),
             factor: "position".into(),
             level: (level * 30).to_string(),
-            column: DVector::from_fn(rows, |row, _| {
-                if row % 12 == level {
-                    slope(angle(row))
-                } else {
-                    0.0
-                }
+            column: DVector::from_fn(36, |row, _| match row % 12 == level {
+                true => at(row, slope),
+                false => 0.0,
             }),
         };
-        let cells: Vec<Cell> = (0..12)
-            .flat_map(|k| [node("bias", k, &|_| 1.0), node("angle", k, &f64::cos)])
-            .collect();
-        let truth = cells
-            .iter()
-            .position(|c| c.node == "bias" && c.level == "210")
-            .expect("a cell");
-        let residuals = DVector::from_fn(rows, |row, _| {
-            if row % 12 == 7 {
-                5.0
-            } else {
-                0.1 * (row as f64 * 1.7).sin()
-            }
+        let cells = (0..12).flat_map(|k| [node("bias", k, |_| 1.0), node("angle", k, f64::cos)]);
+        let cells: Vec<Cell> = cells.collect();
+        let cell = |node: &str, level: &str| {
+            let is_it = |cell: &Cell| cell.node == node && cell.level == level;
+            cells.iter().position(is_it).unwrap()
+        };
+        let truth = cell("bias", "210");
+        let residuals = DVector::from_fn(36, |row, _| match row % 12 == 7 {
+            true => 5.0,
+            false => 0.1 * (row as f64 * 1.7).sin(),
         });
-        let noise = white(rows);
-        let baseline = Baseline::new(&jacobian, &residuals, &noise, &Prior::none(3)).unwrap();
+        let baseline = tumble.baseline_of(&residuals);
         let settings = Settings {
             draws: 512,
             ..Settings::default()
@@ -187,10 +177,7 @@ mod tests {
         let found = located.iter().find(|l| l.cell == truth).unwrap();
         assert!((found.size - 5.0).abs() < 0.1 && (found.u - (1.0_f64 / 3.0).sqrt()).abs() < 0.2);
         assert!(found.p < 0.003);
-        let idle = cells
-            .iter()
-            .position(|c| c.node == "angle" && c.level == "90")
-            .unwrap();
+        let idle = cell("angle", "90");
         assert!(located.iter().all(|l| l.cell != idle));
     }
 }

@@ -311,7 +311,7 @@ impl Explanations<'_> {
         let (resolved, revealed) = examined(recorded, extra, |prolonged| {
             let is_told = |at: &usize| {
                 let standing = standing(recorded, prolonged, &self.sets[*at]);
-                let apart = standing.and_then(|standing| evidence::apart(&standing).ok());
+                let apart = standing.and_then(|standing| evidence::apart(&standing));
                 apart.is_some_and(|apart| apart.least() >= SEPARATED)
             };
             let shows = |(one, line): (&Explanation, &&Omitted)| {

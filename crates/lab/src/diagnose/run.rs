@@ -199,7 +199,7 @@ pub fn diagnose(
             let mut shares = shares.into_iter();
             levels.retain(|_| shares.next().is_some_and(|share| share > TRACE));
         }
-        let found = evidence::locate(&baseline, &levels, &settings)?.into_iter();
+        let found = evidence::locate(&baseline, &levels, &settings).into_iter();
         let with_cell = found.map(|located| (levels[located.cell].clone(), located));
         with_cell.collect()
     };

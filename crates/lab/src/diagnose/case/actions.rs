@@ -40,12 +40,10 @@ impl Checker<'_> {
         let again = table.again.is_some() || table.order.is_some();
         let (Some(name), true) = (&table.name, table.rows.is_some() != again) else {
             if !table.refused {
+                let message =
+                    say!("a further measurement has a `name` and one of `rows` and `again`");
                 self.faults.push(
-                    Fault::new(
-                        MISSING,
-                        stated.span.clone(),
-                        say!("a further measurement has a `name` and one of `rows` and `again`"),
-                    )
+                    Fault::new(MISSING, stated.span.clone(), message)
                     .label(say!("expected both"))
                     .help(say!("rows = \"more.csv\", rows = {{ x = [1, 2, 3] }}, or again = {{ mount = 90 }} for the rows of the recording once more")),
                 );

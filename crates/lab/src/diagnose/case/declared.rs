@@ -31,15 +31,14 @@ impl Checker<'_> {
         let before = self.faults.len();
         let found = experiment.equations.responses().iter();
         let found = found.zip(&experiment.observed);
-        let responses: Vec<Response> = found
-            .filter_map(|(response, observed)| {
-                Some(Response {
-                    name: response.name.clone(),
-                    unit: response.unit.clone(),
-                    observed: self.observed(&response.name, observed, names, columns, constants)?,
-                })
+        let responses = found.filter_map(|(response, observed)| {
+            Some(Response {
+                name: response.name.clone(),
+                unit: response.unit.clone(),
+                observed: self.observed(&response.name, observed, names, columns, constants)?,
             })
-            .collect();
+        });
+        let responses: Vec<Response> = responses.collect();
         if self.faults.len() > before {
             return None;
         }
@@ -99,23 +98,18 @@ impl Checker<'_> {
 
     fn no_start(&mut self, parameters: &[Parameter]) {
         let missing = parameters.iter().filter(|p| p.start.is_none());
-        let example: Vec<String> = missing
-            .map(|p| format!("{} = {{ start = … }}", p.name))
-            .collect();
+        let example = missing.map(|p| format!("{} = {{ start = … }}", p.name));
+        let example = example.collect::<Vec<String>>().join(", ");
         let equations = self.source.table.equations.as_ref();
         let place = equations.map_or(0..0, |list| list.span.clone());
-        self.faults.push(
-            Fault::new(
-                START,
-                place,
-                say!("the model is not linear in its parameters"),
-            )
-            .label(say!("its parameters are found by a search"))
-            .help(say!(
-                "state roughly where the search begins, below [parameter]: {}",
-                example.join(", ")
-            )),
+        let message = say!("the model is not linear in its parameters");
+        let fault =
+            Fault::new(START, place, message).label(say!("its parameters are found by a search"));
+        let begins = say!(
+            "state roughly where the search begins, below [parameter]: {}",
+            example
         );
+        self.faults.push(fault.help(begins));
     }
 }
 
@@ -145,15 +139,11 @@ fn symbols(parameters: &[Parameter], columns: &[Column]) -> Vec<Quantity> {
 impl Case {
     /// Other equations over its parameters and columns; nothing where they are none.
     pub(in crate::diagnose) fn compiled(&self, texts: &[String]) -> Option<Equations> {
-        let responses = self.responses.iter().map(|response| Quantity {
-            name: response.name.clone(),
-            unit: response.unit.clone(),
-        });
-        let responses: Vec<Quantity> = responses.collect();
+        let responses = self.equations.responses();
         let symbols = symbols(&self.parameters, &self.columns);
-        let others = constants_beside(&responses, &self.constants);
+        let others = constants_beside(responses, &self.constants);
         let text = |text| EquationText { text, at: 0..0 };
         let texts: Vec<EquationText<'_>> = texts.iter().map(|own| text(own.as_str())).collect();
-        Equations::compile(&texts, &symbols, &responses, &others, &self.units).ok()
+        Equations::compile(&texts, &symbols, responses, &others, &self.units).ok()
     }
 }

@@ -56,19 +56,17 @@ impl Checker<'_> {
         let tables = entries(&self.source.table.parameter);
         for parameter in &experiment.parameters {
             let table = tables.iter().find(|(name, _)| *name == parameter.name);
-            let per = match table.and_then(|(_, table)| table.value.per.as_ref()) {
-                None => None,
-                Some(column) => {
-                    let place = self.known(column, columns)?;
-                    if columns[place].labels().is_none() {
-                        let message = say!("{} holds no labels", column.value);
-                        let fault = Fault::new(PER, column.span.clone(), message);
-                        return self
-                            .refuse(fault.label(say!("expected a run, factor, position or axis")));
-                    }
-                    Some(place)
+            let mut per = None;
+            if let Some(column) = table.and_then(|(_, table)| table.value.per.as_ref()) {
+                let place = self.known(column, columns)?;
+                if columns[place].labels().is_none() {
+                    let message = say!("{} holds no labels", column.value);
+                    let fault = Fault::new(PER, column.span.clone(), message);
+                    return self
+                        .refuse(fault.label(say!("expected a run, factor, position or axis")));
                 }
-            };
+                per = Some(place);
+            }
             parameters.push(Parameter {
                 name: parameter.name.clone(),
                 unit: parameter.unit.clone(),

@@ -8,7 +8,6 @@ mod columns;
 mod declared;
 mod disused;
 mod inputs;
-mod models;
 mod noise;
 mod rows;
 mod settings;

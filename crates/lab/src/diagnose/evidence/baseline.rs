@@ -69,7 +69,7 @@ impl Baseline {
     ///
     /// # Errors
     ///
-    /// Sizes that disagree, numbers that are not finite, a covariance matrix that is none, parameters
+    /// Numbers that are not finite, a covariance matrix that is none, parameters
     /// that the recording does not determine, and recordings without a degree of freedom.
     pub fn new(
         jacobian: &DMatrix<f64>,
@@ -78,7 +78,6 @@ impl Baseline {
         prior: &Prior,
     ) -> Result<Baseline, Refusal> {
         let (rows, parameters) = jacobian.shape();
-        check_sizes(jacobian, residuals, noise, prior)?;
         check_finite(jacobian, residuals, prior)?;
         let whitener = Factor::whitening(&noise.covariance)?;
         let draws = factors(&noise.draws)?;
@@ -300,27 +299,6 @@ pub(super) fn factors(draws: &[Covariance]) -> Result<Vec<Arc<Factor>>, Refusal>
         found.push(factor);
     }
     Ok(found)
-}
-
-fn check_sizes(
-    jacobian: &DMatrix<f64>,
-    residuals: &DVector<f64>,
-    noise: &Noise,
-    prior: &Prior,
-) -> Result<(), Refusal> {
-    let (rows, parameters) = jacobian.shape();
-    let sizes = |what| Err(Refusal::Sizes { what });
-    let fits = |covariance: &Covariance| covariance.rows() == rows && covariance.is_square();
-    if residuals.len() != rows {
-        return sizes("residuals");
-    }
-    if !fits(&noise.covariance) || !noise.draws.iter().all(fits) {
-        return sizes("covariance");
-    }
-    if prior.jacobian.ncols() != parameters || prior.jacobian.nrows() != prior.residuals.len() {
-        return sizes("prior");
-    }
-    Ok(())
 }
 
 fn check_finite(

@@ -11,7 +11,6 @@ use super::closed_form::Scale;
 use super::directions::{INVISIBLE, visible};
 use super::null::{Null, side_by_side};
 use super::question::Settings;
-use super::refusal::Refusal;
 
 /// Stage of the random numbers, apart from those of the gate.
 const STAGE: u64 = 0x1_0000_0001;
@@ -48,18 +47,7 @@ pub struct Located {
 const ROUNDING: f64 = 1e-9;
 
 /// The cells that the recording can show, the one that stands out most first.
-///
-/// # Errors
-///
-/// Columns of wrong length.
-pub fn locate(
-    baseline: &Baseline,
-    cells: &[Cell],
-    settings: &Settings,
-) -> Result<Vec<Located>, Refusal> {
-    if cells.iter().any(|c| c.column.len() != baseline.rows()) {
-        return Err(Refusal::Sizes { what: "cell" });
-    }
+pub fn locate(baseline: &Baseline, cells: &[Cell], settings: &Settings) -> Vec<Located> {
     let mut columns = DMatrix::zeros(baseline.rows(), cells.len());
     for (mut column, cell) in columns.column_iter_mut().zip(cells) {
         column.copy_from(&cell.column);
@@ -94,7 +82,7 @@ pub fn locate(
     };
     let mut located: Vec<Located> = visible.iter().zip(&components).map(of).collect();
     located.sort_by(|a, b| b.chi_squared.total_cmp(&a.chi_squared));
-    Ok(located)
+    located
 }
 
 /// Whether a cell has an effect beside those of the same quantity at other levels: cos 90° is not quite
@@ -170,7 +158,7 @@ mod tests {
             draws: 512,
             ..Settings::default()
         };
-        let located = locate(&baseline, &cells, &settings).unwrap();
+        let located = locate(&baseline, &cells, &settings);
         // The angle cell of the same position is the same column but for its unit.
         let same = |cell: usize| cells[cell].level == "210";
         assert!(same(located[0].cell) && same(located[1].cell));

@@ -5,7 +5,6 @@ use nalgebra::DMatrix;
 use super::directions::left;
 use super::findings::ALONE;
 use super::look_alikes::stays;
-use super::refusal::Refusal;
 use gumption_core::special::normal_cdf;
 
 /// A rival explanation in a design, as it is seen beside the fitted parameters
@@ -73,22 +72,10 @@ const NOTHING: f64 = 1e-6;
 /// Explanations are the same where less than this share of either is left.
 const SAME: f64 = 0.01;
 
-/// Holds explanations against one another in a design.
-///
-/// # Errors
-///
-/// Fewer than two contenders, or matrices that do not belong together.
-pub fn apart(contenders: &[Standing]) -> Result<Separability, Refusal> {
-    let Some(first) = contenders.first().filter(|_| contenders.len() > 1) else {
-        return Err(Refusal::Sizes { what: "contenders" });
-    };
-    let (rows, draws) = first.effects.shape();
-    let fits = |one: &Standing| {
-        one.effects.shape() == (rows, draws) && one.variants.iter().all(|v| v.nrows() == rows)
-    };
-    if draws == 0 || !contenders.iter().all(fits) {
-        return Err(Refusal::Sizes { what: "contenders" });
-    }
+/// Holds explanations against one another in a design; nothing of fewer than two.
+pub fn apart(contenders: &[Standing]) -> Option<Separability> {
+    let first = contenders.first().filter(|_| contenders.len() > 1)?;
+    let draws = first.effects.ncols();
     let lengths = |one: &Standing| one.effects.column_iter().map(|e| e.norm()).collect();
     let effects: Vec<DMatrix<f64>> = contenders.iter().map(|one| one.effects.clone()).collect();
     let columns: Vec<_> = effects.iter().flat_map(|e| e.column_iter()).collect();
@@ -108,7 +95,7 @@ pub fn apart(contenders: &[Standing]) -> Result<Separability, Refusal> {
             .map(|rival| !rival.repeats && own.keeps(&rival.variants))
             .collect()
     };
-    Ok(Separability {
+    Some(Separability {
         left: (0..contenders.len()).map(of).collect(),
         stays: contenders.iter().map(stays).collect(),
         whole: contenders.iter().map(lengths).collect(),

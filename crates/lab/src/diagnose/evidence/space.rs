@@ -2,7 +2,6 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::baseline::Baseline;
 use super::closed_form::{Ladder, Scale, named, scatter};
 use super::directions::{INVISIBLE, joined, orthonormal, own, visible, without};
 use super::question::{Atom, Kind, Question, Shape};
@@ -102,7 +101,7 @@ pub(super) struct Frame {
 impl Space {
     pub(super) fn new(question: &Question) -> Result<Space, Refusal> {
         let baseline = question.baseline;
-        let odds = Odds::new(question)?;
+        let odds = Odds::new(question);
         let mut space = Space {
             z: baseline.residuals().clone(),
             blocks: Vec::new(),
@@ -116,7 +115,7 @@ impl Space {
             components: DVector::zeros(0),
         };
         for (index, atom) in question.atoms.iter().enumerate() {
-            check(baseline, index, atom)?;
+            check(index, atom)?;
         }
         // All columns at once: products with few columns spend their time on reading the whitener.
         let (seen, lengths) = visible(baseline, &all_columns(baseline.rows(), question.atoms));
@@ -282,24 +281,12 @@ impl Block {
     }
 }
 
-fn check(baseline: &Baseline, index: usize, atom: &Atom) -> Result<(), Refusal> {
-    let columns = match &atom.shape {
-        Shape::Columns(columns) => columns,
-        Shape::Smooth { features, spectrum } => {
-            if spectrum.len() != features.ncols() || spectrum.iter().any(|e| !(*e > 0.0)) {
-                return Err(Refusal::Sizes { what: "spectrum" });
-            }
-            features
-        }
-        Shape::Scatter => return Ok(()),
-    };
-    if columns.nrows() != baseline.rows() {
-        return Err(Refusal::Sizes { what: "atom" });
-    }
-    match (0..columns.nrows()).find(|row| columns.row(*row).iter().any(|x| !x.is_finite())) {
-        Some(row) => Err(Refusal::AtomNotFinite { atom: index, row }),
-        None => Ok(()),
-    }
+fn check(atom: usize, own: &Atom) -> Result<(), Refusal> {
+    let is_bad =
+        |columns: &DMatrix<f64>, row: usize| columns.row(row).iter().any(|x| !x.is_finite());
+    let columns = own.shape.columns();
+    let bad = columns.and_then(|columns| (0..columns.nrows()).find(|row| is_bad(columns, *row)));
+    bad.map_or(Ok(()), |row| Err(Refusal::AtomNotFinite { atom, row }))
 }
 
 /// The columns of all atoms side by side.
@@ -392,21 +379,12 @@ struct Odds {
 }
 
 impl Odds {
-    fn new(question: &Question) -> Result<Odds, Refusal> {
+    fn new(question: &Question) -> Odds {
         let count = question.candidates.len();
         let mut shares = vec![0.0; count];
         let mut kinds: Vec<Option<Kind>> = vec![None; count];
         for atom in question.atoms {
-            let kind = atom.shape.kind();
-            match kinds.get_mut(atom.candidate) {
-                Some(place @ None) => *place = Some(kind),
-                Some(Some(other)) if *other == kind => {}
-                Some(Some(_)) => return Err(Refusal::Sizes { what: "kinds" }),
-                None => return Err(Refusal::Sizes { what: "candidate" }),
-            }
-            if !(atom.share > 0.0) {
-                return Err(Refusal::Sizes { what: "share" });
-            }
+            kinds[atom.candidate] = Some(atom.shape.kind());
             shares[atom.candidate] += atom.share;
         }
         let of = |kind| kinds.iter().filter(|k| **k == Some(kind)).count().max(1) as f64;
@@ -416,11 +394,11 @@ impl Odds {
         }
         let none = libm::exp2(-1.0 / named);
         let odds = (1.0 - none) / none;
-        Ok(Odds {
+        Odds {
             named: libm::log(odds),
             generic: libm::log(odds * GENERIC_ODDS * named / generic),
             shares,
-        })
+        }
     }
 
     fn of(&self, atom: &Atom) -> f64 {

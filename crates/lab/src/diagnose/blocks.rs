@@ -1,6 +1,7 @@
 //! Blocks of consecutive rows: of each, the mean is one observation.
 
 use super::case::{Blocks, Case, Role};
+use super::catalogue::modifiers::mean;
 use crate::recording::Labels;
 
 /// Prolonged recordings in time are averaged in blocks, unless the case says otherwise.
@@ -63,7 +64,6 @@ fn chosen(case: &Case) -> usize {
 
 /// Share of the variance of a column that means of so many rows keep.
 fn kept(numbers: &[f64], size: usize) -> f64 {
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let about = |values: &[f64], middle: f64| -> f64 {
         values.iter().map(|x| (x - middle) * (x - middle)).sum()
     };

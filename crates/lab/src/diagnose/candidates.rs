@@ -237,21 +237,20 @@ impl<'f> Candidates<'f> {
     /// The refit with the named effects in the model.
     pub(super) fn adopted_fit(&self, examination: &Examination, claimed: &Claimed) -> Refit {
         let found = examination.fitted.as_ref();
-        let Some(found) = found.filter(|found| !found.atoms.is_empty()) else {
-            return Ok(None);
-        };
-        let Some((mut extended, open)) = self.with_effects(found, claimed) else {
+        let found = found.filter(|found| !found.atoms.is_empty());
+        let with_effects = found.and_then(|found| self.with_effects(found, claimed));
+        let Some((mut extended, open)) = with_effects else {
             return Ok(None);
         };
         // Levels within those of a parameter, such as runs of one specimen: what they have in common is the
         // parameter's.
         adopt::scattered(&mut extended, |effect| open.contains(&effect));
-        if let Ok(fit) = refit(&self.fitted, &extended, claimed) {
-            return Ok(Some((extended, fit)));
+        let mut fit = refit(&self.fitted, &extended, claimed);
+        if fit.is_err() {
+            adopt::scattered(&mut extended, |_| true);
+            fit = refit(&self.fitted, &extended, claimed);
         }
-        adopt::scattered(&mut extended, |_| true);
-        let fit = refit(&self.fitted, &extended, claimed)?;
-        Ok(Some((extended, fit)))
+        Ok(Some((extended, fit?)))
     }
 
     /// The model with the named effects in it, and those of them that the recording does not determine.

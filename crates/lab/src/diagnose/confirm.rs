@@ -152,6 +152,15 @@ fn held_out(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> DVector<f64> {
     errors
 }
 
+/// Rows of the observations in units of their noise.
+pub(super) fn over_noise(rows: &DMatrix<f64>, claimed: &Claimed) -> DMatrix<f64> {
+    let mut rows = rows.clone();
+    for (mut row, u) in rows.row_iter_mut().zip(&claimed.u) {
+        row /= *u;
+    }
+    rows
+}
+
 /// Covariance matrix of the unknowns with the claimed noise; what the recording does not determine has no part in it.
 pub(super) fn covariance(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> DMatrix<f64> {
     if let Ok(baseline) = baseline(design, fit, &claimed.uncorrelated()) {
@@ -160,10 +169,7 @@ pub(super) fn covariance(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> D
             None => baseline.covariance(),
         };
     }
-    let mut rows = fit.jacobian.clone();
-    for (mut row, u) in rows.row_iter_mut().zip(&claimed.u) {
-        row /= *u;
-    }
+    let mut rows = over_noise(&fit.jacobian, claimed);
     for (at, unknown) in design.unknowns.iter().enumerate() {
         if let Some((_, u)) = unknown.prior {
             rows = rows.insert_row(0, 0.0);

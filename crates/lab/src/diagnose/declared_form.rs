@@ -37,9 +37,7 @@ pub(super) fn declared(
     let others = catalogue::cells(&there);
     let of = wanted.iter().filter_map(|(cell, variation)| {
         let own = &cells[*cell];
-        let same = |other: &&Cell| {
-            other.effect.id == own.effect.id && other.words == own.words && other.place == own.place
-        };
+        let same = |other: &&Cell| other.is(own) && other.place == own.place;
         let label = &own.variants[*variation].label;
         let variants = &others.iter().find(same)?.variants;
         let form = variants.iter().find(|variant| variant.label == *label)?;

@@ -8,7 +8,7 @@ use super::adopt::stands_alone;
 use super::adopted::Adopted;
 use super::candidates::Candidates;
 use super::case::Data;
-use super::catalogue::modifiers::{self, mean};
+use super::catalogue::modifiers::{map, mean, range};
 use super::catalogue::{self, Cell, FittedModel, Pattern, Term};
 use super::coarse::Coarse;
 use super::confirm;
@@ -116,10 +116,7 @@ impl Model<'_> {
             _ => 0.0,
         };
         let covariance = DMatrix::from_fn(places.len(), places.len(), covariance);
-        let mut slopes = fit.jacobian.clone();
-        for (mut row, u) in slopes.row_iter_mut().zip(&claimed.u) {
-            row /= *u;
-        }
+        let slopes = confirm::over_noise(&fit.jacobian, claimed);
         let errors = fit.residuals.component_div(&claimed.u);
         let chi_squared = chi_squared(&errors, slopes, &covariance);
         Prediction {
@@ -189,17 +186,13 @@ fn improved(
     let mut rows = held.rows.clone();
     for (atom, free) in adopted.atoms.iter().zip(&adopted.extended.effects) {
         let cell = candidates.cell(*atom);
-        let is_jump = matches!(
-            cell.effect.pattern,
-            Some(Pattern::Jump | Pattern::ScaleJump)
-        );
+        let pattern = cell.effect.pattern;
+        let is_jump = matches!(pattern, Some(Pattern::Jump | Pattern::ScaleJump));
         if is_jump && !follows(&wide, known.case.rows) {
             return None;
         }
-        // Each harmonic of an angle is a cell of its own. Both recordings together may have other effects than the first:
-        // the same course by another name is the same course.
-        let alike = |other: &&Cell| other.effect.id == cell.effect.id && other.words == cell.words;
-        let alike: Vec<&Cell> = others.iter().filter(alike).collect();
+        // Both recordings together may have other effects than the first: the same course by another name is the same course.
+        let alike: Vec<&Cell> = others.iter().filter(|other| other.is(cell)).collect();
         let all: Vec<&Cell> = others.iter().collect();
         let designs = [candidates.fitted.design, &seen];
         let terms = free.variation.terms.iter();
@@ -227,7 +220,7 @@ fn improved(
 fn follows(both: &FittedModel<'_>, rows: usize) -> bool {
     let times = &both.clock.values;
     let (own, rest) = times.split_at(rows.min(times.len()));
-    modifiers::range(own).1 <= modifiers::range(rest).0
+    range(own).1 <= range(rest).0
 }
 
 /// What another variant of an effect may leave of a modifier, as a share of its variance.
@@ -250,13 +243,12 @@ fn continued(
     let sought = own.spread(&term.written().values);
     let fits = like.filter_map(|other| {
         let course = both.spread(&other.written().values);
-        let (factor, offset, left) = line_through(course.get(..sought.len())?, &sought);
-        Some((other, factor, offset, left))
+        let (own, rest) = course.split_at_checked(sought.len())?;
+        let (factor, offset, left) = line_through(own, &sought);
+        Some((left, map(rest, |x| factor * x + offset)))
     });
-    let (other, factor, offset, left) = fits.min_by(|a, b| a.3.total_cmp(&b.3))?;
-    let course = both.spread(&other.written().values);
-    let rest = course.get(sought.len()..)?;
-    (left < most).then(|| rest.iter().map(|x| factor * x + offset).collect())
+    let (left, rest) = fits.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (left < most).then_some(rest)
 }
 
 /// The straight line from `x` to `y`, and what it leaves of the variance of `y`; a `y` without variance is

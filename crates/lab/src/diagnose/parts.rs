@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::candidates::baseline;
 use super::case::Role;
-use super::confirm::degrees;
+use super::confirm::{degrees, over_noise};
 use super::design::Design;
 use super::evidence::Fitted;
 use super::fit::Fit;
@@ -44,18 +44,15 @@ pub(super) fn confirmation(
         parts: Vec::new(),
         agreement: None,
     };
-    let Some((seen, values, covariance)) = apart.map(|apart| apart.estimates()) else {
+    let estimates = apart.map(|apart| apart.estimates());
+    let Some((seen, values, covariance)) = estimates.filter(|(seen, ..)| seen.len() > 1) else {
         return confirmation;
     };
-    if seen.len() < 2 {
-        return confirmation;
-    }
     let chi_squared = fit.residuals.component_div(&claimed.u).norm_squared();
     let dof = degrees(design);
-    let scale = if claimed.is_estimated() {
-        (chi_squared / dof.max(1.0)).sqrt()
-    } else {
-        1.0
+    let scale = match claimed.is_estimated() {
+        true => (chi_squared / dof.max(1.0)).sqrt(),
+        false => 1.0,
     };
     let of = |(i, part): (usize, &usize)| {
         let u = scale * covariance[(i, i)].max(0.0).sqrt();
@@ -113,10 +110,8 @@ impl Separability {
             ..fit.clone()
         };
         let beside = baseline(&common, &rest, &claimed.uncorrelated()).ok()?;
-        let whole = columns.column_iter().map(|column| {
-            let column = column.component_div(&claimed.u);
-            column.norm_squared()
-        });
+        let over_noise = over_noise(&columns, claimed);
+        let whole = over_noise.column_iter().map(|column| column.norm_squared());
         Some(Separability {
             start: fit.unknowns[at],
             known,

@@ -50,11 +50,9 @@ pub(super) fn scoped(
 ) -> Vec<Variation> {
     let responses = &fitted.case().responses;
     let with = |scope: &str, terms: Vec<Term>| {
-        let words = [scope, &form.label].into_iter();
-        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
         let times = terms.len() / form.terms.len().max(1);
         Variation {
-            label: words.join(", "),
+            label: scoped_label(scope, form),
             terms,
             spectrum: form.spectrum.as_ref().map(|own| own.repeat(times)),
             ..form.clone()
@@ -66,6 +64,13 @@ pub(super) fn scoped(
     let own = own.map(|(response, terms)| with(&responses[*response].name, terms.clone()));
     let every = own.chain(together);
     every.filter(|one| !one.terms.is_empty()).collect()
+}
+
+/// The label of a form on some quantity.
+pub(super) fn scoped_label(scope: &str, form: &Variation) -> String {
+    let words = [scope, &form.label].into_iter();
+    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+    words.join(", ")
 }
 
 /// Sine and cosine of a phase, each with a size of its own.

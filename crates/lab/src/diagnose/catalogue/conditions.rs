@@ -47,6 +47,18 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         (_, true) => EffectId::CrossSensitivity,
         _ => EffectId::Sensitivity,
     };
+    let [second, on_scale, by_rate] = match temperature {
+        true => [
+            EffectId::TempcoQuadratic,
+            EffectId::TempcoScale,
+            EffectId::TemperatureRate,
+        ],
+        false => [
+            EffectId::SensitivityQuadratic,
+            EffectId::SensitivityScale,
+            EffectId::SensitivityRate,
+        ],
+    };
     let on = |node: Node| delayed(fitted, column, node, &own);
     let linear = |delayed: &[Variation]| -> Vec<Variation> {
         let leading = leading(fitted, column, &own);
@@ -64,28 +76,17 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         }
     });
     let square = square.chain(squares(fitted, column)).collect();
-    let second = match temperature {
-        true => EffectId::TempcoQuadratic,
-        false => EffectId::SensitivityQuadratic,
-    };
     cells.push(offset(second, square));
     if fitted.has_signal() {
-        let id = match temperature {
-            true => EffectId::TempcoScale,
-            false => EffectId::SensitivityScale,
-        };
         let mut scale = |id: EffectId, forms: Vec<Variation>| {
             cells.push(on_node(fitted, id, label, Node::Gain, forms));
         };
-        scale(id, linear(&on(Node::Gain)));
+        scale(on_scale, linear(&on(Node::Gain)));
         scale(EffectId::SensitivityScaleQuadratic, squares(fitted, column));
     }
     if fitted.is_timed() {
-        let id = match temperature {
-            true => EffectId::TemperatureRate,
-            false => EffectId::SensitivityRate,
-        };
-        cells.push(offset(id, vec![form("", vec![fitted.rate(column)])]));
+        let rate = form("", vec![fitted.rate(column)]);
+        cells.push(offset(by_rate, vec![rate]));
     }
     if !stimulus && stands_for_temperature(fitted, column) {
         cells.push(offset(EffectId::UnrecordedTemperature, linear(&delayed)));

@@ -156,15 +156,13 @@ pub(super) fn over_signals(
         .map(|one| (name(one.0), std::slice::from_ref(one)));
     let several = (own.len() > 1).then_some(("", &own[..]));
     let variation = |(label, of): (&str, &[(usize, Vec<Feature>)])| {
+        let on = |response: usize| {
+            move |(wave, variance): &Feature| (on_output(wave.clone()).on(response), *variance)
+        };
         let features = of
             .iter()
-            .flat_map(|(response, waves)| waves.iter().map(move |wave| (response, wave)));
-        let (terms, spectrum) = features
-            .map(|(response, (wave, variance))| {
-                let term = Term::new(Node::Output, wave.clone());
-                (term.on(*response), *variance)
-            })
-            .unzip();
+            .flat_map(|(response, waves)| waves.iter().map(on(*response)));
+        let (terms, spectrum) = features.unzip();
         unnamed(label, terms, spectrum)
     };
     each.chain(several).map(variation).collect()

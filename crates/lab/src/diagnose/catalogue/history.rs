@@ -3,7 +3,7 @@
 use super::building::{form, on_output, plain};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
-    direction, figure, five_digits, grid, map, map2, play, range, typical_step,
+    direction, figure, five_digits, grid, map, map2, mean_of, play, range, typical_step,
 };
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -126,11 +126,7 @@ fn plays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
         let label = format!("width {share} % of the range");
         Variation::one(label, on_output(behind(width))).shaped("w", width, &unit)
     });
-    let mut sum = vec![0.0; x.len()];
-    for width in widths {
-        sum = map2(&sum, &behind(width).values, |sum, one| sum + one);
-    }
-    let mean = map(&sum, |sum| sum / widths.len() as f64);
+    let mean = mean_of(&widths.map(|width| behind(width).values.to_vec()));
     let all = widths.map(|width| fitted.figure(column, width));
     let all = all.join(", ");
     let text = format!("mean of ({label} - play({label}, w)) over w = {all}");

@@ -1,10 +1,10 @@
 //! Models that hold a constant against several columns, such as |a| = g for a triad at rest.
 
 use super::absorbed::Absorbed;
+use super::building::cell;
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{map, range, rounded};
-use super::{Cell, EffectId, Modifier, Term, Variation, Words};
-use crate::diagnose::evidence::Place;
+use super::{Cell, EffectId, Modifier, Term, Variation};
 use gumption_core::quantity::Unit;
 
 /// Disturbances of each column that the model uses.
@@ -17,10 +17,8 @@ pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
     let mut pairs = Vec::new();
     for (at, x) in used.iter().enumerate() {
         for z in &used[at + 1..] {
-            pairs.push((
-                format!("{} with {}", fitted.label(*x), fitted.label(*z)),
-                term(*x, fitted.centred(*z)),
-            ));
+            let label = format!("{} with {}", fitted.label(*x), fitted.label(*z));
+            pairs.push((label, term(*x, fitted.centred(*z))));
         }
     }
     cells.push(cell(EffectId::CrossAxis, singles_and_all(pairs)));
@@ -65,14 +63,10 @@ pub(super) fn of_axes(
     disturbed: String,
     variants: Vec<Variation>,
 ) -> Cell {
-    let names = fitted.names(axes);
-    let words = Words {
-        x: names.clone(),
-        y: fitted.output(),
-        p: disturbed,
-        ..Words::default()
-    };
-    Cell::new(id, words, Place::new("axes", names), variants)
+    let mut cell = cell(fitted, id, Node::Output, &fitted.names(axes), variants);
+    cell.words.p = disturbed;
+    "axes".clone_into(&mut cell.place.node);
+    cell
 }
 
 /// The middle of the range, where a sensor that turned through all positions has its zero.
@@ -84,12 +78,9 @@ fn mean_of_range(x: &[f64]) -> f64 {
 /// A variant for each term alone, and one with all of them.
 pub(super) fn singles_and_all(terms: Vec<(String, Term)>) -> Vec<Variation> {
     let all: Vec<Term> = terms.iter().map(|(_, term)| term.clone()).collect();
-    let mut variants: Vec<Variation> = terms
+    let together = (all.len() > 1).then(|| Variation::of("all", all));
+    let each = terms
         .into_iter()
-        .map(|(label, term)| Variation::one(label, term))
-        .collect();
-    if all.len() > 1 {
-        variants.push(Variation::of("all", all));
-    }
-    variants
+        .map(|(label, term)| Variation::one(label, term));
+    each.chain(together).collect()
 }

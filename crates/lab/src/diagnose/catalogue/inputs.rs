@@ -11,8 +11,8 @@ use super::fitted::{FittedModel, Node, varies};
 use super::generics::over_signals;
 use super::history::comes_back;
 use super::modifiers::{
-    correlation, creeps, figure, five_digits, largest, late, map, map2, play_from, range, rate,
-    recordings,
+    correlation, creeps, figure, five_digits, largest, late, map, map2, mean_of, play_from, range,
+    rate, recordings,
 };
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -378,11 +378,7 @@ fn loops(t: &[f64]) -> Vec<Form<'_>> {
         })
     });
     let many = Form::plain("several widths", move |input: &Input| {
-        let mut sum = vec![0.0; input.own.len()];
-        for width in WIDTHS {
-            sum = map2(&sum, &behind(input, width), |sum, one| sum + one);
-        }
-        let mean = map(&sum, |sum| sum / WIDTHS.len() as f64);
+        let mean = mean_of(&WIDTHS.map(|width| behind(input, width)));
         let (own, widths) = (&input.text, WIDTHS.map(|width| width.to_string()));
         let widths = widths.join(", ");
         let text = format!("mean of ({own} - play({own}, w)) over w = {widths}");

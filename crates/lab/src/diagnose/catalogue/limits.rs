@@ -1,7 +1,7 @@
 //! Ends of the range and dead zones of a column: saturation, a change of slope, a band around zero in which
 //! nothing happens.
 
-use super::building::{form, on_node, on_output, plain};
+use super::building::{form, on_node, on_output, plain, scoped_label};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{figure, figure_to, five_digits, largest, levels_of, map, range, rounded};
 use super::sharp::sharpened;
@@ -200,14 +200,12 @@ fn at_end(
         let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
         let term: Term = on_output(modifier);
         let label = format!("{side} {shown} {unit}");
-        let form = match &fitted.case().responses[..] {
-            [_] => Variation::one(label, term),
-            many => {
-                let label = format!("{}, {label}", many[response].name);
-                Variation::one(label, term.on(response))
-            }
-        };
-        form.shaped("x₀", knee, &unit)
+        let mut form = Variation::one(label, term).shaped("x₀", knee, &unit);
+        if let responses @ [_, _, ..] = &fitted.case().responses[..] {
+            form.label = scoped_label(&responses[response].name, &form);
+            form.terms[0].response = Some(response);
+        }
+        form
     });
     knees
         .filter(|v| varies(&v.terms[0].modifier.values))

@@ -111,6 +111,11 @@ pub struct Cell {
 }
 
 impl Cell {
+    /// Whether it is the same effect on the same quantities, in another design; each harmonic of an angle is a cell of its own.
+    pub fn is(&self, other: &Cell) -> bool {
+        self.effect.id == other.effect.id && self.words == other.words
+    }
+
     /// An effect of the catalogue, without a size or a sentence of the user's own.
     fn new(id: EffectId, words: Words, place: evidence::Place, variants: Vec<Variation>) -> Cell {
         Cell {

@@ -295,6 +295,12 @@ pub fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
 }
 
+/// The mean of some courses, row by row.
+pub fn mean_of(courses: &[Vec<f64>]) -> Vec<f64> {
+    let sum = (courses.iter().cloned()).reduce(|sum, one| map2(&sum, &one, |sum, one| sum + one));
+    map(&sum.unwrap_or_default(), |sum| sum / courses.len() as f64)
+}
+
 /// Element by element.
 pub fn map2(x: &[f64], z: &[f64], f: impl Fn(f64, f64) -> f64) -> Vec<f64> {
     x.iter().zip(z).map(|(x, z)| f(*x, *z)).collect()

@@ -3,6 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::building::scoped_label;
 use super::effect::{Kind, Pattern};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{map, map2, range, rounded};
@@ -107,10 +108,7 @@ impl Norm {
             variation.terms.iter().map(term).collect()
         };
         let with = |name: &str, terms: Vec<Term>| Variation {
-            label: match variation.label.as_str() {
-                "" => name.to_owned(),
-                label => format!("{name}, {label}"),
-            },
+            label: scoped_label(name, variation),
             terms,
             ..variation.clone()
         };

@@ -98,10 +98,8 @@ pub fn contest(
     let alone: Vec<f64> = courses.iter().map(Course::log_posterior).collect();
     let top = maximum(&alone);
     let weights: Vec<f64> = alone.iter().map(|l| libm::exp(l - top)).collect();
-    let null: Vec<Arc<Factor>> = in_proportion(courses, &weights, COURSES)
-        .into_iter()
-        .map(|course| Arc::clone(&course.lower))
-        .collect();
+    let null = in_proportion(courses, &weights, COURSES).into_iter();
+    let null: Vec<Arc<Factor>> = null.map(|course| Arc::clone(&course.lower)).collect();
     let simulated: Vec<Baseline> = (courses.iter())
         .map(|course| course.baseline.clone().with_draws(null.clone()))
         .collect();
@@ -126,9 +124,8 @@ pub fn contest(
             question,
         })
     };
-    let seen: Vec<Seen<'_>> = side_by_side(courses.len(), see)
-        .into_iter()
-        .collect::<Result<_, _>>()?;
+    let seen = side_by_side(courses.len(), see).into_iter();
+    let seen: Vec<Seen<'_>> = seen.collect::<Result<_, _>>()?;
     let with: Vec<f64> = seen.iter().map(|one| one.with).collect();
     let observed = maximum(&with) - top;
     let likely =
@@ -150,11 +147,11 @@ fn probability(benches: &[Bench<'_>], observed: f64, settings: &Settings) -> f64
         });
         for chunk in each.chunks(benches.len()) {
             let gain = |draw: usize| {
-                let best = |which: usize| {
+                let [alone, with] = [0, 1].map(|which| {
                     let own = chunk.iter().map(|own| own[draw][which]);
                     own.fold(f64::NEG_INFINITY, f64::max)
-                };
-                best(1) - best(0)
+                });
+                with - alone
             };
             as_much += (0..LANES).filter(|draw| gain(*draw) >= observed).count();
         }

@@ -149,7 +149,7 @@ impl<'a> Panel<'a> {
         recordings: &Recordings,
         pairs: Option<&Pairs>,
     ) -> Vec<[f64; 2]> {
-        let lanes = recordings.errors.nrows();
+        let (space, lanes) = (self.beside.space, recordings.errors.nrows());
         let set = &recordings.errors * &self.frame.basis;
         let residuals = recordings.residuals(&set, self.beside.residual);
         let mut reduced;
@@ -174,7 +174,7 @@ impl<'a> Panel<'a> {
                 }
             }
             let rest = &self.beside.rests[class[0]];
-            let odds = self.beside.log_odds(rest);
+            let odds = space.blocks[rest.block].log_odds;
             for (lane, place) in out.iter_mut().enumerate() {
                 let squares = std::iter::once(fits[lane]);
                 let value = rest.evidence(squares, &residuals[lane]) + odds;
@@ -184,7 +184,7 @@ impl<'a> Panel<'a> {
         for index in &self.generics {
             let rest = &self.beside.rests[*index];
             let turned = self.beside.turned(rest, components);
-            let odds = self.beside.log_odds(rest);
+            let odds = space.blocks[rest.block].log_odds;
             for (lane, place) in out.iter_mut().enumerate() {
                 let squares = (0..turned.ncols()).map(|k| turned[(lane, k)] * turned[(lane, k)]);
                 // What cannot be the most need not be known.
@@ -198,7 +198,7 @@ impl<'a> Panel<'a> {
         if let Some(pairs) = pairs {
             let rss: Vec<f64> = residuals.iter().map(|r| r.rss).collect();
             let values = pairs.simulated(&recordings.components, &rss);
-            let in_turn = (pairs.singles).in_turn(self.beside.space, &recordings.components, &rss);
+            let in_turn = (pairs.singles).in_turn(space, &recordings.components, &rss);
             for ((place, value), two) in out.iter_mut().zip(values).zip(in_turn) {
                 *place = [place[0].max(two), value];
             }

@@ -45,7 +45,7 @@ pub(super) fn visible(baseline: &Baseline, columns: &DMatrix<f64>) -> (DMatrix<f
 /// Orthonormal directions of the columns, the column with the greatest remainder first; columns whose
 /// remainder is less than `tolerance` (squared) of `lengths` are left out. Also says which were kept,
 /// in that order.
-pub(super) fn orthonormal(
+pub(in crate::diagnose) fn orthonormal(
     mut columns: DMatrix<f64>,
     lengths: &[f64],
     tolerance: f64,
@@ -130,7 +130,7 @@ pub fn span(mut columns: DMatrix<f64>, flat: f64) -> DMatrix<f64> {
 }
 
 /// Columns with what lies along an orthonormal basis taken out.
-pub(super) fn without(columns: &DMatrix<f64>, basis: &DMatrix<f64>) -> DMatrix<f64> {
+pub(in crate::diagnose) fn without(columns: &DMatrix<f64>, basis: &DMatrix<f64>) -> DMatrix<f64> {
     if basis.ncols() == 0 {
         return columns.clone();
     }

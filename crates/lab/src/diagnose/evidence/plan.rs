@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::baseline::Baseline;
-use super::directions::INVISIBLE;
+use super::directions::{INVISIBLE, without};
 use super::question::{Atom, Candidate, Kind, Question, Settings, Shape};
 use super::refusal::Refusal;
 use super::space::{Block, Space};
@@ -113,15 +113,11 @@ fn extends(candidates: &[Candidate], more: &Block, less: &Block) -> bool {
 /// The column of `block` that `rival` comes nearest to.
 fn pair(block: &Block, rival: &Block) -> Pair {
     let columns = block.determined();
-    let (length, left) = columns
-        .column_iter()
-        .map(|column| {
-            let along = rival.basis.tr_mul(&column);
-            let left = column - &rival.basis * along;
-            (column.norm(), left.norm())
-        })
-        .min_by(|a, b| (a.1 / a.0).total_cmp(&(b.1 / b.0)))
-        .unwrap_or((1.0, 1.0));
+    let left = without(&columns, &rival.basis);
+    let lengths = columns.column_iter().zip(left.column_iter());
+    let lengths = lengths.map(|(column, left)| (column.norm(), left.norm()));
+    let nearest = lengths.min_by(|a, b| (a.1 / a.0).total_cmp(&(b.1 / b.0)));
+    let (length, left) = nearest.unwrap_or((1.0, 1.0));
     let sine = (left / length).min(1.0);
     Pair {
         atom: block.atom,
@@ -140,16 +136,13 @@ fn classes(named: &[&Block]) -> Vec<Vec<usize>> {
             None => classes.push(vec![block]),
         }
     }
-    classes
-        .into_iter()
-        .filter(|class| class.iter().any(|b| b.candidate != class[0].candidate))
-        .map(|class| class.iter().map(|block| block.atom).collect())
-        .collect()
+    classes.retain(|class| class.iter().any(|b| b.candidate != class[0].candidate));
+    let atoms = |class: &Vec<&Block>| class.iter().map(|block| block.atom).collect();
+    classes.iter().map(atoms).collect()
 }
 
 fn same(a: &Block, b: &Block) -> bool {
-    a.basis.ncols() == b.basis.ncols()
-        && (&a.basis - &b.basis * b.basis.tr_mul(&a.basis)).norm() < ALIAS
+    a.basis.ncols() == b.basis.ncols() && without(&a.basis, &b.basis).norm() < ALIAS
 }
 
 #[cfg(test)]
@@ -190,11 +183,11 @@ mod tests {
     }
 
     fn class_of<'a>(plan: &'a Plan, name: &str) -> Vec<&'a str> {
-        plan.classes
-            .iter()
-            .find(|class| class.contains(&index(name)))
-            .map(|class| class.iter().map(|atom| LAWS[*atom].0).collect())
-            .unwrap_or_default()
+        let mut classes = plan.classes.iter();
+        let class = classes.find(|class| class.contains(&index(name)));
+        class.map_or_else(Vec::new, |class| {
+            class.iter().map(|atom| LAWS[*atom].0).collect()
+        })
     }
 
     #[test]

@@ -57,13 +57,14 @@ impl<'s> Remainders<'s> {
                     (Form::Smooth(ladder), turn)
                 }
             };
-            let idle = turn.nrows() == 0 && !matches!(form, Form::Scatter);
+            let is_scatter = matches!(form, Form::Scatter);
             // Scatter has no shape that could be another one.
-            let resemblance = match form {
-                Form::Scatter => 1.0,
-                _ => a.norm_squared().min(1.0),
+            let resemblance = if is_scatter {
+                1.0
+            } else {
+                a.norm_squared().min(1.0)
             };
-            (!idle).then_some(Remainder {
+            (is_scatter || turn.nrows() > 0).then_some(Remainder {
                 block: index,
                 kind: block.kind(),
                 resemblance,
@@ -142,11 +143,6 @@ impl<'s> Remainders<'s> {
                 *sum += c * c;
             }
         }
-    }
-
-    /// Logarithm of the prior odds of a rest.
-    pub(super) fn log_odds(&self, rest: &Remainder) -> f64 {
-        self.space.blocks[rest.block].log_odds
     }
 
     /// Score of the set with a block more; `None` where the residuals have no room for it.

@@ -91,7 +91,6 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
     let mut additions: Vec<Addition> = Vec::new();
     let texts = (0..case.responses.len()).map(|response| case.equations.text(response));
     let mut equations: Vec<Extending> = texts.map(Extending::of).collect();
-    let parameters = case.parameters.len();
     let mut columns = Vec::new();
     let mut places = effects.iter().enumerate().flat_map(|(effect, free)| {
         let coefficients = free.coefficients.iter();
@@ -137,7 +136,6 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
             });
         }
     }
-    debug_assert_eq!(case.parameters.len(), parameters + additions.len());
     case.columns.extend(columns);
     let texts = equations.iter().enumerate();
     let texts = texts.map(|(response, equation)| equation.text(fitted, response));

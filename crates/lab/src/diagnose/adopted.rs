@@ -5,7 +5,7 @@ use super::candidates::{Candidates, baseline};
 use super::confirm::{self, Estimated, Quality, estimates};
 use super::design::Design;
 use super::evidence::{Alternative, Baseline, Examination};
-use super::fit::{Fit, ModelVersion, NoFit, Unsettled};
+use super::fit::{Fit, NoFit};
 use super::noise::Claimed;
 use super::parts::{self, Confirmation};
 
@@ -26,8 +26,6 @@ pub struct Adopted {
     pub fit: Fit,
     /// Further checks.
     pub confirmation: Confirmation,
-    /// Whether its fit is one on which a reader should not rely.
-    pub unsettled: Option<Unsettled>,
 }
 
 /// The model with the named effects, and how well it does.
@@ -41,7 +39,7 @@ pub(super) fn adopt_named(
         return Ok(None);
     };
     let design = Design::new(&extended.case);
-    let quality = confirm::quality(&design, &fit, claimed, claimed);
+    let quality = confirm::quality(&design, &fit, claimed);
     let all = estimates(&design, &fit, claimed);
     let added = extended.additions.len();
     let confirmation = parts::confirmation(&design, &fit, claimed, added, &found);
@@ -60,7 +58,6 @@ pub(super) fn adopt_named(
         unknowns,
         quality,
         confirmation,
-        unsettled: fit.unsettled(ModelVersion::Improved),
         fit,
         extended,
     }))

@@ -206,10 +206,8 @@ impl<'f> Candidates<'f> {
 
     /// Adds values about the parameters of strong effects; whether there are any that were not tried.
     pub(super) fn refine(&self, finer: &mut Finer, examination: &Examination) -> bool {
-        let firsts = examination
-            .slots
-            .iter()
-            .filter_map(|slot| slot.named.first());
+        let slots = examination.slots.iter();
+        let firsts = slots.filter_map(|slot| slot.named.first());
         let mut new = false;
         for named in firsts.filter(|named| named.lambda >= CLEAR) {
             // The variant with two time constants has none between: one alone may do when it is the right one.

@@ -161,20 +161,24 @@ mod tests {
         "t [s],x,U,run\n".to_owned() + &(0..rows).map(row).collect::<String>()
     }
 
-    fn case(rows: usize, settings: &str) -> Case {
+    fn case(rows: usize) -> Case {
         let text = recording(rows);
-        let file = format!("{CASE}{settings}");
-        let files = [("c.toml", file.as_bytes()), ("r.csv", text.as_bytes())];
+        let files = [("c.toml", CASE.as_bytes()), ("r.csv", text.as_bytes())];
         let library = Files::Library(&files);
         Case::load_from(library, Path::new("c.toml"), Purpose::Diagnosis).unwrap()
+    }
+
+    fn fitted(case: &Case) -> (Design<'_>, Fit) {
+        let design = Design::new(case);
+        let (fit, _) = noise::settle(&design).unwrap();
+        (design, fit)
     }
 
     #[test]
     fn a_lag_in_means_is_that_of_all_rows() {
         const ROWS: usize = 30_000;
-        let case = case(ROWS, "");
-        let design = Design::new(&case);
-        let (fit, _) = noise::settle(&design).unwrap();
+        let case = case(ROWS);
+        let (design, fit) = fitted(&case);
         let coarse = Coarse::of(&design, &fit);
         let seen = coarse.design();
         assert!(seen.case.rows <= 2 * PIECES * design.blocks.len());
@@ -195,9 +199,8 @@ mod tests {
 
     #[test]
     fn a_short_recording_is_as_it_is() {
-        let case = case(500, "");
-        let design = Design::new(&case);
-        let (fit, _) = noise::settle(&design).unwrap();
+        let case = case(500);
+        let (design, fit) = fitted(&case);
         let coarse = Coarse::of(&design, &fit);
         let seen = coarse.design();
         assert_eq!(seen.blocks, design.blocks);
@@ -208,8 +211,8 @@ mod tests {
     #[test]
     fn memory_is_told_from_rows_and_blocks() {
         let gib = |case: &Case| case.bytes() as f64 / (1_u64 << 30) as f64;
-        assert!(gib(&case(20_000, "")) < 1.0);
-        let mut each = case(20_000, "");
+        assert!(gib(&case(20_000)) < 1.0);
+        let mut each = case(20_000);
         each.averaging.blocks = super::super::case::Blocks::Rows;
         assert!(gib(&each) > 8.0);
         let refused = super::super::diagnose(&each, &|_| std::ops::ControlFlow::Continue(()));

@@ -34,17 +34,12 @@ impl Quality {
 const FOLDS: usize = 10;
 
 /// Computes the quality of a fit.
-pub(super) fn quality(
-    design: &Design<'_>,
-    fit: &Fit,
-    claimed: &Claimed,
-    expected: &Claimed,
-) -> Quality {
+pub(super) fn quality(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Quality {
     Quality {
         chi_squared: chi_squared(fit, claimed),
         dof: degrees(design),
         residual: design.root_mean_squares(&fit.residuals),
-        expected: design.root_mean_squares(&expected.u),
+        expected: design.root_mean_squares(&claimed.u),
         held_out: design.root_mean_squares(&held_out(design, fit, claimed)),
     }
 }

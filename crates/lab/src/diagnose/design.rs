@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::blocks::blocks;
 use super::case::{Case, Observed, Role, interval};
-use super::catalogue::modifiers::{mean, range};
+use super::catalogue::modifiers::{mean, range, unit_text};
 use gumption_core::quantity::Unit;
 
 /// The numbers of a case.
@@ -210,12 +210,7 @@ impl<'c> Design<'c> {
 
     /// The unit of an unknown as text.
     pub fn unit(&self, unknown: usize) -> String {
-        let unit = self.unit_of(&self.unknowns[unknown]);
-        if unit.is_one() {
-            String::new()
-        } else {
-            unit.typeset()
-        }
+        unit_text(self.unit_of(&self.unknowns[unknown]))
     }
 
     /// The value of every symbol in a row: parameters, then columns.

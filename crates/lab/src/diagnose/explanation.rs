@@ -17,7 +17,7 @@ pub struct Explanation {
     /// Whether several of its variants may act at once.
     repeats: bool,
     /// Its posterior probability.
-    probability: f64,
+    pub(super) probability: f64,
     /// What it may look like, the most probable first.
     likely: Vec<Likely>,
 }
@@ -94,11 +94,6 @@ impl Explanation {
         }
         self.likely = likely;
         self
-    }
-
-    /// Its posterior probability.
-    pub(super) fn probability(&self) -> f64 {
-        self.probability
     }
 
     /// Share of it that the parameters do not absorb in another design.

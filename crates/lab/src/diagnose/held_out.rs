@@ -8,7 +8,7 @@ use super::adopt::stands_alone;
 use super::adopted::Adopted;
 use super::candidates::Candidates;
 use super::case::Data;
-use super::catalogue::modifiers::{map, mean, range};
+use super::catalogue::modifiers::{line_through, map, range};
 use super::catalogue::{self, Cell, FittedModel, Pattern, Term};
 use super::coarse::Coarse;
 use super::confirm;
@@ -70,8 +70,8 @@ pub(super) fn held_out(
     candidates: &Candidates<'_>,
     adopted: Option<&Adopted>,
 ) -> Option<HeldOutQuality> {
-    let held = known.case.held_out.as_ref()?;
-    let case = known.case.with(&held.rows);
+    let held = known.design.case.held_out.as_ref()?;
+    let case = known.design.case.with(&held.rows);
     let design = Design::new(&case);
     let model = Model {
         design: known.design,
@@ -171,8 +171,8 @@ fn improved(
     candidates: &Candidates<'_>,
     adopted: &Adopted,
 ) -> Option<Prediction> {
-    let held = known.case.held_out.as_ref()?;
-    let both = known.case.followed_by(&held.rows);
+    let held = known.design.case.held_out.as_ref()?;
+    let both = known.design.case.followed_by(&held.rows);
     let design = Design::new(&both);
     let fit = fit::at(&design, known.design.carried(&known.fit.unknowns, &design));
     let coarse = Coarse::of(&design, &fit);
@@ -188,7 +188,7 @@ fn improved(
         let cell = candidates.cell(*atom);
         let pattern = cell.effect.pattern;
         let is_jump = matches!(pattern, Some(Pattern::Jump | Pattern::ScaleJump));
-        if is_jump && !follows(&wide, known.case.rows) {
+        if is_jump && !follows(&wide, known.design.case.rows) {
             return None;
         }
         // Both recordings together may have other effects than the first: the same course by another name is the same course.
@@ -251,28 +251,11 @@ fn continued(
     (left < most).then_some(rest)
 }
 
-/// The straight line from `x` to `y`, and what it leaves of the variance of `y`; a `y` without variance is
-/// followed by its own value.
-fn line_through(x: &[f64], y: &[f64]) -> (f64, f64, f64) {
-    let (mean_x, mean_y) = (mean(x), mean(y));
-    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
-    for (x, y) in x.iter().zip(y) {
-        xx += (x - mean_x) * (x - mean_x);
-        xy += (x - mean_x) * (y - mean_y);
-        yy += (y - mean_y) * (y - mean_y);
-    }
-    if !(yy > 0.0 && xx > 0.0) {
-        return (0.0, mean_y, if yy > 0.0 { 1.0 } else { 0.0 });
-    }
-    let factor = xy / xx;
-    (factor, mean_y - factor * mean_x, 1.0 - xy * xy / (xx * yy))
-}
-
 #[cfg(test)]
 mod tests {
     use nalgebra::{DMatrix, DVector};
 
-    use super::{chi_squared, line_through};
+    use super::chi_squared;
 
     #[test]
     fn rows_share_the_errors_of_parameters() {
@@ -294,13 +277,5 @@ mod tests {
         };
         let found = chi_squared(&turns, slopes, &covariance);
         assert!((found - direct).abs() < 1e-9 * direct, "{found} {direct}");
-    }
-
-    #[test]
-    fn origin_and_unit_of_a_modifier_are_found() {
-        let (factor, offset, left) = line_through(&[0.0, 1.0, 2.0], &[3.0, 5.0, 7.0]);
-        assert!((factor - 2.0).abs() < 1e-12 && (offset - 3.0).abs() < 1e-12);
-        assert!(left.abs() < 1e-12);
-        assert!(line_through(&[0.0, 1.0, 0.0], &[0.0, 0.0, 1.0]).2 > 0.5);
     }
 }

@@ -205,8 +205,22 @@ fn divided(design: &Design<'_>) -> Vec<(String, Vec<usize>)> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::evidence::Baseline;
     use super::super::evidence::fixture::{beside_constant, white};
     use super::*;
+
+    fn apart(baseline: &Baseline, columns: &DMatrix<f64>) -> Separability {
+        Separability {
+            start: 0.0,
+            known: (0.0, 0.0),
+            columns: baseline.project(columns),
+            whole: columns
+                .column_iter()
+                .map(|column| column.norm_squared())
+                .collect(),
+            residuals: baseline.residuals().clone(),
+        }
+    }
 
     #[test]
     fn a_part_learns_the_parameters_from_the_others() {
@@ -217,14 +231,8 @@ mod tests {
             (4 | 5, 1) | (6, 2) => 1.0,
             _ => 0.0,
         };
-        let apart = Separability {
-            start: 0.0,
-            known: (0.0, 0.0),
-            columns: baseline.project(&DMatrix::from_fn(7, 3, members)),
-            whole: vec![0.0, 2.0, 1.0],
-            residuals: baseline.residuals().clone(),
-        };
-        let (seen, values, covariance) = apart.estimates();
+        let columns = DMatrix::from_fn(7, 3, members);
+        let (seen, values, covariance) = apart(&baseline, &columns).estimates();
         assert_eq!(seen, [1, 2]);
         assert!((values[0] - 3.0).abs() < 1e-12 && (values[1] - 5.0).abs() < 1e-12);
         // u² of the mean of the part and of the offset.
@@ -245,13 +253,6 @@ mod tests {
             true => level[part],
             false => 0.0,
         });
-        let apart = Separability {
-            start: 0.0,
-            known: (0.0, 0.0),
-            columns: baseline.project(&columns),
-            whole: level.map(|level| 2.0 * level * level).to_vec(),
-            residuals: baseline.residuals().clone(),
-        };
-        assert!(apart.estimates().0.is_empty());
+        assert!(apart(&baseline, &columns).estimates().0.is_empty());
     }
 }

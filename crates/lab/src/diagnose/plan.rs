@@ -116,7 +116,6 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
     step(progress, 0.4)?;
     let pairs = pairs(&effects);
     let known = Known {
-        case,
         design: &design,
         fit: &fit,
         claimed: &claimed,
@@ -159,10 +158,8 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
 }
 
 fn step(progress: &dyn Fn(f64) -> ControlFlow<()>, share: f64) -> Result<(), Failure> {
-    match progress(share) {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(Failure::Refused(Refusal::Cancelled)),
-    }
+    let stopped = progress(share).break_value();
+    stopped.map_or(Ok(()), |()| Err(Failure::Refused(Refusal::Cancelled)))
 }
 
 /// The model at the values that the case states; where it does not state all, at those that fit the

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::candidates::{Candidates, baseline};
-use super::case::{Case, NoiseClaim};
+use super::case::NoiseClaim;
 use super::catalogue::{self, Cell, FittedModel, Variation};
 use super::coarse::Coarse;
 use super::design::Design;
@@ -14,7 +14,6 @@ use super::noise::{self, Claimed};
 
 /// What is known of a case before a further measurement.
 pub(super) struct Known<'k> {
-    pub case: &'k Case,
     pub design: &'k Design<'k>,
     pub fit: &'k Fit,
     pub claimed: &'k Claimed,
@@ -41,7 +40,7 @@ pub(super) fn examined<R>(
     examine: impl FnOnce(&Prolonged<'_>) -> R,
 ) -> Option<R> {
     let known = recorded.known;
-    let case = known.case.followed_by(&extra.rows);
+    let case = known.design.case.followed_by(&extra.rows);
     let mut design = Design::new(&case);
     design.blocks = blocks(known, extra);
     let fit = fit::at(&design, known.design.carried(&known.fit.unknowns, &design));
@@ -88,9 +87,13 @@ impl Prolonged<'_> {
 
 /// The blocks of the recording, and after them those that the further rows have by themselves.
 fn blocks(known: &Known<'_>, extra: &Extra) -> Vec<Vec<usize>> {
-    let alone = known.case.with(&extra.rows);
+    let alone = known.design.case.with(&extra.rows);
     let further = Design::new(&alone).blocks.into_iter();
-    let further = further.map(|rows| rows.into_iter().map(|row| row + known.case.rows).collect());
+    let further = further.map(|rows| {
+        rows.into_iter()
+            .map(|row| row + known.design.case.rows)
+            .collect()
+    });
     known.design.blocks.iter().cloned().chain(further).collect()
 }
 
@@ -102,7 +105,7 @@ pub(super) fn noise_of(
     fit: &Fit,
     recorded: usize,
 ) -> Claimed {
-    match &known.case.noise {
+    match &known.design.case.noise {
         NoiseClaim::Stated { .. } | NoiseClaim::AtRest { .. } | NoiseClaim::PerRow(_) => {
             noise::planned(design, fit)
         }

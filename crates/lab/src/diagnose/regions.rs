@@ -2,7 +2,7 @@
 //! columns.
 
 use super::case::Role;
-use super::catalogue::modifiers::{figure_to, flag, levels_of, map, range};
+use super::catalogue::modifiers::{figure_to, flag, levels_of, map, range, unit_text};
 use super::catalogue::{FittedModel, Modifier, Node, Term};
 use super::evidence::Cell;
 
@@ -27,7 +27,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         } else if let (Some(numbers), Role::Stimulus | Role::Covariate | Role::Angle) =
             (column.numbers(), column.role)
         {
-            let parts = ranges(&column.unit.typeset(), numbers).into_iter();
+            let parts = ranges(&unit_text(&column.unit), numbers).into_iter();
             regions.extend(parts.map(|(part, inside)| (column.name.clone(), part, inside)));
         }
     }
@@ -71,29 +71,23 @@ fn ranges(unit: &str, numbers: &[f64]) -> Vec<(String, Vec<f64>)> {
             .collect();
         edges.dedup();
     }
-    let step = step(numbers);
     let part = |at: usize| {
         let to = edges.get(at + 1).copied().unwrap_or(f64::INFINITY);
         let own = edges[at]..to;
         let members = numbers.iter().copied().filter(|x| own.contains(x));
-        let extent = extent(range(&members.collect::<Vec<f64>>()), step, unit);
+        let extent = extent(range(&members.collect::<Vec<f64>>()), numbers, unit);
         (extent, map(numbers, |x| flag(own.contains(&x))))
     };
     (0..edges.len()).map(part).collect()
 }
 
-/// What places are told to.
-fn step(numbers: &[f64]) -> f64 {
-    let (least, most) = range(numbers);
-    1e-3 * (most - least)
-}
-
-/// A part of a range as text.
-fn extent((least, most): (f64, f64), step: f64, unit: &str) -> String {
-    let unit = if unit == "1" { "" } else { unit };
+/// A part of the range of some numbers as text.
+fn extent((least, most): (f64, f64), numbers: &[f64], unit: &str) -> String {
     let text = match least == most {
         true => format!("{least} {unit}"),
         false => {
+            let whole = range(numbers);
+            let step = 1e-3 * (whole.1 - whole.0);
             let [from, to] = [least, most].map(|end| figure_to(end, step));
             format!("{from} to {to} {unit}")
         }
@@ -112,10 +106,7 @@ fn spans(fitted: &FittedModel<'_>) -> Vec<Region> {
         let first = members[0][0];
         let last = members[members.len() - 1].last().copied().unwrap_or(first);
         let (factor, span) = match fitted.clock.column {
-            Some(column) => (
-                fitted.label(column),
-                extent((t[first], t[last]), step(t), &unit),
-            ),
+            Some(column) => (fitted.label(column), extent((t[first], t[last]), t, &unit)),
             None => {
                 let [from, to] = [first, last].map(|row| fitted.design.recorded(row));
                 ("rows", format!("{} to {}", from.start + 1, to.end))

@@ -165,12 +165,9 @@ fn pooled(groups: &[Group], spread: &Spread) -> f64 {
 /// −2 ln L of the variances of the groups, with the scale that fits best.
 fn misfit(groups: &[Group], spread: &Spread) -> f64 {
     let dof: f64 = groups.iter().map(|group| group.dof).sum();
-    let shape = groups
-        .iter()
-        .map(|group| 2.0 * group.dof * libm::log(spread.at(group.level)));
-    let squares = groups
-        .iter()
-        .map(|group| group.dof * relative(group, spread));
+    let each = groups.iter();
+    let shape = (each.clone()).map(|group| 2.0 * group.dof * libm::log(spread.at(group.level)));
+    let squares = each.map(|group| group.dof * relative(group, spread));
     dof * libm::log(squares.sum::<f64>() / dof) + shape.sum::<f64>()
 }
 

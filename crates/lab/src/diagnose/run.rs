@@ -203,7 +203,7 @@ pub fn diagnose(
         let with_cell = found.map(|located| (levels[located.cell].clone(), located));
         with_cell.collect()
     };
-    let before = confirm::quality(&design, &fit, &claimed, &claimed);
+    let before = confirm::quality(&design, &fit, &claimed);
     let mut unsettled: Vec<Unsettled> = fit.unsettled(ModelVersion::Declared).into_iter().collect();
     let mut adopted = match adopt_named(&candidates, &mut examination, &claimed) {
         Ok(adopted) => adopted,
@@ -221,7 +221,6 @@ pub fn diagnose(
     }
     let unknowns = estimates(&design, &fit, &claimed);
     let known = Known {
-        case,
         design: &design,
         fit: &fit,
         claimed: &claimed,
@@ -236,7 +235,8 @@ pub fn diagnose(
     {
         examination.withdraw();
     }
-    unsettled.extend((adopted.iter()).filter_map(|adopted| adopted.unsettled.clone()));
+    let of_improved = |adopted: &Adopted| adopted.fit.unsettled(ModelVersion::Improved);
+    unsettled.extend(adopted.iter().filter_map(of_improved));
     let improved = (adopted.as_ref()).and_then(|adopted| adopted.baseline(&claimed));
     let listed = examination.slots.iter().filter(|_| adopted.is_some());
     let named: Vec<usize> = listed

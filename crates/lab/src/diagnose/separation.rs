@@ -61,7 +61,7 @@ pub(super) fn separating(recorded: &Recorded<'_>, examination: &Examination) -> 
         }
         let listed: f64 = of.named.iter().map(|named| named.probability).sum();
         // Of what a list holds beside these nothing is promised.
-        let examined: f64 = set.iter().map(Explanation::probability).sum();
+        let examined: f64 = set.iter().map(|one| one.probability).sum();
         let standing: Vec<Standing> = set.iter().map(|one| one.before(recorded)).collect();
         let Some(before) = evidence::apart(&standing) else {
             continue;
@@ -79,7 +79,7 @@ pub(super) fn separating(recorded: &Recorded<'_>, examination: &Examination) -> 
     if lists.is_empty() {
         return Vec::new();
     }
-    let all = super::extra::extras(recorded.known.case);
+    let all = super::extra::extras(recorded.known.design.case);
     let after = all.iter().map(|extra| {
         examined(recorded, extra, |prolonged| {
             let after = lists.iter().map(|list| list.after(recorded, prolonged));
@@ -140,7 +140,7 @@ impl List {
     fn judged(self, after: &[(&Extra, &After)]) -> Separating {
         let aparts: Vec<&Separability> = after.iter().map(|(_, after)| &after.apart).collect();
         let classes = classes(self.set.len(), &self.before, &aparts);
-        let probabilities: Vec<f64> = self.set.iter().map(Explanation::probability).collect();
+        let probabilities: Vec<f64> = self.set.iter().map(|one| one.probability).collect();
         let worth = |after: &After| {
             let mut worth = after.apart.worth(&Prospects {
                 before: &self.before,

@@ -53,7 +53,9 @@ impl Checker<'_> {
             }
         };
         let places: Vec<usize> = (0..parameters.len()).collect();
-        if !equations.are_affine_in(&places) && !startable(&parameters) {
+        // A search may begin anywhere if there are few unknowns and starts at least for some.
+        let open = parameters.iter().filter(|p| p.start.is_none()).count();
+        if !equations.are_affine_in(&places) && open > 3 {
             self.no_start(&parameters);
         }
         Some(Declared {
@@ -111,11 +113,6 @@ impl Checker<'_> {
         );
         self.faults.push(fault.help(begins));
     }
-}
-
-/// A search may begin anywhere if there are few unknowns and starts at least for some.
-fn startable(parameters: &[Parameter]) -> bool {
-    parameters.iter().filter(|p| p.start.is_none()).count() <= 3
 }
 
 /// Constants that no equation has on its left.

@@ -7,7 +7,7 @@ use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::names::Names;
 use crate::experiment::source::entries;
-use crate::experiment::{Doubt, Experiment, Scope, Target};
+use crate::experiment::{Experiment, Scope, Target};
 use gumption_core::model::{Role, Symbol};
 use gumption_fault::{Fault, say};
 
@@ -111,7 +111,8 @@ impl Error {
     fn of(experiment: &Experiment, target: &Target) -> Error {
         let mut error = Error::default();
         for doubt in &experiment.doubts {
-            let u = effect(doubt, target);
+            let acts = doubt.acts.iter().filter(|act| act.on == *target);
+            let u = acts.map(|act| act.coefficient * doubt.u).sum::<f64>().abs();
             match &doubt.scope {
                 Scope::Common => error.common = libm::hypot(error.common, u),
                 Scope::Each => error.each = libm::hypot(error.each, u),
@@ -127,10 +128,4 @@ impl Error {
     fn is_none(&self) -> bool {
         self.common == 0.0 && self.each == 0.0 && self.by.1 == 0.0
     }
-}
-
-/// The standard uncertainty that an error gives a quantity.
-fn effect(doubt: &Doubt, target: &Target) -> f64 {
-    let acts = doubt.acts.iter().filter(|act| act.on == *target);
-    acts.map(|act| act.coefficient * doubt.u).sum::<f64>().abs()
 }

@@ -120,15 +120,15 @@ fn approach(fitted: &FittedModel<'_>, column: usize) -> Vec<f64> {
     let last = x.len() - 1;
     let mut side: Vec<f64> = vec![1.0; x.len()];
     for row in 0..x.len() {
-        let step = match row {
-            row if starts.contains(&row) && row < last => x[row + 1] - x[row],
-            0 => 0.0,
-            row => x[row] - x[row - 1],
+        let before = row.saturating_sub(1);
+        let step = match starts.contains(&row) && row < last {
+            true => x[row + 1] - x[row],
+            false => x[row] - x[before],
         };
-        side[row] = match step {
-            0.0 if row > 0 => side[row - 1],
-            0.0 => 1.0,
-            step => step.signum(),
+        side[row] = if step == 0.0 {
+            side[before]
+        } else {
+            step.signum()
         };
     }
     side

@@ -42,11 +42,6 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let temperature = fitted.is_temperature(column);
     let stimulus = fitted.case().columns[column].role == Role::Stimulus;
     let mut cells = Vec::new();
-    let bias = match (temperature, stimulus) {
-        (true, _) => EffectId::TempcoBias,
-        (_, true) => EffectId::CrossSensitivity,
-        _ => EffectId::Sensitivity,
-    };
     let [second, on_scale, by_rate] = match temperature {
         true => [
             EffectId::TempcoQuadratic,
@@ -67,7 +62,7 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let delayed = on(Node::Output);
     let offset =
         |id: EffectId, forms: Vec<Variation>| on_node(fitted, id, label, Node::Output, forms);
-    cells.push(offset(bias, linear(&delayed)));
+    cells.push(offset(on_offset(fitted, column), linear(&delayed)));
     let square = delayed.iter().map(|late| {
         let squares = late.terms.iter().map(|term| term.modifier.square());
         Variation {
@@ -103,6 +98,15 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         };
     }
     cells
+}
+
+/// What a column does to the offset.
+pub(super) fn on_offset(fitted: &FittedModel<'_>, column: usize) -> EffectId {
+    match fitted.case().columns[column].role {
+        _ if fitted.is_temperature(column) => EffectId::TempcoBias,
+        Role::Stimulus => EffectId::CrossSensitivity,
+        _ => EffectId::Sensitivity,
+    }
 }
 
 /// Whether a column is the pressure or the humidity of the air.

@@ -99,14 +99,11 @@ impl<'g> Turning<'g> {
         let leans =
             both.map(|(label, sense)| Variation::of(label, self.common(sense, |row| rate[row])));
         let fields = across.into_iter().chain(alone).chain([all]).collect();
+        let (fitted, name) = (self.fitted, self.fitted.label(self.angle));
         vec![
-            self.cell(EffectId::LaboratoryField, fields),
-            self.cell(EffectId::AxisWobble, leans.into()),
+            plain(fitted, EffectId::LaboratoryField, name, fields),
+            plain(fitted, EffectId::AxisWobble, name, leans.into()),
         ]
-    }
-
-    fn cell(&self, id: EffectId, variants: Vec<Variation>) -> Cell {
-        plain(self.fitted, id, self.fitted.label(self.angle), variants)
     }
 
     /// The signals along the axis of turning: the rate of a gyroscope.

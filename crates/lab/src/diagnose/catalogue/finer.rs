@@ -170,9 +170,7 @@ mod tests {
         let mut finer = Finer::default();
         let mut kink = cell(EffectId::Kink, &grid);
         for variant in &mut kink.variants {
-            *variant = variant
-                .clone()
-                .shaped("x₀", variant.shape.as_ref().unwrap().value, "Pa");
+            variant.shape.as_mut().unwrap().symbol = "x₀";
         }
         assert!(finer.add(&kink, &kink.variants[6]));
         assert_eq!(

@@ -2,7 +2,9 @@
 
 use nalgebra::DVector;
 
-use super::modifiers::{centred, correlation, crosses_zero, largest, map2, middle, range, rate};
+use super::modifiers::{
+    centred, correlation, crosses_zero, largest, map2, middle, range, rate, unit_text,
+};
 use super::{Finer, Modifier, Term};
 use crate::diagnose::case::{Case, Observed, Role};
 use crate::diagnose::design::{Clock, Design};
@@ -308,12 +310,7 @@ impl<'f> FittedModel<'f> {
 
     /// The unit of a column as text; nothing for a number.
     pub fn unit(&self, column: usize) -> String {
-        let unit = &self.case().columns[column].unit;
-        if unit.is_one() {
-            String::new()
-        } else {
-            unit.typeset()
-        }
+        unit_text(&self.case().columns[column].unit)
     }
 
     /// Whether the order of the rows says something that no column says: it was recorded, or the rows are neither

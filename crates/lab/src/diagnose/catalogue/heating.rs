@@ -21,7 +21,6 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     };
     let heating = fitted.numeric().into_iter().filter(heats);
     cells.extend(heating.flat_map(|column| of_column(fitted, column)));
-    cells.retain(|cell| !cell.variants.is_empty());
     cells
 }
 
@@ -79,9 +78,10 @@ fn of_column(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let sensed = fitted.numeric().into_iter().filter(sensed);
     cells.extend(sensed.map(|sensed| {
         let node = Node::Column(sensed);
-        let alike = Variation::one("at once", Term::new(node, power.clone()));
-        let variants = std::iter::once(alike).chain(by_resistance(fitted, node, &power));
-        cell(fitted, node, name, variants.collect())
+        let forms = [at_once(node)]
+            .into_iter()
+            .chain(by_resistance(fitted, node, &power));
+        cell(fitted, node, name, forms.collect())
     }));
     cells
 }

@@ -53,13 +53,9 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
 /// Widths of gaps without those that act like the one before: below the least step a play follows every reversal at once.
 fn told_apart(x: &[f64], widths: impl Iterator<Item = f64>) -> Vec<f64> {
     let least = least_step(x);
-    let mut kept: Vec<f64> = Vec::new();
-    for width in widths {
-        if width > least || kept.is_empty() {
-            kept.push(width);
-        }
-    }
-    kept
+    let widths = widths.enumerate();
+    let kept = widths.filter(|(at, width)| *at == 0 || *width > least);
+    kept.map(|(_, width)| width).collect()
 }
 
 /// The least step of a course that moves; nothing where it does not.

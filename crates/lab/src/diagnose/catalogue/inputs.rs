@@ -12,7 +12,7 @@ use super::generics::over_signals;
 use super::history::comes_back;
 use super::modifiers::{
     correlation, creeps, figure, five_digits, largest, late, map, map2, mean_of, play_from, range,
-    rate, recordings,
+    rate, recordings, unit_text,
 };
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -28,7 +28,6 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     cells.extend(limits(fitted, &inputs));
     cells.extend(products(fitted, &inputs));
     cells.extend(memory(fitted, &inputs));
-    cells.retain(|cell| !cell.variants.is_empty());
     cells
 }
 
@@ -119,12 +118,9 @@ fn size(x: &[f64]) -> f64 {
 /// As a part of the largest.
 fn part(x: &[f64], name: &str, unit: &Unit) -> Modifier {
     let size = size(x);
-    let unit = if unit.is_one() {
-        String::new()
-    } else {
-        format!(" {}", unit.typeset())
-    };
-    Modifier::number(map(x, |x| x / size), format!("({name}/({size}{unit}))"))
+    let shown = format!("{size} {}", unit_text(unit));
+    let text = format!("({name}/({}))", shown.trim_end());
+    Modifier::number(map(x, |x| x / size), text)
 }
 
 /// Inputs of the other axes: where one angle turns the sensor, the slope of the signal by it; else what

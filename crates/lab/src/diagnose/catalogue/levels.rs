@@ -9,7 +9,7 @@ use crate::recording::Labels;
 
 /// A column of labels, with those that occur in its rows.
 pub(super) struct Factor<'f> {
-    column: &'f Column,
+    pub(super) column: &'f Column,
     labels: &'f Labels,
     pub(super) levels: Vec<u32>,
 }
@@ -34,14 +34,6 @@ pub(super) fn factors<'f>(
 }
 
 impl Factor<'_> {
-    pub(super) fn name(&self) -> &str {
-        &self.column.name
-    }
-
-    pub(super) fn role(&self) -> Role {
-        self.column.role
-    }
-
     pub(super) fn text(&self, level: u32) -> &str {
         (self.labels.levels.get(level as usize)).map_or("", String::as_str)
     }
@@ -52,7 +44,7 @@ impl Factor<'_> {
     }
 
     fn modifier(&self, level: u32) -> Modifier {
-        let text = format!("[{} = {}]", self.name(), self.text(level));
+        let text = format!("[{} = {}]", self.column.name, self.text(level));
         Modifier::number(self.indicator(level), text)
     }
 
@@ -67,7 +59,7 @@ impl Factor<'_> {
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
     for factor in factors(fitted, (2, 3)) {
-        match factor.role() {
+        match factor.column.role {
             Role::Direction => cells.push(directions(fitted, &factor)),
             Role::Position if is_place(fitted) => {
                 let all = shifts(fitted, &factor).into_iter();
@@ -105,7 +97,7 @@ pub(super) fn indicator(labels: &Labels, level: u32) -> Vec<f64> {
 
 /// Every level has a value of its own; or only one has; or all from one on, in the order of the recording.
 fn shifts(fitted: &FittedModel<'_>, factor: &Factor<'_>) -> Vec<Cell> {
-    let (name, levels) = (factor.name(), &factor.levels);
+    let (name, levels) = (&factor.column.name, &factor.levels);
     let all = form("", factor.differences());
     let one = |level: &u32| {
         let label = format!("{name} {}", factor.text(*level));
@@ -116,7 +108,7 @@ fn shifts(fitted: &FittedModel<'_>, factor: &Factor<'_>) -> Vec<Cell> {
         2 => Vec::new(),
         _ => levels.iter().map(one).collect(),
     };
-    let onwards = match factor.role() {
+    let onwards = match factor.column.role {
         Role::Run if levels.len() > 3 => changes(factor),
         _ => Vec::new(),
     };
@@ -144,7 +136,7 @@ fn shifts(fitted: &FittedModel<'_>, factor: &Factor<'_>) -> Vec<Cell> {
 
 /// From one level on, with more than one level on both sides.
 fn changes(factor: &Factor<'_>) -> Vec<Variation> {
-    let name = factor.name();
+    let name = &factor.column.name;
     let firsts = &factor.levels[2..factor.levels.len() - 1];
     let since = |first: &u32| {
         let rows = factor.labels.of_row.iter();
@@ -157,7 +149,7 @@ fn changes(factor: &Factor<'_>) -> Vec<Variation> {
 }
 
 fn directions(fitted: &FittedModel<'_>, factor: &Factor<'_>) -> Cell {
-    let (name, last) = (factor.name(), factor.levels[factor.levels.len() - 1]);
+    let (name, last) = (&factor.column.name, factor.levels[factor.levels.len() - 1]);
     let modifier = map(&factor.indicator(last), |x| 2.0 * x - 1.0);
     let way = Modifier::number(modifier, format!("direction({name})"));
     let id = EffectId::Hysteresis;

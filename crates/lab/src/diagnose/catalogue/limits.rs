@@ -3,7 +3,9 @@
 
 use super::building::{form, on_node, on_output, plain, scoped_label};
 use super::fitted::{FittedModel, Node, varies};
-use super::modifiers::{figure, figure_to, five_digits, largest, levels_of, map, range, rounded};
+use super::modifiers::{
+    figure, figure_to, five_digits, largest, levels_of, map, range, rounded, unit_text,
+};
 use super::sharp::sharpened;
 use super::stuck::{beside, moves_on};
 use super::{Cell, EffectId, Modifier, Term, Variation};
@@ -80,10 +82,8 @@ fn ceiling(fitted: &FittedModel<'_>, response: usize, sign: f64) -> Option<Varia
         true => ("min", "above"),
         false => ("max", "below"),
     };
-    let shown = match unit.is_one() {
-        true => level.to_string(),
-        false => format!("{level} {}", unit.typeset()),
-    };
+    let shown = format!("{level} {}", unit_text(unit));
+    let shown = shown.trim_end();
     let text = format!("({least}({name}, {shown}) - {name})");
     let term = on_output(Modifier::new(modifier, text, unit.difference())).on(response);
     Some(Variation::one(format!("{end} {shown}"), term))
@@ -119,9 +119,8 @@ fn soft_limit(fitted: &FittedModel<'_>, column: usize) -> Cell {
         on_output(Modifier::new(modifier, text, fitted.step_unit(column)))
     };
     let limits = [0.5, 0.6, 0.7, 0.8, 0.9].map(|share| share * most);
-    let limits = fitted
-        .finer
-        .levels(sharpened(fitted, limits.into(), &beyond));
+    let limits = sharpened(fitted, limits.into(), &beyond);
+    let limits = fitted.finer.levels(limits);
     let variants = limits.into_iter().map(|limit| {
         let label = format!("above {} {unit}", figure(limit));
         Variation::one(label, beyond(limit)).shaped("x₀", limit, &unit)

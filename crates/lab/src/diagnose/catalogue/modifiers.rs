@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use gumption_core::quantity::Unit;
+
 /// Less the middle.
 pub fn centred(x: &[f64]) -> Vec<f64> {
     let middle = middle(x);
@@ -290,6 +292,31 @@ pub fn correlation(x: &[f64], z: &[f64]) -> f64 {
     if size > 0.0 { dot(&x, &z) / size } else { 0.0 }
 }
 
+/// The straight line from `x` to `y`, by its slope and its value at zero, and what it leaves of the variance of `y`; a `y`
+/// without variance is followed by its own value.
+pub fn line_through(x: &[f64], y: &[f64]) -> (f64, f64, f64) {
+    let (mean_x, mean_y) = (mean(x), mean(y));
+    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+    for (x, y) in x.iter().zip(y) {
+        xx += (x - mean_x) * (x - mean_x);
+        xy += (x - mean_x) * (y - mean_y);
+        yy += (y - mean_y) * (y - mean_y);
+    }
+    if !(yy > 0.0 && xx > 0.0) {
+        return (0.0, mean_y, if yy > 0.0 { 1.0 } else { 0.0 });
+    }
+    let factor = xy / xx;
+    (factor, mean_y - factor * mean_x, 1.0 - xy * xy / (xx * yy))
+}
+
+/// A unit as text; nothing for a number.
+pub fn unit_text(unit: &Unit) -> String {
+    match unit.is_one() {
+        true => String::new(),
+        false => unit.typeset(),
+    }
+}
+
 /// The largest modulus.
 pub fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
@@ -410,5 +437,13 @@ mod tests {
         assert_eq!(grid.len(), 5);
         assert!((grid[2] - 4.0).abs() < 1e-12);
         assert!(super::grid(1.0, 0.5, 2.0, 3).is_empty());
+    }
+
+    #[test]
+    fn origin_and_unit_of_a_modifier_are_found() {
+        let (factor, offset, left) = line_through(&[0.0, 1.0, 2.0], &[3.0, 5.0, 7.0]);
+        assert!((factor - 2.0).abs() < 1e-12 && (offset - 3.0).abs() < 1e-12);
+        assert!(left.abs() < 1e-12);
+        assert!(line_through(&[0.0, 1.0, 0.0], &[0.0, 0.0, 1.0]).2 > 0.5);
     }
 }

@@ -9,11 +9,9 @@ use super::{Cell, EffectId, Modifier, Variation, tied};
 
 /// Cells of the readout.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
-    let mut cells: Vec<Cell> = (0..fitted.case().responses.len())
-        .filter_map(|response| quantisation(fitted, response))
-        .collect();
-    cells.extend(shifted(fitted));
-    cells
+    let responses = 0..fitted.case().responses.len();
+    let steps = responses.filter_map(|response| quantisation(fitted, response));
+    steps.chain(shifted(fitted)).collect()
 }
 
 /// Rounding of the model's output to the step in which readings come: an error of known size.

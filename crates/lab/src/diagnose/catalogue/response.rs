@@ -2,6 +2,7 @@
 //! lag.
 
 use super::building::{cell, course, form, on_node, on_output, pair, time_constants, timed};
+use super::conditions::on_offset;
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{
     Course, creeps, delayed, figure, five_digits, grid, largest, levels_of, map, map2, mean, range,
@@ -55,11 +56,7 @@ fn aside(fitted: &FittedModel<'_>, factors: &[usize]) -> Vec<Cell> {
     }
     let of_vector = |vector: &Vec<usize>| {
         let each = vector.iter().map(|column| fitted.centred(*column));
-        let id = match fitted.case().columns[vector[0]].role {
-            _ if fitted.is_temperature(vector[0]) => EffectId::TempcoBias,
-            Role::Stimulus => EffectId::CrossSensitivity,
-            _ => EffectId::Sensitivity,
-        };
+        let id = on_offset(fitted, vector[0]);
         let form = form("", each.collect());
         on_node(fitted, id, &fitted.names(vector), Node::Output, [form])
     };

@@ -160,7 +160,7 @@ impl<'g, 'f> Deleted<'g, 'f> {
 fn reversed(fitted: &FittedModel<'_>) -> Cell {
     let of = |factor: Factor<'_>| -> Vec<Variation> {
         let turned = |level: &u32| {
-            let label = format!("{} {}", factor.name(), factor.text(*level));
+            let label = format!("{} {}", factor.column.name, factor.text(*level));
             let turned = map(&factor.indicator(*level), |x| -2.0 * x);
             let modifier = Modifier::number(turned, format!("-2*[{label}]"));
             Variation::one(label, Term::new(Node::Gain, modifier))

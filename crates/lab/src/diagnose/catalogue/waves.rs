@@ -37,13 +37,11 @@ struct Course {
 
 /// One cell for each course.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
-    let mut cells: Vec<Cell> = courses(fitted)
-        .iter()
-        .filter_map(|course| periods(fitted, course))
-        .collect();
+    let courses = courses(fitted).into_iter();
+    let of_courses = courses.filter_map(|course| periods(fitted, &course));
     let turning = super::angles::angles(fitted).into_iter();
-    cells.extend(turning.filter_map(|column| lines(fitted, column)));
-    cells
+    let of_angles = turning.filter_map(|column| lines(fitted, column));
+    of_courses.chain(of_angles).collect()
 }
 
 fn courses(fitted: &FittedModel<'_>) -> Vec<Course> {

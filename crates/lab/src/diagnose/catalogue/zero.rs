@@ -34,7 +34,6 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     for cell in &mut cells {
         cell.variants.retain(shows);
     }
-    cells.retain(|cell| !cell.variants.is_empty());
     cells
 }
 

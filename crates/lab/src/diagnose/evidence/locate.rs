@@ -97,7 +97,7 @@ fn excited(cells: &[Cell], cell: usize) -> bool {
 fn simulated(baseline: &Baseline, seen: &DMatrix<f64>, settings: &Settings) -> Vec<f64> {
     let null = Null::new(baseline, settings.seed, STAGE);
     let chunks = settings.draws.div_ceil(gumption_lanes::LANES).max(1);
-    side_by_side(chunks, |index| {
+    let each = side_by_side(chunks, |index| {
         let recordings = null.along(index, seen);
         let each = recordings.components.row_iter().enumerate();
         let most = each.map(|(lane, components)| {
@@ -105,10 +105,8 @@ fn simulated(baseline: &Baseline, seen: &DMatrix<f64>, settings: &Settings) -> V
             components.amax().powi(2) / scale(baseline, chi_squared, recordings.offsets[lane])
         });
         most.collect::<Vec<f64>>()
-    })
-    .into_iter()
-    .flatten()
-    .collect()
+    });
+    each.concat()
 }
 
 /// The variance that components are compared with: 1 if the noise is known.

@@ -40,7 +40,7 @@ pub struct Pair {
     pub rival: usize,
     /// Cosine of the angle between the two.
     pub cosine: f64,
-    /// Coefficient of `atom` that is told from the rival as good as always, κ = 5; `None` for exact
+    /// Coefficient of the atom that is told from the rival as good as always, κ = 5; `None` for exact
     /// aliases.
     pub separable: Option<f64>,
 }

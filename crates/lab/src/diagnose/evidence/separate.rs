@@ -204,14 +204,17 @@ mod tests {
         effects.map(|effect| baseline.project(&DMatrix::from_columns(&[effect])))
     }
 
-    fn held(columns: &[DMatrix<f64>], sizes: &[f64]) -> Separability {
-        let of = |column: &DMatrix<f64>| Standing {
+    fn standing(column: &DMatrix<f64>, sizes: &[f64]) -> Standing {
+        Standing {
             effects: column * DMatrix::from_row_slice(1, sizes.len(), sizes),
             variants: vec![column.clone()],
             repeats: false,
-        };
-        let standing: Vec<Standing> = columns.iter().map(of).collect();
-        apart(&standing).unwrap()
+        }
+    }
+
+    fn held(columns: &[DMatrix<f64>], sizes: &[f64]) -> Separability {
+        let each = columns.iter().map(|column| standing(column, sizes));
+        apart(&each.collect::<Vec<_>>()).unwrap()
     }
 
     fn worth(mounts: &[f64], sizes: &[f64], probabilities: [f64; 2]) -> Worth {
@@ -252,16 +255,11 @@ mod tests {
     fn a_rival_with_more_variants_is_nearer() {
         let [own, other] = design(&[0.0, 180.0]);
         let left = |variants: Vec<DMatrix<f64>>| {
-            let standing = |column: &DMatrix<f64>, variants| Standing {
-                effects: 5.0 * column,
+            let rival = Standing {
                 variants,
-                repeats: false,
+                ..standing(&other, &[5.0])
             };
-            let both = [
-                standing(&own, vec![own.clone()]),
-                standing(&other, variants),
-            ];
-            apart(&both).unwrap().left[0][1][0]
+            apart(&[standing(&own, &[5.0]), rival]).unwrap().left[0][1][0]
         };
         let mixed = &own + 0.05 * &other;
         assert!(left(vec![other.clone()]) > 5.0);

@@ -104,18 +104,14 @@ fn condensed(directions: &DMatrix<f64>, weights: &DVector<f64>) -> DMatrix<f64> 
     basis * half
 }
 
-/// A named set against the competitor with the best part of the set.
-#[derive(Debug, Default)]
-pub(super) struct Rivalry {
-    /// By how much the set is better: logarithm of the odds, without prior odds of the competitor. Infinite
-    /// where nothing competes.
-    pub(super) margin: Option<f64>,
-}
+/// A named set against the competitor with the best part of the set: by how much the set is better, as the logarithm of the
+/// odds without prior odds of the competitor; nothing where nothing competes.
+pub(super) struct Rivalry(Option<f64>);
 
 impl Rivalry {
     pub(super) fn new(space: &Space, named: &[usize], competitor: &Unlisted) -> Rivalry {
         let Some(whole) = space.frame(named) else {
-            return Rivalry::default();
+            return Rivalry(None);
         };
         let own = space.score(&whole);
         let count = named.len();
@@ -129,16 +125,14 @@ impl Rivalry {
                 space.score(&frame) + evidence(&ladder, components.iter(), &space.residual(&frame)),
             )
         });
-        Rivalry {
-            margin: rivals.max_by(f64::total_cmp).map(|score| own - score),
-        }
+        Rivalry(rivals.max_by(f64::total_cmp).map(|score| own - score))
     }
 
     /// Whether a set of so many effects stands. Several effects have to be better than one that is not
     /// listed; a single one that is worse would not have passed the gate as complete, and where it is one of
     /// a list, the list and not the set would have to be compared.
     pub(super) fn stands(&self, effects: usize) -> bool {
-        effects < 2 || self.margin.is_none_or(|margin| margin >= 0.0)
+        effects < 2 || self.0.is_none_or(|margin| margin >= 0.0)
     }
 }
 
@@ -182,9 +176,7 @@ pub(super) fn leftover(
         };
         residuals.iter().enumerate().map(one).collect::<Vec<_>>()
     })
-    .into_iter()
-    .flatten()
-    .collect();
+    .concat();
     combined(observed, &draws)
 }
 

@@ -421,7 +421,7 @@ fn shown(record: &Record, trial: &Trial, answer: &Answer, effects: &[TrueEffect]
 fn deviation(all: &[StandIn], name: &Name) -> Option<f64> {
     let label = &name.variants.first()?.label;
     let is_it = |l: &&StandIn| {
-        l.pick.id == name.id.as_str() && l.pick.along == name.along && l.label == *label
+        l.pick.id.as_str() == name.id.as_str() && l.pick.along == name.along && l.label == *label
     };
     let size = all.iter().find(is_it)?.size?;
     let half_width = name.coverage_factor? * (*name.u.first()?)?;

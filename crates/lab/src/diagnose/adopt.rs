@@ -7,6 +7,7 @@ use nalgebra::DVector;
 
 use super::case::{Case, Column, Data, Parameter, Role};
 use super::catalogue::{FittedModel, Node, Term, Variation};
+use super::design::{Design, UnknownKind};
 use super::evidence::{Baseline, TRACE};
 use gumption_core::quantity::Unit;
 
@@ -52,21 +53,15 @@ impl Free {
         let shows = shares.iter().any(|share| *share > TRACE);
         let is_free = |at: &usize| !shows || shares[*at] > TRACE;
         let coefficients: Vec<usize> = (0..shares.len()).filter(is_free).collect();
-        let mut free = Variation {
-            terms: Vec::new(),
-            ..variation.clone()
-        };
-        let mut next = 0;
-        for term in &variation.terms {
-            next += usize::from(!term.tied);
-            if coefficients.contains(&(next.saturating_sub(1))) {
-                free.terms.push(term.clone());
-            }
-        }
+        let terms = variation.numbered();
+        let terms = terms.filter(|(coefficient, _)| coefficients.contains(coefficient));
         Free {
+            variation: Variation {
+                terms: terms.map(|(_, term)| term.clone()).collect(),
+                ..variation.clone()
+            },
             sizes: coefficients.iter().map(|at| sizes[*at]).collect(),
             coefficients,
-            variation: free,
         }
     }
 }
@@ -94,10 +89,8 @@ pub struct Addition {
 pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<Extended> {
     let mut case = fitted.design.recording().clone();
     let mut additions: Vec<Addition> = Vec::new();
-    let mut equations: Vec<Extending> = (0..case.responses.len())
-        .map(|response| Extending::of(case.equations.text(response)))
-        .collect();
-    let parameters = case.parameters.len();
+    let texts = (0..case.responses.len()).map(|response| case.equations.text(response));
+    let mut equations: Vec<Extending> = texts.map(Extending::of).collect();
     let mut columns = Vec::new();
     let mut places = effects.iter().enumerate().flat_map(|(effect, free)| {
         let coefficients = free.coefficients.iter();
@@ -143,13 +136,10 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
             });
         }
     }
-    debug_assert_eq!(case.parameters.len(), parameters + additions.len());
     case.columns.extend(columns);
-    let texts: Vec<String> = equations
-        .iter()
-        .enumerate()
-        .map(|(response, equation)| equation.text(fitted, response))
-        .collect();
+    let texts = equations.iter().enumerate();
+    let texts = texts.map(|(response, equation)| equation.text(fitted, response));
+    let texts: Vec<String> = texts.collect();
     case.equations = case.compiled(&texts)?;
     case.model = texts;
     Some(Extended {
@@ -179,35 +169,31 @@ pub(super) fn scattered(extended: &mut Extended, is_scattered: impl Fn(usize) ->
 }
 
 /// Where the search begins: the declared fit, with the coefficients that the examination found.
-pub fn start(
-    fitted: &FittedModel<'_>,
-    design: &super::design::Design<'_>,
-    effects: &[Free],
-) -> DVector<f64> {
-    use super::design::UnknownKind;
-    let sizes: Vec<f64> = effects.iter().flat_map(|free| free.sizes.clone()).collect();
+pub fn start(fitted: &FittedModel<'_>, design: &Design<'_>, effects: &[Free]) -> DVector<f64> {
     let declared = fitted.case().parameters.len();
+    let mut sizes = effects.iter().flat_map(|free| &free.sizes);
     let mut own = fitted.fit.unknowns.iter();
     let of = design.unknowns.iter().map(|unknown| match unknown.kind {
-        UnknownKind::Parameter { parameter, .. } if parameter >= declared => {
-            let value = sizes.get(parameter - declared).copied().unwrap_or(0.0);
-            if value.is_finite() { value } else { 0.0 }
-        }
-        _ => own.next().copied().unwrap_or(0.0),
+        UnknownKind::Parameter { parameter, .. } if parameter >= declared => sizes.next(),
+        _ => own.next(),
     });
-    DVector::from_vec(of.collect())
+    let values = of.map(|value| value.copied().filter(|x| x.is_finite()).unwrap_or(0.0));
+    DVector::from_vec(values.collect())
 }
 
 fn free(case: &Case, stem: &str, number: usize) -> String {
-    let taken = |name: &str| {
-        case.parameters.iter().any(|p| p.name == name)
-            || case
-                .columns
-                .iter()
-                .any(|c| c.name == name || c.header == name)
-    };
+    let headers = case
+        .columns
+        .iter()
+        .flat_map(|column| [&column.name, &column.header]);
+    let known = case
+        .parameters
+        .iter()
+        .map(|parameter| &parameter.name)
+        .chain(headers);
+    let known: Vec<&String> = known.collect();
     let mut name = format!("{stem}_{number}");
-    while taken(&name) {
+    while known.contains(&&name) {
         name.push('_');
     }
     name

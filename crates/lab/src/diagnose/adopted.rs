@@ -4,8 +4,8 @@ use super::adopt;
 use super::candidates::{Candidates, baseline};
 use super::confirm::{self, Estimated, Quality, estimates};
 use super::design::Design;
-use super::evidence::{self, Baseline, Examination};
-use super::fit::{Fit, ModelVersion, NoFit, Unsettled};
+use super::evidence::{Alternative, Baseline, Examination};
+use super::fit::{Fit, NoFit};
 use super::noise::Claimed;
 use super::parts::{self, Confirmation};
 
@@ -26,8 +26,6 @@ pub struct Adopted {
     pub fit: Fit,
     /// Further checks.
     pub confirmation: Confirmation,
-    /// Whether its fit is one on which a reader should not rely.
-    pub unsettled: Option<Unsettled>,
 }
 
 /// The model with the named effects, and how well it does.
@@ -41,7 +39,7 @@ pub(super) fn adopt_named(
         return Ok(None);
     };
     let design = Design::new(&extended.case);
-    let quality = confirm::quality(&design, &fit, claimed, claimed);
+    let quality = confirm::quality(&design, &fit, claimed);
     let all = estimates(&design, &fit, claimed);
     let added = extended.additions.len();
     let confirmation = parts::confirmation(&design, &fit, claimed, added, &found);
@@ -60,7 +58,6 @@ pub(super) fn adopt_named(
         unknowns,
         quality,
         confirmation,
-        unsettled: fit.unsettled(ModelVersion::Improved),
         fit,
         extended,
     }))
@@ -99,13 +96,18 @@ impl Adopted {
     }
 }
 
+/// Whether an alternative is what stands for an atom.
+fn is_of(alternative: &Alternative, atom: usize) -> bool {
+    alternative
+        .variants
+        .first()
+        .is_some_and(|one| one.atom == atom)
+}
+
 /// The size of an effect is that of the adopted model, wherever it is stated.
 fn restate(examination: &mut Examination, atom: usize, coefficient: usize, fitted: &Estimated) {
     let firsts = (examination.slots.iter_mut()).filter_map(|slot| slot.named.first_mut());
-    let is_it = |first: &&mut evidence::Alternative| {
-        first.variants.first().is_some_and(|one| one.atom == atom)
-            && first.estimate.len() > coefficient
-    };
+    let is_it = |first: &&mut Alternative| is_of(first, atom) && first.estimate.len() > coefficient;
     for first in firsts.filter(is_it) {
         let factor = fitted.u / first.covariance[(coefficient, coefficient)].sqrt();
         if factor.is_finite() && factor > 0.0 {
@@ -121,11 +123,9 @@ fn restate(examination: &mut Examination, atom: usize, coefficient: usize, fitte
 /// may have other explanations, and that weak ones are found where they come out large.
 fn widen(estimated: &mut Estimated, atom: usize, coefficient: usize, examination: &Examination) {
     let mut firsts = (examination.slots.iter()).filter_map(|slot| slot.named.first());
-    let is_it =
-        |first: &&evidence::Alternative| first.variants.iter().take(1).any(|one| one.atom == atom);
-    if let Some(found) = firsts.find(is_it) {
-        let choice = found.choice.get(coefficient).copied().unwrap_or(0.0);
-        let choice = if choice.is_finite() { choice } else { 0.0 };
+    if let Some(found) = firsts.find(|first| is_of(first, atom)) {
+        let choice = found.choice.get(coefficient).copied();
+        let choice = choice.filter(|choice| choice.is_finite()).unwrap_or(0.0);
         estimated.u = found.widened(estimated.u, choice);
     }
 }

@@ -1,6 +1,7 @@
 //! Blocks of consecutive rows: of each, the mean is one observation.
 
 use super::case::{Blocks, Case, Role};
+use super::catalogue::modifiers::mean;
 use crate::recording::Labels;
 
 /// Prolonged recordings in time are averaged in blocks, unless the case says otherwise.
@@ -49,13 +50,10 @@ fn chosen(case: &Case) -> usize {
         return 1;
     }
     let mut size = case.rows.div_ceil(MOST_BLOCKS);
-    let parameters = case.parameters.len();
     // What was applied: effects that are added to a model as columns leave its blocks as they are.
     let used = (0..case.columns.len()).filter(|column| {
         let role = case.columns[*column].role;
-        matches!(role, Role::Stimulus | Role::Angle)
-            && (0..case.responses.len())
-                .any(|r| case.equations.uses(r).contains(&(parameters + column)))
+        matches!(role, Role::Stimulus | Role::Angle) && case.uses(*column)
     });
     let used: Vec<&[f64]> = used.filter_map(|c| case.columns[c].numbers()).collect();
     while size > 1 && !used.iter().all(|numbers| kept(numbers, size) >= KEPT) {
@@ -66,7 +64,6 @@ fn chosen(case: &Case) -> usize {
 
 /// Share of the variance of a column that means of so many rows keep.
 fn kept(numbers: &[f64], size: usize) -> f64 {
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let about = |values: &[f64], middle: f64| -> f64 {
         values.iter().map(|x| (x - middle) * (x - middle)).sum()
     };
@@ -85,9 +82,7 @@ fn cut(case: &Case, size: usize) -> Vec<Vec<usize>> {
         Blocks::Dwells(columns) => (columns.iter())
             .filter_map(|column| case.columns[*column].labels())
             .collect(),
-        _ => (case.columns.iter())
-            .filter_map(|column| column.labels())
-            .collect(),
+        _ => case.labels().collect(),
     };
     let same = |a: usize, b: usize| labels.iter().all(|l| l.of_row[a] == l.of_row[b]);
     let mut blocks: Vec<Vec<usize>> = Vec::new();

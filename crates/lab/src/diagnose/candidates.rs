@@ -121,9 +121,10 @@ impl<'f> Candidates<'f> {
         settings: &evidence::Settings,
     ) -> Result<(f64, Claimed), Refusal> {
         let (design, fit) = (self.fitted.design, self.fitted.fit);
-        let seen = spreads
-            .iter()
-            .map(|spread| courses.seen(design, fit, &|correlated| spread.noise_with(correlated)));
+        let with = |spread: &Claimed| {
+            courses.seen(design, fit, &|correlated| spread.noise_with(correlated))
+        };
+        let seen = spreads.iter().map(with);
         let seen = seen.collect::<Result<Vec<_>, _>>()?.concat();
         let contest = evidence::contest(&seen, &self.candidates, &self.atoms, settings)?;
         let log_posterior = match contest.p <= settings.alpha {
@@ -142,11 +143,10 @@ impl<'f> Candidates<'f> {
 
     /// Adds values about the parameters of strong effects; whether there are any that were not tried.
     pub(super) fn refine(&self, finer: &mut Finer, examination: &Examination) -> bool {
-        let strong = (examination.slots.iter())
-            .filter_map(|slot| slot.named.first())
-            .filter(|named| named.lambda >= CLEAR);
+        let slots = examination.slots.iter();
+        let firsts = slots.filter_map(|slot| slot.named.first());
         let mut new = false;
-        for named in strong {
+        for named in firsts.filter(|named| named.lambda >= CLEAR) {
             // The variant with two time constants has none between: one alone may do when it is the right one.
             let found = named.variants.iter().find_map(|variant| {
                 let (cell, variation) = (self.cell(variant.atom), self.variation(variant.atom));
@@ -172,21 +172,20 @@ impl<'f> Candidates<'f> {
     /// The refit with the named effects in the model.
     pub(super) fn adopted_fit(&self, examination: &Examination, claimed: &Claimed) -> Refit {
         let found = examination.fitted.as_ref();
-        let Some(found) = found.filter(|found| !found.atoms.is_empty()) else {
-            return Ok(None);
-        };
-        let Some((mut extended, open)) = self.with_effects(found, claimed) else {
+        let found = found.filter(|found| !found.atoms.is_empty());
+        let with_effects = found.and_then(|found| self.with_effects(found, claimed));
+        let Some((mut extended, open)) = with_effects else {
             return Ok(None);
         };
         // Levels within those of a parameter, such as runs of one specimen: what they have in common is the
         // parameter's.
         adopt::scattered(&mut extended, |effect| open.contains(&effect));
-        if let Ok(fit) = refit(&self.fitted, &extended, claimed) {
-            return Ok(Some((extended, fit)));
+        let mut fit = refit(&self.fitted, &extended, claimed);
+        if fit.is_err() {
+            adopt::scattered(&mut extended, |_| true);
+            fit = refit(&self.fitted, &extended, claimed);
         }
-        adopt::scattered(&mut extended, |_| true);
-        let fit = refit(&self.fitted, &extended, claimed)?;
-        Ok(Some((extended, fit)))
+        Ok(Some((extended, fit?)))
     }
 
     /// The model with the named effects in it, and those of them that the recording does not determine.
@@ -243,7 +242,6 @@ fn question(
             family: cell.effect.family.clone(),
             place: cell.place.clone(),
             cause: cause(cells, index),
-            typical: cell.typical,
             repeats: cell.effect.repeats,
             describes: cell.effect.pattern.is_some(),
             odds: cell.odds,
@@ -259,7 +257,6 @@ fn question(
         for ((number, shape), _) in shapes.into_iter().zip(shown).filter(|(_, shown)| *shown) {
             atoms.push(Atom {
                 candidate: index,
-                variant: cell.variants[number].label.clone(),
                 shape,
                 share: cell.variants[number].weight,
             });
@@ -286,26 +283,23 @@ fn cause(cells: &[Cell], index: usize) -> usize {
 /// part at all is kept: it is listed as invisible.
 fn showing<'s>(baseline: &Baseline, shapes: impl Iterator<Item = &'s Shape>) -> Vec<bool> {
     const NOTHING: f64 = 1e-6;
+    let named = |shape: &'s Shape| match shape {
+        Shape::Columns(columns) => Some(columns),
+        Shape::Smooth { .. } | Shape::Scatter => None,
+    };
     let shapes: Vec<&Shape> = shapes.collect();
-    let columns: Vec<_> = (shapes.iter())
-        .filter_map(|shape| match shape {
-            Shape::Columns(columns) => Some(columns),
-            Shape::Smooth { .. } | Shape::Scatter => None,
-        })
-        .flat_map(|columns| columns.column_iter())
-        .collect();
+    let columns = shapes.iter().filter_map(|shape| named(shape));
+    let columns: Vec<_> = columns.flat_map(|columns| columns.column_iter()).collect();
     if columns.is_empty() {
         return vec![true; shapes.len()];
     }
-    let mut shares = baseline
-        .visibilities(&DMatrix::from_columns(&columns))
-        .into_iter();
-    let shown = |shape: &&Shape| match shape {
-        Shape::Columns(columns) => {
+    let shares = baseline.visibilities(&DMatrix::from_columns(&columns));
+    let mut shares = shares.into_iter();
+    let shown = |shape: &&'s Shape| {
+        named(shape).is_none_or(|columns| {
             let most = (shares.by_ref().take(columns.ncols())).fold(0.0, f64::max);
             !(NOTHING..TRACE).contains(&most)
-        }
-        Shape::Smooth { .. } | Shape::Scatter => true,
+        })
     };
     shapes.iter().map(shown).collect()
 }
@@ -323,25 +317,20 @@ fn shape(columns: DMatrix<f64>, variation: &Variation, claimed: &Claimed) -> Opt
             features: columns,
             spectrum: spectrum.clone(),
         }),
-        None => columns
-            .iter()
-            .any(|x| *x != 0.0)
-            .then_some(Shape::Columns(columns)),
+        None => (columns.amax() > 0.0).then_some(Shape::Columns(columns)),
     }
 }
 
 /// Effects with coefficients that the recording does not determine beside the parameters and one another.
 fn undetermined(fitted: &FittedModel<'_>, baseline: &Baseline, effects: &[Free]) -> Vec<usize> {
-    let columns: Vec<DMatrix<f64>> = (effects.iter())
-        .map(|free| free.variation.columns(fitted))
-        .collect();
-    let all: Vec<_> = columns.iter().flat_map(|own| own.column_iter()).collect();
+    let columns = effects.iter().map(|free| free.variation.columns(fitted));
+    let all = evidence::all(columns);
     if all.is_empty() {
         return Vec::new();
     }
-    let kept = evidence::determined(baseline, &DMatrix::from_columns(&all));
-    let of = columns.iter().enumerate();
-    let of = of.flat_map(|(effect, own)| std::iter::repeat_n(effect, own.ncols()));
+    let kept = evidence::determined(baseline, &all);
+    let of = effects.iter().enumerate();
+    let of = of.flat_map(|(at, own)| std::iter::repeat_n(at, own.variation.coefficients()));
     let open = of.enumerate().filter(|(at, _)| !kept.contains(at));
     open.map(|(_, effect)| effect).collect()
 }

@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
-use super::case::{Case, Data, Rows};
+use super::case::{Case, Rows};
 use super::design::{Design, Linear, Whole};
 use super::fit::Fit;
 use crate::recording::Labels;
@@ -49,13 +49,9 @@ impl<'c> Coarse<'c> {
                 .map(|slopes| means_of_columns(&pieces, slopes))
                 .collect(),
         };
-        let data = design.case.columns.iter().map(|column| match &column.data {
-            Data::Numbers(numbers) => Data::Numbers(means(&pieces, numbers)),
-            Data::Labels(labels) => Data::Labels(Labels {
-                levels: labels.levels.clone(),
-                of_row: pieces.iter().map(|p| labels.of_row[p.start]).collect(),
-            }),
-            Data::Absent => Data::Absent,
+        let data = design.case.columns.iter().map(|column| {
+            let first = |labels: &Labels| pieces.iter().map(|p| labels.of_row[p.start]).collect();
+            column.data.map(|numbers| means(&pieces, numbers), first)
         });
         let rows = Rows {
             count: pieces.len(),
@@ -96,11 +92,8 @@ fn block_of(design: &Design<'_>) -> Vec<Option<usize>> {
 
 /// About how many means there are of a design.
 pub(super) fn pieces_of(design: &Design<'_>) -> usize {
-    design
-        .case
-        .rows
-        .div_ceil(longest(design))
-        .max(design.blocks.len())
+    let pieces = design.case.rows.div_ceil(longest(design));
+    pieces.max(design.blocks.len())
 }
 
 /// Rows in a mean, at most.
@@ -112,9 +105,7 @@ fn longest(design: &Design<'_>) -> usize {
 /// Successive rows of one block, with the same labels.
 fn pieces(design: &Design<'_>, block_of: &[Option<usize>]) -> Vec<Range<usize>> {
     let most = longest(design);
-    let labels: Vec<&Labels> = (design.case.columns.iter())
-        .filter_map(|column| column.labels())
-        .collect();
+    let labels: Vec<&Labels> = design.case.labels().collect();
     let alike = |a: usize, b: usize| {
         block_of[a] == block_of[b] && labels.iter().all(|l| l.of_row[a] == l.of_row[b])
     };
@@ -170,20 +161,24 @@ mod tests {
         "t [s],x,U,run\n".to_owned() + &(0..rows).map(row).collect::<String>()
     }
 
-    fn case(rows: usize, settings: &str) -> Case {
+    fn case(rows: usize) -> Case {
         let text = recording(rows);
-        let file = format!("{CASE}{settings}");
-        let files = [("c.toml", file.as_bytes()), ("r.csv", text.as_bytes())];
+        let files = [("c.toml", CASE.as_bytes()), ("r.csv", text.as_bytes())];
         let library = Files::Library(&files);
         Case::load_from(library, Path::new("c.toml"), Purpose::Diagnosis).unwrap()
+    }
+
+    fn fitted(case: &Case) -> (Design<'_>, Fit) {
+        let design = Design::new(case);
+        let (fit, _) = noise::settle(&design).unwrap();
+        (design, fit)
     }
 
     #[test]
     fn a_lag_in_means_is_that_of_all_rows() {
         const ROWS: usize = 30_000;
-        let case = case(ROWS, "");
-        let design = Design::new(&case);
-        let (fit, _) = noise::settle(&design).unwrap();
+        let case = case(ROWS);
+        let (design, fit) = fitted(&case);
         let coarse = Coarse::of(&design, &fit);
         let seen = coarse.design();
         assert!(seen.case.rows <= 2 * PIECES * design.blocks.len());
@@ -204,9 +199,8 @@ mod tests {
 
     #[test]
     fn a_short_recording_is_as_it_is() {
-        let case = case(500, "");
-        let design = Design::new(&case);
-        let (fit, _) = noise::settle(&design).unwrap();
+        let case = case(500);
+        let (design, fit) = fitted(&case);
         let coarse = Coarse::of(&design, &fit);
         let seen = coarse.design();
         assert_eq!(seen.blocks, design.blocks);
@@ -217,8 +211,8 @@ mod tests {
     #[test]
     fn memory_is_told_from_rows_and_blocks() {
         let gib = |case: &Case| case.bytes() as f64 / (1_u64 << 30) as f64;
-        assert!(gib(&case(20_000, "")) < 1.0);
-        let mut each = case(20_000, "");
+        assert!(gib(&case(20_000)) < 1.0);
+        let mut each = case(20_000);
         each.averaging.blocks = super::super::case::Blocks::Rows;
         assert!(gib(&each) > 8.0);
         let refused = super::super::diagnose(&each, &|_| std::ops::ControlFlow::Continue(()));

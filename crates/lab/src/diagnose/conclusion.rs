@@ -178,8 +178,7 @@ impl Diagnosis {
 
     /// Whether a name only tells how the recording looks, which is no name beside something unexplained.
     fn describes(&self, one: &Alternative) -> bool {
-        let effect = self.cells[one.candidate].effect;
-        effect.only_describes()
+        self.cells[one.candidate].effect.only_describes()
     }
 
     /// The first name of the first slot, if it is not much less likely than what has no name.
@@ -193,11 +192,8 @@ impl Diagnosis {
 
     /// Where what is unexplained sits: what is likely enough; else, where no name is tentative either, the best there is.
     fn places(&self) -> Vec<&Alternative> {
-        let slots = self
-            .examination
-            .slots
-            .iter()
-            .filter(|slot| !slot.is_explained());
+        let slots = self.examination.slots.iter();
+        let slots = slots.filter(|slot| !slot.is_explained());
         let (tentative, nameless): (Vec<&Slot>, Vec<&Slot>) =
             slots.partition(|slot| self.tentative(slot).is_some());
         let found = nameless.iter().filter_map(|slot| slot.generic.first());
@@ -237,10 +233,8 @@ impl Diagnosis {
             *shares.entry(self.atoms[variant.atom].0).or_insert(0.0) += variant.share;
         }
         shares.remove(&alternative.candidate);
-        shares
-            .into_iter()
-            .filter(|(_, share)| *share >= SHARE)
-            .collect()
+        let shares = shares.into_iter();
+        shares.filter(|(_, share)| *share >= SHARE).collect()
     }
 
     /// The effect on the scale that gives the same recording as an alternative, because the readings hardly vary.

@@ -34,17 +34,12 @@ impl Quality {
 const FOLDS: usize = 10;
 
 /// Computes the quality of a fit.
-pub(super) fn quality(
-    design: &Design<'_>,
-    fit: &Fit,
-    claimed: &Claimed,
-    expected: &Claimed,
-) -> Quality {
+pub(super) fn quality(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Quality {
     Quality {
         chi_squared: chi_squared(fit, claimed),
         dof: degrees(design),
         residual: design.root_mean_squares(&fit.residuals),
-        expected: design.root_mean_squares(&expected.u),
+        expected: design.root_mean_squares(&claimed.u),
         held_out: design.root_mean_squares(&held_out(design, fit, claimed)),
     }
 }
@@ -128,12 +123,7 @@ fn mixed(spreads: &[Spread], at: usize) -> (f64, f64) {
 
 /// Observations and priors less unknowns.
 pub(super) fn degrees(design: &Design<'_>) -> f64 {
-    let priors = design
-        .unknowns
-        .iter()
-        .filter(|unknown| unknown.prior.is_some())
-        .count();
-    (design.observations() + priors) as f64 - design.unknowns.len() as f64
+    (design.observations() + design.priors()) as f64 - design.unknowns.len() as f64
 }
 
 /// Errors of the predictions of observations that the fit had not seen: tenths of the recording, in short
@@ -157,6 +147,15 @@ fn held_out(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> DVector<f64> {
     errors
 }
 
+/// Rows of the observations in units of their noise.
+pub(super) fn over_noise(rows: &DMatrix<f64>, claimed: &Claimed) -> DMatrix<f64> {
+    let mut rows = rows.clone();
+    for (mut row, u) in rows.row_iter_mut().zip(&claimed.u) {
+        row /= *u;
+    }
+    rows
+}
+
 /// Covariance matrix of the unknowns with the claimed noise; what the recording does not determine has no part in it.
 pub(super) fn covariance(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> DMatrix<f64> {
     if let Ok(baseline) = baseline(design, fit, &claimed.uncorrelated()) {
@@ -165,10 +164,7 @@ pub(super) fn covariance(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> D
             None => baseline.covariance(),
         };
     }
-    let mut rows = fit.jacobian.clone();
-    for (mut row, u) in rows.row_iter_mut().zip(&claimed.u) {
-        row /= *u;
-    }
+    let mut rows = over_noise(&fit.jacobian, claimed);
     for (at, unknown) in design.unknowns.iter().enumerate() {
         if let Some((_, u)) = unknown.prior {
             rows = rows.insert_row(0, 0.0);

@@ -9,13 +9,12 @@ use std::collections::BTreeMap;
 use gumption_lanes::level;
 use nalgebra::DMatrix;
 
-use super::case::{Blocks, Case, Data, Role, Rows};
-use super::catalogue::modifiers::range;
+use super::case::{Blocks, Case, Role, Rows};
+use super::catalogue::modifiers::{map, range};
 use super::catalogue::{self, Cell, FittedModel};
 use super::design::Design;
 use super::fit;
 use super::{chance, evidence};
-use crate::recording::Labels;
 
 /// Part of the recorded range by which inputs go beyond it.
 const BEYOND: f64 = 0.2;
@@ -38,9 +37,7 @@ pub(super) fn declared(
     let others = catalogue::cells(&there);
     let of = wanted.iter().filter_map(|(cell, variation)| {
         let own = &cells[*cell];
-        let same = |other: &&Cell| {
-            other.effect.id == own.effect.id && other.words == own.words && other.place == own.place
-        };
+        let same = |other: &&Cell| other.is(own) && other.place == own.place;
         let label = &own.variants[*variation].label;
         let variants = &others.iter().find(same)?.variants;
         let form = variants.iter().find(|variant| variant.label == *label)?;
@@ -78,19 +75,16 @@ fn elsewhere(fitted: &FittedModel<'_>) -> Case {
         let shares = chance::numbers(SEED, at as u64, count, |generator, block| {
             generator.uniforms(level(), block);
         });
-        match &column.data {
-            Data::Numbers(numbers) => Data::Numbers(match column.role {
-                Role::Stimulus | Role::Covariate | Role::Angle => spread(numbers, shares),
-                Role::Time | Role::Order => {
-                    let mut times = spread(numbers, shares);
-                    times.sort_by(f64::total_cmp);
-                    times
-                }
-                _ => numbers.iter().copied().cycle().take(count).collect(),
-            }),
-            Data::Labels(labels) => Data::Labels(scattered(labels, &shares)),
-            Data::Absent => Data::Absent,
-        }
+        let numbers = |numbers: &[f64]| match column.role {
+            Role::Stimulus | Role::Covariate | Role::Angle => spread(numbers, &shares),
+            Role::Time | Role::Order => {
+                let mut times = spread(numbers, &shares);
+                times.sort_by(f64::total_cmp);
+                times
+            }
+            _ => numbers.iter().copied().cycle().take(count).collect(),
+        };
+        (column.data).map(numbers, |labels| scattered(labels.levels.len(), &shares))
     });
     let rows = Rows {
         count,
@@ -103,30 +97,23 @@ fn elsewhere(fitted: &FittedModel<'_>) -> Case {
 }
 
 /// Numbers over the range of others; what is nowhere negative stays so.
-fn spread(numbers: &[f64], shares: Vec<f64>) -> Vec<f64> {
+fn spread(numbers: &[f64], shares: &[f64]) -> Vec<f64> {
     let (least, most) = range(numbers);
     let beyond = BEYOND * (most - least);
-    let low = if least >= 0.0 {
-        (least - beyond).max(0.5 * least)
+    let floor = if least >= 0.0 {
+        0.5 * least
     } else {
-        least - beyond
+        f64::NEG_INFINITY
     };
-    let high = most + beyond;
-    shares
-        .into_iter()
-        .map(|share| low + share * (high - low))
-        .collect()
+    let (low, high) = ((least - beyond).max(floor), most + beyond);
+    map(shares, |share| low + share * (high - low))
 }
 
 /// Every level once, and then as it comes.
-fn scattered(labels: &Labels, shares: &[f64]) -> Labels {
-    let levels = labels.levels.len();
+fn scattered(levels: usize, shares: &[f64]) -> Vec<u32> {
     let level = |(row, share): (usize, &f64)| {
         let drawn = (share * levels as f64) as usize;
         (if row < levels { row } else { drawn }) as u32
     };
-    Labels {
-        levels: labels.levels.clone(),
-        of_row: shares.iter().enumerate().map(level).collect(),
-    }
+    shares.iter().enumerate().map(level).collect()
 }

@@ -10,7 +10,8 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 
 use super::blocks::blocks;
-use super::case::{Case, Data, Observed, Role, interval};
+use super::case::{Case, Observed, Role, interval};
+use super::catalogue::modifiers::{mean, range};
 use gumption_core::quantity::Unit;
 
 /// The numbers of a case.
@@ -76,6 +77,13 @@ pub struct Linear {
     pub slopes: Vec<DMatrix<f64>>,
 }
 
+impl Unknown {
+    /// What is stated of it: where the search begins, or its value beforehand.
+    pub fn stated(&self) -> Option<f64> {
+        self.start.or(self.prior.map(|(value, _)| value))
+    }
+}
+
 impl<'c> Design<'c> {
     /// Numbers the unknowns and forms the blocks.
     pub fn new(case: &'c Case) -> Design<'c> {
@@ -83,9 +91,7 @@ impl<'c> Design<'c> {
         let mut first = Vec::new();
         for (index, parameter) in case.parameters.iter().enumerate() {
             first.push(unknowns.len());
-            let labels = parameter
-                .per
-                .and_then(|column| case.columns[column].labels());
+            let labels = (parameter.per).and_then(|column| case.columns[column].labels());
             let levels = labels.map_or(1, |labels| labels.levels.len());
             for level in 0..levels {
                 let name = match labels {
@@ -154,6 +160,33 @@ impl<'c> Design<'c> {
         self.case.responses.len() * self.blocks.len()
     }
 
+    /// The unknown of a name.
+    pub fn named(&self, name: &str) -> Option<usize> {
+        self.unknowns
+            .iter()
+            .position(|unknown| unknown.name == name)
+    }
+
+    /// Values of its unknowns for another design; a label that is new there has the mean of those that were seen.
+    pub fn carried(&self, values: &DVector<f64>, to: &Design<'_>) -> DVector<f64> {
+        let stem = |name: &str| name.split('[').next().map(str::to_owned);
+        let value = |name: &str| {
+            let alike = |at: &usize| stem(&self.unknowns[*at].name) == stem(name);
+            let alike = (0..values.len()).filter(alike).map(|at| values[at]);
+            (self.named(name)).map_or_else(|| mean(&alike.collect::<Vec<f64>>()), |at| values[at])
+        };
+        let values = to.unknowns.iter().map(|unknown| value(&unknown.name));
+        DVector::from_vec(values.collect())
+    }
+
+    /// Number of unknowns of which something is known beforehand.
+    pub fn priors(&self) -> usize {
+        self.unknowns
+            .iter()
+            .filter(|unknown| unknown.prior.is_some())
+            .count()
+    }
+
     /// The unknown that stands for a parameter in a row.
     pub fn unknown_of(&self, parameter: usize, row: usize) -> usize {
         let first = self.first[parameter];
@@ -183,11 +216,9 @@ impl<'c> Design<'c> {
     /// The value of every symbol in a row: parameters, then columns.
     pub fn symbols(&self, row: usize, unknowns: &DVector<f64>) -> Vec<f64> {
         let parameters = (0..self.case.parameters.len()).map(|p| unknowns[self.unknown_of(p, row)]);
-        let columns = self
-            .case
-            .columns
-            .iter()
-            .map(|column| column.numbers().map_or(f64::NAN, |numbers| numbers[row]));
+        let number = |numbers: &[f64]| numbers[row];
+        let columns = self.case.columns.iter();
+        let columns = columns.map(|column| column.numbers().map_or(f64::NAN, number));
         let mut values: Vec<f64> = parameters.chain(columns).collect();
         let parameters = self.case.parameters.len();
         for (unknown, value) in self.unknowns.iter().zip(unknowns.iter()) {
@@ -272,19 +303,15 @@ impl<'c> Design<'c> {
     pub fn observed(&self, response: usize) -> Vec<f64> {
         match self.case.responses[response].observed {
             Observed::Constant(value) => vec![value; self.case.rows],
-            Observed::Column(column) => match &self.case.columns[column].data {
-                Data::Numbers(numbers) => numbers.clone(),
-                _ => vec![f64::NAN; self.case.rows],
-            },
+            Observed::Column(column) => (self.case.columns[column].numbers())
+                .map_or_else(|| vec![f64::NAN; self.case.rows], <[f64]>::to_vec),
         }
     }
 
     /// Response and block of an observation.
     pub fn place(&self, observation: usize) -> (usize, usize) {
-        (
-            observation / self.blocks.len(),
-            observation % self.blocks.len(),
-        )
+        let blocks = self.blocks.len();
+        (observation / blocks, observation % blocks)
     }
 
     /// The number of a row in the recording, from zero; of a mean, the mean of its rows.
@@ -324,12 +351,7 @@ pub struct Clock {
 impl Clock {
     /// From the first to the last.
     pub fn span(&self) -> f64 {
-        let least = self.values.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = self
-            .values
-            .iter()
-            .copied()
-            .fold(f64::NEG_INFINITY, f64::max);
+        let (least, most) = range(&self.values);
         (most - least).max(0.0)
     }
 

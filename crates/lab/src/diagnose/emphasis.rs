@@ -37,26 +37,20 @@ pub struct Unseen<'d> {
 impl<'d> Unseen<'d> {
     fn of(omitted: &'d [Omitted], estimates: &[Estimated]) -> Unseen<'d> {
         let u: Vec<f64> = estimates.iter().map(|estimate| estimate.u).collect();
-        let dear = |line: &&Omitted| {
+        let dear = |line: &'d Omitted| {
             let (at, ratio) = line.worst(&u)?;
-            (line.shift.is_some() && ratio > MATTERS).then_some(at)
+            (line.shift.is_some() && ratio > MATTERS).then_some((line, at))
         };
-        let hidden = |line: &&Omitted| {
+        let hidden = |line: &'d Omitted| {
             let gains = line.after.gain.iter().zip(&u);
             let gains = gains.map(|(gain, u)| gain.abs() / u).enumerate();
             let worst = gains.filter(|(_, gain)| gain.is_finite());
             let (at, _) = worst.max_by(|a, b| a.1.total_cmp(&b.1))?;
-            (line.is_invisible() && line.shift.is_none()).then_some(at)
+            (line.is_invisible() && line.shift.is_none()).then_some((line, at))
         };
         Unseen {
-            dear: omitted
-                .iter()
-                .filter_map(|o| Some((o, dear(&o)?)))
-                .collect(),
-            hidden: omitted
-                .iter()
-                .filter_map(|o| Some((o, hidden(&o)?)))
-                .collect(),
+            dear: omitted.iter().filter_map(dear).collect(),
+            hidden: omitted.iter().filter_map(hidden).collect(),
         }
     }
 }

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::catalogue::{Cell, EffectId, FittedModel, Pattern, Variation, Words};
-use super::evidence::{self, Baseline, Separability, Standing};
+use super::evidence::{self, Baseline, Standing};
 use super::prolonged::{Prolonged, Recorded};
 use gumption_core::special::normal_quantile;
 
@@ -17,7 +17,7 @@ pub struct Explanation {
     /// Whether several of its variants may act at once.
     repeats: bool,
     /// Its posterior probability.
-    probability: f64,
+    pub(super) probability: f64,
     /// What it may look like, the most probable first.
     likely: Vec<Likely>,
 }
@@ -33,6 +33,16 @@ struct Likely {
     seen: DMatrix<f64>,
 }
 
+impl Likely {
+    fn of(variation: &Variation, seen: DMatrix<f64>) -> Likely {
+        Likely {
+            label: variation.label.clone(),
+            shape: value(variation),
+            seen,
+        }
+    }
+}
+
 /// Sizes and shapes for which a promise is formed.
 const DRAWS: usize = 40;
 
@@ -46,17 +56,12 @@ impl Explanation {
         probability: f64,
     ) -> Explanation {
         let sizes = sizes.map(|x| if x.is_finite() { x } else { 0.0 });
-        let columns = variation.columns(&recorded.candidates.fitted);
         Explanation {
             id: cell.effect.id,
             words: cell.words.clone(),
             repeats: cell.effect.repeats,
             probability,
-            likely: vec![Likely {
-                label: variation.label.clone(),
-                shape: value(variation),
-                seen: recorded.baseline.project(&columns) * sizes,
-            }],
+            likely: vec![Likely::of(variation, recorded.seen(variation) * sizes)],
         }
     }
 
@@ -82,29 +87,18 @@ impl Explanation {
                 continue;
             }
             let own = seen.columns(begin, end - begin).into_owned();
-            let columns = recorded
-                .baseline
-                .project(&variation.columns(&recorded.candidates.fitted));
-            likely.push(Likely {
-                label: variation.label.clone(),
-                shape: value(variation),
-                seen: fitted(&columns, &own).map_or(own, |sizes| columns * sizes),
-            });
+            let columns = recorded.seen(variation);
+            let seen = fitted(&columns, &own).map_or(own, |sizes| columns * sizes);
+            likely.push(Likely::of(variation, seen));
             begin = end;
         }
         self.likely = likely;
         self
     }
 
-    /// Its posterior probability.
-    pub(super) fn probability(&self) -> f64 {
-        self.probability
-    }
-
     /// Share of it that the parameters do not absorb in another design.
     pub(super) fn visibility(&self, prolonged: &Prolonged<'_>) -> Option<f64> {
-        let shares = prolonged.baseline.visibilities(&self.columns(prolonged)?);
-        Some(shares.into_iter().fold(1.0, f64::min))
+        Some(prolonged.baseline.visibility(&self.columns(prolonged)?))
     }
 
     /// How it stands in the recording.
@@ -126,14 +120,9 @@ impl Explanation {
         prolonged: &Prolonged<'_>,
     ) -> Option<Standing> {
         let variants = self.variants(&prolonged.fitted, &prolonged.cells);
-        let before: Vec<DMatrix<f64>> = variants
-            .iter()
-            .map(|columns| {
-                recorded
-                    .baseline
-                    .project(&prolonged.recorded(recorded, columns))
-            })
-            .collect();
+        let in_recording = |columns| prolonged.recorded(recorded, columns);
+        let before = (variants.iter().map(in_recording)).map(|own| recorded.baseline.project(&own));
+        let before: Vec<DMatrix<f64>> = before.collect();
         /// A variant that leaves more of the effect (squared) is another one.
         const MOST_LEFT: f64 = 0.5;
         // The variant there that does the same to the rows of the recording.
@@ -148,12 +137,11 @@ impl Explanation {
             same.then(|| prolonged.baseline.project(&(whole * sizes)))
         });
         let effects: Option<Vec<DMatrix<f64>>> = effects.collect();
-        let variants = variants.iter().cloned();
+        let effects = evidence::all(effects?.into_iter());
+        let seen = |columns| visible(&prolonged.baseline, columns);
         Some(Standing {
-            effects: evidence::all(effects?.into_iter()),
-            variants: variants
-                .filter_map(|columns| visible(&prolonged.baseline, columns))
-                .collect(),
+            effects,
+            variants: variants.into_iter().filter_map(seen).collect(),
             repeats: self.repeats,
         })
     }
@@ -161,11 +149,7 @@ impl Explanation {
     /// Columns of all variants that it has among some cells.
     fn variants(&self, fitted: &FittedModel<'_>, cells: &[Cell]) -> Vec<DMatrix<f64>> {
         let alike = cells.iter().filter(|cell| self.is(cell));
-        alike
-            .flat_map(|cell| &cell.variants)
-            .map(|variation| variation.columns(fitted))
-            .filter(|columns| columns.ncols() > 0 && columns.iter().all(|x| x.is_finite()))
-            .collect()
+        alike.flat_map(|cell| finite(fitted, cell)).collect()
     }
 
     pub(super) fn is(&self, cell: &Cell) -> bool {
@@ -181,19 +165,28 @@ impl Explanation {
         let same = cell.variants.iter().find(|v| v.label == own.label);
         let nearest = || {
             let own = own.shape?;
-            let far = |other: &Variation| value(other).map(|value| (value - own).abs());
-            let ranked = cell.variants.iter();
-            let ranked = ranked.filter_map(|other| Some((far(other)?, other)));
-            let nearest = ranked.min_by(|a, b| a.0.total_cmp(&b.0));
-            nearest.map(|(_, other)| other)
+            let far =
+                |other: &Variation| value(other).map_or(f64::NAN, |value| (value - own).abs());
+            let shaped = cell.variants.iter().filter(|other| other.shape.is_some());
+            shaped.min_by(|a, b| far(a).total_cmp(&far(b)))
         };
         let middle = || cell.variants.get(cell.variants.len() / 2);
-        let columns = same
-            .or_else(nearest)
-            .or_else(middle)?
-            .columns(&prolonged.fitted);
+        let found = same.or_else(nearest).or_else(middle)?;
+        let columns = found.columns(&prolonged.fitted);
         columns.iter().all(|x| x.is_finite()).then_some(columns)
     }
+}
+
+/// Columns of the variants of a cell, where they are finite.
+fn finite<'c>(
+    fitted: &'c FittedModel<'_>,
+    cell: &'c Cell,
+) -> impl Iterator<Item = DMatrix<f64>> + 'c {
+    let columns = cell
+        .variants
+        .iter()
+        .map(|variation| variation.columns(fitted));
+    columns.filter(|columns| columns.ncols() > 0 && columns.iter().all(|x| x.is_finite()))
 }
 
 fn value(variation: &Variation) -> Option<f64> {
@@ -206,18 +199,8 @@ pub(super) fn standing(
     prolonged: &Prolonged<'_>,
     set: &[Explanation],
 ) -> Option<Vec<Standing>> {
-    set.iter()
-        .map(|one| one.standing(recorded, prolonged))
-        .collect()
-}
-
-/// How far explanations are apart in another design.
-pub(super) fn apart(
-    recorded: &Recorded<'_>,
-    prolonged: &Prolonged<'_>,
-    set: &[Explanation],
-) -> Option<Separability> {
-    evidence::apart(&standing(recorded, prolonged, set)?).ok()
+    let each = set.iter().map(|one| one.standing(recorded, prolonged));
+    each.collect()
 }
 
 /// The sizes with which columns come nearest to effects.
@@ -232,12 +215,9 @@ pub(super) fn sizes(estimate: &DVector<f64>, covariance: &DMatrix<f64>) -> DMatr
     let spread = covariance.map(finite).symmetric_eigen();
     let widths = spread.eigenvalues.map(|variance| variance.max(0.0).sqrt());
     let root = &spread.eigenvectors * DMatrix::from_diagonal(&widths);
-    let normals = DMatrix::from_fn(estimate.len(), DRAWS, |k, draw| {
-        if draw == 0 {
-            0.0
-        } else {
-            normal_quantile(halton(draw, PRIMES[k % PRIMES.len()]))
-        }
+    let normals = DMatrix::from_fn(estimate.len(), DRAWS, |k, draw| match draw {
+        0 => 0.0,
+        _ => normal_quantile(halton(draw, PRIMES[k % PRIMES.len()])),
     });
     let mut sizes = root * normals;
     for mut column in sizes.column_iter_mut() {
@@ -278,18 +258,11 @@ pub(super) fn likened(
     variation: &Variation,
 ) -> Option<Explanation> {
     let seen = &explanation.likely.first()?.seen;
-    let columns = recorded
-        .baseline
-        .project(&variation.columns(&recorded.candidates.fitted));
-    let sizes = fitted(&columns, seen)?;
-    // It is not in the list: less probable than whatever is.
-    Some(Explanation::new(
-        recorded, cell, variation, &sizes, UNLISTED,
-    ))
+    let sizes = fitted(&recorded.seen(variation), seen)?;
+    /// The most that an explanation has which is not listed: less than whatever is.
+    const MOST: f64 = 0.01;
+    Some(Explanation::new(recorded, cell, variation, &sizes, MOST))
 }
-
-/// The most that an explanation has which is not listed.
-const UNLISTED: f64 = 0.01;
 
 /// Candidates that leave more do not come to stand beside an explanation by rule.
 const FAR: f64 = 8.0;
@@ -330,16 +303,10 @@ pub(super) fn unlisted(
         named && !rows && !set.iter().any(|one| one.is(cell))
     };
     let of = |cell: &Cell| {
-        let columns = cell
-            .variants
-            .iter()
-            .map(|variation| variation.columns(fitted));
-        let finite = columns.filter(|c| c.ncols() > 0 && c.iter().all(|x| x.is_finite()));
-        let seen: Vec<DMatrix<f64>> = finite.filter_map(|c| visible(baseline, c)).collect();
+        let seen = finite(fitted, cell).filter_map(|columns| visible(baseline, columns));
+        let seen: Vec<DMatrix<f64>> = seen.collect();
         let kappas = evidence::left(&effects, seen.iter().cloned());
-        let near = kappas
-            .iter()
-            .zip(standing)
+        let near = (kappas.iter().zip(standing))
             .map(|(kappa, one)| *kappa < FAR && !cell.effect.repeats && one.keeps(&seen));
         Unlisted {
             id: cell.effect.id,

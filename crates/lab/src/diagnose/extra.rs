@@ -3,7 +3,7 @@
 //! otherwise, with specimens exchanged.
 
 use super::case::{Case, Column, Data, Role, Rows, repeated};
-use crate::recording::Labels;
+use super::catalogue::modifiers::{largest, levels_of, map, mean};
 use gumption_core::quantity::UnitTable;
 
 /// A measurement that may follow.
@@ -81,10 +81,10 @@ pub fn extras(case: &Case) -> Vec<Extra> {
         };
         let name = column.name.clone();
         match (&column.data, column.role) {
-            (Data::Numbers(numbers), Role::Angle | Role::Stimulus) if used(case, index) => {
+            (Data::Numbers(numbers), Role::Angle | Role::Stimulus) if case.uses(index) => {
                 let levels = levels(numbers);
                 if is_angle(column) && levels.len() <= MOUNTS {
-                    for value in mountings(case, index, &levels) {
+                    for value in mountings(column, &levels) {
                         let measure = Measure::Set {
                             column: name.clone(),
                             value,
@@ -94,34 +94,20 @@ pub fn extras(case: &Case) -> Vec<Extra> {
                     }
                 } else if (3..=LEVELS).contains(&levels.len()) {
                     let turn = turn(column);
-                    let between = numbers.iter().map(|x| between(*x, &levels, turn)).collect();
-                    changed(
-                        Measure::Between { column: name },
-                        1.0,
-                        Data::Numbers(between),
-                    );
+                    let between = Data::Numbers(map(numbers, |x| between(x, &levels, turn)));
+                    changed(Measure::Between { column: name }, 1.0, between);
                 }
             }
             (Data::Numbers(numbers), Role::Covariate) if levels(numbers).len() > 1 => {
-                let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
-                let opposite = numbers.iter().map(|x| mean - 2.0 * (x - mean)).collect();
-                changed(
-                    Measure::Opposite { column: name },
-                    1.5,
-                    Data::Numbers(opposite),
-                );
+                let mean = mean(numbers);
+                let opposite = Data::Numbers(map(numbers, |x| mean - 2.0 * (x - mean)));
+                changed(Measure::Opposite { column: name }, 1.5, opposite);
             }
             (Data::Labels(labels), Role::Factor) if (2..=LEVELS).contains(&labels.levels.len()) => {
                 let count = labels.levels.len() as u32;
-                let exchanged = Labels {
-                    levels: labels.levels.clone(),
-                    of_row: labels.of_row.iter().map(|l| (l + 1) % count).collect(),
-                };
-                changed(
-                    Measure::Exchanged { column: name },
-                    1.0,
-                    Data::Labels(exchanged),
-                );
+                let exchanged = labels.of_row.iter().map(|l| (l + 1) % count);
+                let exchanged = Data::labels(labels, exchanged.collect());
+                changed(Measure::Exchanged { column: name }, 1.0, exchanged);
             }
             _ => {}
         }
@@ -132,22 +118,14 @@ pub fn extras(case: &Case) -> Vec<Extra> {
 /// Whether a column holds angles, by its role or its unit.
 fn is_angle(column: &Column) -> bool {
     let symbol = &column.unit.symbol;
-    column.role == Role::Angle
-        || ["°", "deg", "rad"]
-            .iter()
-            .any(|unit| symbol.ends_with(unit))
-}
-
-fn used(case: &Case, column: usize) -> bool {
-    let place = case.parameters.len() + column;
-    (0..case.responses.len()).any(|response| case.equations.uses(response).contains(&place))
+    let units = ["°", "deg", "rad"];
+    column.role == Role::Angle || units.iter().any(|unit| symbol.ends_with(unit))
 }
 
 /// Different values in ascending order.
 fn levels(numbers: &[f64]) -> Vec<f64> {
-    let mut levels = numbers.to_vec();
-    levels.sort_by(f64::total_cmp);
-    let size = levels.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let mut levels = levels_of(numbers);
+    let size = largest(&levels);
     levels.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * size);
     levels
 }
@@ -170,28 +148,23 @@ fn between(x: f64, levels: &[f64], turn: Option<f64>) -> f64 {
 
 /// A whole turn in the unit of a column of angles.
 fn turn(column: &Column) -> Option<f64> {
-    if !is_angle(column) {
-        return None;
-    }
     let degree = UnitTable::default().parse("°").ok()?;
-    Some(degree.conversion_to(&column.unit)?.apply(360.0))
+    let turn = degree.conversion_to(&column.unit)?.apply(360.0);
+    is_angle(column).then_some(turn)
 }
 
 /// Mountings that were not used: turned by an eighth, a quarter, half a turn.
-fn mountings(case: &Case, column: usize, levels: &[f64]) -> Vec<f64> {
-    let unit = &case.columns[column].unit;
-    let Ok(degree) = UnitTable::default().parse("°") else {
-        return Vec::new();
+fn mountings(column: &Column, levels: &[f64]) -> Vec<f64> {
+    let of_turn = |turn: f64| {
+        let turned = [0.125, 0.25, 0.5].map(|part| levels[0] + part * turn);
+        let near = |value: &f64| {
+            levels
+                .iter()
+                .any(|level| (level - value).abs() < 1e-6 * turn)
+        };
+        turned.into_iter().filter(|value| !near(value)).collect()
     };
-    let Some(conversion) = degree.conversion_to(unit) else {
-        return Vec::new();
-    };
-    let turned = [45.0, 90.0, 180.0].map(|angle| levels[0] + conversion.apply(angle));
-    let near = |value: &f64| {
-        let same = 1e-6 * conversion.apply(360.0);
-        levels.iter().any(|level| (level - value).abs() < same)
-    };
-    turned.into_iter().filter(|value| !near(value)).collect()
+    turn(column).map_or_else(Vec::new, of_turn)
 }
 
 #[cfg(test)]

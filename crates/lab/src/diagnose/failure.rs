@@ -59,10 +59,7 @@ impl Display for Failure {
             Failure::Fit(why) => Display::fmt(why, f),
             Failure::Refused(why) => Display::fmt(why, f),
             Failure::TooLarge { rows, bytes, most } => {
-                write!(
-                    f,
-                    "{rows} rows take {bytes} bytes, and at most {most} are taken"
-                )
+                write!(f, "{rows} rows take {bytes} bytes, of at most {most}")
             }
         }
     }

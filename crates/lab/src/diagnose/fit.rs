@@ -5,6 +5,7 @@ use std::fmt::{self, Display};
 
 use nalgebra::{DMatrix, DVector};
 
+use super::catalogue::modifiers::largest;
 use super::design::{Design, Linear};
 use gumption_core::least_squares::{self, Residuals, Stuck, minimise};
 
@@ -122,12 +123,7 @@ impl std::error::Error for NoFit {}
 /// When the recording does not determine the parameters, or the search fails.
 pub fn fit(design: &Design<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
     let count = design.unknowns.len();
-    let priors = design
-        .unknowns
-        .iter()
-        .filter(|unknown| unknown.prior.is_some())
-        .count();
-    if design.observations() + priors <= count {
+    if design.observations() + design.priors() <= count {
         return Err(NoFit::TooFew {
             observations: design.observations(),
             unknowns: count,
@@ -157,8 +153,8 @@ pub fn fit(design: &Design<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
 /// value is stated, that chooses the turn.
 fn without_turns(design: &Design<'_>, mut fit: Fit) -> Fit {
     for (place, unknown) in design.unknowns.iter().enumerate() {
-        let stated = unknown.start.is_some() || unknown.prior.is_some();
-        let Some(turn) = design.turn_of(unknown).filter(|_| !stated) else {
+        let is_open = unknown.stated().is_none();
+        let Some(turn) = design.turn_of(unknown).filter(|_| is_open) else {
             continue;
         };
         let turns = (fit.unknowns[place] / turn).round();
@@ -187,7 +183,7 @@ fn same_values(one: &Fit, other: &Fit) -> bool {
     let rms = one.residuals.norm() / (one.residuals.len().max(1) as f64).sqrt();
     let values = one.linear.values.iter().zip(&other.linear.values);
     values.into_iter().all(|(one, other)| {
-        let largest = (one.iter()).fold(0.0_f64, |most, value| most.max(value.abs()));
+        let largest = largest(one);
         let near = (UNSEEN * rms).min(1e-9 * largest).max(ROUNDING * largest);
         one.iter().zip(other).all(|(a, b)| (a - b).abs() <= near)
     })
@@ -198,8 +194,8 @@ fn same_values(one: &Fit, other: &Fit) -> bool {
 /// # Errors
 /// As [`fit`].
 pub fn from(design: &Design<'_>, u: &DVector<f64>, start: DVector<f64>) -> Result<Fit, NoFit> {
-    let problem = Problem::new(design, u);
-    problem.search(start).map(|(_, fit)| fit)
+    let found = Problem::new(design, u).search(start);
+    found.map(|(_, fit)| fit)
 }
 
 /// Fits the model from a place that should be near; from everywhere else where that fails.
@@ -236,18 +232,18 @@ fn starts(design: &Design<'_>) -> Vec<DVector<f64>> {
     let observed = design.observed_column(|response| design.observed(response));
     let mean = observed.mean();
     let fill = |value: f64| {
-        let of = design.unknowns.iter().map(|unknown| {
-            let known = unknown.start.or(unknown.prior.map(|(value, _)| value));
-            known.unwrap_or(value)
-        });
-        DVector::from_iterator(design.unknowns.len(), of)
+        let of = design.unknowns.iter();
+        DVector::from_vec(
+            of.map(|unknown| unknown.stated().unwrap_or(value))
+                .collect(),
+        )
     };
-    let open = design
+    let mut starts = vec![fill(1.0)];
+    if design
         .unknowns
         .iter()
-        .filter(|unknown| unknown.start.is_none() && unknown.prior.is_none());
-    let mut starts = vec![fill(1.0)];
-    if open.count() > 0 {
+        .any(|unknown| unknown.stated().is_none())
+    {
         starts.extend([0.1, 0.01, 10.0, mean, -1.0].map(fill));
     }
     starts
@@ -324,9 +320,8 @@ impl<'f, 'c> Problem<'f, 'c> {
         for (place, column) in columns.iter().enumerate() {
             let own = r[(place, place)].abs();
             if own.is_nan() || own <= DEPENDENT * column.norm() {
-                return Err(NoFit::Undetermined(
-                    self.design.unknowns[place].name.clone(),
-                ));
+                let name = &self.design.unknowns[place].name;
+                return Err(NoFit::Undetermined(name.clone()));
             }
         }
         Ok(())
@@ -340,34 +335,26 @@ impl Residuals for Problem<'_, '_> {
         unknowns: &[f64],
         _near: Option<&least_squares::Linear>,
     ) -> Option<least_squares::Linear> {
-        let linear = self.design.linear(&DVector::from_column_slice(unknowns));
-        let modelled = self
-            .design
-            .observed_column(|response| linear.values[response].clone());
-        let known = self.priors.iter();
-        let residuals = (&self.observed - modelled).component_div(self.u);
-        let residuals = residuals.iter().copied();
-        let residuals =
-            residuals.chain((known.clone()).map(|(at, value, u)| (value - unknowns[*at]) / u));
-        let observed = self.observed.component_div(self.u);
-        let observed = observed.iter().copied();
-        let observed = observed.chain(known.clone().map(|(_, value, u)| value / u));
-        let jacobian = self.design.jacobian(&linear);
-        let column = |(place, column): (usize, nalgebra::DVectorView<'_, f64>)| {
-            let rows = column.component_div(self.u);
-            let of_known =
-                |(at, _, u): &(usize, f64, f64)| if *at == place { 1.0 / u } else { 0.0 };
-            let rows = rows.iter().copied();
-            rows.chain(known.clone().map(of_known)).collect()
+        let fit = at(self.design, DVector::from_column_slice(unknowns));
+        let rows = |column: &DVector<f64>, known: &dyn Fn(&(usize, f64, f64)) -> f64| {
+            let own = column.component_div(self.u);
+            let own = own.iter().copied();
+            own.chain(self.priors.iter().map(known))
+                .collect::<Vec<f64>>()
         };
-        let jacobian: Vec<Vec<f64>> = jacobian.column_iter().enumerate().map(column).collect();
-        let linear = least_squares::Linear::new(residuals.collect(), jacobian, observed.collect());
-        let finite = linear.chi_squared().is_finite()
-            && linear
-                .jacobian
-                .iter()
-                .flatten()
-                .all(|slope| slope.is_finite());
+        let column = |place: usize| {
+            let slope = |(at, _, u): &(usize, f64, f64)| if *at == place { 1.0 / u } else { 0.0 };
+            rows(&fit.jacobian.column(place).into_owned(), &slope)
+        };
+        let linear = least_squares::Linear::new(
+            rows(&fit.residuals, &|(at, value, u)| {
+                (value - unknowns[*at]) / u
+            }),
+            (0..unknowns.len()).map(column).collect(),
+            rows(&self.observed, &|(_, value, u)| value / u),
+        );
+        let mut slopes = linear.jacobian.iter().flatten();
+        let finite = linear.chi_squared().is_finite() && slopes.all(|slope| slope.is_finite());
         finite.then_some(linear)
     }
 }

@@ -8,9 +8,10 @@ use super::adopt::stands_alone;
 use super::adopted::Adopted;
 use super::candidates::Candidates;
 use super::case::Data;
-use super::catalogue::{self, Cell, FittedModel, Pattern, Term, modifiers};
+use super::catalogue::modifiers::{line_through, map, range};
+use super::catalogue::{self, Cell, FittedModel, Pattern, Term};
 use super::coarse::Coarse;
-use super::confirm::{self, Estimated};
+use super::confirm;
 use super::design::Design;
 use super::fit::{self, Fit};
 use super::noise::Claimed;
@@ -67,21 +68,17 @@ impl HeldOutQuality {
 pub(super) fn held_out(
     known: &Known<'_>,
     candidates: &Candidates<'_>,
-    unknowns: &[Estimated],
     adopted: Option<&Adopted>,
 ) -> Option<HeldOutQuality> {
-    let held = known.case.held_out.as_ref()?;
-    let case = known.case.with(&held.rows);
+    let held = known.design.case.held_out.as_ref()?;
+    let case = known.design.case.with(&held.rows);
     let design = Design::new(&case);
-    let covariance = confirm::covariance(known.design, known.fit, known.claimed);
     let model = Model {
-        names: known.design.unknowns.iter().map(|u| &u.name).collect(),
-        values: unknowns,
-        covariance: &covariance,
-        noise: Scatter::of(known.claimed, confirm::degrees(known.design)),
+        design: known.design,
+        fit: known.fit,
+        known,
     };
-    let fit = model.at(&design);
-    let claimed = noise_of(known, &design, &fit, 0);
+    let (fit, claimed) = model.at(&design);
     let after = adopted.and_then(|adopted| improved(known, candidates, adopted));
     Some(HeldOutQuality {
         file: held.file.clone(),
@@ -94,52 +91,32 @@ pub(super) fn held_out(
 
 /// A fitted model, to be evaluated on other rows.
 struct Model<'m> {
-    names: Vec<&'m String>,
-    values: &'m [Estimated],
-    covariance: &'m DMatrix<f64>,
-    noise: Scatter,
+    design: &'m Design<'m>,
+    fit: &'m Fit,
+    known: &'m Known<'m>,
 }
 
 impl Model<'_> {
-    /// The value of an unknown; for a label that was not seen the mean of those that were.
-    fn value(&self, name: &str) -> f64 {
-        if let Some(own) = self.values.iter().find(|value| value.name == name) {
-            return own.value;
-        }
-        let stem = |name: &str| name.split('[').next().map(str::to_owned);
-        let alike = self.values.iter().filter(|v| stem(&v.name) == stem(name));
-        let (sum, count) = alike.fold((0.0, 0), |(sum, count), v| (sum + v.value, count + 1));
-        if count > 0 {
-            sum / f64::from(count)
-        } else {
-            0.0
-        }
-    }
-
-    fn at(&self, design: &Design<'_>) -> Fit {
-        let values = design.unknowns.iter().map(|u| self.value(&u.name));
-        fit::at(
-            design,
-            DVector::from_iterator(design.unknowns.len(), values),
-        )
+    /// On other rows, with the noise that these have.
+    fn at(&self, design: &Design<'_>) -> (Fit, Claimed) {
+        let fit = fit::at(design, self.design.carried(&self.fit.unknowns, design));
+        let claimed = noise_of(self.known, design, &fit, 0);
+        (fit, claimed)
     }
 
     fn prediction(&self, design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Prediction {
-        let places: Vec<Option<usize>> = design
+        let own = confirm::covariance(self.design, self.fit, self.known.claimed);
+        let places = design
             .unknowns
             .iter()
-            .map(|unknown| self.names.iter().position(|name| **name == unknown.name))
-            .collect();
+            .map(|unknown| self.design.named(&unknown.name));
+        let places: Vec<Option<usize>> = places.collect();
         let covariance = |a: usize, b: usize| match (places[a], places[b]) {
-            (Some(a), Some(b)) => self.covariance[(a, b)],
+            (Some(a), Some(b)) => own[(a, b)],
             _ => 0.0,
         };
-        let count = places.len();
-        let covariance = DMatrix::from_fn(count, count, covariance);
-        let mut slopes = fit.jacobian.clone();
-        for (mut row, u) in slopes.row_iter_mut().zip(&claimed.u) {
-            row /= *u;
-        }
+        let covariance = DMatrix::from_fn(places.len(), places.len(), covariance);
+        let slopes = confirm::over_noise(&fit.jacobian, claimed);
         let errors = fit.residuals.component_div(&claimed.u);
         let chi_squared = chi_squared(&errors, slopes, &covariance);
         Prediction {
@@ -149,13 +126,19 @@ impl Model<'_> {
         }
     }
 
-    /// Probability of a χ² of so many observations by chance; with noise that was estimated it is Fisher's.
+    /// Probability of a χ² of so many observations by chance, with noise that was estimated Fisher's; of correlated noise nobody
+    /// knows how the single rows scatter.
     fn chance(&self, chi_squared: f64, observations: f64) -> Option<f64> {
-        match self.noise {
-            Scatter::Known => Some(chi_squared_sf(chi_squared, observations)),
-            Scatter::Estimated(dof) => Some(f_sf(chi_squared / observations, observations, dof)),
-            Scatter::Correlated => None,
-        }
+        let claimed = self.known.claimed;
+        let dof = match claimed.is_estimated() {
+            true => confirm::degrees(self.design),
+            false => claimed.dof,
+        };
+        let p = match dof.is_finite() {
+            true => f_sf(chi_squared / observations, observations, dof.max(1.0)),
+            false => chi_squared_sf(chi_squared, observations),
+        };
+        claimed.correlated.is_none().then_some(p)
     }
 }
 
@@ -183,42 +166,15 @@ fn chi_squared(errors: &DVector<f64>, mut slopes: DMatrix<f64>, covariance: &DMa
     (errors.norm_squared() - taken).max(0.0)
 }
 
-/// What is known of the noise of single rows.
-#[derive(Clone, Copy)]
-enum Scatter {
-    Known,
-    /// From so many degrees of freedom.
-    Estimated(f64),
-    Correlated,
-}
-
-impl Scatter {
-    /// Of a recording of which a fit leaves so many degrees of freedom.
-    fn of(claimed: &Claimed, left: f64) -> Scatter {
-        if claimed.correlated.is_some() {
-            return Scatter::Correlated;
-        }
-        let dof = if claimed.is_estimated() {
-            left
-        } else {
-            claimed.dof
-        };
-        match dof.is_finite() {
-            true => Scatter::Estimated(dof.max(1.0)),
-            false => Scatter::Known,
-        }
-    }
-}
-
 fn improved(
     known: &Known<'_>,
     candidates: &Candidates<'_>,
     adopted: &Adopted,
 ) -> Option<Prediction> {
-    let held = known.case.held_out.as_ref()?;
-    let both = known.case.followed_by(&held.rows);
+    let held = known.design.case.held_out.as_ref()?;
+    let both = known.design.case.followed_by(&held.rows);
     let design = Design::new(&both);
-    let fit = fit::at(&design, super::prolonged::unknowns(known, &design));
+    let fit = fit::at(&design, known.design.carried(&known.fit.unknowns, &design));
     let coarse = Coarse::of(&design, &fit);
     let seen = coarse.design();
     let mut finer = candidates.fitted.finer.clone();
@@ -230,17 +186,13 @@ fn improved(
     let mut rows = held.rows.clone();
     for (atom, free) in adopted.atoms.iter().zip(&adopted.extended.effects) {
         let cell = candidates.cell(*atom);
-        let is_jump = matches!(
-            cell.effect.pattern,
-            Some(Pattern::Jump | Pattern::ScaleJump)
-        );
-        if is_jump && !follows(&wide, known.case.rows) {
+        let pattern = cell.effect.pattern;
+        let is_jump = matches!(pattern, Some(Pattern::Jump | Pattern::ScaleJump));
+        if is_jump && !follows(&wide, known.design.case.rows) {
             return None;
         }
-        // Each harmonic of an angle is a cell of its own. Both recordings together may have other effects than the first:
-        // the same course by another name is the same course.
-        let alike = |other: &&Cell| other.effect.id == cell.effect.id && other.words == cell.words;
-        let alike: Vec<&Cell> = others.iter().filter(alike).collect();
+        // Both recordings together may have other effects than the first: the same course by another name is the same course.
+        let alike: Vec<&Cell> = others.iter().filter(|other| other.is(cell)).collect();
         let all: Vec<&Cell> = others.iter().collect();
         let designs = [candidates.fitted.design, &seen];
         let terms = free.variation.terms.iter();
@@ -252,29 +204,23 @@ fn improved(
     }
     let extended = &adopted.extended.case;
     let fitted = Design::new(extended);
-    let values = [&adopted.unknowns[..], &adopted.coefficients].concat();
-    let covariance = confirm::covariance(&fitted, &adopted.fit, known.claimed);
     let model = Model {
-        names: fitted.unknowns.iter().map(|u| &u.name).collect(),
-        values: &values,
-        covariance: &covariance,
-        noise: Scatter::of(known.claimed, confirm::degrees(&fitted)),
+        design: &fitted,
+        fit: &adopted.fit,
+        known,
     };
     let case = extended.with(&rows);
     let design = Design::new(&case);
-    let fit = model.at(&design);
-    let claimed = noise_of(known, &design, &fit, 0);
+    let (fit, claimed) = model.at(&design);
     Some(model.prediction(&design, &fit, &claimed))
 }
 
 /// Whether the rows behind the first ones were recorded after them: what jumped stays where it is. At another time nobody knows
 /// whether it has happened.
 fn follows(both: &FittedModel<'_>, rows: usize) -> bool {
-    let (own, rest) = both
-        .clock
-        .values
-        .split_at(rows.min(both.clock.values.len()));
-    modifiers::range(own).1 <= modifiers::range(rest).0
+    let times = &both.clock.values;
+    let (own, rest) = times.split_at(rows.min(times.len()));
+    range(own).1 <= range(rest).0
 }
 
 /// What another variant of an effect may leave of a modifier, as a share of its variance.
@@ -297,39 +243,19 @@ fn continued(
     let sought = own.spread(&term.written().values);
     let fits = like.filter_map(|other| {
         let course = both.spread(&other.written().values);
-        let (factor, offset, left) = line_through(course.get(..sought.len())?, &sought);
-        Some((other, factor, offset, left))
+        let (own, rest) = course.split_at_checked(sought.len())?;
+        let (factor, offset, left) = line_through(own, &sought);
+        Some((left, map(rest, |x| factor * x + offset)))
     });
-    let (other, factor, offset, left) = fits.min_by(|a, b| a.3.total_cmp(&b.3))?;
-    let course = both.spread(&other.written().values);
-    let rest = course.get(sought.len()..)?;
-    (left < most).then(|| rest.iter().map(|x| factor * x + offset).collect())
-}
-
-/// The straight line from `x` to `y`, and what it leaves of the variance of `y`; a `y` without variance is
-/// followed by its own value.
-fn line_through(x: &[f64], y: &[f64]) -> (f64, f64, f64) {
-    let count = x.len().max(1) as f64;
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / count;
-    let (mean_x, mean_y) = (mean(x), mean(y));
-    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
-    for (x, y) in x.iter().zip(y) {
-        xx += (x - mean_x) * (x - mean_x);
-        xy += (x - mean_x) * (y - mean_y);
-        yy += (y - mean_y) * (y - mean_y);
-    }
-    if !(yy > 0.0 && xx > 0.0) {
-        return (0.0, mean_y, if yy > 0.0 { 1.0 } else { 0.0 });
-    }
-    let factor = xy / xx;
-    (factor, mean_y - factor * mean_x, 1.0 - xy * xy / (xx * yy))
+    let (left, rest) = fits.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (left < most).then_some(rest)
 }
 
 #[cfg(test)]
 mod tests {
     use nalgebra::{DMatrix, DVector};
 
-    use super::{chi_squared, line_through};
+    use super::chi_squared;
 
     #[test]
     fn rows_share_the_errors_of_parameters() {
@@ -351,13 +277,5 @@ mod tests {
         };
         let found = chi_squared(&turns, slopes, &covariance);
         assert!((found - direct).abs() < 1e-9 * direct, "{found} {direct}");
-    }
-
-    #[test]
-    fn origin_and_unit_of_a_modifier_are_found() {
-        let (factor, offset, left) = line_through(&[0.0, 1.0, 2.0], &[3.0, 5.0, 7.0]);
-        assert!((factor - 2.0).abs() < 1e-12 && (offset - 3.0).abs() < 1e-12);
-        assert!(left.abs() < 1e-12);
-        assert!(line_through(&[0.0, 1.0, 0.0], &[0.0, 0.0, 1.0]).2 > 0.5);
     }
 }

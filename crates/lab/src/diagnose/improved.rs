@@ -19,19 +19,9 @@ const AT_REST: &str = "at_rest.csv";
 pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str, String)>> {
     let adopted = diagnosis.adopted.as_ref()?;
     let extended = &adopted.extended.case;
-    let mut text = String::new();
-    text += &format!(
-        "title = {}\n",
-        quoted(&format!("{} (improved)", case.title))
-    );
-    if let Some(reference) = &case.reference {
-        text += &format!("reference = {}\n", quoted(reference));
-    }
-    text += &format!(
-        "recording = {{ file = {}, average = {} }}\n",
-        quoted(RECORDING),
-        averaging(case, diagnosis)
-    );
+    let mut text = title(case, &format!("{} (improved)", case.title));
+    let (file, averaging) = (quoted(RECORDING), averaging(case, diagnosis));
+    text += &format!("recording = {{ file = {file}, average = {averaging} }}\n");
     let models: Vec<String> = extended
         .model
         .iter()
@@ -41,28 +31,15 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
         [one] => format!("equations = {one}\n"),
         several => format!("equations = [\n    {},\n]\n", several.join(",\n    ")),
     };
-    if !case.own_units.is_empty() {
-        text += "\n[unit]\n";
-        for (name, definition) in &case.own_units {
-            text += &format!("{} = {}\n", key(name), quoted(definition));
-        }
-    }
+    text += &own_units(case);
     text += "\n[columns]\n";
-    for column in &extended.columns {
-        if matches!(column.data, Data::Absent) {
-            continue;
-        }
-        let addition = adopted
-            .extended
-            .additions
-            .iter()
-            .find(|addition| addition.column.as_ref() == Some(&column.name));
+    let is_there = |column: &&Column| !matches!(column.data, Data::Absent);
+    for column in extended.columns.iter().filter(is_there) {
+        let mut additions = adopted.extended.additions.iter();
+        let addition = additions.find(|addition| addition.column.as_ref() == Some(&column.name));
         let remark = addition.map_or(String::new(), |addition| format!("  # {}", addition.text));
-        text += &format!(
-            "{} = {}{remark}\n",
-            key(&column.name),
-            entry(column, extended)
-        );
+        let (name, entry) = (key(&column.name), entry(column, extended));
+        text += &format!("{name} = {entry}{remark}\n");
     }
     text += "\n[parameter]\n";
     let values = adopted.unknowns.iter().chain(&adopted.coefficients);
@@ -91,6 +68,27 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
     Some(files)
 }
 
+/// The first lines of a file about a case.
+pub(super) fn title(case: &Case, title: &str) -> String {
+    let reference = case.reference.as_ref();
+    let reference = reference.map(|text| format!("reference = {}\n", quoted(text)));
+    format!(
+        "title = {}\n{}",
+        quoted(title),
+        reference.unwrap_or_default()
+    )
+}
+
+/// The units of its own.
+pub(super) fn own_units(case: &Case) -> String {
+    let line =
+        |(name, definition): &(String, String)| format!("{} = {}\n", key(name), quoted(definition));
+    match case.own_units.as_slice() {
+        [] => String::new(),
+        units => "\n[unit]\n".to_owned() + &units.iter().map(line).collect::<String>(),
+    }
+}
+
 /// A model as the case has it: several lines stay lines.
 fn model_text(model: &str) -> String {
     if model.contains('\n') {
@@ -102,11 +100,7 @@ fn model_text(model: &str) -> String {
 
 /// The path of a file that the case names, wherever the improved case is put.
 fn path(case: &Case, file: &str) -> String {
-    let folder = case
-        .path
-        .parent()
-        .unwrap_or_else(|| std::path::Path::new(""));
-    let joined = folder.join(file);
+    let joined = case.path.with_file_name(file);
     let full = std::fs::canonicalize(&joined).unwrap_or(joined);
     quoted(&full.display().to_string())
 }
@@ -134,14 +128,12 @@ fn entry(column: &Column, case: &Case) -> String {
         let heading = heading(column, &case.units);
         parts.push(format!("column = {}", quoted(&heading)));
     }
-    if let Some(u) = column.u {
-        parts.push(format!("u = {u:e}"));
-    }
-    if let Some(u) = column.u_common {
-        parts.push(format!("u_common = {u:e}"));
-    }
-    if let Some(full_scale) = column.full_scale {
-        parts.push(format!("full_scale = {full_scale:e}"));
+    for (key, stated) in [
+        ("u", column.u),
+        ("u_common", column.u_common),
+        ("full_scale", column.full_scale),
+    ] {
+        parts.extend(stated.map(|value| format!("{key} = {value:e}")));
     }
     if parts.len() == 1 {
         format!("\"{role}\"")
@@ -211,11 +203,8 @@ fn claims(case: &Case, at_rest: Option<&str>) -> String {
             format!("\n[noise]\n{lines}")
         }
         NoiseClaim::Replicates(columns) => {
-            let names: Vec<String> = columns
-                .iter()
-                .map(|c| quoted(&case.columns[*c].name))
-                .collect();
-            format!("\n[noise]\nreplicates = [{}]\n", names.join(", "))
+            let names = columns.iter().map(|c| &case.columns[*c].name);
+            format!("\n[noise]\nreplicates = [{}]\n", list(names))
         }
         NoiseClaim::AtRest { file, column, .. } => {
             let file = at_rest.map_or_else(|| path(case, file), |_| quoted(AT_REST));
@@ -229,10 +218,6 @@ fn claims(case: &Case, at_rest: Option<&str>) -> String {
         "alpha = {}\nseed = {}\ndraws = {}\n",
         case.settings.alpha, case.settings.seed, case.settings.draws
     );
-    let list = |words: &[String]| {
-        let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
-        words.join(", ")
-    };
     if let Some(catalogue) = &case.settings.catalogue {
         settings += &format!("catalogue = [{}]\n", list(catalogue));
     }
@@ -243,4 +228,10 @@ fn claims(case: &Case, at_rest: Option<&str>) -> String {
         settings += &format!("typical.{id} = {share:e}\n");
     }
     format!("{noise}\n[diagnosis]\n{settings}")
+}
+
+/// Quoted words, as in a list.
+fn list<'w>(words: impl IntoIterator<Item = &'w String>) -> String {
+    let words = words.into_iter().map(|word| quoted(word));
+    words.collect::<Vec<String>>().join(", ")
 }

@@ -212,12 +212,9 @@ impl<'i> Inquiry<'i> {
     }
 
     /// Where the mismatch sits, the most conspicuous first.
-    ///
-    /// # Errors
-    /// When the work was stopped.
-    pub(super) fn located(&self) -> Result<Vec<(evidence::Cell, Located)>, Failure> {
+    pub(super) fn located(&self) -> Vec<(evidence::Cell, Located)> {
         if self.found_nothing() {
-            return Ok(Vec::new());
+            return Vec::new();
         }
         let mut levels = regions::cells(&self.candidates.fitted);
         let columns: Vec<DVector<f64>> = levels.iter().map(|cell| cell.column.clone()).collect();
@@ -226,9 +223,9 @@ impl<'i> Inquiry<'i> {
             let mut shares = shares.into_iter();
             levels.retain(|_| shares.next().is_some_and(|share| share > TRACE));
         }
-        let found = evidence::locate(&self.answer.baseline, &levels, &self.settings)?;
+        let found = evidence::locate(&self.answer.baseline, &levels, &self.settings);
         let with_cell = |located: Located| (levels[located.cell].clone(), located);
-        Ok(found.into_iter().map(with_cell).collect())
+        found.into_iter().map(with_cell).collect()
     }
 
     fn found_nothing(&self) -> bool {

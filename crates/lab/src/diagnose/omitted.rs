@@ -4,10 +4,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::candidates::Candidates;
 use super::case::Role;
-use super::catalogue::modifiers::range;
+use super::catalogue::modifiers::{levels_of, range};
 use super::catalogue::{Cell, FittedModel, Kind, Variation};
 use super::declared_form;
-use super::evidence::{self, Baseline};
+use super::evidence::{self, Baseline, TRACE};
 use super::typical;
 
 /// An effect of the catalogue that is not in the model.
@@ -39,8 +39,6 @@ pub struct Cost {
 impl Omitted {
     /// Whether the recording cannot show it.
     pub fn is_invisible(&self) -> bool {
-        /// The curvature of the model makes as much of what it absorbs.
-        const TRACE: f64 = 1e-4;
         self.visibility < TRACE
     }
 
@@ -69,22 +67,20 @@ pub(super) fn lines(
     let (fitted, cells) = (&candidates.fitted, &candidates.cells);
     let scales = typical::full_scales(fitted);
     let line = |(index, number): (usize, usize), held: &[usize]| {
-        let (cell, baselines) = (&cells[index], (declared, improved));
-        let columns = cell.variants[number]
-            .columns(fitted)
-            .remove_columns_at(held);
-        let line = line(
-            fitted,
-            cell,
-            &cell.variants[number],
-            columns,
-            baselines,
-            &scales,
-        )?;
+        let (cell, variation) = (&cells[index], &cells[index].variants[number]);
+        let columns = variation.columns(fitted).remove_columns_at(held);
+        let unified = typical::unified(columns)?;
+        let shift = typical::shift(fitted, cell, variation, &unified, &scales);
+        let unknowns = declared.parameters();
+        let before = Cost::of(declared, &unified.columns, shift, unknowns);
+        let after = improved.map(|one| Cost::of(one, &unified.columns, shift, unknowns));
         Some(Omitted {
             cell: index,
             variation: number,
-            ..line
+            visibility: declared.visibility(&unified.columns),
+            shift,
+            after: after.unwrap_or_else(|| before.clone()),
+            before,
         })
     };
     let others = cells.iter().enumerate();
@@ -114,12 +110,9 @@ pub(super) fn lines(
         None => line.visibility,
     };
     let of_cell = every.chunk_by(|a, b| a.cell == b.cell);
-    let mut lines: Vec<Omitted> = of_cell
-        .filter_map(|of| {
-            let most = |a: &&Omitted, b: &&Omitted| dearest(a).total_cmp(&dearest(b));
-            of.iter().max_by(most).cloned()
-        })
-        .collect();
+    let most = |a: &&Omitted, b: &&Omitted| dearest(a).total_cmp(&dearest(b));
+    let lines = of_cell.filter_map(|of| of.iter().max_by(most).cloned());
+    let mut lines: Vec<Omitted> = lines.collect();
     lines.retain(|line| line.shift.is_some() || line.is_invisible());
     let dear = |line: &Omitted| line.worst(u).map_or(-1.0, |(_, ratio)| ratio);
     lines.sort_by(|a, b| dear(b).total_cmp(&dear(a)));
@@ -138,54 +131,31 @@ fn acts(fitted: &FittedModel<'_>, cell: &Cell, variation: &Variation) -> bool {
     let case = fitted.case();
     let along = case.column(&cell.place.along);
     let stimulus = along.filter(|column| case.columns[*column].role == Role::Stimulus);
-    let two = stimulus
-        .and_then(|column| case.columns[column].numbers())
-        .is_some_and(|numbers| {
-            let (least, most) = range(numbers);
-            numbers.iter().all(|x| *x == least || *x == most)
-        });
-    !two && !variation
-        .terms
-        .iter()
-        .all(|term| steady(&term.modifier.values))
+    let two = stimulus.is_some_and(|column| levels_of(fitted.numbers(column)).len() <= 2);
+    let mut terms = variation.terms.iter();
+    !two && !terms.all(|term| steady(&term.modifier.values))
 }
 
-fn line(
-    fitted: &FittedModel<'_>,
-    cell: &Cell,
-    variation: &Variation,
-    columns: DMatrix<f64>,
-    (declared, improved): (&Baseline, Option<&Baseline>),
-    scales: &DVector<f64>,
-) -> Option<Omitted> {
-    let unified = typical::unified(columns)?;
-    let columns = &unified.columns;
-    let each = |j: usize| declared.visibility(&columns.column(j).into_owned());
-    let visibility = (0..columns.ncols()).map(each).fold(1.0, f64::min);
-    let shift = typical::shift(fitted, cell, variation, &unified, scales);
-    let unknowns = declared.parameters();
-    let cost = |baseline: &Baseline| {
+impl Cost {
+    /// Of columns that shift the output by one at most, and are known to shift it by no more than `shift`, on the first
+    /// unknowns of a model.
+    fn of(
+        baseline: &Baseline,
+        columns: &DMatrix<f64>,
+        shift: Option<f64>,
+        unknowns: usize,
+    ) -> Cost {
         // Uniform between −shift and shift.
         let spread = shift.map(|shift| shift / 3.0_f64.sqrt());
         let u = spread.map(|spread| evidence::omitted(baseline, columns, spread));
+        let u = u.unwrap_or_else(|| DVector::zeros(unknowns));
         let mut gain = largest(&baseline.gain(columns));
         gain.truncate(unknowns);
         Cost {
             gain,
-            u: u.map_or(vec![0.0; unknowns], |u| {
-                u.iter().take(unknowns).copied().collect()
-            }),
+            u: u.iter().take(unknowns).copied().collect(),
         }
-    };
-    let before = cost(declared);
-    Some(Omitted {
-        cell: 0,
-        variation: 0,
-        visibility,
-        shift,
-        after: improved.map_or_else(|| before.clone(), cost),
-        before,
-    })
+    }
 }
 
 /// For each unknown the gain of the column that moves it most.
@@ -206,16 +176,11 @@ pub(super) fn choice(
     let moved = |alternative: &evidence::Alternative| -> Option<DVector<f64>> {
         let variation = candidates.variation(alternative.variants.first()?.atom);
         let columns = variation.columns(&candidates.fitted);
-        let size = alternative
-            .estimate
-            .map(|x| if x.is_finite() { x } else { 0.0 });
+        let size = (alternative.estimate).map(|x| if x.is_finite() { x } else { 0.0 });
         (columns.ncols() == size.len()).then(|| declared.gain(&columns) * size)
     };
     let mut squares = DVector::zeros(declared.parameters());
-    let mut all = slot
-        .named
-        .iter()
-        .filter_map(|a| Some((a.probability, moved(a)?)));
+    let mut all = (slot.named.iter()).filter_map(|one| Some((one.probability, moved(one)?)));
     let Some((_, adopted)) = all.next() else {
         return squares.as_slice().to_vec();
     };

@@ -7,11 +7,12 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::candidates::baseline;
 use super::case::Role;
-use super::confirm::degrees;
+use super::confirm::{degrees, over_noise};
 use super::design::Design;
 use super::evidence::Fitted;
 use super::fit::Fit;
 use super::noise::Claimed;
+use crate::recording::Labels;
 use gumption_core::special::{chi_squared_sf, f_sf};
 
 /// Checks of an adopted effect.
@@ -43,18 +44,15 @@ pub(super) fn confirmation(
         parts: Vec::new(),
         agreement: None,
     };
-    let Some((seen, values, covariance)) = apart.map(|apart| apart.estimates()) else {
+    let estimates = apart.map(|apart| apart.estimates());
+    let Some((seen, values, covariance)) = estimates.filter(|(seen, ..)| seen.len() > 1) else {
         return confirmation;
     };
-    if seen.len() < 2 {
-        return confirmation;
-    }
     let chi_squared = fit.residuals.component_div(&claimed.u).norm_squared();
     let dof = degrees(design);
-    let scale = if claimed.is_estimated() {
-        (chi_squared / dof.max(1.0)).sqrt()
-    } else {
-        1.0
+    let scale = match claimed.is_estimated() {
+        true => (chi_squared / dof.max(1.0)).sqrt(),
+        false => 1.0,
     };
     let of = |(i, part): (usize, &usize)| {
         let u = scale * covariance[(i, i)].max(0.0).sqrt();
@@ -112,10 +110,8 @@ impl Separability {
             ..fit.clone()
         };
         let beside = baseline(&common, &rest, &claimed.uncorrelated()).ok()?;
-        let whole = columns.column_iter().map(|column| {
-            let column = column.component_div(&claimed.u);
-            column.norm_squared()
-        });
+        let over_noise = over_noise(&columns, claimed);
+        let whole = over_noise.column_iter().map(|column| column.norm_squared());
         Some(Separability {
             start: fit.unknowns[at],
             known,
@@ -141,8 +137,8 @@ impl Separability {
                 0.0
             }
         };
-        let units =
-            DMatrix::from_diagonal(&DVector::from_iterator(parts, self.whole.iter().map(unit)));
+        let units = DVector::from_iterator(parts, self.whole.iter().map(unit));
+        let units = DMatrix::from_diagonal(&units);
         let mut information = self.columns.tr_mul(&self.columns);
         let mut pull = self.columns.tr_mul(&self.residuals);
         for part in 0..parts {
@@ -151,11 +147,11 @@ impl Separability {
         }
         let eigen = SymmetricEigen::new(&units * &information * &units);
         let (mut inverse, mut open) = (DMatrix::zeros(parts, parts), DVector::zeros(parts));
-        for (value, direction) in eigen
+        let axes = eigen
             .eigenvalues
             .iter()
-            .zip(eigen.eigenvectors.column_iter())
-        {
+            .zip(eigen.eigenvectors.column_iter());
+        for (value, direction) in axes {
             if *value > NOTHING {
                 inverse += direction * direction.transpose() / *value;
             } else {
@@ -184,72 +180,59 @@ fn spread(values: &DVector<f64>, covariance: &DMatrix<f64>) -> Option<f64> {
 
 /// Parts of the observations: runs where there are a few, else halves.
 fn divided(design: &Design<'_>) -> Vec<(String, Vec<usize>)> {
-    let all = 0..design.observations();
-    let runs = design.case.with_role(Role::Run).find(|column| {
-        design.case.columns[*column]
-            .labels()
-            .is_some_and(|labels| (2..=12).contains(&labels.levels.len()))
-    });
-    if let Some(column) = runs
-        && let Some(labels) = design.case.columns[column].labels()
-    {
-        return (0..labels.levels.len())
-            .map(|level| {
-                let inside = |o: &usize| {
-                    labels.of_row[design.blocks[design.place(*o).1][0]] as usize == level
-                };
-                (
-                    format!(
-                        "{} {}",
-                        design.case.columns[column].name, labels.levels[level]
-                    ),
-                    all.clone().filter(inside).collect(),
-                )
-            })
-            .collect();
+    let members = |is_inside: &dyn Fn(usize) -> bool| -> Vec<usize> {
+        let all = 0..design.observations();
+        all.filter(|at| is_inside(design.place(*at).1)).collect()
+    };
+    for column in design.case.with_role(Role::Run) {
+        let column = &design.case.columns[column];
+        let few = |labels: &&Labels| (2..=12).contains(&labels.levels.len());
+        let Some(labels) = column.labels().filter(few) else {
+            continue;
+        };
+        let run = |(level, text): (usize, &String)| {
+            let inside = |block: usize| labels.of_row[design.blocks[block][0]] as usize == level;
+            (format!("{} {text}", column.name), members(&inside))
+        };
+        return labels.levels.iter().enumerate().map(run).collect();
     }
     let half = design.blocks.len() / 2;
     vec![
-        (
-            "first half".to_owned(),
-            all.clone().filter(|o| design.place(*o).1 < half).collect(),
-        ),
-        (
-            "second half".to_owned(),
-            all.filter(|o| design.place(*o).1 >= half).collect(),
-        ),
+        ("first half".to_owned(), members(&|block| block < half)),
+        ("second half".to_owned(), members(&|block| block >= half)),
     ]
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::evidence::fixture::white;
-    use super::super::evidence::{Baseline, Prior};
+    use super::super::evidence::Baseline;
+    use super::super::evidence::fixture::{beside_constant, white};
     use super::*;
+
+    fn apart(baseline: &Baseline, columns: &DMatrix<f64>) -> Separability {
+        Separability {
+            start: 0.0,
+            known: (0.0, 0.0),
+            columns: baseline.project(columns),
+            whole: columns
+                .column_iter()
+                .map(|column| column.norm_squared())
+                .collect(),
+            residuals: baseline.residuals().clone(),
+        }
+    }
 
     #[test]
     fn a_part_learns_the_parameters_from_the_others() {
         // An offset, seen in four rows before a step; the step in two parts of two rows and of one row.
-        let jacobian = DMatrix::from_row_slice(7, 1, &[1.0; 7]);
-        let baseline = Baseline::new(
-            &jacobian,
-            &DVector::from_row_slice(&[0.0, 0.0, 0.0, 0.0, 3.0, 3.0, 5.0]),
-            &white(7),
-            &Prior::none(1),
-        )
-        .unwrap();
+        let rows = DVector::from_row_slice(&[0.0, 0.0, 0.0, 0.0, 3.0, 3.0, 5.0]);
+        let baseline = beside_constant(&rows, &white(7));
         let members = |row: usize, part: usize| match (row, part) {
             (4 | 5, 1) | (6, 2) => 1.0,
             _ => 0.0,
         };
-        let apart = Separability {
-            start: 0.0,
-            known: (0.0, 0.0),
-            columns: baseline.project(&DMatrix::from_fn(7, 3, members)),
-            whole: vec![0.0, 2.0, 1.0],
-            residuals: baseline.residuals().clone(),
-        };
-        let (seen, values, covariance) = apart.estimates();
+        let columns = DMatrix::from_fn(7, 3, members);
+        let (seen, values, covariance) = apart(&baseline, &columns).estimates();
         assert_eq!(seen, [1, 2]);
         assert!((values[0] - 3.0).abs() < 1e-12 && (values[1] - 5.0).abs() < 1e-12);
         // u² of the mean of the part and of the offset.
@@ -264,30 +247,12 @@ mod tests {
     #[test]
     fn what_no_part_determines_is_not_shown() {
         // An effect that is constant in each part, beside an offset: only their differences are determined.
-        let rows = 6;
-        let jacobian = DMatrix::from_element(rows, 1, 1.0);
-        let baseline = Baseline::new(
-            &jacobian,
-            &DVector::zeros(rows),
-            &white(rows),
-            &Prior::none(1),
-        )
-        .unwrap();
+        let baseline = beside_constant(&DVector::zeros(6), &white(6));
         let level = [1.0, 2.0, 4.0];
-        let columns = DMatrix::from_fn(
-            rows,
-            3,
-            |row, part| {
-                if row / 2 == part { level[part] } else { 0.0 }
-            },
-        );
-        let apart = Separability {
-            start: 0.0,
-            known: (0.0, 0.0),
-            columns: baseline.project(&columns),
-            whole: level.map(|level| 2.0 * level * level).to_vec(),
-            residuals: baseline.residuals().clone(),
-        };
-        assert!(apart.estimates().0.is_empty());
+        let columns = DMatrix::from_fn(6, 3, |row, part| match row / 2 == part {
+            true => level[part],
+            false => 0.0,
+        });
+        assert!(apart(&baseline, &columns).estimates().0.is_empty());
     }
 }

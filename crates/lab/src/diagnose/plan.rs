@@ -11,8 +11,8 @@ use super::catalogue::{Cell, FittedModel, Kind};
 use super::coarse::Coarse;
 use super::confirm::{Estimated, estimates};
 use super::design::Design;
-use super::evidence::{self, Refusal, Shape};
-use super::explanation::{self, Explanation};
+use super::evidence::{self, Refusal, Shape, TRACE};
+use super::explanation::{Explanation, standing};
 use super::extra::{Extra, extras};
 use super::failure::Failure;
 use super::fit::Fit;
@@ -116,7 +116,6 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
     step(progress, 0.4)?;
     let pairs = pairs(&effects);
     let known = Known {
-        case,
         design: &design,
         fit: &fit,
         claimed: &claimed,
@@ -126,11 +125,11 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
         candidates: &candidates,
         baseline: &baseline,
     };
+    let sets = pairs
+        .iter()
+        .map(|pair| explanations(&recorded, &effects, *pair));
     let explanations = Explanations {
-        sets: pairs
-            .iter()
-            .map(|pair| explanations(&recorded, &effects, *pair))
-            .collect(),
+        sets: sets.collect(),
         hidden: omitted.iter().filter(|line| line.is_invisible()).collect(),
     };
     let mut promises = Vec::new();
@@ -159,21 +158,13 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
 }
 
 fn step(progress: &dyn Fn(f64) -> ControlFlow<()>, share: f64) -> Result<(), Failure> {
-    match progress(share) {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(Failure::Refused(Refusal::Cancelled)),
-    }
+    let stopped = progress(share).break_value();
+    stopped.map_or(Ok(()), |()| Err(Failure::Refused(Refusal::Cancelled)))
 }
 
 /// The model at the values that the case states; where it does not state all, at those that fit the
 /// outputs; where these are not recorded, at one.
 fn assumed(design: &Design<'_>) -> Result<(Fit, Claimed, Vec<String>), Failure> {
-    let open: Vec<String> = design
-        .unknowns
-        .iter()
-        .filter(|unknown| unknown.start.is_none() && unknown.prior.is_none())
-        .map(|unknown| unknown.name.clone())
-        .collect();
     if design.case.is_recorded()
         && let Ok((fit, claimed)) = noise::settle_spread_out(design)
     {
@@ -184,6 +175,8 @@ fn assumed(design: &Design<'_>) -> Result<(Fit, Claimed, Vec<String>), Failure> 
         return Ok((fit, known, Vec::new()));
     }
     let (fit, claimed) = noise::stated(design)?;
+    let open = (design.unknowns.iter()).filter(|unknown| unknown.stated().is_none());
+    let open = open.map(|unknown| unknown.name.clone()).collect();
     Ok((fit, claimed, open))
 }
 
@@ -215,19 +208,17 @@ fn prospects(
     let scales = typical::full_scales(fitted);
     let mut prospects = Vec::new();
     for (cell, of) in candidates.cells.iter().enumerate() {
-        let mut own: Vec<(&evidence::Seen, f64)> = found
-            .seen
-            .iter()
-            .filter(|seen| atoms[seen.atom].candidate == cell)
-            .filter_map(|seen| Some((seen, seen.detectable?)))
-            .filter(|(seen, _)| seen.visibility > 1e-4)
-            .collect();
+        let own = (found.seen.iter())
+            .filter(|seen| atoms[seen.atom].candidate == cell && seen.visibility > TRACE);
+        let own = own.filter_map(|seen| Some((seen, seen.detectable?)));
+        let mut own: Vec<(&evidence::Seen, f64)> = own.collect();
         own.sort_by(|a, b| a.1.total_cmp(&b.1));
         let Some((seen, detectable)) = own.get(own.len().saturating_sub(1) / 2) else {
             continue;
         };
         let pair = found.pairs.iter().find(|pair| pair.atom == seen.atom);
         let variation = candidates.places[seen.atom].1;
+        let (form, unified) = (&of.variants[variation], &unified[seen.atom]);
         prospects.push(Prospect {
             cell,
             variation,
@@ -235,13 +226,7 @@ fn prospects(
             detectable: *detectable,
             rival: pair.map(|pair| (atoms[pair.rival].candidate, pair.cosine)),
             separable: pair.and_then(|pair| pair.separable),
-            typical: typical::shift(
-                fitted,
-                of,
-                &of.variants[variation],
-                &unified[seen.atom],
-                &scales,
-            ),
+            typical: typical::shift(fitted, of, form, unified, &scales),
         });
     }
     prospects
@@ -262,11 +247,10 @@ fn classes(candidates: &Candidates<'_>, atoms: &[Vec<usize>]) -> Vec<Vec<usize>>
         }
     }
     let whole = classes.clone();
-    classes.retain(|class| {
-        !whole
-            .iter()
-            .any(|other| other.len() > class.len() && class.iter().all(|cell| other.contains(cell)))
-    });
+    let is_part = |class: &Vec<usize>, other: &Vec<usize>| {
+        other.len() > class.len() && class.iter().all(|cell| other.contains(cell))
+    };
+    classes.retain(|class| !whole.iter().any(|other| is_part(class, other)));
     classes
 }
 
@@ -297,11 +281,10 @@ fn explanations(
         let effect = effects.iter().find(|effect| effect.cell == cell)?;
         let cell = &recorded.candidates.cells[cell];
         let variation = &cell.variants[effect.variation];
-        let columns = variation.columns(&recorded.candidates.fitted);
-        let count = columns.ncols();
-        let sum = recorded.baseline.project(&columns).column_sum().norm();
+        let seen = recorded.seen(variation);
+        let sum = seen.column_sum().norm();
         let size = if sum > 0.0 { STRENGTH / sum } else { 0.0 };
-        let sizes = DMatrix::from_element(count, 1, size);
+        let sizes = DMatrix::from_element(seen.ncols(), 1, size);
         Some(Explanation::new(recorded, cell, variation, &sizes, EVEN))
     };
     [a, b].into_iter().filter_map(of).collect()
@@ -315,40 +298,31 @@ struct Explanations<'o> {
 
 impl Explanations<'_> {
     fn promise(&self, recorded: &Recorded<'_>, extra: &Extra) -> Option<Promise> {
-        let asked: Vec<Explanation> = self
-            .hidden
-            .iter()
-            .map(|line| {
-                let cell = &recorded.candidates.cells[line.cell];
-                let variation = &cell.variants[line.variation];
-                let sizes = DMatrix::from_element(variation.coefficients(), 1, 1.0);
-                Explanation::new(recorded, cell, variation, &sizes, EVEN)
-            })
-            .collect();
-        let told = |apart: Option<evidence::Separability>| {
-            apart.is_some_and(|apart| apart.least() >= SEPARATED)
-        };
-        let (aparts, shares): (Vec<bool>, Vec<Option<f64>>) =
-            examined(recorded, extra, |prolonged| {
-                let aparts = self
-                    .sets
-                    .iter()
-                    .map(|set| told(explanation::apart(recorded, prolonged, set)));
-                let shares = asked.iter().map(|one| one.visibility(prolonged));
-                (aparts.collect(), shares.collect())
-            })?;
-        let resolved = aparts.iter().enumerate();
-        let revealed = shares.iter().zip(&self.hidden);
+        let asked = self.hidden.iter().map(|line| {
+            let cell = &recorded.candidates.cells[line.cell];
+            let variation = &cell.variants[line.variation];
+            let sizes = DMatrix::from_element(variation.coefficients(), 1, 1.0);
+            Explanation::new(recorded, cell, variation, &sizes, EVEN)
+        });
+        let asked: Vec<Explanation> = asked.collect();
+        let (resolved, revealed) = examined(recorded, extra, |prolonged| {
+            let is_told = |at: &usize| {
+                let standing = standing(recorded, prolonged, &self.sets[*at]);
+                let apart = standing.and_then(|standing| evidence::apart(&standing));
+                apart.is_some_and(|apart| apart.least() >= SEPARATED)
+            };
+            let shows = |(one, line): (&Explanation, &&Omitted)| {
+                let share = one.visibility(prolonged)?;
+                (share > VISIBLE).then_some(line.cell)
+            };
+            let resolved: Vec<usize> = (0..self.sets.len()).filter(is_told).collect();
+            let revealed: Vec<usize> = (asked.iter().zip(&self.hidden)).filter_map(shows).collect();
+            (resolved, revealed)
+        })?;
         Some(Promise {
             extra: extra.clone(),
-            resolved: resolved
-                .filter(|(_, apart)| **apart)
-                .map(|(at, _)| at)
-                .collect(),
-            revealed: revealed
-                .filter(|(share, _)| share.is_some_and(|share| share > VISIBLE))
-                .map(|(_, line)| line.cell)
-                .collect(),
+            resolved,
+            revealed,
         })
     }
 }

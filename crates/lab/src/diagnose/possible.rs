@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::candidates::Candidates;
 use super::case::Observed;
+use super::catalogue::modifiers::map2;
 use super::catalogue::{FittedModel, Node, Term, Variation};
 use super::evidence::{self, Alternative, Examination};
 use super::noise::Claimed;
@@ -147,17 +148,13 @@ fn is_explained(
 /// `scales` has what the signal of each response becomes beside them.
 fn takes_all(variation: &Variation, sizes: &[f64], scales: &[f64]) -> bool {
     let mut changes: BTreeMap<Option<usize>, Vec<f64>> = BTreeMap::new();
-    let mut coefficient = 0;
-    for (number, term) in variation.terms.iter().enumerate() {
-        coefficient += usize::from(number > 0 && !term.tied);
+    for (coefficient, term) in variation.numbered() {
         let size = sizes.get(coefficient).filter(|size| size.is_finite());
         if let (Node::Gain, Some(size)) = (term.node, size) {
             let values = &term.modifier.values;
             let of_response = changes.entry(term.response);
-            let own = of_response.or_insert_with(|| vec![0.0; values.len()]);
-            for (change, x) in own.iter_mut().zip(values.iter()) {
-                *change += size * x;
-            }
+            let change = of_response.or_insert_with(|| vec![0.0; values.len()]);
+            *change = map2(change, values, |change, x| change + size * x);
         }
     }
     changes.iter().any(|(response, changes)| {

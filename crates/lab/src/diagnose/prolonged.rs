@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::candidates::{Candidates, baseline};
-use super::case::{Case, NoiseClaim};
-use super::catalogue::{self, Cell, FittedModel};
+use super::case::NoiseClaim;
+use super::catalogue::{self, Cell, FittedModel, Variation};
 use super::coarse::Coarse;
 use super::design::Design;
 use super::evidence::Baseline;
@@ -14,7 +14,6 @@ use super::noise::{self, Claimed};
 
 /// What is known of a case before a further measurement.
 pub(super) struct Known<'k> {
-    pub case: &'k Case,
     pub design: &'k Design<'k>,
     pub fit: &'k Fit,
     pub claimed: &'k Claimed,
@@ -41,10 +40,10 @@ pub(super) fn examined<R>(
     examine: impl FnOnce(&Prolonged<'_>) -> R,
 ) -> Option<R> {
     let known = recorded.known;
-    let case = known.case.followed_by(&extra.rows);
+    let case = known.design.case.followed_by(&extra.rows);
     let mut design = Design::new(&case);
     design.blocks = blocks(known, extra);
-    let fit = fit::at(&design, unknowns(known, &design));
+    let fit = fit::at(&design, known.design.carried(&known.fit.unknowns, &design));
     if !fit.jacobian.iter().all(|x| x.is_finite()) {
         return None;
     }
@@ -66,6 +65,14 @@ pub(super) fn examined<R>(
     }))
 }
 
+impl Recorded<'_> {
+    /// Columns of a variation, as they are seen beside the parameters.
+    pub(super) fn seen(&self, variation: &Variation) -> DMatrix<f64> {
+        let columns = variation.columns(&self.candidates.fitted);
+        self.baseline.project(&columns)
+    }
+}
+
 impl Prolonged<'_> {
     /// The observations of the recording alone.
     pub(super) fn recorded(&self, recorded: &Recorded<'_>, columns: &DMatrix<f64>) -> DMatrix<f64> {
@@ -80,26 +87,14 @@ impl Prolonged<'_> {
 
 /// The blocks of the recording, and after them those that the further rows have by themselves.
 fn blocks(known: &Known<'_>, extra: &Extra) -> Vec<Vec<usize>> {
-    let alone = known.case.with(&extra.rows);
+    let alone = known.design.case.with(&extra.rows);
     let further = Design::new(&alone).blocks.into_iter();
-    let further = further.map(|rows| rows.into_iter().map(|row| row + known.case.rows).collect());
+    let further = further.map(|rows| {
+        rows.into_iter()
+            .map(|row| row + known.design.case.rows)
+            .collect()
+    });
     known.design.blocks.iter().cloned().chain(further).collect()
-}
-
-/// Values of the unknowns in another design; a label that is new there begins with the value of the first.
-pub(super) fn unknowns(known: &Known<'_>, design: &Design<'_>) -> DVector<f64> {
-    let own = &known.design.unknowns;
-    let value = |name: &str| {
-        let stem = name.split('[').next().unwrap_or(name);
-        let same = own.iter().position(|unknown| unknown.name == name);
-        let alike = || {
-            own.iter()
-                .position(|u| u.name.split('[').next() == Some(stem))
-        };
-        same.or_else(alike).map_or(0.0, |at| known.fit.unknowns[at])
-    };
-    let values = design.unknowns.iter().map(|unknown| value(&unknown.name));
-    DVector::from_iterator(design.unknowns.len(), values)
 }
 
 /// The noise of another design, of which so many blocks at the beginning are those of the recording: what is
@@ -110,15 +105,15 @@ pub(super) fn noise_of(
     fit: &Fit,
     recorded: usize,
 ) -> Claimed {
-    match &known.case.noise {
+    match &known.design.case.noise {
         NoiseClaim::Stated { .. } | NoiseClaim::AtRest { .. } | NoiseClaim::PerRow(_) => {
             noise::planned(design, fit)
         }
         NoiseClaim::Estimated | NoiseClaim::Replicates(_) => {
-            let (own, blocks) = (known.design.blocks.len(), design.blocks.len());
+            let own = known.design.blocks.len();
             let rms = known.design.root_mean_squares(&known.claimed.u);
             let u = DVector::from_fn(design.observations(), |at, _| {
-                let (response, block) = (at / blocks, at % blocks);
+                let (response, block) = design.place(at);
                 if block < recorded {
                     known.claimed.u[response * own + block]
                 } else {

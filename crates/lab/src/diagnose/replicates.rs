@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use gumption_lanes::sampler::gamma_block;
 use gumption_lanes::{Block, Generator, LANES, level};
 
+use super::catalogue::modifiers::spacing;
 use super::design::Design;
 use super::noise_growth::{self, Growth, Spread};
 use gumption_core::special::chi_squared_quantile;
@@ -85,7 +86,8 @@ fn agreeing(design: &Design<'_>, columns: &[usize]) -> Vec<Vec<usize>> {
 
 fn of_response(design: &Design<'_>, response: usize, rows: &[Vec<usize>]) -> Option<Scatter> {
     let observed = design.observed(response);
-    let step = step(&observed);
+    let step = Some(spacing(&observed)).filter(|step| step.is_finite());
+    let floor = step.map_or(0.0, |step| step * step / 12.0);
     let mut levels = vec![0.0; design.case.rows];
     let mut groups = Vec::new();
     for rows in rows {
@@ -100,7 +102,7 @@ fn of_response(design: &Design<'_>, response: usize, rows: &[Vec<usize>]) -> Opt
                 dof,
                 level,
                 variance: rows.iter().map(square).sum::<f64>() / dof,
-                floor: step * step / 12.0,
+                floor,
             });
         }
     }
@@ -147,17 +149,6 @@ fn of_response(design: &Design<'_>, response: usize, rows: &[Vec<usize>]) -> Opt
     })
 }
 
-/// The least step between readings.
-fn step(observed: &[f64]) -> f64 {
-    let mut sorted = observed.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let steps = sorted.windows(2).map(|pair| pair[1] - pair[0]);
-    let least = steps
-        .filter(|step| *step > 0.0)
-        .fold(f64::INFINITY, f64::min);
-    if least.is_finite() { least } else { 0.0 }
-}
-
 /// Variance of the group relative to the shape of the noise.
 fn relative(group: &Group, spread: &Spread) -> f64 {
     group.variance.max(group.floor) / (spread.at(group.level) * spread.at(group.level))
@@ -174,12 +165,9 @@ fn pooled(groups: &[Group], spread: &Spread) -> f64 {
 /// −2 ln L of the variances of the groups, with the scale that fits best.
 fn misfit(groups: &[Group], spread: &Spread) -> f64 {
     let dof: f64 = groups.iter().map(|group| group.dof).sum();
-    let shape = groups
-        .iter()
-        .map(|group| 2.0 * group.dof * libm::log(spread.at(group.level)));
-    let squares = groups
-        .iter()
-        .map(|group| group.dof * relative(group, spread));
+    let each = groups.iter();
+    let shape = (each.clone()).map(|group| 2.0 * group.dof * libm::log(spread.at(group.level)));
+    let squares = each.map(|group| group.dof * relative(group, spread));
     dof * libm::log(squares.sum::<f64>() / dof) + shape.sum::<f64>()
 }
 

@@ -10,6 +10,7 @@ use super::case::Case;
 use super::confirm::{self, Estimated};
 use super::design::{Design, UnknownKind};
 use super::fit::Fit;
+use super::improved::{own_units, title};
 use super::omitted::Omitted;
 use super::run::Diagnosis;
 use gumption_core::quantity::Unit;
@@ -31,7 +32,11 @@ pub fn budget(case: &Case, diagnosis: &Diagnosis) -> String {
     // What correlates has degrees of freedom in common: the fewest.
     let dofs = estimates.iter().map(|estimate| estimate.dof);
     let dof = dofs.fold(f64::INFINITY, f64::min);
-    let mut text = head(case);
+    let mut text = String::from(
+        "# Written by `gumption diagnose`: the parameters, with what may be there unseen.\n",
+    );
+    text += &title(case, &case.title);
+    text += &own_units(case);
     let lines = lines(diagnosis, estimates);
     for result in &results {
         measurand(&mut text, result, &lines);
@@ -39,13 +44,16 @@ pub fn budget(case: &Case, diagnosis: &Diagnosis) -> String {
     for result in &results {
         input(&mut text, result, dof);
     }
-    for line in &lines {
+    for Line {
+        name, description, ..
+    } in &lines
+    {
         let _ = write!(
             text,
-            "\n[input.{}]\ndescription = {}\nvalue = 0\nhalf_width = 1\n",
-            line.name,
-            quoted(&line.description)
+            "\n[input.{name}]\ndescription = {}\n",
+            quoted(description)
         );
+        text += "value = 0\nhalf_width = 1\n";
     }
     text + &correlations(&design, fit, diagnosis, &results)
 }
@@ -61,22 +69,19 @@ struct ResultOf<'r> {
 }
 
 fn results<'r>(design: &Design<'_>, estimates: &'r [Estimated]) -> Vec<ResultOf<'r>> {
-    let of = estimates
-        .iter()
-        .enumerate()
-        .filter_map(|(place, estimate)| {
-            let unknown = design.unknowns.iter().find(|u| u.name == estimate.name)?;
-            let UnknownKind::Parameter { parameter, .. } = unknown.kind else {
-                return None;
-            };
-            Some(ResultOf {
-                name: identifier(&estimate.name),
-                place,
-                unit: design.case.parameters[parameter].unit.clone(),
-                estimate,
-            })
-        });
-    of.collect()
+    let of = |(place, estimate): (usize, &'r Estimated)| {
+        let unknown = &design.unknowns[design.named(&estimate.name)?];
+        let UnknownKind::Parameter { parameter, .. } = unknown.kind else {
+            return None;
+        };
+        Some(ResultOf {
+            name: identifier(&estimate.name),
+            place,
+            unit: design.case.parameters[parameter].unit.clone(),
+            estimate,
+        })
+    };
+    estimates.iter().enumerate().filter_map(of).collect()
 }
 
 /// A name that formulas accept: `offset[run 1]` becomes `offset_run_1`.
@@ -84,23 +89,6 @@ fn identifier(name: &str) -> String {
     let plain = |c: char| if c.is_alphanumeric() { c } else { '_' };
     let text: String = name.chars().map(plain).collect();
     text.trim_end_matches('_').to_owned()
-}
-
-fn head(case: &Case) -> String {
-    let mut text = String::from(
-        "# Written by `gumption diagnose`: the parameters, with what may be there unseen.\n",
-    );
-    let _ = writeln!(text, "title = {}", quoted(&case.title));
-    if let Some(reference) = &case.reference {
-        let _ = writeln!(text, "reference = {}", quoted(reference));
-    }
-    if !case.own_units.is_empty() {
-        text += "\n[unit]\n";
-        for (name, definition) in &case.own_units {
-            let _ = writeln!(text, "{} = {}", key(name), quoted(definition));
-        }
-    }
-    text
 }
 
 /// One line of the budget.
@@ -120,12 +108,8 @@ fn lines(diagnosis: &Diagnosis, estimates: &[Estimated]) -> Vec<Line> {
         .enumerate()
         .map(|(at, line)| of_effect(diagnosis, line, at + 1))
         .collect();
-    for (at, choice) in diagnosis
-        .choices
-        .iter()
-        .enumerate()
-        .filter(|(_, u)| matters(u))
-    {
+    let choices = diagnosis.choices.iter().enumerate();
+    for (at, choice) in choices.filter(|(_, u)| matters(u)) {
         lines.push(Line {
             name: format!("choice_{}", at + 1),
             description: "which of several explanations is right".to_owned(),
@@ -138,11 +122,9 @@ fn lines(diagnosis: &Diagnosis, estimates: &[Estimated]) -> Vec<Line> {
 fn of_effect(diagnosis: &Diagnosis, line: &Omitted, number: usize) -> Line {
     let cell = &diagnosis.cells[line.cell];
     let name = cell.words.fill(&cell.effect.name.en);
-    let label = &cell.variants[line.variation].label;
-    let variant = if label.is_empty() {
-        String::new()
-    } else {
-        format!(" ({label})")
+    let variant = match cell.variants[line.variation].label.as_str() {
+        "" => String::new(),
+        label => format!(" ({label})"),
     };
     let slopes = line.after.gain.iter().zip(&line.after.u);
     Line {
@@ -212,23 +194,19 @@ fn correlations(
     diagnosis: &Diagnosis,
     results: &[ResultOf<'_>],
 ) -> String {
-    let place = |name: &str| design.unknowns.iter().position(|u| u.name == name);
+    let place = |result: &ResultOf<'_>| design.named(&result.estimate.name);
     let covariance = confirm::covariance(design, fit, &diagnosis.noise);
     let mut text = String::new();
     for (at, a) in results.iter().enumerate() {
         for b in &results[at + 1..] {
-            let (Some(i), Some(j)) = (place(&a.estimate.name), place(&b.estimate.name)) else {
+            let (Some(i), Some(j)) = (place(a), place(b)) else {
                 continue;
             };
             let r = covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt();
             if r.is_finite() && r.abs() > 1e-9 {
-                let _ = write!(
-                    text,
-                    "\n[[correlation]]\nbetween = [{}, {}]\nr = {:?}\n",
-                    quoted(&format!("{}_fitted", a.name)),
-                    quoted(&format!("{}_fitted", b.name)),
-                    r.clamp(-1.0, 1.0)
-                );
+                let [a, b] = [a, b].map(|one| quoted(&format!("{}_fitted", one.name)));
+                let r = r.clamp(-1.0, 1.0);
+                let _ = write!(text, "\n[[correlation]]\nbetween = [{a}, {b}]\nr = {r:?}\n");
             }
         }
     }

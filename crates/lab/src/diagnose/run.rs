@@ -62,11 +62,7 @@ impl Diagnosis {
     /// The standard uncertainties of the unknowns with everything that may be there unseen, and with the
     /// choice between explanations: of the declared model, or of the one with the adopted physics in it.
     pub fn u_with_unseen(&self) -> Vec<f64> {
-        let estimates = match &self.adopted {
-            Some(adopted) => &adopted.unknowns,
-            None => &self.unknowns,
-        };
-        let of = estimates.iter().enumerate().map(|(at, estimate)| {
+        let of = self.estimates().iter().enumerate().map(|(at, estimate)| {
             let lines = self.omitted.iter().map(|line| line.after.u.get(at));
             let choices = self.choices.iter().map(|choice| choice.get(at));
             let squares = lines.chain(choices).flatten().map(|u| u * u);
@@ -99,7 +95,7 @@ pub fn diagnose(
         white: &white,
     };
     let inquiry = Inquiry::of(declared, claimed, progress)?;
-    let located = inquiry.located()?;
+    let located = inquiry.located();
     let Inquiry {
         candidates,
         answer,
@@ -112,12 +108,11 @@ pub fn diagnose(
         mut examination,
     } = answer;
     let known = Known {
-        case,
         design: &design,
         fit: &fit,
         claimed: &claimed,
     };
-    let before = confirm::quality(&design, &fit, &claimed, &claimed);
+    let before = confirm::quality(&design, &fit, &claimed);
     let unknowns = estimates(&design, &fit, &claimed);
     let (adopted, no_fit) = match adopt_named(&candidates, &mut examination, &claimed) {
         Ok(adopted) => (adopted, None),
@@ -125,13 +120,14 @@ pub fn diagnose(
     };
     let worse = (adopted.as_ref()).is_some_and(|adopted| adopted.predicts_worse(&before));
     let adopted = adopted.filter(|_| !worse);
-    let held_out = held_out::held_out(&known, &candidates, &unknowns, adopted.as_ref());
+    let held_out = held_out::held_out(&known, &candidates, adopted.as_ref());
     let contradicted = (held_out.as_ref()).is_some_and(|held| held.contradicts(settings.alpha));
     let recurs = (adopted.as_ref()).is_some_and(|adopted| recurs(adopted, &candidates));
     if worse || (recurs && contradicted) {
         examination.withdraw();
     }
-    let own = (adopted.iter()).filter_map(|adopted| adopted.unsettled.clone());
+    let of_improved = |adopted: &Adopted| adopted.fit.unsettled(ModelVersion::Improved);
+    let own = adopted.iter().filter_map(of_improved);
     let unsettled = fit.unsettled(ModelVersion::Declared).into_iter();
     let unsettled = unsettled.chain(no_fit).chain(own).collect();
     let listed = examination.slots.iter().filter(|_| adopted.is_some());

@@ -30,7 +30,7 @@ const CLOSE: f64 = 4.0;
 /// that tell them apart.
 pub(super) fn separating(recorded: &Recorded<'_>, examination: &Examination) -> Vec<Separating> {
     let candidates = recorded.candidates;
-    let cells = &candidates.cells;
+    let (fitted, cells) = (&candidates.fitted, &candidates.cells);
     let mut lists = Vec::new();
     for (slot, of) in examination.slots.iter().enumerate() {
         let mut rivals = Vec::new();
@@ -51,10 +51,8 @@ pub(super) fn separating(recorded: &Recorded<'_>, examination: &Examination) -> 
         }
         let nearest = of.named.first().and_then(|first| first.nearest.as_ref());
         if let (1, Some(rival)) = (set.len(), nearest.filter(|r| r.alias || r.kappa < CLOSE)) {
-            let (cell, variation) = (
-                candidates.cell(rival.atom),
-                candidates.variation(rival.atom),
-            );
+            let variation = candidates.variation(rival.atom);
+            let cell = candidates.cell(rival.atom);
             set.extend(likened(recorded, &set[0], cell, variation));
             rivals.push(rival.candidate);
         }
@@ -63,9 +61,9 @@ pub(super) fn separating(recorded: &Recorded<'_>, examination: &Examination) -> 
         }
         let listed: f64 = of.named.iter().map(|named| named.probability).sum();
         // Of what a list holds beside these nothing is promised.
-        let examined: f64 = set.iter().map(Explanation::probability).sum();
+        let examined: f64 = set.iter().map(|one| one.probability).sum();
         let standing: Vec<Standing> = set.iter().map(|one| one.before(recorded)).collect();
-        let Ok(before) = evidence::apart(&standing) else {
+        let Some(before) = evidence::apart(&standing) else {
             continue;
         };
         lists.push(List {
@@ -74,34 +72,25 @@ pub(super) fn separating(recorded: &Recorded<'_>, examination: &Examination) -> 
             kappa: nearest.map_or(0.0, |rival| rival.kappa),
             share: (examined / listed).min(1.0),
             before,
-            outside: unlisted(
-                &candidates.fitted,
-                cells,
-                recorded.baseline,
-                &set,
-                &standing,
-            ),
+            outside: unlisted(fitted, cells, recorded.baseline, &set, &standing),
             set,
         });
     }
     if lists.is_empty() {
         return Vec::new();
     }
-    let all = super::extra::extras(recorded.known.case);
-    let after: Vec<Option<Vec<Option<After>>>> = all
-        .iter()
-        .map(|extra| {
-            examined(recorded, extra, |prolonged| {
-                let after = lists.iter().map(|list| list.after(recorded, prolonged));
-                after.collect()
-            })
+    let all = super::extra::extras(recorded.known.design.case);
+    let after = all.iter().map(|extra| {
+        examined(recorded, extra, |prolonged| {
+            let after = lists.iter().map(|list| list.after(recorded, prolonged));
+            after.collect::<Vec<_>>()
         })
-        .collect();
-    let of = |at: usize| {
+    });
+    let after: Vec<Option<Vec<Option<After>>>> = after.collect();
+    let of = |at: usize| -> Vec<(&Extra, &After)> {
         let pairs = all.iter().zip(&after);
-        pairs
-            .filter_map(|(extra, after)| Some((extra, after.as_ref()?[at].as_ref()?)))
-            .collect::<Vec<_>>()
+        let own = pairs.filter_map(|(extra, after)| Some((extra, after.as_ref()?[at].as_ref()?)));
+        own.collect()
     };
     let lists = lists.into_iter().enumerate();
     lists.map(|(at, list)| list.judged(&of(at))).collect()
@@ -129,7 +118,7 @@ struct After {
 impl List {
     fn after(&self, recorded: &Recorded<'_>, prolonged: &Prolonged<'_>) -> Option<After> {
         let standing = standing(recorded, prolonged, &self.set)?;
-        let apart = evidence::apart(&standing).ok()?;
+        let apart = evidence::apart(&standing)?;
         let (fitted, baseline) = (&prolonged.fitted, &prolonged.baseline);
         let outside = unlisted(fitted, &prolonged.cells, baseline, &self.set, &standing);
         let mut doubts = vec![0.0_f64; self.set.len()];
@@ -138,10 +127,9 @@ impl List {
             for (at, doubt) in doubts.iter_mut().enumerate() {
                 // What the recording had no such candidate for may come now.
                 let before = before.map_or(f64::INFINITY, |before| before.kappas[at]);
-                let own = if one.stays[at] {
-                    1.0
-                } else {
-                    evidence::doubt(before, one.kappas[at])
+                let own = match one.stays[at] {
+                    true => 1.0,
+                    false => evidence::doubt(before, one.kappas[at]),
                 };
                 *doubt = doubt.max(own);
             }
@@ -152,7 +140,7 @@ impl List {
     fn judged(self, after: &[(&Extra, &After)]) -> Separating {
         let aparts: Vec<&Separability> = after.iter().map(|(_, after)| &after.apart).collect();
         let classes = classes(self.set.len(), &self.before, &aparts);
-        let probabilities: Vec<f64> = self.set.iter().map(Explanation::probability).collect();
+        let probabilities: Vec<f64> = self.set.iter().map(|one| one.probability).collect();
         let worth = |after: &After| {
             let mut worth = after.apart.worth(&Prospects {
                 before: &self.before,
@@ -163,14 +151,10 @@ impl List {
             worth.resolved *= self.share;
             worth
         };
-        let mut extras: Vec<(Extra, Worth)> = if classes.iter().all(|class| *class == 0) {
-            Vec::new()
-        } else {
-            let worths = after.iter();
-            worths
-                .map(|(extra, after)| ((*extra).clone(), worth(after)))
-                .collect()
-        };
+        let is_apart = classes.iter().any(|class| *class > 0);
+        let worths = after.iter().filter(|_| is_apart);
+        let worths = worths.map(|(extra, after)| ((*extra).clone(), worth(after)));
+        let mut extras: Vec<(Extra, Worth)> = worths.collect();
         // The cheapest that separates; of those alike what decides more surely.
         let value = |(extra, worth): &(Extra, Worth)| worth.kappa.min(5.0) / extra.cost;
         extras.sort_by(|a, b| {

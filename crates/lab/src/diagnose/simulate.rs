@@ -28,21 +28,19 @@ pub struct Sheet {
 impl Sheet {
     /// As CSV text.
     pub fn csv(&self) -> String {
-        let quoted = |field: &String| {
-            if field.contains([',', '"', '\n']) {
-                format!("\"{}\"", field.replace('"', "\"\""))
-            } else {
-                field.clone()
-            }
+        let quoted = |field: &String| match field.contains([',', '"', '\n']) {
+            true => format!("\"{}\"", field.replace('"', "\"\"")),
+            false => field.clone(),
         };
-        let line = |fields: &Vec<String>| fields.iter().map(quoted).collect::<Vec<_>>().join(",");
-        let mut text = line(&self.header);
-        text.push('\n');
-        for row in &self.rows {
-            text += &line(row);
-            text.push('\n');
-        }
-        text
+        let line = |fields: &Vec<String>| {
+            let fields: Vec<String> = fields.iter().map(quoted).collect();
+            fields.join(",") + "\n"
+        };
+        [&self.header]
+            .into_iter()
+            .chain(&self.rows)
+            .map(line)
+            .collect()
     }
 }
 
@@ -62,11 +60,10 @@ pub fn recorded(case: &Case) -> Sheet {
         Data::Labels(labels) => labels.text(row).to_owned(),
         Data::Absent => String::new(),
     };
+    let row = |row: usize| columns.iter().map(|column| field(column, row)).collect();
     Sheet {
         header: columns.iter().map(|column| heading(column)).collect(),
-        rows: (0..case.rows)
-            .map(|row| columns.iter().map(|column| field(column, row)).collect())
-            .collect(),
+        rows: (0..case.rows).map(row).collect(),
     }
 }
 
@@ -111,9 +108,6 @@ pub fn simulate(case: &Case, seed: u64) -> Result<Simulation, NoFit> {
     for (response, declared) in case.responses.iter().enumerate() {
         let at = |row: usize| response * case.rows + row;
         let modelled = &fit.linear.values[response];
-        let simulated: Vec<String> = (0..case.rows)
-            .map(|row| (modelled[row] + errors[at(row)]).to_string())
-            .collect();
         let replaced = match declared.observed {
             Observed::Column(column) => {
                 let heading = heading(&case.columns[column], &case.units);
@@ -128,8 +122,8 @@ pub fn simulate(case: &Case, seed: u64) -> Result<Simulation, NoFit> {
             }
             sheet.header.len() - 1
         });
-        for (row, value) in sheet.rows.iter_mut().zip(simulated) {
-            row[place] = value;
+        for (row, fields) in sheet.rows.iter_mut().enumerate() {
+            fields[place] = (modelled[row] + errors[at(row)]).to_string();
         }
         for (suffix, side) in [("model", 0.0), ("low", -1.0), ("high", 1.0)] {
             sheet.header.push(format!("{}_{suffix}", declared.name));
@@ -165,11 +159,13 @@ fn drawn(claimed: &Claimed, case: &Case, seed: u64) -> DVector<f64> {
 fn half_widths(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Vec<f64> {
     let covariance = confirm::covariance(design, fit, claimed);
     let factor = normal_two_sided_quantile(COVERAGE);
-    (0..design.observations())
-        .map(|observation| {
-            let slopes = fit.jacobian.row(observation).transpose();
-            let of_model = slopes.dot(&(&covariance * &slopes));
-            factor * (claimed.u[observation] * claimed.u[observation] + of_model.max(0.0)).sqrt()
-        })
-        .collect()
+    let half_width = |observation: usize| {
+        let (slopes, u) = (
+            fit.jacobian.row(observation).transpose(),
+            claimed.u[observation],
+        );
+        let of_model = slopes.dot(&(&covariance * &slopes));
+        factor * (u * u + of_model.max(0.0)).sqrt()
+    };
+    (0..design.observations()).map(half_width).collect()
 }

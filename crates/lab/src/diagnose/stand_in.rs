@@ -7,7 +7,7 @@ use super::candidates::{Candidates, baseline};
 use super::case::Case;
 use super::catalogue::{EffectId, FittedModel};
 use super::design::Design;
-use super::evidence::{Atom, Shape};
+use super::evidence::{self, Atom, Shape};
 use super::failure::Failure;
 use super::noise;
 
@@ -56,75 +56,45 @@ pub fn stand_ins(
     let (fit, claimed) = noise::settle(&design)?;
     let baseline = baseline(&design, &fit, &claimed)?;
     let candidates = Candidates::new(FittedModel::new(&design, &fit), &claimed, &baseline);
-    let seen = |column: &DVector<f64>| {
-        let column = DMatrix::from_column_slice(column.len(), 1, column.as_slice());
-        baseline.project(&column).column(0).into_owned()
-    };
-    let mut adopted = Vec::new();
+    let column = |of: &DVector<f64>| DMatrix::from_columns(std::slice::from_ref(of));
+    let own = baseline.project(&column(trace));
+    let mut adopted = DMatrix::zeros(own.nrows(), 0);
     for other in others {
-        add(&mut adopted, seen(other));
+        let more = beside(&baseline.project(&column(other)), &adopted);
+        adopted = evidence::all([adopted, more].into_iter());
     }
-    let own = seen(trace);
-    let alone = own.norm();
-    let rest = beside(own, &adopted);
+    let rest = evidence::without(&own, &adopted);
     let whole = rest.norm();
-    let column = DMatrix::from_column_slice(trace.len(), 1, trace.as_slice());
-    let absorbed = baseline
-        .visibilities(&column)
-        .iter()
-        .all(|share| *share <= DEPENDENT);
-    if absorbed || whole.is_nan() || whole * whole <= DEPENDENT * alone * alone {
+    let absorbed = baseline.visibility(&column(trace)) <= DEPENDENT;
+    if absorbed || whole.is_nan() || whole * whole <= DEPENDENT * own.norm_squared() {
         return Ok(Vec::new());
     }
     let of = |(at, atom): (usize, &Atom)| {
         let Shape::Columns(columns) = &atom.shape else {
             return None;
         };
-        let mut directions = adopted.clone();
-        let seen = baseline.project(columns);
-        let shares = baseline.visibilities(columns);
-        for (column, share) in seen.column_iter().zip(shares) {
-            if share > DEPENDENT {
-                add(&mut directions, column.into_owned());
-            }
-        }
-        let own = &directions[adopted.len()..];
+        let (seen, shares) = (baseline.project(columns), baseline.visibilities(columns));
+        let shows = (0..shares.len()).filter(|at| shares[*at] > DEPENDENT);
+        let own = beside(&seen.select_columns(&shows.collect::<Vec<_>>()), &adopted);
         let cell = candidates.cell(at);
-        let size = match (own, seen.column_iter().next()) {
-            ([direction], Some(column)) if seen.ncols() == 1 => {
-                Some(direction.dot(&rest) / direction.dot(&column))
-            }
-            _ => None,
-        };
-        (!own.is_empty()).then(|| StandIn {
+        let is_one = seen.ncols() == 1 && own.ncols() == 1;
+        (own.ncols() > 0).then(|| StandIn {
             pick: Pick {
                 id: cell.effect.id,
                 along: cell.place.along.clone(),
             },
             label: candidates.variation(at).label.clone(),
-            coefficients: own.len(),
-            size,
-            left: beside(rest.clone(), own).norm() / whole,
+            coefficients: own.ncols(),
+            size: is_one.then(|| own.dot(&rest) / own.dot(&seen)),
+            left: evidence::without(&rest, &own).norm() / whole,
         })
     };
-    Ok((candidates.atoms.iter().enumerate())
-        .filter_map(of)
-        .collect())
+    let atoms = candidates.atoms.iter().enumerate();
+    Ok(atoms.filter_map(of).collect())
 }
 
-/// Adds what is left of a column to orthonormal directions, if anything.
-fn add(directions: &mut Vec<DVector<f64>>, column: DVector<f64>) {
-    let length = column.norm();
-    let left = beside(column, directions);
-    if left.norm_squared() > DEPENDENT * length * length {
-        directions.push(left.normalize());
-    }
-}
-
-fn beside(mut column: DVector<f64>, directions: &[DVector<f64>]) -> DVector<f64> {
-    // Twice, against cancellation.
-    for direction in directions.iter().chain(directions) {
-        column.axpy(-direction.dot(&column), direction, 1.0);
-    }
-    column
+/// Orthonormal directions of columns beside others.
+fn beside(columns: &DMatrix<f64>, others: &DMatrix<f64>) -> DMatrix<f64> {
+    let lengths: Vec<f64> = columns.column_iter().map(|column| column.norm()).collect();
+    evidence::orthonormal(evidence::without(columns, others), &lengths, DEPENDENT).0
 }

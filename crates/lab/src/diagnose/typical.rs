@@ -7,6 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, Observed};
+use super::catalogue::modifiers::{largest, range};
 use super::catalogue::{Cell, FittedModel, Node, Usual, Variation};
 use gumption_core::quantity::UnitTable;
 
@@ -41,12 +42,10 @@ pub fn full_scales(fitted: &FittedModel<'_>) -> DVector<f64> {
             Observed::Constant(_) => None,
         };
         let values = &fitted.fit.linear.values[response];
-        let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let own = if case.responses[response].unit.is_point() {
-            most - least
-        } else {
-            most.abs().max(least.abs())
+        let (least, most) = range(values);
+        let own = match case.responses[response].unit.is_point() {
+            true => most - least,
+            false => largest(values),
         };
         vec![stated.unwrap_or(own); case.rows]
     })
@@ -84,15 +83,14 @@ pub fn shift(
             let Node::Column(column) = variation.terms.first()?.node else {
                 return None;
             };
-            let unit = case.columns[column].unit.difference();
-            let units = UnitTable::default();
-            let [rad, metre] = ["rad", "m"].map(|text| units.parse(text).ok());
-            let size = if case.columns[column].unit.is_one() {
-                *angle
-            } else if let Some(conversion) = metre?.conversion_to(&unit) {
-                conversion.apply(*length)
-            } else {
-                rad?.conversion_to(&unit)?.apply(*angle)
+            let unit = &case.columns[column].unit;
+            let in_unit = |text: &str, size: f64| {
+                let own = UnitTable::default().parse(text).ok()?;
+                Some(own.conversion_to(&unit.difference())?.apply(size))
+            };
+            let size = match unit.is_one() {
+                true => *angle,
+                false => in_unit("m", *length).or_else(|| in_unit("rad", *angle))?,
             };
             unified.peaks.first().map(|peak| size * peak)
         }
@@ -105,7 +103,7 @@ fn excursion(case: &Case, column: &str) -> Option<f64> {
     let numbers = column.numbers()?;
     let kelvin = UnitTable::default().parse("K").ok()?;
     let factor = column.unit.difference().conversion_to(&kelvin)?.apply(1.0);
-    let (least, most) = super::catalogue::modifiers::range(numbers);
+    let (least, most) = range(numbers);
     Some(0.5 * (most - least) * factor)
 }
 

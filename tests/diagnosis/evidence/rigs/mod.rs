@@ -64,7 +64,6 @@ impl Catalogue {
                 along: along.into(),
             },
             cause: self.candidates.len(),
-            typical: None,
             repeats: false,
             describes: false,
             odds: 1.0,
@@ -72,10 +71,9 @@ impl Catalogue {
         self.candidates.len() - 1
     }
 
-    fn atom(&mut self, candidate: usize, variant: String, shape: Shape) {
+    fn atom(&mut self, candidate: usize, shape: Shape) {
         self.atoms.push(Atom {
             candidate,
-            variant,
             shape,
             share: 1.0,
         });
@@ -84,7 +82,7 @@ impl Catalogue {
     /// A candidate of several variants, each of several columns.
     fn named(&mut self, name: &str, family: &str, variants: Vec<Vec<Vec<f64>>>) -> usize {
         let candidate = self.candidate(name, family, "", "");
-        for (i, columns) in variants.into_iter().enumerate() {
+        for columns in variants {
             let matrix = DMatrix::from_fn(self.rows, columns.len(), |r, c| {
                 if columns[c][r].abs() < 1e-9 {
                     0.0
@@ -92,7 +90,7 @@ impl Catalogue {
                     columns[c][r]
                 }
             });
-            self.atom(candidate, i.to_string(), Shape::Columns(matrix));
+            self.atom(candidate, Shape::Columns(matrix));
         }
         candidate
     }
@@ -104,7 +102,7 @@ impl Catalogue {
 
     fn generic(&mut self, node: &str, along: &str, shape: Shape) {
         let candidate = self.candidate(&format!("?{node}({along})"), "?", node, along);
-        self.atom(candidate, String::new(), shape);
+        self.atom(candidate, shape);
     }
 
     fn rig(self, jacobian: DMatrix<f64>, covariance: Covariance, scale_dof: f64) -> Rig {
@@ -266,6 +264,6 @@ impl Timeline<'_> {
             }
         }
         let scatter = c.candidate("?scatter", "?", "output", "");
-        c.atom(scatter, String::new(), Shape::Scatter);
+        c.atom(scatter, Shape::Scatter);
     }
 }

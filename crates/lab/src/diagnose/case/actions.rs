@@ -19,12 +19,8 @@ impl Checker<'_> {
         columns: &[Column],
         rows: usize,
     ) -> Vec<Action> {
-        let list = file
-            .action
-            .as_ref()
-            .map_or(&[][..], |list| list.value.0.as_slice());
-        list.iter()
-            .filter_map(|stated| self.action(stated, columns, rows))
+        let list = file.action.iter().flat_map(|list| &list.value.0);
+        list.filter_map(|stated| self.action(stated, columns, rows))
             .collect()
     }
 
@@ -35,12 +31,8 @@ impl Checker<'_> {
         rows: usize,
     ) -> Option<Action> {
         let table = &stated.value;
-        let cost = table.cost.as_ref().map_or(1.0, |cost| cost.value);
-        if let Some(cost) = table
-            .cost
-            .as_ref()
-            .filter(|cost| cost.value.is_nan() || cost.value <= 0.0)
-        {
+        let cost = table.cost.as_ref();
+        if let Some(cost) = cost.filter(|cost| cost.value.is_nan() || cost.value <= 0.0) {
             let fault = Fault::new(SETTING, cost.span.clone(), say!("a cost is positive"));
             self.faults
                 .push(fault.label(say!("expected a positive number")));
@@ -48,12 +40,10 @@ impl Checker<'_> {
         let again = table.again.is_some() || table.order.is_some();
         let (Some(name), true) = (&table.name, table.rows.is_some() != again) else {
             if !table.refused {
+                let message =
+                    say!("a further measurement has a `name` and one of `rows` and `again`");
                 self.faults.push(
-                    Fault::new(
-                        MISSING,
-                        stated.span.clone(),
-                        say!("a further measurement has a `name` and one of `rows` and `again`"),
-                    )
+                    Fault::new(MISSING, stated.span.clone(), message)
                     .label(say!("expected both"))
                     .help(say!("rows = \"more.csv\", rows = {{ x = [1, 2, 3] }}, or again = {{ mount = 90 }} for the rows of the recording once more")),
                 );
@@ -63,11 +53,7 @@ impl Checker<'_> {
         let rows = match &table.rows {
             Some(entry) => match &entry.value {
                 RowsEntry::File(path) => {
-                    let path = Stated {
-                        value: path.clone(),
-                        span: entry.span.clone(),
-                        key: entry.key.clone(),
-                    };
+                    let path = entry.map(|_| path.clone());
                     self.rows_of_file(&path, columns, Complete::Planned)?
                 }
                 RowsEntry::Lists(lists) => self.listed(entry, lists, columns)?,
@@ -76,7 +62,7 @@ impl Checker<'_> {
         };
         Some(Action {
             name: name.value.clone(),
-            cost,
+            cost: cost.map_or(1.0, |cost| cost.value),
             rows,
         })
     }
@@ -130,10 +116,8 @@ impl Checker<'_> {
             count,
             data: columns.iter().map(|c| c.data.clone()).collect(),
         };
-        let reversed = table
-            .order
-            .as_ref()
-            .is_some_and(|order| order.value == OrderWord::Reversed);
+        let order = table.order.as_ref().map(|order| order.value);
+        let reversed = order == Some(OrderWord::Reversed);
         let mut rows = repeated(&recorded, columns, reversed);
         let entries = table.again.as_ref().map_or(&[][..], |t| &t.value.entries);
         for (name, cell) in entries {
@@ -163,7 +147,7 @@ impl Checker<'_> {
         column: &Column,
         cells: impl Iterator<Item = &'c Stated<Cell>>,
     ) -> Option<Data> {
-        if let Data::Labels(known) = &column.data {
+        if let Some(known) = column.labels() {
             let mut labels = Labels {
                 levels: known.levels.clone(),
                 of_row: Vec::new(),
@@ -202,12 +186,10 @@ impl Checker<'_> {
 pub(in crate::diagnose) fn repeated(recorded: &Rows, columns: &[Column], reversed: bool) -> Rows {
     use crate::experiment::entries::RoleWord::{Count, Covariate, Order, Run, Time, Uncertainty};
     let count = recorded.count;
-    let forth: Vec<usize> = (0..count).collect();
-    let places: Vec<usize> = if reversed {
-        (0..count).rev().collect()
-    } else {
-        forth
-    };
+    let mut places: Vec<usize> = (0..count).collect();
+    if reversed {
+        places.reverse();
+    }
     let mut rows = recorded.taken(&places);
     for ((data, own), column) in rows.data.iter_mut().zip(&recorded.data).zip(columns) {
         match column.role {

@@ -35,12 +35,9 @@ pub(super) fn candidates(
             let names = declared.parameters.iter().map(|p| p.name.as_str());
             let names = names.chain(columns.iter().map(|c| c.name.as_str()));
             if !names.clone().any(|known| known == node.value) {
-                let fault = Fault::new(
-                    UNKNOWN_NAME,
-                    node.span.clone(),
-                    say!("{} is neither a parameter nor a column", node.value),
-                )
-                .label(say!("not known"));
+                let message = say!("{} is neither a parameter nor a column", node.value);
+                let fault =
+                    Fault::new(UNKNOWN_NAME, node.span.clone(), message).label(say!("not known"));
                 checker.faults.push(match nearest(&node.value, names) {
                     Some(near) => fault.help(say!("did you mean `{near}`?")),
                     None => fault,
@@ -48,26 +45,25 @@ pub(super) fn candidates(
                 continue;
             }
         }
-        let equations = formula_of(checker, &formula, columns, constants, declared);
-        if equations.is_none() && checker.source.is_base(&stated.key) {
-            // What a procedure offers need not be recorded.
-            checker.faults.truncate(before);
-        }
-        if let Some(equations) = equations {
-            let numbers = &equations;
-            let unit = unit_of(checker, &formula, columns, constants, declared, numbers);
-            let typical = table.typical.as_ref();
-            let node = table.node.as_ref().or(table.response.as_ref());
-            found.push(UserCandidate {
-                name: name.clone(),
-                formula: formula.value.clone(),
-                unit: unit.unwrap_or_else(Unit::one),
-                equations,
-                node: node.map(|node| node.value.clone()),
-                typical: typical.map(|typical| typical.value.number),
-                description: table.description.as_ref().map(|text| text.value.clone()),
-            });
-        }
+        let Some(equations) = formula_of(checker, &formula, columns, constants, declared) else {
+            if checker.source.is_base(&stated.key) {
+                // What a procedure offers need not be recorded.
+                checker.faults.truncate(before);
+            }
+            continue;
+        };
+        let unit = unit_of(checker, &formula, columns, constants, declared, &equations);
+        let typical = table.typical.as_ref();
+        let node = table.node.as_ref().or(table.response.as_ref());
+        found.push(UserCandidate {
+            name: name.clone(),
+            formula: formula.value.clone(),
+            unit: unit.unwrap_or_else(Unit::one),
+            equations,
+            node: node.map(|node| node.value.clone()),
+            typical: typical.map(|typical| typical.value.number),
+            description: table.description.as_ref().map(|text| text.value.clone()),
+        });
     }
     found
 }
@@ -130,7 +126,6 @@ fn formula_of(
     constants: &[Symbol],
     declared: &Declared,
 ) -> Option<Equations> {
-    let text = format!("{LEFT} = {}", formula.value);
     // The coefficient takes whatever unit is left over: numbers are taken as they stand in their columns.
     let pure = |name: &str| Quantity {
         name: name.to_owned(),
@@ -140,35 +135,32 @@ fn formula_of(
     let symbols: Vec<Quantity> = parameters
         .chain(columns.iter().map(|c| pure(&c.name)))
         .collect();
-    let numbers: Vec<Symbol> = constants
-        .iter()
-        .map(|constant| Symbol {
-            unit: Unit::one(),
-            ..constant.clone()
-        })
-        .collect();
+    let numbers = constants.iter().map(|constant| Symbol {
+        unit: Unit::one(),
+        ..constant.clone()
+    });
+    let numbers: Vec<Symbol> = numbers.collect();
+    let compiled = compiled(checker, formula, &symbols, pure(LEFT), &numbers);
+    let moved = |fault: Fault| fault.moved(|_| formula.span.clone());
+    compiled
+        .map_err(|faults| checker.faults.extend(faults.into_iter().map(moved)))
+        .ok()
+}
+
+/// The formula as the right side of an equation of such symbols.
+fn compiled(
+    checker: &Checker<'_>,
+    formula: &Stated<String>,
+    symbols: &[Quantity],
+    left: Quantity,
+    constants: &[Symbol],
+) -> Result<Equations, Vec<Fault>> {
+    let text = format!("{LEFT} = {}", formula.value);
     let equation = EquationText {
         text: &text,
         at: formula.span.clone(),
     };
-    match Equations::compile(
-        &[equation],
-        &symbols,
-        &[pure(LEFT)],
-        &numbers,
-        &checker.units,
-    ) {
-        Ok(equations) => Some(equations),
-        Err(faults) => {
-            let whole = formula.span.clone();
-            checker.faults.extend(
-                faults
-                    .into_iter()
-                    .map(|fault| fault.moved(|_| whole.clone())),
-            );
-            None
-        }
-    }
+    Equations::compile(&[equation], symbols, &[left], constants, &checker.units)
 }
 
 /// The unit of a formula, where it is one of quantities too: its parts fit together, and units are converted
@@ -186,12 +178,11 @@ fn unit_of(
     let parameters = declared.parameters.iter();
     let quantities = parameters.map(|p| (&p.name, &p.unit));
     let quantities = quantities.chain(columns.iter().map(|c| (&c.name, &c.unit)));
-    let symbols: Vec<Quantity> = quantities
-        .map(|(name, unit)| Quantity {
-            name: name.clone(),
-            unit: unit.difference(),
-        })
-        .collect();
+    let symbols = quantities.map(|(name, unit)| Quantity {
+        name: name.clone(),
+        unit: unit.difference(),
+    });
+    let symbols: Vec<Quantity> = symbols.collect();
     let inputs = symbols.iter().enumerate().map(|(at, quantity)| Symbol {
         name: quantity.name.clone(),
         unit: quantity.unit.clone(),
@@ -208,23 +199,10 @@ fn unit_of(
         name: LEFT.to_owned(),
         unit: unit.clone(),
     };
-    let text = format!("{LEFT} = {}", formula.value);
-    let equation = EquationText {
-        text: &text,
-        at: formula.span.clone(),
-    };
-    let quantities = Equations::compile(
-        &[equation],
-        &symbols,
-        &[response],
-        constants,
-        &checker.units,
-    )
-    .ok()?;
+    let quantities = compiled(checker, formula, &symbols, response, constants).ok()?;
     // Values of no meaning, different from symbol to symbol: what agrees there is the same formula.
-    let values: Vec<f64> = (0..symbols.len())
-        .map(|at| 1.0 + 0.37 * at as f64)
-        .collect();
+    let values = (0..symbols.len()).map(|at| 1.0 + 0.37 * at as f64);
+    let values: Vec<f64> = values.collect();
     let (one, other) = (numbers.value(0, &values), quantities.value(0, &values));
     ((one - other).abs() <= 1e-9 * one.abs()).then_some(unit)
 }

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use super::candidates;
-use super::models::models;
 use super::{Case, Column, Purpose, columns, disused, inputs};
 use crate::diagnose::faults::MISSING;
 use crate::experiment::checker::{Checker, opened};
@@ -14,6 +13,7 @@ use crate::recording::Request;
 use gumption_core::equations::Quantity;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::faults::TOML_SYNTAX;
+use gumption_format::toml::{OneOrMany, Stated};
 use gumption_gum::budget::quantities::text_of;
 use gumption_gum::budget::{Files, Rejection};
 
@@ -119,16 +119,17 @@ impl Checker<'_> {
             return Ok(None);
         };
         let candidates = candidates::candidates(self, file, &columns, &constants, &declared);
+        let stem = || {
+            path.file_stem()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned()
+        };
         Ok(Some(Case {
-            title: file.title.as_ref().map_or_else(
-                || {
-                    path.file_stem()
-                        .unwrap_or_default()
-                        .to_string_lossy()
-                        .into_owned()
-                },
-                |title| title.value.clone(),
-            ),
+            title: file
+                .title
+                .as_ref()
+                .map_or_else(stem, |title| title.value.clone()),
             reference: file.reference.as_ref().map(|text| text.value.clone()),
             note: file.note.as_ref().map(|text| text.value.clone()),
             remarks: [experiment.remarks, disused::remarks(self.source, file)].concat(),
@@ -154,17 +155,10 @@ impl Checker<'_> {
     }
 
     fn missing(&mut self, file: &ExperimentTable) {
+        let (recording, equations) = (file.recording.is_some(), file.equations.is_some());
         for (present, key, example) in [
-            (
-                file.recording.is_some(),
-                "recording",
-                "recording = \"readings.csv\"",
-            ),
-            (
-                file.equations.is_some(),
-                "equations",
-                "equations = \"y = a + b * x\"",
-            ),
+            (recording, "recording", "recording = \"readings.csv\""),
+            (equations, "equations", "equations = \"y = a + b * x\""),
         ] {
             let stated = file.present.iter().any(|(name, _)| *name == key);
             if !present && !stated {
@@ -192,4 +186,15 @@ fn quantities(columns: &[Column], names: &Names) -> Vec<Quantity> {
         unit: column.unit.clone(),
     })
     .collect()
+}
+
+/// The equations, each behind the statements that all of them see.
+fn models(file: &ExperimentTable) -> Option<Stated<OneOrMany<String>>> {
+    let mut models = *file.equations.clone()?;
+    if let Some(shared) = &file.model {
+        for model in &mut models.value.0 {
+            model.value = format!("{}\n{}", shared.value.trim_end(), model.value);
+        }
+    }
+    Some(models)
 }

@@ -7,7 +7,7 @@ use crate::experiment::columns::Column as Wanted;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::positions::Given;
 use crate::experiment::tables::ColumnTable;
-use crate::recording::{Labels, Recording};
+use crate::recording::Recording;
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::{Amount, Slot, Stated};
@@ -20,14 +20,10 @@ impl Checker<'_> {
         recorded: &Recording,
     ) -> (Vec<Column>, usize, usize) {
         let all = recorded.rows();
-        let complete: Vec<usize> = (0..all)
-            .filter(|row| {
-                wanted.iter().all(|w| match recorded.numbers(&w.name) {
-                    Some(numbers) => !w.is_there || numbers[*row].is_finite(),
-                    None => true,
-                })
-            })
-            .collect();
+        let there = wanted.iter().filter(|w| w.is_there);
+        let there: Vec<&[f64]> = there.filter_map(|w| recorded.numbers(&w.name)).collect();
+        let is_complete = |row: &usize| there.iter().all(|numbers| numbers[*row].is_finite());
+        let complete: Vec<usize> = (0..all).filter(is_complete).collect();
         let mut columns = Vec::new();
         for w in wanted {
             let column = recorded.column(&w.name);
@@ -38,17 +34,11 @@ impl Checker<'_> {
                 (None, None) if !w.is_there => self.planned_unit(&w.name).unwrap_or_else(Unit::one),
                 (None, None) => Unit::one(),
             };
-            let data = if !w.is_there {
-                Data::Absent
-            } else if let Some(numbers) = recorded.numbers(&w.name) {
-                Data::Numbers(complete.iter().map(|row| numbers[*row]).collect())
-            } else if let Some(labels) = recorded.labels(&w.name) {
-                Data::Labels(Labels {
-                    levels: labels.levels.clone(),
-                    of_row: complete.iter().map(|row| labels.of_row[*row]).collect(),
-                })
-            } else {
-                Data::Absent
+            let data = match (recorded.numbers(&w.name), recorded.labels(&w.name)) {
+                _ if !w.is_there => Data::Absent,
+                (Some(numbers), _) => Data::Numbers(numbers.to_vec()),
+                (None, Some(labels)) => Data::Labels(labels.clone()),
+                (None, None) => Data::Absent,
             };
             let mut amount = |of: fn(&ColumnTable) -> &Slot<Amount>| {
                 let stated = of(w.table?).as_ref()?;
@@ -63,7 +53,7 @@ impl Checker<'_> {
                 u_common,
                 full_scale,
                 resolution,
-                ..Column::new(&w.name, w.role, &unit, data)
+                ..Column::new(&w.name, w.role, &unit, data.taken(&complete))
             });
         }
         (columns, complete.len(), all - complete.len())
@@ -108,15 +98,11 @@ pub(super) fn nothing_left(
         let numbers = recorded.numbers(&one.name).unwrap_or_default();
         numbers.iter().filter(|x| !x.is_finite()).count()
     };
-    let fault = Fault::new(
-        TOO_FEW,
-        file.span.clone(),
-        say!(
-            "no row of {} has a number in every declared column",
-            file.value
-        ),
-    )
-    .label(say!("this recording"));
+    let message = say!(
+        "no row of {} has a number in every declared column",
+        file.value
+    );
+    let fault = Fault::new(TOO_FEW, file.span.clone(), message).label(say!("this recording"));
     let there = wanted.iter().filter(|one| one.is_there);
     match there.max_by_key(|one| lacks(one)) {
         Some(one) if lacks(one) > 0 => fault.help(say!(

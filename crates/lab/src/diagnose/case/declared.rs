@@ -31,15 +31,14 @@ impl Checker<'_> {
         let before = self.faults.len();
         let found = experiment.equations.responses().iter();
         let found = found.zip(&experiment.observed);
-        let responses: Vec<Response> = found
-            .filter_map(|(response, observed)| {
-                Some(Response {
-                    name: response.name.clone(),
-                    unit: response.unit.clone(),
-                    observed: self.observed(&response.name, observed, names, columns, constants)?,
-                })
+        let responses = found.filter_map(|(response, observed)| {
+            Some(Response {
+                name: response.name.clone(),
+                unit: response.unit.clone(),
+                observed: self.observed(&response.name, observed, names, columns, constants)?,
             })
-            .collect();
+        });
+        let responses: Vec<Response> = responses.collect();
         if self.faults.len() > before {
             return None;
         }
@@ -54,7 +53,9 @@ impl Checker<'_> {
             }
         };
         let places: Vec<usize> = (0..parameters.len()).collect();
-        if !equations.are_affine_in(&places) && !startable(&parameters) {
+        // A search may begin anywhere if there are few unknowns and starts at least for some.
+        let open = parameters.iter().filter(|p| p.start.is_none()).count();
+        if !equations.are_affine_in(&places) && open > 3 {
             self.no_start(&parameters);
         }
         Some(Declared {
@@ -99,29 +100,19 @@ impl Checker<'_> {
 
     fn no_start(&mut self, parameters: &[Parameter]) {
         let missing = parameters.iter().filter(|p| p.start.is_none());
-        let example: Vec<String> = missing
-            .map(|p| format!("{} = {{ start = … }}", p.name))
-            .collect();
+        let example = missing.map(|p| format!("{} = {{ start = … }}", p.name));
+        let example = example.collect::<Vec<String>>().join(", ");
         let equations = self.source.table.equations.as_ref();
         let place = equations.map_or(0..0, |list| list.span.clone());
-        self.faults.push(
-            Fault::new(
-                START,
-                place,
-                say!("the model is not linear in its parameters"),
-            )
-            .label(say!("its parameters are found by a search"))
-            .help(say!(
-                "state roughly where the search begins, below [parameter]: {}",
-                example.join(", ")
-            )),
+        let message = say!("the model is not linear in its parameters");
+        let fault =
+            Fault::new(START, place, message).label(say!("its parameters are found by a search"));
+        let begins = say!(
+            "state roughly where the search begins, below [parameter]: {}",
+            example
         );
+        self.faults.push(fault.help(begins));
     }
-}
-
-/// A search may begin anywhere if there are few unknowns and starts at least for some.
-fn startable(parameters: &[Parameter]) -> bool {
-    parameters.iter().filter(|p| p.start.is_none()).count() <= 3
 }
 
 /// Constants that no equation has on its left.
@@ -147,15 +138,11 @@ fn symbols(parameters: &[Parameter], columns: &[Column]) -> Vec<Quantity> {
 impl Case {
     /// Other equations over its parameters and columns; nothing where they are none.
     pub(in crate::diagnose) fn compiled(&self, texts: &[String]) -> Option<Equations> {
-        let responses = self.responses.iter().map(|response| Quantity {
-            name: response.name.clone(),
-            unit: response.unit.clone(),
-        });
-        let responses: Vec<Quantity> = responses.collect();
+        let responses = self.equations.responses();
         let symbols = symbols(&self.parameters, &self.columns);
-        let others = constants_beside(&responses, &self.constants);
+        let others = constants_beside(responses, &self.constants);
         let text = |text| EquationText { text, at: 0..0 };
         let texts: Vec<EquationText<'_>> = texts.iter().map(|own| text(own.as_str())).collect();
-        Equations::compile(&texts, &symbols, &responses, &others, &self.units).ok()
+        Equations::compile(&texts, &symbols, responses, &others, &self.units).ok()
     }
 }

@@ -7,7 +7,7 @@ use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::names::Names;
 use crate::experiment::source::entries;
-use crate::experiment::{Doubt, Experiment, Scope, Target};
+use crate::experiment::{Experiment, Scope, Target};
 use gumption_core::model::{Role, Symbol};
 use gumption_fault::{Fault, say};
 
@@ -56,19 +56,17 @@ impl Checker<'_> {
         let tables = entries(&self.source.table.parameter);
         for parameter in &experiment.parameters {
             let table = tables.iter().find(|(name, _)| *name == parameter.name);
-            let per = match table.and_then(|(_, table)| table.value.per.as_ref()) {
-                None => None,
-                Some(column) => {
-                    let place = self.known(column, columns)?;
-                    if columns[place].labels().is_none() {
-                        let message = say!("{} holds no labels", column.value);
-                        let fault = Fault::new(PER, column.span.clone(), message);
-                        return self
-                            .refuse(fault.label(say!("expected a run, factor, position or axis")));
-                    }
-                    Some(place)
+            let mut per = None;
+            if let Some(column) = table.and_then(|(_, table)| table.value.per.as_ref()) {
+                let place = self.known(column, columns)?;
+                if columns[place].labels().is_none() {
+                    let message = say!("{} holds no labels", column.value);
+                    let fault = Fault::new(PER, column.span.clone(), message);
+                    return self
+                        .refuse(fault.label(say!("expected a run, factor, position or axis")));
                 }
-            };
+                per = Some(place);
+            }
             parameters.push(Parameter {
                 name: parameter.name.clone(),
                 unit: parameter.unit.clone(),
@@ -113,7 +111,8 @@ impl Error {
     fn of(experiment: &Experiment, target: &Target) -> Error {
         let mut error = Error::default();
         for doubt in &experiment.doubts {
-            let u = effect(doubt, target);
+            let acts = doubt.acts.iter().filter(|act| act.on == *target);
+            let u = acts.map(|act| act.coefficient * doubt.u).sum::<f64>().abs();
             match &doubt.scope {
                 Scope::Common => error.common = libm::hypot(error.common, u),
                 Scope::Each => error.each = libm::hypot(error.each, u),
@@ -129,10 +128,4 @@ impl Error {
     fn is_none(&self) -> bool {
         self.common == 0.0 && self.each == 0.0 && self.by.1 == 0.0
     }
-}
-
-/// The standard uncertainty that an error gives a quantity.
-fn effect(doubt: &Doubt, target: &Target) -> f64 {
-    let acts = doubt.acts.iter().filter(|act| act.on == *target);
-    acts.map(|act| act.coefficient * doubt.u).sum::<f64>().abs()
 }

@@ -8,7 +8,6 @@ mod columns;
 mod declared;
 mod disused;
 mod inputs;
-mod models;
 mod noise;
 mod rows;
 mod settings;
@@ -301,6 +300,17 @@ impl Case {
     /// Columns of a role.
     pub fn with_role(&self, role: Role) -> impl Iterator<Item = usize> {
         (0..self.columns.len()).filter(move |i| self.columns[*i].role == role)
+    }
+
+    /// All labels of the rows.
+    pub fn labels(&self) -> impl Iterator<Item = &Labels> {
+        self.columns.iter().filter_map(Column::labels)
+    }
+
+    /// Whether an equation uses a column.
+    pub fn uses(&self, column: usize) -> bool {
+        let symbol = self.parameters.len() + column;
+        (0..self.responses.len()).any(|response| self.equations.uses(response).contains(&symbol))
     }
 
     /// The model line by line, statements that all equations see once.

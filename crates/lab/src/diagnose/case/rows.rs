@@ -8,8 +8,9 @@ use crate::diagnose::faults::{MISSING, ROWS};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::tables::ExperimentTable;
-use crate::recording::{Content, Labels, Recording, Request, headings, text_of};
-use gumption_fault::{Fault, Said, say};
+use crate::recording::{self, Content, Heading, Labels, Recording, Request, headings, text_of};
+use gumption_core::quantity::Unit;
+use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::toml::Stated;
 
 /// Rows with a value for each column of a case, in their order.
@@ -33,19 +34,39 @@ impl Rows {
     /// These rows alone in the order of `places`.
     #[must_use]
     pub fn taken(&self, places: &[usize]) -> Rows {
-        let taken = |data: &Data| match data {
-            Data::Numbers(numbers) => {
-                Data::Numbers(places.iter().map(|row| numbers[*row]).collect())
-            }
-            Data::Labels(labels) => Data::Labels(Labels {
-                levels: labels.levels.clone(),
-                of_row: places.iter().map(|row| labels.of_row[*row]).collect(),
-            }),
-            Data::Absent => Data::Absent,
-        };
         Rows {
             count: places.len(),
-            data: self.data.iter().map(taken).collect(),
+            data: self.data.iter().map(|data| data.taken(places)).collect(),
+        }
+    }
+}
+
+impl Data {
+    /// These rows alone in the order of `places`.
+    pub(super) fn taken(&self, places: &[usize]) -> Data {
+        let rows = places.iter();
+        self.map(
+            |numbers| rows.clone().map(|row| numbers[*row]).collect(),
+            |labels| rows.clone().map(|row| labels.of_row[*row]).collect(),
+        )
+    }
+
+    /// Rows with levels of other labels.
+    pub(in crate::diagnose) fn labels(like: &Labels, of_row: Vec<u32>) -> Data {
+        let levels = like.levels.clone();
+        Data::Labels(Labels { levels, of_row })
+    }
+
+    /// Other rows, made of its numbers or of its labels.
+    pub(in crate::diagnose) fn map(
+        &self,
+        numbers: impl FnOnce(&[f64]) -> Vec<f64>,
+        labels: impl FnOnce(&Labels) -> Vec<u32>,
+    ) -> Data {
+        match self {
+            Data::Numbers(own) => Data::Numbers(numbers(own)),
+            Data::Labels(own) => Data::labels(own, labels(own)),
+            Data::Absent => Data::Absent,
         }
     }
 }
@@ -115,10 +136,7 @@ pub(super) fn continued(column: &Column, count: usize) -> Option<Data> {
         Data::Absent => Some(Data::Absent),
         Data::Labels(labels) => {
             let last = *labels.of_row.last()?;
-            Some(Data::Labels(Labels {
-                levels: labels.levels.clone(),
-                of_row: vec![last; count],
-            }))
+            Some(Data::labels(labels, vec![last; count]))
         }
         Data::Numbers(numbers) => match column.role {
             RoleWord::Output => Some(Data::Absent),
@@ -139,11 +157,8 @@ pub(super) fn continued(column: &Column, count: usize) -> Option<Data> {
 
 /// The usual distance of successive rows in time.
 pub(in crate::diagnose) fn interval(times: &[f64]) -> f64 {
-    let mut steps: Vec<f64> = times
-        .windows(2)
-        .map(|pair| pair[1] - pair[0])
-        .filter(|step| *step > 0.0)
-        .collect();
+    let steps = times.windows(2).map(|pair| pair[1] - pair[0]);
+    let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
     steps.sort_by(f64::total_cmp);
     steps.get(steps.len() / 2).copied().unwrap_or(1.0)
 }
@@ -167,11 +182,8 @@ impl Checker<'_> {
         let stated = file.held_out.as_ref()?;
         let Some(path) = &stated.value.file else {
             if !stated.value.refused {
-                let fault = Fault::new(
-                    MISSING,
-                    stated.span.clone(),
-                    say!("[held_out] has no `file`"),
-                );
+                let message = say!("[held_out] has no `file`");
+                let fault = Fault::new(MISSING, stated.span.clone(), message);
                 self.faults.push(fault.label(say!("`file` is missing")));
             }
             return None;
@@ -190,92 +202,67 @@ impl Checker<'_> {
         columns: &[Column],
         complete: Complete,
     ) -> Option<Rows> {
-        let full = self.folder.join(&path.value);
         let refused = |message: Said| Fault::new(ROWS, path.span.clone(), message);
-        let first = |faults: &[Fault]| {
-            faults
-                .first()
-                .map_or_else(Said::default, |f| f.message.clone())
-        };
-        let text = match text_of(self.files, &full, &path.value) {
-            Ok(text) => text,
-            Err(rejection) => {
-                self.faults.push(refused(first(&rejection.faults)));
-                return None;
-            }
-        };
-        let known = match headings(&text, &self.units) {
-            Ok(known) => known,
-            Err(fault) => {
-                let message = say!("{}: {}", path.value, fault.message);
-                self.faults.push(refused(message));
-                return None;
-            }
-        };
-        let present = |column: &Column| {
-            let here = |h: &crate::recording::Heading| {
-                h.text == column.header || h.name == column.header || h.name == column.name
-            };
-            known.iter().find(|h| here(h)).map(|h| h.text.clone())
-        };
-        let requests: Vec<Request> = columns
-            .iter()
-            .filter_map(|column| {
-                let content = match column.data {
-                    Data::Labels(_) => Content::Labels,
-                    _ => Content::Numbers,
-                };
-                Some(Request {
-                    content,
-                    ..Request::numbers(&column.name, &present(column)?)
-                })
-            })
-            .collect();
-        let recorded = match Recording::read(&path.value, &text, &requests, &self.units) {
-            Ok(recorded) => recorded,
-            Err(rejection) => {
-                let message = say!("{}: {}", path.value, first(&rejection.faults));
-                self.faults.push(refused(message));
-                return None;
-            }
-        };
-        let mut data = Vec::new();
-        for column in columns {
-            let own = recorded.column(&column.name);
-            let found = match own {
-                Some(own) => match (&own.data, &own.unit) {
-                    (crate::recording::Data::Labels(labels), _) => {
-                        Some(Data::Labels(labels.clone()))
-                    }
-                    (crate::recording::Data::Numbers(_), Some(_)) => {
-                        own.values_in(&column.unit).map(Data::Numbers)
-                    }
-                    (crate::recording::Data::Numbers(numbers), None) => {
-                        Some(Data::Numbers(numbers.clone()))
-                    }
-                },
-                None if complete == Complete::Planned => continued(column, recorded.rows()),
-                None => None,
-            };
-            match found {
-                Some(found) => data.push(found),
-                None if own.is_some() => {
-                    let message = say!(
-                        "{}: {} is not in a unit such as {}",
-                        path.value,
-                        column.name,
-                        column.unit.symbol
-                    );
-                    self.faults.push(refused(message));
-                }
-                None => {
-                    let message = say!("{} has no column \"{}\"", path.value, column.header);
-                    self.faults.push(refused(message));
-                }
+        match self.read_rows(&path.value, columns, complete) {
+            Ok(rows) => Some(rows),
+            Err(messages) => {
+                self.faults.extend(messages.into_iter().map(refused));
+                None
             }
         }
-        if data.len() < columns.len() {
-            return None;
+    }
+
+    /// Rows of another file, or what is wrong with it.
+    fn read_rows(
+        &self,
+        path: &str,
+        columns: &[Column],
+        complete: Complete,
+    ) -> Result<Rows, Vec<Said>> {
+        let first = |rejection: Rejection| {
+            let first = rejection.faults.first();
+            first.map_or_else(Said::default, |fault| fault.message.clone())
+        };
+        let text = text_of(self.files, &self.folder.join(path), path);
+        let text = text.map_err(|rejection| vec![first(rejection)])?;
+        let known = headings(&text, &self.units)
+            .map_err(|fault| vec![say!("{}: {}", path, fault.message)])?;
+        let request = |column: &Column| {
+            let is_it = |heading: &&Heading| {
+                let names = [&column.header, &column.name];
+                heading.text == column.header || names.contains(&&heading.name)
+            };
+            let heading = known.iter().find(is_it)?;
+            let numbers = Request::numbers(&column.name, &heading.text);
+            Some(match column.data {
+                Data::Labels(_) => Request {
+                    content: Content::Labels,
+                    ..numbers
+                },
+                _ => numbers,
+            })
+        };
+        let requests: Vec<Request> = columns.iter().filter_map(request).collect();
+        let recorded = Recording::read(path, &text, &requests, &self.units)
+            .map_err(|rejection| vec![say!("{}: {}", path, first(rejection))])?;
+        let (mut data, mut wrong) = (Vec::new(), Vec::new());
+        for column in columns {
+            let (name, unit) = (&column.name, &column.unit.symbol);
+            let own = recorded.column(name);
+            let found = match own {
+                Some(own) => in_unit(own, &column.unit)
+                    .ok_or_else(|| say!("{}: {} is not in a unit such as {}", path, name, unit)),
+                None => continued(column, recorded.rows())
+                    .filter(|_| complete == Complete::Planned)
+                    .ok_or_else(|| say!("{} has no column \"{}\"", path, column.header)),
+            };
+            match found {
+                Ok(found) => data.push(found),
+                Err(message) => wrong.push(message),
+            }
+        }
+        if !wrong.is_empty() {
+            return Err(wrong);
         }
         let rows = Rows {
             count: recorded.rows(),
@@ -288,6 +275,15 @@ impl Checker<'_> {
             })
         };
         let whole: Vec<usize> = (0..rows.count).filter(finite).collect();
-        Some(rows.taken(&whole))
+        Ok(rows.taken(&whole))
+    }
+}
+
+/// A column of a file in the unit of the case; without a unit it has that one.
+fn in_unit(own: &recording::Column, unit: &Unit) -> Option<Data> {
+    match (&own.data, &own.unit) {
+        (recording::Data::Labels(labels), _) => Some(Data::Labels(labels.clone())),
+        (recording::Data::Numbers(_), Some(_)) => own.values_in(unit).map(Data::Numbers),
+        (recording::Data::Numbers(numbers), None) => Some(Data::Numbers(numbers.clone())),
     }
 }

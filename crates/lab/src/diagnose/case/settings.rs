@@ -1,21 +1,20 @@
 //! How rows are averaged, and how the diagnosis is run.
 
+use super::checker::nearly;
+use super::rows::interval;
 use super::{Averaging, Blocks, Column, Role, Settings};
 use crate::diagnose::catalogue::effects;
 use crate::diagnose::faults::{ROLE, SETTING, UNKNOWN_NAME};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::AverageEntry;
 use crate::experiment::tables::{DiagnosisTable, ExperimentTable};
-use gumption_fault::{Fault, nearest, say};
+use gumption_fault::{Fault, say};
 use gumption_format::toml::{Amount, Stated};
 
 impl Checker<'_> {
     pub(super) fn averaging(&mut self, file: &ExperimentTable, columns: &[Column]) -> Averaging {
-        let table = file
-            .recording
-            .as_ref()
-            .map(|stated| stated.value.0.clone())
-            .unwrap_or_default();
+        let table = file.recording.as_ref().map(|stated| stated.value.0.clone());
+        let table = table.unwrap_or_default();
         let settle = self.settle(table.settle.as_deref(), columns);
         let blocks = match (&table.dwells, &table.average) {
             (Some(names), _) => {
@@ -25,14 +24,10 @@ impl Checker<'_> {
                         continue;
                     };
                     if columns[column].labels().is_none() {
-                        self.faults.push(
-                            Fault::new(
-                                ROLE,
-                                name.span.clone(),
-                                say!("{} holds numbers, not labels", name.value),
-                            )
-                            .label(say!("expected a run, factor or position")),
-                        );
+                        let message = say!("{} holds numbers, not labels", name.value);
+                        let fault = Fault::new(ROLE, name.span.clone(), message);
+                        self.faults
+                            .push(fault.label(say!("expected a run, factor or position")));
                     }
                     found.push(column);
                 }
@@ -67,10 +62,8 @@ impl Checker<'_> {
         let Some(settle) = self.amount(stated, &column.unit) else {
             return 0;
         };
-        let mut intervals: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        intervals.sort_by(f64::total_cmp);
-        let usual = intervals.get(intervals.len() / 2).copied();
-        let rows = (settle / usual.unwrap_or(1.0)).ceil();
+        // No time is no number of rows.
+        let rows = (settle / interval(times)).ceil();
         if rows.is_finite() {
             rows.max(0.0) as usize
         } else {
@@ -79,33 +72,21 @@ impl Checker<'_> {
     }
 
     pub(super) fn settings(&mut self, file: &ExperimentTable) -> Settings {
-        let table = file
-            .diagnosis
-            .as_ref()
-            .map(|stated| stated.value.clone())
-            .unwrap_or_default();
-        let alpha = table.alpha.as_ref().map_or(0.01, |alpha| alpha.value);
-        if !(alpha > 0.0 && alpha < 0.5) {
-            let span = table
-                .alpha
-                .as_ref()
-                .map_or(0..0, |alpha| alpha.span.clone());
-            self.faults.push(
-                Fault::new(
-                    SETTING,
-                    span,
-                    say!("alpha = {alpha} is not a small probability"),
-                )
-                .label(say!("expected a number between 0 and 0.5")),
-            );
+        let table = file.diagnosis.as_ref().map(|stated| stated.value.clone());
+        let table = table.unwrap_or_default();
+        let alpha = table.alpha.as_ref();
+        let is_small = |alpha: f64| alpha > 0.0 && alpha < 0.5;
+        if let Some(alpha) = alpha.filter(|alpha| !is_small(alpha.value)) {
+            let message = say!("alpha = {} is not a small probability", alpha.value);
+            let fault = Fault::new(SETTING, alpha.span.clone(), message);
+            self.faults
+                .push(fault.label(say!("expected a number between 0 and 0.5")));
         }
+        let excluded = table.exclude.as_ref();
         Settings {
-            alpha,
+            alpha: alpha.map_or(0.01, |alpha| alpha.value),
             catalogue: table.catalogue.as_ref().map(|list| self.in_catalogue(list)),
-            exclude: table
-                .exclude
-                .as_ref()
-                .map_or_else(Vec::new, |list| self.in_catalogue(list)),
+            exclude: excluded.map_or_else(Vec::new, |list| self.in_catalogue(list)),
             seed: table.seed.as_ref().map_or(1, |seed| seed.value),
             draws: self.draws(&table),
             typical: self.typical(&table),
@@ -119,18 +100,11 @@ impl Checker<'_> {
             return 2000;
         };
         if !RANGE.contains(&draws.value) {
-            self.faults.push(
-                Fault::new(
-                    SETTING,
-                    draws.span.clone(),
-                    say!("draws = {} is too few or too many", draws.value),
-                )
-                .label(say!(
-                    "expected a number from {} to {}",
-                    RANGE.start(),
-                    RANGE.end()
-                )),
-            );
+            let message = say!("draws = {} is too few or too many", draws.value);
+            let fault = Fault::new(SETTING, draws.span.clone(), message);
+            let (least, most) = (RANGE.start(), RANGE.end());
+            self.faults
+                .push(fault.label(say!("expected a number from {} to {}", least, most)));
         }
         draws.value.min(*RANGE.end()) as usize
     }
@@ -145,18 +119,13 @@ impl Checker<'_> {
             if known().any(|known| known == name.value) {
                 continue;
             }
-            let fault = Fault::new(
-                UNKNOWN_NAME,
-                name.span.clone(),
-                say!("the catalogue has no family or effect {}", name.value),
-            )
-            .label(say!("not known"));
-            self.faults.push(match nearest(&name.value, known()) {
-                Some(near) => fault.help(say!("did you mean \"{near}\"?")),
-                None => fault.help(
-                    say!("docs/diagnose.md lists the families; `gumption plan` lists the effects that a case can have"),
-                ),
-            });
+            let message = say!("the catalogue has no family or effect {}", name.value);
+            let fault =
+                Fault::new(UNKNOWN_NAME, name.span.clone(), message).label(say!("not known"));
+            let lists = say!(
+                "docs/diagnose.md lists the families; `gumption plan` lists the effects that a case can have"
+            );
+            self.faults.push(nearly(fault, &name.value, known(), lists));
         }
         list.value.iter().map(|name| name.value.clone()).collect()
     }
@@ -168,27 +137,16 @@ impl Checker<'_> {
         for (id, share) in entries {
             let ids = effects().iter().map(|effect| effect.id.as_str());
             if !ids.clone().any(|known| known == id) {
-                let fault = Fault::new(
-                    UNKNOWN_NAME,
-                    share.key.clone(),
-                    say!("the catalogue has no effect {id}"),
-                )
-                .label(say!("not known"));
-                self.faults.push(match nearest(id, ids) {
-                    Some(near) => fault.help(say!("did you mean \"{near}\"?")),
-                    None => fault.help(say!(
-                        "`gumption plan` lists the effects that a case can have"
-                    )),
-                });
+                let message = say!("the catalogue has no effect {id}");
+                let fault =
+                    Fault::new(UNKNOWN_NAME, share.key.clone(), message).label(say!("not known"));
+                let lists = say!("`gumption plan` lists the effects that a case can have");
+                self.faults.push(nearly(fault, id, ids, lists));
             } else if !(share.value > 0.0 && share.value.is_finite()) {
-                self.faults.push(
-                    Fault::new(
-                        SETTING,
-                        share.span.clone(),
-                        say!("a typical size is positive"),
-                    )
-                    .label(say!("expected a share of full scale such as 1e-4")),
-                );
+                let message = say!("a typical size is positive");
+                let fault = Fault::new(SETTING, share.span.clone(), message);
+                self.faults
+                    .push(fault.label(say!("expected a share of full scale such as 1e-4")));
             } else {
                 sizes.push((id.clone(), share.value));
             }

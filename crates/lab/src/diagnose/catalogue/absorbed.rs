@@ -2,7 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::Variation;
 use super::fitted::FittedModel;
+use crate::diagnose::evidence;
 
 /// Part of a regressor that must be left when the parameters have absorbed what they can.
 const LEFT: f64 = 1e-3;
@@ -15,25 +17,14 @@ pub(super) struct Absorbed {
 
 impl Absorbed {
     pub(super) fn by_parameters(fitted: &FittedModel<'_>) -> Absorbed {
-        /// Directions with a smaller part of the largest singular value are noise of the arithmetic.
+        /// Directions that slopes of unit length reach no further are noise of the arithmetic.
         const LEAST: f64 = 1e-9;
-        let mut slopes = fitted.fit.jacobian.clone();
-        if slopes.ncols() == 0 {
-            return Absorbed { basis: slopes };
-        }
-        for mut column in slopes.column_iter_mut() {
-            let norm = column.norm();
-            if norm > 0.0 {
-                column /= norm;
-            }
-        }
-        let decomposed = slopes.svd(true, false);
-        let basis = decomposed.u.unwrap_or_default();
-        let kept: Vec<usize> = (0..basis.ncols())
-            .filter(|k| decomposed.singular_values[*k] > LEAST)
-            .collect();
+        let slopes = &fitted.fit.jacobian;
         Absorbed {
-            basis: basis.select_columns(&kept),
+            basis: match slopes.ncols() {
+                0 => slopes.clone(),
+                _ => evidence::span(slopes.clone(), LEAST),
+            },
         }
     }
 
@@ -51,6 +42,14 @@ impl Absorbed {
     /// Directions that the parameters take up.
     pub(super) fn directions(&self) -> usize {
         self.basis.ncols()
+    }
+
+    /// Whether something is left of each column of a variation.
+    pub(super) fn leaves_of(&self, fitted: &FittedModel<'_>, variation: &Variation) -> Vec<bool> {
+        let columns = variation.columns(fitted);
+        let each = columns.column_iter();
+        each.map(|column| self.leaves(&column.into_owned()))
+            .collect()
     }
 
     /// Whether something of a regressor is left.

@@ -1,13 +1,13 @@
 //! Harmonics of angles: errors of the angle itself, and what repeats with each turn; play of what sets it.
 
+use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
 
-use super::building::{form, on_node, wave, words};
+use super::building::{cell, form, on_node, wave};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{map, range};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
-use crate::diagnose::evidence::Place;
 use gumption_core::quantity::UnitTable;
 
 /// Highest harmonic.
@@ -27,6 +27,13 @@ pub(super) fn angles(fitted: &FittedModel<'_>) -> Vec<usize> {
     angles
         .filter(|c| fitted.case().columns[*c].numbers().is_some_and(varies))
         .collect()
+}
+
+/// Those of them that the model uses.
+pub(super) fn turning(fitted: &FittedModel<'_>) -> Vec<usize> {
+    let mut turning = angles(fitted);
+    turning.retain(|column| fitted.in_model(*column));
+    turning
 }
 
 fn of_angle(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
@@ -62,27 +69,21 @@ fn harmonics(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     // A wave shows by half of it, and by two positions.
     let shows =
         |k: &u32| f64::from(*k) * (most - least) > 0.9 * PI && 2 * (*k as usize) <= positions;
-    (1..=HIGHEST)
-        .filter(shows)
-        .map(|k| {
-            let phase = map(&phi, |phi| f64::from(k) * phi);
-            form(
-                format!("{k} per turn"),
-                wave(&phase, &format!("{k}*{name}")),
-            )
-        })
-        .collect()
+    let each = (1..=HIGHEST).filter(shows);
+    each.map(|k| harmonic(&phi, name, k)).collect()
+}
+
+/// So many waves in each turn of an angle.
+pub(super) fn harmonic(phi: &[f64], name: &str, k: u32) -> Variation {
+    let phase = map(phi, |phi| f64::from(k) * phi);
+    let waves = wave(&phase, &format!("{k}*{name}"));
+    form(format!("{k} per turn"), waves)
 }
 
 /// Different places on the circle, to a ten-thousandth of a turn.
 pub(super) fn positions(phi: &[f64]) -> usize {
-    let mut places: Vec<i64> = phi
-        .iter()
-        .map(|phi| (phi / TAU * 1e4).round() as i64 % 10_000)
-        .map(|place| place.rem_euclid(10_000))
-        .collect();
-    places.sort_unstable();
-    places.dedup();
+    let places = phi.iter().map(|phi| (phi / TAU * 1e4).round() as i64);
+    let places: BTreeSet<i64> = places.map(|place| place.rem_euclid(10_000)).collect();
     places.len()
 }
 
@@ -90,11 +91,8 @@ pub(super) fn positions(phi: &[f64]) -> usize {
 pub(super) fn radians(fitted: &FittedModel<'_>, column: usize) -> Vec<f64> {
     let numbers = fitted.numbers(column);
     let unit = &fitted.case().columns[column].unit;
-    let conversion = UnitTable::default()
-        .parse("rad")
-        .ok()
-        .and_then(|rad| unit.conversion_to(&rad));
-    match conversion {
+    let radian = UnitTable::default().parse("rad").ok();
+    match radian.and_then(|radian| unit.conversion_to(&radian)) {
         Some(conversion) => map(numbers, |x| conversion.apply(x)),
         None => numbers.to_vec(),
     }
@@ -109,13 +107,9 @@ fn play(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     }
     let modifier = map(&side, |side| -side / 2.0);
     let modifier = Modifier::number(modifier, format!("-direction({name})/2"));
-    let term = Term::new(Node::Column(column), modifier);
-    Some(Cell::new(
-        EffectId::Play,
-        words(fitted, name),
-        Place::new(name, name),
-        vec![Variation::one("", term)],
-    ))
+    let node = Node::Column(column);
+    let form = Variation::one("", Term::new(node, modifier));
+    Some(cell(fitted, EffectId::Play, node, name, vec![form]))
 }
 
 /// The side from which each angle was reached, +1 or −1. Between runs a head goes back behind the first
@@ -126,15 +120,15 @@ fn approach(fitted: &FittedModel<'_>, column: usize) -> Vec<f64> {
     let last = x.len() - 1;
     let mut side: Vec<f64> = vec![1.0; x.len()];
     for row in 0..x.len() {
-        let step = match row {
-            row if starts.contains(&row) && row < last => x[row + 1] - x[row],
-            0 => 0.0,
-            row => x[row] - x[row - 1],
+        let before = row.saturating_sub(1);
+        let step = match starts.contains(&row) && row < last {
+            true => x[row + 1] - x[row],
+            false => x[row] - x[before],
         };
-        side[row] = match step {
-            0.0 if row > 0 => side[row - 1],
-            0.0 => 1.0,
-            step => step.signum(),
+        side[row] = if step == 0.0 {
+            side[before]
+        } else {
+            step.signum()
         };
     }
     side
@@ -152,11 +146,7 @@ fn starts(fitted: &FittedModel<'_>) -> Vec<usize> {
 
 /// The angle that turns in one direction through every run, with the rows in which runs begin.
 pub(super) fn runs_of_turns(fitted: &FittedModel<'_>) -> Option<(usize, Vec<usize>)> {
-    let turning: Vec<usize> = angles(fitted)
-        .into_iter()
-        .filter(|c| fitted.in_model(*c))
-        .collect();
-    let ([angle], true) = (&turning[..], fitted.is_timed()) else {
+    let ([angle], true) = (&turning(fitted)[..], fitted.is_timed()) else {
         return None;
     };
     let x = fitted.numbers(*angle);

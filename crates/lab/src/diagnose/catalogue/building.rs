@@ -1,7 +1,7 @@
 //! What the forms are built of: cells on the offset or on a node, their words, grids of time constants.
 
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{Course, grid, map};
+use super::modifiers::{Course, figure, grid, map};
 use super::sharp::best;
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
@@ -29,28 +29,17 @@ pub(super) fn on_node(
             });
             on.collect()
         };
+        let responses = fitted.case().responses.len();
         // An error of a column reaches all responses through the model.
-        if matches!(node, Node::Column(_)) || form.terms.is_empty() {
+        if matches!(node, Node::Column(_)) || form.terms.is_empty() || responses == 1 {
             let terms = on(None);
             return vec![Variation { terms, ..form }];
         }
-        match fitted.case().responses.len() {
-            1 => vec![Variation {
-                terms: on(None),
-                ..form
-            }],
-            count => {
-                let parts = (0..count).map(|response| (response, on(Some(response))));
-                scoped(fitted, &form, parts.collect())
-            }
-        }
+        let parts = (0..responses).map(|response| (response, on(Some(response))));
+        scoped(fitted, &form, parts.collect())
     };
     let all = forms.into_iter().flat_map(each).collect();
-    let words = Words {
-        p: fitted.name(node),
-        ..words(fitted, along)
-    };
-    Cell::new(id, words, Place::new(fitted.name(node), along), all)
+    cell(fitted, id, node, along, all)
 }
 
 /// What a form is on some responses: on each of them alone, if there are others, and on all together.
@@ -61,11 +50,9 @@ pub(super) fn scoped(
 ) -> Vec<Variation> {
     let responses = &fitted.case().responses;
     let with = |scope: &str, terms: Vec<Term>| {
-        let words = [scope, &form.label].into_iter();
-        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
         let times = terms.len() / form.terms.len().max(1);
         Variation {
-            label: words.join(", "),
+            label: scoped_label(scope, form),
             terms,
             spectrum: form.spectrum.as_ref().map(|own| own.repeat(times)),
             ..form.clone()
@@ -79,6 +66,13 @@ pub(super) fn scoped(
     every.filter(|one| !one.terms.is_empty()).collect()
 }
 
+/// The label of a form on some quantity.
+pub(super) fn scoped_label(scope: &str, form: &Variation) -> String {
+    let words = [scope, &form.label].into_iter();
+    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+    words.join(", ")
+}
+
 /// Sine and cosine of a phase, each with a size of its own.
 pub(super) fn wave(phase: &[f64], argument: &str) -> Vec<Modifier> {
     vec![
@@ -87,32 +81,59 @@ pub(super) fn wave(phase: &[f64], argument: &str) -> Vec<Modifier> {
     ]
 }
 
-/// Words for one column.
-pub(super) fn words(fitted: &FittedModel<'_>, x: &str) -> Words {
-    Words {
-        x: x.to_owned(),
-        y: fitted.output(),
-        ..Words::default()
-    }
-}
-
 pub(super) fn on_output(modifier: Modifier) -> Term {
     Term::new(Node::Output, modifier)
+}
+
+/// A cell on a node along something, with its variants as they are.
+pub(super) fn cell(
+    fitted: &FittedModel<'_>,
+    id: EffectId,
+    node: Node,
+    along: &str,
+    variants: Vec<Variation>,
+) -> Cell {
+    let words = Words {
+        x: along.to_owned(),
+        y: fitted.output(),
+        p: fitted.name(node),
+        ..Words::default()
+    };
+    Cell::new(id, words, Place::new(fitted.name(node), along), variants)
+}
+
+/// A cell whose forms act on a node along two columns.
+pub(super) fn pair(
+    fitted: &FittedModel<'_>,
+    id: EffectId,
+    columns: [usize; 2],
+    node: Node,
+    forms: impl IntoIterator<Item = Variation>,
+) -> Cell {
+    let mut cell = on_node(fitted, id, &fitted.names(&columns), node, forms);
+    [cell.words.x, cell.words.z] = columns.map(|column| fitted.label(column).to_owned());
+    cell
 }
 
 /// A cell on the offset, alike on all responses.
 pub(super) fn plain(
     fitted: &FittedModel<'_>,
     id: EffectId,
-    x: &str,
+    along: &str,
     variants: Vec<Variation>,
 ) -> Cell {
-    Cell::new(
-        id,
-        words(fitted, x),
-        Place::new(fitted.name(Node::Output), x),
-        variants,
-    )
+    cell(fitted, id, Node::Output, along, variants)
+}
+
+/// A form by its time constants, of which a single one is its shape.
+pub(super) fn timed(fitted: &FittedModel<'_>, scales: &[f64], terms: Vec<Term>) -> Variation {
+    let unit = fitted.time_unit();
+    let shown: Vec<String> = scales.iter().map(|tau| figure(*tau)).collect();
+    let form = Variation::of(format!("τ = {} {unit}", shown.join(" and ")), terms);
+    match scales {
+        [tau] => form.shaped("τ", *tau, &unit),
+        _ => form,
+    }
 }
 
 /// Time constants from a fraction of the interval of the blocks to a fraction of the recording; none where rows have no

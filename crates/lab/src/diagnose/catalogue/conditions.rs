@@ -1,13 +1,13 @@
 //! What recorded conditions may do that the model leaves out: on the offset, on the scale, with a lag,
 //! squared, as a rate, inversely, and together.
 
-use super::building::{form, on_node, on_output, time_constants};
+use super::building::{form, on_node, on_output, pair, time_constants, timed};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
     centred, correlation, figure, five_digits, late, levels_of, map, map2, range,
 };
 use super::sharp::sharpened;
-use super::{Cell, EffectId, Modifier, Term, Variation, Words};
+use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 use gumption_core::quantity::Unit;
 
@@ -20,12 +20,8 @@ const HIGHER: f64 = 0.3;
 /// Cells of the columns that may act although, or besides how, the model uses them.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
-    let numeric = fitted.numeric();
-    let conditions: Vec<usize> = numeric
-        .iter()
-        .copied()
-        .filter(|c| !fitted.in_model(*c))
-        .collect();
+    let mut conditions = fitted.numeric();
+    conditions.retain(|column| !fitted.in_model(*column));
     for column in &conditions {
         cells.extend(of_condition(fitted, *column));
     }
@@ -41,15 +37,22 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
 }
 
 fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
-    let label = fitted.case().columns[column].name.clone();
+    let label = fitted.label(column);
     let own = fitted.centred(column);
     let temperature = fitted.is_temperature(column);
     let stimulus = fitted.case().columns[column].role == Role::Stimulus;
     let mut cells = Vec::new();
-    let bias = match (temperature, stimulus) {
-        (true, _) => EffectId::TempcoBias,
-        (_, true) => EffectId::CrossSensitivity,
-        _ => EffectId::Sensitivity,
+    let [second, on_scale, by_rate] = match temperature {
+        true => [
+            EffectId::TempcoQuadratic,
+            EffectId::TempcoScale,
+            EffectId::TemperatureRate,
+        ],
+        false => [
+            EffectId::SensitivityQuadratic,
+            EffectId::SensitivityScale,
+            EffectId::SensitivityRate,
+        ],
     };
     let on = |node: Node| delayed(fitted, column, node, &own);
     let linear = |delayed: &[Variation]| -> Vec<Variation> {
@@ -58,8 +61,8 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     };
     let delayed = on(Node::Output);
     let offset =
-        |id: EffectId, forms: Vec<Variation>| on_node(fitted, id, &label, Node::Output, forms);
-    cells.push(offset(bias, linear(&delayed)));
+        |id: EffectId, forms: Vec<Variation>| on_node(fitted, id, label, Node::Output, forms);
+    cells.push(offset(on_offset(fitted, column), linear(&delayed)));
     let square = delayed.iter().map(|late| {
         let squares = late.terms.iter().map(|term| term.modifier.square());
         Variation {
@@ -68,38 +71,24 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         }
     });
     let square = square.chain(squares(fitted, column)).collect();
-    let second = if temperature {
-        EffectId::TempcoQuadratic
-    } else {
-        EffectId::SensitivityQuadratic
-    };
     cells.push(offset(second, square));
     if fitted.has_signal() {
-        let id = match temperature {
-            true => EffectId::TempcoScale,
-            false => EffectId::SensitivityScale,
+        let mut scale = |id: EffectId, forms: Vec<Variation>| {
+            cells.push(on_node(fitted, id, label, Node::Gain, forms));
         };
-        let forms = linear(&on(Node::Gain));
-        cells.push(on_node(fitted, id, &label, Node::Gain, forms));
-        let id = EffectId::SensitivityScaleQuadratic;
-        let squares = squares(fitted, column);
-        cells.push(on_node(fitted, id, &label, Node::Gain, squares));
+        scale(on_scale, linear(&on(Node::Gain)));
+        scale(EffectId::SensitivityScaleQuadratic, squares(fitted, column));
     }
     if fitted.is_timed() {
-        let id = if temperature {
-            EffectId::TemperatureRate
-        } else {
-            EffectId::SensitivityRate
-        };
-        cells.push(offset(id, vec![form("", vec![fitted.rate(column)])]));
+        let rate = form("", vec![fitted.rate(column)]);
+        cells.push(offset(by_rate, vec![rate]));
     }
     if !stimulus && stands_for_temperature(fitted, column) {
         cells.push(offset(EffectId::UnrecordedTemperature, linear(&delayed)));
     }
-    let odds = if stimulus || !is_of_air(fitted, column) {
-        1.0
-    } else {
-        AIR
+    let odds = match !stimulus && is_of_air(fitted, column) {
+        true => AIR,
+        false => 1.0,
     };
     for cell in &mut cells {
         cell.odds = match cell.effect.id {
@@ -109,6 +98,15 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         };
     }
     cells
+}
+
+/// What a column does to the offset.
+pub(super) fn on_offset(fitted: &FittedModel<'_>, column: usize) -> EffectId {
+    match fitted.case().columns[column].role {
+        _ if fitted.is_temperature(column) => EffectId::TempcoBias,
+        Role::Stimulus => EffectId::CrossSensitivity,
+        _ => EffectId::Sensitivity,
+    }
 }
 
 /// Whether a column is the pressure or the humidity of the air.
@@ -168,11 +166,9 @@ fn delayed(fitted: &FittedModel<'_>, column: usize, node: Node, own: &Modifier) 
         let inner = inner.unwrap_or(&own.text);
         let scales = sharpened(fitted, time_constants(fitted), &term);
         variants.extend(fitted.finer.times(scales).into_iter().map(|tau| {
-            let shown = format!("{} {unit}", figure(tau));
-            let text = format!("lag({inner}, {shown})");
+            let text = format!("lag({inner}, {} {unit})", figure(tau));
             let modifier = Modifier::new(course(tau), text, own.unit.clone());
-            let form = form(format!("τ = {shown}"), vec![modifier]);
-            form.shaped("τ", five_digits(tau), &unit)
+            timed(fitted, &[five_digits(tau)], vec![on_output(modifier)])
         }));
     }
     variants
@@ -197,52 +193,32 @@ fn spreads(fitted: &FittedModel<'_>, column: usize) -> bool {
 }
 
 fn reciprocal(fitted: &FittedModel<'_>, column: usize) -> Cell {
-    let label = fitted.case().columns[column].name.clone();
+    let label = fitted.label(column);
     let modifier = Modifier::new(
         map(fitted.numbers(column), |x| 1.0 / x),
         format!("1/{label}"),
         Unit::one().quotient(&fitted.step_unit(column)),
     );
-    on_scale(
-        fitted,
-        EffectId::Reciprocal,
-        &label,
-        [form("", vec![modifier])],
-    )
+    let form = form("", vec![modifier]);
+    on_node(fitted, EffectId::Reciprocal, label, scale(fitted), [form])
 }
 
-/// A cell on the scale, or on the offset where that is one.
-fn on_scale(
-    fitted: &FittedModel<'_>,
-    id: EffectId,
-    along: &str,
-    forms: impl IntoIterator<Item = Variation>,
-) -> Cell {
-    let node = match fitted.has_signal() {
+/// The scale, or the offset where that is one.
+fn scale(fitted: &FittedModel<'_>) -> Node {
+    match fitted.has_signal() {
         true => Node::Gain,
         false => Node::Output,
-    };
-    on_node(fitted, id, along, node, forms)
+    }
 }
 
 fn of_pair(fitted: &FittedModel<'_>, x: usize, z: usize) -> Vec<Cell> {
-    let name = |column: usize| fitted.case().columns[column].name.clone();
-    let along = format!("{}, {}", name(x), name(z));
-    let pair = |cell: Cell| Cell {
-        words: Words {
-            x: name(x),
-            z: name(z),
-            ..cell.words
-        },
-        ..cell
-    };
     let mut cells = Vec::new();
     if meet(fitted, x, z) {
         let product = form("", vec![fitted.centred_product(x, z)]);
         let (id, node) = (EffectId::Interaction, Node::Output);
         cells.push(Cell {
             odds: HIGHER,
-            ..pair(on_node(fitted, id, &along, node, [product]))
+            ..pair(fitted, id, [x, z], node, [product])
         });
     }
     let (of_x, of_z) = (fitted.numbers(x), fitted.numbers(z));
@@ -252,19 +228,18 @@ fn of_pair(fitted: &FittedModel<'_>, x: usize, z: usize) -> Vec<Cell> {
     if positive && (gas && size || spreads(fitted, x) && spreads(fitted, z)) {
         let inverse = Modifier::new(
             map2(of_x, of_z, |x, z| 1.0 / (x * z)),
-            format!("(1/({}*{}))", name(x), name(z)),
+            format!("(1/({}*{}))", fitted.label(x), fitted.label(z)),
             Unit::one().quotient(&fitted.step_unit(x).product(&fitted.step_unit(z))),
         );
         let square = inverse.square();
-        let id = if gas && size {
-            EffectId::MeanFreePath
-        } else {
-            EffectId::ReciprocalProduct
+        let id = match gas && size {
+            true => EffectId::MeanFreePath,
+            false => EffectId::ReciprocalProduct,
         };
         // Large corrections are curved.
         let curved = form("with its square", vec![inverse.clone(), square]);
         let forms = [form("", vec![inverse]), curved];
-        cells.push(pair(on_scale(fitted, id, &along, forms)));
+        cells.push(pair(fitted, id, [x, z], scale(fitted), forms));
     }
     cells
 }

@@ -1,19 +1,15 @@
 //! Axes that see part of what belongs to another one, where each output of the model has a stimulus of its own.
 
-use super::building::words;
 use super::fitted::{FittedModel, Node};
-use super::implicit::singles_and_all;
-use super::{Cell, EffectId, Term, Words};
+use super::implicit::{of_axes, singles_and_all};
+use super::{Cell, EffectId, Term};
 use crate::diagnose::case::Role;
-use crate::diagnose::evidence::Place;
 
 /// One cell: each output with each stimulus that only others have, and all of them together.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Option<Cell> {
     let case = fitted.case();
-    let stimuli: Vec<usize> = case
-        .with_role(Role::Stimulus)
-        .filter(|column| fitted.in_model(*column) && !fitted.is_temperature(*column))
-        .collect();
+    let stimuli = fitted.used(Role::Stimulus);
+    let stimuli: Vec<usize> = stimuli.filter(|c| !fitted.is_temperature(*c)).collect();
     let mut pairs = Vec::new();
     for (response, declared) in case.responses.iter().enumerate() {
         let uses = case.equations.uses(response);
@@ -26,17 +22,6 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Option<Cell> {
             (label, term)
         }));
     }
-    let names: Vec<&str> = stimuli.iter().map(|c| fitted.label(*c)).collect();
-    let names = names.join(", ");
-    (!pairs.is_empty()).then(|| {
-        Cell::new(
-            EffectId::CrossAxis,
-            Words {
-                p: fitted.output(),
-                ..words(fitted, &names)
-            },
-            Place::new("axes", names),
-            singles_and_all(pairs),
-        )
-    })
+    let (id, output) = (EffectId::CrossAxis, fitted.output());
+    (!pairs.is_empty()).then(|| of_axes(fitted, id, &stimuli, output, singles_and_all(pairs)))
 }

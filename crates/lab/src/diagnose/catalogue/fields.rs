@@ -6,14 +6,16 @@
 //! recorded: across the axis a field has two unknown components in each mount.
 
 use super::angles::{angles, radians};
-use super::building::words;
-use super::fitted::{FittedModel, Node, varies};
-use super::modifiers::{largest, map2};
+use super::building::{on_output, plain};
+use super::fitted::{FittedModel, varies};
+use super::modifiers::{flag, largest, map2};
 use super::{Cell, EffectId, Modifier, Term, Variation, tied};
 use crate::diagnose::case::Role;
-use crate::diagnose::evidence::Place;
 
 type Vector = [f64; 3];
+
+/// What a field along the axis follows.
+const ALONG: &str = "component along the axis";
 
 /// Cells of sensors that turn about directions of their own.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
@@ -83,43 +85,25 @@ impl<'g> Turning<'g> {
         if self.mounts.len() > MOUNTS {
             return Vec::new();
         }
-        let across = |sense: f64| self.common(sense, |_| 1.0);
         let both = [("", 1.0), ("angle counted clockwise", -1.0)];
-        let mut fields: Vec<Variation> = both
-            .iter()
-            .map(|(label, sense)| {
-                let mut terms = self.along();
-                terms.extend(across(*sense));
-                Variation::of(*label, terms)
-            })
-            .collect();
+        let across = both.map(|(label, sense)| {
+            let terms = [self.along(), self.common(sense, |_| 1.0)].concat();
+            Variation::of(label, terms)
+        });
         let responses = &self.fitted.case().responses;
         let each: Vec<Vec<Term>> = (0..responses.len()).map(|a| self.alone(a)).collect();
-        for (response, terms) in responses.iter().zip(&each) {
-            fields.push(Variation::of(response.name.clone(), terms.clone()));
-        }
-        fields.push(Variation::of(
-            "each with a sensitivity of its own",
-            each.concat(),
-        ));
+        let alone = responses.iter().zip(&each);
+        let alone = alone.map(|(one, terms)| Variation::of(&one.name, terms.clone()));
+        let all = Variation::of("each with a sensitivity of its own", each.concat());
         let rate = self.rate();
-        let leans = both
-            .iter()
-            .map(|(label, sense)| Variation::of(*label, self.common(*sense, |row| rate[row])));
+        let leans =
+            both.map(|(label, sense)| Variation::of(label, self.common(sense, |row| rate[row])));
+        let fields = across.into_iter().chain(alone).chain([all]).collect();
+        let (fitted, name) = (self.fitted, self.fitted.label(self.angle));
         vec![
-            self.cell(EffectId::LaboratoryField, fields),
-            self.cell(EffectId::AxisWobble, leans.collect()),
+            plain(fitted, EffectId::LaboratoryField, name, fields),
+            plain(fitted, EffectId::AxisWobble, name, leans.into()),
         ]
-    }
-
-    fn cell(&self, id: EffectId, variants: Vec<Variation>) -> Cell {
-        let name = self.fitted.label(self.angle);
-        Cell::new(
-            id,
-            words(self.fitted, name),
-            Place::new(self.fitted.name(Node::Output), name),
-            variants,
-        )
     }
 
     /// The signals along the axis of turning: the rate of a gyroscope.
@@ -157,21 +141,16 @@ impl<'g> Turning<'g> {
 
     /// A field along the axis that all outputs sense alike.
     fn along(&self) -> Vec<Term> {
-        self.tied(|a, row| self.axis[row][a], "component along the axis")
+        self.tied(|a, row| self.axis[row][a], ALONG)
     }
 
     fn tied(&self, component: impl Fn(usize, usize) -> f64, text: &str) -> Vec<Term> {
         let terms = (0..3).map(|a| {
-            let modifier: Vec<f64> = (0..self.fitted.rows())
-                .map(|row| component(a, row))
-                .collect();
-            Term::new(Node::Output, Modifier::number(modifier, text)).on(a)
+            let modifier = (0..self.fitted.rows()).map(|row| component(a, row));
+            on_output(Modifier::number(modifier.collect(), text)).on(a)
         });
-        tied(
-            terms
-                .filter(|term| largest(&term.modifier.values) > 1e-9)
-                .collect(),
-        )
+        let terms = terms.filter(|term| largest(&term.modifier.values) > 1e-9);
+        tied(terms.collect())
     }
 
     /// A field that one output senses.
@@ -180,22 +159,18 @@ impl<'g> Turning<'g> {
         let mut terms = Vec::new();
         let own: Vec<f64> = self.axis.iter().map(|axis| axis[a]).collect();
         if varies(&own) {
-            let text = "component along the axis".to_owned();
-            terms.push(Term::new(Node::Output, Modifier::number(own, text)).on(a));
+            terms.push(on_output(Modifier::number(own, ALONG)).on(a));
         }
         for (number, mount) in self.mounts.iter().enumerate() {
             if mount[a].abs() > 0.99 {
                 continue;
             }
-            let inside: Vec<f64> = self
-                .axis
-                .iter()
-                .map(|axis| f64::from(u8::from(same(axis, mount))))
-                .collect();
+            let inside = self.axis.iter().map(|axis| flag(same(axis, mount)));
+            let inside: Vec<f64> = inside.collect();
             for (part, wave) in [("cos", libm::cos as fn(f64) -> f64), ("sin", libm::sin)] {
                 let modifier = map2(&inside, &self.psi, |inside, psi| inside * wave(psi));
                 let text = format!("{part}({name}), mount {}", number + 1);
-                terms.push(Term::new(Node::Output, Modifier::number(modifier, text)).on(a));
+                terms.push(on_output(Modifier::number(modifier, text)).on(a));
             }
         }
         terms

@@ -2,7 +2,7 @@
 //! the values about it are tried as well, in that effect alone.
 
 use super::modifiers::range;
-use super::{Cell, EffectId, Variation};
+use super::{Cell, EffectId, ShapeParameter, Variation};
 
 /// Parts into which the distance from a value to its neighbours is divided.
 const PARTS: usize = 4;
@@ -32,14 +32,13 @@ impl Finer {
         let Some(shape) = &found.shape else {
             return false;
         };
-        let of_kind = cell
+        let shapes = cell
             .variants
             .iter()
             .filter_map(|other| other.shape.as_ref());
-        let of_kind = of_kind.filter(|other| other.symbol == shape.symbol);
+        let of_kind = shapes.filter(|other| other.symbol == shape.symbol);
         let all: Vec<f64> = of_kind.map(|other| other.value).collect();
-        let own = shape.value;
-        let is_time = shape.symbol != "x₀";
+        let (own, is_time) = (shape.value, is_time(shape));
         let span = span(&all, is_time);
         let other = |x: &f64| !same(*x, own, span);
         let below = all.iter().copied().filter(|x| *x < own && other(x));
@@ -49,25 +48,14 @@ impl Finer {
             |next: f64| (1..PARTS).map(move |part| own + (next - own) * part as f64 / PARTS as f64);
         let values: Vec<f64> = neighbours.into_iter().flatten().flat_map(between).collect();
         let new = values.iter().any(|x| !self.has(cell, *x));
-        self.0.push(Around {
-            id: cell.effect.id,
-            along: cell.place.along.clone(),
-            is_time,
-            values,
-            span,
-        });
+        self.0.push(Around::of(cell, is_time, values, span));
         new
     }
 
     /// Keeps the parameter of a variation for another recording, whose grid has others.
     pub fn keep(&mut self, cell: &Cell, found: &Variation) {
-        self.0.extend(found.shape.as_ref().map(|shape| Around {
-            id: cell.effect.id,
-            along: cell.place.along.clone(),
-            is_time: shape.symbol != "x₀",
-            values: vec![shape.value],
-            span: f64::INFINITY,
-        }));
+        let around = |shape| Around::of(cell, is_time(shape), vec![shape.value], f64::INFINITY);
+        self.0.extend(found.shape.as_ref().map(around));
     }
 
     /// A grid of times with those between.
@@ -114,9 +102,24 @@ impl Finer {
 }
 
 impl Around {
+    fn of(cell: &Cell, is_time: bool, values: Vec<f64>, span: f64) -> Around {
+        Around {
+            id: cell.effect.id,
+            along: cell.place.along.clone(),
+            is_time,
+            values,
+            span,
+        }
+    }
+
     fn has(&self, x: f64) -> bool {
         self.values.iter().any(|value| same(*value, x, self.span))
     }
+}
+
+/// Whether a parameter is a time, or something else that is told apart by ratios.
+fn is_time(shape: &ShapeParameter) -> bool {
+    shape.symbol != "x₀"
 }
 
 /// What a grid spans; times are told apart by their ratios alone.
@@ -167,9 +170,7 @@ mod tests {
         let mut finer = Finer::default();
         let mut kink = cell(EffectId::Kink, &grid);
         for variant in &mut kink.variants {
-            *variant = variant
-                .clone()
-                .shaped("x₀", variant.shape.as_ref().unwrap().value, "Pa");
+            variant.shape.as_mut().unwrap().symbol = "x₀";
         }
         assert!(finer.add(&kink, &kink.variants[6]));
         assert_eq!(

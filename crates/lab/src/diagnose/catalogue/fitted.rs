@@ -2,8 +2,9 @@
 
 use nalgebra::DVector;
 
+use super::modifiers::{centred, correlation, crosses_zero, largest, map2, middle, range, rate};
 use super::{Finer, Modifier, Term};
-use crate::diagnose::case::{Case, Role};
+use crate::diagnose::case::{Case, Observed, Role};
 use crate::diagnose::design::{Clock, Design};
 use crate::diagnose::fit::Fit;
 use gumption_core::quantity::{Unit, UnitTable};
@@ -84,16 +85,14 @@ impl<'f> FittedModel<'f> {
 
     /// The slope of a response by a node, row by row.
     pub fn slope(&self, node: Node, response: usize) -> Vec<f64> {
-        let slopes = &self.fit.linear.slopes[response];
-        match node {
-            Node::Output => vec![1.0; self.rows()],
-            Node::Gain => self.signal[response].clone(),
-            Node::Parameter(parameter) => slopes.column(parameter).iter().copied().collect(),
-            Node::Column(column) => {
-                let place = self.case().parameters.len() + column;
-                slopes.column(place).iter().copied().collect()
-            }
-        }
+        let symbol = match node {
+            Node::Output => return vec![1.0; self.rows()],
+            Node::Gain => return self.signal[response].clone(),
+            Node::Parameter(parameter) => parameter,
+            Node::Column(column) => self.case().parameters.len() + column,
+        };
+        let slopes = self.fit.linear.slopes[response].column(symbol);
+        slopes.iter().copied().collect()
     }
 
     /// The regressor of a term.
@@ -103,11 +102,7 @@ impl<'f> FittedModel<'f> {
                 return vec![0.0; self.rows()];
             }
             let slope = self.slope(term.node, response);
-            slope
-                .iter()
-                .zip(term.modifier.values.iter())
-                .map(|(s, m)| s * m)
-                .collect()
+            map2(&slope, &term.modifier.values, |s, m| s * m)
         })
     }
 
@@ -126,10 +121,10 @@ impl<'f> FittedModel<'f> {
         let x = self.numbers(column);
         let mut order: Vec<usize> = (0..x.len()).collect();
         order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
-        let (least, most) = super::modifiers::range(x);
+        let (least, most) = range(x);
         let by_itself = |response: usize| {
             let slope = self.slope(Node::Column(column), response);
-            let size = super::modifiers::largest(&slope);
+            let size = largest(&slope);
             order.windows(2).all(|pair| {
                 let (a, b) = (pair[0], pair[1]);
                 let near = x[b] - x[a] <= NEAR * (most - least);
@@ -143,7 +138,7 @@ impl<'f> FittedModel<'f> {
     /// Whether the signal of a response is that column, but for an offset, a factor and a trace.
     pub fn takes_in(&self, response: usize, column: usize) -> bool {
         const TRACE: f64 = 0.01;
-        let alike = super::modifiers::correlation(&self.signal[response], self.numbers(column));
+        let alike = correlation(&self.signal[response], self.numbers(column));
         alike.abs() > 1.0 - TRACE
     }
 
@@ -159,20 +154,25 @@ impl<'f> FittedModel<'f> {
 
     /// The outputs, as one name.
     pub fn output(&self) -> String {
-        let names: Vec<&str> = self
-            .case()
-            .responses
-            .iter()
-            .map(|r| r.name.as_str())
-            .collect();
-        names.join(", ")
+        let names = self.case().responses.iter().map(|r| r.name.as_str());
+        names.collect::<Vec<&str>>().join(", ")
+    }
+
+    /// Columns, as one name.
+    pub fn names(&self, columns: &[usize]) -> String {
+        let names = columns.iter().map(|column| self.label(*column));
+        names.collect::<Vec<&str>>().join(", ")
     }
 
     /// Whether an equation uses a column.
     pub fn in_model(&self, column: usize) -> bool {
-        let place = self.case().parameters.len() + column;
-        let equations = &self.case().equations;
-        (0..self.case().responses.len()).any(|response| equations.uses(response).contains(&place))
+        self.case().uses(column)
+    }
+
+    /// Columns of a role that the model uses.
+    pub fn used(&self, role: Role) -> impl Iterator<Item = usize> {
+        let case = self.case();
+        case.with_role(role).filter(|column| case.uses(*column))
     }
 
     /// Columns of numbers that a disturbance may follow, in the model or not.
@@ -191,19 +191,20 @@ impl<'f> FittedModel<'f> {
 
     /// Whether a column is a temperature.
     pub fn is_temperature(&self, column: usize) -> bool {
-        like(&self.case().columns[column].unit, "K")
+        self.is_like(column, "K")
     }
 
     /// Whether a column goes well to both sides of a zero that is nothing: 0 °C is a temperature like any
     /// other.
     pub fn passes_zero(&self, column: usize) -> bool {
         let is_point = self.case().columns[column].unit.is_point();
-        !is_point && super::modifiers::crosses_zero(self.numbers(column))
+        !is_point && crosses_zero(self.numbers(column))
     }
 
     /// Whether a column has the dimension of a unit.
     pub fn is_like(&self, column: usize, unit: &str) -> bool {
-        like(&self.case().columns[column].unit, unit)
+        let other = UnitTable::default().parse(unit);
+        other.is_ok_and(|other| self.case().columns[column].unit.dimension == other.dimension)
     }
 
     /// Whether a condition acts at once: pressure, voltage, vibration, speed, frequency, field. Heat and
@@ -227,18 +228,14 @@ impl<'f> FittedModel<'f> {
 
     /// The unit of time as text; `row` where no time was recorded.
     pub fn time_unit(&self) -> String {
-        match self.clock.column {
-            Some(column) => self.unit(column),
-            None => "row".to_owned(),
-        }
+        (self.clock.column).map_or_else(|| "row".to_owned(), |column| self.unit(column))
     }
 
     /// What the time is called: its column, or the row.
     pub fn along_time(&self) -> String {
-        match self.clock.column {
-            Some(column) => self.case().columns[column].name.clone(),
-            None => "row".to_owned(),
-        }
+        (self.clock.column)
+            .map_or("row", |column| self.label(column))
+            .to_owned()
     }
 
     /// The unit in which a column differs from row to row.
@@ -283,8 +280,8 @@ impl<'f> FittedModel<'f> {
     pub fn centred(&self, column: usize) -> Modifier {
         let x = self.numbers(column);
         Modifier::new(
-            super::modifiers::centred(x),
-            self.less(column, super::modifiers::middle(x)),
+            centred(x),
+            self.less(column, middle(x)),
             self.step_unit(column),
         )
     }
@@ -292,27 +289,18 @@ impl<'f> FittedModel<'f> {
     /// The time less its middle.
     pub fn centred_time(&self) -> Modifier {
         let t = &self.clock.values;
-        Modifier::new(
-            super::modifiers::centred(t),
-            self.time_less(super::modifiers::middle(t)),
-            self.clock_unit(),
-        )
+        Modifier::new(centred(t), self.time_less(middle(t)), self.clock_unit())
     }
 
     /// The product of two columns less their middles.
     pub fn centred_product(&self, x: usize, z: usize) -> Modifier {
-        let (x, z) = (self.centred(x), self.centred(z));
-        Modifier::new(
-            super::modifiers::map2(&x.values, &z.values, |x, z| x * z),
-            format!("{}*{}", x.text, z.text),
-            x.unit.product(&z.unit),
-        )
+        self.centred(x).times(&self.centred(z))
     }
 
     /// The rate of change of a column.
     pub fn rate(&self, column: usize) -> Modifier {
         Modifier::new(
-            super::modifiers::rate(&self.clock.values, self.numbers(column)),
+            rate(&self.clock.values, self.numbers(column)),
             format!("d{}/dt", self.label(column)),
             self.step_unit(column).quotient(&self.clock_unit()),
         )
@@ -332,12 +320,7 @@ impl<'f> FittedModel<'f> {
                 || numbers.windows(2).all(|pair| pair[0] >= pair[1])
         };
         let is_label = |role: Role| matches!(role, Role::Run | Role::Factor);
-        let labelled = || {
-            self.case()
-                .columns
-                .iter()
-                .any(|column| is_label(column.role))
-        };
+        let labelled = || (self.case().columns.iter()).any(|column| is_label(column.role));
         self.clock.column.is_some() || !(labelled() || self.numeric().iter().any(sorted))
     }
 
@@ -357,11 +340,8 @@ impl<'f> FittedModel<'f> {
 
     /// Whether what is observed is a constant that the model should give in every row.
     pub fn is_implicit(&self, response: usize) -> bool {
-        use crate::diagnose::case::Observed;
-        matches!(
-            self.case().responses[response].observed,
-            Observed::Constant(_)
-        )
+        let observed = self.case().responses[response].observed;
+        matches!(observed, Observed::Constant(_))
     }
 
     /// Parameters that are added to the model as they stand.
@@ -376,22 +356,20 @@ impl<'f> FittedModel<'f> {
         !implicit && !self.has_signal()
     }
 
+    /// The offset, and the scale where it is something else.
+    pub fn offset_and_scale(&self) -> Vec<Node> {
+        let scale = self.has_signal().then_some(Node::Gain);
+        [Node::Output].into_iter().chain(scale).collect()
+    }
+
     /// Whether the signal of any response varies so much that its scale is something else than an offset.
     pub fn has_signal(&self) -> bool {
         const LEAST: f64 = 0.01;
         self.signal.iter().any(|signal| {
-            let size = signal.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            let (least, most) = super::modifiers::range(signal);
-            most - least > LEAST * size
+            let (least, most) = range(signal);
+            most - least > LEAST * largest(signal)
         })
     }
-}
-
-fn like(unit: &Unit, text: &str) -> bool {
-    let Ok(other) = UnitTable::default().parse(text) else {
-        return false;
-    };
-    unit.dimension == other.dimension
 }
 
 /// Whether numbers are not all the same.
@@ -399,7 +377,7 @@ pub fn varies(numbers: &[f64]) -> bool {
     let Some(first) = numbers.first() else {
         return false;
     };
-    let size = numbers.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let size = largest(numbers);
     numbers.iter().any(|x| (x - first).abs() > 1e-9 * size)
 }
 

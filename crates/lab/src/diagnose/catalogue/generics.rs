@@ -3,11 +3,11 @@
 
 use std::f64::consts::PI;
 
-use super::angles::angles;
+use super::angles::{angles, turning};
 use super::building::{on_node, on_output};
 use super::fitted::{FittedModel, Node};
 use super::levels::{indicator, present};
-use super::modifiers::{levels_of, map, range};
+use super::modifiers::{flag, levels_of, map, range};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::{NoiseClaim, Role};
 
@@ -23,14 +23,8 @@ const LEAST: usize = 3;
 /// One smooth curve for each column and for the time, levels of what has few values, and scatter.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
-    let mut nodes = vec![Node::Output];
-    if fitted.has_signal() {
-        nodes.push(Node::Gain);
-    }
-    let turning: Vec<usize> = angles(fitted)
-        .into_iter()
-        .filter(|c| fitted.in_model(*c))
-        .collect();
+    let nodes = fitted.offset_and_scale();
+    let turning = turning(fitted);
     for (name, course) in courses(fitted) {
         for node in &nodes {
             cells.extend(smooth(fitted, *node, &name, &course));
@@ -79,19 +73,11 @@ pub(in crate::diagnose) fn unsteady(fitted: &FittedModel<'_>) -> Cell {
 fn courses(fitted: &FittedModel<'_>) -> Vec<(String, Vec<f64>)> {
     let columns = fitted.numeric().into_iter().chain(angles(fitted));
     let named = |column| {
-        (
-            fitted.label(column).to_owned(),
-            fitted.numbers(column).to_vec(),
-        )
+        let name = fitted.label(column).to_owned();
+        (name, fitted.numbers(column).to_vec())
     };
-    let time = fitted.clock.column.map_or_else(
-        || "row".to_owned(),
-        |column| fitted.label(column).to_owned(),
-    );
-    columns
-        .map(named)
-        .chain([(time, fitted.clock.values.clone())])
-        .collect()
+    let time = (fitted.along_time(), fitted.clock.values.clone());
+    columns.map(named).chain([time]).collect()
 }
 
 /// A feature: what it multiplies, and the variance of its coefficient relative to the others.
@@ -120,44 +106,39 @@ fn waves(course: &[f64]) -> Vec<Feature> {
 fn values(fitted: &FittedModel<'_>, node: Node, column: usize) -> Option<Cell> {
     let x = fitted.numbers(column);
     let values = levels_of(x);
-    // Before the features: a course that never comes back would have one for each row.
-    if values.len() < 4 || values.len() * 2 > fitted.design.blocks.len() {
-        return None;
-    }
-    let features: Vec<Feature> = values
-        .iter()
-        .map(|value| {
-            let own = map(x, |x| f64::from(u8::from(x == *value)));
-            (Modifier::unnamed(own), 1.0)
-        })
-        .collect();
-    Some(at_levels(fitted, node, fitted.label(column), &features))
+    let own = |value: &f64| map(x, |x| flag(x == *value));
+    (values.len() >= 4).then(|| at_levels(fitted, node, column, &values, own))?
 }
 
 /// A value of its own at each label.
 fn labels(fitted: &FittedModel<'_>, node: Node, column: usize) -> Option<Cell> {
     let labels = fitted.case().columns[column].labels()?;
     let levels = present(labels);
-    if levels.len() < 2 || levels.len() * 2 > fitted.design.blocks.len() {
-        return None;
-    }
-    let features: Vec<Feature> = levels
-        .iter()
-        .map(|level| (Modifier::unnamed(indicator(labels, *level)), 1.0))
-        .collect();
-    let name = fitted.label(column);
-    Some(at_levels(fitted, node, name, &features))
+    let own = |level: &u32| indicator(labels, *level);
+    (levels.len() >= 2).then(|| at_levels(fitted, node, column, &levels, own))?
 }
 
-/// A value of its own at every level, or at a single one.
-fn at_levels(fitted: &FittedModel<'_>, node: Node, name: &str, features: &[Feature]) -> Cell {
+/// A value of its own at every level, or at a single one; none where levels hardly come again.
+fn at_levels<L>(
+    fitted: &FittedModel<'_>,
+    node: Node,
+    column: usize,
+    levels: &[L],
+    own: impl Fn(&L) -> Vec<f64>,
+) -> Option<Cell> {
     /// More levels are not looked at one by one.
     const MOST: usize = 24;
-    let single = features
-        .chunks(1)
-        .filter(|_| (3..=MOST).contains(&features.len()));
-    let forms: Vec<&[Feature]> = [features].into_iter().chain(single).collect();
-    generic(fitted, EffectId::Levels, node, name, &forms)
+    // Before the features: a course that never comes back would have one for each row.
+    if levels.len() * 2 > fitted.design.blocks.len() {
+        return None;
+    }
+    let features: Vec<Feature> = (levels.iter())
+        .map(|level| (Modifier::unnamed(own(level)), 1.0))
+        .collect();
+    let single = (features.chunks(1)).filter(|_| (3..=MOST).contains(&features.len()));
+    let forms: Vec<&[Feature]> = [&features[..]].into_iter().chain(single).collect();
+    let (id, name) = (EffectId::Levels, fitted.label(column));
+    Some(generic(fitted, id, node, name, &forms))
 }
 
 /// A smooth curve over the signal of each of some responses: errors of shape that no power has.
@@ -175,15 +156,13 @@ pub(super) fn over_signals(
         .map(|one| (name(one.0), std::slice::from_ref(one)));
     let several = (own.len() > 1).then_some(("", &own[..]));
     let variation = |(label, of): (&str, &[(usize, Vec<Feature>)])| {
+        let on = |response: usize| {
+            move |(wave, variance): &Feature| (on_output(wave.clone()).on(response), *variance)
+        };
         let features = of
             .iter()
-            .flat_map(|(response, waves)| waves.iter().map(move |wave| (response, wave)));
-        let (terms, spectrum) = features
-            .map(|(response, (wave, variance))| {
-                let term = Term::new(Node::Output, wave.clone());
-                (term.on(*response), *variance)
-            })
-            .unzip();
+            .flat_map(|(response, waves)| waves.iter().map(on(*response)));
+        let (terms, spectrum) = features.unzip();
         unnamed(label, terms, spectrum)
     };
     each.chain(several).map(variation).collect()

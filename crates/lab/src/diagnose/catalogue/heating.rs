@@ -1,12 +1,11 @@
 //! Self-heating: the power of the signal warms what senses it, and warmth needs time.
 
-use super::building::{course, scoped, time_constants_from, words};
+use super::building::{self, course, scoped, time_constants_from, timed};
 use super::fitted::{FittedModel, Node, varies};
 use super::inputs::Signal;
-use super::modifiers::{Course, figure, largest, map2};
+use super::modifiers::{Course, figure, largest, map, range};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
-use crate::diagnose::evidence::Place;
 
 /// On the scale, by the power of the signal, as in the resistor through which a current is read; on the offset, by the power of
 /// a current or voltage that is applied, as in a thermometer; and on a temperature of the model.
@@ -22,18 +21,14 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     };
     let heating = fitted.numeric().into_iter().filter(heats);
     cells.extend(heating.flat_map(|column| of_column(fitted, column)));
-    cells.retain(|cell| !cell.variants.is_empty());
     cells
 }
 
 fn of_signals(fitted: &FittedModel<'_>) -> Cell {
     /// A signal that never comes down to this part of its range has a power that is a line.
     const LOW: f64 = 0.3;
-    let unit = fitted.time_unit();
     let swings = |signal: &[f64]| {
-        let least = signal
-            .iter()
-            .fold(f64::INFINITY, |least, s| least.min(s.abs()));
+        let least = range(&map(signal, f64::abs)).0;
         varies(signal) && least < LOW * largest(signal)
     };
     let responses: Vec<usize> = (0..fitted.case().responses.len())
@@ -48,27 +43,22 @@ fn of_signals(fitted: &FittedModel<'_>) -> Cell {
     let warm: Vec<_> = warm.collect();
     let mut variants = Vec::new();
     for tau in fitted.finer.times(scales(fitted)) {
-        let label = format!("τ = {} {unit}", figure(tau));
         let parts = warm
             .iter()
             .map(|(response, warm)| (*response, vec![warm(tau)]));
-        let form = Variation::of(label, Vec::new()).shaped("τ", tau, &unit);
+        let form = timed(fitted, &[tau], Vec::new());
         variants.extend(scoped(fitted, &form, parts.collect()));
     }
     cell(fitted, Node::Gain, "signal", variants)
 }
 
 fn of_column(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
-    let unit = fitted.time_unit();
     let name = fitted.label(column);
     let x = fitted.numbers(column).to_vec();
     let power = Modifier::new(x, name, fitted.step_unit(column)).square();
     let warm = late(fitted, Term::new(Node::Output, power.clone()));
     let scales = fitted.finer.times(scales(fitted)).into_iter();
-    let warming = scales.map(|tau| {
-        let label = format!("τ = {} {unit}", figure(tau));
-        Variation::one(label, warm(tau)).shaped("τ", tau, &unit)
-    });
+    let warming = scales.map(|tau| timed(fitted, &[tau], vec![warm(tau)]));
     let mut on_offset: Vec<Variation> = warming.collect();
     if fitted.in_model(column) || !varies(&power.values) {
         return vec![cell(fitted, Node::Output, name, on_offset)];
@@ -88,9 +78,10 @@ fn of_column(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let sensed = fitted.numeric().into_iter().filter(sensed);
     cells.extend(sensed.map(|sensed| {
         let node = Node::Column(sensed);
-        let alike = Variation::one("at once", Term::new(node, power.clone()));
-        let variants = std::iter::once(alike).chain(by_resistance(fitted, node, &power));
-        cell(fitted, node, name, variants.collect())
+        let forms = [at_once(node)]
+            .into_iter()
+            .chain(by_resistance(fitted, node, &power));
+        cell(fitted, node, name, forms.collect())
     }));
     cells
 }
@@ -102,9 +93,8 @@ fn by_resistance(fitted: &FittedModel<'_>, node: Node, power: &Modifier) -> Opti
         return None;
     }
     let signal = Signal::new(fitted, 0);
-    let values = map2(&power.values, &signal.parts, |power, part| power * part);
-    let text = format!("{}*{}", power.text, signal.text);
-    let term = Term::new(node, Modifier::new(values, text, power.unit.clone()));
+    let modifier = power.times(&Modifier::number(signal.parts, signal.text));
+    let term = Term::new(node, modifier);
     Some(Variation::one("in proportion to the signal", term))
 }
 
@@ -126,14 +116,7 @@ fn late<'f>(fitted: &'f FittedModel<'f>, at_once: Term) -> impl Fn(f64) -> Term 
 }
 
 fn cell(fitted: &FittedModel<'_>, node: Node, along: &str, variants: Vec<Variation>) -> Cell {
-    let mut words = words(fitted, along);
-    words.p = fitted.name(node);
-    Cell::new(
-        EffectId::SelfHeating,
-        words,
-        Place::new(fitted.name(node), along),
-        variants,
-    )
+    building::cell(fitted, EffectId::SelfHeating, node, along, variants)
 }
 
 /// What is quicker than the rows follow one another is a power of the signal.

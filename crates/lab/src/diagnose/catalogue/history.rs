@@ -1,9 +1,9 @@
 //! What depends on the way by which a value was reached: hysteresis and backlash.
 
-use super::building::{on_output, plain};
+use super::building::{form, on_output, plain};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
-    direction, figure, five_digits, grid, map, map2, play, range, typical_step,
+    direction, figure, five_digits, grid, map, map2, mean_of, play, range, typical_step,
 };
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -15,20 +15,14 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         return Vec::new();
     }
     let way = direction(&fitted.clock.values, x);
-    let mut cells = vec![plain(
-        fitted,
-        EffectId::Hysteresis,
-        label,
-        loops(fitted, column, &way),
-    )];
+    let loops = loops(fitted, column, &way);
+    let mut cells = vec![plain(fitted, EffectId::Hysteresis, label, loops)];
     let (least, most) = range(x);
     let unit = fitted.unit(column);
     let step = typical_step(x);
     let widths = grid((most - least) * 1e-3, (most - least) * 0.3, 3.0, 6);
-    let widths = widths
-        .into_iter()
-        .map(five_digits)
-        .filter(|width| *width < 2.0 * step || step == 0.0);
+    let widths = widths.into_iter().map(five_digits);
+    let widths = widths.filter(|width| *width < 2.0 * step || step == 0.0);
     let variants = told_apart(x, widths).into_iter().map(|width| {
         let modifier = map2(&play(&fitted.clock.values, x, width), x, |played, x| {
             (played - x) / width
@@ -59,13 +53,9 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
 /// Widths of gaps without those that act like the one before: below the least step a play follows every reversal at once.
 fn told_apart(x: &[f64], widths: impl Iterator<Item = f64>) -> Vec<f64> {
     let least = least_step(x);
-    let mut kept: Vec<f64> = Vec::new();
-    for width in widths {
-        if width > least || kept.is_empty() {
-            kept.push(width);
-        }
-    }
-    kept
+    let widths = widths.enumerate();
+    let kept = widths.filter(|(at, width)| *at == 0 || *width > least);
+    kept.map(|(_, width)| width).collect()
 }
 
 /// The least step of a course that moves; nothing where it does not.
@@ -92,29 +82,22 @@ fn loops(fitted: &FittedModel<'_>, column: usize, way: &[f64]) -> Vec<Variation>
     let direction = format!("direction({label})");
     // Falling values with the opposite sign: no mixture of the two with sizes of one sign is a parabola
     // without a loop.
-    let on_one = |sign: f64| map2(&wide, way, |wide, way| wide * (sign + way) / 2.0);
-    let simple = [
-        ("", way.to_vec(), direction.clone()),
-        (
-            "widest in the middle",
-            map2(&wide, way, |wide, way| wide * way),
-            format!("{direction}*{shape}"),
-        ),
-        (
-            "on rising values only, widest in the middle",
-            on_one(1.0),
-            format!("[rising]*{shape}"),
-        ),
-        (
-            "on falling values only, widest in the middle",
-            on_one(-1.0),
-            format!("-[falling]*{shape}"),
-        ),
+    let loops: [(&str, &str, fn(f64) -> f64); 3] = [
+        ("", &direction, |way| way),
+        ("on rising values only, ", "[rising]", |way| {
+            (1.0 + way) / 2.0
+        }),
+        ("on falling values only, ", "-[falling]", |way| {
+            (way - 1.0) / 2.0
+        }),
     ];
-    let simple = simple
-        .into_iter()
-        .map(|(variant, modifier, text)| (variant, Modifier::number(modifier, text)))
-        .map(|(variant, modifier)| Variation::one(variant, on_output(modifier)));
+    let constant = form("", vec![Modifier::number(way.to_vec(), direction.as_str())]);
+    let closed = loops.into_iter().map(|(on, side, of)| {
+        let modifier = map2(&wide, way, |wide, way| wide * of(way));
+        let modifier = Modifier::number(modifier, format!("{side}*{shape}"));
+        form(format!("{on}widest in the middle"), vec![modifier])
+    });
+    let simple = [constant].into_iter().chain(closed);
     simple.chain(plays(fitted, column)).collect()
 }
 
@@ -139,16 +122,10 @@ fn plays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
         let label = format!("width {share} % of the range");
         Variation::one(label, on_output(behind(width))).shaped("w", width, &unit)
     });
-    let mut sum = vec![0.0; x.len()];
-    for width in widths {
-        sum = map2(&sum, &behind(width).values, |sum, one| sum + one);
-    }
-    let mean = map(&sum, |sum| sum / widths.len() as f64);
+    let mean = mean_of(&widths.map(|width| behind(width).values.to_vec()));
     let all = widths.map(|width| fitted.figure(column, width));
-    let text = format!(
-        "mean of ({label} - play({label}, w)) over w = {}",
-        all.join(", ")
-    );
+    let all = all.join(", ");
+    let text = format!("mean of ({label} - play({label}, w)) over w = {all}");
     let mean = Modifier::new(mean, text, fitted.step_unit(column));
     let even = Variation::one("several widths", on_output(mean));
     let apart = widths.into_iter().skip(1).step_by(2);

@@ -1,36 +1,24 @@
 //! Models that hold a constant against several columns, such as |a| = g for a triad at rest.
 
-use super::building::words;
+use super::absorbed::Absorbed;
+use super::building::cell;
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{map, range, rounded};
-use super::{Cell, EffectId, Modifier, Term, Variation, Words};
-use crate::diagnose::evidence::Place;
+use super::{Cell, EffectId, Modifier, Term, Variation};
 use gumption_core::quantity::Unit;
 
 /// Disturbances of each column that the model uses.
 pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
     let term = |column: usize, modifier: Modifier| Term::new(Node::Column(column), modifier);
     let cell = |id: EffectId, variants: Vec<Variation>| {
-        let names: Vec<&str> = used.iter().map(|c| fitted.label(*c)).collect();
-        let joined = names.join(", ");
-        Cell::new(
-            id,
-            Words {
-                p: joined.clone(),
-                ..words(fitted, &joined)
-            },
-            Place::new("axes", joined),
-            variants,
-        )
+        of_axes(fitted, id, used, fitted.names(used), variants)
     };
     let mut cells = Vec::new();
     let mut pairs = Vec::new();
     for (at, x) in used.iter().enumerate() {
         for z in &used[at + 1..] {
-            pairs.push((
-                format!("{} with {}", fitted.label(*x), fitted.label(*z)),
-                term(*x, fitted.centred(*z)),
-            ));
+            let label = format!("{} with {}", fitted.label(*x), fitted.label(*z));
+            pairs.push((label, term(*x, fitted.centred(*z))));
         }
     }
     cells.push(cell(EffectId::CrossAxis, singles_and_all(pairs)));
@@ -41,11 +29,10 @@ pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
         (label, term(*column, own))
     });
     let mut scales = cell(EffectId::AxisScale, singles_and_all(own.collect()));
-    let absorbed = super::absorbed::Absorbed::by_parameters(fitted);
-    scales.variants.retain(|variation| {
-        let columns = variation.columns(fitted);
-        let mut columns = columns.column_iter();
-        columns.all(|column| absorbed.leaves(&column.into_owned()))
+    let absorbed = Absorbed::by_parameters(fitted);
+    (scales.variants).retain(|variation| {
+        let left = absorbed.leaves_of(fitted, variation);
+        left.into_iter().all(|some| some)
     });
     cells.push(scales);
     type Law = fn(f64) -> f64;
@@ -68,6 +55,20 @@ pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
     cells
 }
 
+/// A cell of several axes together.
+pub(super) fn of_axes(
+    fitted: &FittedModel<'_>,
+    id: EffectId,
+    axes: &[usize],
+    disturbed: String,
+    variants: Vec<Variation>,
+) -> Cell {
+    let mut cell = cell(fitted, id, Node::Output, &fitted.names(axes), variants);
+    cell.words.p = disturbed;
+    "axes".clone_into(&mut cell.place.node);
+    cell
+}
+
 /// The middle of the range, where a sensor that turned through all positions has its zero.
 fn mean_of_range(x: &[f64]) -> f64 {
     let (least, most) = range(x);
@@ -77,12 +78,9 @@ fn mean_of_range(x: &[f64]) -> f64 {
 /// A variant for each term alone, and one with all of them.
 pub(super) fn singles_and_all(terms: Vec<(String, Term)>) -> Vec<Variation> {
     let all: Vec<Term> = terms.iter().map(|(_, term)| term.clone()).collect();
-    let mut variants: Vec<Variation> = terms
+    let together = (all.len() > 1).then(|| Variation::of("all", all));
+    let each = terms
         .into_iter()
-        .map(|(label, term)| Variation::one(label, term))
-        .collect();
-    if all.len() > 1 {
-        variants.push(Variation::of("all", all));
-    }
-    variants
+        .map(|(label, term)| Variation::one(label, term));
+    each.chain(together).collect()
 }

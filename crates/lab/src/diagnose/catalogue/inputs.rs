@@ -4,17 +4,18 @@
 //! The signal of a response, what its model gives besides constant terms, is the input of its axis in units
 //! of the output. Here it is a part of the largest signal, so that all sizes are parts of the range.
 
-use super::building::{scoped, time_constants};
+use std::collections::BTreeSet;
+
+use super::building::{on_output, plain, scoped, time_constants, timed};
 use super::fitted::{FittedModel, Node, varies};
 use super::generics::over_signals;
 use super::history::comes_back;
 use super::modifiers::{
-    correlation, creeps, figure, five_digits, largest, late, map, map2, play_from, range, rate,
-    recordings,
+    correlation, creeps, figure, five_digits, largest, late, map, map2, mean_of, play_from, range,
+    rate, recordings,
 };
-use super::{Cell, EffectId, Modifier, Term, Variation, Words};
+use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
-use crate::diagnose::evidence::Place;
 use gumption_core::quantity::Unit;
 
 /// Cells of the inputs of all axes; none where a column is the input.
@@ -27,7 +28,6 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     cells.extend(limits(fitted, &inputs));
     cells.extend(products(fitted, &inputs));
     cells.extend(memory(fitted, &inputs));
-    cells.retain(|cell| !cell.variants.is_empty());
     cells
 }
 
@@ -36,11 +36,7 @@ pub(super) fn unnamed(fitted: &FittedModel<'_>) -> Option<Cell> {
     let inputs = inputs(fitted);
     let signals: Vec<(usize, &[f64])> = inputs.iter().map(|i| (i.response, &i.own[..])).collect();
     let variants = over_signals(fitted, &signals);
-    let words = Words {
-        p: fitted.name(Node::Output),
-        ..words(fitted, &inputs)
-    };
-    (!variants.is_empty()).then(|| Cell::new(EffectId::Smooth, words, place(fitted), variants))
+    (!variants.is_empty()).then(|| of_inputs(fitted, &inputs, EffectId::Smooth, variants))
 }
 
 /// What a response takes in.
@@ -59,9 +55,7 @@ struct Input {
 fn inputs(fitted: &FittedModel<'_>) -> Vec<Input> {
     let case = fitted.case();
     // What goes on with the time is a drift of the source, not an input of an axis.
-    let times = case
-        .with_role(Role::Time)
-        .chain(case.with_role(Role::Order));
+    let times = (case.with_role(Role::Time)).chain(case.with_role(Role::Order));
     let columns: Vec<usize> = fitted.numeric().into_iter().chain(times).collect();
     let of_response = |response: usize| {
         let signal = fitted.signal(response);
@@ -108,10 +102,10 @@ impl Signal {
     pub(super) fn new(fitted: &FittedModel<'_>, response: usize) -> Signal {
         let signal = fitted.signal(response);
         let unit = fitted.case().responses[response].unit.difference();
-        let part = part(signal, "signal", &unit);
+        let Modifier { values, text, .. } = part(signal, "signal", &unit);
         Signal {
-            parts: part.values.to_vec(),
-            text: part.text,
+            parts: values.to_vec(),
+            text,
         }
     }
 }
@@ -124,29 +118,23 @@ fn size(x: &[f64]) -> f64 {
 /// As a part of the largest.
 fn part(x: &[f64], name: &str, unit: &Unit) -> Modifier {
     let size = size(x);
-    let unit = if unit.is_one() {
-        String::new()
-    } else {
-        format!(" {}", unit.typeset())
-    };
-    Modifier::number(map(x, |x| x / size), format!("({name}/({size}{unit}))"))
+    let shown = format!("{size} {}", unit.after_number());
+    let text = format!("({name}/({}))", shown.trim_end());
+    Modifier::number(map(x, |x| x / size), text)
 }
 
 /// Inputs of the other axes: where one angle turns the sensor, the slope of the signal by it; else what
 /// the other coefficients of the model multiply.
 fn others(fitted: &FittedModel<'_>, response: usize) -> Vec<Modifier> {
     let case = fitted.case();
-    let angles: Vec<usize> = case
-        .with_role(Role::Angle)
-        .filter(|c| fitted.in_model(*c))
-        .collect();
+    let by = |node: Node, unit: &Unit| {
+        let slope = fitted.slope(node, response);
+        let name = format!("dsignal/d{}", fitted.name(node));
+        part(&slope, &name, &case.responses[response].unit.quotient(unit))
+    };
+    let angles: Vec<usize> = fitted.used(Role::Angle).collect();
     if let [angle] = angles[..] {
-        let slope = fitted.slope(Node::Column(angle), response);
-        let name = format!("dsignal/d{}", fitted.label(angle));
-        let unit = fitted.case().responses[response]
-            .unit
-            .quotient(&fitted.step_unit(angle));
-        return vec![part(&slope, &name, &unit)];
+        return vec![by(Node::Column(angle), &fitted.step_unit(angle))];
     }
     // Along one column there is no other axis: the slopes by the parameters are the course of the model itself.
     let inputs = (0..case.columns.len()).filter(|c| {
@@ -163,70 +151,62 @@ fn others(fitted: &FittedModel<'_>, response: usize) -> Vec<Modifier> {
         let slope = fitted.slope(Node::Parameter(*parameter), response);
         varies(&slope) && correlation(&slope, signal).abs() < OWN
     };
-    (0..case.parameters.len())
-        .filter(is_other)
-        .map(|parameter| {
-            let slope = fitted.slope(Node::Parameter(parameter), response);
-            let name = format!("dsignal/d{}", case.parameters[parameter].name);
-            let unit = &case.parameters[parameter].unit;
-            part(&slope, &name, &case.responses[response].unit.quotient(unit))
-        })
+    let others = (0..case.parameters.len()).filter(is_other);
+    others
+        .map(|parameter| by(Node::Parameter(parameter), &case.parameters[parameter].unit))
         .collect()
 }
 
-/// A law of one input, in one variant: a modifier for each coefficient.
+/// A law of one input: a modifier for each coefficient.
 type Law<'l> = Box<dyn Fn(&Input) -> Vec<Modifier> + 'l>;
 
-/// A law with its label and the parameter of its shape.
-struct Shaped<'l> {
-    label: String,
-    shape: Option<(&'static str, f64, String)>,
+/// A form that each input has in terms of its own, by its law.
+struct Form<'l> {
+    /// Without terms.
+    form: Variation,
     law: Law<'l>,
 }
 
-impl<'l> Shaped<'l> {
-    fn plain(label: &str, law: impl Fn(&Input) -> Vec<Modifier> + 'l) -> Shaped<'l> {
-        Shaped {
-            label: label.to_owned(),
-            shape: None,
+impl<'l> Form<'l> {
+    fn new(form: Variation, law: impl Fn(&Input) -> Vec<Modifier> + 'l) -> Form<'l> {
+        Form {
+            form,
             law: Box::new(law),
         }
+    }
+
+    fn plain(label: &str, law: impl Fn(&Input) -> Vec<Modifier> + 'l) -> Form<'l> {
+        Form::new(Variation::of(label, Vec::new()), law)
     }
 }
 
 /// A cell whose effect may be on one axis, or on all of them, on each with a size of its own.
-fn cell(fitted: &FittedModel<'_>, inputs: &[Input], id: EffectId, laws: Vec<Shaped<'_>>) -> Cell {
+fn cell(fitted: &FittedModel<'_>, inputs: &[Input], id: EffectId, forms: Vec<Form<'_>>) -> Cell {
     let mut variants = Vec::new();
-    for Shaped { label, shape, law } in laws {
+    for Form { form, law } in forms {
         let part = |input: &Input| -> (usize, Vec<Term>) {
             let modifiers = law(input).into_iter();
             let moving = modifiers.filter(|modifier| varies(&modifier.values));
-            let terms = moving.map(|modifier| Term::new(Node::Output, modifier).on(input.response));
+            let terms = moving.map(|modifier| on_output(modifier).on(input.response));
             (input.response, terms.collect())
-        };
-        let form = Variation::of(label, Vec::new());
-        let form = match &shape {
-            Some((symbol, value, unit)) => form.shaped(symbol, *value, unit),
-            None => form,
         };
         variants.extend(scoped(fitted, &form, inputs.iter().map(part).collect()));
     }
-    let (words, place) = (words(fitted, inputs), place(fitted));
-    Cell::new(id, words, place, variants)
+    of_inputs(fitted, inputs, id, variants)
 }
 
-fn words(fitted: &FittedModel<'_>, inputs: &[Input]) -> Words {
+/// A cell on the outputs, along the columns that inputs are formed from.
+fn of_inputs(
+    fitted: &FittedModel<'_>,
+    inputs: &[Input],
+    id: EffectId,
+    variants: Vec<Variation>,
+) -> Cell {
+    let mut cell = plain(fitted, id, &along(fitted), variants);
     let name = |input: &Input| fitted.case().responses[input.response].name.as_str();
     let names: Vec<&str> = inputs.iter().map(name).collect();
-    Words {
-        x: format!("signal({})", names.join(", ")),
-        y: fitted.output(),
-        ..Words::default()
-    }
-}
-
-fn place(fitted: &FittedModel<'_>) -> Place {
-    Place::new(fitted.name(Node::Output), along(fitted))
+    cell.words.x = format!("signal({})", names.join(", "));
+    cell
 }
 
 /// The columns that inputs are formed from.
@@ -234,11 +214,7 @@ fn along(fitted: &FittedModel<'_>) -> String {
     let columns = &fitted.case().columns;
     let forms =
         |c: &usize| matches!(columns[*c].role, Role::Stimulus | Role::Angle) && fitted.in_model(*c);
-    let names: Vec<&str> = (0..columns.len())
-        .filter(forms)
-        .map(|c| fitted.label(c))
-        .collect();
-    names.join(", ")
+    fitted.names(&(0..columns.len()).filter(forms).collect::<Vec<usize>>())
 }
 
 fn powers(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
@@ -253,7 +229,7 @@ fn powers(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
             let text = format!("{before}{}{after}", input.text);
             vec![Modifier::number(map(&input.own, law), text)]
         };
-        cell(fitted, inputs, id, vec![Shaped::plain("", law)])
+        cell(fitted, inputs, id, vec![Form::plain("", law)])
     };
     let mut cells: Vec<Cell> = laws.into_iter().map(one).collect();
     // Small inputs are other axes' inputs that leak in: they have no sign of their own.
@@ -263,7 +239,7 @@ fn powers(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
             let text = format!("clamp({}/{width}, -1, 1)", input.text);
             vec![Modifier::number(modifier, text)]
         };
-        Shaped::plain(&format!("within {} %", 100.0 * width), law)
+        Form::plain(&format!("within {} %", 100.0 * width), law)
     });
     cells.push(cell(fitted, inputs, EffectId::ZeroStep, steps.into()));
     cells
@@ -273,28 +249,23 @@ fn powers(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
 fn limits(fitted: &FittedModel<'_>, inputs: &[Input]) -> Option<Cell> {
     /// Sizes of the input below which its end cannot be seen to bend.
     const LEVELS: usize = 6;
-    let sizes = inputs.iter().map(|input| levels(&input.own)).max()?;
-    if sizes < LEVELS {
+    // Different ones, to a hundredth of the largest.
+    let sizes = |input: &Input| -> BTreeSet<i64> {
+        let sizes = input.own.iter().map(|x| (100.0 * x.abs()).round() as i64);
+        sizes.collect()
+    };
+    if inputs.iter().map(|input| sizes(input).len()).max()? < LEVELS {
         return None;
     }
-    let knees = [0.5, 0.6, 0.7, 0.8, 0.9].map(|knee: f64| Shaped {
-        label: format!("above {knee} of the largest"),
-        shape: Some(("x₀", knee, String::new())),
-        law: Box::new(move |input: &Input| {
+    let knees = [0.5, 0.6, 0.7, 0.8, 0.9].map(|knee: f64| {
+        let form = Variation::of(format!("above {knee} of the largest"), Vec::new());
+        Form::new(form.shaped("x₀", knee, ""), move |input: &Input| {
             let modifier = map(&input.own, |s| -(s.abs() - knee).max(0.0) * s.signum());
             let text = format!("-sign(signal)*max(abs{} - {knee}, 0)", input.text);
             vec![Modifier::number(modifier, text)]
-        }),
+        })
     });
     Some(cell(fitted, inputs, EffectId::Saturation, knees.into()))
-}
-
-/// Different sizes, to a hundredth of the largest.
-fn levels(x: &[f64]) -> usize {
-    let mut sizes: Vec<i64> = x.iter().map(|x| (100.0 * x.abs()).round() as i64).collect();
-    sizes.sort_unstable();
-    sizes.dedup();
-    sizes.len()
 }
 
 /// Products with the inputs of other axes, and their squares.
@@ -302,9 +273,8 @@ fn products(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
     /// A product that is never larger than this is a leak of one axis into the other.
     const LEAK: f64 = 0.05;
     let product = |input: &Input, other: &Modifier| {
-        let product = map2(&input.own, &other.values, |s, q| s * q);
-        let large = largest(&product) > LEAK;
-        large.then(|| Modifier::number(product, format!("{}*{}", input.text, other.text)))
+        let product = Modifier::number(input.own.clone(), &input.text).times(other);
+        (largest(&product.values) > LEAK).then_some(product)
     };
     let most = inputs.iter().map(|input| input.others.len()).max();
     let each = 0..most.unwrap_or(0);
@@ -312,37 +282,28 @@ fn products(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
         1 => String::new(),
         _ => format!("other axis {}", other + 1),
     };
-    let mut crossed: Vec<Shaped<'_>> = each
-        .clone()
-        .map(|at| {
-            let law = move |input: &Input| {
-                let other = input.others.get(at);
-                other
-                    .and_then(|other| product(input, other))
-                    .into_iter()
-                    .collect()
-            };
-            Shaped::plain(&name(at), law)
-        })
-        .collect();
+    let crossed = each.clone().map(|at| {
+        let law = move |input: &Input| {
+            let other = input.others.get(at).into_iter();
+            other.filter_map(|other| product(input, other)).collect()
+        };
+        Form::plain(&name(at), law)
+    });
+    let mut crossed: Vec<Form<'_>> = crossed.collect();
     if each.len() > 1 {
         let all = |input: &Input| {
             let others = input.others.iter();
             others.filter_map(|other| product(input, other)).collect()
         };
-        crossed.push(Shaped::plain("", all));
+        crossed.push(Form::plain("", all));
     }
     // All squares together are the square of the own input: the field has a length.
     let squared = each.clone().map(|at| {
         let law = move |input: &Input| {
-            input
-                .others
-                .get(at)
-                .map(Modifier::square)
-                .into_iter()
-                .collect()
+            let other = input.others.get(at).into_iter();
+            other.map(Modifier::square).collect()
         };
-        Shaped::plain(&name(at), law)
+        Form::plain(&name(at), law)
     });
     let squared = squared.collect();
     vec![
@@ -369,32 +330,22 @@ fn memory(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
         let modifier = map2(&late(&t, own, &input.came, tau), own, |late, now| {
             late - now
         });
-        let text = format!(
-            "(lag({own}, {} {unit}) - {own})",
-            figure(tau),
-            own = input.text
-        );
-        Modifier::number(modifier, text)
+        let (own, shown) = (&input.text, figure(tau));
+        Modifier::number(modifier, format!("(lag({own}, {shown} {unit}) - {own})"))
     };
     let lacks = &lacks;
     let singles = fitted.finer.times(scales.clone());
-    let single = singles.iter().map(|tau| Shaped {
-        label: format!("τ = {} {unit}", figure(*tau)),
-        shape: Some(("τ", *tau, unit.clone())),
-        law: Box::new(move |input: &Input| vec![lacks(input, *tau)]),
-    });
+    let of = |scales: Vec<f64>| {
+        let form = timed(fitted, &scales, Vec::new());
+        Form::new(form, move |input: &Input| {
+            scales.iter().map(|tau| lacks(input, *tau)).collect()
+        })
+    };
+    let single = singles.iter().map(|tau| of(vec![*tau]));
     // Real bodies relax more than once: a quick part and a slow one.
-    let double = scales.iter().step_by(2).map(|tau| Shaped {
-        label: format!("τ = {} and {} {unit}", figure(*tau), figure(4.0 * tau)),
-        shape: None,
-        law: Box::new(move |input: &Input| vec![lacks(input, *tau), lacks(input, 4.0 * tau)]),
-    });
-    cells.push(cell(
-        fitted,
-        inputs,
-        EffectId::Lag,
-        single.chain(double).collect(),
-    ));
+    let double = (scales.iter().step_by(2)).map(|tau| of(vec![*tau, 4.0 * tau]));
+    let lags = single.chain(double).collect();
+    cells.push(cell(fitted, inputs, EffectId::Lag, lags));
     let skew = |input: &Input| {
         let per_time = Unit::one().quotient(&fitted.clock_unit());
         let text = format!("d{}/dt", input.text);
@@ -402,13 +353,13 @@ fn memory(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
         let moving = creeps(&input.own);
         moving.then_some(modifier).into_iter().collect()
     };
-    let skew = vec![Shaped::plain("", skew)];
+    let skew = vec![Form::plain("", skew)];
     cells.push(cell(fitted, inputs, EffectId::TimingSkew, skew));
     cells
 }
 
 /// Loops of a body with inner friction: one play, or several of growing width in parallel.
-fn loops(t: &[f64]) -> Vec<Shaped<'_>> {
+fn loops(t: &[f64]) -> Vec<Form<'_>> {
     const WIDTHS: [f64; 5] = [0.1, 0.3, 0.6, 1.0, 1.5];
     let behind = |input: &Input, width: f64| {
         // At rest there was no input.
@@ -421,7 +372,7 @@ fn loops(t: &[f64]) -> Vec<Shaped<'_>> {
         map2(&input.own, &played, |s, behind| s - behind)
     };
     let one = WIDTHS.map(|width| {
-        Shaped::plain(&format!("width {width}"), move |input: &Input| {
+        Form::plain(&format!("width {width}"), move |input: &Input| {
             let (least, most) = range(&input.own);
             if most - least <= width {
                 return Vec::new();
@@ -430,19 +381,12 @@ fn loops(t: &[f64]) -> Vec<Shaped<'_>> {
             vec![Modifier::number(behind(input, width), text)]
         })
     });
-    let many = Shaped::plain("several widths", move |input: &Input| {
-        let mut sum = vec![0.0; input.own.len()];
-        for width in WIDTHS {
-            sum = map2(&sum, &behind(input, width), |sum, one| sum + one);
-        }
-        let widths = WIDTHS.map(|width| width.to_string()).join(", ");
-        vec![Modifier::number(
-            map(&sum, |sum| sum / WIDTHS.len() as f64),
-            format!(
-                "mean of ({own} - play({own}, w)) over w = {widths}",
-                own = input.text
-            ),
-        )]
+    let many = Form::plain("several widths", move |input: &Input| {
+        let mean = mean_of(&WIDTHS.map(|width| behind(input, width)));
+        let (own, widths) = (&input.text, WIDTHS.map(|width| width.to_string()));
+        let widths = widths.join(", ");
+        let text = format!("mean of ({own} - play({own}, w)) over w = {widths}");
+        vec![Modifier::number(mean, text)]
     });
     one.into_iter().chain([many]).collect()
 }

@@ -2,34 +2,70 @@
 
 use super::building::{form, on_node};
 use super::fitted::{FittedModel, Node};
-use super::modifiers::map;
+use super::modifiers::{flag, map};
 use super::{Cell, EffectId, Modifier, Variation};
-use crate::diagnose::case::Role;
+use crate::diagnose::case::{Column, Role};
 use crate::recording::Labels;
+
+/// A column of labels, with those that occur in its rows.
+pub(super) struct Factor<'f> {
+    pub(super) column: &'f Column,
+    labels: &'f Labels,
+    pub(super) levels: Vec<u32>,
+}
+
+/// Columns of labels of which two or more occur, and of so many blocks (a part, of a whole) no more than one each.
+pub(super) fn factors<'f>(
+    fitted: &FittedModel<'f>,
+    (part, whole): (usize, usize),
+) -> impl Iterator<Item = Factor<'f>> {
+    let most = part * fitted.design.blocks.len() / whole;
+    let columns = fitted.case().columns.iter();
+    columns.filter_map(move |column| {
+        let labels = column.labels()?;
+        let levels = present(labels);
+        let several = (2..=most).contains(&levels.len());
+        several.then_some(Factor {
+            column,
+            labels,
+            levels,
+        })
+    })
+}
+
+impl Factor<'_> {
+    pub(super) fn text(&self, level: u32) -> &str {
+        (self.labels.levels.get(level as usize)).map_or("", String::as_str)
+    }
+
+    /// 1 in the rows of a level.
+    pub(super) fn indicator(&self, level: u32) -> Vec<f64> {
+        indicator(self.labels, level)
+    }
+
+    fn modifier(&self, level: u32) -> Modifier {
+        let text = format!("[{} = {}]", self.column.name, self.text(level));
+        Modifier::number(self.indicator(level), text)
+    }
+
+    /// Differences to the first level: the mean is the model's own.
+    pub(super) fn differences(&self) -> Vec<Modifier> {
+        let others = self.levels[1..].iter();
+        others.map(|level| self.modifier(*level)).collect()
+    }
+}
 
 /// Cells of the columns of labels.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
-    for column in &fitted.case().columns {
-        let Some(labels) = column.labels() else {
-            continue;
-        };
-        let levels = present(labels);
-        if levels.len() < 2 || levels.len() * 3 > 2 * fitted.design.blocks.len() {
-            continue;
-        }
-        match column.role {
-            Role::Direction => cells.extend(directions(fitted, &column.name, labels, &levels)),
+    for factor in factors(fitted, (2, 3)) {
+        match factor.column.role {
+            Role::Direction => cells.push(directions(fitted, &factor)),
             Role::Position if is_place(fitted) => {
-                let all = shifts(fitted, &column.name, labels, &levels, column.role);
-                let scales = all
-                    .into_iter()
-                    .filter(|c| c.effect.id == EffectId::LevelScale);
-                cells.extend(scales);
+                let all = shifts(fitted, &factor).into_iter();
+                cells.extend(all.filter(|c| c.effect.id == EffectId::LevelScale));
             }
-            role @ (Role::Run | Role::Factor | Role::Axis) => {
-                cells.extend(shifts(fitted, &column.name, labels, &levels, role));
-            }
+            Role::Run | Role::Factor | Role::Axis => cells.extend(shifts(fitted, &factor)),
             _ => {}
         }
     }
@@ -55,46 +91,26 @@ pub(super) fn present(labels: &Labels) -> Vec<u32> {
 
 /// 1 in the rows of a level.
 pub(super) fn indicator(labels: &Labels, level: u32) -> Vec<f64> {
-    labels
-        .of_row
-        .iter()
-        .map(|of| f64::from(u8::from(*of == level)))
-        .collect()
-}
-
-fn text(labels: &Labels, level: u32) -> &str {
-    labels.levels.get(level as usize).map_or("", String::as_str)
+    let rows = labels.of_row.iter();
+    rows.map(|of| flag(*of == level)).collect()
 }
 
 /// Every level has a value of its own; or only one has; or all from one on, in the order of the recording.
-fn shifts(
-    fitted: &FittedModel<'_>,
-    name: &str,
-    labels: &Labels,
-    levels: &[u32],
-    role: Role,
-) -> Vec<Cell> {
-    let column = |level: u32| {
-        Modifier::number(
-            indicator(labels, level),
-            format!("[{name} = {}]", text(labels, level)),
-        )
-    };
-    // Differences to the first level: the mean is the model's own.
-    let all = form("", levels[1..].iter().map(|level| column(*level)).collect());
+fn shifts(fitted: &FittedModel<'_>, factor: &Factor<'_>) -> Vec<Cell> {
+    let (name, levels) = (&factor.column.name, &factor.levels);
+    let all = form("", factor.differences());
     let one = |level: &u32| {
-        let label = format!("{name} {}", text(labels, *level));
-        form(label, vec![column(*level)])
+        let label = format!("{name} {}", factor.text(*level));
+        form(label, vec![factor.modifier(*level)])
     };
     // With two levels a shift of one is a shift between both.
     let alone: Vec<Variation> = match levels.len() {
         2 => Vec::new(),
         _ => levels.iter().map(one).collect(),
     };
-    let onwards = if role == Role::Run && levels.len() > 3 {
-        changes(name, labels, levels)
-    } else {
-        Vec::new()
+    let onwards = match factor.column.role {
+        Role::Run if levels.len() > 3 => changes(factor),
+        _ => Vec::new(),
     };
     // Each kind is as likely as the others, however many variants it has.
     let weighted = |kind: Vec<Variation>| {
@@ -107,41 +123,35 @@ fn shifts(
     };
     let kinds = [vec![all], alone, onwards].into_iter();
     let forms: Vec<Variation> = kinds.flat_map(weighted).collect();
-    let mut cells = vec![on_node(
-        fitted,
-        EffectId::LevelShift,
-        name,
-        Node::Output,
-        forms.clone(),
-    )];
+    let mut cells = Vec::new();
+    let mut add = |id: EffectId, node: Node| {
+        cells.push(on_node(fitted, id, name, node, forms.clone()));
+    };
+    add(EffectId::LevelShift, Node::Output);
     if fitted.has_signal() {
-        let id = EffectId::LevelScale;
-        cells.push(on_node(fitted, id, name, Node::Gain, forms));
+        add(EffectId::LevelScale, Node::Gain);
     }
     cells
 }
 
 /// From one level on, with more than one level on both sides.
-fn changes(name: &str, labels: &Labels, levels: &[u32]) -> Vec<Variation> {
-    levels[2..levels.len() - 1]
-        .iter()
-        .map(|first| {
-            let modifier = labels
-                .of_row
-                .iter()
-                .map(|of| f64::from(u8::from(of >= first)));
-            let label = text(labels, *first);
-            let since = Modifier::number(modifier.collect(), format!("[{name} >= {label}]"));
-            form(format!("from {name} {label} on"), vec![since])
-        })
-        .collect()
+fn changes(factor: &Factor<'_>) -> Vec<Variation> {
+    let name = &factor.column.name;
+    let firsts = &factor.levels[2..factor.levels.len() - 1];
+    let since = |first: &u32| {
+        let rows = factor.labels.of_row.iter();
+        let modifier = rows.map(|of| flag(of >= first)).collect();
+        let label = factor.text(*first);
+        let since = Modifier::number(modifier, format!("[{name} >= {label}]"));
+        form(format!("from {name} {label} on"), vec![since])
+    };
+    firsts.iter().map(since).collect()
 }
 
-fn directions(fitted: &FittedModel<'_>, name: &str, labels: &Labels, levels: &[u32]) -> Vec<Cell> {
-    let last = indicator(labels, levels[levels.len() - 1]);
-    let modifier = map(&last, |x| 2.0 * x - 1.0);
+fn directions(fitted: &FittedModel<'_>, factor: &Factor<'_>) -> Cell {
+    let (name, last) = (&factor.column.name, factor.levels[factor.levels.len() - 1]);
+    let modifier = map(&factor.indicator(last), |x| 2.0 * x - 1.0);
     let way = Modifier::number(modifier, format!("direction({name})"));
-    let form = form("", vec![way]);
     let id = EffectId::Hysteresis;
-    vec![on_node(fitted, id, name, Node::Output, [form])]
+    on_node(fitted, id, name, Node::Output, [form("", vec![way])])
 }

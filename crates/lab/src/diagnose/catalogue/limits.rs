@@ -1,7 +1,7 @@
 //! Ends of the range and dead zones of a column: saturation, a change of slope, a band around zero in which
 //! nothing happens.
 
-use super::building::{form, on_node, on_output, plain};
+use super::building::{form, on_node, on_output, plain, scoped_label};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{figure, figure_to, five_digits, largest, levels_of, map, range, rounded};
 use super::sharp::sharpened;
@@ -34,12 +34,8 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         }
         cells.push(kink(fitted, column));
     } else {
-        cells.push(plain(
-            fitted,
-            EffectId::Saturation,
-            fitted.label(column),
-            ends,
-        ));
+        let (id, name) = (EffectId::Saturation, fitted.label(column));
+        cells.push(plain(fitted, id, name, ends));
     }
     cells
 }
@@ -48,10 +44,8 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
 /// last digit although the model moves on, and what it gives beyond them is missing. Where they pile up along one of the
 /// `columns`, that limit is a limit of the column.
 pub(super) fn of_outputs(fitted: &FittedModel<'_>, columns: &[usize]) -> Vec<Cell> {
-    if columns
-        .iter()
-        .any(|column| !plateaus(fitted, *column).is_empty())
-    {
+    let has_plateau = |column: &usize| !plateaus(fitted, *column).is_empty();
+    if columns.iter().any(has_plateau) {
         return Vec::new();
     }
     let responses = 0..fitted.case().responses.len();
@@ -174,9 +168,8 @@ fn soft_limit(fitted: &FittedModel<'_>, column: usize) -> Cell {
         on_output(Modifier::new(modifier, text, fitted.step_unit(column)))
     };
     let limits = [0.5, 0.6, 0.7, 0.8, 0.9].map(|share| share * most);
-    let limits = fitted
-        .finer
-        .levels(sharpened(fitted, limits.into(), &beyond));
+    let limits = sharpened(fitted, limits.into(), &beyond);
+    let limits = fitted.finer.levels(limits);
     let variants = limits.into_iter().map(|limit| {
         let label = format!("above {} {unit}", figure(limit));
         Variation::one(label, beyond(limit)).shaped("x₀", limit, &unit)
@@ -204,12 +197,8 @@ fn kink(fitted: &FittedModel<'_>, column: usize) -> Cell {
         let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
         Variation::one(format!("at {shown} {unit}"), on_output(modifier)).shaped("x₀", at, &unit)
     });
-    plain(
-        fitted,
-        EffectId::Kink,
-        fitted.label(column),
-        variants.collect(),
-    )
+    let (id, name) = (EffectId::Kink, fitted.label(column));
+    plain(fitted, id, name, variants.collect())
 }
 
 /// Ends of the range at which the readings pile up at one value although the model moves on: what is
@@ -239,12 +228,8 @@ fn at_end(
     /// Knees that are tried within the last step before the plateau.
     const KNEES: usize = 8;
     let (x, name) = (fitted.numbers(column), fitted.label(column));
-    let Some(first) = plateau(
-        &fitted.design.observed(response),
-        fitted.signal(response),
-        x,
-        order,
-    ) else {
+    let (observed, signal) = (fitted.design.observed(response), fitted.signal(response));
+    let Some(first) = plateau(&observed, signal, x, order) else {
         return Vec::new();
     };
     let unit = fitted.unit(column);
@@ -263,14 +248,12 @@ fn at_end(
         let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
         let term: Term = on_output(modifier);
         let label = format!("{side} {shown} {unit}");
-        let (label, term) = match &fitted.case().responses[..] {
-            [_] => (label, term),
-            many => (
-                format!("{}, {label}", many[response].name),
-                term.on(response),
-            ),
-        };
-        Variation::one(label, term).shaped("x₀", knee, &unit)
+        let mut form = Variation::one(label, term).shaped("x₀", knee, &unit);
+        if let responses @ [_, _, ..] = &fitted.case().responses[..] {
+            form.label = scoped_label(&responses[response].name, &form);
+            form.terms[0].response = Some(response);
+        }
+        form
     });
     knees
         .filter(|v| varies(&v.terms[0].modifier.values))

@@ -111,6 +111,11 @@ pub struct Cell {
 }
 
 impl Cell {
+    /// Whether it is the same effect on the same quantities, in another design; each harmonic of an angle is a cell of its own.
+    pub fn is(&self, other: &Cell) -> bool {
+        self.effect.id == other.effect.id && self.words == other.words
+    }
+
     /// An effect of the catalogue, without a size or a sentence of the user's own.
     fn new(id: EffectId, words: Words, place: evidence::Place, variants: Vec<Variation>) -> Cell {
         Cell {
@@ -186,6 +191,14 @@ impl Modifier {
     fn negated(&self) -> Modifier {
         let values = modifiers::map(&self.values, |x| -x);
         Modifier::new(values, format!("-{}", self.text), self.unit.clone())
+    }
+
+    fn times(&self, other: &Modifier) -> Modifier {
+        Modifier::new(
+            modifiers::map2(&self.values, &other.values, |x, z| x * z),
+            format!("{}*{}", self.text, other.text),
+            self.unit.product(&other.unit),
+        )
     }
 
     fn square(&self) -> Modifier {
@@ -298,11 +311,8 @@ impl Variation {
     /// The label for a reader: a time constant is the best of some that were tried, and has three digits. A
     /// knee may need more, where the range is far from zero, and so may a period, where there are many.
     pub fn short_label(&self) -> String {
-        let Some(shape) = self
-            .shape
-            .as_ref()
-            .filter(|shape| !matches!(shape.symbol, "x₀" | "P"))
-        else {
+        let many = |shape: &&ShapeParameter| matches!(shape.symbol, "x₀" | "P");
+        let Some(shape) = self.shape.as_ref().filter(|shape| !many(shape)) else {
             return self.label.clone();
         };
         let exact = modifiers::figure(shape.value);
@@ -311,6 +321,14 @@ impl Variation {
         let words = self.label.split(' ');
         let words = words.map(|word| if word == exact { &short } else { word });
         words.collect::<Vec<&str>>().join(" ")
+    }
+
+    /// Its terms, each with the number of its coefficient.
+    pub fn numbered(&self) -> impl Iterator<Item = (usize, &Term)> {
+        self.terms.iter().scan(0, |count, term| {
+            *count += usize::from(!term.tied || *count == 0);
+            Some((*count - 1, term))
+        })
     }
 
     /// Number of coefficients.
@@ -361,10 +379,7 @@ pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let wanted = |cell: &Cell| {
         let effect = cell.effect;
         let named = |word: &String| *word == effect.id.as_str() || *word == effect.family;
-        let chosen = settings
-            .catalogue
-            .as_ref()
-            .is_none_or(|list| list.iter().any(named));
+        let chosen = (settings.catalogue.as_ref()).is_none_or(|list| list.iter().any(named));
         (chosen || effect.kind == Kind::Own) && !settings.exclude.iter().any(named)
     };
     cells.retain(|cell| !cell.variants.is_empty() && wanted(cell));
@@ -404,9 +419,7 @@ mod tests {
         let of = |label: &str| Variation::of(label, Vec::new()).shaped("τ", 2641.4, "s");
         assert_eq!(of("τ = 2641.4 s").short_label(), "τ = 2640 s");
         assert_eq!(of("ay, τ = 2641.4 s").short_label(), "ay, τ = 2640 s");
-        assert_eq!(
-            Variation::of("row 26414", Vec::new()).short_label(),
-            "row 26414"
-        );
+        let plain = Variation::of("row 26414", Vec::new());
+        assert_eq!(plain.short_label(), "row 26414");
     }
 }

@@ -129,12 +129,9 @@ pub fn late(t: &[f64], x: &[f64], came: &[Option<(f64, f64)>], tau: f64) -> Vec<
 pub fn recordings(t: &[f64]) -> Vec<Range<usize>> {
     let begins = (1..t.len()).filter(|row| t[*row] < t[*row - 1]);
     let begins: Vec<usize> = std::iter::once(0).chain(begins).collect();
-    let ends = begins.iter().copied().skip(1).chain([t.len()]);
-    begins
-        .iter()
-        .zip(ends)
-        .map(|(from, to)| *from..to)
-        .collect()
+    let ends = begins[1..].iter().copied().chain([t.len()]);
+    let both = begins.iter().zip(ends);
+    both.map(|(from, to)| *from..to).collect()
 }
 
 /// The course a time `delay` earlier, along straight lines between the rows; where the recording had not
@@ -267,6 +264,13 @@ pub fn typical_step(x: &[f64]) -> f64 {
     steps.get(steps.len() / 2).copied().unwrap_or(0.0)
 }
 
+/// The least distance of different values; infinite where all are the same.
+pub fn spacing(x: &[f64]) -> f64 {
+    let values = levels_of(x);
+    let gaps = values.windows(2).map(|pair| pair[1] - pair[0]);
+    gaps.fold(f64::INFINITY, f64::min)
+}
+
 /// Whether a course moves by small steps, so that it has a rate of change; from dwell to dwell it has none.
 pub fn creeps(x: &[f64]) -> bool {
     const SMALL: f64 = 0.15;
@@ -286,9 +290,32 @@ pub fn correlation(x: &[f64], z: &[f64]) -> f64 {
     if size > 0.0 { dot(&x, &z) / size } else { 0.0 }
 }
 
+/// The straight line from `x` to `y`, by its slope and its value at zero, and what it leaves of the variance of `y`; a `y`
+/// without variance is followed by its own value.
+pub fn line_through(x: &[f64], y: &[f64]) -> (f64, f64, f64) {
+    let (mean_x, mean_y) = (mean(x), mean(y));
+    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+    for (x, y) in x.iter().zip(y) {
+        xx += (x - mean_x) * (x - mean_x);
+        xy += (x - mean_x) * (y - mean_y);
+        yy += (y - mean_y) * (y - mean_y);
+    }
+    if !(yy > 0.0 && xx > 0.0) {
+        return (0.0, mean_y, if yy > 0.0 { 1.0 } else { 0.0 });
+    }
+    let factor = xy / xx;
+    (factor, mean_y - factor * mean_x, 1.0 - xy * xy / (xx * yy))
+}
+
 /// The largest modulus.
 pub fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
+}
+
+/// The mean of some courses, row by row.
+pub fn mean_of(courses: &[Vec<f64>]) -> Vec<f64> {
+    let sum = (courses.iter().cloned()).reduce(|sum, one| map2(&sum, &one, |sum, one| sum + one));
+    map(&sum.unwrap_or_default(), |sum| sum / courses.len() as f64)
 }
 
 /// Element by element.
@@ -299,6 +326,11 @@ pub fn map2(x: &[f64], z: &[f64], f: impl Fn(f64, f64) -> f64) -> Vec<f64> {
 /// Element by element.
 pub fn map(x: &[f64], f: impl Fn(f64) -> f64) -> Vec<f64> {
     x.iter().map(|x| f(*x)).collect()
+}
+
+/// 1 where something is so.
+pub fn flag(is_so: bool) -> f64 {
+    f64::from(u8::from(is_so))
 }
 
 /// Whether numbers go well to both sides of zero.
@@ -395,5 +427,13 @@ mod tests {
         assert_eq!(grid.len(), 5);
         assert!((grid[2] - 4.0).abs() < 1e-12);
         assert!(super::grid(1.0, 0.5, 2.0, 3).is_empty());
+    }
+
+    #[test]
+    fn origin_and_unit_of_a_modifier_are_found() {
+        let (factor, offset, left) = line_through(&[0.0, 1.0, 2.0], &[3.0, 5.0, 7.0]);
+        assert!((factor - 2.0).abs() < 1e-12 && (offset - 3.0).abs() < 1e-12);
+        assert!(left.abs() < 1e-12);
+        assert!(line_through(&[0.0, 1.0, 0.0], &[0.0, 0.0, 1.0]).2 > 0.5);
     }
 }

@@ -3,9 +3,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::building::scoped_label;
 use super::effect::{Kind, Pattern};
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{map2, range, rounded};
+use super::modifiers::{map, map2, range, rounded};
 use super::{Cell, Modifier, Term, Variation};
 
 /// The readings of a vector.
@@ -91,16 +92,15 @@ impl Norm {
             return Vec::new();
         }
         let on = |(column, centre): &(usize, f64)| -> Vec<Term> {
+            let reading = || {
+                let x = map(fitted.numbers(*column), |x| x - centre);
+                let text = fitted.less(*column, *centre);
+                Modifier::new(x, text, fitted.step_unit(*column))
+            };
             let term = |term: &Term| {
                 let own = term.written();
                 let modifier = match term.node {
-                    Node::Gain => Modifier::new(
-                        map2(&own.values, fitted.numbers(*column), |m, x| {
-                            m * (x - centre)
-                        }),
-                        format!("{}*{}", own.text, fitted.less(*column, *centre)),
-                        own.unit.product(&fitted.step_unit(*column)),
-                    ),
+                    Node::Gain => own.times(&reading()),
                     _ => own.clone(),
                 };
                 Term::new(Node::Column(*column), modifier)
@@ -108,10 +108,7 @@ impl Norm {
             variation.terms.iter().map(term).collect()
         };
         let with = |name: &str, terms: Vec<Term>| Variation {
-            label: match variation.label.as_str() {
-                "" => name.to_owned(),
-                label => format!("{name}, {label}"),
-            },
+            label: scoped_label(name, variation),
             terms,
             ..variation.clone()
         };

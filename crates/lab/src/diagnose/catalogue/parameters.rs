@@ -1,9 +1,11 @@
 //! What makes a parameter of the model another one from row to row: a condition, the time, the run. Offset
 //! and scale have chapters of their own; this is about time constants, exponents, angles, coefficients.
 
+use std::collections::BTreeSet;
+
 use super::building::{form, on_node};
 use super::fitted::{FittedModel, Node, varies};
-use super::levels::{indicator, present};
+use super::levels::factors;
 use super::modifiers::largest;
 use super::{Cell, EffectId, Modifier};
 use crate::diagnose::case::Role;
@@ -47,50 +49,27 @@ fn proportional(a: &[f64], b: &[f64]) -> bool {
 }
 
 fn of_parameter(fitted: &FittedModel<'_>, node: Node) -> Vec<Cell> {
-    let case = fitted.case();
     let mut cells = Vec::new();
     let mut add = |id: EffectId, along: &str, modifiers: Vec<Modifier>| {
         cells.push(on_node(fitted, id, along, node, [form("", modifiers)]));
     };
-    for column in fitted.numeric() {
-        if fitted.in_model(column) {
-            continue;
-        }
-        let name = &case.columns[column].name;
-        add(
-            EffectId::ParameterSensitivity,
-            name,
-            vec![fitted.centred(column)],
-        );
+    let numeric = fitted.numeric().into_iter();
+    for column in numeric.filter(|column| !fitted.in_model(*column)) {
+        let (id, name) = (EffectId::ParameterSensitivity, fitted.label(column));
+        add(id, name, vec![fitted.centred(column)]);
     }
     if fitted.clock.column.is_some() {
-        let along = fitted.along_time();
-        add(
-            EffectId::ParameterDrift,
-            &along,
-            vec![fitted.centred_time()],
-        );
+        let (id, along) = (EffectId::ParameterDrift, fitted.along_time());
+        add(id, &along, vec![fitted.centred_time()]);
     }
     let turns = turns_an_angle(fitted, node);
-    for column in case.columns.iter().filter(|_| !turns) {
-        let Some(labels) = column.labels() else {
-            continue;
-        };
-        let levels = present(labels);
-        let few = levels.len() >= 2 && levels.len() * 4 <= fitted.design.blocks.len();
-        if !few || !matches!(column.role, Role::Run | Role::Factor | Role::Direction) {
-            continue;
-        }
-        // Differences to the first level: the mean is the parameter itself.
-        let shifts = levels[1..].iter().map(|level| {
-            let label = labels.levels.get(*level as usize);
-            let label = label.map_or("", String::as_str);
-            Modifier::number(
-                indicator(labels, *level),
-                format!("[{} = {label}]", column.name),
-            )
-        });
-        add(EffectId::ParameterShift, &column.name, shifts.collect());
+    let is_named = |role: Role| matches!(role, Role::Run | Role::Factor | Role::Direction);
+    for factor in factors(fitted, (1, 4)).filter(|factor| !turns && is_named(factor.column.role)) {
+        add(
+            EffectId::ParameterShift,
+            &factor.column.name,
+            factor.differences(),
+        );
     }
     cells
 }
@@ -108,14 +87,8 @@ fn turns_an_angle(fitted: &FittedModel<'_>, node: Node) -> bool {
         let ratios = ratios.filter(|(_, a)| a.abs() > least).map(|(s, a)| s / a);
         let ratios: Vec<f64> = ratios.collect();
         let size = largest(&ratios);
-        let mut kinds: Vec<i64> = ratios
-            .iter()
-            .map(|r| (20.0 * r / size).round() as i64)
-            .collect();
-        kinds.sort_unstable();
-        kinds.dedup();
-        kinds.len() <= 2
+        let kinds = ratios.iter().map(|r| (20.0 * r / size).round() as i64);
+        kinds.collect::<BTreeSet<i64>>().len() <= 2
     };
-    let angles = fitted.case().with_role(Role::Angle);
-    angles.filter(|c| fitted.in_model(*c)).any(is_of)
+    fitted.used(Role::Angle).any(is_of)
 }

@@ -3,7 +3,9 @@
 
 use super::absorbed::Absorbed;
 use super::fitted::{FittedModel, Node, varies};
-use super::modifiers::{crosses_zero, map, mean, middle, range, rounded};
+use super::modifiers::{
+    crosses_zero, largest, line_through, map, map2, mean, middle, range, rounded,
+};
 use super::{Modifier, Term};
 
 /// A power, as the search takes it and as the improved model has it.
@@ -124,18 +126,11 @@ fn zero_of_line(x: &[f64], y: &[f64]) -> Option<f64> {
     if !varies(y) || !varies(x) {
         return None;
     }
-    let (mean_x, mean_y) = (mean(x), mean(y));
-    let squares: f64 = x.iter().map(|x| (x - mean_x).powi(2)).sum();
-    let products: f64 = (x.iter().zip(y))
-        .map(|(x, y)| (x - mean_x) * (y - mean_y))
-        .sum();
-    let slope = products / squares;
+    let (slope, offset, _) = line_through(x, y);
     let (least, most) = range(y);
-    let straight = x.iter().zip(y).all(|(x, y)| {
-        let line = mean_y + slope * (x - mean_x);
-        (y - line).abs() <= STRAIGHT * (most - least)
-    });
-    let zero = mean_x - mean_y / slope;
+    let off = map2(x, y, |x, y| y - offset - slope * x);
+    let straight = largest(&off) <= STRAIGHT * (most - least);
+    let zero = -offset / slope;
     (straight && zero.is_finite()).then_some(zero)
 }
 

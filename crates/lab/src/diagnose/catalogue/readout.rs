@@ -4,17 +4,16 @@ use std::f64::consts::PI;
 
 use super::building::{on_output, plain};
 use super::fitted::{FittedModel, varies};
+use super::modifiers::{figure, largest, levels_of, map, rounded};
 use super::sharp::nearly_all;
 use super::stuck::beside;
 use super::{Cell, EffectId, Modifier, Variation, tied};
 
 /// Cells of the readout.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
-    let mut cells: Vec<Cell> = (0..fitted.case().responses.len())
-        .filter_map(|response| quantisation(fitted, response))
-        .collect();
-    cells.extend(shifted(fitted));
-    cells
+    let responses = 0..fitted.case().responses.len();
+    let steps = responses.filter_map(|response| quantisation(fitted, response));
+    steps.chain(shifted(fitted)).collect()
 }
 
 /// Rounding of the model's output to the step in which readings come: an error of known size.
@@ -27,25 +26,18 @@ fn quantisation(fitted: &FittedModel<'_>, response: usize) -> Option<Cell> {
     let model = &fitted.fit.linear.values[response];
     let name = &fitted.case().responses[response].name;
     let unit = &fitted.case().responses[response].unit;
-    let shown = super::modifiers::figure(step);
+    let shown = figure(step);
     let from = match origin == 0.0 {
         true => name.clone(),
         false => format!("({name} - {origin})"),
     };
     let blurred = |blur: f64| {
-        let modifier = super::modifiers::map(model, |y| rounding((y - origin) / step, blur) * step);
+        let modifier = map(model, |y| rounding((y - origin) / step, blur) * step);
+        let sharp = format!("(round({from}/{shown})*{shown} - {from})");
+        let blurred = format!("(mean of round(({from} + noise)/{shown})*{shown} - {from})");
         let (text, noise) = match blur == 0.0 {
-            true => (
-                format!("(round({from}/{shown})*{shown} - {from})"),
-                String::new(),
-            ),
-            false => {
-                let noise = super::modifiers::figure(blur * step);
-                (
-                    format!("(mean of round(({from} + noise)/{shown})*{shown} - {from})"),
-                    format!(", noise {noise}"),
-                )
-            }
+            true => (sharp, String::new()),
+            false => (blurred, format!(", noise {}", figure(blur * step))),
         };
         let term = on_output(Modifier::new(modifier, text, unit.difference()));
         let label = format!("step {shown}{noise} {}", unit.after_number());
@@ -111,7 +103,7 @@ fn steps(readings: &[f64]) -> Option<Steps> {
     let readings: Vec<f64> = (readings.iter().copied())
         .filter(|x| x.is_finite())
         .collect();
-    let values = super::modifiers::levels_of(&readings);
+    let values = levels_of(&readings);
     if values.len() < 3 {
         return None;
     }
@@ -136,7 +128,7 @@ fn steps(readings: &[f64]) -> Option<Steps> {
 fn digit(values: &[f64]) -> Option<f64> {
     /// A double has no more.
     const PLACES: i32 = 15;
-    let size = super::modifiers::largest(values);
+    let size = largest(values);
     let is_whole = |place: &i32| {
         let times = libm::pow(10.0, f64::from(*place));
         // What is left of a number of 53 bits.
@@ -152,9 +144,10 @@ fn digit(values: &[f64]) -> Option<f64> {
 /// were possible on the way to it.
 fn spacing(values: &[f64], digit: f64) -> Option<(f64, usize)> {
     let digits = |x: f64| (x / digit).round() as i64;
-    let exact = values.windows(2).fold(0, |all, pair| {
-        common(all, digits(pair[1]) - digits(pair[0]))
-    });
+    let steps = values
+        .windows(2)
+        .map(|pair| digits(pair[1]) - digits(pair[0]));
+    let exact = steps.fold(0, common);
     let gaps = values.windows(2).map(|pair| pair[1] - pair[0]);
     let least = gaps.clone().fold(f64::INFINITY, f64::min);
     // A step of few digits is meant where it is possible; steps of less than two digits show as those of the file.
@@ -175,14 +168,11 @@ fn spacing(values: &[f64], digit: f64) -> Option<(f64, usize)> {
             let first = ((far - slack) / high).ceil().max(1.0);
             let last = ((far + slack) / low).floor();
             let numbers = (0..).map(move |more| first + f64::from(more));
-            numbers
-                .take_while(move |times| *times <= last)
-                .map(move |times| {
-                    (
-                        low.max((far - slack) / times),
-                        high.min((far + slack) / times),
-                    )
-                })
+            let numbers = numbers.take_while(move |times| *times <= last);
+            numbers.map(move |times| {
+                let (from, to) = ((far - slack) / times, (far + slack) / times);
+                (low.max(from), high.min(to))
+            })
         };
         possible = possible.iter().flat_map(held).take(POSSIBLE + 1).collect();
         tried = tried.max(possible.len());
@@ -191,10 +181,7 @@ fn spacing(values: &[f64], digit: f64) -> Option<(f64, usize)> {
         }
     }
     let (low, high) = possible.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some((
-        super::modifiers::rounded(0.5 * (low + high), high - low),
-        tried,
-    ))
+    Some((rounded(0.5 * (low + high), high - low), tried))
 }
 
 /// The largest whole number that divides both; zero is divided by all.

@@ -1,25 +1,22 @@
 //! How the response to the stimuli may differ from the declared one: powers, modulus, limits, cross terms,
 //! lag.
 
-use super::building::{course, form, on_node, on_output, time_constants, words};
+use super::building::{cell, course, form, on_node, on_output, pair, time_constants, timed};
+use super::conditions::on_offset;
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{
-    Course, creeps, delayed, figure, five_digits, grid, levels_of, map, map2, mean, range,
+    Course, creeps, delayed, figure, five_digits, grid, largest, levels_of, map, map2, mean, range,
 };
 use super::norm::Norm;
 use super::powers::Power;
 use super::sharp::{best_pair, sharpened, size_of};
-use super::{Cell, EffectId, Modifier, Term, Variation, Words};
+use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
-use crate::diagnose::evidence::Place;
 
 /// Cells of the columns that the model uses.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
-    let used: Vec<usize> = fitted
-        .numeric()
-        .into_iter()
-        .filter(|c| fitted.in_model(*c))
-        .collect();
+    let mut used = fitted.numeric();
+    used.retain(|column| fitted.in_model(*column));
     let implicit = (0..fitted.case().responses.len()).all(|r| fitted.is_implicit(r));
     if implicit || Norm::of(fitted).is_some() {
         return super::implicit::cells(fitted, &used);
@@ -58,16 +55,10 @@ fn aside(fitted: &FittedModel<'_>, factors: &[usize]) -> Vec<Cell> {
         }
     }
     let of_vector = |vector: &Vec<usize>| {
-        let names: Vec<&str> = vector.iter().map(|c| name(fitted, *c)).collect();
-        let names = names.join(", ");
         let each = vector.iter().map(|column| fitted.centred(*column));
-        let id = match fitted.case().columns[vector[0]].role {
-            _ if fitted.is_temperature(vector[0]) => EffectId::TempcoBias,
-            Role::Stimulus => EffectId::CrossSensitivity,
-            _ => EffectId::Sensitivity,
-        };
+        let id = on_offset(fitted, vector[0]);
         let form = form("", each.collect());
-        on_node(fitted, id, &names, Node::Output, [form])
+        on_node(fitted, id, &fitted.names(vector), Node::Output, [form])
     };
     vectors.iter().map(of_vector).collect()
 }
@@ -93,7 +84,7 @@ fn exponent(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     if !steady || (least - 1.0).abs() < SAME || least.abs() < WEAK {
         return None;
     }
-    let label = name(fitted, column);
+    let label = fitted.label(column);
     let middle = five_digits(libm::exp(mean(&map(x, libm::log))));
     let modifier = map(x, |x| libm::log(x / middle));
     let text = format!("ln({label}/({}))", fitted.figure(column, middle));
@@ -107,18 +98,15 @@ fn exponent(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
 fn bends(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     /// Through fewer values a cube goes anyhow.
     const VALUES: usize = 5;
-    let columns = &fitted.case().columns;
-    let used = |c: &usize| fitted.in_model(*c) && columns[*c].role == Role::Stimulus;
-    let has_cosines = (0..columns.len())
-        .filter(used)
-        .any(|c| columns[c].unit.is_one());
+    let has_cosines =
+        (fitted.used(Role::Stimulus)).any(|column| fitted.case().columns[column].unit.is_one());
     let x = fitted.numbers(column);
     let one_output = fitted.case().responses.len() == 1;
     if has_cosines || !one_output || fitted.is_angle(column) || levels_of(x).len() < VALUES {
         return Vec::new();
     }
-    let size = five_digits(super::modifiers::largest(x));
-    let label = name(fitted, column);
+    let size = five_digits(largest(x));
+    let label = fitted.label(column);
     let power = |id: EffectId, exponent: i32| {
         let modifier = map(x, |x| x * (x / size).powi(exponent - 1));
         let shown = fitted.figure(column, size);
@@ -133,10 +121,6 @@ fn bends(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     vec![power(EffectId::Quadratic, 2), power(EffectId::Cubic, 3)]
 }
 
-fn name<'g>(fitted: &'g FittedModel<'_>, column: usize) -> &'g str {
-    fitted.label(column)
-}
-
 fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let second = if fitted.is_temperature(column) {
         EffectId::TempcoQuadratic
@@ -148,7 +132,7 @@ fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         power(fitted, column, second, square),
         power(fitted, column, EffectId::Cubic, cube),
     ];
-    let (x, label) = (fitted.numbers(column), name(fitted, column));
+    let (x, label) = (fitted.numbers(column), fitted.label(column));
     if fitted.passes_zero(column) {
         let text = format!("abs({label})");
         let modulus = Modifier::new(map(x, f64::abs), text, fitted.step_unit(column));
@@ -163,17 +147,18 @@ fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
 
 fn power(fitted: &FittedModel<'_>, column: usize, id: EffectId, power: Option<Power>) -> Cell {
     let term = power.map(|power| on_output(power.searched).written_as(power.written));
-    let label = name(fitted, column);
     let form = term.map(|term| Variation::one("", term));
-    on_node(fitted, id, label, Node::Output, form)
+    on_node(fitted, id, fitted.label(column), Node::Output, form)
 }
 
 /// A square that levels off, as counting losses of a dead time do, and detectors near their limit.
 fn levelling(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     /// Where the loss is a half, in units of the largest value.
     const HALF: [f64; 3] = [0.5, 1.0, 3.0];
-    let (x, label) = (fitted.numbers(column), name(fitted, column));
-    let most = super::modifiers::largest(x);
+    /// Values that never come down to this share of the largest show no more than a square.
+    const LOW: f64 = 0.3;
+    let (x, label) = (fitted.numbers(column), fitted.label(column));
+    let most = largest(x);
     let term = |half: f64| {
         let modifier = map(x, |x| x * x / (1.0 + x.abs() / half));
         let shown = fitted.figure(column, half);
@@ -181,7 +166,8 @@ fn levelling(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
         let unit = fitted.step_unit(column);
         on_output(Modifier::new(modifier, text, unit.product(&unit)))
     };
-    if x.iter().any(|x| *x < 0.0) || least_share(x) >= 0.3 {
+    let (least, greatest) = range(x);
+    if least < 0.0 || least / greatest >= LOW {
         return Vec::new();
     }
     let halves = sharpened(fitted, HALF.map(|part| part * most).into(), &term);
@@ -194,12 +180,6 @@ fn levelling(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     halves.map(variant).collect()
 }
 
-/// The smallest value as a share of the largest.
-fn least_share(x: &[f64]) -> f64 {
-    let (least, most) = range(x);
-    least / most
-}
-
 fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     /// How many times slower the slower of two bodies is.
     const APART: [f64; 2] = [4.0, 12.0];
@@ -207,7 +187,7 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         return Vec::new();
     }
     let slowest = fitted.clock.span();
-    let (x, label) = (fitted.numbers(column), name(fitted, column));
+    let (x, label) = (fitted.numbers(column), fitted.label(column));
     let t = &fitted.clock.values;
     let unit = fitted.time_unit();
     let node = Node::Column(column);
@@ -219,72 +199,60 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let lacking = |course: Course, tau: f64| {
         let modifier = map2(&course.late(t, x, &[], tau), x, |late, x| late - x);
         let text = format!("(lag({label}, {tau} {unit}) - {label})", tau = figure(tau));
-        Term::new(
-            node,
-            Modifier::new(modifier, text, fitted.step_unit(column)),
-        )
+        let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
+        Term::new(node, modifier)
     };
     let course = course(fitted, x, &lacking);
     let lacks = |tau: f64| lacking(course, tau);
     let scales = sharpened(fitted, time_constants(fitted), &lacks);
     let singles = fitted.finer.times(scales.clone());
-    let single = singles.iter().map(|tau| {
-        let label = format!("τ = {} {unit}", figure(*tau));
-        Variation::one(label, lacks(*tau)).shaped("τ", *tau, &unit)
-    });
+    let single = singles
+        .iter()
+        .map(|tau| timed(fitted, &[*tau], vec![lacks(*tau)]));
+    let both =
+        |quick: f64, slow: f64| timed(fitted, &[quick, slow], vec![lacks(quick), lacks(slow)]);
     // Two bodies, one in the other.
     let double = scales.iter().step_by(2).flat_map(|tau| {
         let slower = APART.map(|times| times * tau);
         let slower = slower.into_iter().filter(|slow| *slow <= slowest);
-        slower.map(|slow| {
-            let label = format!("τ = {} and {} {unit}", figure(*tau), figure(slow));
-            Variation::of(label, vec![lacks(*tau), lacks(slow)])
-        })
+        slower.map(|slow| both(*tau, slow))
     });
-    let free = best_pair(fitted, &scales, &lacks).map(|(quick, slow)| {
-        let label = format!("τ = {} and {} {unit}", figure(quick), figure(slow));
-        Variation::of(label, vec![lacks(quick), lacks(slow)])
-    });
+    let free = best_pair(fitted, &scales, &lacks).map(|(quick, slow)| both(quick, slow));
     // What the recording begins with was on its way already.
     let began = t.first().copied().unwrap_or(0.0);
     let unbalanced = scales.iter().filter(|_| creeps(x)).map(|tau| {
-        let shown = figure(*tau);
         let start = map(t, |t| libm::exp(-(t - began) / tau));
         let since = fitted.time_less(began);
-        let text = format!("exp(-{since}/({shown} {unit}))");
+        let text = format!("exp(-{since}/({} {unit}))", figure(*tau));
         let start = Term::new(node, Modifier::number(start, text));
-        let label = format!("τ = {shown} {unit}, not in balance at the start");
-        Variation::of(label, vec![lacks(*tau), start]).shaped("τ", *tau, &unit)
+        let mut form = timed(fitted, &[*tau], vec![lacks(*tau), start]);
+        form.label += ", not in balance at the start";
+        form
     });
     let variants = single.chain(double).chain(free).chain(unbalanced);
-    let lagged = Cell::new(
-        id,
-        words(fitted, label),
-        Place::new(label, "time"),
-        variants.collect(),
-    );
+    let in_time = |id: EffectId, variants: Vec<Variation>| {
+        let mut cell = cell(fitted, id, node, label, variants);
+        "time".clone_into(&mut cell.place.along);
+        cell
+    };
+    let mut cells = vec![in_time(id, variants.collect())];
+    if !creeps(x) {
+        return cells;
+    }
     let (id, variants) = if fitted.is_temperature(column) {
         let rate = Variation::one("", Term::new(node, fitted.rate(column)));
         (EffectId::TemperatureRate, vec![rate])
     } else {
         (EffectId::TimingSkew, delays(fitted, column))
     };
-    let skew = Cell {
-        effect: id.entry(),
-        variants,
-        ..lagged.clone()
-    };
-    if creeps(x) {
-        vec![lagged, skew]
-    } else {
-        vec![lagged]
-    }
+    cells.push(in_time(id, variants));
+    cells
 }
 
 /// Delays: small ones by the rate of change, and those of more than an interval, in which a course bends, by the course as it
 /// was then less that of now, over the delay. The size is the delay itself.
 fn delays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
-    let (x, label) = (fitted.numbers(column), name(fitted, column));
+    let (x, label) = (fitted.numbers(column), fitted.label(column));
     let t = &fitted.clock.values;
     let unit = fitted.time_unit();
     let longest = (20.0 * fitted.clock.interval()).min(fitted.clock.span() / 20.0);
@@ -322,21 +290,11 @@ fn delays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
 
 fn interaction(fitted: &FittedModel<'_>, x: usize, z: usize) -> Cell {
     let product = form("", vec![fitted.centred_product(x, z)]);
-    let (x, z) = (name(fitted, x), name(fitted, z));
-    let along = format!("{x}, {z}");
-    let cell = on_node(
+    pair(
         fitted,
         EffectId::Interaction,
-        &along,
+        [x, z],
         Node::Output,
         [product],
-    );
-    Cell {
-        words: Words {
-            x: x.to_owned(),
-            z: z.to_owned(),
-            ..cell.words
-        },
-        ..cell
-    }
+    )
 }

@@ -5,10 +5,11 @@ use std::collections::BTreeSet;
 use nalgebra::{DMatrix, DVector};
 
 use super::absorbed::Absorbed;
-use super::building::{on_output, plain};
+use super::building::{cell, on_output, plain};
 use super::fitted::{FittedModel, Node};
+use super::levels::{Factor, factors};
+use super::modifiers::map;
 use super::{Cell, EffectId, Modifier, Term, Variation, tied};
-use crate::diagnose::evidence::Place;
 
 /// Longer recordings are not searched row by row.
 const MOST: usize = 800;
@@ -25,11 +26,12 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     }
     let outliers = blocks.iter().map(|rows| {
         let terms = (0..fitted.case().responses.len()).map(|response| {
-            on_output(Modifier::number(
-                only(fitted, rows, 1.0),
-                format!("[{}]", named(fitted, rows)),
-            ))
-            .on(response)
+            let mut modifier = vec![0.0; fitted.rows()];
+            for row in rows {
+                modifier[*row] = 1.0;
+            }
+            let text = format!("[{}]", named(fitted, rows));
+            on_output(Modifier::number(modifier, text)).on(response)
         });
         Variation::of(named(fitted, rows), terms.collect())
     });
@@ -49,26 +51,14 @@ fn named(fitted: &FittedModel<'_>, rows: &[usize]) -> String {
     }
 }
 
-fn only(fitted: &FittedModel<'_>, rows: &[usize], value: f64) -> Vec<f64> {
-    let mut modifier = vec![0.0; fitted.rows()];
-    for row in rows {
-        modifier[*row] = value;
-    }
-    modifier
-}
-
 /// Rows with each other's output: successive ones, and among those that agree worst with the others any two.
 fn swapped(fitted: &FittedModel<'_>) -> Cell {
     let deleted = Deleted::new(fitted);
     let rows = fitted.rows();
     let mut pairs: BTreeSet<[usize; 2]> = (1..rows).map(|row| [row - 1, row]).collect();
     let worst = deleted.worst();
-    pairs.extend(
-        worst
-            .iter()
-            .flat_map(|a| worst.iter().map(|b| [*a, *b]))
-            .filter(|[a, b]| a < b),
-    );
+    let of_worst = worst.iter().flat_map(|a| worst.iter().map(|b| [*a, *b]));
+    pairs.extend(of_worst.filter(|[a, b]| a < b));
     let variants = pairs.into_iter().map(|pair| {
         let [first, second] = pair;
         let label = format!("rows {} and {}", first + 1, second + 1);
@@ -125,7 +115,7 @@ impl<'g, 'f> Deleted<'g, 'f> {
         let left = DMatrix::identity(places.len(), places.len()) - &hat;
         // Rows without which a parameter is not determined say nothing of themselves.
         let determined = left.symmetric_eigenvalues().min() > UNDETERMINED;
-        let residuals = DVector::from_fn(places.len(), |i, _| self.rest[places[i]]);
+        let residuals = self.rest.select_rows(places);
         let solved = determined.then(|| left.lu().solve(&residuals)).flatten();
         solved.map_or_else(|| DVector::zeros(places.len()), |solved| hat * solved)
     }
@@ -146,14 +136,11 @@ impl<'g, 'f> Deleted<'g, 'f> {
     fn worst(&self) -> Vec<usize> {
         let rows = self.fitted.rows();
         let mut squares = vec![0.0; rows];
-        let distances: Vec<Vec<f64>> = (0..rows)
-            .map(|row| {
-                let places = self.places(&[row]);
-                let bent = self.bent(&places);
-                let of = places.iter().zip(&bent);
-                of.map(|(place, bent)| self.rest[*place] + bent).collect()
-            })
-            .collect();
+        let distances = (0..rows).map(|row| {
+            let places = self.places(&[row]);
+            self.rest.select_rows(&places) + self.bent(&places)
+        });
+        let distances: Vec<DVector<f64>> = distances.collect();
         for response in 0..self.fitted.case().responses.len() {
             let own = || distances.iter().map(|of| of[response] * of[response]);
             let whole: f64 = own().sum();
@@ -171,32 +158,15 @@ impl<'g, 'f> Deleted<'g, 'f> {
 
 /// Labels for which the whole signal may have the wrong sign.
 fn reversed(fitted: &FittedModel<'_>) -> Cell {
-    let mut variants = Vec::new();
-    for column in &fitted.case().columns {
-        let Some(labels) = column.labels() else {
-            continue;
+    let of = |factor: Factor<'_>| -> Vec<Variation> {
+        let turned = |level: &u32| {
+            let label = format!("{} {}", factor.column.name, factor.text(*level));
+            let turned = map(&factor.indicator(*level), |x| -2.0 * x);
+            let modifier = Modifier::number(turned, format!("-2*[{label}]"));
+            Variation::one(label, Term::new(Node::Gain, modifier))
         };
-        let levels = super::levels::present(labels);
-        if levels.len() < 2 || levels.len() * 3 > 2 * fitted.design.blocks.len() {
-            continue;
-        }
-        for level in levels {
-            let own = super::levels::indicator(labels, level);
-            let label = format!("{} {}", column.name, labels.levels[level as usize]);
-            let term = Term::new(
-                Node::Gain,
-                Modifier::number(
-                    own.iter().map(|x| -2.0 * x).collect(),
-                    format!("-2*[{label}]"),
-                ),
-            );
-            variants.push(Variation::one(label, term));
-        }
-    }
-    Cell::new(
-        EffectId::Polarity,
-        super::building::words(fitted, EffectId::Polarity.as_str()),
-        Place::new(fitted.name(Node::Gain), "level"),
-        variants,
-    )
+        factor.levels.iter().map(turned).collect()
+    };
+    let variants = factors(fitted, (2, 3)).flat_map(of).collect();
+    cell(fitted, EffectId::Polarity, Node::Gain, "level", variants)
 }

@@ -32,8 +32,19 @@ impl<'g, 'f> Residuals<'g, 'f> {
         })
     }
 
+    /// Sum of squares that a term takes away from the residuals.
     fn power(&self, term: &Term) -> f64 {
-        power(&self.absorbed, &self.rest, &self.fitted.column(term))
+        /// A regressor of which the parameters leave less than this (squared) is invisible.
+        const LEAST: f64 = 1e-10;
+        let column = self.fitted.column(term);
+        let rest = self.absorbed.rest(&column);
+        let shows = rest.norm_squared() > LEAST * column.norm_squared();
+        let power = along(&rest, &self.rest);
+        if shows && power.is_finite() {
+            power
+        } else {
+            0.0
+        }
     }
 
     fn shows(&self, power: f64) -> bool {
@@ -57,7 +68,7 @@ pub(super) fn sharpened(
         return grid;
     };
     let power = |value: f64| residuals.power(&term(value));
-    let powers: Vec<f64> = grid.iter().map(|value| power(*value)).collect();
+    let powers: Vec<f64> = grid.iter().copied().map(power).collect();
     let best = largest_at(&powers);
     if !residuals.shows(powers[best]) {
         return grid;
@@ -76,10 +87,10 @@ pub(super) fn best(
     let residuals = Residuals::of(fitted)?;
     let powers: Vec<f64> = terms.map(|term| residuals.power(&term)).collect();
     let best = largest_at(&powers);
-    powers
+    let shows = powers
         .get(best)
-        .is_some_and(|power| residuals.shows(*power))
-        .then_some(best)
+        .is_some_and(|power| residuals.shows(*power));
+    shows.then_some(best)
 }
 
 /// The size of a term by itself, where an effect of this kind shows at all.
@@ -155,30 +166,28 @@ fn largest_at(powers: &[f64]) -> usize {
         .unwrap_or(0)
 }
 
-/// Sum of squares that a regressor takes away from the residuals.
-fn power(absorbed: &Absorbed, residuals: &DVector<f64>, column: &DVector<f64>) -> f64 {
-    /// A regressor of which the parameters leave less than this (squared) is invisible.
-    const LEAST: f64 = 1e-10;
-    let rest = absorbed.rest(column);
-    let size = rest.norm_squared();
-    let along = rest.dot(residuals);
-    if size > LEAST * column.norm_squared() && along.is_finite() {
-        along * along / size
-    } else {
-        0.0
-    }
+/// The highest point between two values, on a logarithmic scale.
+fn highest(power: &dyn Fn(f64) -> f64, low: f64, start: f64, high: f64) -> f64 {
+    const SIDES: [f64; 6] = [-0.75, -0.5, -0.25, 0.25, 0.5, 0.75];
+    let within = |centre: f64, by: f64| (centre * libm::exp(by)).max(low).min(high);
+    let reach = libm::log(high / low) / 2.0;
+    summit(power, start, (5, reach), &SIDES, within)
 }
 
-/// The highest point between two values, on a logarithmic scale, by ever narrower scans around a start.
-fn highest(power: &dyn Fn(f64) -> f64, low: f64, start: f64, high: f64) -> f64 {
-    const SCANS: usize = 5;
-    let (mut best, mut height) = (start, power(start));
-    let mut reach = libm::log(high / low) / 2.0;
-    for _ in 0..SCANS {
+/// The highest point by ever narrower scans around a start: so many, the first as far as a reach times the sides.
+pub(super) fn summit(
+    height_at: impl Fn(f64) -> f64,
+    start: f64,
+    (scans, mut reach): (usize, f64),
+    sides: &[f64],
+    step: impl Fn(f64, f64) -> f64,
+) -> f64 {
+    let (mut best, mut height) = (start, height_at(start));
+    for _ in 0..scans {
         let centre = best;
-        for side in [-0.75, -0.5, -0.25, 0.25, 0.5, 0.75] {
-            let at = (centre * libm::exp(side * reach)).max(low).min(high);
-            let here = power(at);
+        for side in sides {
+            let at = step(centre, side * reach);
+            let here = height_at(at);
             if here > height {
                 (best, height) = (at, here);
             }

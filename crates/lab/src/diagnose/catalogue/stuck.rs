@@ -5,7 +5,7 @@ use nalgebra::DVector;
 
 use super::building::{on_output, plain};
 use super::fitted::FittedModel;
-use super::modifiers::{map2, range, typical_step};
+use super::modifiers::{map2, range, spacing, typical_step};
 use super::{Cell, EffectId, Modifier, Variation};
 use crate::diagnose::evidence;
 
@@ -40,21 +40,15 @@ fn of_response(fitted: &FittedModel<'_>, response: usize) -> Vec<Variation> {
     held.map(|(first, last)| {
         let is_such = |row: usize| (first..last).contains(&row);
         let model = beside(fitted, response, &observed, &is_such);
-        let modifier: Vec<f64> = (0..observed.len())
-            .map(|row| match (first..last).contains(&row) {
-                true => observed[first] - model[row],
-                false => 0.0,
-            })
-            .collect();
+        let modifier = (0..observed.len()).map(|row| match is_such(row) {
+            true => observed[first] - model[row],
+            false => 0.0,
+        });
         let [from, to] = [first, last - 1].map(|row| fitted.design.recorded(row));
         let label = format!("rows {} to {}", from.start + 1, to.end);
-        let term = on_output(Modifier::new(
-            modifier,
-            format!("(reading held in {label})"),
-            unit.clone(),
-        ))
-        .on(response);
-        Variation::one(label, term)
+        let text = format!("(reading held in {label})");
+        let modifier = Modifier::new(modifier.collect(), text, unit.clone());
+        Variation::one(label, on_output(modifier).on(response))
     })
     .collect()
 }
@@ -90,12 +84,8 @@ pub(super) fn moves_on(
     let residuals: Vec<f64> = (observed.iter().zip(model)).map(|(y, m)| y - m).collect();
     let there: Vec<f64> = rows.into_iter().map(|row| model[row]).collect();
     let (least, most) = range(&there);
-    let mut values = observed.to_vec();
-    values.sort_by(f64::total_cmp);
-    values.dedup();
-    let gaps = values.windows(2).map(|pair| pair[1] - pair[0]);
-    let step = gaps.fold(f64::INFINITY, f64::min);
-    most - least > FAR * typical_step(&residuals) && most - least > STEPS * step
+    let far = (FAR * typical_step(&residuals)).max(STEPS * spacing(observed));
+    most - least > far
 }
 
 /// The model as the rows have it that are not such.
@@ -109,9 +99,8 @@ pub(super) fn beside(
     let parameters = fitted.case().parameters.len();
     let slopes = fitted.fit.linear.slopes[response].columns(0, parameters);
     let others: Vec<usize> = (0..observed.len()).filter(|row| !is_such(*row)).collect();
-    let rest = DVector::from_fn(others.len(), |row, _| {
-        observed[others[row]] - model[others[row]]
-    });
+    let rest = others.iter().map(|row| observed[*row] - model[*row]);
+    let rest = DVector::from_vec(rest.collect());
     let change = evidence::inverse(&slopes.select_rows(&others)) * rest;
     let moved = slopes * change;
     map2(model, moved.as_slice(), |model, moved| model + moved)

@@ -1,8 +1,8 @@
 //! Laws of time: drift, ageing, warm-up, season, steps.
 
-use super::building::{form, on_node, wave};
+use super::building::{form, on_node, on_output, timed, wave};
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{figure, five_digits, grid, map, range};
+use super::modifiers::{figure, five_digits, flag, grid, map, range};
 use super::sharp::{self, nearly_all, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -15,23 +15,17 @@ const MOST_STEPS: usize = 80;
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let t = &fitted.clock.values;
     let span = fitted.clock.span();
-    if fitted.design.blocks.len() < 6 || span <= 0.0 {
+    if fitted.design.blocks.len() < 6 || span <= 0.0 || !fitted.is_ordered() {
         return Vec::new();
     }
     let along = fitted.along_time();
     let (start, _) = range(t);
     let since = map(t, |t| t - start);
     let began = fitted.time_less(start);
-    if !fitted.is_ordered() {
-        return Vec::new();
-    }
-    let nodes = if fitted.has_signal() {
-        vec![Node::Output, Node::Gain]
-    } else {
-        vec![Node::Output]
-    };
-    let stretches = [EffectId::Stretch, EffectId::StretchScale].into_iter();
-    let stretches = nodes.iter().zip(stretches);
+    let nodes = fitted.offset_and_scale();
+    let stretches = nodes
+        .iter()
+        .zip([EffectId::Stretch, EffectId::StretchScale]);
     let stretches = stretches.filter_map(|(node, id)| stretch(fitted, &along, *node, id));
     let mut cells: Vec<Cell> = stretches.collect();
     let mut add = |ids: &[EffectId], forms: Vec<Variation>| {
@@ -39,44 +33,36 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
             cells.push(on_node(fitted, *id, &along, *node, forms.clone()));
         }
     };
-    let scales = grid(
-        (span * 3e-3).max(fitted.clock.interval()),
-        span / 3.0,
-        2.2,
-        7,
-    );
+    let least = (span * 3e-3).max(fitted.clock.interval());
+    let scales = grid(least, span / 3.0, 2.2, 7);
     let mut drifts = vec![form("", vec![fitted.centred_time()])];
     if fitted.is_timed() {
         let slowing = |scale: f64| {
             let modifier = map(&since, |t| libm::log1p(t / scale));
-            Term::new(Node::Output, Modifier::unnamed(modifier))
+            on_output(Modifier::unnamed(modifier))
         };
         let scales = sharpened(fitted, scales.clone(), &slowing);
         drifts.extend(curved(fitted, &since, &began, &fitted.finer.times(scales)));
     }
     add(&[EffectId::Drift, EffectId::DriftScale], drifts);
-    add(
-        &[EffectId::Step, EffectId::StepScale],
-        steps(fitted, &along),
-    );
+    let steps = steps(fitted, &along);
+    add(&[EffectId::Step, EffectId::StepScale], steps);
     if fitted.is_timed() {
         let unit = fitted.time_unit();
         let decay = |tau: f64| {
             let modifier = map(&since, |t| libm::exp(-t / tau));
             let text = format!("exp(-{began}/({} {unit}))", figure(tau));
-            Modifier::number(modifier, text)
+            on_output(Modifier::number(modifier, text))
         };
-        let warming = |tau: f64| Term::new(Node::Output, decay(tau));
-        let scales = sharpened(fitted, scales, &warming);
+        let scales = sharpened(fitted, scales, &decay);
         let singles = fitted.finer.times(scales.clone());
-        let single = singles.iter().map(|tau| {
-            let label = format!("τ = {} {unit}", figure(*tau));
-            form(label, vec![decay(*tau)]).shaped("τ", five_digits(*tau), &unit)
-        });
+        let single = singles
+            .iter()
+            .map(|tau| timed(fitted, &[five_digits(*tau)], vec![decay(*tau)]));
         // A small body warms in a large one.
         let double = scales.iter().step_by(2).map(|tau| {
-            let label = format!("τ = {} and {} {unit}", figure(*tau), figure(4.0 * tau));
-            form(label, vec![decay(*tau), decay(4.0 * tau)])
+            let terms = vec![decay(*tau), decay(4.0 * tau)];
+            timed(fitted, &[*tau, 4.0 * tau], terms)
         });
         let since_start = started(fitted);
         let anew = since_start.iter().flat_map(|since| {
@@ -95,19 +81,16 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         });
         let decays = single.chain(double).chain(anew).collect();
         add(&[EffectId::WarmUp, EffectId::WarmUpScale], decays);
-        for (id, period, least, most) in [
-            (EffectId::Season, 365.2422 * 86_400.0, 0.75, 60.0),
-            (EffectId::Daily, 86_400.0, 1.0, 60.0),
+        /// A period is told from so much of it on, and up to so many.
+        const MOST: f64 = 60.0;
+        for (id, name, seconds, least) in [
+            (EffectId::Season, "1 year", 365.2422 * 86_400.0, 0.75),
+            (EffectId::Daily, "24 h", 86_400.0, 1.0),
         ] {
-            let Some(period) = fitted.seconds().map(|second| period / second) else {
+            let Some(period) = fitted.seconds().map(|second| seconds / second) else {
                 continue;
             };
-            if span >= least * period && span <= most * period {
-                let name = if id == EffectId::Season {
-                    "1 year"
-                } else {
-                    "24 h"
-                };
+            if (least * period..=MOST * period).contains(&span) {
                 let phase = map(&since, |t| std::f64::consts::TAU * t / period);
                 let pair = wave(&phase, &format!("2*pi*{began}/({name})"));
                 add(&[id], vec![form("", pair)]);
@@ -215,7 +198,7 @@ fn step(fitted: &FittedModel<'_>, along: &str, row: usize) -> Variation {
         }
         None => format!("at row {number}"),
     };
-    let after = (0..fitted.rows()).map(|at| f64::from(u8::from(at >= row)));
+    let after = (0..fitted.rows()).map(|at| flag(at >= row));
     let after = Modifier::number(after.collect(), format!("[row >= {number}]"));
     form(label, vec![after])
 }
@@ -228,9 +211,8 @@ fn between(fitted: &FittedModel<'_>, along: &str, stride: usize) -> Option<Varia
         return None;
     }
     let terms = |row: usize| step(fitted, along, row).terms;
-    let starts: Vec<usize> = (2..blocks.len() - 1)
-        .map(|block| blocks[block][0])
-        .collect();
+    let starts = blocks[2..blocks.len() - 1].iter();
+    let starts: Vec<usize> = starts.map(|rows| rows[0]).collect();
     let middle = sharp::best(fitted, &mut starts.iter().flat_map(|row| terms(*row)))?;
     let near = starts[middle.saturating_sub(1)]..starts[(middle + 1).min(starts.len() - 1)];
     let row = near.start + sharp::best(fitted, &mut near.flat_map(terms))?;

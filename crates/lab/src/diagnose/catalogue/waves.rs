@@ -4,9 +4,11 @@
 
 use std::f64::consts::TAU;
 
+use super::angles::harmonic;
 use super::building::{form, on_node, wave};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{correlation, figure, levels_of, map, range, rounded};
+use super::sharp::summit;
 use super::{Cell, EffectId};
 use crate::diagnose::case::Role;
 
@@ -35,13 +37,11 @@ struct Course {
 
 /// One cell for each course.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
-    let mut cells: Vec<Cell> = courses(fitted)
-        .iter()
-        .filter_map(|course| periods(fitted, course))
-        .collect();
+    let courses = courses(fitted).into_iter();
+    let of_courses = courses.filter_map(|course| periods(fitted, &course));
     let turning = super::angles::angles(fitted).into_iter();
-    cells.extend(turning.filter_map(|column| lines(fitted, column)));
-    cells
+    let of_angles = turning.filter_map(|column| lines(fitted, column));
+    of_courses.chain(of_angles).collect()
 }
 
 fn courses(fitted: &FittedModel<'_>) -> Vec<Course> {
@@ -58,16 +58,14 @@ fn courses(fitted: &FittedModel<'_>) -> Vec<Course> {
             false => name.clone(),
         }
     };
-    let mut courses: Vec<Course> = (0..case.columns.len())
-        .filter(|column| case.columns[*column].role == Role::Stimulus && fitted.in_model(*column))
-        .map(|column| Course {
-            name: case.columns[column].name.clone(),
-            words: called(column),
-            unit: fitted.unit(column),
-            column: Some(column),
-            values: fitted.numbers(column).to_vec(),
-        })
-        .collect();
+    let stimuli = fitted.used(Role::Stimulus).map(|column| Course {
+        name: case.columns[column].name.clone(),
+        words: called(column),
+        unit: fitted.unit(column),
+        column: Some(column),
+        values: fitted.numbers(column).to_vec(),
+    });
+    let mut courses: Vec<Course> = stimuli.collect();
     if fitted.is_ordered() && !(0..case.columns.len()).any(|column| goes_on(&column)) {
         courses.push(Course {
             name: fitted.along_time(),
@@ -113,8 +111,9 @@ fn periods(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
     let forms = periods.into_iter().map(|period| {
         let phase = map(&course.values, |x| TAU * (x - least) / period);
         let shown = format!("{} {}", figure(period), course.unit);
-        let argument = format!("2*pi*{began}/({})", shown.trim_end());
-        let label = format!("period {}", shown.trim_end());
+        let shown = shown.trim_end();
+        let argument = format!("2*pi*{began}/({shown})");
+        let label = format!("period {shown}");
         form(label, wave(&phase, &argument)).shaped("P", period, &course.unit)
     });
     let mut cell = on_node(fitted, EffectId::Wave, &course.name, Node::Output, forms);
@@ -153,13 +152,8 @@ fn lines(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let name = fitted.label(column);
     let shows = |k: &u32| f64::from(*k) * (most - least) > FEWEST_PERIODS * TAU;
     let last = u32::try_from((positions - 1) / 2).ok()?;
-    let forms = (super::angles::HIGHEST + 1..=last).filter(shows).map(|k| {
-        let phase = map(&phi, |phi| f64::from(k) * phi);
-        form(
-            format!("{k} per turn"),
-            wave(&phase, &format!("{k}*{name}")),
-        )
-    });
+    let forms = (super::angles::HIGHEST + 1..=last).filter(shows);
+    let forms = forms.map(|k| harmonic(&phi, name, k));
     let id = EffectId::Wave;
     Some(on_node(fitted, id, name, Node::Output, forms))
 }
@@ -167,48 +161,30 @@ fn lines(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
 /// Moves the frequencies next to the highest peaks of the residuals' spectrum onto them: a line between two
 /// frequencies of the grid would leave a part of itself to further explanations.
 fn move_to_peaks(fitted: &FittedModel<'_>, x: &[f64], frequencies: &mut [f64], step: f64) {
+    const SIDES: [f64; 8] = [-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0];
     let power = |frequency: f64| power(fitted, x, frequency);
     let heights: Vec<f64> = frequencies.iter().map(|f| power(*f)).collect();
-    let mut peaks: Vec<usize> = (0..heights.len())
-        .filter(|k| {
-            (*k == 0 || heights[*k] >= heights[*k - 1])
-                && heights.get(*k + 1).is_none_or(|next| heights[*k] >= *next)
-        })
-        .collect();
+    let is_peak = |k: &usize| {
+        (*k == 0 || heights[*k] >= heights[*k - 1])
+            && heights.get(*k + 1).is_none_or(|next| heights[*k] >= *next)
+    };
+    let mut peaks: Vec<usize> = (0..heights.len()).filter(is_peak).collect();
     peaks.sort_by(|a, b| heights[*b].total_cmp(&heights[*a]));
     for peak in peaks.into_iter().take(PEAKS) {
-        frequencies[peak] = summit(power, frequencies[peak], step / 2.0);
+        let (start, reach) = (frequencies[peak], step / 2.0);
+        frequencies[peak] = summit(power, start, (6, reach), &SIDES, |centre, by| centre + by);
     }
-}
-
-/// The highest point within `reach`, by ever narrower scans.
-fn summit(power: impl Fn(f64) -> f64, start: f64, reach: f64) -> f64 {
-    let (mut best, mut height, mut reach) = (start, power(start), reach);
-    for _ in 0..6 {
-        let centre = best;
-        for side in [-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0] {
-            let at = centre + side * reach;
-            let here = power(at);
-            if here > height {
-                (best, height) = (at, here);
-            }
-        }
-        reach /= 3.0;
-    }
-    best
 }
 
 /// Power of the residuals at a frequency: the sum of squares that a sine and a cosine take away (Lomb and
 /// Scargle), over all responses.
 fn power(fitted: &FittedModel<'_>, x: &[f64], frequency: f64) -> f64 {
     let first = x[0];
-    let waves: Vec<(f64, f64)> = x
-        .iter()
-        .map(|x| {
-            let phase = TAU * frequency * (x - first);
-            (libm::sin(phase), libm::cos(phase))
-        })
-        .collect();
+    let wave = |x: &f64| {
+        let phase = TAU * frequency * (x - first);
+        (libm::sin(phase), libm::cos(phase))
+    };
+    let waves: Vec<(f64, f64)> = x.iter().map(wave).collect();
     let sum = |f: &dyn Fn(&(f64, f64)) -> f64| waves.iter().map(f).sum::<f64>();
     let (ss, cc, sc) = (
         sum(&|w| w.0 * w.0),
@@ -219,15 +195,13 @@ fn power(fitted: &FittedModel<'_>, x: &[f64], frequency: f64) -> f64 {
     if determinant <= 1e-6 * ss * cc {
         return 0.0;
     }
+    let of_response = |residuals: &[f64]| {
+        let along = |f: fn(&(f64, f64)) -> f64| -> f64 {
+            waves.iter().zip(residuals).map(|(w, r)| f(w) * r).sum()
+        };
+        let (s, c) = (along(|w| w.0), along(|w| w.1));
+        (cc * s * s - 2.0 * sc * s * c + ss * c * c) / determinant
+    };
     let residuals = fitted.fit.residuals.as_slice();
-    residuals
-        .chunks(x.len())
-        .map(|of_response| {
-            let along = |f: fn(&(f64, f64)) -> f64| -> f64 {
-                waves.iter().zip(of_response).map(|(w, r)| f(w) * r).sum()
-            };
-            let (s, c) = (along(|w| w.0), along(|w| w.1));
-            (cc * s * s - 2.0 * sc * s * c + ss * c * c) / determinant
-        })
-        .sum()
+    residuals.chunks(x.len()).map(of_response).sum()
 }

@@ -2,9 +2,9 @@
 //! a factor of a stimulus, an angle or a time.
 
 use super::absorbed::Absorbed;
-use super::building::{form, on_node, words};
+use super::building::{form, on_node};
 use super::fitted::{FittedModel, Node};
-use super::{Cell, EffectId, Modifier, Words};
+use super::{Cell, EffectId, Modifier, Variation};
 use crate::diagnose::case::Role;
 
 /// Cells of the outputs and of the columns that the model uses; those that its parameters absorb are left
@@ -30,13 +30,9 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         cells.push(cell(fitted, EffectId::FactorOf, node, own));
     }
     let absorbed = Absorbed::by_parameters(fitted);
+    let shows = |variation: &Variation| absorbed.leaves_of(fitted, variation).contains(&true);
     for cell in &mut cells {
-        cell.variants.retain(|variation| {
-            let columns = variation.columns(fitted);
-            columns
-                .column_iter()
-                .any(|column| absorbed.leaves(&column.into_owned()))
-        });
+        cell.variants.retain(shows);
     }
     cells.retain(|cell| !cell.variants.is_empty());
     cells.extend(of_output(fitted, &absorbed, &cells));
@@ -68,13 +64,7 @@ fn of_output(fitted: &FittedModel<'_>, absorbed: &Absorbed, others: &[Cell]) -> 
 }
 
 fn cell(fitted: &FittedModel<'_>, id: EffectId, node: Node, modifier: Modifier) -> Cell {
-    let cell = on_node(fitted, id, "", node, [form("", vec![modifier])]);
-    let words = words(fitted, &fitted.name(node));
-    Cell {
-        words: Words {
-            p: fitted.name(node),
-            ..words
-        },
-        ..cell
-    }
+    let mut cell = on_node(fitted, id, "", node, [form("", vec![modifier])]);
+    cell.words.x = fitted.name(node);
+    cell
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::directions::{shares, visible};
 use super::noise::{Covariance, Factor, Noise};
 use super::refusal::Refusal;
 
@@ -68,7 +69,7 @@ impl Baseline {
     ///
     /// # Errors
     ///
-    /// Sizes that disagree, numbers that are not finite, a covariance matrix that is none, parameters
+    /// Numbers that are not finite, a covariance matrix that is none, parameters
     /// that the recording does not determine, and recordings without a degree of freedom.
     pub fn new(
         jacobian: &DMatrix<f64>,
@@ -77,7 +78,6 @@ impl Baseline {
         prior: &Prior,
     ) -> Result<Baseline, Refusal> {
         let (rows, parameters) = jacobian.shape();
-        check_sizes(jacobian, residuals, noise, prior)?;
         check_finite(jacobian, residuals, prior)?;
         let whitener = Factor::whitening(&noise.covariance)?;
         let draws = factors(&noise.draws)?;
@@ -89,9 +89,10 @@ impl Baseline {
             });
         }
         let whitened = stacked(whitener.times(jacobian), &prior.jacobian);
+        let column = |of: &DVector<f64>| DMatrix::from_columns(std::slice::from_ref(of));
         let response = stacked(
-            whitener.times(&DMatrix::from_column_slice(rows, 1, residuals.as_slice())),
-            &DMatrix::from_column_slice(prior.residuals.len(), 1, prior.residuals.as_slice()),
+            whitener.times(&column(residuals)),
+            &column(&prior.residuals),
         );
         let lengths: Vec<f64> = whitened.column_iter().map(|c| c.norm()).collect();
         let qr = whitened.qr();
@@ -222,28 +223,19 @@ impl Baseline {
 
     /// PWH: what columns of output units leave in the space of z.
     pub fn project(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
-        let whitened = self.whiten(columns);
-        let along = self.absorbed.tr_mul(&whitened);
-        whitened - &self.absorbed * along
+        visible(self, columns).0
     }
 
-    /// Share of the whitened length of a column that the parameters cannot absorb, ‖PWh‖²/‖Wh‖²; zero
+    /// Share of the whitened length of each column that the parameters cannot absorb, ‖PWh‖²/‖Wh‖²; zero
     /// for a column of zeros.
-    pub fn visibility(&self, column: &DVector<f64>) -> f64 {
-        let column = DMatrix::from_column_slice(column.len(), 1, column.as_slice());
-        self.visibilities(&column)[0]
+    pub fn visibilities(&self, columns: &DMatrix<f64>) -> Vec<f64> {
+        let (seen, lengths) = visible(self, columns);
+        shares(&seen, &lengths)
     }
 
-    /// As [`Baseline::visibility`] for every column.
-    pub fn visibilities(&self, columns: &DMatrix<f64>) -> Vec<f64> {
-        let whitened = self.whiten(columns);
-        let along = self.absorbed.tr_mul(&whitened);
-        let seen = &whitened - &self.absorbed * along;
-        let share = |(seen, whole): (f64, f64)| if whole > 0.0 { seen / whole } else { 0.0 };
-        let squares = seen.column_iter().zip(whitened.column_iter());
-        squares
-            .map(|(seen, whole)| share((seen.norm_squared(), whole.norm_squared())))
-            .collect()
+    /// The least of them.
+    pub fn visibility(&self, columns: &DMatrix<f64>) -> f64 {
+        self.visibilities(columns).into_iter().fold(1.0, f64::min)
     }
 
     /// Change of the fitted parameters per unit of each column's coefficient when it is adopted, p × d:
@@ -263,13 +255,9 @@ impl Baseline {
 
     /// Logarithm of |Σ|^(−½)·|JᵀΣ⁻¹J|^(−½): what a restricted likelihood has beside the residuals.
     pub(super) fn log_determinant(&self) -> f64 {
-        let of_parameters = self
-            .inverse
-            .diagonal()
-            .iter()
-            .map(|x| libm::log(x.abs()))
-            .sum::<f64>();
-        self.whitener.log_determinant() + of_parameters
+        let diagonal = self.inverse.diagonal();
+        let of_parameters = diagonal.iter().map(|x| libm::log(x.abs()));
+        self.whitener.log_determinant() + of_parameters.sum::<f64>()
     }
 
     /// With other draws of the covariance matrix, as L with Σ = LLᵀ.
@@ -313,46 +301,20 @@ pub(super) fn factors(draws: &[Covariance]) -> Result<Vec<Arc<Factor>>, Refusal>
     Ok(found)
 }
 
-fn check_sizes(
-    jacobian: &DMatrix<f64>,
-    residuals: &DVector<f64>,
-    noise: &Noise,
-    prior: &Prior,
-) -> Result<(), Refusal> {
-    let (rows, parameters) = jacobian.shape();
-    let sizes = |what| Err(Refusal::Sizes { what });
-    let fits = |covariance: &Covariance| covariance.rows() == rows && covariance.is_square();
-    if residuals.len() != rows {
-        return sizes("residuals");
-    }
-    if !fits(&noise.covariance) || !noise.draws.iter().all(fits) {
-        return sizes("covariance");
-    }
-    if prior.jacobian.ncols() != parameters || prior.jacobian.nrows() != prior.residuals.len() {
-        return sizes("prior");
-    }
-    Ok(())
-}
-
 fn check_finite(
     jacobian: &DMatrix<f64>,
     residuals: &DVector<f64>,
     prior: &Prior,
 ) -> Result<(), Refusal> {
-    let bad = |row: &usize| {
-        !residuals[*row].is_finite() || jacobian.row(*row).iter().any(|x| !x.is_finite())
+    let bad = |jacobian: &DMatrix<f64>, residuals: &DVector<f64>| {
+        let is_finite = |row: usize| {
+            residuals[row].is_finite() && jacobian.row(row).iter().all(|x| x.is_finite())
+        };
+        (0..residuals.len()).find(|row| !is_finite(*row))
     };
-    if let Some(row) = (0..residuals.len()).find(bad) {
-        return Err(Refusal::NotFinite { row });
-    }
-    let bad = |row: &usize| {
-        !prior.residuals[*row].is_finite()
-            || prior.jacobian.row(*row).iter().any(|x| !x.is_finite())
-    };
-    match (0..prior.residuals.len()).find(bad) {
-        Some(row) => Err(Refusal::NotFinite {
-            row: residuals.len() + row,
-        }),
+    let of_prior = || Some(residuals.len() + bad(&prior.jacobian, &prior.residuals)?);
+    match bad(jacobian, residuals).or_else(of_prior) {
+        Some(row) => Err(Refusal::NotFinite { row }),
         None => Ok(()),
     }
 }
@@ -387,7 +349,7 @@ mod tests {
         assert!((baseline.correction() - DVector::from_row_slice(&[1.0, 2.0])).norm() < 1e-12);
         assert!(baseline.chi_squared() < 1e-20);
         assert_eq!(baseline.dof(), 2);
-        let bend = DVector::from_row_slice(&[1.0, -1.0, -1.0, 1.0]);
+        let bend = DMatrix::from_column_slice(4, 1, &[1.0, -1.0, -1.0, 1.0]);
         assert!((baseline.visibility(&bend) - 1.0).abs() < 1e-12);
         // An effect that is a slope: adopting it takes all of it from the parameter.
         let slope = DMatrix::from_column_slice(4, 1, &[0.0, 1.0, 2.0, 3.0]);

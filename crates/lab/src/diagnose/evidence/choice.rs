@@ -7,7 +7,7 @@
 
 use nalgebra::DVector;
 
-use super::findings::{Alternative, Slot};
+use super::findings::Slot;
 use super::fit::{Estimate, estimate};
 use super::question::Question;
 use super::space::{Frame, Space};
@@ -74,13 +74,11 @@ fn second_moment(then: &Estimate, usual: &Estimate) -> DVector<f64> {
 
 /// Blocks that may stand in a slot, with their probabilities.
 fn explanations(space: &Space, slot: &Slot) -> Vec<(usize, f64)> {
-    let of = |alternative: &Alternative| {
+    let all = slot.named.iter().flat_map(|alternative| {
         let probability = alternative.probability;
         let variants = alternative.variants.iter();
-        let all = variants.map(move |variant| (variant.atom, probability * variant.share));
-        all.collect::<Vec<_>>()
-    };
-    let all = slot.named.iter().flat_map(of);
+        variants.map(move |variant| (variant.atom, probability * variant.share))
+    });
     all.filter(|(_, probability)| *probability > NEGLIGIBLE)
         .filter_map(|(atom, probability)| Some((block_of(space, atom)?, probability)))
         .collect()

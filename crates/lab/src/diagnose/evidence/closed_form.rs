@@ -90,15 +90,13 @@ const SIZES: [f64; 13] = [
 impl Ladder {
     /// For the eigenvalues eₖ, which sum to about one.
     pub(super) fn new(eigenvalues: &[f64]) -> Ladder {
+        let step = |s: &f64| Step {
+            half_log_det: 0.5 * eigenvalues.iter().map(|e| libm::log1p(s * e)).sum::<f64>(),
+            weights: eigenvalues.iter().map(|e| s * e / (1.0 + s * e)).collect(),
+        };
         Ladder {
             eigenvalues: eigenvalues.to_vec(),
-            steps: SIZES
-                .iter()
-                .map(|s| Step {
-                    half_log_det: 0.5 * eigenvalues.iter().map(|e| libm::log1p(s * e)).sum::<f64>(),
-                    weights: eigenvalues.iter().map(|e| s * e / (1.0 + s * e)).collect(),
-                })
-                .collect(),
+            steps: SIZES.iter().map(step).collect(),
         }
     }
 
@@ -122,36 +120,24 @@ impl Ladder {
         scale: Scale,
     ) -> f64 {
         let value = |step: &Step| {
-            let fit: f64 = step
-                .weights
-                .iter()
-                .zip(squares.clone())
-                .map(|(weight, square)| weight * square)
-                .sum();
+            let both = step.weights.iter().zip(squares.clone());
+            let fit = both.map(|(weight, square)| weight * square).sum();
             shrunk(fit, step.half_log_det, rss, scale)
         };
-        self.steps
-            .iter()
-            .map(value)
-            .fold(f64::NEG_INFINITY, f64::max)
+        let values = self.steps.iter().map(value);
+        values.fold(f64::NEG_INFINITY, f64::max)
     }
 }
 
 /// As [`Ladder::log_bayes_factor`] for excess scatter in all of m directions.
 pub(super) fn scatter(m: usize, chi_squared: f64, rss: f64, scale: Scale) -> f64 {
     let m = m as f64;
-    SIZES
-        .iter()
-        .map(|s| {
-            let e = s / m;
-            shrunk(
-                e / (1.0 + e) * chi_squared,
-                0.5 * m * libm::log1p(e),
-                rss,
-                scale,
-            )
-        })
-        .fold(f64::NEG_INFINITY, f64::max)
+    let value = |s: &f64| {
+        let e = s / m;
+        let (fit, half_log_det) = (e / (1.0 + e) * chi_squared, 0.5 * m * libm::log1p(e));
+        shrunk(fit, half_log_det, rss, scale)
+    };
+    SIZES.iter().map(value).fold(f64::NEG_INFINITY, f64::max)
 }
 
 fn shrunk(fit: f64, half_log_det: f64, rss: f64, scale: Scale) -> f64 {

@@ -17,7 +17,7 @@ use super::null::{Simulated, side_by_side};
 use super::pairs::Singles;
 use super::question::{Atom, Candidate, Question, Settings};
 use super::refusal::Refusal;
-use super::sequential::{is_settled, look};
+use super::sequential;
 use super::space::{Frame, Space};
 use crate::diagnose::chance::in_proportion;
 
@@ -98,10 +98,8 @@ pub fn contest(
     let alone: Vec<f64> = courses.iter().map(Course::log_posterior).collect();
     let top = maximum(&alone);
     let weights: Vec<f64> = alone.iter().map(|l| libm::exp(l - top)).collect();
-    let null: Vec<Arc<Factor>> = in_proportion(courses, &weights, COURSES)
-        .into_iter()
-        .map(|course| Arc::clone(&course.lower))
-        .collect();
+    let null = in_proportion(courses, &weights, COURSES).into_iter();
+    let null: Vec<Arc<Factor>> = null.map(|course| Arc::clone(&course.lower)).collect();
     let simulated: Vec<Baseline> = (courses.iter())
         .map(|course| course.baseline.clone().with_draws(null.clone()))
         .collect();
@@ -126,9 +124,8 @@ pub fn contest(
             question,
         })
     };
-    let seen: Vec<Seen<'_>> = side_by_side(courses.len(), see)
-        .into_iter()
-        .collect::<Result<_, _>>()?;
+    let seen = side_by_side(courses.len(), see).into_iter();
+    let seen: Vec<Seen<'_>> = seen.collect::<Result<_, _>>()?;
     let with: Vec<f64> = seen.iter().map(|one| one.with).collect();
     let observed = maximum(&with) - top;
     let likely =
@@ -141,31 +138,26 @@ pub fn contest(
 
 /// Probability that the best effect gains as much in recordings with nothing but noise, the course chosen anew in each.
 fn probability(benches: &[Bench<'_>], observed: f64, settings: &Settings) -> f64 {
-    let look = look(settings.alpha);
     let chunks = settings.draws.min(DRAWS).div_ceil(LANES).max(1);
-    let (mut as_much, mut draws) = (0, 0);
-    for start in (0..chunks).step_by(look) {
-        let count = look.min(chunks - start);
+    let mut as_much = 0;
+    let (p, _) = sequential::probability(chunks, settings.alpha, |next| {
         // All courses of one chunk, then those of the next.
-        let each = side_by_side(count * benches.len(), |at| {
-            benches[at % benches.len()].simulated(start + at / benches.len())
+        let each = side_by_side(next.len() * benches.len(), |at| {
+            benches[at % benches.len()].simulated(next.start + at / benches.len())
         });
         for chunk in each.chunks(benches.len()) {
             let gain = |draw: usize| {
-                let best = |which: usize| {
+                let [alone, with] = [0, 1].map(|which| {
                     let own = chunk.iter().map(|own| own[draw][which]);
                     own.fold(f64::NEG_INFINITY, f64::max)
-                };
-                best(1) - best(0)
+                });
+                with - alone
             };
             as_much += (0..LANES).filter(|draw| gain(*draw) >= observed).count();
-            draws += LANES;
         }
-        if is_settled(as_much, draws, settings.alpha) {
-            break;
-        }
-    }
-    (as_much + 1) as f64 / (draws + 1) as f64
+        as_much
+    });
+    p
 }
 
 /// A course with recordings to try it on.

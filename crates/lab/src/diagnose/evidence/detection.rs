@@ -11,7 +11,7 @@ use super::null::{Recordings, Simulated, side_by_side};
 use super::pairs::Pairs;
 use super::question::{Kind, Question};
 use super::remainders::Remainders;
-use super::sequential::{is_settled, look};
+use super::sequential::probability;
 use super::space::{Frame, Space};
 
 /// What the test says.
@@ -51,31 +51,24 @@ pub(super) fn test(
     };
     let alpha = question.settings.alpha;
     let in_turn = |pairs: &Pairs| pairs.singles.observed(space);
+    let of_pairs = |of: &dyn Fn(&Pairs) -> f64| pairs.map_or(f64::NEG_INFINITY, of);
     let observed = [
-        strongest
-            .allowed
-            .max(pairs.map_or(f64::NEG_INFINITY, in_turn)),
-        pairs.map_or(f64::NEG_INFINITY, |pairs| pairs.observed(space)),
+        strongest.allowed.max(of_pairs(&in_turn)),
+        of_pairs(&|pairs| pairs.observed(space)),
     ];
-    let (chunks, look) = (simulated.chunks(), look(alpha));
-    let mut draws: Vec<[f64; 2]> = Vec::new();
-    let mut p = 1.0;
-    for start in (0..chunks).step_by(look) {
-        let count = look.min(chunks - start);
-        let found = side_by_side(count, |i| {
-            panel.simulated(simulated.chunk(start + i), pairs)
+    let mut seen: Vec<[f64; 2]> = Vec::new();
+    let (p, draws) = probability(simulated.chunks(), alpha, |next| {
+        let found = side_by_side(next.len(), |i| {
+            panel.simulated(simulated.chunk(next.start + i), pairs)
         });
-        draws.extend(found.into_iter().flatten());
-        let as_well = as_well_placed(observed, &draws);
-        p = as_well as f64 / (draws.len() + 1) as f64;
-        if is_settled(as_well - 1, draws.len(), alpha) {
-            break;
-        }
-    }
+        seen.extend(found.into_iter().flatten());
+        // Without the observation itself.
+        as_well_placed(observed, &seen) - 1
+    });
     Outcome {
         strongest: Some(strongest.block),
         p,
-        draws: draws.len(),
+        draws,
     }
 }
 
@@ -156,7 +149,7 @@ impl<'a> Panel<'a> {
         recordings: &Recordings,
         pairs: Option<&Pairs>,
     ) -> Vec<[f64; 2]> {
-        let lanes = recordings.errors.nrows();
+        let (space, lanes) = (self.beside.space, recordings.errors.nrows());
         let set = &recordings.errors * &self.frame.basis;
         let residuals = recordings.residuals(&set, self.beside.residual);
         let mut reduced;
@@ -181,7 +174,7 @@ impl<'a> Panel<'a> {
                 }
             }
             let rest = &self.beside.rests[class[0]];
-            let odds = self.beside.log_odds(rest);
+            let odds = space.blocks[rest.block].log_odds;
             for (lane, place) in out.iter_mut().enumerate() {
                 let squares = std::iter::once(fits[lane]);
                 let value = rest.evidence(squares, &residuals[lane]) + odds;
@@ -191,7 +184,7 @@ impl<'a> Panel<'a> {
         for index in &self.generics {
             let rest = &self.beside.rests[*index];
             let turned = self.beside.turned(rest, components);
-            let odds = self.beside.log_odds(rest);
+            let odds = space.blocks[rest.block].log_odds;
             for (lane, place) in out.iter_mut().enumerate() {
                 let squares = (0..turned.ncols()).map(|k| turned[(lane, k)] * turned[(lane, k)]);
                 // What cannot be the most need not be known.
@@ -205,7 +198,7 @@ impl<'a> Panel<'a> {
         if let Some(pairs) = pairs {
             let rss: Vec<f64> = residuals.iter().map(|r| r.rss).collect();
             let values = pairs.simulated(&recordings.components, &rss);
-            let in_turn = (pairs.singles).in_turn(self.beside.space, &recordings.components, &rss);
+            let in_turn = (pairs.singles).in_turn(space, &recordings.components, &rss);
             for ((place, value), two) in out.iter_mut().zip(values).zip(in_turn) {
                 *place = [place[0].max(two), value];
             }

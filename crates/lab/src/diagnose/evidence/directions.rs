@@ -23,10 +23,7 @@ pub fn determined(baseline: &Baseline, columns: &DMatrix<f64>) -> Vec<usize> {
 /// Orthonormal directions of visible columns, from their lengths with what the parameters absorb, and which
 /// columns have one. Remainders a column that shows, one of which a trace is left is not free.
 pub(super) fn own(columns: DMatrix<f64>, mut lengths: Vec<f64>) -> (DMatrix<f64>, Vec<usize>) {
-    let shares = columns.column_iter().zip(&lengths);
-    let shares: Vec<f64> = shares
-        .map(|(column, length)| column.norm_squared() / (length * length))
-        .collect();
+    let shares = shares(&columns, &lengths);
     if shares.iter().any(|share| *share > TRACE) {
         for (length, share) in lengths.iter_mut().zip(shares) {
             if !(share > TRACE) {
@@ -48,7 +45,7 @@ pub(super) fn visible(baseline: &Baseline, columns: &DMatrix<f64>) -> (DMatrix<f
 /// Orthonormal directions of the columns, the column with the greatest remainder first; columns whose
 /// remainder is less than `tolerance` (squared) of `lengths` are left out. Also says which were kept,
 /// in that order.
-pub(super) fn orthonormal(
+pub(in crate::diagnose) fn orthonormal(
     mut columns: DMatrix<f64>,
     lengths: &[f64],
     tolerance: f64,
@@ -89,19 +86,27 @@ pub fn left_beside(columns: &DMatrix<f64>, others: &DMatrix<f64>) -> Vec<f64> {
     const NOTHING: f64 = 1e-24;
     let lengths: Vec<f64> = others.column_iter().map(|c| c.norm()).collect();
     let (basis, _) = orthonormal(others.clone(), &lengths, NOTHING);
-    let left = without(columns, &basis);
-    let share = |(left, whole): (f64, f64)| if whole > 0.0 { left / whole } else { 0.0 };
-    let squares = left.column_iter().zip(columns.column_iter());
-    squares
-        .map(|(left, whole)| share((left.norm_squared(), whole.norm_squared())))
-        .collect()
+    let whole: Vec<f64> = columns.column_iter().map(|c| c.norm()).collect();
+    shares(&without(columns, &basis), &whole)
+}
+
+/// Share of the squared length of each column that is left of it; zero for a column of zeros.
+pub(super) fn shares(left: &DMatrix<f64>, lengths: &[f64]) -> Vec<f64> {
+    let both = left.column_iter().zip(lengths);
+    let share = |(left, length): (nalgebra::DVectorView<'_, f64>, &f64)| match *length > 0.0 {
+        true => left.norm_squared() / (length * length),
+        false => 0.0,
+    };
+    both.map(share).collect()
 }
 
 /// Length of what the best of some variants leaves of each effect, all of them seen beside the parameters.
 pub fn left(effects: &DMatrix<f64>, variants: impl IntoIterator<Item = DMatrix<f64>>) -> Vec<f64> {
     let mut least: Vec<f64> = effects.column_iter().map(|e| e.norm_squared()).collect();
-    for basis in variants.into_iter().map(basis) {
-        let rest = effects - &basis * basis.tr_mul(effects);
+    /// Directions that columns of unit length reach no further have none.
+    const FLAT: f64 = 1e-7;
+    for basis in (variants.into_iter()).map(|columns| span(columns, FLAT)) {
+        let rest = without(effects, &basis);
         for (least, rest) in least.iter_mut().zip(rest.column_iter()) {
             *least = least.min(rest.norm_squared());
         }
@@ -109,10 +114,8 @@ pub fn left(effects: &DMatrix<f64>, variants: impl IntoIterator<Item = DMatrix<f
     least.into_iter().map(f64::sqrt).collect()
 }
 
-/// Orthonormal columns of the same span.
-fn basis(mut columns: DMatrix<f64>) -> DMatrix<f64> {
-    /// Directions that columns of unit length reach no further have none.
-    const FLAT: f64 = 1e-7;
+/// Orthonormal columns of the same span, without directions that columns of unit length reach no further than `flat`.
+pub fn span(mut columns: DMatrix<f64>, flat: f64) -> DMatrix<f64> {
     for mut column in columns.column_iter_mut() {
         let length = column.norm();
         if length > 0.0 {
@@ -121,13 +124,13 @@ fn basis(mut columns: DMatrix<f64>) -> DMatrix<f64> {
     }
     let svd = columns.svd(true, false);
     let kept: Vec<usize> = (0..svd.singular_values.len())
-        .filter(|k| svd.singular_values[*k] > FLAT)
+        .filter(|k| svd.singular_values[*k] > flat)
         .collect();
     svd.u.unwrap_or_default().select_columns(&kept)
 }
 
 /// Columns with what lies along an orthonormal basis taken out.
-pub(super) fn without(columns: &DMatrix<f64>, basis: &DMatrix<f64>) -> DMatrix<f64> {
+pub(in crate::diagnose) fn without(columns: &DMatrix<f64>, basis: &DMatrix<f64>) -> DMatrix<f64> {
     if basis.ncols() == 0 {
         return columns.clone();
     }

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::closed_form::Scale;
 use super::directions::{all, inverse, without};
 use super::findings::{Fitted, Rival};
-use super::question::{Kind, Question, Shape};
+use super::question::{Kind, Question};
 use super::remainders::Remainders;
 use super::space::{Frame, Space};
 use gumption_core::special::normal_cdf;
@@ -38,7 +38,7 @@ pub(super) fn estimate(space: &Space, question: &Question, rest: &Frame, block: 
     let inverse = inverse(&columns);
     let (found, spread) = (&inverse * &space.z, &inverse * inverse.transpose());
     let visible = &columns * &found;
-    let width = width(question, atom.atom);
+    let width = question.atoms[atom.atom].shape.width();
     let mut coefficients = DVector::from_element(width, f64::NAN);
     let mut covariance = DMatrix::from_element(width, width, f64::NAN);
     for (i, a) in atom.kept.iter().enumerate() {
@@ -109,32 +109,24 @@ pub(super) fn fitted(space: &Space, question: &Question, set: &Frame) -> Fitted 
     let mut found = found.iter();
     let mut coefficients = Vec::new();
     for block in set.blocks.iter().map(|b| &space.blocks[*b]) {
-        let mut own = vec![f64::NAN; width(question, block.atom)];
+        let mut own = vec![f64::NAN; question.atoms[block.atom].shape.width()];
         for (at, size) in block.kept.iter().zip(&mut found) {
             own[*at] = *size;
         }
         coefficients.extend(own);
     }
-    let residual = space.residual(set);
     Fitted {
         atoms,
         coefficients: DVector::from_vec(coefficients),
-        chi_squared: residual.chi_squared,
+        chi_squared: space.residual(set).chi_squared,
     }
 }
 
 /// Standard deviation of the noise in whitened units, with its degrees of freedom.
 pub(super) fn noise(space: &Space, set: &Frame) -> (f64, f64) {
-    match space.scale.less(set.basis.ncols()) {
-        Scale::Known => (1.0, f64::INFINITY),
-        Scale::Estimated { total } => ((space.residual(set).rss / total).sqrt(), total),
-    }
-}
-
-/// Number of coefficients of an atom.
-fn width(question: &Question, atom: usize) -> usize {
-    match &question.atoms[atom].shape {
-        Shape::Columns(columns) => columns.ncols(),
-        Shape::Smooth { .. } | Shape::Scatter => 0,
-    }
+    let dof = match space.scale.less(set.basis.ncols()) {
+        Scale::Known => f64::INFINITY,
+        Scale::Estimated { total } => total,
+    };
+    (space.sigma(set), dof)
 }

@@ -20,6 +20,12 @@ pub(in crate::diagnose) fn estimated(rows: usize) -> Noise {
     Noise::with_scale_dof(white(rows).covariance, 0.0)
 }
 
+/// Residuals to which a constant was fitted, with such a noise.
+pub(in crate::diagnose) fn beside_constant(residuals: &DVector<f64>, noise: &Noise) -> Baseline {
+    let ones = DMatrix::from_element(residuals.len(), 1, 1.0);
+    Baseline::new(&ones, residuals, noise, &Prior::none(1)).unwrap()
+}
+
 /// What is asked of some residuals.
 pub(super) struct Asked {
     baseline: Baseline,
@@ -30,9 +36,8 @@ pub(super) struct Asked {
 impl Asked {
     /// Of residuals to which a constant was fitted, with such a noise.
     pub(super) fn of(residuals: &DVector<f64>, noise: &Noise) -> Asked {
-        let ones = DMatrix::from_element(residuals.len(), 1, 1.0);
         Asked {
-            baseline: Baseline::new(&ones, residuals, noise, &Prior::none(1)).unwrap(),
+            baseline: beside_constant(residuals, noise),
             candidates: Vec::new(),
             atoms: Vec::new(),
         }
@@ -43,7 +48,6 @@ impl Asked {
         let own = self.candidates.len();
         self.atoms.extend((variants.into_iter()).map(|shape| Atom {
             candidate: own,
-            variant: String::new(),
             shape,
             share: 1.0,
         }));
@@ -111,14 +115,18 @@ impl Tumble {
         })
     }
 
+    /// Of a recording that is what the parameters say.
     pub(super) fn baseline(&self) -> Baseline {
+        self.baseline_of(&DVector::zeros(self.angles.len()))
+    }
+
+    pub(super) fn baseline_of(&self, residuals: &DVector<f64>) -> Baseline {
         let columns = [
             self.column(|_, _| 1.0),
             self.column(|a, _| a.sin()),
             self.column(|a, _| a.cos()),
         ];
-        let (jacobian, rows) = (DMatrix::from_columns(&columns), self.angles.len());
-        let nothing = DVector::zeros(rows);
-        Baseline::new(&jacobian, &nothing, &white(rows), &Prior::none(3)).unwrap()
+        let (jacobian, noise) = (DMatrix::from_columns(&columns), white(residuals.len()));
+        Baseline::new(&jacobian, residuals, &noise, &Prior::none(3)).unwrap()
     }
 }

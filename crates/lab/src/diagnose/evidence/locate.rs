@@ -8,9 +8,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::baseline::Baseline;
 use super::closed_form::Scale;
+use super::directions::{INVISIBLE, visible};
 use super::null::{Null, side_by_side};
 use super::question::Settings;
-use super::refusal::Refusal;
 
 /// Stage of the random numbers, apart from those of the gate.
 const STAGE: u64 = 0x1_0000_0001;
@@ -43,35 +43,19 @@ pub struct Located {
     pub p: f64,
 }
 
-/// A cell with less than this share of its whitened length (squared) left by the parameters is
-/// invisible.
-const INVISIBLE: f64 = 1e-6;
-
 /// An effect of less than this share of the greatest of its kind is rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// The cells that the recording can show, the one that stands out most first.
-///
-/// # Errors
-///
-/// Columns of wrong length.
-pub fn locate(
-    baseline: &Baseline,
-    cells: &[Cell],
-    settings: &Settings,
-) -> Result<Vec<Located>, Refusal> {
-    if cells.iter().any(|c| c.column.len() != baseline.rows()) {
-        return Err(Refusal::Sizes { what: "cell" });
-    }
+pub fn locate(baseline: &Baseline, cells: &[Cell], settings: &Settings) -> Vec<Located> {
     let mut columns = DMatrix::zeros(baseline.rows(), cells.len());
     for (mut column, cell) in columns.column_iter_mut().zip(cells) {
         column.copy_from(&cell.column);
     }
-    let whole: Vec<f64> = squares(&baseline.whiten(&columns));
-    let mut seen = baseline.project(&columns);
-    let lengths: Vec<f64> = squares(&seen);
+    let (mut seen, whole) = visible(baseline, &columns);
+    let lengths: Vec<f64> = seen.column_iter().map(|c| c.norm_squared()).collect();
     let visible: Vec<usize> = (0..cells.len())
-        .filter(|c| lengths[*c] > INVISIBLE * whole[*c] && excited(cells, *c))
+        .filter(|c| lengths[*c] > INVISIBLE * whole[*c] * whole[*c] && excited(cells, *c))
         .collect();
     for cell in &visible {
         seen.column_mut(*cell)
@@ -79,26 +63,26 @@ pub fn locate(
     }
     let seen = seen.select_columns(&visible);
     let components = seen.tr_mul(baseline.residuals());
-    let scale = scale(baseline, baseline.chi_squared(), nu(baseline));
+    // With a known scale nothing is added.
+    let scale = scale(baseline, baseline.chi_squared(), baseline.scale_dof());
     let null = simulated(baseline, &seen, settings);
-    let mut located: Vec<Located> = visible
-        .iter()
-        .enumerate()
-        .map(|(place, &cell)| {
-            let component = components[place];
-            let statistic = component * component / scale;
-            let above = null.iter().filter(|top| **top >= statistic).count();
-            Located {
-                cell,
-                size: component / lengths[cell].sqrt(),
-                u: (scale / lengths[cell]).sqrt(),
-                chi_squared: component * component,
-                p: (1 + above) as f64 / (1 + null.len()) as f64,
-            }
-        })
-        .collect();
+    let of = |(cell, component): (&usize, &f64)| {
+        let chi_squared = component * component;
+        let above = null
+            .iter()
+            .filter(|top| **top >= chi_squared / scale)
+            .count();
+        Located {
+            cell: *cell,
+            size: component / lengths[*cell].sqrt(),
+            u: (scale / lengths[*cell]).sqrt(),
+            chi_squared,
+            p: (1 + above) as f64 / (1 + null.len()) as f64,
+        }
+    };
+    let mut located: Vec<Located> = visible.iter().zip(&components).map(of).collect();
     located.sort_by(|a, b| b.chi_squared.total_cmp(&a.chi_squared));
-    Ok(located)
+    located
 }
 
 /// Whether a cell has an effect beside those of the same quantity at other levels: cos 90° is not quite
@@ -113,7 +97,7 @@ fn excited(cells: &[Cell], cell: usize) -> bool {
 fn simulated(baseline: &Baseline, seen: &DMatrix<f64>, settings: &Settings) -> Vec<f64> {
     let null = Null::new(baseline, settings.seed, STAGE);
     let chunks = settings.draws.div_ceil(gumption_lanes::LANES).max(1);
-    side_by_side(chunks, |index| {
+    let each = side_by_side(chunks, |index| {
         let recordings = null.along(index, seen);
         let each = recordings.components.row_iter().enumerate();
         let most = each.map(|(lane, components)| {
@@ -121,10 +105,8 @@ fn simulated(baseline: &Baseline, seen: &DMatrix<f64>, settings: &Settings) -> V
             components.amax().powi(2) / scale(baseline, chi_squared, recordings.offsets[lane])
         });
         most.collect::<Vec<f64>>()
-    })
-    .into_iter()
-    .flatten()
-    .collect()
+    });
+    each.concat()
 }
 
 /// The variance that components are compared with: 1 if the noise is known.
@@ -135,77 +117,53 @@ fn scale(baseline: &Baseline, chi_squared: f64, offset: f64) -> f64 {
     }
 }
 
-fn nu(baseline: &Baseline) -> f64 {
-    match Scale::new(baseline.dof(), baseline.scale_dof()) {
-        Scale::Known => 0.0,
-        Scale::Estimated { .. } => baseline.scale_dof(),
-    }
-}
-
-fn squares(columns: &DMatrix<f64>) -> Vec<f64> {
-    columns.column_iter().map(|c| c.norm_squared()).collect()
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::baseline::Prior;
-    use super::super::fixture::white;
+    use std::f64::consts::PI;
+
+    use super::super::fixture::Tumble;
     use super::*;
 
     /// Twelve positions, bias and scale fitted: an angle error at one position is found there, although
     /// the fit smears it.
     #[test]
     fn a_local_disturbance_is_found_in_its_cell() {
-        let rows = 36;
-        let angle = |row: usize| (row % 12) as f64 * std::f64::consts::PI / 6.0;
-        let jacobian = DMatrix::from_fn(rows, 3, |row, j| match j {
-            0 => 1.0,
-            1 => angle(row).sin(),
-            _ => angle(row).cos(),
-        });
-        let node = |name: &str, level: usize, slope: &dyn Fn(f64) -> f64| Cell {
+        let tumble = Tumble::new(12, &[0.0; 3]);
+        // With the rounding of cos 90°.
+        let at = |row: usize, slope: fn(f64) -> f64| slope((row % 12) as f64 * PI / 6.0);
+        let node = |name: &str, level: usize, slope: fn(f64) -> f64| Cell {
             node: name.into(),
             factor: "position".into(),
             level: (level * 30).to_string(),
-            column: DVector::from_fn(rows, |row, _| {
-                if row % 12 == level {
-                    slope(angle(row))
-                } else {
-                    0.0
-                }
+            column: DVector::from_fn(36, |row, _| match row % 12 == level {
+                true => at(row, slope),
+                false => 0.0,
             }),
         };
-        let cells: Vec<Cell> = (0..12)
-            .flat_map(|k| [node("bias", k, &|_| 1.0), node("angle", k, &f64::cos)])
-            .collect();
-        let truth = cells
-            .iter()
-            .position(|c| c.node == "bias" && c.level == "210")
-            .expect("a cell");
-        let residuals = DVector::from_fn(rows, |row, _| {
-            if row % 12 == 7 {
-                5.0
-            } else {
-                0.1 * (row as f64 * 1.7).sin()
-            }
+        let cells = (0..12).flat_map(|k| [node("bias", k, |_| 1.0), node("angle", k, f64::cos)]);
+        let cells: Vec<Cell> = cells.collect();
+        let cell = |node: &str, level: &str| {
+            let is_it = |cell: &Cell| cell.node == node && cell.level == level;
+            cells.iter().position(is_it).unwrap()
+        };
+        let truth = cell("bias", "210");
+        let residuals = DVector::from_fn(36, |row, _| match row % 12 == 7 {
+            true => 5.0,
+            false => 0.1 * (row as f64 * 1.7).sin(),
         });
-        let noise = white(rows);
-        let baseline = Baseline::new(&jacobian, &residuals, &noise, &Prior::none(3)).unwrap();
+        let baseline = tumble.baseline_of(&residuals);
         let settings = Settings {
             draws: 512,
             ..Settings::default()
         };
-        let located = locate(&baseline, &cells, &settings).unwrap();
+        let located = locate(&baseline, &cells, &settings);
         // The angle cell of the same position is the same column but for its unit.
         let same = |cell: usize| cells[cell].level == "210";
         assert!(same(located[0].cell) && same(located[1].cell));
         let found = located.iter().find(|l| l.cell == truth).unwrap();
         assert!((found.size - 5.0).abs() < 0.1 && (found.u - (1.0_f64 / 3.0).sqrt()).abs() < 0.2);
         assert!(found.p < 0.003);
-        let idle = cells
-            .iter()
-            .position(|c| c.node == "angle" && c.level == "90")
-            .unwrap();
+        let idle = cell("angle", "90");
         assert!(located.iter().all(|l| l.cell != idle));
     }
 }

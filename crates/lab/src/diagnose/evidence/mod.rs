@@ -93,7 +93,8 @@ mod unsteady;
 
 pub use baseline::{Baseline, Prior, Spread};
 pub use contest::{Contest, Course, contest};
-pub use directions::{TRACE, all, determined, inverse, left, left_beside};
+pub use directions::{TRACE, all, determined, inverse, left, left_beside, span};
+pub(super) use directions::{orthonormal, without};
 pub use examine::examine;
 pub use findings::{Alternative, Examination, Fitted, Level, Rival, Slot, State, Variant, Verdict};
 pub use grades::{Likeness, likeness};

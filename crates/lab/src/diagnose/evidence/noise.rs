@@ -119,17 +119,6 @@ impl Covariance {
             }
         }
     }
-
-    /// Whether its numbers are as many as its rows.
-    pub(super) fn is_square(&self) -> bool {
-        match self {
-            Covariance::Diagonal(_) => true,
-            Covariance::Dense(matrix) => matrix.is_square(),
-            Covariance::Correlated { u, correlation } => {
-                correlation.matrix.shape() == (u.len(), u.len())
-            }
-        }
-    }
 }
 
 /// Lower triangular L with Σ = LLᵀ, or its inverse.

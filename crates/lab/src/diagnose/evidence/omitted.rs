@@ -21,10 +21,9 @@ pub fn omitted(baseline: &Baseline, columns: &DMatrix<f64>, typical: f64) -> DVe
         return DVector::from_element(baseline.parameters(), f64::NAN);
     };
     let spread = factor.solve(&gain.transpose());
-    DVector::from_iterator(
-        baseline.parameters(),
-        (0..baseline.parameters()).map(|j| gain.row(j).transpose().dot(&spread.column(j)).sqrt()),
-    )
+    DVector::from_fn(baseline.parameters(), |j, _| {
+        gain.row(j).transpose().dot(&spread.column(j)).sqrt()
+    })
 }
 
 #[cfg(test)]
@@ -42,10 +41,8 @@ mod tests {
             [1.0, -1.0, 0.0],
         ];
         let jacobian = DMatrix::from_fn(4, 3, |i, j| design[i][j]);
-        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(
-            4,
-            sigma * sigma,
-        )));
+        let variances = DVector::from_element(4, sigma * sigma);
+        let noise = Noise::known(Covariance::Diagonal(variances));
         Baseline::new(&jacobian, &DVector::zeros(4), &noise, &Prior::none(3)).unwrap()
     }
 

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::baseline::Baseline;
-use super::directions::INVISIBLE;
+use super::directions::{INVISIBLE, without};
 use super::question::{Atom, Candidate, Kind, Question, Settings, Shape};
 use super::refusal::Refusal;
 use super::space::{Block, Space};
@@ -40,7 +40,7 @@ pub struct Pair {
     pub rival: usize,
     /// Cosine of the angle between the two.
     pub cosine: f64,
-    /// Coefficient of `atom` that is told from the rival as good as always, κ = 5; `None` for exact
+    /// Coefficient of the atom that is told from the rival as good as always, κ = 5; `None` for exact
     /// aliases.
     pub separable: Option<f64>,
 }
@@ -69,47 +69,34 @@ pub fn visibility(
         settings: Settings::default(),
     };
     let space = Space::new(&question)?;
-    let named: Vec<&Block> = space
-        .blocks
-        .iter()
-        .filter(|block| block.kind() == Kind::Named)
-        .collect();
-    let seen = atoms
-        .iter()
-        .enumerate()
-        .filter_map(|(index, atom)| match &atom.shape {
-            Shape::Columns(columns) => Some(seen(baseline, index, columns)),
-            Shape::Smooth { .. } | Shape::Scatter => None,
-        })
-        .collect();
-    let pairs: Vec<Pair> = named
-        .iter()
-        .filter_map(|block| {
-            named
-                .iter()
-                .filter(|rival| rival.candidate != block.candidate)
-                .filter(|rival| !extends(candidates, rival, block))
-                .map(|rival| pair(block, rival))
-                .max_by(|a, b| a.cosine.total_cmp(&b.cosine))
-        })
-        .collect();
+    let blocks = space.blocks.iter();
+    let named: Vec<&Block> = blocks.filter(|block| block.kind() == Kind::Named).collect();
+    let seen = |(index, atom): (usize, &Atom)| match &atom.shape {
+        Shape::Columns(columns) => Some(seen(baseline, index, columns)),
+        Shape::Smooth { .. } | Shape::Scatter => None,
+    };
+    let nearest = |block: &&Block| {
+        let is_rival = |rival: &&&Block| {
+            rival.candidate != block.candidate && !extends(candidates, rival, block)
+        };
+        let rivals = named
+            .iter()
+            .filter(is_rival)
+            .map(|rival| pair(block, rival));
+        rivals.max_by(|a, b| a.cosine.total_cmp(&b.cosine))
+    };
     Ok(Plan {
-        seen,
+        seen: atoms.iter().enumerate().filter_map(seen).collect(),
         classes: classes(&named),
-        pairs,
+        pairs: named.iter().filter_map(nearest).collect(),
     })
 }
 
 fn seen(baseline: &Baseline, atom: usize, columns: &DMatrix<f64>) -> Seen {
-    let each = |j: usize| columns.column(j).into_owned();
-    let visibility = (0..columns.ncols())
-        .map(|j| baseline.visibility(&each(j)))
-        .fold(1.0, f64::min);
-    let shortest = baseline
-        .project(columns)
-        .column_iter()
-        .map(|c| c.norm())
-        .fold(f64::INFINITY, f64::min);
+    let visibility = baseline.visibility(columns);
+    let seen = baseline.project(columns);
+    let lengths = seen.column_iter().map(|column| column.norm());
+    let shortest = lengths.fold(f64::INFINITY, f64::min);
     Seen {
         atom,
         visibility,
@@ -126,15 +113,11 @@ fn extends(candidates: &[Candidate], more: &Block, less: &Block) -> bool {
 /// The column of `block` that `rival` comes nearest to.
 fn pair(block: &Block, rival: &Block) -> Pair {
     let columns = block.determined();
-    let (length, left) = columns
-        .column_iter()
-        .map(|column| {
-            let along = rival.basis.tr_mul(&column);
-            let left = column - &rival.basis * along;
-            (column.norm(), left.norm())
-        })
-        .min_by(|a, b| (a.1 / a.0).total_cmp(&(b.1 / b.0)))
-        .unwrap_or((1.0, 1.0));
+    let left = without(&columns, &rival.basis);
+    let lengths = columns.column_iter().zip(left.column_iter());
+    let lengths = lengths.map(|(column, left)| (column.norm(), left.norm()));
+    let nearest = lengths.min_by(|a, b| (a.1 / a.0).total_cmp(&(b.1 / b.0)));
+    let (length, left) = nearest.unwrap_or((1.0, 1.0));
     let sine = (left / length).min(1.0);
     Pair {
         atom: block.atom,
@@ -153,16 +136,13 @@ fn classes(named: &[&Block]) -> Vec<Vec<usize>> {
             None => classes.push(vec![block]),
         }
     }
-    classes
-        .into_iter()
-        .filter(|class| class.iter().any(|b| b.candidate != class[0].candidate))
-        .map(|class| class.iter().map(|block| block.atom).collect())
-        .collect()
+    classes.retain(|class| class.iter().any(|b| b.candidate != class[0].candidate));
+    let atoms = |class: &Vec<&Block>| class.iter().map(|block| block.atom).collect();
+    classes.iter().map(atoms).collect()
 }
 
 fn same(a: &Block, b: &Block) -> bool {
-    a.basis.ncols() == b.basis.ncols()
-        && (&a.basis - &b.basis * b.basis.tr_mul(&a.basis)).norm() < ALIAS
+    a.basis.ncols() == b.basis.ncols() && without(&a.basis, &b.basis).norm() < ALIAS
 }
 
 #[cfg(test)]
@@ -184,21 +164,17 @@ mod tests {
     ];
 
     fn plan(tumble: &Tumble) -> Plan {
-        let candidates: Vec<Candidate> = LAWS
-            .iter()
-            .enumerate()
-            .map(|(index, (name, _))| Candidate::plain(name, index))
-            .collect();
-        let atoms: Vec<Atom> = LAWS
-            .iter()
-            .enumerate()
-            .map(|(candidate, (_, law))| Atom {
-                candidate,
-                variant: String::new(),
-                shape: shape(tumble.column(law)),
-                share: 1.0,
-            })
-            .collect();
+        let laws = LAWS.iter().enumerate();
+        let candidates = laws
+            .clone()
+            .map(|(index, (name, _))| Candidate::plain(name, index));
+        let candidates: Vec<Candidate> = candidates.collect();
+        let atoms = laws.map(|(candidate, (_, law))| Atom {
+            candidate,
+            shape: shape(tumble.column(law)),
+            share: 1.0,
+        });
+        let atoms: Vec<Atom> = atoms.collect();
         visibility(&tumble.baseline(), &candidates, &atoms).unwrap()
     }
 
@@ -207,11 +183,11 @@ mod tests {
     }
 
     fn class_of<'a>(plan: &'a Plan, name: &str) -> Vec<&'a str> {
-        plan.classes
-            .iter()
-            .find(|class| class.contains(&index(name)))
-            .map(|class| class.iter().map(|atom| LAWS[*atom].0).collect())
-            .unwrap_or_default()
+        let mut classes = plan.classes.iter();
+        let class = classes.find(|class| class.contains(&index(name)));
+        class.map_or_else(Vec::new, |class| {
+            class.iter().map(|atom| LAWS[*atom].0).collect()
+        })
     }
 
     #[test]

@@ -35,9 +35,6 @@ pub struct Candidate {
     /// The candidate that stands for its cause, itself as a rule: orders of one dependence (proportional,
     /// square) are one answer.
     pub cause: usize,
-    /// Standard deviation of the size of the effect in instruments of this kind, per column in the units
-    /// of the atom's coefficients. Used for what was not adopted, and for warnings, not for naming.
-    pub typical: Option<f64>,
     /// Several of its atoms may act at once: bad rows, jumps.
     pub repeats: bool,
     /// It says what the recording looks like (a jump, a wave, a bad row) and not why: whatever is there may
@@ -56,7 +53,6 @@ impl Candidate {
             family: String::new(),
             place: Place::new("", cause.to_string()),
             cause,
-            typical: None,
             repeats: false,
             describes: false,
             odds: 1.0,
@@ -96,8 +92,6 @@ pub enum Kind {
 pub struct Atom {
     /// Index of its candidate in [`Question::candidates`].
     pub candidate: usize,
-    /// What distinguishes it from the other variants; empty if it is the only one.
-    pub variant: String,
     /// Its effect on the rows.
     pub shape: Shape,
     /// Prior share among the variants of its candidate; shares are normalised to sum to one.

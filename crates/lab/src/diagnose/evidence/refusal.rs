@@ -34,11 +34,6 @@ pub enum Refusal {
         /// The row.
         row: usize,
     },
-    /// Sizes of matrices contradict each other.
-    Sizes {
-        /// Which matrix, for the programmer.
-        what: &'static str,
-    },
     /// The caller asked to stop.
     Cancelled,
 }
@@ -60,7 +55,6 @@ impl std::fmt::Display for Refusal {
             Refusal::AtomNotFinite { atom, row } => {
                 write!(f, "effect {atom} is not finite in row {row}")
             }
-            Refusal::Sizes { what } => write!(f, "sizes of matrices disagree: {what}"),
             Refusal::Cancelled => write!(f, "stopped"),
         }
     }

@@ -52,17 +52,19 @@ impl<'s> Remainders<'s> {
                     (block.form.clone(), DMatrix::identity(a.ncols(), a.ncols()))
                 }
                 Form::Smooth(ladder) => {
-                    let (ladder, turn) = narrowed(ladder, gram)?;
+                    // Only this is left of the matrix of products of its directions.
+                    let (ladder, turn) = scaled(&ladder.roots(), gram)?;
                     (Form::Smooth(ladder), turn)
                 }
             };
-            let idle = turn.nrows() == 0 && !matches!(form, Form::Scatter);
+            let is_scatter = matches!(form, Form::Scatter);
             // Scatter has no shape that could be another one.
-            let resemblance = match form {
-                Form::Scatter => 1.0,
-                _ => a.norm_squared().min(1.0),
+            let resemblance = if is_scatter {
+                1.0
+            } else {
+                a.norm_squared().min(1.0)
             };
-            (!idle).then_some(Remainder {
+            (is_scatter || turn.nrows() > 0).then_some(Remainder {
                 block: index,
                 kind: block.kind(),
                 resemblance,
@@ -105,16 +107,10 @@ impl<'s> Remainders<'s> {
 
     /// The same for recordings one per row: a column for each direction.
     pub(super) fn turned(&self, rest: &Remainder, recordings: &DMatrix<f64>) -> DMatrix<f64> {
-        let own = recordings.columns_range(self.space.places(rest.block));
-        self.turned_own(rest, &own.into_owned())
-    }
-
-    /// As [`Remainders::turned`], with the components along the directions of the block alone.
-    pub(super) fn turned_own(&self, rest: &Remainder, own: &DMatrix<f64>) -> DMatrix<f64> {
         if rest.turn.nrows() == 0 {
-            return DMatrix::zeros(own.nrows(), 0);
+            return DMatrix::zeros(recordings.nrows(), 0);
         }
-        own * rest.turn.transpose()
+        recordings.columns_range(self.space.places(rest.block)) * rest.turn.transpose()
     }
 
     /// Adds the squared components of recordings, one per row, along the directions of a rest.
@@ -149,11 +145,6 @@ impl<'s> Remainders<'s> {
         }
     }
 
-    /// Logarithm of the prior odds of a rest.
-    pub(super) fn log_odds(&self, rest: &Remainder) -> f64 {
-        self.space.blocks[rest.block].log_odds
-    }
-
     /// Score of the set with a block more; `None` where the residuals have no room for it.
     pub(super) fn score(&self, rest: &Remainder, observed: &DVector<f64>) -> Option<f64> {
         let space = self.space;
@@ -163,12 +154,7 @@ impl<'s> Remainders<'s> {
             Kind::Named => {
                 let d = self.frame.basis.ncols() + components.len();
                 let fit = self.frame.fit + components.norm_squared();
-                let prior: f64 = self
-                    .frame
-                    .blocks
-                    .iter()
-                    .map(|b| space.blocks[*b].log_odds)
-                    .sum();
+                let prior = space.prior(self.frame);
                 (d <= space.room()).then(|| named(d, fit, space.rss(), space.scale) + prior + own)
             }
             Kind::Generic => {
@@ -241,11 +227,6 @@ impl Remainder {
     pub(super) fn at_most(&self, sum_of_squares: f64, residual: &Residual) -> f64 {
         self.form.at_most(sum_of_squares, residual)
     }
-}
-
-/// A smooth discrepancy of which only this is left of the matrix of products of its directions.
-fn narrowed(ladder: &Ladder, gram: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
-    scaled(&ladder.roots(), gram)
 }
 
 /// Eigenvalues and components for features that are directions times the roots of their variances.

@@ -5,7 +5,6 @@ use nalgebra::DMatrix;
 use super::directions::left;
 use super::findings::ALONE;
 use super::look_alikes::stays;
-use super::refusal::Refusal;
 use gumption_core::special::normal_cdf;
 
 /// A rival explanation in a design, as it is seen beside the fitted parameters
@@ -46,8 +45,6 @@ pub struct Separability {
 pub struct Worth {
     /// Separability of the two contenders that stay most alike, at their most probable sizes.
     pub kappa: f64,
-    /// These two.
-    pub pair: (usize, usize),
     /// Probability that the truth then stands alone, with a posterior of 99 %.
     pub resolved: f64,
     /// How often it has to be done for κ = 5; ∞ if it never helps.
@@ -75,22 +72,10 @@ const NOTHING: f64 = 1e-6;
 /// Explanations are the same where less than this share of either is left.
 const SAME: f64 = 0.01;
 
-/// Holds explanations against one another in a design.
-///
-/// # Errors
-///
-/// Fewer than two contenders, or matrices that do not belong together.
-pub fn apart(contenders: &[Standing]) -> Result<Separability, Refusal> {
-    let Some(first) = contenders.first().filter(|_| contenders.len() > 1) else {
-        return Err(Refusal::Sizes { what: "contenders" });
-    };
-    let (rows, draws) = first.effects.shape();
-    let fits = |one: &Standing| {
-        one.effects.shape() == (rows, draws) && one.variants.iter().all(|v| v.nrows() == rows)
-    };
-    if draws == 0 || !contenders.iter().all(fits) {
-        return Err(Refusal::Sizes { what: "contenders" });
-    }
+/// Holds explanations against one another in a design; nothing of fewer than two.
+pub fn apart(contenders: &[Standing]) -> Option<Separability> {
+    let first = contenders.first().filter(|_| contenders.len() > 1)?;
+    let draws = first.effects.ncols();
     let lengths = |one: &Standing| one.effects.column_iter().map(|e| e.norm()).collect();
     let effects: Vec<DMatrix<f64>> = contenders.iter().map(|one| one.effects.clone()).collect();
     let columns: Vec<_> = effects.iter().flat_map(|e| e.column_iter()).collect();
@@ -104,17 +89,15 @@ pub fn apart(contenders: &[Standing]) -> Result<Separability, Refusal> {
         let own = |left: &Vec<f64>| left[a * draws..(a + 1) * draws].to_vec();
         by_rival.iter().map(own).collect()
     };
-    Ok(Separability {
+    let stays = |own: &Standing| -> Vec<bool> {
+        let rivals = contenders.iter();
+        rivals
+            .map(|rival| !rival.repeats && own.keeps(&rival.variants))
+            .collect()
+    };
+    Some(Separability {
         left: (0..contenders.len()).map(of).collect(),
-        stays: contenders
-            .iter()
-            .map(|own| {
-                contenders
-                    .iter()
-                    .map(|rival| !rival.repeats && own.keeps(&rival.variants))
-                    .collect()
-            })
-            .collect(),
+        stays: contenders.iter().map(stays).collect(),
         whole: contenders.iter().map(lengths).collect(),
     })
 }
@@ -139,15 +122,13 @@ impl Separability {
     /// If `a` is the truth, what is still to be recorded adds to its log odds over `b` on average half of what
     /// κ² gains, with a variance of the whole of it.
     pub fn worth(&self, prospects: &Prospects<'_>) -> Worth {
-        let mut nearest = (f64::INFINITY, (0, 1));
+        let mut kappa = f64::INFINITY;
         let (mut resolved, mut whole) = (0.0, 0.0);
         for a in 0..self.left.len() {
             let mut doubts = vec![prospects.outside[a]; self.whole[a].len()];
             for b in (0..self.left.len()).filter(|b| prospects.classes[a] != prospects.classes[*b])
             {
-                if self.left[a][b][0] < nearest.0 {
-                    nearest = (self.left[a][b][0], (a, b));
-                }
+                kappa = kappa.min(self.left[a][b][0]);
                 let odds = log_odds(prospects.probabilities[a], prospects.probabilities[b]);
                 let kappas = self.left[a][b].iter().zip(&prospects.before.left[a][b]);
                 for (doubt, (after, before)) in doubts.iter_mut().zip(kappas) {
@@ -162,10 +143,8 @@ impl Separability {
             resolved += prospects.probabilities[a] * sure / doubts.len() as f64;
             whole += prospects.probabilities[a];
         }
-        let kappa = nearest.0;
         Worth {
             kappa,
-            pair: nearest.1,
             resolved: if whole > 0.0 { resolved / whole } else { 0.0 },
             repeats: if kappa > NOTHING {
                 (SEPARATED / kappa).powi(2).max(1.0)
@@ -225,14 +204,17 @@ mod tests {
         effects.map(|effect| baseline.project(&DMatrix::from_columns(&[effect])))
     }
 
-    fn held(columns: &[DMatrix<f64>], sizes: &[f64]) -> Separability {
-        let of = |column: &DMatrix<f64>| Standing {
+    fn standing(column: &DMatrix<f64>, sizes: &[f64]) -> Standing {
+        Standing {
             effects: column * DMatrix::from_row_slice(1, sizes.len(), sizes),
             variants: vec![column.clone()],
             repeats: false,
-        };
-        let standing: Vec<Standing> = columns.iter().map(of).collect();
-        apart(&standing).unwrap()
+        }
+    }
+
+    fn held(columns: &[DMatrix<f64>], sizes: &[f64]) -> Separability {
+        let each = columns.iter().map(|column| standing(column, sizes));
+        apart(&each.collect::<Vec<_>>()).unwrap()
     }
 
     fn worth(mounts: &[f64], sizes: &[f64], probabilities: [f64; 2]) -> Worth {
@@ -273,16 +255,11 @@ mod tests {
     fn a_rival_with_more_variants_is_nearer() {
         let [own, other] = design(&[0.0, 180.0]);
         let left = |variants: Vec<DMatrix<f64>>| {
-            let standing = |column: &DMatrix<f64>, variants| Standing {
-                effects: 5.0 * column,
+            let rival = Standing {
                 variants,
-                repeats: false,
+                ..standing(&other, &[5.0])
             };
-            let both = [
-                standing(&own, vec![own.clone()]),
-                standing(&other, variants),
-            ];
-            apart(&both).unwrap().left[0][1][0]
+            apart(&[standing(&own, &[5.0]), rival]).unwrap().left[0][1][0]
         };
         let mixed = &own + 0.05 * &other;
         assert!(left(vec![other.clone()]) > 5.0);
@@ -329,19 +306,12 @@ mod tests {
         let three = [own.clone(), -&own, other];
         let apart = held(&three, &[4.0]);
         assert!(apart.alike(0, 1) && !apart.alike(0, 2));
-        let before = held(
-            &[
-                design(&[0.0])[0].clone(),
-                -&design(&[0.0])[0],
-                design(&[0.0])[1].clone(),
-            ],
-            &[4.0],
-        );
+        let [own, other] = design(&[0.0]);
+        let before = held(&[own.clone(), -&own, other], &[4.0]);
         let resolved = |classes: &[usize]| {
-            let probabilities = [0.3, 0.3, 0.4];
             let prospects = Prospects {
                 before: &before,
-                probabilities: &probabilities,
+                probabilities: &[0.3, 0.3, 0.4],
                 classes,
                 outside: &[0.0; 3],
             };

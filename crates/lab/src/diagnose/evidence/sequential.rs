@@ -4,14 +4,36 @@
 //! probability; where that is small at one of the looks, more recordings would hardly change the side of α on which p lies
 //! (Clopper and Pearson's interval lies on one side of α).
 
+use std::ops::Range;
+
 use gumption_core::special::{beta_regularized, beta_regularized_upper};
 use gumption_lanes::LANES;
 
 /// Probability, at each look, that a test ends on the wrong side of its level.
 const ERROR: f64 = 1e-3;
 
+/// Probability of what is as extreme as observed, with the recordings behind it: `found` is told which chunks are next, of so
+/// many, and gives how many recordings of all so far are as extreme.
+pub(super) fn probability(
+    chunks: usize,
+    alpha: f64,
+    mut found: impl FnMut(Range<usize>) -> usize,
+) -> (f64, usize) {
+    let look = look(alpha);
+    let (mut as_extreme, mut draws) = (0, 0);
+    for start in (0..chunks).step_by(look) {
+        let next = start..chunks.min(start + look);
+        draws += next.len() * LANES;
+        as_extreme = found(next);
+        if is_settled(as_extreme, draws, alpha) {
+            break;
+        }
+    }
+    ((as_extreme + 1) as f64 / (draws + 1) as f64, draws)
+}
+
 /// Chunks of recordings between two looks: so many that none among them as extreme settles a test of this level.
-pub(super) fn look(alpha: f64) -> usize {
+fn look(alpha: f64) -> usize {
     let draws = libm::log(ERROR) / libm::log1p(-alpha);
     if draws.is_finite() {
         (draws / LANES as f64).ceil().max(1.0) as usize

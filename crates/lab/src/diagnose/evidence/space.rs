@@ -2,7 +2,6 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::baseline::Baseline;
 use super::closed_form::{Ladder, Scale, named, scatter};
 use super::directions::{INVISIBLE, joined, orthonormal, own, visible, without};
 use super::question::{Atom, Kind, Question, Shape};
@@ -64,8 +63,7 @@ pub(super) struct Block {
     pub(super) form: Form,
     /// N × d orthonormal directions; none for scatter.
     pub(super) basis: DMatrix<f64>,
-    /// PWH, N × all columns of a named atom; features times the roots of their variances for a smooth
-    /// one.
+    /// PWH, N × all columns; none but for a named atom.
     pub(super) columns: DMatrix<f64>,
     /// Columns of a named atom that are determined.
     pub(super) kept: Vec<usize>,
@@ -103,23 +101,21 @@ pub(super) struct Frame {
 impl Space {
     pub(super) fn new(question: &Question) -> Result<Space, Refusal> {
         let baseline = question.baseline;
-        let odds = Odds::new(question)?;
+        let odds = Odds::new(question);
         let mut space = Space {
             z: baseline.residuals().clone(),
             blocks: Vec::new(),
             scale: Scale::new(baseline.dof(), baseline.scale_dof()),
             dof: baseline.dof(),
-            offset: if baseline.scale_dof().is_finite() {
-                baseline.scale_dof()
-            } else {
-                0.0
-            },
+            offset: Some(baseline.scale_dof())
+                .filter(|nu| nu.is_finite())
+                .unwrap_or(0.0),
             directions: DMatrix::zeros(0, 0),
             starts: vec![0],
             components: DVector::zeros(0),
         };
         for (index, atom) in question.atoms.iter().enumerate() {
-            check(baseline, index, atom)?;
+            check(index, atom)?;
         }
         // All columns at once: products with few columns spend their time on reading the whitener.
         let (seen, lengths) = visible(baseline, &all_columns(baseline.rows(), question.atoms));
@@ -206,8 +202,13 @@ impl Space {
         if frame.blocks.is_empty() {
             return 0.0;
         }
-        let prior: f64 = frame.blocks.iter().map(|b| self.blocks[*b].log_odds).sum();
-        named(frame.basis.ncols(), frame.fit, self.rss(), self.scale) + prior
+        let directions = frame.basis.ncols();
+        named(directions, frame.fit, self.rss(), self.scale) + self.prior(frame)
+    }
+
+    /// Logarithm of the prior odds of a set.
+    pub(super) fn prior(&self, frame: &Frame) -> f64 {
+        frame.blocks.iter().map(|b| self.blocks[*b].log_odds).sum()
     }
 
     /// λ of all that a set explains.
@@ -265,54 +266,13 @@ impl Block {
         }
     }
 
-    /// Logarithm of the Bayes factor against none, from the components of the residuals along the
-    /// directions of the block.
-    pub(super) fn evidence(
-        &self,
-        components: impl Iterator<Item = f64> + Clone,
-        residual: &Residual,
-    ) -> f64 {
-        let squares = components.map(|c| c * c);
-        self.form.evidence(self.basis.ncols(), squares, residual)
-    }
-
-    /// The block with everything along a basis taken out; `None` if nothing is left.
-    pub(super) fn beside(&self, basis: &DMatrix<f64>) -> Option<Block> {
-        if basis.ncols() == 0 {
-            return Some(self.clone());
-        }
-        let (form, directions) = match &self.form {
-            Form::Scatter => (Form::Scatter, self.basis.clone()),
-            Form::Named => (Form::Named, self.directions_beside(basis)),
-            Form::Smooth(_) => {
-                let (ladder, directions) = smooth(without(&self.columns, basis))?;
-                (Form::Smooth(ladder), directions)
-            }
-        };
-        if directions.ncols() == 0 && !matches!(form, Form::Scatter) {
-            return None;
-        }
-        Some(Block {
-            atom: self.atom,
-            candidate: self.candidate,
-            log_odds: self.log_odds,
-            form,
-            basis: directions,
-            columns: DMatrix::zeros(basis.nrows(), 0),
-            kept: self.kept.clone(),
-        })
-    }
-
+    /// Its directions beside an orthonormal basis.
     fn directions_beside(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
         if basis.ncols() == 0 {
             return self.basis.clone();
         }
-        orthonormal(
-            without(&self.basis, basis),
-            &vec![1.0; self.basis.ncols()],
-            NEAR,
-        )
-        .0
+        let lengths = vec![1.0; self.basis.ncols()];
+        orthonormal(without(&self.basis, basis), &lengths, NEAR).0
     }
 
     /// The determined columns, as they are.
@@ -321,24 +281,12 @@ impl Block {
     }
 }
 
-fn check(baseline: &Baseline, index: usize, atom: &Atom) -> Result<(), Refusal> {
-    let columns = match &atom.shape {
-        Shape::Columns(columns) => columns,
-        Shape::Smooth { features, spectrum } => {
-            if spectrum.len() != features.ncols() || spectrum.iter().any(|e| !(*e > 0.0)) {
-                return Err(Refusal::Sizes { what: "spectrum" });
-            }
-            features
-        }
-        Shape::Scatter => return Ok(()),
-    };
-    if columns.nrows() != baseline.rows() {
-        return Err(Refusal::Sizes { what: "atom" });
-    }
-    match (0..columns.nrows()).find(|row| columns.row(*row).iter().any(|x| !x.is_finite())) {
-        Some(row) => Err(Refusal::AtomNotFinite { atom: index, row }),
-        None => Ok(()),
-    }
+fn check(atom: usize, own: &Atom) -> Result<(), Refusal> {
+    let is_bad =
+        |columns: &DMatrix<f64>, row: usize| columns.row(row).iter().any(|x| !x.is_finite());
+    let columns = own.shape.columns();
+    let bad = columns.and_then(|columns| (0..columns.nrows()).find(|row| is_bad(columns, *row)));
+    bad.map_or(Ok(()), |row| Err(Refusal::AtomNotFinite { atom, row }))
 }
 
 /// The columns of all atoms side by side.
@@ -361,13 +309,9 @@ fn block(
     lengths: &[f64],
 ) -> Option<Block> {
     let rows = columns.nrows();
+    let nothing = || DMatrix::zeros(rows, 0);
     let (form, basis, columns, kept) = match &atom.shape {
-        Shape::Scatter => (
-            Form::Scatter,
-            DMatrix::zeros(rows, 0),
-            DMatrix::zeros(rows, 0),
-            Vec::new(),
-        ),
+        Shape::Scatter => (Form::Scatter, nothing(), nothing(), Vec::new()),
         Shape::Columns(_) => {
             let (basis, kept) = own(columns.clone(), lengths.to_vec());
             if kept.is_empty() {
@@ -385,8 +329,8 @@ fn block(
             }
             // In units in which the whole discrepancy has the size s.
             columns /= columns.norm();
-            let (ladder, basis) = smooth(columns.clone())?;
-            (Form::Smooth(ladder), basis, columns, Vec::new())
+            let (ladder, basis) = smooth(columns)?;
+            (Form::Smooth(ladder), basis, nothing(), Vec::new())
         }
     };
     Some(Block {
@@ -435,21 +379,12 @@ struct Odds {
 }
 
 impl Odds {
-    fn new(question: &Question) -> Result<Odds, Refusal> {
+    fn new(question: &Question) -> Odds {
         let count = question.candidates.len();
         let mut shares = vec![0.0; count];
         let mut kinds: Vec<Option<Kind>> = vec![None; count];
         for atom in question.atoms {
-            let kind = atom.shape.kind();
-            match kinds.get_mut(atom.candidate) {
-                Some(place @ None) => *place = Some(kind),
-                Some(Some(other)) if *other == kind => {}
-                Some(Some(_)) => return Err(Refusal::Sizes { what: "kinds" }),
-                None => return Err(Refusal::Sizes { what: "candidate" }),
-            }
-            if !(atom.share > 0.0) {
-                return Err(Refusal::Sizes { what: "share" });
-            }
+            kinds[atom.candidate] = Some(atom.shape.kind());
             shares[atom.candidate] += atom.share;
         }
         let of = |kind| kinds.iter().filter(|k| **k == Some(kind)).count().max(1) as f64;
@@ -459,11 +394,11 @@ impl Odds {
         }
         let none = libm::exp2(-1.0 / named);
         let odds = (1.0 - none) / none;
-        Ok(Odds {
+        Odds {
             named: libm::log(odds),
             generic: libm::log(odds * GENERIC_ODDS * named / generic),
             shares,
-        })
+        }
     }
 
     fn of(&self, atom: &Atom) -> f64 {

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::closed_form::Scale;
+use super::closed_form::{Ladder, Scale};
 use super::departure::{self, FORM};
 use super::detection::combined;
 use super::directions::{joined, without};
@@ -17,7 +17,7 @@ use super::fit::estimate;
 use super::null::{Simulated, side_by_side};
 use super::question::{Kind, Question};
 use super::remainders::Remainders;
-use super::space::{Block, Form, Frame, Residual, Space, smooth};
+use super::space::{Frame, Residual, Space, smooth};
 
 /// Simulated recordings behind a probability.
 const DRAWS: usize = 2048;
@@ -32,8 +32,20 @@ const DIRECTIONS: usize = 40;
 /// Directions with less than this share of the variance are left out.
 const FAINT: f64 = 1e-4;
 
+/// The competitor that resembles the named atoms: features, of which the covariance matrix is the sum of squares.
+pub(super) struct Unlisted {
+    features: DMatrix<f64>,
+}
+
+impl Unlisted {
+    /// Its directions beside a set, with their evidence; `None` if nothing is left of it.
+    fn beside(&self, frame: &Frame) -> Option<(Ladder, DMatrix<f64>)> {
+        smooth(without(&self.features, &frame.basis))
+    }
+}
+
 /// The competitor that resembles the named atoms; `None` if there are none.
-pub(super) fn unlisted(space: &Space) -> Option<Block> {
+pub(super) fn unlisted(space: &Space) -> Option<Unlisted> {
     let most = (space.blocks.iter())
         .filter(|block| block.kind() == Kind::Named)
         .map(|block| block.log_odds)
@@ -50,17 +62,8 @@ pub(super) fn unlisted(space: &Space) -> Option<Block> {
     if !(whole > 0.0) {
         return None;
     }
-    let columns = condensed(&space.directions, &(weights / whole));
-    let (ladder, basis) = smooth(columns.clone())?;
-    Some(Block {
-        atom: usize::MAX,
-        candidate: usize::MAX,
-        log_odds: 0.0,
-        form: Form::Smooth(ladder),
-        basis,
-        columns,
-        kept: Vec::new(),
-    })
+    let features = condensed(&space.directions, &(weights / whole));
+    (features.ncols() > 0).then_some(Unlisted { features })
 }
 
 /// Few columns M with nearly MMᵀ = Σ w uuᵀ for unit directions u with weights: coordinates along the
@@ -101,18 +104,14 @@ fn condensed(directions: &DMatrix<f64>, weights: &DVector<f64>) -> DMatrix<f64> 
     basis * half
 }
 
-/// A named set against the competitor with the best part of the set.
-#[derive(Debug, Default)]
-pub(super) struct Rivalry {
-    /// By how much the set is better: logarithm of the odds, without prior odds of the competitor. Infinite
-    /// where nothing competes.
-    pub(super) margin: Option<f64>,
-}
+/// A named set against the competitor with the best part of the set: by how much the set is better, as the logarithm of the
+/// odds without prior odds of the competitor; nothing where nothing competes.
+pub(super) struct Rivalry(Option<f64>);
 
 impl Rivalry {
-    pub(super) fn new(space: &Space, named: &[usize], competitor: &Block) -> Rivalry {
+    pub(super) fn new(space: &Space, named: &[usize], competitor: &Unlisted) -> Rivalry {
         let Some(whole) = space.frame(named) else {
-            return Rivalry::default();
+            return Rivalry(None);
         };
         let own = space.score(&whole);
         let count = named.len();
@@ -120,18 +119,20 @@ impl Rivalry {
             let part = (0..count).filter(|i| subset & (1 << i) != 0);
             let part: Vec<usize> = part.map(|i| named[i]).collect();
             let frame = space.frame(&part)?;
-            Some(space.score(&frame) + beside(space, &frame, competitor)?)
+            let (ladder, basis) = competitor.beside(&frame)?;
+            let components = basis.tr_mul(&space.z);
+            Some(
+                space.score(&frame) + evidence(&ladder, components.iter(), &space.residual(&frame)),
+            )
         });
-        Rivalry {
-            margin: rivals.max_by(f64::total_cmp).map(|score| own - score),
-        }
+        Rivalry(rivals.max_by(f64::total_cmp).map(|score| own - score))
     }
 
     /// Whether a set of so many effects stands. Several effects have to be better than one that is not
     /// listed; a single one that is worse would not have passed the gate as complete, and where it is one of
     /// a list, the list and not the set would have to be compared.
     pub(super) fn stands(&self, effects: usize) -> bool {
-        effects < 2 || self.margin.is_none_or(|margin| margin >= 0.0)
+        effects < 2 || self.0.is_none_or(|margin| margin >= 0.0)
     }
 }
 
@@ -143,45 +144,39 @@ impl Rivalry {
 pub(super) fn leftover(
     space: &Space,
     named: &[usize],
-    competitor: &Block,
+    competitor: &Unlisted,
     simulated: &Simulated,
 ) -> f64 {
-    let Some(frame) = space.frame(named) else {
-        return 1.0;
-    };
-    let Some(block) = competitor.beside(&frame.basis) else {
+    let frame = space.frame(named);
+    let beside = frame.and_then(|frame| Some((competitor.beside(&frame)?, frame)));
+    let Some(((ladder, basis), frame)) = beside else {
         return 1.0;
     };
     let residual = space.residual(&frame);
-    let components = block.basis.tr_mul(&space.z);
+    let components = basis.tr_mul(&space.z);
     let in_form = Residual {
         chi_squared: residual.chi_squared - FORM * FORM * frame.fit,
         rss: residual.rss - FORM * FORM * frame.fit,
         ..residual
     };
     let observed = [
-        block.evidence(components.iter().copied(), &residual)
+        evidence(&ladder, components.iter(), &residual)
             - departure::left(FORM, space.strength(&frame)),
         excess(&in_form),
     ];
     let chunks = simulated.chunks().clamp(1, DRAWS / gumption_lanes::LANES);
     let draws: Vec<[f64; 2]> = side_by_side(chunks, |index| {
         let recordings = simulated.chunk(index);
-        let components = &recordings.errors * &block.basis;
+        let components = &recordings.errors * &basis;
         let set = &recordings.errors * &frame.basis;
         let residuals = recordings.residuals(&set, residual);
         let one = |(lane, residual): (usize, &Residual)| {
             let own = components.row(lane);
-            [
-                block.evidence(own.iter().copied(), residual),
-                excess(residual),
-            ]
+            [evidence(&ladder, own.iter(), residual), excess(residual)]
         };
         residuals.iter().enumerate().map(one).collect::<Vec<_>>()
     })
-    .into_iter()
-    .flatten()
-    .collect();
+    .concat();
     combined(observed, &draws)
 }
 
@@ -226,13 +221,8 @@ impl Restated {
                 held > HELD * effect.norm_squared()
             };
             let held = effects.iter().filter(holds).count();
-            let only_again = held > 0 && !says_more(index);
-            let of_effects = if only_again {
-                DISCOUNT * held as f64
-            } else {
-                0.0
-            };
-            (index, of_form + of_effects)
+            let again = if says_more(index) { 0 } else { held };
+            (index, of_form + DISCOUNT * again as f64)
         });
         Restated(again.collect())
     }
@@ -258,9 +248,12 @@ fn excess(residual: &Residual) -> f64 {
     }
 }
 
-fn beside(space: &Space, frame: &Frame, competitor: &Block) -> Option<f64> {
-    let block = competitor.beside(&frame.basis)?;
-    let residual = space.residual(frame);
-    let components = block.basis.tr_mul(&space.z);
-    Some(block.evidence(components.iter().copied(), &residual))
+/// Logarithm of the Bayes factor of the competitor against none, from the components of the residuals.
+fn evidence<'c>(
+    ladder: &Ladder,
+    components: impl Iterator<Item = &'c f64> + Clone,
+    residual: &Residual,
+) -> f64 {
+    let squares = components.map(|c| c * c);
+    ladder.log_bayes_factor(squares, residual.rss, residual.scale)
 }

@@ -35,9 +35,8 @@ pub fn unsteadiness(
     let Some(first) = courses.first() else {
         return Ok(1.0);
     };
-    let observed = courses
-        .iter()
-        .map(|course| kurtosis(course.baseline.residuals().as_slice()));
+    let residuals = courses.iter().map(|course| course.baseline.residuals());
+    let observed = residuals.map(|left| kurtosis(left.as_slice()));
     let observed = observed.fold(0.0, f64::max);
     let laws = factors(noise.laws())?;
     let null = Null::new(&first.baseline, seed, STAGE);
@@ -48,11 +47,8 @@ pub fn unsteadiness(
         // Each law in turn makes some of the recordings.
         let mut errors = DMatrix::zeros(rows, LANES);
         let each = LANES.div_ceil(laws.len());
-        for (at, law) in laws
-            .iter()
-            .enumerate()
-            .take_while(|(at, _)| at * each < LANES)
-        {
+        let in_turn = laws.iter().enumerate();
+        for (at, law) in in_turn.take_while(|(at, _)| at * each < LANES) {
             let own = at * each..((at + 1) * each).min(LANES);
             let plain = normals.view((0, own.start), (rows, own.len())).into_owned();
             errors.columns_range_mut(own).copy_from(&law.times(&plain));
@@ -83,15 +79,12 @@ fn kurtosis(values: &[f64]) -> f64 {
 mod tests {
     use nalgebra::DVector;
 
-    use super::super::baseline::{Baseline, Prior};
-    use super::super::fixture::estimated;
+    use super::super::fixture::{beside_constant, estimated};
     use super::*;
 
     fn p(residuals: &[f64]) -> f64 {
         let noise = estimated(residuals.len());
-        let ones = DMatrix::from_element(residuals.len(), 1, 1.0);
-        let residuals = DVector::from_column_slice(residuals);
-        let baseline = Baseline::new(&ones, &residuals, &noise, &Prior::none(1)).unwrap();
+        let baseline = beside_constant(&DVector::from_column_slice(residuals), &noise);
         let course = Course::new(baseline, &noise.covariance, 0.0).unwrap();
         unsteadiness(&[course], &noise, 1, 0.005).unwrap()
     }

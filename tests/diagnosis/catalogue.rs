@@ -308,7 +308,7 @@ fn a_known_trace_is_held_beside_every_candidate() {
     );
     // Beside the drift the square is seen alone.
     let curve = nearest(&square, std::slice::from_ref(&slope)).unwrap();
-    assert_eq!(curve.pick.id, "quadratic");
+    assert_eq!(curve.pick.id.as_str(), "quadratic");
     assert!(curve.left < 1e-6, "{curve:?}");
     // What the declared parameters or the others hold has no likeness.
     assert!(

@@ -41,14 +41,6 @@ impl<'c> Coarse<'c> {
                 blocks[block].push(at);
             }
         }
-        let linear = Linear {
-            values: (fit.linear.values.iter())
-                .map(|values| means(&pieces, values))
-                .collect(),
-            slopes: (fit.linear.slopes.iter())
-                .map(|slopes| means_of_columns(&pieces, slopes))
-                .collect(),
-        };
         let data = design.case.columns.iter().map(|column| {
             let first = |labels: &Labels| pieces.iter().map(|p| labels.of_row[p.start]).collect();
             column.data.map(|numbers| means(&pieces, numbers), first)
@@ -60,13 +52,15 @@ impl<'c> Coarse<'c> {
         Coarse {
             whole: design.case,
             case: design.case.with(&rows),
+            fit: at_means(&pieces, fit),
             pieces,
             blocks,
-            fit: Fit {
-                linear,
-                ..fit.clone()
-            },
         }
+    }
+
+    /// The model at other values of its parameters, at the means.
+    pub(super) fn at(&self, fit: &Fit) -> Fit {
+        at_means(&self.pieces, fit)
     }
 
     /// The design of the means.
@@ -117,6 +111,19 @@ fn pieces(design: &Design<'_>, block_of: &[Option<usize>]) -> Vec<Range<usize>> 
         }
     }
     pieces
+}
+
+fn at_means(pieces: &[Range<usize>], fit: &Fit) -> Fit {
+    let (values, slopes) = (fit.linear.values.iter(), fit.linear.slopes.iter());
+    Fit {
+        linear: Linear {
+            values: values.map(|values| means(pieces, values)).collect(),
+            slopes: slopes
+                .map(|slopes| means_of_columns(pieces, slopes))
+                .collect(),
+        },
+        ..fit.clone()
+    }
 }
 
 fn means(pieces: &[Range<usize>], values: &[f64]) -> Vec<f64> {

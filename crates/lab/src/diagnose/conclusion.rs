@@ -266,3 +266,26 @@ impl Diagnosis {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_list_that_leaves_much_open_is_of_what_acts_alike() {
+        let slot = |state: State, generic_share: f64| Slot {
+            state,
+            named: Vec::new(),
+            generic: Vec::new(),
+            generic_share,
+            family: None,
+        };
+        assert!(!slot(State::Ambiguous, 0.02).acts_like());
+        assert!(slot(State::Ambiguous, 0.85).acts_like());
+        assert!(slot(State::Like, 0.0).acts_like());
+        assert_eq!(slot(State::Ambiguous, 0.85).doubted(), Some(0.85));
+        assert_eq!(slot(State::Identified, 0.02).doubted(), None);
+        // What has no name that holds is told as that.
+        assert_eq!(slot(State::Unexplained, 0.85).doubted(), None);
+    }
+}

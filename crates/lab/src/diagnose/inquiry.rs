@@ -2,6 +2,7 @@
 //! where the noise is open; more closely, where the parameter of an effect lies between two values of its grid; and where
 //! nothing is found, whether the noise itself changes.
 
+use std::cell::OnceCell;
 use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector};
@@ -9,10 +10,11 @@ use nalgebra::{DMatrix, DVector};
 use super::candidates::{Candidates, baseline, settings};
 use super::case::Case;
 use super::catalogue::{Finer, FittedModel, generics};
+use super::coarse::Coarse;
 use super::design::Design;
 use super::evidence::{self, Baseline, Examination, Located, Settings, TRACE, Verdict};
 use super::failure::Failure;
-use super::fit::Fit;
+use super::fit::{self, Fit};
 use super::noise::{self, Claimed};
 use super::noise_correlation::Courses;
 use super::regions;
@@ -29,7 +31,10 @@ pub(super) struct Declared<'d> {
     pub design: &'d Design<'d>,
     pub fit: &'d Fit,
     /// Both as the catalogue sees them.
-    pub coarse: (&'d Design<'d>, &'d Fit),
+    pub coarse: &'d Coarse<'d>,
+    pub seen: &'d Design<'d>,
+    /// The model at the values of its parameters beside what was found, as the catalogue sees it: where slopes are taken anew.
+    pub again: &'d OnceCell<Fit>,
     /// The residuals with the noise of that fit.
     pub white: &'d Baseline,
 }
@@ -51,6 +56,8 @@ pub(super) struct Inquiry<'i> {
     pub answer: Answer,
     pub settings: Settings,
     declared: Declared<'i>,
+    /// The declared model where its slopes were taken, as the catalogue sees it.
+    fit: &'i Fit,
     /// What the noise may be, where it is open how it is correlated or whether it grows.
     courses: Option<Courses>,
     progress: &'i dyn Fn(f64) -> ControlFlow<()>,
@@ -67,7 +74,7 @@ impl<'i> Inquiry<'i> {
         progress: &'i dyn Fn(f64) -> ControlFlow<()>,
     ) -> Result<Inquiry<'i>, Failure> {
         let settings = settings(declared.case);
-        let (design, fit) = declared.coarse;
+        let (design, fit) = (declared.seen, &declared.coarse.fit);
         let fitted = FittedModel::new(design, fit);
         let mut candidates = Candidates::new(fitted, &claimed, declared.white);
         let answer = candidates.ask(claimed.clone(), &settings, &part(progress, 0.0, 0.4))?;
@@ -81,11 +88,13 @@ impl<'i> Inquiry<'i> {
             answer,
             settings,
             declared,
+            fit,
             courses,
             progress,
         };
         let starts: Vec<Claimed> = [claimed].into_iter().chain(plain).collect();
         inquiry.begin(starts)?;
+        inquiry.linearise_again()?;
         inquiry.sharpen()?;
         inquiry.look_for_unsteady_noise()?;
         Ok(inquiry)
@@ -164,6 +173,41 @@ impl<'i> Inquiry<'i> {
         Ok(answer)
     }
 
+    /// Takes the slopes of the model anew where the parameters are with what was found in it: an effect that bends the fit of a
+    /// nonlinear model is seen there as it is, and beside the declared fit as several.
+    fn linearise_again(&mut self) -> Result<(), Failure> {
+        let (claimed, examination) = (&self.answer.claimed, &self.answer.examination);
+        let Ok(Some((extended, refit))) = self.candidates.adopted_fit(examination, claimed) else {
+            return Ok(());
+        };
+        let Declared { design, fit, .. } = self.declared;
+        let with = Design::new(&extended.case);
+        let value = |name: &str| {
+            let place = with
+                .unknowns
+                .iter()
+                .position(|unknown| unknown.name == name);
+            place.map(|at| refit.unknowns[at])
+        };
+        let declared = design.unknowns.iter().map(|unknown| value(&unknown.name));
+        let Some(values) = declared.collect::<Option<Vec<f64>>>() else {
+            return Ok(());
+        };
+        let moved = fit::at(design, DVector::from_vec(values));
+        if !is_bent(fit, &moved, claimed) {
+            return Ok(());
+        }
+        let moved = (self.declared.again).get_or_init(|| self.declared.coarse.at(&moved));
+        let fitted = FittedModel::new(self.declared.seen, moved);
+        let mut candidates = Candidates::new(fitted, claimed, self.declared.white);
+        let part = part(self.progress, 0.7, 0.7);
+        let answer = candidates.ask(claimed.clone(), &self.settings, &part)?;
+        if answer.examination.fitted.is_some() {
+            (self.candidates, self.answer, self.fit) = (candidates, answer, moved);
+        }
+        Ok(())
+    }
+
     /// Shapes that lie between the steps of a grid: closer and closer.
     fn sharpen(&mut self) -> Result<(), Failure> {
         let is_open = self.answer.claimed.is_estimated() || self.courses.is_some();
@@ -173,8 +217,7 @@ impl<'i> Inquiry<'i> {
                 break;
             }
             let claimed = self.answer.claimed.clone();
-            let (design, fit) = self.declared.coarse;
-            let fitted = FittedModel::new(design, fit).refined(finer.clone());
+            let fitted = FittedModel::new(self.declared.seen, self.fit).refined(finer.clone());
             self.candidates = Candidates::new(fitted, &claimed, self.declared.white);
             let from = 0.7 + 0.1 * f64::from(round);
             self.answer = self.asked(claimed, from, from + 0.05)?;
@@ -197,7 +240,7 @@ impl<'i> Inquiry<'i> {
         let Some(courses) = self.courses.as_ref().filter(|_| is_asked) else {
             return Ok(());
         };
-        let (design, fit) = self.declared.coarse;
+        let (design, fit) = (self.declared.seen, self.fit);
         let with = |correlated| claimed.noise_with(correlated);
         let seen = courses.seen(design, fit, &with)?;
         // Two tests, each with half of the probability of a false alarm.
@@ -249,6 +292,13 @@ impl Answer {
     fn log_posterior(&self) -> f64 {
         self.examination.score + self.baseline.log_likelihood() + self.claimed.log_prior()
     }
+}
+
+/// Whether the model between two values of its parameters departs from its slopes by more than the noise in all.
+fn is_bent(fit: &Fit, moved: &Fit, claimed: &Claimed) -> bool {
+    let straight = &fit.residuals - &fit.jacobian * (&moved.unknowns - &fit.unknowns);
+    let bent = (&moved.residuals - straight).component_div(&claimed.u);
+    bent.iter().all(|x| x.is_finite()) && bent.norm() > 1.0
 }
 
 /// Progress between two shares of the whole.

@@ -2,7 +2,7 @@
 //! found.
 //!
 //! The family is white noise beside a process that forgets within a time constant (autoregressive of the first order; with
-//! the longest ones a random walk), or beside such processes over all time constants in equal parts (flicker). All of them
+//! the longest one, the span of the recording, a random walk), or beside such processes over all time constants in equal parts (flicker). All of them
 //! have the same standard deviation in every row, so that a stated one stays true. Beforehand white noise is as likely as
 //! all others together.
 
@@ -26,8 +26,9 @@ const DRAWS: usize = 16;
 /// Noise is taken for white unless it is so with less than this probability: what is stated of it has to be true. What is open
 /// is in the draws.
 const DOUBT: f64 = 0.05;
-/// Shares of the variance that is remembered. All of it would make rows of the same moment one.
-const SHARES: [f64; 3] = [0.3, 0.6, 0.95];
+/// Shares of the variance that is remembered. All of it would make rows of the same moment one; beside a random walk over the
+/// whole recording the last leaves white noise of less than the steps of the walk in up to 400 rows.
+const SHARES: [f64; 4] = [0.3, 0.6, 0.95, 0.995];
 /// Ratio of successive time constants: between two of them no recording tells.
 const RATIO: f64 = 3.0;
 /// Time constants at most.
@@ -115,7 +116,7 @@ impl Courses {
         let times = design.reduced(&fitted.clock.values);
         let span = fitted.clock.span();
         let interval = span / times.len() as f64;
-        let constants = super::catalogue::modifiers::grid(interval, span / 3.0, RATIO, CONSTANTS);
+        let constants = super::catalogue::modifiers::grid(interval, span, RATIO, CONSTANTS);
         let fading = constants.iter().flat_map(|time_constant| {
             SHARES.map(|share| Memory::Fading {
                 share,

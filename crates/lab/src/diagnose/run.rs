@@ -1,5 +1,6 @@
 //! A diagnosis from end to end: fit, candidates, examination, location, adoption, confirmation.
 
+use std::cell::OnceCell;
 use std::ops::ControlFlow;
 
 use super::adopted::{Adopted, adopt_named};
@@ -91,7 +92,9 @@ pub fn diagnose(
         case,
         design: &design,
         fit: &fit,
-        coarse: (&coarse.design(), &coarse.fit),
+        coarse: &coarse,
+        seen: &coarse.design(),
+        again: &OnceCell::new(),
         white: &white,
     };
     let inquiry = Inquiry::of(declared, claimed, progress)?;

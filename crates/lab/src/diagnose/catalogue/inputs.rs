@@ -11,8 +11,8 @@ use super::fitted::{FittedModel, Node, varies};
 use super::generics::over_signals;
 use super::history::comes_back;
 use super::modifiers::{
-    correlation, creeps, figure, five_digits, largest, late, map, map2, mean_of, play_from, range,
-    rate, recordings,
+    correlation, creeps, crosses_zero, figure, five_digits, largest, late, map, map2, mean_of,
+    play_from, range, rate, recordings,
 };
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -231,7 +231,11 @@ fn powers(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
         };
         cell(fitted, inputs, id, vec![Form::plain("", law)])
     };
-    let mut cells: Vec<Cell> = laws.into_iter().map(one).collect();
+    // What has one sign is no more than a scale.
+    let two_signs = inputs.iter().any(|input| crosses_zero(&input.own));
+    let laws = laws.into_iter();
+    let laws = laws.filter(|(id, ..)| two_signs || *id != EffectId::Asymmetry);
+    let mut cells: Vec<Cell> = laws.map(one).collect();
     // Small inputs are other axes' inputs that leak in: they have no sign of their own.
     let steps = [0.02, 0.1].map(|width: f64| {
         let law = move |input: &Input| {

@@ -287,8 +287,9 @@ impl<'f> Candidates<'f> {
             let takes_all = || {
                 let first = named.variants.first();
                 first.is_some_and(|first| {
+                    let variation = self.variation(first.atom);
                     let (sizes, rows) = (named.estimate.as_slice(), self.fitted.rows());
-                    takes_all(self.variation(first.atom), sizes, rows)
+                    takes_all(variation, sizes, rows) && !is_left(&self.fitted, variation, sizes)
                 })
             };
             is_other || (effect.exact.is_none() && takes_all())
@@ -468,6 +469,16 @@ fn is_explained(
 
 /// Whether sizes leave nothing of a response in some row: a relative change of its scale of −1 or beyond.
 fn takes_all(variation: &Variation, sizes: &[f64], rows: usize) -> bool {
+    let changes = changes_of_scale(variation, sizes, rows);
+    changes.values().flatten().any(|change| *change <= -1.0)
+}
+
+/// The relative change of the scale of each response, or of all, row by row.
+fn changes_of_scale(
+    variation: &Variation,
+    sizes: &[f64],
+    rows: usize,
+) -> BTreeMap<Option<usize>, Vec<f64>> {
     let mut changes = BTreeMap::new();
     let mut coefficient = 0;
     for (number, term) in variation.terms.iter().enumerate() {
@@ -485,7 +496,34 @@ fn takes_all(variation: &Variation, sizes: &[f64], rows: usize) -> bool {
             }
         }
     }
-    changes.values().flatten().any(|change| *change <= -1.0)
+    changes
+}
+
+/// Whether something is left of every response after all: sizes are parts of the signal of the declared model, which rows in another
+/// unit have bent; what it is beside them decides.
+fn is_left(fitted: &FittedModel<'_>, variation: &Variation, sizes: &[f64]) -> bool {
+    if variation.coefficients() != sizes.len() {
+        return false;
+    }
+    let known = |r: f64| if r.is_finite() { r } else { 0.0 };
+    let rest =
+        &fitted.fit.residuals - variation.columns(fitted) * DVector::from_column_slice(sizes);
+    let moved = evidence::inverse(&fitted.fit.jacobian) * rest.map(known);
+    let changes = changes_of_scale(variation, sizes, fitted.rows());
+    let of = |only: &Option<usize>| match only {
+        Some(response) => *response..response + 1,
+        None => 0..fitted.case().responses.len(),
+    };
+    changes.iter().all(|(only, changes)| {
+        of(only).all(|response| {
+            let signal = fitted.signal(response);
+            let beside = fitted.signal_moved(response, &moved);
+            let mut rows = changes.iter().zip(signal).zip(&beside);
+            rows.all(|((change, signal), beside)| {
+                *change * signal == 0.0 || change * signal / beside > -1.0
+            })
+        })
+    })
 }
 
 #[cfg(test)]

@@ -72,6 +72,23 @@ impl<'f> FittedModel<'f> {
         &self.signal[response]
     }
 
+    /// The signal of a response, if the unknowns were moved; as it is where a parameter has several values.
+    pub fn signal_moved(&self, response: usize, moved: &DVector<f64>) -> Vec<f64> {
+        let parameters = &self.case().parameters;
+        let mut signal = self.signal[response].clone();
+        if parameters.iter().any(|parameter| parameter.per.is_some()) {
+            return signal;
+        }
+        let constant = self.constant_terms(response);
+        for parameter in (0..parameters.len()).filter(|p| !constant.contains(p)) {
+            let slope = self.slope(Node::Parameter(parameter), response);
+            for (signal, slope) in signal.iter_mut().zip(slope) {
+                *signal += slope * moved[parameter];
+            }
+        }
+        signal
+    }
+
     /// The signal of a response in a row, if a column had another value there.
     pub fn signal_at(&self, response: usize, row: usize, column: usize, value: f64) -> f64 {
         let case = self.case();

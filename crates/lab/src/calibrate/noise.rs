@@ -131,9 +131,16 @@ fn of_rows(
         let is_missing = |point: &usize| is_read(*point) && !is_positive(own.values[*point]);
         if let Some(point) = (0..points.len()).find(is_missing) {
             let row = points.names.of(point).en;
-            let message = say!("{column} states no standard uncertainty in {row}");
+            let row = row.trim_start_matches("line ");
+            let message = say!("{column} states no standard uncertainty in line {row}");
             let fault = Fault::new(NOISE, place, message);
-            return checker.refuse(fault.label(say!("expected a positive number in each row")));
+            return checker.refuse(
+                fault
+                    .label(say!("expected a positive number in each row"))
+                    .help(say!(
+                        "state it there, or leave the row out: [[left_out]] lines = [{row}], reason = \"…\""
+                    )),
+            );
         }
         let mut doubt = noise(output, unit, (factor, f64::INFINITY));
         doubt.by = Some(column.clone());

@@ -138,7 +138,7 @@ fn of_rows(
                 fault
                     .label(say!("expected a positive number in each row"))
                     .help(say!(
-                        "state it there, or leave the row out: [[left_out]] lines = [{row}], reason = \"…\""
+                        "state it there, or leave the row out: below [[left_out]], lines = [{row}] and a reason"
                     )),
             );
         }

@@ -4,7 +4,7 @@ use gumption_core::quantity::UnitTable;
 use gumption_format::csv::Data;
 use gumption_format::toml::writing::{key, quoted};
 
-use super::Guess;
+use super::guess::Guess;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::procedure::Procedure;
 

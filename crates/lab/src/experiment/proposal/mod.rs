@@ -5,6 +5,7 @@
 //! several axes that are set, the sum of one for each, and of axes that labels turn up and down likewise; around a turn, a wave.
 
 mod asked;
+mod guess;
 mod positions;
 mod roles;
 
@@ -20,6 +21,7 @@ use gumption_format::toml::writing::{key, quoted};
 use super::entries::RoleWord;
 use super::procedure::Procedure;
 use asked::by_procedure;
+use guess::Guess;
 use positions::Positions;
 use roles::{followed, goes_around, is_kin, roles, stretches};
 
@@ -65,14 +67,6 @@ const KNOWN: &str = "\
 # [input.e]                    # an error that all rows share; write it into an equation
 # half_width = 0.001
 ";
-
-/// A column with what it may be.
-struct Guess<'r> {
-    /// As equations can call it.
-    name: String,
-    column: &'r Column,
-    role: RoleWord,
-}
 
 fn guessed(table: &Recording) -> Vec<Guess<'_>> {
     let mut taken = BTreeSet::new();

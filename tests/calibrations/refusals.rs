@@ -100,11 +100,14 @@ fn a_recording_that_is_not_there_is_a_fault_of_the_experiment() {
 #[test]
 fn what_only_a_diagnosis_uses_is_remarked_on() {
     assert_eq!(said(EXPERIMENT), "");
+    // A column of standard uncertainties is used, but not where rows are averaged.
     let column = changed("T = ", "uu = \"u\"\nT = ");
+    assert_eq!(said(&column), "");
+    let averaged = column.replace("average = \"none\"", "steps = \"omega\", fewest = 1");
     assert!(
-        said(&column).contains("`u` of the column uu"),
+        said(&averaged).contains("`u` of the column uu"),
         "{}",
-        said(&column)
+        said(&averaged)
     );
     let walk = EXPERIMENT.to_owned() + "[noise]\nu = \"0.1 mV\"\nwalk = \"0.1 mV\"\n";
     assert!(said(&walk).contains("`walk` of [noise]"), "{}", said(&walk));

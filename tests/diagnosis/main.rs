@@ -9,6 +9,7 @@
 mod common;
 
 mod allan;
+mod bench;
 mod catalogue;
 mod concealed;
 mod design;

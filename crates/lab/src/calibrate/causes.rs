@@ -5,6 +5,7 @@ use nalgebra::DMatrix;
 use super::campaign::{Campaign, Scatter};
 use super::cause::{Cause, Origin};
 use super::gain::Gain;
+use super::points::Points;
 use super::scatter::Scatters;
 use super::stack::{Row, Stack};
 use crate::experiment::{Doubt, Experiment, Scope, Target};
@@ -87,7 +88,10 @@ fn prior(stack: &Stack<'_>, gain: &Gain, row: usize, parameter: usize) -> Option
 fn stated(stack: &Stack<'_>, gain: &Gain, doubt: &Doubt) -> Cause {
     let mut effects: Option<DMatrix<f64>> = None;
     for act in &doubt.acts {
-        let own = gain.by_errors(stack, &act.on, &doubt.scope) * (act.coefficient * doubt.u);
+        let mut own = gain.by_errors(stack, &act.on, &doubt.scope) * (act.coefficient * doubt.u);
+        for (point, mut of_point) in own.column_iter_mut().enumerate() {
+            of_point *= doubt.share(&stack.campaign.points, point);
+        }
         effects = Some(match effects {
             Some(sum) => sum + own,
             None => own,
@@ -108,7 +112,15 @@ fn stated(stack: &Stack<'_>, gain: &Gain, doubt: &Doubt) -> Cause {
 }
 
 impl Doubt {
-    /// Standard uncertainty of a reading of a column by errors that each reading has for itself.
+    /// What multiplies the error at a point: 1 unless a column does.
+    pub(super) fn share(&self, points: &Points, point: usize) -> f64 {
+        let column = self.by.as_ref().and_then(|name| points.column(name));
+        column.map_or(1.0, |column| {
+            column.values.get(point).copied().unwrap_or(0.0)
+        })
+    }
+
+    /// Standard uncertainty of a reading of a column by errors that each reading has for itself, over what a column multiplies.
     pub(super) fn of_each_reading(&self, column: &str) -> f64 {
         if self.scope != Scope::Each {
             return 0.0;

@@ -63,6 +63,8 @@ pub(super) fn remarks(table: &ExperimentTable, names: &Names) -> Vec<Remark> {
     let noise = table.noise.as_ref().map(|noise| &noise.value);
     let of_noise = |is_there: fn(&NoiseTable) -> bool| noise.is_some_and(is_there);
     let columns = entries(&table.columns);
+    let recording = table.recording.as_ref();
+    let samples = recording.is_some_and(|recording| recording.value.0.holds_samples());
     let keys = [
         ("walk", of_noise(|noise| noise.walk.is_some())),
         ("resolution", of_noise(|noise| noise.resolution.is_some())),
@@ -73,9 +75,10 @@ pub(super) fn remarks(table: &ExperimentTable, names: &Names) -> Vec<Remark> {
     });
     let of_columns = columns.iter().filter_map(|(name, entry)| {
         let column = &entry.value.0;
-        let is_u = column.role.as_ref().is_some_and(|role| role.value == RoleWord::Uncertainty);
+        let role = column.role.as_ref().map(|role| role.value);
+        let is_averaged = samples && role == Some(RoleWord::Uncertainty);
         let used = [
-            (is_u, "u"),
+            (is_averaged, "u"),
             (column.u.is_some(), "u"),
             (column.u_common.is_some(), "u_common"),
         ];

@@ -126,8 +126,12 @@ fn requests(
     let noise = checker.source.table.noise.as_ref();
     let replicates = noise.and_then(|noise| noise.value.replicates.as_ref());
     let replicates = replicates.iter().flat_map(|list| texts(&list.value.0));
+    // Of rows that are averaged it says nothing.
+    let rows = checker.purpose != Purpose::Calibrate || !table.holds_samples();
+    let of_rows = of_role(&checker.source.table.columns, RoleWord::Uncertainty);
+    let of_rows = of_rows.filter(|_| rows);
     let wanted = named.map(String::as_str).chain(time(checker)).chain(steps);
-    let wanted = wanted.chain(replicates);
+    let wanted = wanted.chain(replicates).chain(of_rows);
     let mut requests: Vec<Request> = Vec::new();
     for name in wanted {
         let column = columns.iter().find(|column| column.name == name);
@@ -271,7 +275,7 @@ impl RecordingTable {
     }
 
     /// Whether its rows are samples.
-    fn holds_samples(&self) -> bool {
+    pub(super) fn holds_samples(&self) -> bool {
         let average = self.average.as_ref().map(|stated| stated.value);
         average != Some(AverageEntry::Nothing) && self.tells_dwells()
     }

@@ -1,13 +1,16 @@
 //! The noise that `[noise]` states: an error of each reading.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use super::points::Points;
 use crate::experiment::at_rest::Headed;
 use crate::experiment::checker::Checker;
+use crate::experiment::entries::RoleWord;
 use crate::experiment::faults::NOISE;
 use crate::experiment::noise::Way;
 use crate::experiment::source::entries;
+use crate::experiment::tables::ColumnTable;
 use crate::experiment::{Act, Doubt, Experiment, Observed, Purpose, Scope, Target};
 use gumption_core::distribution::{Distribution, Normal};
 use gumption_core::quantity::Unit;
@@ -25,9 +28,6 @@ pub(super) fn add(
     experiment: &mut Experiment,
 ) -> Option<bool> {
     let before = checker.faults.len();
-    let Some((way, _)) = checker.noise_way(false) else {
-        return (checker.faults.len() == before).then_some(false);
-    };
     let observed = experiment.observed.iter();
     let outputs: Vec<(String, Unit)> = observed
         .filter_map(|observed| match observed {
@@ -35,6 +35,14 @@ pub(super) fn add(
             _ => None,
         })
         .collect();
+    let per_row = uncertainties(checker);
+    let Some((way, _)) = checker.noise_way(per_row.is_some()) else {
+        return match (checker.faults.len() == before, per_row) {
+            (false, _) => None,
+            (true, None) => Some(false),
+            (true, Some(column)) => of_rows(checker, points, experiment, outputs, column),
+        };
+    };
     let found: Vec<Scatter> = match way {
         Way::From(_) => return Some(false),
         // Before there are readings, only what is stated tells their noise.
@@ -57,27 +65,92 @@ pub(super) fn add(
         }
         Way::Replicates(columns) => replicates(checker, points, columns, &outputs)?,
     };
-    for ((name, unit), (u, dof)) in outputs.into_iter().zip(found) {
-        experiment.doubts.push(Doubt {
-            name: format!("{name}.noise"),
-            acts: vec![Act {
-                on: Target::Reading(name),
-                coefficient: 1.0,
-            }],
-            scope: Scope::Each,
-            u,
-            dof,
-            unit,
-            distribution: Distribution::Normal(Normal { mean: 0.0, sd: u }),
-            evaluation: match dof.is_finite() {
-                true => Evaluation::TypeA,
-                false => Evaluation::TypeB,
-            },
-            how: "u".to_owned(),
-            certificate: None,
-        });
+    for ((name, unit), scatter) in outputs.into_iter().zip(found) {
+        experiment.doubts.push(noise(name, unit, scatter));
     }
     Some(true)
+}
+
+/// The noise of an output: an error of each reading.
+fn noise(output: String, unit: Unit, (u, dof): Scatter) -> Doubt {
+    Doubt {
+        name: format!("{output}.noise"),
+        acts: vec![Act {
+            on: Target::Reading(output),
+            coefficient: 1.0,
+        }],
+        scope: Scope::Each,
+        u,
+        by: None,
+        dof,
+        unit,
+        distribution: Distribution::Normal(Normal { mean: 0.0, sd: u }),
+        evaluation: match dof.is_finite() {
+            true => Evaluation::TypeA,
+            false => Evaluation::TypeB,
+        },
+        how: "u".to_owned(),
+        certificate: None,
+    }
+}
+
+/// The column that holds the standard uncertainty of each row, with its place.
+fn uncertainties(checker: &Checker<'_>) -> Option<(String, Range<usize>)> {
+    let mut declared = entries(&checker.source.table.columns).iter();
+    let role = |entry: &ColumnTable| entry.role.as_ref().map(|role| role.value);
+    let found = declared.find(|(_, entry)| role(&entry.value.0) == Some(RoleWord::Uncertainty));
+    found.map(|(name, entry)| (name.clone(), entry.key.clone()))
+}
+
+/// The noise of the rows of each output by a column: 1 in its unit, times its numbers.
+fn of_rows(
+    checker: &mut Checker<'_>,
+    points: &Points,
+    experiment: &mut Experiment,
+    outputs: Vec<(String, Unit)>,
+    (column, place): (String, Range<usize>),
+) -> Option<bool> {
+    let Some(own) = points.column(&column) else {
+        return Some(false);
+    };
+    let stated = own.unit.difference();
+    for (output, unit) in outputs {
+        let factor = match own.unit.is_one() {
+            true => Some(1.0),
+            false => stated.conversion_to(&unit).map(|to| to.factor),
+        };
+        let Some(factor) = factor else {
+            let message = say!("{} cannot be converted to {}", stated.symbol, unit.symbol);
+            return checker.refuse(
+                Fault::new(NOISE, place, message)
+                    .label(say!("the standard uncertainty of {output}")),
+            );
+        };
+        let read = points.column(&output).map(|column| &column.values);
+        let is_read = |point: usize| read.is_none_or(|read| read[point].is_finite());
+        let is_missing = |point: &usize| is_read(*point) && !is_positive(own.values[*point]);
+        if let Some(point) = (0..points.len()).find(is_missing) {
+            let row = points.names.of(point).en;
+            let row = row.trim_start_matches("line ");
+            let message = say!("{column} states no standard uncertainty in line {row}");
+            let fault = Fault::new(NOISE, place, message);
+            return checker.refuse(
+                fault
+                    .label(say!("expected a positive number in each row"))
+                    .help(say!(
+                        "state it there, or leave the row out: below [[left_out]], lines = [{row}] and a reason"
+                    )),
+            );
+        }
+        let mut doubt = noise(output, unit, (factor, f64::INFINITY));
+        doubt.by = Some(column.clone());
+        experiment.doubts.push(doubt);
+    }
+    Some(true)
+}
+
+fn is_positive(u: f64) -> bool {
+    u > 0.0 && u.is_finite()
 }
 
 /// The unit of differences of an output, of a plan that in which it will be read.

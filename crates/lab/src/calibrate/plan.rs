@@ -80,20 +80,18 @@ pub fn plan(campaign: &Campaign) -> Result<Plan, Trouble> {
 /// What each row would scatter by: its stated errors, if all have them, else all alike.
 fn expected_u(stack: &Stack<'_>) -> Vec<f64> {
     let campaign = stack.campaign;
-    let own = |response: usize| -> f64 {
+    let own = |response: usize, point: usize| -> f64 {
         let crate::experiment::Observed::Column(name) = &campaign.experiment.observed[response]
         else {
             return 0.0;
         };
-        let each = campaign
-            .experiment
-            .doubts
-            .iter()
-            .map(|doubt| doubt.of_each_reading(name).powi(2));
+        let each = campaign.experiment.doubts.iter().map(|doubt| {
+            (doubt.of_each_reading(name) * doubt.share(&campaign.points, point)).powi(2)
+        });
         each.sum::<f64>().sqrt()
     };
     let of_row = |row: &Row| match row {
-        Row::Reading { response, .. } => own(*response),
+        Row::Reading { response, point } => own(*response, *point),
         Row::Prior { parameter } => campaign.experiment.parameters[*parameter]
             .known
             .map_or(1.0, |p| p.u),

@@ -170,7 +170,9 @@ fn known_u(stack: &Stack<'_>, samples: bool) -> Vec<f64> {
             .experiment
             .doubts
             .iter()
-            .map(|doubt| doubt.of_each_reading(name).powi(2))
+            .map(|doubt| {
+                (doubt.of_each_reading(name) * doubt.share(&campaign.points, *point)).powi(2)
+            })
             .sum();
         let column = campaign.points.column(name);
         let sampled = column
@@ -335,6 +337,11 @@ pub(super) fn explained_by(
             let by = stack.misfit_by(&act.on, &solution.parameters);
             for (misfit, by) in misfits.iter_mut().zip(by) {
                 *misfit += act.coefficient * by;
+            }
+        }
+        for (misfit, row) in misfits.iter_mut().zip(&stack.rows) {
+            if let Row::Reading { point, .. } = row {
+                *misfit *= doubt.share(&stack.campaign.points, *point);
             }
         }
         // Of each error: the shift of the parameters.

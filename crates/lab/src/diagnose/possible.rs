@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::candidates::Candidates;
 use super::case::Observed;
-use super::catalogue::modifiers::map2;
+use super::catalogue::modifiers::{line_through, map2};
 use super::catalogue::{FittedModel, Node, Term, Variation};
 use super::evidence::{self, Alternative, Examination};
 use super::noise::Claimed;
@@ -67,18 +67,9 @@ fn scales(
         .map(|response| {
             let signal = fitted.design.reduced(fitted.signal(response));
             let change = change.rows(response * blocks, blocks);
-            1.0 + known(slope(&signal, change.as_slice()))
+            1.0 + known(line_through(&signal, change.as_slice()).0)
         })
         .collect()
-}
-
-/// Of a straight line.
-fn slope(x: &[f64], y: &[f64]) -> f64 {
-    let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
-    let (x_mean, y_mean) = (mean(x), mean(y));
-    let products = x.iter().zip(y).map(|(x, y)| (x - x_mean) * (y - y_mean));
-    let squares = x.iter().map(|x| (x - x_mean) * (x - x_mean));
-    products.sum::<f64>() / squares.sum::<f64>()
 }
 
 /// Candidates that make the residuals of a constant smaller by making the constant smaller. Residuals of a constant that the model

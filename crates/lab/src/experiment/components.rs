@@ -114,6 +114,7 @@ impl Found {
             acts: self.acts.clone(),
             scope: self.scope.clone(),
             u: component.u,
+            by: None,
             dof: component.dof,
             unit: component.unit.clone(),
             distribution: component.distribution.clone(),
@@ -160,6 +161,7 @@ fn factored(stated: &Quantities, group: &Group, found: &[Found]) -> Option<Vec<D
             .collect(),
         scope: scope.clone(),
         u: 1.0,
+        by: None,
         dof: group
             .dof
             .unwrap_or_else(|| dofs.clone().fold(f64::INFINITY, f64::min)),

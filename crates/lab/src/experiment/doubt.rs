@@ -53,6 +53,8 @@ pub struct Doubt {
     pub scope: Scope,
     /// Its standard uncertainty.
     pub u: f64,
+    /// The column whose number at each point multiplies the error there.
+    pub by: Option<String>,
     /// Degrees of freedom of `u`.
     pub dof: f64,
     /// Unit of the error.

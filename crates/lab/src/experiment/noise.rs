@@ -54,7 +54,7 @@ impl<'s> Checker<'s> {
         let there = ways.into_iter().filter_map(|(key, way)| Some((key, way?)));
         let mut there: Vec<(&str, Way<'s>)> = there.filter(|(_, way)| !is_column(way)).collect();
         let before = self.faults.len();
-        let column = per_row.then_some("a column with the role \"u\"");
+        let column = per_row.then_some("`role = \"u\"`");
         let said: Vec<&str> = there.iter().map(|(key, _)| *key).chain(column).collect();
         if said.len() != 1 && !table.refused {
             self.faults.push(not_one_way(stated.span.clone(), &said));

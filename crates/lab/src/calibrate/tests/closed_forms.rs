@@ -488,3 +488,54 @@ average = "none"
     near(found.responses[0].s, 17.088072423, 1e-9);
     near(found.responses[0].dof, 4.0, 1e-9);
 }
+
+#[test]
+fn rows_have_uncertainties_of_their_own() {
+    // ISO/TS 28037, clause 6, second example.
+    let found = |column: &str, factor: f64| {
+        let rows = [
+            (3.2, 0.5),
+            (4.3, 0.5),
+            (7.6, 0.5),
+            (8.6, 1.0),
+            (11.7, 1.0),
+            (12.8, 1.0),
+        ];
+        let rows = rows.iter().zip(1..);
+        let rows: String = rows
+            .map(|((y, u), x)| format!("{x},{y},{}\n", u * factor))
+            .collect();
+        let campaign = campaign(
+            r#"
+title = "Weighted line"
+equations = ["y = a + b*x"]
+weights = "readings"
+[parameter]
+a = {}
+b = {}
+[columns]
+u_y = "u"
+[recording]
+file = "run.csv"
+average = "none"
+"#,
+            &format!("x,y [V],{column}\n{rows}"),
+        );
+        let found = calibrate(&campaign).expect("coefficients");
+        let figures = found.figures.coefficients.iter();
+        figures.map(|one| (one.value, one.u)).collect::<Vec<_>>()
+    };
+    // Sums of the weighted line: Σw = 15, x̄ = 2.6, Σw(x − x̄)² = 31.6.
+    let u_b = 31.6_f64.powf(-0.5);
+    for found in [found("u_y", 1.0), found("u_y [mV]", 1000.0)] {
+        let [(a, u_a), (b, u)] = found[..] else {
+            panic!("two coefficients");
+        };
+        near(u, u_b, 1e-9);
+        near(u_a, (1.0 / 15.0 + 2.6 * 2.6 / 31.6_f64).sqrt(), 1e-9);
+        assert!(
+            (a - 0.885).abs() < 5e-4 && (b - 2.057).abs() < 5e-4,
+            "{a} {b}"
+        );
+    }
+}

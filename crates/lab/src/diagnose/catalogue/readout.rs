@@ -192,8 +192,10 @@ fn common(a: i64, b: i64) -> i64 {
     }
 }
 
-/// Every output stands one row too late or too early.
+/// Every output stands one row too late or too early, or every one from some row on.
 fn shifted(fitted: &FittedModel<'_>) -> Option<Cell> {
+    /// Longer recordings are not searched row by row.
+    const MOST: usize = 800;
     let single = fitted.design.blocks.iter().all(|rows| rows.len() == 1);
     if !single || !fitted.has_signal() || fitted.rows() < 8 {
         return None;
@@ -226,15 +228,16 @@ fn shifted(fitted: &FittedModel<'_>) -> Option<Cell> {
         variant(label, modifiers.collect())
     });
     let mut variants = whole.to_vec();
-    if let [model] = &models[..] {
+    let searched = models.first().filter(|_| models.len() == 1 && last < MOST);
+    if let Some(model) = searched {
         // A reading that was dropped or taken twice: from then on.
         let from: Vec<_> = (3..last - 2)
             .flat_map(|first| ways.map(|way| (first, way)))
             .collect();
-        let mut terms = from
-            .iter()
-            .map(|(first, (_, late))| on_output(Modifier::unnamed(of(model, *first, *late))));
-        variants.extend(nearly_all(fitted, &mut terms).map(|place| {
+        let mut columns = from.iter().map(|(first, (_, late))| {
+            fitted.column(&on_output(Modifier::unnamed(of(model, *first, *late))))
+        });
+        variants.extend(nearly_all(fitted, &mut columns).map(|place| {
             let (first, (label, late)) = from[place];
             let observed = fitted.design.observed(0);
             // The rows in the wrong line have bent the fit.

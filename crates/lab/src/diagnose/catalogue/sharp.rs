@@ -32,12 +32,15 @@ impl<'g, 'f> Residuals<'g, 'f> {
         })
     }
 
-    /// Sum of squares that a term takes away from the residuals.
     fn power(&self, term: &Term) -> f64 {
+        self.power_of(&self.fitted.column(term))
+    }
+
+    /// Sum of squares that a regressor takes away from the residuals.
+    fn power_of(&self, column: &DVector<f64>) -> f64 {
         /// A regressor of which the parameters leave less than this (squared) is invisible.
         const LEAST: f64 = 1e-10;
-        let column = self.fitted.column(term);
-        let rest = self.absorbed.rest(&column);
+        let rest = self.absorbed.rest(column);
         let shows = rest.norm_squared() > LEAST * column.norm_squared();
         let power = along(&rest, &self.rest);
         if shows && power.is_finite() {
@@ -101,17 +104,23 @@ pub(super) fn size_of(fitted: &FittedModel<'_>, term: &Term) -> Option<f64> {
     shows.then(|| rest.dot(&residuals.rest) / rest.norm_squared())
 }
 
-/// The best of many terms, where it alone explains nearly all of the residuals.
+/// The best of many regressors, where it alone explains nearly all of the residuals.
 pub(super) fn nearly_all(
     fitted: &FittedModel<'_>,
-    terms: &mut dyn Iterator<Item = Term>,
+    columns: &mut dyn Iterator<Item = DVector<f64>>,
 ) -> Option<usize> {
     /// Of their sum of squares: no noise is explained so far by one stretch of rows, nor a part of a course.
     const SHARE: f64 = 0.9;
+    /// Rounding of powers.
+    const EQUAL: f64 = 1e-9;
     let residuals = Residuals::of(fitted)?;
-    let powers: Vec<f64> = terms.map(|term| residuals.power(&term)).collect();
-    let best = largest_at(&powers);
-    let power = *powers.get(best)?;
+    let powers: Vec<f64> = columns.map(|column| residuals.power_of(&column)).collect();
+    // Rows in which nothing is to be seen belong to either side: the first of equal ones.
+    let most = powers.iter().copied().fold(0.0, f64::max);
+    let best = powers
+        .iter()
+        .position(|power| *power >= (1.0 - EQUAL) * most)?;
+    let power = powers[best];
     (residuals.shows(power) && power > SHARE * residuals.rest.norm_squared()).then_some(best)
 }
 

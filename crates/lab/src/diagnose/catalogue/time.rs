@@ -1,5 +1,7 @@
 //! Laws of time: drift, ageing, warm-up, season, steps.
 
+use nalgebra::DVector;
+
 use super::building::{form, on_node, on_output, timed, wave};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, five_digits, flag, grid, map, range};
@@ -128,7 +130,7 @@ fn stretch(fitted: &FittedModel<'_>, along: &str, node: Node, id: EffectId) -> O
     /// Of fewer blocks, rows are wrong one by one.
     const LEAST: usize = 3;
     let blocks = &fitted.design.blocks;
-    if blocks.len() > MOST_STEPS {
+    if blocks.len() > MOST_STEPS || fitted.case().responses.len() != 1 {
         return None;
     }
     let ends = |first: usize| (first + LEAST..blocks.len() - 1).map(move |end| (first, end));
@@ -143,10 +145,21 @@ fn stretch(fitted: &FittedModel<'_>, along: &str, node: Node, id: EffectId) -> O
         let modifier = Modifier::number(values.collect(), format!("[{label}]"));
         (label, modifier)
     };
-    let mut terms = all
-        .iter()
-        .map(|stretch| Term::new(node, within(*stretch).1));
-    let found = all[nearly_all(fitted, &mut terms)?];
+    // What the node does in all blocks, of which a stretch has some.
+    let everywhere = Modifier::number(vec![1.0; fitted.rows()], "1");
+    let whole = fitted.column(&Term::new(node, everywhere));
+    let mut columns = all.iter().map(|(first, end)| {
+        let part = whole.iter().enumerate();
+        let part = part.map(|(block, x)| {
+            if (*first..*end).contains(&block) {
+                *x
+            } else {
+                0.0
+            }
+        });
+        DVector::from_iterator(whole.len(), part)
+    });
+    let found = all[nearly_all(fitted, &mut columns)?];
     let (label, modifier) = within(found);
     Some(on_node(
         fitted,

@@ -4,6 +4,8 @@
 //! it, and that its role is a guess. Without a procedure the equation is a straight line, the least that has a coefficient to calibrate; along
 //! several axes that are set, the sum of one for each, and of axes that labels turn up and down likewise; around a turn, a wave.
 
+mod asked;
+mod guess;
 mod positions;
 mod roles;
 
@@ -18,6 +20,8 @@ use gumption_format::toml::writing::{key, quoted};
 
 use super::entries::RoleWord;
 use super::procedure::Procedure;
+use asked::by_procedure;
+use guess::Guess;
 use positions::Positions;
 use roles::{followed, goes_around, is_kin, roles, stretches};
 
@@ -63,14 +67,6 @@ const KNOWN: &str = "\
 # [input.e]                    # an error that all rows share; write it into an equation
 # half_width = 0.001
 ";
-
-/// A column with what it may be.
-struct Guess<'r> {
-    /// As equations can call it.
-    name: String,
-    column: &'r Column,
-    role: RoleWord,
-}
 
 fn guessed(table: &Recording) -> Vec<Guess<'_>> {
     let mut taken = BTreeSet::new();
@@ -221,8 +217,27 @@ fn by_line(columns: &[Guess<'_>]) -> String {
         [one] => format!("equations = {one}"),
         several => format!("equations = [\n    {},\n]", several.join(",\n    ")),
     };
+    let field = match (outputs.as_slice(), along.is_empty()) {
+        ([x, y, z], true) => in_a_field(x, y, z),
+        _ => String::new(),
+    };
     let columns: String = columns.iter().map(declared).collect();
-    format!("{equations}\n\n[columns]\n{columns}{positions}")
+    format!("{equations}\n{field}\n[columns]\n{columns}{positions}")
+}
+
+/// Three axes and nothing that was set: they may have been turned in a field that stays.
+fn in_a_field(x: &Guess<'_>, y: &Guess<'_>, z: &Guess<'_>) -> String {
+    let unit = x
+        .column
+        .unit
+        .as_ref()
+        .map_or_else(String::new, |unit| format!(" {}", unit.typeset()));
+    format!(
+        "# Turned in a field of constant strength F? Then the axes are stimuli, and\n\
+         # equations = \"F = sqrt(({} - b1)^2 + ({} - b2)^2 + ({} - b3)^2)\"\n\
+         # constant.F = \"…{unit}\"\n",
+        x.name, y.name, z.name
+    )
 }
 
 fn declared(guess: &Guess<'_>) -> String {
@@ -273,77 +288,6 @@ fn within(Guess { column, role, .. }: &Guess<'_>) -> String {
             }
         }
     }
-}
-
-/// The columns that a procedure needs, with those of the recording that may be meant, and what it must be told.
-fn by_procedure(procedure: &Procedure, columns: &[Guess<'_>]) -> String {
-    let base: toml::Table = procedure.text.parse().unwrap_or_default();
-    let entries = |table: &str| {
-        let entries = base
-            .get(table)
-            .and_then(toml::Value::as_table)
-            .into_iter()
-            .flatten();
-        let entries =
-            entries.filter_map(|(name, entry)| Some((name.clone(), entry.as_table()?.clone())));
-        entries.collect::<Vec<(String, toml::Table)>>()
-    };
-    let said = |entry: &toml::Table, key: &str| {
-        entry
-            .get(key)
-            .and_then(toml::Value::as_str)
-            .unwrap_or_default()
-            .to_owned()
-    };
-    let mut text = format!("procedure = {}\n\n[columns]\n", quoted(procedure.name));
-    for (name, entry) in entries("columns") {
-        let what = said(&entry, "description");
-        let same = columns
-            .iter()
-            .find(|guess| guess.column.name.to_lowercase() == name.to_lowercase());
-        let found = same.or_else(|| only(columns, &entry));
-        text += &match found {
-            Some(guess) if guess.column.name == name => format!("# {name}: {what}\n"),
-            Some(guess) => {
-                format!(
-                    "{} = {{ column = {} }}   # {what}\n",
-                    key(&name),
-                    quoted(&guess.column.header)
-                )
-            }
-            None => format!(
-                "# {} = {{ column = \"…\" }}   # which column is it? {what}\n",
-                key(&name)
-            ),
-        };
-    }
-    for (name, entry) in entries("input") {
-        if entry.get("required").and_then(toml::Value::as_bool) == Some(true) {
-            text += &format!(
-                "\n# [input.{name}]   # has to be stated: {}\n# value = …\n# unit = {}\n",
-                said(&entry, "description"),
-                quoted(&said(&entry, "unit")),
-            );
-        }
-    }
-    text
-}
-
-/// The only column of the dimension that an entry of a procedure must have, or the only one of labels.
-fn only<'g, 'r>(columns: &'g [Guess<'r>], entry: &toml::Table) -> Option<&'g Guess<'r>> {
-    let word = |key: &str| entry.get(key).and_then(toml::Value::as_str);
-    let like = word("like").and_then(|unit| UnitTable::default().parse(unit).ok());
-    let fits = |guess: &&Guess<'_>| match (&guess.column.data, &like) {
-        (Data::Labels(_), _) => word("holds") == Some("labels"),
-        (Data::Numbers(_), Some(like)) => {
-            let unit = guess.column.unit.as_ref();
-            unit.is_some_and(|unit| unit.conversion_to(like).is_some())
-        }
-        (Data::Numbers(_), None) => word("holds").is_none() && guess.role == RoleWord::Output,
-    };
-    let mut fitting = columns.iter().filter(fits);
-    let first = fitting.next();
-    first.filter(|_| fitting.next().is_none())
 }
 
 #[cfg(test)]
@@ -561,6 +505,19 @@ mod tests {
             of("t_bath [°C],t_room [°C],R [ohm]\n0,22,100\n50,23,119.4\n0,22,100.1\n50,23,119.5\n");
         assert_eq!(role(&table, "t_room"), "covariate");
         assert_eq!(table["equations"].as_str(), Some("R = a + b*t_bath"));
+    }
+
+    /// Three axes that were turned by hand.
+    #[test]
+    fn axes_in_a_field_have_a_length() {
+        let text = proposal(
+            "run.csv",
+            "mx [uT],my [uT],mz [uT]\n48,1,2\n3,47,1\n0,2,49\n",
+            None,
+        );
+        let text = text.expect("a table");
+        let line = "# equations = \"F = sqrt((mx - b1)^2 + (my - b2)^2 + (mz - b3)^2)\"";
+        assert!(text.contains(line), "{text}");
     }
 
     /// Six positions without columns of what acts along the axes: the labels say it.

@@ -1,0 +1,182 @@
+//! Recordings as they come from a bench: what is off in the record or in the electronics rather than in the sensor.
+
+use std::fmt::Write;
+
+use serde_json::Value;
+
+use crate::common::Noise;
+use crate::common::cases::{diagnosed_with as diagnosed, named_apart};
+
+/// The likeliest name of each effect.
+fn first_names(diagnosis: &Value) -> Vec<String> {
+    let effects = named_apart(diagnosis).into_iter();
+    effects
+        .filter_map(|names| names.into_iter().next())
+        .collect()
+}
+
+/// The likeliest variant of the first effect.
+fn variant(diagnosis: &Value) -> &str {
+    let named = &diagnosis["effects"][0]["named"][0];
+    named["variants"][0]["label"].as_str().unwrap_or_default()
+}
+
+/// Whether the first size of the improved model is this one.
+fn has_size(diagnosis: &Value, truth: f64) -> bool {
+    let first = &diagnosis["improved"]["coefficients"][0];
+    let figure = |key: &str| first[key].as_f64().unwrap_or(f64::NAN);
+    (figure("value") - truth).abs() < 4.0 * figure("u")
+}
+
+/// Ten rows of forty are in psi where kPa is meant: the noise is that of the other rows.
+#[test]
+fn a_stretch_of_rows_is_in_another_unit() {
+    let mut noise = Noise(28);
+    let mut rows = "no,p_ref [kPa],p [kPa]\n".to_owned();
+    for row in 0..40 {
+        let p = 50.0 * f64::from(row % 5 + 1);
+        let unit = if (20..30).contains(&row) {
+            6.894_757
+        } else {
+            1.0
+        };
+        let _ = writeln!(
+            rows,
+            "{row},{p},{:.3}",
+            (p + 0.2 + 0.08 * noise.normal()) / unit
+        );
+    }
+    let case = "equations = \"p = a + b*p_ref\"\n[columns]\nno = \"order\"\n";
+    let found = diagnosed("psi", &rows, case);
+    assert_eq!(first_names(&found), ["stretch-scale"], "{found}");
+    assert_eq!(variant(&found), "rows 21 to 30");
+    assert!(has_size(&found, 1.0 / 6.894_757 - 1.0), "{found}");
+}
+
+/// From row 46 on every reading is the one before.
+#[test]
+fn a_reading_was_taken_twice() {
+    let mut noise = Noise(50);
+    let mut rows = "t [s],x [mm],U [V]\n".to_owned();
+    let x = |row: i32| f64::from(20 + 2 * (7 * row % 10));
+    for row in 0..80 {
+        let read = x(if row >= 45 { row - 1 } else { row });
+        let _ = writeln!(
+            rows,
+            "{row},{},{:.4}",
+            x(row),
+            0.2 * read + 0.003 * noise.normal()
+        );
+    }
+    let found = diagnosed(
+        "twice",
+        &rows,
+        "equations = \"U = a + b*x\"\n[columns]\nt = \"time\"\n",
+    );
+    assert_eq!(first_names(&found), ["shifted"], "{found}");
+    assert_eq!(variant(&found), "one row late, from row 46 on");
+}
+
+/// A converter ends at 10 V and at −10 V, which with an offset are different stimuli.
+#[test]
+fn a_converter_ends_on_both_sides() {
+    let mut noise = Noise(30);
+    let mut rows = "a [gn],U [V]\n".to_owned();
+    for row in 0..39 {
+        let a = f64::from(row / 3 - 6);
+        let volt = (2.0 * a + 0.1 + 0.01 * noise.normal()).clamp(-10.0, 10.0);
+        let _ = writeln!(rows, "{a},{volt:.3}");
+    }
+    let found = diagnosed("converter", &rows, "equations = \"U = b + K*a\"\n");
+    assert_eq!(first_names(&found), ["saturation"], "{found}");
+    assert_eq!(variant(&found), "above 10 V, below -10 V");
+}
+
+/// A Geiger counter with a dead time of 90 µs: the loss is a half at 11 111 counts per second, and the size of the square is K²τ.
+#[test]
+fn a_counter_loses_what_its_dead_time_says() {
+    let mut noise = Noise(13);
+    let mut rows = "A,N\n".to_owned();
+    for row in 0..28 {
+        let a = 100.0 * f64::from(1 << (row / 4));
+        let n = 60.0 * a / (1.0 + 9e-5 * a);
+        let _ = writeln!(rows, "{a},{:.0}", n + 200.0 * noise.normal());
+    }
+    let found = diagnosed("counter", &rows, "equations = \"N = K*A + B\"\n");
+    assert_eq!(first_names(&found), ["quadratic"], "{found}");
+    // `levelling off, half at 11100 1`
+    let half = variant(&found).split(' ').nth(4).map(str::parse::<f64>);
+    let Some(Ok(half)) = half else {
+        panic!("{}", variant(&found));
+    };
+    assert!((half / 11_111.0 - 1.0).abs() < 0.1, "{half}");
+}
+
+/// A latency of less than the interval has the size that it is found to have.
+#[test]
+fn a_latency_is_told_by_its_size() {
+    let mut noise = Noise(31);
+    let mut rows = "t [s],x [mm],U [V]\n".to_owned();
+    let x = |t: f64| 50.0 * libm::sin(4.4 * t);
+    for row in 0..150 {
+        let t = 0.02 * f64::from(row);
+        let _ = writeln!(
+            rows,
+            "{t:.2},{:.4},{:.4}",
+            x(t),
+            0.1 * x(t - 0.006) + 0.004 * noise.normal()
+        );
+    }
+    let found = diagnosed(
+        "latency",
+        &rows,
+        "equations = \"U = a + K*x\"\n[columns]\nt = \"time\"\n",
+    );
+    assert_eq!(first_names(&found)[0], "timing-skew", "{found}");
+    assert_eq!(variant(&found), "");
+    assert!(has_size(&found, 0.006), "{found}");
+}
+
+/// A gyroscope that is switched off between its runs warms up in each.
+#[test]
+fn an_instrument_warms_up_anew_in_each_run() {
+    let mut noise = Noise(7);
+    let mut rows = "t [s],run,w [deg/s],U [mV]\n".to_owned();
+    for run in 0..5 {
+        for (row, w) in [0, 50, 100, 50, 0, -50, -100, -50]
+            .repeat(2)
+            .iter()
+            .enumerate()
+        {
+            let since = 60.0 * row as f64;
+            let volt = f64::from(*w) + 0.4 * libm::exp(-since / 240.0) + 0.012 * noise.normal();
+            let _ = writeln!(
+                rows,
+                "{},{run},{w},{volt:.4}",
+                7200.0 * f64::from(run) + since
+            );
+        }
+    }
+    let case = "equations = \"U = K*w + b\"\n[columns]\nt = \"time\"\nrun = \"run\"\n";
+    let found = diagnosed("turn-on", &rows, case);
+    assert_eq!(first_names(&found), ["warm-up"], "{found}");
+    assert!(variant(&found).ends_with("anew in each run"), "{found}");
+    assert!(has_size(&found, 0.4), "{found}");
+}
+
+/// The resistance at 0 °C is not the nominal one; the model has the square of the temperature already.
+#[test]
+fn a_nominal_value_is_not_kept() {
+    let mut noise = Noise(59);
+    let mut rows = "no,t [degC],R [ohm]\n".to_owned();
+    for row in 0..33_i32 {
+        let t = f64::from(20 * (5 - (row % 11 - 5).abs()));
+        let r = 100.05 * (1.0 + 3.9083e-3 * t - 5.775e-7 * t * t) + 0.003 * noise.normal();
+        let _ = writeln!(rows, "{row},{t},{r:.4}");
+    }
+    let case = "equations = \"R = R0*(1 + A*t + B*t^2)\"\n[columns]\nno = \"order\"\n[constant]\nR0 = \"100 ohm\"\n[parameter]\nA = { unit = \"1/K\" }\nB = { unit = \"1/K^2\" }\n";
+    let found = diagnosed("pt100", &rows, case);
+    let mut names = named_apart(&found).remove(0);
+    names.sort();
+    assert_eq!(names, ["factor", "zero", "zero-of"], "{found}");
+}

@@ -76,9 +76,10 @@ impl Checker<'_> {
         let table = table.unwrap_or_default();
         let alpha = table.alpha.as_ref();
         let is_small = |alpha: f64| alpha > 0.0 && alpha < 0.5;
-        if let Some(alpha) = alpha.filter(|alpha| !is_small(alpha.value)) {
-            let message = say!("alpha = {} is not a small probability", alpha.value);
-            let fault = Fault::new(SETTING, alpha.span.clone(), message);
+        if let Some(stated) = alpha.filter(|alpha| !is_small(alpha.value)) {
+            let alpha = stated.value;
+            let message = say!("alpha = {alpha} is not a small probability");
+            let fault = Fault::new(SETTING, stated.span.clone(), message);
             self.faults
                 .push(fault.label(say!("expected a number between 0 and 0.5")));
         }

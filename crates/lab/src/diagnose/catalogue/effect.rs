@@ -129,6 +129,12 @@ impl Display for EffectId {
     }
 }
 
+impl PartialEq<&str> for EffectId {
+    fn eq(&self, other: &&str) -> bool {
+        self.as_str() == *other
+    }
+}
+
 impl Effect {
     /// Whether its name is not complete without the place of its variant: a bad row, a jump, a slip.
     pub fn has_place(&self) -> bool {

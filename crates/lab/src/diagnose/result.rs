@@ -44,15 +44,9 @@ pub fn budget(case: &Case, diagnosis: &Diagnosis) -> String {
     for result in &results {
         input(&mut text, result, dof);
     }
-    for Line {
-        name, description, ..
-    } in &lines
-    {
-        let _ = write!(
-            text,
-            "\n[input.{name}]\ndescription = {}\n",
-            quoted(description)
-        );
+    for line in &lines {
+        let (name, description) = (&line.name, quoted(&line.description));
+        text += &format!("\n[input.{name}]\ndescription = {description}\n");
         text += "value = 0\nhalf_width = 1\n";
     }
     text + &correlations(&design, fit, diagnosis, &results)

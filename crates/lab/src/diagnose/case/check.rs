@@ -92,7 +92,8 @@ impl Checker<'_> {
         let Some(given) = positions::given(self, labels, row) else {
             return Ok(None);
         };
-        columns.extend(given.into_iter().map(Column::given));
+        let given = given.into_iter();
+        columns.extend(given.map(|own| Column::applied(&own.name, &own.unit, own.values)));
         let Some(experiment) = self.experiment(&names, &quantities(&columns, &names)) else {
             return Ok(None);
         };

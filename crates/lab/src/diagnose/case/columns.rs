@@ -6,7 +6,6 @@ use crate::experiment::checker::Checker;
 use crate::experiment::columns::Column as Wanted;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::faults::NOISE;
-use crate::experiment::positions::Given;
 use crate::experiment::tables::ColumnTable;
 use crate::recording::Recording;
 use gumption_core::quantity::Unit;
@@ -113,14 +112,9 @@ impl Column {
         }
     }
 
-    /// A stimulus that no instrument recorded.
+    /// A stimulus that no instrument recorded: a set input, a quantity that positions give.
     pub(super) fn applied(name: &str, unit: &Unit, values: Vec<f64>) -> Column {
         Column::new(name, RoleWord::Stimulus, unit, Data::Numbers(values))
-    }
-
-    /// A quantity that positions give.
-    pub(super) fn given(given: Given) -> Column {
-        Column::applied(&given.name, &given.unit, given.values)
     }
 }
 

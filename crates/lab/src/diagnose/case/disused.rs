@@ -9,7 +9,6 @@ use gumption_gum::budget::Remark;
 pub(super) fn remarks(source: &Source, file: &ExperimentTable) -> Vec<Remark> {
     let default = RecordingTable::default();
     let recording = file.recording.as_ref().map_or(&default, |r| &r.value.0);
-    let correlation = place(&file.correlation);
     let keys = [
         ("`steps` of the recording", place(&recording.steps)),
         ("`still` of the recording", place(&recording.still)),
@@ -17,7 +16,7 @@ pub(super) fn remarks(source: &Source, file: &ExperimentTable) -> Vec<Remark> {
         ("`together` of the recording", place(&recording.together)),
         ("`separately`", place(&file.separately)),
         ("`weights`", place(&file.weights)),
-        ("[[correlation]]", correlation),
+        ("[[correlation]]", place(&file.correlation)),
     ];
     keys.into_iter()
         .filter(|(_, place)| place.as_ref().is_some_and(|place| !source.is_base(place)))

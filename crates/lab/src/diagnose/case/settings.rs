@@ -59,16 +59,8 @@ impl Checker<'_> {
             }
             return stated.value.number.max(0.0) as usize;
         };
-        let Some(settle) = self.amount(stated, &column.unit) else {
-            return 0;
-        };
-        // No time is no number of rows.
-        let rows = (settle / interval(times)).ceil();
-        if rows.is_finite() {
-            rows.max(0.0) as usize
-        } else {
-            0
-        }
+        let rows = |settle: f64| (settle / interval(times)).ceil().max(0.0) as usize;
+        self.amount(stated, &column.unit).map_or(0, rows)
     }
 
     pub(super) fn settings(&mut self, file: &ExperimentTable) -> Settings {

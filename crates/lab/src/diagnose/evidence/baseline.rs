@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::directions::{shares, visible};
 use super::noise::{Covariance, Factor, Noise};
 use super::refusal::Refusal;
 
@@ -69,7 +68,7 @@ impl Baseline {
     ///
     /// # Errors
     ///
-    /// Numbers that are not finite, a covariance matrix that is none, parameters
+    /// Sizes that disagree, numbers that are not finite, a covariance matrix that is none, parameters
     /// that the recording does not determine, and recordings without a degree of freedom.
     pub fn new(
         jacobian: &DMatrix<f64>,
@@ -78,10 +77,16 @@ impl Baseline {
         prior: &Prior,
     ) -> Result<Baseline, Refusal> {
         let (rows, parameters) = jacobian.shape();
+        let known = prior.residuals.len();
+        let covariances = [&noise.covariance].into_iter().chain(&noise.draws);
+        let fit = covariances.map(Covariance::rows).all(|own| own == rows);
+        if !fit || residuals.len() != rows || prior.jacobian.shape() != (known, parameters) {
+            return Err(Refusal::Sizes);
+        }
         check_finite(jacobian, residuals, prior)?;
         let whitener = Factor::whitening(&noise.covariance)?;
         let draws = factors(&noise.draws)?;
-        let total = rows + prior.residuals.len();
+        let total = rows + known;
         if total <= parameters {
             return Err(Refusal::NoFreedom {
                 rows: total,
@@ -221,15 +226,23 @@ impl Baseline {
         axes.eigenvectors * errors
     }
 
+    /// PWH, and the lengths of the columns of WH.
+    pub(super) fn visible(&self, columns: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
+        let whitened = self.whiten(columns);
+        let lengths = whitened.column_iter().map(|c| c.norm()).collect();
+        let along = self.absorbed.tr_mul(&whitened);
+        (whitened - &self.absorbed * along, lengths)
+    }
+
     /// PWH: what columns of output units leave in the space of z.
     pub fn project(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
-        visible(self, columns).0
+        self.visible(columns).0
     }
 
     /// Share of the whitened length of each column that the parameters cannot absorb, ‖PWh‖²/‖Wh‖²; zero
     /// for a column of zeros.
     pub fn visibilities(&self, columns: &DMatrix<f64>) -> Vec<f64> {
-        let (seen, lengths) = visible(self, columns);
+        let (seen, lengths) = self.visible(columns);
         shares(&seen, &lengths)
     }
 
@@ -317,6 +330,16 @@ fn check_finite(
         Some(row) => Err(Refusal::NotFinite { row }),
         None => Ok(()),
     }
+}
+
+/// Share of the squared length of each column that is left of it; zero for a column of zeros.
+pub(super) fn shares(left: &DMatrix<f64>, lengths: &[f64]) -> Vec<f64> {
+    let both = left.column_iter().zip(lengths);
+    let share = |(left, length): (nalgebra::DVectorView<'_, f64>, &f64)| match *length > 0.0 {
+        true => left.norm_squared() / (length * length),
+        false => 0.0,
+    };
+    both.map(share).collect()
 }
 
 /// One matrix above the other.

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::baseline::Baseline;
+use super::baseline::{Baseline, shares};
 
 /// A column with less than this share of its whitened length (squared) left, by the parameters or by
 /// other columns of its atom, is invisible.
@@ -14,7 +14,7 @@ pub const TRACE: f64 = 1e-4;
 /// Columns of which the parameters and the other columns leave enough for coefficients of their own, in
 /// ascending order.
 pub fn determined(baseline: &Baseline, columns: &DMatrix<f64>) -> Vec<usize> {
-    let (columns, lengths) = visible(baseline, columns);
+    let (columns, lengths) = baseline.visible(columns);
     let (_, mut kept) = own(columns, lengths);
     kept.sort_unstable();
     kept
@@ -32,14 +32,6 @@ pub(super) fn own(columns: DMatrix<f64>, mut lengths: Vec<f64>) -> (DMatrix<f64>
         }
     }
     orthonormal(columns, &lengths, INVISIBLE)
-}
-
-/// PWH, and the lengths of the columns of WH.
-pub(super) fn visible(baseline: &Baseline, columns: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
-    let whitened = baseline.whiten(columns);
-    let lengths = whitened.column_iter().map(|c| c.norm()).collect();
-    let along = baseline.absorbed().tr_mul(&whitened);
-    (whitened - baseline.absorbed() * along, lengths)
 }
 
 /// Orthonormal directions of the columns, the column with the greatest remainder first; columns whose
@@ -88,16 +80,6 @@ pub fn left_beside(columns: &DMatrix<f64>, others: &DMatrix<f64>) -> Vec<f64> {
     let (basis, _) = orthonormal(others.clone(), &lengths, NOTHING);
     let whole: Vec<f64> = columns.column_iter().map(|c| c.norm()).collect();
     shares(&without(columns, &basis), &whole)
-}
-
-/// Share of the squared length of each column that is left of it; zero for a column of zeros.
-pub(super) fn shares(left: &DMatrix<f64>, lengths: &[f64]) -> Vec<f64> {
-    let both = left.column_iter().zip(lengths);
-    let share = |(left, length): (nalgebra::DVectorView<'_, f64>, &f64)| match *length > 0.0 {
-        true => left.norm_squared() / (length * length),
-        false => 0.0,
-    };
-    both.map(share).collect()
 }
 
 /// Length of what the best of some variants leaves of each effect, all of them seen beside the parameters.

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::baseline::Baseline;
 use super::closed_form::Scale;
-use super::directions::{INVISIBLE, visible};
+use super::directions::INVISIBLE;
 use super::null::{Null, side_by_side};
 use super::question::Settings;
 
@@ -52,7 +52,7 @@ pub fn locate(baseline: &Baseline, cells: &[Cell], settings: &Settings) -> Vec<L
     for (mut column, cell) in columns.column_iter_mut().zip(cells) {
         column.copy_from(&cell.column);
     }
-    let (mut seen, whole) = visible(baseline, &columns);
+    let (mut seen, whole) = baseline.visible(&columns);
     let lengths: Vec<f64> = seen.column_iter().map(|c| c.norm_squared()).collect();
     let visible: Vec<usize> = (0..cells.len())
         .filter(|c| lengths[*c] > INVISIBLE * whole[*c] * whole[*c] && excited(cells, *c))

@@ -34,6 +34,8 @@ pub enum Refusal {
         /// The row.
         row: usize,
     },
+    /// Sizes of matrices contradict each other.
+    Sizes,
     /// The caller asked to stop.
     Cancelled,
 }
@@ -55,6 +57,7 @@ impl std::fmt::Display for Refusal {
             Refusal::AtomNotFinite { atom, row } => {
                 write!(f, "effect {atom} is not finite in row {row}")
             }
+            Refusal::Sizes => write!(f, "sizes of matrices disagree"),
             Refusal::Cancelled => write!(f, "stopped"),
         }
     }

@@ -72,10 +72,14 @@ const NOTHING: f64 = 1e-6;
 /// Explanations are the same where less than this share of either is left.
 const SAME: f64 = 0.01;
 
-/// Holds explanations against one another in a design; nothing of fewer than two.
+/// Holds explanations against one another in a design; nothing of fewer than two, or of those that have different numbers of
+/// sizes.
 pub fn apart(contenders: &[Standing]) -> Option<Separability> {
     let first = contenders.first().filter(|_| contenders.len() > 1)?;
     let draws = first.effects.ncols();
+    if draws == 0 || contenders.iter().any(|one| one.effects.ncols() != draws) {
+        return None;
+    }
     let lengths = |one: &Standing| one.effects.column_iter().map(|e| e.norm()).collect();
     let effects: Vec<DMatrix<f64>> = contenders.iter().map(|one| one.effects.clone()).collect();
     let columns: Vec<_> = effects.iter().flat_map(|e| e.column_iter()).collect();

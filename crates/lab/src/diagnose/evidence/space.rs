@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::closed_form::{Ladder, Scale, named, scatter};
-use super::directions::{INVISIBLE, joined, orthonormal, own, visible, without};
+use super::directions::{INVISIBLE, joined, orthonormal, own, without};
 use super::question::{Atom, Kind, Question, Shape};
 use super::refusal::Refusal;
 
@@ -118,7 +118,7 @@ impl Space {
             check(index, atom)?;
         }
         // All columns at once: products with few columns spend their time on reading the whitener.
-        let (seen, lengths) = visible(baseline, &all_columns(baseline.rows(), question.atoms));
+        let (seen, lengths) = baseline.visible(&all_columns(baseline.rows(), question.atoms));
         let mut start = 0;
         for (index, atom) in question.atoms.iter().enumerate() {
             let own = start..start + atom.shape.width();

@@ -6,7 +6,7 @@
 
 mod roles;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use gumption_core::model::{is_reserved, names};
@@ -257,7 +257,7 @@ fn by_procedure(procedure: &Procedure, columns: &[Guess<'_>]) -> String {
             .flatten();
         let entries =
             entries.filter_map(|(name, entry)| Some((name.clone(), entry.as_table()?.clone())));
-        entries.collect::<Vec<(String, toml::Table)>>()
+        entries.collect::<BTreeMap<String, toml::Table>>()
     };
     let said = |entry: &toml::Table, key: &str| {
         entry

@@ -241,7 +241,7 @@ impl Checker<'_> {
                 )
                 .label(say!("units do not fit"))
                 .help({
-                    let sensitivity = target.quotient(&source.difference()).symbol;
+                    let sensitivity = target.quotient(&source.difference()).symbol.clone();
                     match source.is_one() && entry.table.sensitivity.is_none() {
                         true => say!(
                             "add relative = true if it is a relative error of the value, else the sensitivity: sensitivity = \"… {sensitivity}\""

@@ -359,7 +359,7 @@ impl Checker<'_> {
             return;
         };
         let coefficient = |i: usize, j: usize| rows[i].numbers[j];
-        for i in 0..inputs.len() {
+        for (i, (_, name)) in inputs.iter().enumerate() {
             let itself = coefficient(i, i);
             if (itself.value - 1.0).abs() > 1e-9 {
                 self.report(
@@ -368,7 +368,7 @@ impl Checker<'_> {
                         itself.span(),
                         say!(
                             "the correlation of {} with itself is {}",
-                            inputs[i].1.value,
+                            name.value,
                             itself.value
                         ),
                     )

@@ -119,7 +119,7 @@ fn unit_of_result(claimed: &Claimed) -> String {
 /// The unit of contributions, which are differences: two points of the Celsius scale have no sum.
 fn of_difference(unit: String) -> String {
     let known = units::parse(&unit).filter(gumption_core::quantity::Unit::is_point);
-    known.map_or(unit, |known| known.difference().symbol)
+    known.map_or(unit, |known| known.difference().symbol.clone())
 }
 
 /// Names that the model language takes, one for each row.

@@ -36,22 +36,59 @@ pub(crate) fn pivoted_cholesky(matrix: &DMatrix<f64>, negligible: f64) -> DMatri
     factor.resize_vertically(rank, 0.0)
 }
 
-/// Whether a symmetric matrix is positive definite as far as the arithmetic tells.
-pub(crate) fn is_definite(matrix: DMatrix<f64>) -> bool {
+/// Whether a symmetric matrix with this added to its diagonal is positive definite, as far as the arithmetic tells:
+/// then it has a factor, for which no pivots need to be chosen.
+pub(crate) fn is_definite(matrix: &DMatrix<f64>, raised: f64) -> bool {
     let n = matrix.nrows();
-    let mut rest = Rest {
-        places: (0..n).collect(),
-        matrix: matrix.data.into(),
-    };
-    let mut rank = 0;
-    loop {
-        let block = rest.eliminate(0.0);
-        rank += block.pivots.len();
-        if block.pivots.len() < DEPTH {
-            return rank == n;
-        }
-        rest = rest.after(&block);
+    // The lower triangle, row by row; the memory above it is never touched.
+    let mut left = vec![0.0; n * n];
+    for (i, (row, given)) in left
+        .chunks_mut(n.max(1))
+        .zip(matrix.column_iter())
+        .enumerate()
+    {
+        row[..=i].copy_from_slice(&given.as_slice()[..=i]);
+        row[i] += raised;
     }
+    for first in (0..n).step_by(DEPTH) {
+        let Some(rows) = panel(&left, n, first) else {
+            return false;
+        };
+        if let Some(below) = rows.get(DEPTH..) {
+            let corner = (first + DEPTH).min(n) * (n + 1);
+            products::subtract(
+                level(),
+                below,
+                left.get_mut(corner..).unwrap_or_default(),
+                n,
+            );
+        }
+    }
+    true
+}
+
+/// The next columns of the factor of what is left of a matrix of n rows, row by row; `None` where it has none.
+fn panel(left: &[f64], n: usize, first: usize) -> Option<Vec<Row>> {
+    let width = DEPTH.min(n - first);
+    let mut columns = vec![vec![0.0; n - first]; width];
+    for (i, line) in left[first * n..].chunks(n).enumerate() {
+        for (column, value) in columns
+            .iter_mut()
+            .zip(&line[first..=first + i.min(width - 1)])
+        {
+            column[i] = *value;
+        }
+    }
+    if !products::eliminate(level(), &mut columns) {
+        return None;
+    }
+    let mut rows = vec![[0.0; DEPTH]; n - first];
+    for (k, column) in columns.iter().enumerate() {
+        for (row, value) in rows.iter_mut().zip(column) {
+            row[k] = *value;
+        }
+    }
+    Some(rows)
 }
 
 /// What is left of a matrix of which some rows and columns have been eliminated.
@@ -133,7 +170,7 @@ impl Rest {
         }
         matrix.truncate(moved);
         let rows: Vec<Row> = kept.iter().map(|i| block.rows[*i]).collect();
-        products::subtract(level(), &rows, &mut matrix);
+        products::subtract(level(), &rows, &mut matrix, kept.len());
         Rest {
             places: kept.iter().map(|i| places[*i]).collect(),
             matrix,
@@ -181,11 +218,12 @@ mod tests {
     fn matrices_of_many_blocks_are_definite_or_not() {
         for n in [4, 64, 65, 150, 200] {
             let shifted = |by: f64| correlation(n, 3) + DMatrix::identity(n, n) * by;
-            assert!(is_definite(shifted(0.1)), "{n}");
-            assert!(!is_definite(shifted(-0.1)), "{n}");
+            assert!(is_definite(&shifted(0.1), 0.0), "{n}");
+            assert!(!is_definite(&shifted(-0.1), 0.0), "{n}");
+            assert!(is_definite(&shifted(-0.1), 0.2), "{n}");
         }
-        assert!(is_definite(DMatrix::zeros(0, 0)));
-        assert!(!is_definite(DMatrix::from_element(2, 2, f64::NAN)));
+        assert!(is_definite(&DMatrix::zeros(0, 0), 0.0));
+        assert!(!is_definite(&DMatrix::from_element(2, 2, f64::NAN), 0.0));
     }
 
     #[test]

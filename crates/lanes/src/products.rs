@@ -16,24 +16,55 @@ const WIDTH: usize = 8;
 /// Rows of the matrix that are done at a time.
 const HELD: usize = 4;
 
-/// m_ij − Σ_k r_ik r_jk for j ≤ i, in place of m_ij; the products are summed in the order of k. `matrix` has a row
-/// of n numbers for each of the n `rows`; nothing is promised about those above the diagonal.
+/// m_ij − Σ_k r_ik r_jk for j ≤ i, in place of m_ij; the products are summed in the order of k. The n numbers of `matrix`
+/// for each of the n `rows` begin `apart` from one another: it may be the last rows and columns of a larger one.
+/// Nothing is promised about the numbers above the diagonal.
 ///
 /// # Panics
-/// When the matrix has not n × n numbers.
-pub fn subtract(level: Level, rows: &[Row], matrix: &mut [f64]) {
-    assert_eq!(matrix.len(), rows.len() * rows.len(), "n × n numbers");
-    if !rows.is_empty() {
-        dispatch!(level, simd => subtract_with(simd, rows, matrix));
-    }
+/// When the matrix has not that many numbers.
+pub fn subtract(level: Level, rows: &[Row], matrix: &mut [f64], apart: usize) {
+    let Some(last) = rows.len().checked_sub(1) else {
+        return;
+    };
+    assert!(apart > last, "rows of n numbers");
+    assert_eq!(matrix.len(), last * apart + rows.len(), "n × n numbers");
+    dispatch!(level, simd => subtract_with(simd, rows, matrix, apart));
+}
+
+/// Cholesky's factor of the first columns of what is left of a matrix, in their place; what stands above the diagonal is
+/// not looked at. False where there is none, since a pivot is not positive.
+pub fn eliminate(level: Level, columns: &mut [Vec<f64>]) -> bool {
+    dispatch!(level, simd => eliminate_with(simd, columns))
 }
 
 #[inline(always)]
-fn subtract_with<S: Simd>(simd: S, rows: &[Row], matrix: &mut [f64]) {
+fn eliminate_with<S: Simd>(_: S, columns: &mut [Vec<f64>]) -> bool {
+    for k in 0..columns.len() {
+        let (done, rest) = columns.split_at_mut(k);
+        let column = &mut rest[0][k..];
+        for earlier in done {
+            let at_pivot = earlier[k];
+            for (value, earlier) in column.iter_mut().zip(&earlier[k..]) {
+                *value -= earlier * at_pivot;
+            }
+        }
+        let root = column[0].sqrt();
+        if root.is_nan() || root == 0.0 {
+            return false;
+        }
+        for value in column {
+            *value /= root;
+        }
+    }
+    true
+}
+
+#[inline(always)]
+fn subtract_with<S: Simd>(simd: S, rows: &[Row], matrix: &mut [f64], apart: usize) {
     let n = rows.len();
     for first in (0..n).step_by(WIDTH) {
         let columns = turned(&rows[first..n.min(first + WIDTH)]);
-        let below = matrix[first * n..].chunks_mut(HELD * n);
+        let below = matrix[first * apart..].chunks_mut(HELD * apart);
         for (rows, lines) in rows[first..].chunks(HELD).zip(below) {
             // Rows that are missing at the end are done twice.
             let row = |k: usize| &rows[k.min(rows.len() - 1)];
@@ -45,7 +76,7 @@ fn subtract_with<S: Simd>(simd: S, rows: &[Row], matrix: &mut [f64]) {
                     *sum += f64x8::splat(simd, row[k]) * column;
                 }
             }
-            for (line, sum) in lines.chunks_mut(n).zip(sums) {
+            for (line, sum) in lines.chunks_mut(apart).zip(sums) {
                 let line = &mut line[first..n.min(first + WIDTH)];
                 for (entry, sum) in line.iter_mut().zip(sum.as_slice()) {
                     *entry -= sum;
@@ -73,6 +104,20 @@ mod tests {
     use crate::{Generator, level, levels};
 
     #[test]
+    fn columns_of_the_factor_restore_those_of_the_matrix() {
+        for level in levels() {
+            let mut columns = [vec![4.0, 2.0, 1.0], vec![f64::NAN, 5.0, 2.5]];
+            assert!(eliminate(level, &mut columns));
+            assert_eq!(columns[0], [2.0, 1.0, 0.5]);
+            assert_eq!(columns[1][1..], [2.0, 1.0]);
+            for pivot in [1.0, 0.5, f64::NAN] {
+                let mut columns = [vec![1.0, 1.0], vec![1.0, pivot]];
+                assert!(!eliminate(level, &mut columns), "{pivot}");
+            }
+        }
+    }
+
+    #[test]
     fn every_instruction_set_gives_the_sums_of_plain_loops() {
         let mut generator = Generator::new(7, 0, 0);
         let mut numbers = crate::Block::ZERO;
@@ -90,7 +135,7 @@ mod tests {
             let matrix = draw(n * n);
             for level in levels() {
                 let mut found = matrix.clone();
-                subtract(level, &rows, &mut found);
+                subtract(level, &rows, &mut found, n);
                 for (i, j) in (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))) {
                     let sum = (0..DEPTH).fold(0.0, |sum, k| sum + rows[i][k] * rows[j][k]);
                     assert_eq!(

@@ -7,7 +7,8 @@ use gumption_lanes::{Block, LANES, Level, level, ops, sum};
 use super::Model;
 use super::graph::{Graph, Id, Op};
 use super::implicit::Newton;
-use super::operation::{Binary, Unary};
+use super::lower::Ids;
+use super::operation::{Binary, Rule, Unary};
 use super::terms::{self, Sums, Term};
 
 /// An input (below the number of inputs) or a register (from there on).
@@ -67,12 +68,7 @@ impl Program {
             graph,
             sums: Sums::new(graph),
         };
-        let order = order(&operands);
-        let mut uses = vec![0usize; graph.ops.len()];
-        for id in &order {
-            operands.visit(*id, |a| uses[a as usize] += 1);
-        }
-        graph.outputs.iter().for_each(|id| uses[*id as usize] += 1);
+        let (order, uses) = order(&operands);
         let mut allocator = Allocator {
             graph,
             operands,
@@ -97,8 +93,11 @@ impl Program {
 
 /// The operations in the order of evaluation: for each, the operand that was written last (as a rule
 /// the one with the longest history) comes first, so that a sum over a vector needs one accumulator.
-fn order(operands: &Operands) -> Vec<Id> {
+/// Beside them, how often each operation is used.
+fn order(operands: &Operands) -> (Vec<Id>, Vec<usize>) {
     let graph = operands.graph;
+    let mut uses = vec![0; graph.ops.len()];
+    graph.outputs.iter().for_each(|id| uses[*id as usize] += 1);
     let mut done = vec![false; graph.ops.len()];
     let mut order = Vec::new();
     let mut open: Vec<(Id, bool)> = graph.outputs.iter().rev().map(|id| (*id, false)).collect();
@@ -114,17 +113,14 @@ fn order(operands: &Operands) -> Vec<Id> {
             continue;
         }
         open.push((id, true));
-        let mut needed = Vec::new();
-        operands.visit(id, |a| needed.push(a));
-        needed.sort_unstable();
-        open.extend(
-            needed
-                .into_iter()
-                .filter(|a| !done[*a as usize])
-                .map(|a| (a, false)),
-        );
+        let first = open.len();
+        operands.visit(id, |a| {
+            uses[a as usize] += 1;
+            open.extend((!done[a as usize]).then_some((a, false)));
+        });
+        open[first..].sort_unstable();
     }
-    order
+    (order, uses)
 }
 
 /// What an operation takes from others when it becomes an instruction.
@@ -157,14 +153,14 @@ fn held(graph: &Graph, op: Op) -> Option<(MakeHeld, Id)> {
     let Op::Binary(row, a, b) = op else {
         return None;
     };
-    match (row.name, graph.constant(a), graph.constant(b)) {
-        ("+", Some(_), _) => Some((Action::AddScalar, b)),
-        ("+", _, Some(_)) => Some((Action::AddScalar, a)),
-        ("-", _, Some(_)) => Some((|place, c| Action::AddScalar(place, -c), a)),
-        ("-", Some(_), _) => Some((Action::RsubScalar, b)),
-        ("*", Some(_), _) => Some((Action::MulScalar, b)),
-        ("*", _, Some(_)) => Some((Action::MulScalar, a)),
-        ("/", Some(_), _) => Some((Action::RdivScalar, b)),
+    match (row.rule, graph.constant(a), graph.constant(b)) {
+        (Rule::Add, Some(_), _) => Some((Action::AddScalar, b)),
+        (Rule::Add, _, Some(_)) => Some((Action::AddScalar, a)),
+        (Rule::Sub, _, Some(_)) => Some((|place, c| Action::AddScalar(place, -c), a)),
+        (Rule::Sub, Some(_), _) => Some((Action::RsubScalar, b)),
+        (Rule::Mul, Some(_), _) => Some((Action::MulScalar, b)),
+        (Rule::Mul, _, Some(_)) => Some((Action::MulScalar, a)),
+        (Rule::Div, Some(_), _) => Some((Action::RdivScalar, b)),
         _ => None,
     }
 }
@@ -183,7 +179,7 @@ impl Allocator<'_> {
     fn emit(&mut self, id: Id) {
         let action = self.action(id);
         // The result is computed beside the registers, so it may take the place of an operand.
-        let mut done = Vec::new();
+        let mut done = Ids::new();
         self.operands.visit(id, |a| done.push(a));
         for a in done {
             self.release(a);

@@ -1,5 +1,8 @@
 //! The list of all functions, for calls, suggestions and the help.
 
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
 use super::operation::{BINARY, UNARY};
 
 /// What the help says about a function.
@@ -99,7 +102,9 @@ fn is_identifier(name: &str) -> bool {
 
 /// The function of a name.
 pub fn find(name: &str) -> Option<&'static FunctionInfo> {
-    functions().iter().find(|f| f.name == name)
+    static NAMED: LazyLock<HashMap<&str, &FunctionInfo>> =
+        LazyLock::new(|| functions().iter().rev().map(|f| (f.name, f)).collect());
+    NAMED.get(name).copied()
 }
 
 /// The circle constant.

@@ -3,13 +3,15 @@
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
+use smallvec::smallvec;
+
 use super::block::Program;
 use super::catalogue;
 use super::expressions;
 use super::faults;
 use super::functions;
 use super::graph::{Id, Label};
-use super::lower::{Binding, Kind, Lowering, UserFunction, Value};
+use super::lower::{Binding, Ids, Kind, Lowering, UserFunction, Value};
 use super::parser;
 use super::printer;
 use super::syntax::{Expr, Name, Node, Span, Statement};
@@ -53,7 +55,7 @@ pub fn compile(request: &Request<'_>) -> Result<Model, Vec<ModelFault>> {
     check.finish(request, &results)
 }
 
-/// A statement and what it refers to.
+/// A statement and what it refers to, as often as it does.
 pub struct Record {
     pub statement: Rc<Statement>,
     pub place: Place,
@@ -82,11 +84,11 @@ impl<'r> Check<'r> {
         for (index, symbol) in symbols.iter().enumerate() {
             let name = &symbol.name;
             self.l.place = Place::Symbol(index);
+            let mut value = None;
             if catalogue::is_reserved(name) {
-                self.l.report(reserved(name, 0..0));
                 // What uses the name is judged when it has another one.
-                self.l.scope.insert(name.clone(), Binding::Faulty);
-            } else if self.l.scope.contains_key(name) {
+                self.l.report(reserved(name, 0..0));
+            } else if self.l.place_of(name) != Some(index) {
                 self.l.report(
                     Fault::new(
                         faults::DEFINED_TWICE,
@@ -97,11 +99,10 @@ impl<'r> Check<'r> {
                     .help(say!("choose another name for one of them")),
                 );
             } else {
-                let value = self.symbol_value(index, symbol);
-                self.l
-                    .scope
-                    .insert(name.clone(), value.map_or(Binding::Faulty, Binding::Value));
+                value = self.symbol_value(index, symbol);
             }
+            let binding = value.map_or(Binding::Faulty, Binding::Value);
+            self.l.given.push(binding);
         }
     }
 
@@ -134,14 +135,14 @@ impl<'r> Check<'r> {
             return self.result_value(index, symbol);
         }
         let builder = &mut self.l.builder;
-        let (elements, vector): (Vec<Id>, bool) = match &symbol.role {
-            Role::Input(place) => (vec![builder.input(*place)], false),
+        let (elements, vector): (Ids, bool) = match &symbol.role {
+            Role::Input(place) => (smallvec![builder.input(*place)], false),
             Role::InputVector(places) => (places.clone().map(|p| builder.input(p)).collect(), true),
-            Role::Constant(value) => (vec![builder.constant(*value)], false),
+            Role::Constant(value) => (smallvec![builder.constant(*value)], false),
             Role::ConstantVector(values) => {
                 (values.iter().map(|v| builder.constant(*v)).collect(), true)
             }
-            Role::Result { .. } => (Vec::new(), false),
+            Role::Result { .. } => (Ids::new(), false),
         };
         let kind = Kind::Quantity(symbol.unit.clone());
         (!elements.is_empty()).then_some(Value {
@@ -168,7 +169,7 @@ impl<'r> Check<'r> {
             self.l.report(fault);
         }
         for name in reading.faulty {
-            if !self.l.scope.contains_key(&name) {
+            if self.l.binding(&name).is_none() {
                 self.added.push(name.clone());
                 self.l.scope.insert(name, Binding::Faulty);
             }
@@ -255,7 +256,7 @@ impl<'r> Check<'r> {
             self.l.report(reserved(text, name.span.clone()));
             return;
         }
-        if self.l.scope.contains_key(text) && !self.is_broken_name(text) {
+        if self.l.binding(text).is_some() && !self.is_broken_name(text) {
             let mut fault = Fault::new(
                 faults::DEFINED_TWICE,
                 name.span.clone(),
@@ -282,7 +283,7 @@ impl<'r> Check<'r> {
 
     /// Whether only a statement that could not be read defines the name.
     fn is_broken_name(&self, name: &str) -> bool {
-        matches!(self.l.scope.get(name), Some(Binding::Faulty))
+        matches!(self.l.binding(name), Some(Binding::Faulty))
             && !self.spans.contains_key(name)
             && self.l.symbol(name).is_none()
     }
@@ -330,14 +331,14 @@ impl<'r> Check<'r> {
             match &e.node {
                 Node::Name(name)
                     if !own.contains(name)
-                        && !self.l.scope.contains_key(name)
+                        && self.l.binding(name).is_none()
                         && !catalogue::is_pi(name) =>
                 {
                     self.l.unknown_name(name, &e.span);
                 }
                 Node::Call { name, .. }
                     if !own.contains(&name.text)
-                        && !self.l.scope.contains_key(&name.text)
+                        && self.l.binding(&name.text).is_none()
                         && catalogue::find(&name.text).is_none() =>
                 {
                     functions::unknown_function(&mut self.l, name);
@@ -356,11 +357,8 @@ impl<'r> Check<'r> {
                 parameters, body, ..
             } => (body, parameters),
         };
-        let names: BTreeSet<&str> = expr
-            .names()
-            .into_iter()
-            .filter(|n| !parameters.iter().any(|p| p.text == *n))
-            .collect();
+        let mut names = expr.names();
+        names.retain(|n| !parameters.iter().any(|p| p.text == *n));
         let symbols = names.iter().filter_map(|n| self.l.place_of(n)).collect();
         let statements = names
             .iter()
@@ -393,15 +391,13 @@ impl<'r> Check<'r> {
                     .collect());
             }
         };
-        let mut used = BTreeSet::new();
+        let mut used = vec![false; request.symbols.len()];
         let mut outputs = Vec::new();
         for (index, (outcome, measurand)) in outcomes.iter().zip(request.measurands).enumerate() {
             let reached = self.reached(outcome);
-            used.extend(
-                reached
-                    .iter()
-                    .flat_map(|s| self.statements[*s].symbols.iter().copied()),
-            );
+            for symbol in reached.iter().flat_map(|s| &self.statements[*s].symbols) {
+                used[*symbol] = true;
+            }
             let equation = self.equation(index, measurand.name, outcome, &reached);
             for element in 1..=outcome.ids.len() {
                 outputs.push(Output {
@@ -419,9 +415,7 @@ impl<'r> Check<'r> {
         let inputs = input_count(request.symbols);
         let graph = self.l.builder.finish(&ids);
         let program = Program::new(&graph, inputs);
-        let unused = (0..request.symbols.len())
-            .filter(|i| !used.contains(i))
-            .collect();
+        let unused = (0..request.symbols.len()).filter(|i| !used[*i]).collect();
         Ok(Model {
             inputs,
             outputs: outputs.into(),

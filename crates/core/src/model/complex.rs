@@ -24,7 +24,7 @@ struct Pair {
 impl Pair {
     fn value(self) -> Value {
         Value {
-            elements: vec![self.re, self.im],
+            elements: [self.re, self.im].into_iter().collect(),
             vector: true,
             kind: Kind::Quantity(self.unit),
             zero: false,

@@ -159,7 +159,7 @@ fn coefficient_list<'e>(l: &mut Lowering<'_>, e: &'e Expr) -> Option<Vec<(Value,
         _ => {
             let all = vector_argument(l, "polyval", e)?;
             let single = |id: &Id| Value {
-                elements: vec![*id],
+                elements: std::iter::once(*id).collect(),
                 vector: false,
                 ..all.clone()
             };

@@ -2,7 +2,7 @@
 
 use super::catalogue::FunctionInfo;
 use super::faults;
-use super::lower::{Lowering, Value, wrong_count};
+use super::lower::{Ids, Lowering, Value, wrong_count};
 use super::printer;
 use super::syntax::Expr;
 use super::units::Operand;
@@ -56,7 +56,7 @@ pub fn call(
         .collect();
     let columns: Option<Vec<Vec<f64>>> = columns.into_iter().collect();
     let columns = columns?;
-    let mut elements = Vec::with_capacity(len);
+    let mut elements = Ids::with_capacity(len);
     for i in 0..len {
         let at: Vec<f64> = columns
             .iter()

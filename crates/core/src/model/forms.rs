@@ -7,19 +7,14 @@ use super::lower::{Kind, Lowering, Value};
 use super::printer;
 use super::syntax::{Expr, Infix, Node};
 use super::units::Operand;
-use crate::quantity::{Dimension, Factor, Unit};
+use crate::quantity::{Dimension, Unit};
 use gumption_fault::{Fault, say};
 
 /// kelvin(T).
 pub fn kelvin(l: &mut Lowering<'_>, argument: &Expr) -> Option<Value> {
     let value = l.value(argument)?;
     let unit = l.quantity(&value, argument)?;
-    let kelvin = Unit {
-        dimension: Dimension::of([0, 0, 0, 0, 1, 0, 0, 0]),
-        factor: Factor::ONE,
-        origin: None,
-        symbol: "K".to_string(),
-    };
+    let kelvin = Unit::coherent(Dimension::of([0, 0, 0, 0, 1, 0, 0, 0]));
     if unit.dimension == kelvin.dimension {
         return l.converted(&value, &kelvin);
     }
@@ -140,7 +135,7 @@ fn unknown_name(l: &mut Lowering<'_>, unknown: &Expr) -> Option<String> {
                 .locals
                 .last()
                 .is_some_and(|frame| frame.contains_key(name));
-            if !local && !l.scope.contains_key(name) {
+            if !local && l.binding(name).is_none() {
                 return Some(name.clone());
             }
             (

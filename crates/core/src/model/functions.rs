@@ -23,7 +23,7 @@ pub fn call(l: &mut Lowering<'_>, e: &Expr, name: &Name, arguments: &[Expr]) -> 
     {
         return value_as_function(l, name, arguments);
     }
-    match l.scope.get(&name.text) {
+    match l.binding(&name.text) {
         Some(Binding::Function(function)) => {
             let function = Rc::clone(function);
             return inline(l, e, &function, arguments);
@@ -310,7 +310,7 @@ fn quantize(l: &mut Lowering<'_>, e: &Expr, argument: &Expr, step: &Expr) -> Opt
     let (x, q) = (x?, q?);
     let unit = l.quantity(&x, argument)?;
     // A step is a difference also on a temperature scale.
-    let difference = x.with_kind(Kind::Quantity(unit.difference()));
+    let difference = x.clone().with_kind(Kind::Quantity(unit.difference()));
     let joined = l.join(
         Operand {
             value: &difference,

@@ -1,26 +1,28 @@
 //! Text → tokens.
 
+use std::borrow::Cow;
+
 use super::faults;
 use super::syntax::Span;
 use gumption_fault::{Fault, say};
 
-/// A token and where it stands.
+/// A token of a text and where it stands.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Token {
-    pub kind: Kind,
+pub struct Token<'t> {
+    pub kind: Kind<'t>,
     pub span: Span,
 }
 
 /// What a token is.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Kind {
+pub enum Kind<'t> {
     Number {
         value: f64,
-        text: String,
+        text: Cow<'t, str>,
     },
-    Name(String),
+    Name(&'t str),
     /// Text between single quotes.
-    Quoted(String),
+    Quoted(&'t str),
     /// Operators, brackets and commas, in their plain spelling (`*` for `×`).
     Sign(&'static str),
     /// `if then else and or not`
@@ -75,10 +77,10 @@ const SIGNS: [(&str, &str); 38] = [
     (",", ","),
 ];
 
-const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+const SUPERSCRIPTS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
 
 /// Splits a text; what is no token is reported and left out.
-pub fn tokens(text: &str, faults: &mut Vec<Fault>) -> Vec<Token> {
+pub fn tokens<'t>(text: &'t str, faults: &mut Vec<Fault>) -> Vec<Token<'t>> {
     let mut lexer = Lexer {
         text,
         at: 0,
@@ -92,19 +94,19 @@ pub fn tokens(text: &str, faults: &mut Vec<Fault>) -> Vec<Token> {
     lexer.tokens
 }
 
-struct Lexer<'a> {
+struct Lexer<'a, 'f> {
     text: &'a str,
     at: usize,
-    tokens: Vec<Token>,
-    faults: &'a mut Vec<Fault>,
+    tokens: Vec<Token<'a>>,
+    faults: &'f mut Vec<Fault>,
 }
 
-impl<'a> Lexer<'a> {
+impl<'a> Lexer<'a, '_> {
     fn rest(&self) -> &'a str {
         &self.text[self.at..]
     }
 
-    fn push(&mut self, kind: Kind, span: Span) {
+    fn push(&mut self, kind: Kind<'a>, span: Span) {
         self.at = span.end;
         self.tokens.push(Token { kind, span });
     }
@@ -121,13 +123,13 @@ impl<'a> Lexer<'a> {
             self.number();
         } else if next == '\'' {
             self.quoted();
-        } else if SUPERSCRIPTS.contains(next) || next == '⁻' {
+        } else if SUPERSCRIPTS.contains(&next) || next == '⁻' {
             self.superscript();
         } else if next.is_alphabetic() || next == '_' {
             self.name();
         } else if let Some((spelt, plain)) = SIGNS
             .iter()
-            .find(|(spelt, _)| self.rest().starts_with(spelt))
+            .find(|(spelt, _)| spelt.starts_with(next) && self.rest().starts_with(spelt))
         {
             let kind = match WORDS.iter().find(|w| w == &plain) {
                 Some(word) => Kind::Word(word),
@@ -181,7 +183,7 @@ impl<'a> Lexer<'a> {
                 self.push(
                     Kind::Number {
                         value,
-                        text: text.to_string(),
+                        text: text.into(),
                     },
                     span,
                 );
@@ -199,7 +201,7 @@ impl<'a> Lexer<'a> {
                 self.push(
                     Kind::Number {
                         value: 1.0,
-                        text: text.to_string(),
+                        text: text.into(),
                     },
                     span,
                 );
@@ -216,14 +218,14 @@ impl<'a> Lexer<'a> {
         }
         let kind = match WORDS.iter().find(|w| **w == text) {
             Some(word) => Kind::Word(word),
-            None => Kind::Name(text.to_string()),
+            None => Kind::Name(text),
         };
         self.push(kind, span);
     }
 
     /// Names joined by dots from here on, the first of which ends there: refused, and read as the last of them, which
     /// is how the parameter of a fit or the element of a table is called.
-    fn dotted(&mut self, first: usize) -> Option<(Span, String)> {
+    fn dotted(&mut self, first: usize) -> Option<(Span, &'a str)> {
         let rest = self.rest();
         let mut end = first;
         let mut last = 0;
@@ -234,7 +236,7 @@ impl<'a> Lexer<'a> {
             }
             (last, end) = (end + 1, end + 1 + own);
         }
-        let (whole, name) = (rest[..end].to_string(), rest[last..end].to_string());
+        let (whole, name) = (&rest[..end], &rest[last..end]);
         let span = self.at..self.at + end;
         (last > 0).then(|| {
             self.faults.push(
@@ -255,12 +257,12 @@ impl<'a> Lexer<'a> {
     /// `x²` is `x ^ 2`.
     fn superscript(&mut self) {
         let rest = self.rest();
-        let is_part = |c: char| SUPERSCRIPTS.contains(c) || c == '⁻';
+        let is_part = |c: char| SUPERSCRIPTS.contains(&c) || c == '⁻';
         let end = rest.find(|c| !is_part(c)).unwrap_or(rest.len());
         let span = self.at..self.at + end;
         let plain: String = rest[..end]
             .chars()
-            .map(|c| match SUPERSCRIPTS.chars().position(|s| s == c) {
+            .map(|c| match SUPERSCRIPTS.iter().position(|s| *s == c) {
                 Some(digit) => char::from(b'0' + digit as u8),
                 None => '-',
             })
@@ -271,7 +273,7 @@ impl<'a> Lexer<'a> {
                 if value < 0.0 {
                     self.push(Kind::Sign("-"), span.clone());
                 }
-                let text = plain.trim_start_matches('-').to_string();
+                let text = Cow::Owned(plain.trim_start_matches('-').to_string());
                 self.push(
                     Kind::Number {
                         value: value.abs(),
@@ -301,10 +303,7 @@ impl<'a> Lexer<'a> {
         let line = &inner[..inner.find('\n').unwrap_or(inner.len())];
         let start = self.at;
         match line.find('\'') {
-            Some(end) => self.push(
-                Kind::Quoted(line[..end].to_string()),
-                start..start + end + 2,
-            ),
+            Some(end) => self.push(Kind::Quoted(&line[..end]), start..start + end + 2),
             None => {
                 let span = start..start + 1 + line.trim_end().len();
                 self.faults.push(
@@ -318,7 +317,7 @@ impl<'a> Lexer<'a> {
                         "write a unit between single quotes right after its number: `25 'mm'`"
                     )),
                 );
-                self.push(Kind::Quoted(line.trim_end().to_string()), span);
+                self.push(Kind::Quoted(line.trim_end()), span);
             }
         }
     }
@@ -361,14 +360,14 @@ impl<'a> Lexer<'a> {
 }
 
 fn is_name_part(c: char) -> bool {
-    (c.is_alphanumeric() || c == '_') && !SUPERSCRIPTS.contains(c)
+    c.is_ascii_alphanumeric() || c == '_' || c.is_alphanumeric() && !SUPERSCRIPTS.contains(&c)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn kinds(text: &str) -> Vec<Kind> {
+    fn kinds(text: &str) -> Vec<Kind<'_>> {
         let mut faults = Vec::new();
         let found = tokens(text, &mut faults)
             .into_iter()
@@ -383,13 +382,13 @@ mod tests {
         assert_eq!(
             kinds("θ₁ = 1_000.5e-3 '°C' # room"),
             [
-                Kind::Name("θ₁".into()),
+                Kind::Name("θ₁"),
                 Kind::Sign("="),
                 Kind::Number {
                     value: 1.0005,
                     text: "1_000.5e-3".into()
                 },
-                Kind::Quoted("°C".into()),
+                Kind::Quoted("°C"),
                 Kind::Eof
             ]
         );

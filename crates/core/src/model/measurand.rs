@@ -25,16 +25,16 @@ impl Check<'_> {
             None => self.shared_model(index, measurand),
         };
         let Some(outcome) = outcome else {
-            self.l
-                .scope
-                .entry(measurand.name.to_string())
-                .or_insert(Binding::Faulty);
+            if self.l.binding(measurand.name).is_none() {
+                let name = measurand.name.to_string();
+                self.l.scope.insert(name, Binding::Faulty);
+            }
             return None;
         };
         // Later measurands may use this one.
-        if !self.l.scope.contains_key(measurand.name) && !catalogue::is_reserved(measurand.name) {
+        if self.l.binding(measurand.name).is_none() && !catalogue::is_reserved(measurand.name) {
             let value = Value {
-                elements: outcome.ids.clone(),
+                elements: outcome.ids.as_slice().into(),
                 vector: outcome.vector,
                 kind: Kind::Quantity(outcome.unit.clone()),
                 zero: false,
@@ -126,7 +126,7 @@ impl Check<'_> {
             Statement::Assign { name, value }
                 if self.defined.get(&name.text) == Some(&statement) =>
             {
-                match self.l.scope.get(&name.text)? {
+                match self.l.binding(&name.text)? {
                     Binding::Value(found) => Some((found.clone(), value)),
                     _ => None,
                 }
@@ -138,7 +138,7 @@ impl Check<'_> {
     fn shared_model(&mut self, index: usize, measurand: &MeasurandSource<'_>) -> Option<Outcome> {
         let name = measurand.name;
         let statement = self.defined.get(name).copied();
-        match (self.l.scope.get(name), statement) {
+        match (self.l.binding(name), statement) {
             (Some(Binding::Value(_)), Some(statement)) => {
                 let place = self.statements[statement].place;
                 self.outcome(index, measurand, statement, Vec::new(), place)
@@ -187,7 +187,7 @@ impl Check<'_> {
         let Some(wanted) = &measurand.unit else {
             if found.dimension == Dimension::NONE {
                 let out = self.l.converted(value, &Unit::one())?;
-                return Some((out.elements, Unit::one()));
+                return Some((out.elements.into_vec(), Unit::one()));
             }
             self.l.place = Place::Entry(index);
             self.l.report(
@@ -248,12 +248,12 @@ impl Check<'_> {
             return None;
         }
         let out = self.l.converted(&value, wanted)?;
-        Some((out.elements, wanted.clone()))
+        Some((out.elements.into_vec(), wanted.clone()))
     }
 
     fn result_help(&self, expr: &Expr, found: &Unit, wanted: &Unit) -> Said {
         if found.is_one() && wanted.is_point() {
-            let (symbol, step) = (&wanted.symbol, wanted.difference().symbol);
+            let (symbol, step) = (&wanted.symbol, wanted.difference().symbol.clone());
             let text = printer::expression(expr);
             return say!(
                 "if the formula gives the number of {symbol}, write `0 '{symbol}' + 1 '{step}' * ({text})`"

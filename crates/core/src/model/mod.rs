@@ -73,7 +73,7 @@ use gumption_fault::Fault;
 pub fn names(text: &str) -> Vec<(String, Range<usize>)> {
     let tokens = lexer::tokens(text, &mut Vec::new()).into_iter();
     let named = tokens.filter_map(|token| match token.kind {
-        lexer::Kind::Name(name) => Some((name, token.span)),
+        lexer::Kind::Name(name) => Some((name.to_string(), token.span)),
         _ => None,
     });
     named.collect()

@@ -262,7 +262,7 @@ mod tests {
         );
         let names: Vec<String> = found
             .into_iter()
-            .map(|unit| unit.map_or("none".into(), |unit| unit.symbol))
+            .map(|unit| unit.map_or("none".into(), |unit| unit.symbol.clone()))
             .collect();
         assert_eq!(names, ["mV", "mV/K"]);
     }
@@ -282,7 +282,7 @@ mod tests {
         );
         let names: Vec<String> = found
             .into_iter()
-            .map(|unit| unit.map_or("none".into(), |unit| unit.symbol))
+            .map(|unit| unit.map_or("none".into(), |unit| unit.symbol.clone()))
             .collect();
         assert_eq!(names, ["m/s", "none", "none", "none", "none"]);
     }

@@ -1,6 +1,6 @@
 //! Syntax tree → text, with no more brackets than needed.
 
-use super::syntax::{ATOM, Expr, Infix, MINUS, NOT, Node, Statement};
+use super::syntax::{ATOM, Expr, Infix, MINUS, NOT, Node, Statement, UnitText};
 
 /// A statement on one line; `measurand` names the value of a bare expression.
 pub fn statement(statement: &Statement, measurand: &str) -> String {
@@ -20,80 +20,106 @@ pub fn statement(statement: &Statement, measurand: &str) -> String {
 
 /// An expression as a factor of a product, in brackets where it needs them.
 pub fn factor(e: &Expr) -> String {
-    bracketed(e, Infix::Mul.level())
+    let mut out = String::new();
+    bracketed(e, Infix::Mul.level(), &mut out);
+    out
 }
 
 /// An expression on one line.
 pub fn expression(e: &Expr) -> String {
+    let mut out = String::new();
+    write(e, &mut out);
+    out
+}
+
+fn write(e: &Expr, out: &mut String) {
     match &e.node {
-        Node::Number {
-            text, unit: None, ..
-        } => text.clone(),
-        Node::Number {
-            text,
-            unit: Some(unit),
-            ..
-        } => format!("{text} '{}'", unit.text),
-        Node::Unit(unit) => format!("'{}'", unit.text),
-        Node::Name(name) => name.clone(),
-        Node::Chain { first, rest } => chain(first, rest),
+        Node::Number { text, unit, .. } => {
+            out.push_str(text);
+            if let Some(unit) = unit {
+                out.push(' ');
+                quoted(unit, out);
+            }
+        }
+        Node::Unit(unit) => quoted(unit, out),
+        Node::Name(name) => out.push_str(name),
+        Node::Chain { first, rest } => chain(first, rest, out),
         Node::Power { base, exponent } => {
             // Right-associative: a^b^c is a^(b^c), (a^b)^c needs its brackets.
-            let level = Infix::Power.level();
-            format!(
-                "{}^{}",
-                bracketed(base, level + 1),
-                bracketed(exponent, MINUS)
-            )
+            bracketed(base, Infix::Power.level() + 1, out);
+            out.push('^');
+            bracketed(exponent, MINUS, out);
         }
-        Node::Minus(inner) => format!("-{}", bracketed(inner, MINUS)),
-        Node::Not(inner) => format!("not {}", bracketed(inner, NOT)),
-        Node::Call { name, arguments } => format!("{}({})", name.text, list(arguments)),
-        Node::Vector(items) => format!("[{}]", list(items)),
+        Node::Minus(inner) => {
+            out.push('-');
+            bracketed(inner, MINUS, out);
+        }
+        Node::Not(inner) => {
+            out.push_str("not ");
+            bracketed(inner, NOT, out);
+        }
+        Node::Call { name, arguments } => {
+            out.push_str(&name.text);
+            list(arguments, ['(', ')'], out);
+        }
+        Node::Vector(items) => list(items, ['[', ']'], out),
         Node::Index { vector, index } => {
-            format!("{}[{}]", bracketed(vector, ATOM), expression(index))
+            bracketed(vector, ATOM, out);
+            list(std::slice::from_ref(index), ['[', ']'], out);
         }
-        Node::If { condition, yes, no } => format!(
-            "if {} then {} else {}",
-            expression(condition),
-            bracketed(yes, 1),
-            expression(no)
-        ),
+        Node::If { condition, yes, no } => {
+            out.push_str("if ");
+            write(condition, out);
+            out.push_str(" then ");
+            bracketed(yes, 1, out);
+            out.push_str(" else ");
+            write(no, out);
+        }
     }
 }
 
-fn chain(first: &Expr, rest: &[(Infix, Expr)]) -> String {
+fn quoted(unit: &UnitText, out: &mut String) {
+    out.push('\'');
+    out.push_str(&unit.text);
+    out.push('\'');
+}
+
+fn chain(first: &Expr, rest: &[(Infix, Expr)], out: &mut String) {
     let Some((infix, _)) = rest.first() else {
-        return expression(first);
+        return write(first, out);
     };
     let level = infix.level();
     // Comparisons do not chain.
-    let mut out = bracketed(first, level + u8::from(infix.compares()));
+    bracketed(first, level + u8::from(infix.compares()), out);
     for (infix, operand) in rest {
         // a - -b reads badly: the right operand of + and - keeps brackets around its minus.
         let inner = match (infix, &operand.node) {
             (Infix::Add | Infix::Sub, Node::Minus(_)) => ATOM,
             _ => level + 1,
         };
-        out.push_str(&format!(
-            " {} {}",
-            infix.symbol(),
-            bracketed(operand, inner)
-        ));
+        out.push(' ');
+        out.push_str(infix.symbol());
+        out.push(' ');
+        bracketed(operand, inner, out);
     }
-    out
 }
 
-fn list(items: &[Expr]) -> String {
-    items.iter().map(expression).collect::<Vec<_>>().join(", ")
+fn list(items: &[Expr], [opening, closing]: [char; 2], out: &mut String) {
+    out.push(opening);
+    for (at, item) in items.iter().enumerate() {
+        if at > 0 {
+            out.push_str(", ");
+        }
+        write(item, out);
+    }
+    out.push(closing);
 }
 
-fn bracketed(e: &Expr, least: u8) -> String {
-    let text = expression(e);
+fn bracketed(e: &Expr, least: u8, out: &mut String) {
     if level(e) < least {
-        format!("({text})")
+        list(std::slice::from_ref(e), ['(', ')'], out);
     } else {
-        text
+        write(e, out);
     }
 }
 

@@ -1,5 +1,7 @@
 //! Temperature scales: units with an origin of their own, on which points and differences are told apart.
 
+use std::borrow::Cow;
+
 use super::faults;
 use super::lower::{Kind, Lowering};
 use super::printer;
@@ -11,7 +13,12 @@ use gumption_fault::{Fault, Said, say};
 impl Lowering<'_> {
     /// Sum or difference with the arithmetic of temperature scales: point - point is a difference,
     /// point ± difference is a point.
-    pub fn sum(&mut self, left: Operand<'_>, infix: Infix, right: Operand<'_>) -> Option<Joined> {
+    pub fn sum<'v>(
+        &mut self,
+        left: Operand<'v>,
+        infix: Infix,
+        right: Operand<'v>,
+    ) -> Option<Joined<'v>> {
         let a = self.quantity(left.value, left.expr);
         let b = self.quantity(right.value, right.expr);
         let (a, b) = (a?, b?);
@@ -31,7 +38,7 @@ impl Lowering<'_> {
             (true, _, false) => {
                 self.no_zero_of_kelvin(left, &a, right)?;
                 self.no_bare_number(left, infix, right, &a)?;
-                let step = left.value.with_kind(Kind::Quantity(a.difference()));
+                let step = left.value.clone().with_kind(Kind::Quantity(a.difference()));
                 let joined = self.join(
                     Operand {
                         value: &step,
@@ -41,15 +48,18 @@ impl Lowering<'_> {
                     &what,
                 )?;
                 Some(Joined {
-                    left: left.value.clone(),
-                    right: joined.right,
+                    left: Cow::Borrowed(left.value),
+                    right: Cow::Owned(joined.right.into_owned()),
                     unit: a,
                 })
             }
             (false, Infix::Add, true) => {
                 self.no_zero_of_kelvin(right, &b, left)?;
                 self.no_bare_number(right, infix, left, &b)?;
-                let step = right.value.with_kind(Kind::Quantity(b.difference()));
+                let step = right
+                    .value
+                    .clone()
+                    .with_kind(Kind::Quantity(b.difference()));
                 // The other way round, so that the conversion is to the scale of the point.
                 let joined = self.join(
                     Operand {
@@ -60,8 +70,8 @@ impl Lowering<'_> {
                     &what,
                 )?;
                 Some(Joined {
-                    left: joined.right,
-                    right: right.value.clone(),
+                    left: Cow::Owned(joined.right.into_owned()),
+                    right: Cow::Borrowed(right.value),
                     unit: b,
                 })
             }
@@ -79,7 +89,7 @@ impl Lowering<'_> {
     /// The fault of two temperatures in °C that are added, mostly for their mean.
     fn sum_of_points(&mut self, left: &Expr, right: &Expr, unit: &Unit) {
         let (a, b) = (printer::expression(left), printer::expression(right));
-        let (symbol, difference) = (&unit.symbol, unit.difference().symbol);
+        let (symbol, difference) = (&unit.symbol, unit.difference().symbol.clone());
         self.report(
             Fault::new(
                 faults::POINT,
@@ -150,7 +160,7 @@ impl Lowering<'_> {
             return Some(());
         }
         let text = printer::expression(point.expr);
-        let (symbol, difference) = (&unit.symbol, unit.difference().symbol);
+        let (symbol, difference) = (&unit.symbol, unit.difference().symbol.clone());
         let number = match &step.expr.node {
             Node::Number { text, .. } if step.value.literal => text,
             Node::Name(name) if self.has_no_unit(name) => {
@@ -202,7 +212,7 @@ impl Lowering<'_> {
     pub fn point_fault(&mut self, expr: &Expr, unit: &Unit) {
         let text = printer::expression(expr);
         let symbol = &unit.symbol;
-        let difference = unit.difference().symbol;
+        let difference = unit.difference().symbol.clone();
         let apart = match subtracted_step(expr) {
             Some((point, number)) => {
                 say!("the difference from {number} {symbol}, `{point} - {number} '{symbol}'`")

@@ -73,7 +73,8 @@ fn cross(l: &mut Lowering<'_>, a_expr: &Expr, b_expr: &Expr) -> Option<Value> {
             let (p, q) = (l.builder.mul(a[i], b[j]), l.builder.mul(a[j], b[i]));
             l.builder.sub(p, q)
         })
-        .to_vec();
+        .into_iter()
+        .collect();
     Some(Value {
         elements,
         kind: Kind::Quantity(a_unit.product(&b_unit)),
@@ -111,7 +112,7 @@ fn rotate(
     elements[first] = builder.sub(pc, qs);
     elements[second] = builder.add(ps, qc);
     Some(Value {
-        elements: elements.to_vec(),
+        elements: elements.into_iter().collect(),
         literal: value.literal && turn.literal,
         ..value
     })

@@ -3,8 +3,10 @@
 
 use gumption_lanes::Block;
 use gumption_lanes::sum;
+use smallvec::SmallVec;
 
 use super::graph::{Graph, Id, Op};
+use super::operation::Rule;
 
 /// Most terms of a sum; those that are no inputs wait in registers for it.
 pub(super) const MOST: usize = 4;
@@ -71,8 +73,8 @@ impl<'g> Sums<'g> {
     }
 
     /// The terms of a sum, to be added in their order; `None` where single operations do as well.
-    pub(super) fn terms(&self, id: Id) -> Option<Vec<Term<Id>>> {
-        let mut terms = Vec::new();
+    pub(super) fn terms(&self, id: Id) -> Option<SmallVec<[Term<Id>; MOST]>> {
+        let mut terms = SmallVec::new();
         let mut sum = Some(self.parts(id)?);
         // From the last term to the first.
         while let Some((rest, last)) = sum {
@@ -90,15 +92,15 @@ impl<'g> Sums<'g> {
 
     /// What comes first in a sum of two, and the second term.
     fn parts(&self, id: Id) -> Option<(Id, Term<Id>)> {
-        let (name, a, b) = self.binary(id)?;
+        let (rule, a, b) = self.binary(id)?;
         let is_sum = |id| {
-            let sum = matches!(self.binary(id), Some(("+" | "-", ..)));
+            let sum = matches!(self.binary(id), Some((Rule::Add | Rule::Sub, ..)));
             sum && self.is_inner(id)
         };
-        match name {
-            "+" if is_sum(b) && !is_sum(a) => Some((b, self.term(a))),
-            "+" => Some((a, self.term(b))),
-            "-" => Some((a, self.term(b).negated())),
+        match rule {
+            Rule::Add if is_sum(b) && !is_sum(a) => Some((b, self.term(a))),
+            Rule::Add => Some((a, self.term(b))),
+            Rule::Sub => Some((a, self.term(b).negated())),
             _ => None,
         }
     }
@@ -108,18 +110,18 @@ impl<'g> Sums<'g> {
             (Op::Unary(row, a), _) if row.name == "^2" && self.is_inner(id) => {
                 Term::PlusProduct(a, a)
             }
-            (_, Some(("*", a, b))) if self.is_inner(id) => Term::PlusProduct(a, b),
+            (_, Some((Rule::Mul, a, b))) if self.is_inner(id) => Term::PlusProduct(a, b),
             _ => Term::Plus(id),
         }
     }
 
     /// An operation of two operands that are no constants.
-    fn binary(&self, id: Id) -> Option<(&'static str, Id, Id)> {
+    fn binary(&self, id: Id) -> Option<(Rule, Id, Id)> {
         let Op::Binary(row, a, b) = self.graph.ops[id as usize] else {
             return None;
         };
         let variable = |id| self.graph.constant(id).is_none();
-        (variable(a) && variable(b)).then_some((row.name, a, b))
+        (variable(a) && variable(b)).then_some((row.rule, a, b))
     }
 
     /// Whether an operation has one use only, so that nobody misses its result.

@@ -1,5 +1,9 @@
 //! The rules of units: where two units meet, which conversion joins them, and what does not go.
 
+use std::borrow::Cow;
+
+use smallvec::smallvec;
+
 use super::faults;
 use super::graph::Id;
 use super::lower::{Kind, Lowering, Value};
@@ -16,9 +20,9 @@ pub struct Operand<'a> {
 }
 
 /// Two operands in one unit.
-pub struct Joined {
-    pub left: Value,
-    pub right: Value,
+pub struct Joined<'v> {
+    pub left: Cow<'v, Value>,
+    pub right: Cow<'v, Value>,
     /// The common unit.
     pub unit: Unit,
 }
@@ -26,8 +30,13 @@ pub struct Joined {
 impl Lowering<'_> {
     /// The same quantity, its numbers in another unit of its dimension.
     pub fn converted(&mut self, value: &Value, unit: &Unit) -> Option<Value> {
+        self.in_unit(value, unit).map(Cow::into_owned)
+    }
+
+    /// As [`converted`](Self::converted); what has the unit already is not copied.
+    fn in_unit<'v>(&mut self, value: &'v Value, unit: &Unit) -> Option<Cow<'v, Value>> {
         if value.unit()? == unit {
-            return Some(value.clone());
+            return Some(Cow::Borrowed(value));
         }
         let conversion = value.unit()?.conversion_to(unit)?;
         let mut out = value.clone();
@@ -39,7 +48,7 @@ impl Lowering<'_> {
             }
         }
         out.kind = Kind::Quantity(unit.clone());
-        Some(out)
+        Some(Cow::Owned(out))
     }
 
     /// The quantity of a value that must not be a truth.
@@ -120,7 +129,12 @@ impl Lowering<'_> {
     }
 
     /// Brings two operands to the unit of the left one, for comparing, choosing and joining.
-    pub fn join(&mut self, left: Operand<'_>, right: Operand<'_>, what: &Said) -> Option<Joined> {
+    pub fn join<'v>(
+        &mut self,
+        left: Operand<'v>,
+        right: Operand<'v>,
+        what: &Said,
+    ) -> Option<Joined<'v>> {
         let a = self.quantity(left.value, left.expr);
         let b = self.quantity(right.value, right.expr);
         let (a, b) = (a?, b?);
@@ -135,16 +149,14 @@ impl Lowering<'_> {
             (false, false) => (self.common_unit(left, right, &a, &b, what)?, false),
         };
         if zeros {
-            let left = left.value.with_unit_if_zero(&to);
-            let right = right.value.with_unit_if_zero(&to);
             return Some(Joined {
-                left,
-                right,
+                left: Cow::Owned(left.value.with_unit_if_zero(&to)),
+                right: Cow::Owned(right.value.with_unit_if_zero(&to)),
                 unit: to,
             });
         }
-        let left = self.converted(left.value, &to)?;
-        let right = self.converted(right.value, &to)?;
+        let left = self.in_unit(left.value, &to)?;
+        let right = self.in_unit(right.value, &to)?;
         Some(Joined {
             left,
             right,
@@ -162,6 +174,9 @@ impl Lowering<'_> {
         b: &Unit,
         what: &Said,
     ) -> Option<Unit> {
+        if a == b {
+            return Some(a.clone());
+        }
         if a.dimension != b.dimension {
             self.clash(left, right, what);
             return None;
@@ -435,19 +450,15 @@ fn side(expr: &Expr, name: &str) -> Option<Side> {
 impl Value {
     /// A literal 0 fits any unit.
     pub fn with_unit_if_zero(&self, unit: &Unit) -> Value {
-        if self.zero {
-            self.with_kind(Kind::Quantity(unit.clone()))
-        } else {
-            self.clone()
+        match self.zero {
+            true => self.clone().with_kind(Kind::Quantity(unit.clone())),
+            false => self.clone(),
         }
     }
 
     /// The same numbers as another kind of thing.
-    pub fn with_kind(&self, kind: Kind) -> Value {
-        Value {
-            kind,
-            ..self.clone()
-        }
+    pub fn with_kind(self, kind: Kind) -> Value {
+        Value { kind, ..self }
     }
 
     /// Its unit, unless it is a condition.
@@ -461,7 +472,7 @@ impl Value {
     /// A single quantity.
     pub fn scalar(id: Id, unit: Unit) -> Value {
         Value {
-            elements: vec![id],
+            elements: smallvec![id],
             vector: false,
             kind: Kind::Quantity(unit),
             zero: false,

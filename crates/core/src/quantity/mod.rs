@@ -31,4 +31,4 @@ pub use print::{Grouping, PowerStyle, Style};
 pub use rounded::{Rounded, RoundingRule, space_before};
 pub use show::show;
 pub use table::{DefinitionError, UnitTable};
-pub use unit::{Conversion, Unit};
+pub use unit::{Conversion, Unit, UnitParts};

@@ -12,7 +12,7 @@ use super::factor::Factor;
 use super::faults::{BAD_DEFINITION, BAD_EXPONENT, UNKNOWN_UNIT, UnitError};
 use super::syntax::{NamedTerm, Numbers, Parsed, parse};
 use super::token::{Kind, tokens, unified};
-use super::unit::Unit;
+use super::unit::{Unit, UnitParts};
 
 /// The units known to a file: the built-in ones and those of its `[unit]` table.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -106,12 +106,12 @@ impl UnitTable {
         }
         let scale =
             combine(&parsed, |name| self.lookup(name)).map_err(|fault| self.explained(fault))?;
-        Ok(Unit {
+        Ok(Unit::from(UnitParts {
             dimension: scale.dimension,
             factor: scale.factor,
             origin: scale.origin,
             symbol: self.symbol(text, &parsed),
-        })
+        }))
     }
 
     /// A unit text with the sign of each power that it leaves out: `m^3` for `m3`.

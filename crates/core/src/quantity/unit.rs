@@ -1,15 +1,22 @@
 //! Units: conversion, differences, products and powers.
 
+use std::ops::Deref;
+use std::sync::{Arc, LazyLock};
+
 use super::dimension::Dimension;
 use super::factor::Factor;
 use super::symbol::Composer;
 
-/// A unit of measurement.
+/// A unit of measurement. A file states few units, and everything in it has one: copies share what it is.
+#[derive(Debug, Clone)]
+pub struct Unit(Arc<UnitParts>);
+
+/// What a unit is.
 ///
 /// A temperature scale with an origin (°C) is a *point* unit: `origin` holds its zero in kelvin.
 /// Differences of point quantities are in K.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Unit {
+pub struct UnitParts {
     /// What kind of quantity it measures.
     pub dimension: Dimension,
     /// Ratio to the coherent SI unit.
@@ -18,6 +25,26 @@ pub struct Unit {
     pub origin: Option<f64>,
     /// As it is to be printed, e.g. `mA/V`, `°/s`, `1`.
     pub symbol: String,
+}
+
+impl From<UnitParts> for Unit {
+    fn from(parts: UnitParts) -> Unit {
+        Unit(parts.into())
+    }
+}
+
+impl Deref for Unit {
+    type Target = UnitParts;
+
+    fn deref(&self) -> &UnitParts {
+        &self.0
+    }
+}
+
+impl PartialEq for Unit {
+    fn eq(&self, other: &Unit) -> bool {
+        Arc::ptr_eq(&self.0, &other.0) || self.0 == other.0
+    }
 }
 
 /// A unit is written as it is printed.
@@ -52,12 +79,15 @@ impl Conversion {
 impl Unit {
     /// The unit one, `1`.
     pub fn one() -> Unit {
-        Unit {
-            dimension: Dimension::NONE,
-            factor: Factor::ONE,
-            origin: None,
-            symbol: "1".to_owned(),
-        }
+        static ONE: LazyLock<Unit> = LazyLock::new(|| {
+            Unit::from(UnitParts {
+                dimension: Dimension::NONE,
+                factor: Factor::ONE,
+                origin: None,
+                symbol: "1".to_owned(),
+            })
+        });
+        ONE.clone()
     }
 
     /// Whether this is the unit one itself (rad, % and ° are of dimension one, but not this unit).
@@ -83,11 +113,11 @@ impl Unit {
         if self.origin.is_none() {
             return self.clone();
         }
-        Unit {
+        Unit::from(UnitParts {
             origin: None,
             symbol: difference_symbol(&self.symbol),
-            ..self.clone()
-        }
+            ..*self.0
+        })
     }
 
     /// How to convert values in this unit to values in `other`; `None` if the dimensions differ.
@@ -117,12 +147,12 @@ impl Unit {
         let mut composer = Composer::new();
         composer.times(&a.symbol, 1);
         composer.times(&b.symbol, 1);
-        Unit {
+        Unit::from(UnitParts {
             dimension: a.dimension.product(b.dimension),
             factor: a.factor.product(b.factor),
             origin: None,
             symbol: composer.finish(),
-        }
+        })
     }
 
     /// The unit of a quotient; point units count as units of differences.
@@ -132,34 +162,34 @@ impl Unit {
         let mut composer = Composer::new();
         composer.times(&a.symbol, 1);
         composer.times(&b.symbol, -1);
-        Unit {
+        Unit::from(UnitParts {
             dimension: a.dimension.quotient(b.dimension),
             factor: a.factor.quotient(b.factor),
             origin: None,
             symbol: composer.finish(),
-        }
+        })
     }
 
     /// The unit of a rational power `num/den`; `None` where an exponent is no multiple of 1/60 or is
     /// out of range.
     pub fn powr(&self, num: i32, den: i32) -> Option<Unit> {
         let base = self.difference();
-        Some(Unit {
+        Some(Unit::from(UnitParts {
             dimension: base.dimension.powr(num, den)?,
             factor: base.factor.powr(num, den),
             origin: None,
             symbol: Composer::power(&base.symbol, num, den)?,
-        })
+        }))
     }
 
     /// The coherent SI unit of a dimension, named by its base units: `m·s^-2`.
     pub fn coherent(dimension: Dimension) -> Unit {
-        Unit {
+        Unit::from(UnitParts {
             dimension,
             factor: Factor::ONE,
             origin: None,
             symbol: dimension.to_string(),
-        }
+        })
     }
 
     /// The symbol as it is to be set in a document: `m·s⁻²` for `m*s^-2`, `kΩ` for `kohm`, `µm` for
@@ -267,8 +297,8 @@ mod tests {
 
     #[test]
     fn products_have_sensible_symbols() {
-        let product = |a: &str, b: &str| unit(a).product(&unit(b)).symbol;
-        let quotient = |a: &str, b: &str| unit(a).quotient(&unit(b)).symbol;
+        let product = |a: &str, b: &str| unit(a).product(&unit(b)).symbol.clone();
+        let quotient = |a: &str, b: &str| unit(a).quotient(&unit(b)).symbol.clone();
         assert_eq!(quotient("V", "V"), "1");
         assert_eq!(quotient("mA", "gn"), "mA/gn");
         assert_eq!(product("mA/gn", "gn"), "mA");

@@ -264,7 +264,7 @@ mod tests {
     fn parts(text: &str) -> (String, Option<String>) {
         let heading = heading(text);
         let unit = heading.unit.expect("a unit or none");
-        (heading.name, unit.map(|unit| unit.symbol))
+        (heading.name, unit.map(|unit| unit.symbol.clone()))
     }
 
     fn pair(name: &str, unit: &str) -> (String, Option<String>) {

@@ -70,7 +70,7 @@ impl Matrices {
         if !keys.iter().any(|key| text.contains(key)) {
             return (Cow::Borrowed(text), taken);
         }
-        let (mut left, mut copied) = (String::new(), 0);
+        let mut blanked: Vec<Range<usize>> = Vec::new();
         let (mut tokens, mut start) = (Source::new(text).lex(), 0);
         let mut before = Before::Nothing;
         while let Some(token) = tokens.next() {
@@ -81,17 +81,14 @@ impl Matrices {
                 before = before.and_then(token.kind(), &text[place], keys);
                 continue;
             };
-            left.push_str(&text[copied..=place.start]);
-            copied = end - 1;
-            left.push_str(&" ".repeat(copied - left.len()));
+            blanked.push(place.start + 1..end - 1);
             taken.0.push((place.start, Matrix::new(rows)));
             (tokens, start) = (Source::new(&text[end..]).lex(), end);
         }
-        if copied == 0 {
+        if blanked.is_empty() {
             return (Cow::Borrowed(text), taken);
         }
-        left.push_str(&text[copied..]);
-        (Cow::Owned(left), taken)
+        (Cow::Owned(with_blanks(text, &blanked)), taken)
     }
 
     /// The matrix whose outer bracket stands there.
@@ -100,6 +97,20 @@ impl Matrices {
         let found = all.find(|(place, _)| *place == open);
         found.map(|(_, matrix)| matrix.clone())
     }
+}
+
+/// A text with blanks in these places.
+fn with_blanks(text: &str, places: &[Range<usize>]) -> String {
+    let blanks = " ".repeat(4096);
+    let mut left = String::with_capacity(text.len());
+    for place in places {
+        left.push_str(&text[left.len()..place.start]);
+        while left.len() < place.end {
+            left.push_str(&blanks[..blanks.len().min(place.end - left.len())]);
+        }
+    }
+    left.push_str(&text[left.len()..]);
+    left
 }
 
 /// What stands in front of a token.
@@ -124,6 +135,13 @@ impl Before {
     }
 }
 
+/// Powers of ten by their exponents, as far as a whole number of that many digits is one of the doubles: the quotient of
+/// two exact numbers is rounded once, as the number that the digits write (Clinger, *How to read floating point numbers
+/// accurately*, 1990).
+const EXACT: [f64; 16] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+];
+
 /// Reads a matrix of plain numbers; anything else ends the reading.
 struct Scan<'t> {
     text: &'t str,
@@ -134,14 +152,24 @@ impl<'t> Scan<'t> {
     /// The rows of the matrix whose outer bracket stands there, and where it ends.
     fn matrix(text: &'t str, open: usize) -> Option<(Vec<Row>, usize)> {
         let mut scan = Scan { text, at: open };
-        let rows = scan.list(Scan::row)?;
+        // As a rule all rows are of one length.
+        let mut length = 0;
+        let rows = scan.list(0, |scan| {
+            let row = scan.row(length)?;
+            length = row.numbers.len();
+            Some(row)
+        })?;
         Some((rows, scan.at))
     }
 
-    /// Entries in brackets, at least one.
-    fn list<T>(&mut self, entry: impl Fn(&mut Self) -> Option<T>) -> Option<Vec<T>> {
+    /// Entries in brackets, at least one; room for as many as are expected.
+    fn list<T>(
+        &mut self,
+        expected: usize,
+        mut entry: impl FnMut(&mut Self) -> Option<T>,
+    ) -> Option<Vec<T>> {
         self.take(b'[')?;
-        let mut entries = Vec::new();
+        let mut entries = Vec::with_capacity(expected);
         loop {
             self.blanks();
             if !entries.is_empty() && self.take(b']').is_some() {
@@ -156,9 +184,9 @@ impl<'t> Scan<'t> {
         }
     }
 
-    fn row(&mut self) -> Option<Row> {
+    fn row(&mut self, expected: usize) -> Option<Row> {
         let start = self.at;
-        let numbers = self.list(Scan::number)?;
+        let numbers = self.list(expected, Scan::number)?;
         // Commas close and apart in turns between whole numbers may be decimal commas.
         let close = |at: usize| numbers[at].span().end + 1 == numbers[at + 1].span().start;
         let whole = numbers.iter().all(|number| number.value.fract() == 0.0);
@@ -172,31 +200,43 @@ impl<'t> Scan<'t> {
     /// A decimal number as TOML has it, without underscores, plus sign and more than 15 digits before the point.
     fn number(&mut self) -> Option<Number> {
         let start = self.at;
-        let _ = self.take(b'-');
+        let sign = self.take(b'-').map_or(1.0, |()| -1.0);
         let first = self.at;
-        let before = self.digits()?;
+        let mut digits = 0;
+        let before = self.digits(&mut digits)?;
         let leading_zero = before > 1 && self.text.as_bytes()[first] == b'0';
-        let mut whole = true;
+        let mut behind = 0;
         if self.take(b'.').is_some() {
-            self.digits()?;
-            whole = false;
+            behind = self.digits(&mut digits)?;
         }
+        let mut scaled = false;
         if self.take(b'e').or_else(|| self.take(b'E')).is_some() {
             let _ = self.take(b'-').or_else(|| self.take(b'+'));
-            self.digits()?;
-            whole = false;
+            self.digits(&mut 0)?;
+            scaled = true;
         }
-        let value: f64 = self.text[start..self.at].parse().ok()?;
+        let value = match EXACT.get(before + behind) {
+            Some(_) if !scaled => sign * (digits as f64 / EXACT[behind]),
+            _ => self.text[start..self.at].parse().ok()?,
+        };
         // Whole numbers have one zero.
+        let whole = behind == 0 && !scaled;
         let value = if whole { value + 0.0 } else { value };
         let plain = !leading_zero && before <= 15 && value.is_finite();
         plain.then(|| Number::new(value, start..self.at))
     }
 
-    /// How many digits follow; at least one.
-    fn digits(&mut self) -> Option<usize> {
+    /// How many digits follow, at least one; they are put behind those before.
+    fn digits(&mut self, before: &mut u64) -> Option<usize> {
         let rest = &self.text.as_bytes()[self.at..];
-        let count = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+        let digits = rest.iter().take_while(|byte| byte.is_ascii_digit());
+        let mut count = 0;
+        for digit in digits {
+            *before = before
+                .wrapping_mul(10)
+                .wrapping_add(u64::from(digit - b'0'));
+            count += 1;
+        }
         self.at += count;
         (count > 0).then_some(count)
     }

@@ -3,14 +3,16 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use foldhash::fast::RandomState;
+
 use super::{Graph, Id, Implicit, Label, Op, Table};
-use crate::model::operation::{self, Binary, Unary, binary_row, unary};
+use crate::model::operation::{self, Binary, Rule, Unary, binary_row, unary};
 
 /// Builds a graph.
 #[derive(Debug, Default)]
 pub struct Builder {
     graph: Graph,
-    known: HashMap<Op, Id>,
+    known: HashMap<Op, Id, RandomState>,
     unknowns: u32,
 }
 
@@ -46,19 +48,19 @@ impl Builder {
 
     pub fn binary(&mut self, row: &'static Binary, a: Id, b: Id) -> Id {
         let (left, right) = (self.constant_at(a), self.constant_at(b));
-        match (row.name, left, right) {
+        match (row.rule, left, right) {
             (_, Some(x), Some(y)) => self.constant((row.scalar)(x, y)),
-            ("+", Some(0.0), _) => b,
-            ("+" | "-", _, Some(0.0)) => a,
-            ("-", Some(0.0), _) => self.neg(b),
-            ("*", Some(1.0), _) => b,
-            ("*" | "/", _, Some(1.0)) => a,
-            ("*", Some(-1.0), _) => self.neg(b),
-            ("*" | "/", _, Some(-1.0)) => self.neg(a),
-            ("*", _, _) if a == b => self.unary(row_of("^2"), a),
+            (Rule::Add, Some(0.0), _) => b,
+            (Rule::Add | Rule::Sub, _, Some(0.0)) => a,
+            (Rule::Sub, Some(0.0), _) => self.neg(b),
+            (Rule::Mul, Some(1.0), _) => b,
+            (Rule::Mul | Rule::Div, _, Some(1.0)) => a,
+            (Rule::Mul, Some(-1.0), _) => self.neg(b),
+            (Rule::Mul | Rule::Div, _, Some(-1.0)) => self.neg(a),
+            (Rule::Mul, _, _) if a == b => self.unary(row_of("^2"), a),
             // A sum or product is the same in either order; so are its bits.
-            ("+" | "*", _, _) => self.push(Op::Binary(row, a.min(b), a.max(b))),
-            ("^", _, Some(exponent)) => self.power(a, exponent),
+            (Rule::Add | Rule::Mul, _, _) => self.push(Op::Binary(row, a.min(b), a.max(b))),
+            (Rule::Pow, _, Some(exponent)) => self.power(a, exponent),
             _ => self.push(Op::Binary(row, a, b)),
         }
     }
@@ -142,7 +144,8 @@ impl Builder {
             ops: vec![Op::Input(0)],
             ..Graph::default()
         };
-        let mut replaced = HashMap::from([(unknown, 0)]);
+        let mut replaced = vec![None; graph.ops.len()];
+        replaced[unknown as usize] = Some(0);
         let mut parameters = Vec::new();
         for (_, op) in graph
             .ops
@@ -151,10 +154,10 @@ impl Builder {
             .filter(|(i, _)| needed[*i] && moves[*i])
         {
             graph.operands(*op, |a| {
-                if moves[a as usize] || replaced.contains_key(&a) {
+                if moves[a as usize] || replaced[a as usize].is_some() {
                     return;
                 }
-                replaced.insert(a, body.ops.len() as Id);
+                replaced[a as usize] = Some(body.ops.len() as Id);
                 match graph.ops[a as usize] {
                     Op::Constant(bits) => body.ops.push(Op::Constant(bits)),
                     _ => {
@@ -168,7 +171,7 @@ impl Builder {
             .map(|i| needed[i] && moves[i] && i != unknown as usize)
             .collect();
         let (mut body, replaced) = graph.copied(&keep, replaced, body);
-        body.outputs = vec![replaced[&residual]];
+        body.outputs = vec![replaced[residual as usize]?];
         self.graph.implicit.push(Implicit {
             start,
             parameters,
@@ -188,9 +191,9 @@ impl Builder {
         relabel: impl Fn(&Label) -> Label,
     ) -> Id {
         let needed = other.needed(&[output]);
-        let mut moved: HashMap<Id, Id> = HashMap::new();
+        let mut moved: Vec<Id> = vec![0; other.ops.len()];
         for (i, op) in other.ops.iter().enumerate().filter(|(i, _)| needed[*i]) {
-            let at = |id: Id| moved[&id];
+            let at = |id: Id| moved[id as usize];
             let op = match *op {
                 Op::Input(place) => Op::Input(places[place as usize] as u32),
                 Op::Constant(_) => *op,
@@ -199,7 +202,7 @@ impl Builder {
                     Op::Unknown(self.unknowns)
                 }
                 Op::Unary(row, a) => Op::Unary(row, at(a)),
-                Op::Binary(row, a, b) if matches!(row.name, "+" | "*") => {
+                Op::Binary(row, a, b) if matches!(row.rule, Rule::Add | Rule::Mul) => {
                     Op::Binary(row, at(a).min(at(b)), at(a).max(at(b)))
                 }
                 Op::Binary(row, a, b) => Op::Binary(row, at(a), at(b)),
@@ -219,9 +222,9 @@ impl Builder {
             if let Some(label) = other.labels.get(&(i as Id)) {
                 self.label(id, &relabel(label));
             }
-            moved.insert(i as Id, id);
+            moved[i] = id;
         }
-        moved[&output]
+        moved[output as usize]
     }
 
     /// Notes how the user wrote an operation.
@@ -237,8 +240,10 @@ impl Builder {
     /// The finished graph, without what the outputs do not need.
     pub fn finish(self, outputs: &[Id]) -> Graph {
         let keep = self.graph.needed(outputs);
-        let (mut graph, replaced) = self.graph.copied(&keep, HashMap::new(), Graph::default());
-        graph.outputs = outputs.iter().map(|id| replaced[id]).collect();
+        let replaced = vec![None; keep.len()];
+        let (mut graph, replaced) = self.graph.copied(&keep, replaced, Graph::default());
+        let outputs = outputs.iter().filter_map(|id| replaced[*id as usize]);
+        graph.outputs = outputs.collect();
         graph
     }
 

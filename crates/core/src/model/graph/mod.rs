@@ -141,22 +141,26 @@ impl Graph {
     fn copied(
         &self,
         keep: &[bool],
-        mut replaced: HashMap<Id, Id>,
+        mut replaced: Vec<Option<Id>>,
         mut out: Graph,
-    ) -> (Graph, HashMap<Id, Id>) {
+    ) -> (Graph, Vec<Option<Id>>) {
         for (i, op) in self.ops.iter().enumerate().filter(|(i, _)| keep[*i]) {
-            let moved = self.moved(*op, |id| replaced[&id], &mut out);
+            let moved = self.moved(
+                *op,
+                |id| replaced[id as usize].expect("operands are kept or replaced"),
+                &mut out,
+            );
             let id = out.ops.len() as Id;
             out.ops.push(moved);
             if let Some(label) = self.labels.get(&(i as Id)) {
                 out.labels.insert(id, label.clone());
             }
-            replaced.insert(i as Id, id);
+            replaced[i] = Some(id);
         }
         let moved = |table: &Table| {
             Some(Table {
-                result: *replaced.get(&table.result)?,
-                x: *replaced.get(&table.x)?,
+                result: replaced[table.result as usize]?,
+                x: replaced[table.x as usize]?,
                 ..table.clone()
             })
         };

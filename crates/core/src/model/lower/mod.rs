@@ -9,6 +9,9 @@ mod vectors;
 use std::collections::HashMap;
 use std::rc::Rc;
 
+use foldhash::fast::RandomState;
+use smallvec::SmallVec;
+
 use crate::model::faults;
 use crate::model::graph::{Builder, Id, Label};
 use crate::model::operation::{binary_row, unary};
@@ -27,7 +30,7 @@ const MAX_WORK: usize = 3_000_000;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Value {
     /// One operation for a scalar, one per element for a vector.
-    pub elements: Vec<Id>,
+    pub elements: Ids,
     pub vector: bool,
     pub kind: Kind,
     /// A literal 0, which fits any unit.
@@ -35,6 +38,9 @@ pub struct Value {
     /// Made of numbers without units only.
     pub literal: bool,
 }
+
+/// The operations of a value, of which most have one.
+pub type Ids = SmallVec<[Id; 4]>;
 
 /// What kind of thing a value is.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,9 +72,11 @@ pub struct Lowering<'r> {
     pub builder: Builder,
     pub symbols: &'r [Symbol],
     /// Place of each symbol by its name.
-    places: HashMap<&'r str, usize>,
+    places: HashMap<&'r str, usize, RandomState>,
+    /// What each symbol stands for.
+    pub given: Vec<Binding>,
     pub units: &'r UnitTable,
-    /// Inputs, constants and what the statements so far define.
+    /// What the statements so far define.
     pub scope: HashMap<String, Binding>,
     /// Parameters of the function being written out, and unknowns of `solve`.
     pub locals: Vec<HashMap<String, Value>>,
@@ -95,7 +103,7 @@ pub type Expression = fn(&mut Lowering<'_>, &Expr) -> Option<Value>;
 
 impl<'r> Lowering<'r> {
     pub fn new(symbols: &'r [Symbol], units: &'r UnitTable, expression: Expression) -> Self {
-        let mut places = HashMap::with_capacity(symbols.len());
+        let mut places = HashMap::with_capacity_and_hasher(symbols.len(), RandomState::default());
         for (place, symbol) in symbols.iter().enumerate() {
             places.entry(symbol.name.as_str()).or_insert(place);
         }
@@ -103,6 +111,7 @@ impl<'r> Lowering<'r> {
             builder: Builder::default(),
             symbols,
             places,
+            given: Vec::with_capacity(symbols.len()),
             units,
             scope: HashMap::new(),
             locals: vec![HashMap::new()],
@@ -126,6 +135,12 @@ impl<'r> Lowering<'r> {
     /// Which of the symbols has this name.
     pub fn place_of(&self, name: &str) -> Option<usize> {
         self.places.get(name).copied()
+    }
+
+    /// What a name stands for, of the file or of a statement.
+    pub fn binding(&self, name: &str) -> Option<&Binding> {
+        let given = || self.given.get(self.place_of(name)?);
+        self.scope.get(name).or_else(given)
     }
 
     /// Notes a fault. One inside a user's function is shown at the call that leads to it.

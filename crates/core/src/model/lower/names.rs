@@ -51,7 +51,7 @@ impl Lowering<'_> {
         if let Some(value) = self.locals.last().and_then(|frame| frame.get(name)) {
             return Some(value.clone());
         }
-        match self.scope.get(name) {
+        match self.binding(name) {
             Some(Binding::Value(value)) => {
                 let value = value.clone();
                 self.spend(value.elements.len() - 1, span).then_some(value)
@@ -114,6 +114,7 @@ impl Lowering<'_> {
             .scope
             .keys()
             .map(String::as_str)
+            .chain(self.symbols.iter().map(|symbol| symbol.name.as_str()))
             .chain(["pi"])
             .collect();
         known.extend(

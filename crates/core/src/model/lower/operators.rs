@@ -1,5 +1,7 @@
 //! Operators, element by element.
 
+use smallvec::smallvec;
+
 use super::{Kind, Lowering, Value};
 use crate::model::faults;
 use crate::model::graph::{Builder, Id};
@@ -79,18 +81,16 @@ impl Lowering<'_> {
                     None
                 }
             };
-            if let Some(value) = &left
+            if let Some(quotient) = &left
                 && *infix == Infix::Div
             {
-                let quotient = value.clone();
-                self.watch(&quotient, operand, operand);
+                self.watch(quotient, operand, operand);
             }
         }
         if let Some(value) = &left
             && rest.iter().any(|(infix, _)| infix.compares())
         {
-            let value = value.clone();
-            self.watch(&value, whole, whole);
+            self.watch(value, whole, whole);
         }
         left
     }
@@ -179,13 +179,17 @@ impl Lowering<'_> {
         mut combine: impl FnMut(&mut Builder, Id, Id) -> Id,
     ) -> Option<Value> {
         let len = self.common_length(&[a, b], &span)?;
-        let elements = (0..len)
-            .map(|i| combine(&mut self.builder, a.at(i), b.at(i)))
-            .collect();
+        let mut combined = |i: usize| combine(&mut self.builder, a.at(i), b.at(i));
+        let elements = match len {
+            1 => smallvec![combined(0)],
+            _ => (0..len).map(combined).collect(),
+        };
         Some(Value {
             elements,
             vector: a.vector || b.vector,
-            ..a.clone()
+            kind: a.kind.clone(),
+            zero: a.zero,
+            literal: a.literal,
         })
     }
 

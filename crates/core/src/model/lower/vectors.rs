@@ -1,6 +1,8 @@
 //! Vectors, their elements, and choices between values.
 
-use super::{Kind, Lowering, Value};
+use smallvec::smallvec;
+
+use super::{Ids, Kind, Lowering, Value};
 use crate::model::faults;
 use crate::model::printer;
 use crate::model::syntax::{Expr, Node};
@@ -31,7 +33,7 @@ impl Lowering<'_> {
             return None;
         };
         let mut unit = values[lead].unit().cloned();
-        let mut elements = Vec::with_capacity(values.len());
+        let mut elements = Ids::with_capacity(values.len());
         // A plain number among percentages makes them all plain numbers.
         for (value, item) in values.iter().zip(items) {
             let joined = self.join(
@@ -128,7 +130,7 @@ impl Lowering<'_> {
             return None;
         };
         Some(Value {
-            elements: vec![x.elements[k as usize - 1]],
+            elements: smallvec![x.elements[k as usize - 1]],
             vector: false,
             ..x
         })

@@ -257,7 +257,7 @@ mod tests {
         let found = outline.completed_units(&names, vec![None; N], &symbols, &unit("mV"), &units);
         let shown: Vec<String> = found
             .into_iter()
-            .map(|unit| unit.map_or("open".into(), |unit| unit.symbol))
+            .map(|unit| unit.map_or("open".into(), |unit| unit.symbol.clone()))
             .collect();
         shown.try_into().expect("one for each")
     }

@@ -5,16 +5,16 @@ use crate::model::faults;
 use crate::model::lexer::{Kind, Token};
 use gumption_fault::{Fault, Said, say};
 
-impl Parser<'_> {
+impl<'a> Parser<'a> {
     /// The next token; line ends inside brackets do not count.
-    pub(super) fn peek(&mut self) -> Token {
+    pub(super) fn peek(&mut self) -> &'a Token<'a> {
         while !self.open.is_empty() && self.is_line_end(self.at) && !self.defines(self.at + 1) {
             self.at += 1;
         }
-        self.tokens[self.at].clone()
+        &self.tokens[self.at]
     }
 
-    pub(super) fn next(&mut self) -> Token {
+    pub(super) fn next(&mut self) -> &'a Token<'a> {
         let token = self.peek();
         if token.kind != Kind::Eof {
             self.at += 1;
@@ -22,7 +22,7 @@ impl Parser<'_> {
         token
     }
 
-    pub(super) fn kind(&self, at: usize) -> &Kind {
+    pub(super) fn kind(&self, at: usize) -> &'a Kind<'a> {
         &self.tokens[at.min(self.tokens.len() - 1)].kind
     }
 
@@ -104,7 +104,7 @@ impl Parser<'_> {
         };
         let mut made = fault(
             faults::UNEXPECTED,
-            token.span,
+            token.span.clone(),
             say!("expected {expected}, found {found}"),
         );
         made.label = say!("expected {expected}");

@@ -38,7 +38,7 @@ pub fn parse(text: &str, is_unit: &dyn Fn(&str) -> bool, faults: &mut Vec<Fault>
     faults.extend(others);
     let mut parser = Parser {
         text,
-        tokens,
+        tokens: &tokens,
         at: 0,
         open: Vec::new(),
         depth: 0,
@@ -52,7 +52,7 @@ pub fn parse(text: &str, is_unit: &dyn Fn(&str) -> bool, faults: &mut Vec<Fault>
             parser.at += 1;
             continue;
         }
-        let start = parser.tokens[parser.at].kind.clone();
+        let start = &parser.tokens[parser.at].kind;
         let mut read = parser.statement();
         if read.is_err() {
             parser.recover();
@@ -71,7 +71,7 @@ pub fn parse(text: &str, is_unit: &dyn Fn(&str) -> bool, faults: &mut Vec<Fault>
             Err(fault) => {
                 faults.push(*fault);
                 if let (true, Kind::Name(name)) = (parser.assigned, start) {
-                    reading.faulty.push(name);
+                    reading.faulty.push(name.to_string());
                 }
             }
         }
@@ -82,7 +82,7 @@ pub fn parse(text: &str, is_unit: &dyn Fn(&str) -> bool, faults: &mut Vec<Fault>
 
 struct Parser<'a> {
     text: &'a str,
-    tokens: Vec<Token>,
+    tokens: &'a [Token<'a>],
     at: usize,
     /// Brackets not closed yet.
     open: Vec<(&'static str, Span)>,

@@ -11,19 +11,19 @@ impl Parser<'_> {
     pub(super) fn prefix(&mut self) -> Parsed<Expr> {
         let token = self.next();
         let start = token.span.start;
-        let atom = match token.kind.clone() {
-            Kind::Number { value, text } => self.number(value, text, token.span)?,
+        let atom = match &token.kind {
+            Kind::Number { value, text } => self.number(*value, text, &token.span)?,
             Kind::Quoted(_) => {
                 let unit = self.unit_text(&token.span);
                 Expr {
-                    span: token.span,
+                    span: token.span.clone(),
                     node: Node::Unit(unit),
                 }
             }
             Kind::Name(text) if self.is_sign(self.at, "(") => {
                 let name = Name {
-                    text,
-                    span: token.span,
+                    text: text.to_string(),
+                    span: token.span.clone(),
                 };
                 let arguments = self.bracketed("(", ")")?;
                 Expr {
@@ -32,8 +32,8 @@ impl Parser<'_> {
                 }
             }
             Kind::Name(text) => Expr {
-                span: token.span,
-                node: Node::Name(text),
+                span: token.span.clone(),
+                node: Node::Name(text.to_string()),
             },
             Kind::Sign("(") => {
                 self.open.push(("(", token.span.clone()));
@@ -67,21 +67,21 @@ impl Parser<'_> {
                     node: Node::Not(Box::new(inner)),
                 });
             }
-            Kind::Word("if") => return self.conditional(token.span),
-            _ => return Err(self.no_operand(&token)),
+            Kind::Word("if") => return self.conditional(&token.span),
+            _ => return Err(self.no_operand(token)),
         };
         self.index(atom)
     }
 
     /// The token that was read begins no operand.
-    fn no_operand(&mut self, token: &Token) -> Box<Fault> {
+    fn no_operand(&mut self, token: &Token<'_>) -> Box<Fault> {
         self.at -= usize::from(token.kind != Kind::Eof);
-        let before = self.at.checked_sub(1).map(|at| self.kind(at).clone());
+        let before = self.at.checked_sub(1).map(|at| self.kind(at));
         let fault = self.unexpected(say!("a value"));
         let (Some(Kind::Sign(first)), Kind::Sign(second)) = (before, &token.kind) else {
             return fault;
         };
-        if !["+", "-", "*", "/", "^"].contains(&first) || !["*", "/", "^"].contains(second) {
+        if !["+", "-", "*", "/", "^"].contains(first) || !["*", "/", "^"].contains(second) {
             return fault;
         }
         fault.map(|f| {
@@ -110,20 +110,24 @@ impl Parser<'_> {
         })
     }
 
-    fn number(&mut self, value: f64, text: String, span: Span) -> Parsed<Expr> {
-        let unit = match self.tokens[self.at].clone() {
+    fn number(&mut self, value: f64, text: &str, span: &Span) -> Parsed<Expr> {
+        let unit = match &self.tokens[self.at] {
             Token {
                 kind: Kind::Quoted(_),
                 span,
             } => {
                 self.at += 1;
-                Some(self.unit_text(&span))
+                Some(self.unit_text(span))
             }
             _ => None,
         };
         Ok(Expr {
             span: span.start..self.last_end(),
-            node: Node::Number { value, text, unit },
+            node: Node::Number {
+                value,
+                text: text.to_string(),
+                unit,
+            },
         })
     }
 
@@ -138,9 +142,9 @@ impl Parser<'_> {
     }
 
     /// `if c then a else b` or `if(c, a, b)`; the word has been read.
-    fn conditional(&mut self, word: Span) -> Parsed<Expr> {
+    fn conditional(&mut self, word: &Span) -> Parsed<Expr> {
         let condition = if self.is_sign(self.at, "(") {
-            let place = self.next().span;
+            let place = self.next().span.clone();
             let start = place.start;
             self.open.push(("(", place));
             let inner = self.expression(0)?;
@@ -173,7 +177,7 @@ impl Parser<'_> {
         Ok(choice(word, condition, yes, no))
     }
 
-    fn rest_of_if(&mut self, word: Span, condition: Expr) -> Parsed<Expr> {
+    fn rest_of_if(&mut self, word: &Span, condition: Expr) -> Parsed<Expr> {
         let yes = self.expression(0)?;
         if !self.accept_sign(",") {
             return Err(self
@@ -190,7 +194,7 @@ impl Parser<'_> {
 
     /// A list between brackets; the opening one comes next.
     fn bracketed(&mut self, opening: &'static str, closing: &'static str) -> Parsed<Vec<Expr>> {
-        let place = self.next().span;
+        let place = self.next().span.clone();
         self.open.push((opening, place));
         let mut items = Vec::new();
         self.peek();
@@ -212,8 +216,8 @@ impl Parser<'_> {
         let Some((opening, place)) = self.open.last().cloned() else {
             return Err(self.unexpected(say!("an operator")));
         };
-        match token.kind {
-            Kind::Sign(sign) if sign == closing => {
+        match &token.kind {
+            Kind::Sign(sign) if *sign == closing => {
                 self.open.pop();
                 self.at += 1;
                 Ok(())
@@ -233,7 +237,7 @@ impl Parser<'_> {
             }
             Kind::Sign(sign @ (")" | "]")) => Err(fault(
                 faults::BRACKET_PAIR,
-                token.span,
+                token.span.clone(),
                 say!("`{opening}` is closed by `{sign}`"),
             )
             .map(|f| {
@@ -246,7 +250,7 @@ impl Parser<'_> {
     }
 }
 
-fn choice(word: Span, condition: Expr, yes: Expr, no: Expr) -> Expr {
+fn choice(word: &Span, condition: Expr, yes: Expr, no: Expr) -> Expr {
     let span = word.start..no.span.end;
     let node = Node::If {
         condition: Box::new(condition),

@@ -14,7 +14,7 @@ impl Parser<'_> {
     pub(super) fn expression(&mut self, level: u8) -> Parsed<Expr> {
         self.depth += 1;
         if self.depth > MAX_DEPTH {
-            let span = self.peek().span;
+            let span = self.peek().span.clone();
             return Err(fault(
                 faults::TOO_DEEP,
                 span,
@@ -37,7 +37,7 @@ impl Parser<'_> {
         loop {
             let token = self.peek();
             let Some(infix) = infix(&token.kind) else {
-                self.check_after_operand(&left, &token)?;
+                self.check_after_operand(&left, token)?;
                 return Ok(left);
             };
             if infix.level() < level {
@@ -48,7 +48,7 @@ impl Parser<'_> {
             {
                 return Err(fault(
                     faults::CHAINED_COMPARISON,
-                    token.span,
+                    token.span.clone(),
                     say!("two comparisons follow one another"),
                 )
                 .map(|f| {
@@ -77,7 +77,7 @@ impl Parser<'_> {
     }
 
     /// After a whole operand: what must not stand there.
-    fn check_after_operand(&self, left: &Expr, token: &Token) -> Parsed<()> {
+    fn check_after_operand(&self, left: &Expr, token: &Token<'_>) -> Parsed<()> {
         match &token.kind {
             Kind::Sign("=") => Err(self.misplaced_equals(left, token)),
             Kind::Number { .. } | Kind::Name(_) | Kind::Sign("(") => {
@@ -97,7 +97,7 @@ impl Parser<'_> {
         }
     }
 
-    fn misplaced_equals(&self, left: &Expr, token: &Token) -> Box<Fault> {
+    fn misplaced_equals(&self, left: &Expr, token: &Token<'_>) -> Box<Fault> {
         let whole = self.begin..left.span.end;
         let before = &self.text[whole.clone()];
         if self.assigned || !self.open.is_empty() {
@@ -125,7 +125,7 @@ impl Parser<'_> {
         }
     }
 
-    fn missing_operator(&self, left: &Expr, token: &Token) -> Box<Fault> {
+    fn missing_operator(&self, left: &Expr, token: &Token<'_>) -> Box<Fault> {
         let before = &self.text[left.span.clone()];
         let after = &self.text[token.span.clone()];
         let is_number = matches!(left.node, Node::Number { unit: None, .. });
@@ -186,7 +186,7 @@ fn chain(left: Expr, infix: Infix, right: Expr) -> Expr {
     }
 }
 
-fn infix(kind: &Kind) -> Option<Infix> {
+fn infix(kind: &Kind<'_>) -> Option<Infix> {
     Some(match kind {
         Kind::Sign("+") => Infix::Add,
         Kind::Sign("-") => Infix::Sub,

@@ -38,11 +38,11 @@ impl Parser<'_> {
             Statement::Value(self.expression(0)?)
         };
         let token = self.peek();
-        match token.kind {
+        match &token.kind {
             Kind::End | Kind::Eof => Ok(statement),
             Kind::Sign(sign @ (")" | "]")) => Err(fault(
                 faults::BRACKET_PAIR,
-                token.span,
+                token.span.clone(),
                 say!("`{sign}` closes a bracket that was never opened"),
             )
             .map(|f| {
@@ -90,7 +90,10 @@ impl Parser<'_> {
                 span,
             } => {
                 self.at += 1;
-                Ok(Name { text, span })
+                Ok(Name {
+                    text: text.to_string(),
+                    span: span.clone(),
+                })
             }
             _ => Err(self.unexpected(say!("a name"))),
         }

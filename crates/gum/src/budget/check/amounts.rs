@@ -214,7 +214,7 @@ impl Checker<'_> {
             let unclear = |value: f64| {
                 unit.symbol.contains('/') || value != 0.0 && !(value == 1.0 && unit.is_one())
             };
-            if is_ratio(&own.symbol) && context.value.is_some_and(unclear) {
+            if is_ratio(&own.symbol) && context.value().is_some_and(unclear) {
                 return self.refuse(
                     Fault::new(
                         RELATIVE_UNCLEAR,
@@ -276,7 +276,7 @@ impl Checker<'_> {
         fraction: f64,
         context: &Context<'_>,
     ) -> Option<f64> {
-        match context.value {
+        match context.value() {
             Some(value) if value != 0.0 => Some(fraction * value.abs()),
             Some(_) => self.refuse(
                 Fault::new(
@@ -334,7 +334,7 @@ fn share_of_what(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) 
 
 /// The two readings of `"1 %"` for a quantity that is itself a ratio, with their numbers.
 fn ratio_help(context: &Context<'_>, number: f64, fraction: f64, unit: &Unit) -> Said {
-    let relative = match context.value {
+    let relative = match context.value() {
         Some(value) => say!(
             "for {} of the value {} write {} with relative = true beside it (of a certificate, behind its braces)",
             show(fraction),

@@ -45,6 +45,9 @@ impl Checker<'_> {
         register: &mut Register,
     ) -> Vec<Group> {
         let mut statements = Vec::new();
+        if file.joint.is_some() || file.correlation.is_some() {
+            register.index();
+        }
         let mut groups = self.joint_groups(file, register, &mut statements);
         groups.extend(self.fit_groups(fitted, register));
         let before = self.messages.faults.len();
@@ -253,7 +256,7 @@ impl Checker<'_> {
     }
 
     /// What is behind a name of a correlation statement.
-    pub(super) fn side(&mut self, name: &Stated<String>, register: &Register) -> Option<Side> {
+    fn side(&mut self, name: &Stated<String>, register: &Register) -> Option<Side> {
         if let Some(taken) = register.taken_as(&name.value) {
             return self.refuse(taken.not_to_be_correlated(name));
         }
@@ -263,6 +266,18 @@ impl Checker<'_> {
             }
             return self.refuse(unknown(name, register));
         };
+        let place = register.places.get(&name.value).copied();
+        self.side_of(name, &members, place, register)
+    }
+
+    /// What is behind a name that stands for these components, of the input at this place if it is one.
+    pub(super) fn side_of(
+        &mut self,
+        name: &Stated<String>,
+        members: &[usize],
+        place: Option<usize>,
+        register: &Register,
+    ) -> Option<Side> {
         let u = |index: &usize| {
             register
                 .components
@@ -292,10 +307,6 @@ impl Checker<'_> {
                 )),
             );
         }
-        let place = register
-            .inputs
-            .iter()
-            .position(|input| input.name == name.value);
         let total = match place {
             Some(place) => (register.covariance(Some(place), Some(place)) + own * own).sqrt(),
             None => own,

@@ -1,5 +1,6 @@
 //! A component on its way from the file into the budget.
 
+use std::cell::Cell;
 use std::ops::Range;
 
 use super::checker::Checker;
@@ -18,11 +19,41 @@ pub(super) struct Context<'a> {
     /// Name of the input or source, for messages.
     pub owner: &'a str,
     /// The estimate, when it is known.
-    pub value: Option<f64>,
+    value: Option<f64>,
+    /// Whether anybody asked for the estimate.
+    asked: Cell<bool>,
     /// Unit of the estimate.
     pub unit: &'a Unit,
     /// Place of the component as a whole.
     pub place: Range<usize>,
+}
+
+impl<'a> Context<'a> {
+    pub fn new(owner: &'a str, value: Option<f64>, unit: &'a Unit, place: Range<usize>) -> Self {
+        Context {
+            owner,
+            value,
+            asked: Cell::new(false),
+            unit,
+            place,
+        }
+    }
+
+    /// The same for another estimate.
+    pub fn at(&self, value: Option<f64>) -> Self {
+        Context::new(self.owner, value, self.unit, self.place.clone())
+    }
+
+    /// The estimate, when it is known.
+    pub fn value(&self) -> Option<f64> {
+        self.asked.set(true);
+        self.value
+    }
+
+    /// The estimate, where something drafted was made of it.
+    pub fn used(&self) -> Option<f64> {
+        self.value.filter(|_| self.asked.get())
+    }
 }
 
 /// What kind of doubt it is; decides about defaults and about absorption.
@@ -55,7 +86,7 @@ pub(super) struct Draft {
     pub kind: Kind,
     /// How its uncertainty follows the estimate.
     pub follows: Option<Follows>,
-    pub certificate: Option<Certificate>,
+    pub certificate: Option<Box<Certificate>>,
     pub reference: Option<String>,
     /// Place of the component as a whole.
     pub place: Range<usize>,

@@ -263,11 +263,7 @@ fn place(places: &[Option<usize>], component: usize) -> Option<usize> {
 /// The smallest eigenvalue of a correlation matrix, if it is negative beyond rounding.
 pub(super) fn negative_eigenvalue(matrix: &DMatrix<f64>) -> Option<f64> {
     // Whether R + ROUNDING·1 has a factor is found in a fraction of the time that eigenvalues take.
-    let mut raised = matrix.clone();
-    for i in 0..matrix.nrows() {
-        raised[(i, i)] += ROUNDING;
-    }
-    if is_definite(raised) {
+    if is_definite(matrix, ROUNDING) {
         return None;
     }
     Some(smallest_eigenvalue(matrix)).filter(|smallest| *smallest < -ROUNDING)

@@ -41,7 +41,11 @@ impl Checker<'_> {
         resolution: ResolutionWord,
         register: &mut Register,
     ) {
-        for (name, stated) in entries(&file.input) {
+        let inputs = entries(&file.input);
+        register.inputs.reserve(inputs.len());
+        register.components.reserve(inputs.len());
+        register.entries.reserve(inputs.len());
+        for (name, stated) in inputs {
             let table = &stated.value;
             if let Some(from) = &table.from {
                 self.taken(name, stated, from, register);
@@ -125,15 +129,10 @@ impl Checker<'_> {
                 .collect(),
             None => vec![(direct, place.clone())],
         };
-        let mut entries = Vec::new();
+        let mut entries = Vec::with_capacity(tables.len());
         let mut complete = true;
         for (table, place) in tables {
-            let context = Context {
-                owner: name,
-                value: None,
-                unit,
-                place: place.clone(),
-            };
+            let context = Context::new(name, None, unit, place.clone());
             match self.way(table, &context) {
                 Some(way) => entries.push(Entry { table, way, place }),
                 None => complete = false,
@@ -210,15 +209,10 @@ impl Checker<'_> {
             Some(value) => value,
             None => self.estimate(name, stated, &list, unit)?,
         };
-        let mut pieces = Vec::new();
+        let mut pieces = Vec::with_capacity(list.len());
         let mut complete = true;
         for entry in &list {
-            let context = Context {
-                owner: name,
-                value: Some(base),
-                unit,
-                place: entry.place.clone(),
-            };
+            let context = Context::new(name, Some(base), unit, entry.place.clone());
             match self.piece(entry, &context, &list, register) {
                 Some(found) => pieces.extend(found),
                 None => complete = false,
@@ -256,12 +250,7 @@ impl Checker<'_> {
             .iter()
             .filter(|entry| entry.way.locates() && !single(entry.table))
         {
-            let context = Context {
-                owner: name,
-                value: None,
-                unit,
-                place: entry.place.clone(),
-            };
+            let context = Context::new(name, None, unit, entry.place.clone());
             if let Some(mean) = self.constant_readings(entry, unit, list) {
                 found.push((mean, entry.place.clone()));
                 continue;
@@ -273,12 +262,7 @@ impl Checker<'_> {
             // Readings that tell the scatter of a single one still tell where the quantity is.
             let of_readings = [Way::Readings, Way::Groups, Way::GroupSummary];
             for entry in list.iter().filter(|entry| of_readings.contains(&entry.way)) {
-                let context = Context {
-                    owner: name,
-                    value: None,
-                    unit,
-                    place: entry.place.clone(),
-                };
+                let context = Context::new(name, None, unit, entry.place.clone());
                 let mean = self.mean_of_readings(entry.table, entry.way, &context)?;
                 found.push((mean, entry.place.clone()));
             }
@@ -439,8 +423,8 @@ impl Checker<'_> {
         place: usize,
     ) {
         let alone = pieces.len() == 1;
-        let mut drafts = Vec::new();
-        let mut readings = Vec::new();
+        let mut drafts = Vec::with_capacity(pieces.len());
+        let mut readings = Vec::with_capacity(pieces.len());
         for piece in pieces {
             match piece {
                 Piece::Own(draft, numbers) => {

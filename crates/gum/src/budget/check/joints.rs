@@ -16,7 +16,7 @@ use crate::budget::faults::{CORRELATION_TWICE, JOINT, MODIFIER, NOT_SEMIDEFINITE
 use crate::budget::tables::{FileTable, JointTable};
 use crate::budget::{Evaluation, Group, Owner, TScale};
 use gumption_fault::{Fault, Said, say};
-use gumption_format::toml::{Matrix, Stated};
+use gumption_format::toml::{Matrix, Number, Row, Stated};
 
 impl Checker<'_> {
     /// Notes the inputs whose uncertainty a joint statement states, before they are read.
@@ -149,17 +149,17 @@ impl Checker<'_> {
     }
 
     /// A square symmetric matrix with one row for each input.
-    fn matrix(&mut self, stated: &Stated<Matrix>, size: usize) -> Option<DMatrix<f64>> {
+    fn matrix<'m>(&mut self, stated: &'m Stated<Matrix>, size: usize) -> Option<&'m [Row]> {
         self.symmetric(stated, size, say!("inputs"))
     }
 
     /// A square symmetric matrix with one row for each of so many `what`.
-    pub(super) fn symmetric(
+    pub(super) fn symmetric<'m>(
         &mut self,
-        stated: &Stated<Matrix>,
+        stated: &'m Stated<Matrix>,
         size: usize,
         what: Said,
-    ) -> Option<DMatrix<f64>> {
+    ) -> Option<&'m [Row]> {
         let rows = stated.value.rows();
         if let Some(row) = rows.iter().find(|row| row.numbers.len() != size) {
             return self.refuse(
@@ -181,26 +181,23 @@ impl Checker<'_> {
                 .label(say!("expected {size} rows")),
             );
         }
-        let numbers = rows.iter().flat_map(|row| &row.numbers);
-        let matrix = DMatrix::from_row_iterator(size, size, numbers.map(|number| number.value));
-        for i in 0..size {
-            for j in 0..i {
-                let (lower, upper) = (matrix[(i, j)], matrix[(j, i)]);
-                if (lower - upper).abs() > 1e-9 * lower.abs().max(upper.abs()) {
-                    let (lower_at, upper_at) = (rows[i].numbers[j], rows[j].numbers[i]);
-                    return self.refuse(
-                        Fault::new(
-                            JOINT,
-                            lower_at.span(),
-                            say!("the matrix is not symmetric: {lower} and {upper}"),
-                        )
-                        .label(say!("this element"))
-                        .related(upper_at.span(), say!("and this one must be equal")),
-                    );
-                }
-            }
-        }
-        Some(matrix)
+        let Some((i, j)) = unequal(rows) else {
+            return Some(rows);
+        };
+        let (lower, upper) = (rows[i].numbers[j], rows[j].numbers[i]);
+        self.refuse(
+            Fault::new(
+                JOINT,
+                lower.span(),
+                say!(
+                    "the matrix is not symmetric: {} and {}",
+                    lower.value,
+                    upper.value
+                ),
+            )
+            .label(say!("this element"))
+            .related(upper.span(), say!("and this one must be equal")),
+        )
     }
 
     /// How far the digits of a covariance matrix leave each correlation coefficient open.
@@ -227,7 +224,7 @@ impl Checker<'_> {
         inputs: &[(usize, Stated<String>)],
         register: &mut Register,
     ) -> Option<Group> {
-        let matrix = self.matrix(covariance, inputs.len())?;
+        let matrix = dense(self.matrix(covariance, inputs.len())?);
         if let Some(i) = (0..inputs.len()).find(|i| matrix[(*i, *i)] <= 0.0) {
             return self.refuse(
                 Fault::new(
@@ -358,21 +355,21 @@ impl Checker<'_> {
                     .help(say!("state the degrees of freedom with the uncertainties of the inputs, or give `covariance`")),
             );
         }
-        let Some(matrix) = self.matrix(correlation, inputs.len()) else {
+        let Some(rows) = self.matrix(correlation, inputs.len()) else {
             return;
         };
-        let rows = correlation.value.rows();
         let coefficient = |i: usize, j: usize| rows[i].numbers[j];
-        for i in 0..inputs.len() {
-            if (matrix[(i, i)] - 1.0).abs() > 1e-9 {
+        for (i, (_, name)) in inputs.iter().enumerate() {
+            let itself = coefficient(i, i);
+            if (itself.value - 1.0).abs() > 1e-9 {
                 self.report(
                     Fault::new(
                         JOINT,
-                        coefficient(i, i).span(),
+                        itself.span(),
                         say!(
                             "the correlation of {} with itself is {}",
-                            inputs[i].1.value,
-                            matrix[(i, i)]
+                            name.value,
+                            itself.value
                         ),
                     )
                     .label(say!("must be 1"))
@@ -386,7 +383,10 @@ impl Checker<'_> {
         let sides: Vec<Option<Side>> = inputs
             .iter()
             .enumerate()
-            .map(|(i, (_, name))| correlated(i).then(|| self.side(name, register)).flatten())
+            .map(|(i, (place, name))| {
+                let own = correlated(i).then(|| register.own(*place))?;
+                self.side_of(name, &own, Some(*place), register)
+            })
             .collect();
         for (i, second) in sides.iter().enumerate() {
             for (j, first) in sides[..i].iter().enumerate() {
@@ -527,6 +527,9 @@ fn joints(file: &FileTable) -> &[Stated<JointTable>] {
 
 /// The places of a named input: of all elements of a vector, or of one of them.
 fn places_of(name: &Stated<String>, register: &Register) -> Option<Vec<(usize, Stated<String>)>> {
+    if let Some(place) = register.places.get(&name.value) {
+        return Some(vec![(*place, name.clone())]);
+    }
     let mut entries = register.entries.iter();
     if let Some(entry) = entries.find(|entry| entry.name == name.value) {
         let own = |place: usize| {
@@ -537,7 +540,36 @@ fn places_of(name: &Stated<String>, register: &Register) -> Option<Vec<(usize, S
         let named = places.map(|place| (place, name.map(|_| own(place))));
         return Some(named.collect());
     }
-    let mut inputs = register.inputs.iter();
-    let element = inputs.position(|input| input.name == name.value)?;
-    Some(vec![(element, name.clone())])
+    None
+}
+
+/// The numbers of a square matrix.
+pub(super) fn dense(rows: &[Row]) -> DMatrix<f64> {
+    let numbers = rows.iter().flat_map(|row| &row.numbers);
+    DMatrix::from_row_iterator(rows.len(), rows.len(), numbers.map(|number| number.value))
+}
+
+/// Where a square matrix is not symmetric: the first row, and the first column left of the diagonal.
+fn unequal(rows: &[Row]) -> Option<(usize, usize)> {
+    /// Rows and columns that are looked at together, as both triangles of a large matrix are not near at once.
+    const TILE: usize = 32;
+    let differ = |(lower, upper): (&Number, &Number)| {
+        let (lower, upper) = (lower.value, upper.value);
+        (lower - upper).abs() > 1e-9 * lower.abs().max(upper.abs())
+    };
+    (0..rows.len()).step_by(TILE).find_map(|top| {
+        let tiles = (0..=top).step_by(TILE);
+        let firsts = tiles.filter_map(|left| {
+            (top..rows.len().min(top + TILE)).find_map(|i| {
+                let columns = left..i.min(left + TILE);
+                let upper = rows[columns.clone()].iter().map(|row| &row.numbers[i]);
+                let j = rows[i].numbers[columns]
+                    .iter()
+                    .zip(upper)
+                    .position(differ)?;
+                Some((i, left + j))
+            })
+        });
+        firsts.min()
+    })
 }

@@ -121,7 +121,7 @@ pub(super) fn rows(
 
 /// A `[source]` that is the same in every row of a series is one cause for all of them.
 fn share_sources(rows: &mut [Row], file: &Path) {
-    let Some((first, rest)) = rows.split_first_mut() else {
+    let Some((first, rest)) = rows.split_first_mut().filter(|(_, rest)| !rest.is_empty()) else {
         return;
     };
     let own = |budget: &Budget, index: usize| &*budget.chain.components[index].part.file == file;

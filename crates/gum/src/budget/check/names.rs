@@ -7,7 +7,11 @@ use super::checker::Checker;
 use super::entries::{entries, shared};
 use crate::budget::faults::{BAD_NAME, NAME_TWICE};
 use crate::budget::tables::FileTable;
+use foldhash::fast::RandomState;
 use gumption_fault::{Fault, Said, say};
+
+/// Names, each with the place where it is stated first.
+type Used<'f> = HashMap<&'f str, Range<usize>, RandomState>;
 
 /// Whether the model language reads the text as one name.
 fn is_identifier(name: &str) -> bool {
@@ -41,7 +45,8 @@ fn mended(name: &str) -> String {
 impl Checker<'_> {
     /// Checks every name that formulas may use (`unnamed` are not among them), and that none is used twice.
     pub(super) fn check_names(&mut self, file: &FileTable, unnamed: &[String]) {
-        let mut used: HashMap<String, Range<usize>> = HashMap::new();
+        let mut used = Used::default();
+        used.reserve(entries(&file.input).len());
         let constants = entries(&file.constant)
             .iter()
             .map(|(name, stated)| (name, stated.key.clone(), say!("a constant")));
@@ -63,12 +68,7 @@ impl Checker<'_> {
         }
     }
 
-    fn check_use(
-        &mut self,
-        used: &mut HashMap<String, Range<usize>>,
-        name: &str,
-        place: Range<usize>,
-    ) {
+    fn check_use<'f>(&mut self, used: &mut Used<'f>, name: &'f str, place: Range<usize>) {
         if let Some(first) = used.get(name) {
             self.report(
                 Fault::new(NAME_TWICE, place, say!("the name {name} is used twice"))
@@ -79,7 +79,7 @@ impl Checker<'_> {
                     )),
             );
         } else {
-            used.insert(name.to_string(), place);
+            used.insert(name, place);
         }
     }
 

@@ -40,12 +40,12 @@ impl Plain {
     pub(in crate::budget) fn of(
         table: &ComponentTable,
     ) -> Option<(Plain, &'static [&'static str])> {
-        let ways = stated_ways(table);
-        let [(way, ..)] = ways.as_slice() else {
+        let mut ways = stated_ways(table).map(|(way, ..)| way);
+        let (way, None) = (ways.next()?, ways.next()) else {
             return None;
         };
         let more = table.gum_u.is_some() || table.p.is_some() || table.common.is_some();
-        let bare = table.certificate.is_none() || *way == Way::Certificate;
+        let bare = table.certificate.is_none() || way == Way::Certificate;
         if more || !bare || table.refused || table.modifiers().next().is_some() {
             return None;
         }

@@ -41,6 +41,8 @@ pub(super) struct SourceEntry {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Register {
     pub inputs: Vec<Input>,
+    /// Where the inputs stand by their names, from when all are there.
+    pub places: HashMap<String, usize>,
     pub components: Vec<Component>,
     pub entries: Vec<InputEntry>,
     pub sources: Vec<SourceEntry>,
@@ -98,7 +100,7 @@ impl Register {
             dof: draft.dof,
             evaluation: draft.evaluation,
             how: draft.how,
-            certificate: draft.certificate,
+            certificate: draft.certificate.map(|certificate| *certificate),
             reference: draft.reference,
         });
         self.components.len() - 1
@@ -166,10 +168,18 @@ impl Register {
         self.taken.iter().find(named)
     }
 
+    /// Prepares for looking up inputs, of which there will be no more.
+    pub fn index(&mut self) {
+        let named = self.inputs.iter().enumerate();
+        let named = named.map(|(place, input)| (input.name.clone(), place));
+        // Of a name that is stated twice, the first.
+        self.places = named.rev().collect();
+    }
+
     /// The components behind a name: an input, an element, a source, or a component.
     pub fn lookup(&self, name: &str) -> Option<Vec<usize>> {
-        if let Some(place) = self.inputs.iter().position(|input| input.name == name) {
-            return Some(self.own(place));
+        if let Some(place) = self.places.get(name) {
+            return Some(self.own(*place));
         }
         if let Some(source) = self.sources.iter().find(|source| source.name == name) {
             return Some(source.components.clone());

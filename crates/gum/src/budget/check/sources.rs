@@ -64,12 +64,7 @@ impl Checker<'_> {
         )?;
         let mut drafts = Vec::new();
         for entry in list {
-            let context = Context {
-                owner: name,
-                value: None,
-                unit,
-                place: entry.place.clone(),
-            };
+            let context = Context::new(name, None, unit, entry.place.clone());
             if entry.way == Way::Source {
                 return self.refuse(
                     Fault::new(
@@ -199,7 +194,7 @@ impl Checker<'_> {
             .as_ref()
             .is_some_and(|stated| stated.value);
         let whole = if relative {
-            context.value.unwrap_or(0.0)
+            context.value().unwrap_or(0.0)
         } else {
             1.0
         };
@@ -241,7 +236,7 @@ impl Checker<'_> {
                 )
                 .label(say!("units do not fit"))
                 .help({
-                    let sensitivity = target.quotient(&source.difference()).symbol;
+                    let sensitivity = target.quotient(&source.difference()).symbol.clone();
                     match source.is_one() && entry.table.sensitivity.is_none() {
                         true => say!(
                             "add relative = true if it is a relative error of the value, else the sensitivity: sensitivity = \"… {sensitivity}\""

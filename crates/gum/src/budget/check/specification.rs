@@ -52,7 +52,7 @@ impl Checker<'_> {
             }
         }
         let reading = match &table.reading {
-            Some(part) => self.part(part, "reading", context.value.map(f64::abs), context)?,
+            Some(part) => self.part(part, "reading", context.value().map(f64::abs), context)?,
             None => 0.0,
         };
         let range = match (&table.range, &table.span) {
@@ -111,10 +111,7 @@ impl Checker<'_> {
             );
         }
         // The part is relative to `whole`, whatever the unit of the input.
-        let of_whole = Context {
-            value: whole,
-            ..context.clone()
-        };
+        let of_whole = context.at(whole);
         if amount.value.number == 0.0 || whole == Some(0.0) {
             return Some(0.0);
         }

@@ -36,12 +36,12 @@ struct Vector<'v> {
 
 impl<'v> Vector<'v> {
     fn context(&self, entry: &Entry<'_>, element: usize) -> Context<'v> {
-        Context {
-            owner: self.name,
-            value: Some(self.values[element]),
-            unit: self.unit,
-            place: entry.place.clone(),
-        }
+        Context::new(
+            self.name,
+            Some(self.values[element]),
+            self.unit,
+            entry.place.clone(),
+        )
     }
 }
 

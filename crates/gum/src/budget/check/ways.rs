@@ -160,7 +160,9 @@ static MODIFIERS: [(&str, Said); 20] = [
 ];
 
 /// The ways in which a component states its uncertainty, with their keys; one, where nothing is wrong.
-pub(super) fn stated_ways(table: &ComponentTable) -> Vec<(Way, &'static str, Range<usize>)> {
+pub(super) fn stated_ways(
+    table: &ComponentTable,
+) -> impl Iterator<Item = (Way, &'static str, &Range<usize>)> {
     let full = matches!(
         table.distribution.as_ref().map(|d| &d.value),
         Some(DistributionEntry::Full(_))
@@ -170,28 +172,25 @@ pub(super) fn stated_ways(table: &ComponentTable) -> Vec<(Way, &'static str, Ran
         .as_ref()
         .is_some_and(|c| c.value.present.iter().any(|(key, _)| *key == "U"));
     let has = |wanted: &str| table.present.iter().any(|(key, _)| *key == wanted);
-    let way = |key: &str| match key {
+    let way = move |key: &str| match key {
         "minus" if !has("plus") => Some(PlusMinus),
         "certificate" if !expanded => None,
         "pooled" if has("readings") => None,
         "distribution" if !full => None,
         _ => Way::of(key),
     };
-    table
-        .present
-        .iter()
-        .filter_map(|(key, span)| way(key).map(|way| (way, *key, span.clone())))
-        .collect()
+    let present = table.present.iter();
+    present.filter_map(move |(key, span)| way(key).map(|way| (way, *key, span)))
 }
 
 impl Checker<'_> {
     /// The one way in which a component states its uncertainty; nothing if it was refused already.
     pub(super) fn way(&mut self, table: &ComponentTable, context: &Context<'_>) -> Option<Way> {
-        let ways = stated_ways(table);
-        match ways.as_slice() {
+        let ways: Vec<_> = stated_ways(table).collect();
+        match ways[..] {
             [(way, key, span)] => {
-                self.modifiers(table, *way, key, span);
-                Some(*way)
+                self.modifiers(table, way, key, span);
+                Some(way)
             }
             [] if table.refused => None,
             [] if table.certificate.is_some() => {
@@ -221,7 +220,7 @@ impl Checker<'_> {
                          a number that is exact belongs into [constant]"
                 )),
             ),
-            [(_, _, first), (_, _, second), more @ ..] => {
+            [(_, _, first), (_, _, second), ref more @ ..] => {
                 let keys: Vec<String> = ways.iter().map(|(_, key, _)| format!("`{key}`")).collect();
                 let entries: Vec<String> = ways
                     .iter()
@@ -241,7 +240,7 @@ impl Checker<'_> {
                         entries.join(", ")
                     ));
                 for (_, _, span) in more {
-                    fault = fault.related(span.clone(), say!("and here"));
+                    fault = fault.related((*span).clone(), say!("and here"));
                 }
                 self.refuse(fault)
             }
@@ -298,8 +297,8 @@ impl Checker<'_> {
         self.finish(table, way, context, core)
     }
 
-    /// The same, with the rule by which the uncertainty follows the estimate: found by drafting the component
-    /// once more for twice the estimate.
+    /// The same, with the rule by which the uncertainty follows the estimate, where it was made of that: found by
+    /// drafting the component once more for twice the estimate.
     pub(super) fn draft_following(
         &mut self,
         table: &ComponentTable,
@@ -307,15 +306,12 @@ impl Checker<'_> {
         context: &Context<'_>,
     ) -> Option<Draft> {
         let mut draft = self.draft(table, way, context)?;
-        draft.follows = match (way, context.value) {
+        draft.follows = match (way, context.used()) {
             (Count, _) => Some(Follows::Root),
             (U | HalfWidth | PlusMinus | Way::Certificate | Specification, Some(value))
                 if value != 0.0 =>
             {
-                let double = Context {
-                    value: Some(2.0 * value),
-                    ..context.clone()
-                };
+                let double = context.at(Some(2.0 * value));
                 let told = self.messages.faults.len();
                 let doubled = self.draft(table, way, &double);
                 // What would be wrong with twice the estimate is no fault of the file.
@@ -342,7 +338,7 @@ impl Checker<'_> {
         let certificate = table
             .certificate
             .as_ref()
-            .map(|stated| self.certificate(&stated.value, context));
+            .map(|stated| self.certificate(&stated.value, context).into());
         let kind = match way {
             Readings | Groups | GroupSummary | Pooled => Kind::Repeatability,
             Step | Bits => Kind::Resolution,
@@ -371,9 +367,9 @@ impl Checker<'_> {
             reference: table.reference.as_ref().map(|text| text.value.clone()),
             place: context.place.clone(),
             stated: stated_ways(table)
-                .into_iter()
                 .next()
-                .map_or(context.place.clone(), |(_, _, key)| key),
+                .map_or(&context.place, |(_, _, key)| key)
+                .clone(),
         })
     }
 

@@ -1,5 +1,7 @@
 //! What a procedure asks of a recording and of the user.
 
+use std::collections::BTreeMap;
+
 use gumption_core::quantity::UnitTable;
 use gumption_format::csv::Data;
 use gumption_format::toml::writing::{key, quoted};
@@ -19,7 +21,7 @@ pub(super) fn by_procedure(procedure: &Procedure, columns: &[Guess<'_>]) -> Stri
             .flatten();
         let entries =
             entries.filter_map(|(name, entry)| Some((name.clone(), entry.as_table()?.clone())));
-        entries.collect::<Vec<(String, toml::Table)>>()
+        entries.collect::<BTreeMap<String, toml::Table>>()
     };
     let said = |entry: &toml::Table, key: &str| {
         entry

@@ -358,7 +358,7 @@ fn decimal_commas_and_times_as_instruments_write_them() {
     let recording = read(text).expect("a recording");
     assert_eq!(recording.numbers("t"), Some([0.0, 0.5, 2.0].as_slice()));
     let unit = recording.column("t").and_then(|column| column.unit.clone());
-    assert_eq!(unit.map(|unit| unit.symbol), Some("s".to_owned()));
+    assert_eq!(unit.map(|unit| unit.symbol.clone()), Some("s".to_owned()));
     assert_eq!(
         recording.numbers("U").map(|u| [u[0], u[1]]),
         Some([1.5, -2.0])
@@ -396,5 +396,8 @@ fn g_in_a_header_is_free_fall_where_that_is_stated() {
     let read = Recording::read("t.csv", "a [g]\n1\n", &request, &UnitTable::default());
     let read = read.expect("a recording");
     let symbol = read.column("a").and_then(|column| column.unit.clone());
-    assert_eq!(symbol.map(|unit| unit.symbol), Some("gn".to_owned()));
+    assert_eq!(
+        symbol.map(|unit| unit.symbol.clone()),
+        Some("gn".to_owned())
+    );
 }

@@ -204,12 +204,7 @@ impl Checker<'_> {
             Some(of) => Some(self.quantity(of, subject.unit, subject.name)?),
             None => nominal,
         };
-        let context = Context {
-            owner: subject.name,
-            value: of,
-            unit: subject.unit,
-            place: mpe.span.clone(),
-        };
+        let context = Context::new(subject.name, of, subject.unit, mpe.span.clone());
         if mpe.value.number <= 0.0 {
             return self.refuse(
                 Fault::new(

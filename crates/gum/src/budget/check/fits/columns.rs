@@ -6,6 +6,7 @@ use super::super::checker::Checker;
 use super::super::draft::{Context, Draft, Location};
 use super::super::entries::entries;
 use super::super::inputs::{Entry, Piece, single};
+use super::super::joints::dense;
 use super::super::register::{Register, SourceEntry};
 use super::super::vectors::of_element;
 use super::super::ways::Way;
@@ -38,12 +39,12 @@ pub(super) struct Column<'f> {
 impl Column<'_> {
     /// A component of one value, under the name that the column has in messages.
     fn context<'c>(&'c self, name: &'c str, entry: &Entry<'_>, element: usize) -> Context<'c> {
-        Context {
-            owner: name,
-            value: Some(self.values[element]),
-            unit: &self.unit,
-            place: entry.place.clone(),
-        }
+        Context::new(
+            name,
+            Some(self.values[element]),
+            &self.unit,
+            entry.place.clone(),
+        )
     }
 }
 
@@ -193,7 +194,8 @@ impl Checker<'_> {
         let Independent { variance, known } = errors;
         let spread = match &table.covariance {
             Some(covariance) => {
-                let mut matrix = self.symmetric(covariance, variance.len(), say!("values"))?;
+                let rows = self.symmetric(covariance, variance.len(), say!("values"))?;
+                let mut matrix = dense(rows);
                 for (i, v) in variance.iter().enumerate() {
                     matrix[(i, i)] += v;
                 }

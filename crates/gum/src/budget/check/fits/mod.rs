@@ -48,9 +48,13 @@ impl Checker<'_> {
         constants: &[Constant],
         register: &mut Register,
     ) -> Vec<Fitted> {
-        let mut taken = names(file);
         let mut fitted = Vec::new();
-        for (name, stated) in entries(&file.fit) {
+        let fits = entries(&file.fit);
+        if fits.is_empty() {
+            return fitted;
+        }
+        let mut taken = names(file);
+        for (name, stated) in fits {
             self.check_name(name, &stated.key, &say!("a fit"));
             // Claims may name figures of a fit that was refused.
             let found = self.fit(name, stated, constants, file, register, &mut taken);

@@ -456,6 +456,26 @@ fn a_line_with_two_reflections_ripples_along_the_frequency() {
     assert!((period - 0.4997).abs() < 0.03, "{label}");
 }
 
+#[test]
+fn a_list_that_slipped_by_a_line_is_no_physics() {
+    let mut noise = Noise(19);
+    let mut rows = "load [N],U [mV]\n".to_owned();
+    let load = |row: i32| {
+        50.0 + 40.0 * libm::sin(0.35 * f64::from(row)) + 8.0 * libm::sin(1.3 * f64::from(row))
+    };
+    for row in 0..50 {
+        let _ = writeln!(
+            rows,
+            "{},{:.5}",
+            load(row),
+            0.1 + 0.02 * load(row - 1) + 1e-4 * noise.normal()
+        );
+    }
+    let case = "equations = \"U = a + b*load\"\n[columns]\nU = \"output\"\nload = \"stimulus\"\n";
+    let found = diagnosed("slip", &rows, case);
+    assert_eq!(named(&found)[0], ["shifted"], "{found}");
+}
+
 /// Six mounts of a triad of gyroscopes on a rate table, at rates of both signs and three angles of the
 /// table: what each axis shows for a rate vector and a force in the sensor.
 fn rate_table(shown: impl Fn(usize, [f64; 3], [f64; 3]) -> f64, seed: u64) -> String {

@@ -20,7 +20,6 @@ mod memory;
 mod noise;
 mod reading;
 mod recordings;
-mod records;
 mod refusals;
 mod sizes;
 mod warmth;

@@ -82,7 +82,8 @@ fn loops(fitted: &FittedModel<'_>, column: usize, way: &[f64]) -> Vec<Variation>
     let direction = format!("direction({label})");
     // Falling values with the opposite sign: no mixture of the two with sizes of one sign is a parabola
     // without a loop.
-    let loops: [(&str, &str, fn(f64) -> f64); 3] = [
+    type Side = fn(f64) -> f64;
+    let loops: [(&str, &str, Side); 3] = [
         ("", &direction, |way| way),
         ("on rising values only, ", "[rising]", |way| {
             (1.0 + way) / 2.0

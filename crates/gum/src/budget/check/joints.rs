@@ -184,19 +184,16 @@ impl Checker<'_> {
         let Some((i, j)) = unequal(rows) else {
             return Some(rows);
         };
-        let (lower, upper) = (rows[i].numbers[j], rows[j].numbers[i]);
+        let (below, above) = (rows[i].numbers[j], rows[j].numbers[i]);
+        let (lower, upper) = (below.value, above.value);
         self.refuse(
             Fault::new(
                 JOINT,
-                lower.span(),
-                say!(
-                    "the matrix is not symmetric: {} and {}",
-                    lower.value,
-                    upper.value
-                ),
+                below.span(),
+                say!("the matrix is not symmetric: {lower} and {upper}"),
             )
             .label(say!("this element"))
-            .related(upper.span(), say!("and this one must be equal")),
+            .related(above.span(), say!("and this one must be equal")),
         )
     }
 

@@ -109,7 +109,9 @@ fn save_tables(options: &Options) -> Result<(), String> {
          diagnosis-7.md (rules for accidents and contested names, what stood for several effects kept beside them, waves over fewer \
          than 16 set points not looked for), diagnosis-8.md (estimated white noise not tested; the right name with a further order counted as a \
          rival, so that no linear coefficient had a κ), diagnosis-9.md (pieces of one course identified; the readings of a norm without noise \
-         of their own), diagnosis-10.md (set points in small steps taken for ramps; other wrong readings counted as noise of one).",
+         of their own), diagnosis-10.md (set points in small steps taken for ramps; other wrong readings counted as noise of one), \
+         diagnosis-11.md (the name and the adopted model chosen apart; what other sets have instead of a name left out; slopes never taken \
+         anew; noise that walks over the whole recording not among the laws).",
         env!("CARGO_PKG_VERSION")
     );
     std::fs::write(out.join("diagnosis.md"), report(&read(&lines), &made))

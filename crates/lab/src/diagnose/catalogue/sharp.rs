@@ -1,6 +1,7 @@
 //! Grids of a shape parameter with one value moved to where it explains the residuals best: a time constant
 //! between two values of the grid would leave a part of itself to further explanations.
 
+use gumption_core::special::f_sf;
 use nalgebra::DVector;
 
 use super::Term;
@@ -52,9 +53,13 @@ impl<'g, 'f> Residuals<'g, 'f> {
 
     fn shows(&self, power: f64) -> bool {
         let left = self.rest.norm_squared() - power;
+        power * self.degrees() > SHOWS * left
+    }
+
+    /// Degrees of freedom beside the parameters and one effect.
+    fn degrees(&self) -> f64 {
         let used = self.absorbed.directions() + 1;
-        let degrees = self.rest.len().saturating_sub(used) as f64;
-        power * degrees > SHOWS * left
+        self.rest.len().saturating_sub(used) as f64
     }
 }
 
@@ -111,6 +116,8 @@ pub(super) fn nearly_all(
 ) -> Option<usize> {
     /// Of their sum of squares: no noise is explained so far by one stretch of rows, nor a part of a course.
     const SHARE: f64 = 0.9;
+    /// Probability that the best of all does so by chance, at most: a tenth of that of a false alarm, which does not count the choice.
+    const CHANCE: f64 = 1e-3;
     /// Rounding of powers.
     const EQUAL: f64 = 1e-9;
     let residuals = Residuals::of(fitted)?;
@@ -120,8 +127,11 @@ pub(super) fn nearly_all(
     let best = powers
         .iter()
         .position(|power| *power >= (1.0 - EQUAL) * most)?;
-    let power = powers[best];
-    (residuals.shows(power) && power > SHARE * residuals.rest.norm_squared()).then_some(best)
+    let (power, whole) = (powers[best], residuals.rest.norm_squared());
+    let degrees = residuals.degrees().max(1.0);
+    let by_chance = f_sf(power * degrees / (whole - power).max(0.0), 1.0, degrees);
+    let is_chosen = power > SHARE * whole && powers.len() as f64 * by_chance < CHANCE;
+    is_chosen.then_some(best)
 }
 
 /// The two values of a grid of which the terms together explain the residuals best, where they do so clearly

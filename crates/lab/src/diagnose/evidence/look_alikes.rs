@@ -241,6 +241,8 @@ fn mixture(
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use gumption_lanes::{Block as Lanes, Generator, level};
 
     use super::super::findings::{Examination, Slot, State};
@@ -339,6 +341,22 @@ mod tests {
         let (first, wave, other) = (block("relaxation"), block("sine"), block("inverse"));
         assert!(shapes(&space, &question, &[first, wave]).is_empty());
         assert_eq!(shapes(&space, &question, &[first, wave, other]), [other]);
+    }
+
+    /// What is fitted is the first name of every slot, in the variant that is stated with it.
+    #[test]
+    fn the_model_is_that_of_the_names() {
+        let wide = (relaxation(6.0) + relaxation(2.5)) * 20.0;
+        for effect in [relaxation(3.9) * 30.0, wave() * 6.0, wide] {
+            for stream in 0..4 {
+                let (found, _) = asked(&(&effect + wave() * 2.0), stream);
+                let firsts = found.slots.iter().filter_map(|slot| slot.named.first());
+                let firsts = firsts.filter_map(|first| Some(first.variants.first()?.atom));
+                let firsts: BTreeSet<usize> = firsts.collect();
+                let atoms = found.fitted.map_or_else(Vec::new, |fitted| fitted.atoms);
+                assert_eq!(firsts, BTreeSet::from_iter(atoms), "{stream}");
+            }
+        }
     }
 
     #[test]

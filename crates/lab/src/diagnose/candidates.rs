@@ -1,8 +1,6 @@
 //! What is asked of a recording: candidates as columns, the recording as residuals, and the effects that were
 //! found in the model.
 
-use std::ops::ControlFlow;
-
 use nalgebra::DMatrix;
 
 use super::adopt::{self, Free};
@@ -10,14 +8,11 @@ use super::case::Case;
 use super::catalogue::{self, Cell, Finer, FittedModel, Variation};
 use super::design::Design;
 use super::evidence::{
-    self, Atom, Baseline, Candidate, Examination, Fitted, Question, Refusal, Shape, TRACE,
+    self, Atom, Baseline, Candidate, Examination, Fitted, Refusal, Shape, TRACE,
 };
-use super::failure::Failure;
 use super::fit::{self, Fit, NoFit};
-use super::inquiry::Answer;
 use super::noise::{self, Claimed};
 use super::noise_correlation::Courses;
-use super::possible;
 use super::reduced::reduced;
 
 /// λ from which on it matters that the parameter of an effect lies between the steps of its grid.
@@ -50,34 +45,6 @@ impl<'f> Candidates<'f> {
             candidates,
             atoms,
             places,
-        }
-    }
-
-    /// Effects that are seen with a size which they cannot have are something else: without them, again.
-    pub(super) fn ask(
-        &mut self,
-        claimed: Claimed,
-        settings: &evidence::Settings,
-        progress: &dyn Fn(f64) -> ControlFlow<()>,
-    ) -> Result<Answer, Failure> {
-        let baseline = baseline(self.fitted.design, self.fitted.fit, &claimed)?;
-        loop {
-            let question = Question {
-                baseline: &baseline,
-                candidates: &self.candidates,
-                atoms: &self.atoms,
-                settings: settings.clone(),
-            };
-            let examination = evidence::examine(&question, progress)?;
-            let missized = possible::missized(self, &examination, &claimed, settings.alpha);
-            if missized.is_empty() {
-                return Ok(Answer {
-                    claimed,
-                    baseline,
-                    examination,
-                });
-            }
-            self.retain(|atom, _| !missized.contains(&atom.candidate));
         }
     }
 

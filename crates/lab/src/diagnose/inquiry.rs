@@ -12,11 +12,12 @@ use super::case::Case;
 use super::catalogue::{Finer, FittedModel, generics};
 use super::coarse::Coarse;
 use super::design::Design;
-use super::evidence::{self, Baseline, Examination, Located, Settings, TRACE, Verdict};
+use super::evidence::{self, Baseline, Examination, Located, Question, Settings, TRACE, Verdict};
 use super::failure::Failure;
 use super::fit::{self, Fit};
 use super::noise::{self, Claimed};
 use super::noise_correlation::Courses;
+use super::possible;
 use super::regions;
 
 /// So often the values about the parameter of an effect are brought closer together.
@@ -77,7 +78,8 @@ impl<'i> Inquiry<'i> {
         let (design, fit) = (declared.seen, &declared.coarse.fit);
         let fitted = FittedModel::new(design, fit);
         let mut candidates = Candidates::new(fitted, &claimed, declared.white);
-        let answer = candidates.ask(claimed.clone(), &settings, &part(progress, 0.0, 0.4))?;
+        let part = part(progress, 0.0, 0.4);
+        let answer = ask(&mut candidates, claimed.clone(), &settings, &part)?;
         // What the model leaves out may look like noise that grows.
         let plain = noise::plain(design, fit, &claimed);
         let courses = Courses::of(&candidates.fitted)
@@ -201,8 +203,10 @@ impl<'i> Inquiry<'i> {
         let fitted = FittedModel::new(self.declared.seen, moved);
         let mut candidates = Candidates::new(fitted, claimed, self.declared.white);
         let part = part(self.progress, 0.7, 0.7);
-        let answer = candidates.ask(claimed.clone(), &self.settings, &part)?;
-        if answer.examination.fitted.is_some() {
+        let answer = ask(&mut candidates, claimed.clone(), &self.settings, &part)?;
+        // What a bent form leaves is taken for further effects: the slopes that need fewer are the better ones.
+        let effects = |of: &Answer| of.examination.slots.len();
+        if answer.examination.fitted.is_some() && effects(&answer) < effects(&self.answer) {
             (self.candidates, self.answer, self.fit) = (candidates, answer, moved);
         }
         Ok(())
@@ -277,7 +281,7 @@ impl<'i> Inquiry<'i> {
 
     fn asked(&mut self, claimed: Claimed, from: f64, to: f64) -> Result<Answer, Failure> {
         let part = part(self.progress, from, to);
-        self.candidates.ask(claimed, &self.settings, &part)
+        ask(&mut self.candidates, claimed, &self.settings, &part)
     }
 
     /// The noise that is left when what was found is in the model.
@@ -291,6 +295,34 @@ impl Answer {
     /// Logarithm of its probability, but for a constant.
     fn log_posterior(&self) -> f64 {
         self.examination.score + self.baseline.log_likelihood() + self.claimed.log_prior()
+    }
+}
+
+/// Asks for every candidate. Effects that are seen with a size which they cannot have are something else: without them, again.
+fn ask(
+    candidates: &mut Candidates<'_>,
+    claimed: Claimed,
+    settings: &Settings,
+    progress: &dyn Fn(f64) -> ControlFlow<()>,
+) -> Result<Answer, Failure> {
+    let baseline = baseline(candidates.fitted.design, candidates.fitted.fit, &claimed)?;
+    loop {
+        let question = Question {
+            baseline: &baseline,
+            candidates: &candidates.candidates,
+            atoms: &candidates.atoms,
+            settings: settings.clone(),
+        };
+        let examination = evidence::examine(&question, progress)?;
+        let missized = possible::missized(candidates, &examination, &claimed, settings.alpha);
+        if missized.is_empty() {
+            return Ok(Answer {
+                claimed,
+                baseline,
+                examination,
+            });
+        }
+        candidates.retain(|atom, _| !missized.contains(&atom.candidate));
     }
 }
 

@@ -183,19 +183,8 @@ impl<'i> Inquiry<'i> {
             return Ok(());
         };
         let Declared { design, fit, .. } = self.declared;
-        let with = Design::new(&extended.case);
-        let value = |name: &str| {
-            let place = with
-                .unknowns
-                .iter()
-                .position(|unknown| unknown.name == name);
-            place.map(|at| refit.unknowns[at])
-        };
-        let declared = design.unknowns.iter().map(|unknown| value(&unknown.name));
-        let Some(values) = declared.collect::<Option<Vec<f64>>>() else {
-            return Ok(());
-        };
-        let moved = fit::at(design, DVector::from_vec(values));
+        let values = Design::new(&extended.case).carried(&refit.unknowns, design);
+        let moved = fit::at(design, values);
         if !is_bent(fit, &moved, claimed) {
             return Ok(());
         }

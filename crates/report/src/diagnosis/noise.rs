@@ -80,7 +80,9 @@ fn memory(claimed: &Claimed, l: Language) -> String {
     let Some(correlated) = &claimed.correlated else {
         return String::new();
     };
-    let part = |share: f64| significant(100.0 * share, 2);
+    // What is left beside nearly all has a digit as well.
+    let digits = |share: f64| if share > 0.99 { 3 } else { 2 };
+    let part = |share: f64| significant(100.0 * share, digits(share));
     match correlated.memory {
         Memory::White | Memory::Claimed => String::new(),
         Memory::Fading {

@@ -206,3 +206,25 @@ fn three_wrong_readings_beside_a_drift_are_all_told() {
     assert!(statement.contains("drift"), "{statement}");
     assert!(!statement.contains("smoothly"), "{statement}");
 }
+
+/// One column of standard uncertainties serves outputs in V and in mV: by Σu²/n of ten rows at places about zero, u(a) = 2 mV/√10.
+#[test]
+fn standard_uncertainties_of_rows_are_in_the_unit_of_each_output() {
+    let mut noise = Noise(83);
+    let mut rows = "x [mm],U [V],W [mV],s [µV]\n".to_owned();
+    for row in 0..10 {
+        let x = f64::from(row) - 4.5;
+        let [one, other] = [0, 1].map(|_| 0.002 * noise.normal());
+        let (first, second) = (0.1 + 0.2 * x + one, 1e3 * (0.3 - 0.1 * x + other));
+        let _ = writeln!(rows, "{x},{first:.5},{second:.2},2000");
+    }
+    let case = "equations = [\"U = a + b*x\", \"W = c + d*x\"]\n[columns]\nx = \"stimulus\"\nU = \"output\"\nW = \"output\"\ns = \"u\"\n";
+    let found = diagnosed_with("units-of-u", &rows, case);
+    for (name, expected) in [("a", 0.002 / 10.0_f64.sqrt()), ("c", 2.0 / 10.0_f64.sqrt())] {
+        let parameters = found["parameters"].as_array().into_iter().flatten();
+        let u = parameters.filter(|one| one["name"] == name);
+        let u: Vec<f64> = u.filter_map(|one| one["u"].as_f64()).collect();
+        assert_eq!(u.len(), 1, "{:#}", found["parameters"]);
+        assert!((u[0] / expected - 1.0).abs() < 1e-9, "{name}: {u:?}");
+    }
+}

@@ -285,6 +285,35 @@ mod tests {
         assert_eq!(&text[matrix.rows()[1].span.clone()], "[-0, 2.25]");
     }
 
+    /// Decimals that are divided by a power of ten are those that the standard library reads.
+    #[test]
+    fn numbers_are_the_nearest_doubles() {
+        let digits = |seed: u64| seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 10;
+        for seed in 1..20_000 {
+            let text = digits(seed).to_string();
+            let text = &text[..(seed as usize % text.len()) + 1];
+            let point = digits(seed + 7) as usize % (text.len() + 1);
+            let sign = if seed % 3 == 0 { "-" } else { "" };
+            let (before, behind) = text.split_at(point);
+            let before = format!("0{before}");
+            let number = match before.trim_start_matches('0') {
+                "" => format!("{sign}0.{behind}0"),
+                before => format!("{sign}{before}.{behind}0"),
+            };
+            let source = format!("[[{number}]]");
+            let Some((rows, _)) = Scan::matrix(&source, 0) else {
+                assert!(
+                    number.find('.') > Some(15),
+                    "{number} is left to the parser"
+                );
+                continue;
+            };
+            let read = rows[0].numbers[0].value;
+            let parsed: f64 = number.parse().unwrap();
+            assert_eq!(read.to_bits(), parsed.to_bits(), "{number}");
+        }
+    }
+
     #[test]
     fn everything_else_is_left_to_the_parser() {
         for value in [

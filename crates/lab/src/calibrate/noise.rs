@@ -6,11 +6,9 @@ use std::ops::Range;
 use super::points::Points;
 use crate::experiment::at_rest::Headed;
 use crate::experiment::checker::Checker;
-use crate::experiment::entries::RoleWord;
 use crate::experiment::faults::NOISE;
 use crate::experiment::noise::Way;
 use crate::experiment::source::entries;
-use crate::experiment::tables::ColumnTable;
 use crate::experiment::{Act, Doubt, Experiment, Observed, Purpose, Scope, Target};
 use gumption_core::distribution::{Distribution, Normal};
 use gumption_core::quantity::Unit;
@@ -35,7 +33,7 @@ pub(super) fn add(
             _ => None,
         })
         .collect();
-    let per_row = uncertainties(checker);
+    let per_row = checker.column_of_u();
     let Some((way, _)) = checker.noise_way(per_row.is_some()) else {
         return match (checker.faults.len() == before, per_row) {
             (false, _) => None,
@@ -94,38 +92,19 @@ fn noise(output: String, unit: Unit, (u, dof): Scatter) -> Doubt {
     }
 }
 
-/// The column that holds the standard uncertainty of each row, with its place.
-fn uncertainties(checker: &Checker<'_>) -> Option<(String, Range<usize>)> {
-    let mut declared = entries(&checker.source.table.columns).iter();
-    let role = |entry: &ColumnTable| entry.role.as_ref().map(|role| role.value);
-    let found = declared.find(|(_, entry)| role(&entry.value.0) == Some(RoleWord::Uncertainty));
-    found.map(|(name, entry)| (name.clone(), entry.key.clone()))
-}
-
 /// The noise of the rows of each output by a column: 1 in its unit, times its numbers.
 fn of_rows(
     checker: &mut Checker<'_>,
     points: &Points,
     experiment: &mut Experiment,
     outputs: Vec<(String, Unit)>,
-    (column, place): (String, Range<usize>),
+    (column, place): (&str, Range<usize>),
 ) -> Option<bool> {
-    let Some(own) = points.column(&column) else {
+    let Some(own) = points.column(column) else {
         return Some(false);
     };
-    let stated = own.unit.difference();
-    for (output, unit) in outputs {
-        let factor = match own.unit.is_one() {
-            true => Some(1.0),
-            false => stated.conversion_to(&unit).map(|to| to.factor),
-        };
-        let Some(factor) = factor else {
-            let message = say!("{} cannot be converted to {}", stated.symbol, unit.symbol);
-            return checker.refuse(
-                Fault::new(NOISE, place, message)
-                    .label(say!("the standard uncertainty of {output}")),
-            );
-        };
+    let factors = checker.factors_of_u(&own.unit, &outputs)?;
+    for ((output, unit), factor) in outputs.into_iter().zip(factors) {
         let read = points.column(&output).map(|column| &column.values);
         let is_read = |point: usize| read.is_none_or(|read| read[point].is_finite());
         let is_missing = |point: &usize| is_read(*point) && !is_positive(own.values[*point]);
@@ -143,7 +122,7 @@ fn of_rows(
             );
         }
         let mut doubt = noise(output, unit, (factor, f64::INFINITY));
-        doubt.by = Some(column.clone());
+        doubt.by = Some(column.to_owned());
         experiment.doubts.push(doubt);
     }
     Some(true)

@@ -212,7 +212,7 @@ fn claims(case: &Case, at_rest: Option<&str>) -> String {
             let column = column.map_or(String::new(), |c| format!(", column = {}", quoted(c)));
             format!("\n[noise]\nat_rest = {{ file = {file}{column} }}\n")
         }
-        NoiseClaim::Estimated | NoiseClaim::PerRow(_) => String::new(),
+        NoiseClaim::Estimated | NoiseClaim::PerRow { .. } => String::new(),
     };
     let mut settings = format!(
         "alpha = {}\nseed = {}\ndraws = {}\n",

@@ -254,16 +254,13 @@ fn claimed(design: &Design<'_>, fit: Option<&Fit>) -> Option<Claimed> {
                 Origin::AtRest(file.clone()),
             )
         }
-        NoiseClaim::PerRow(column) => {
+        NoiseClaim::PerRow { column, factors } => {
             let column = &case.columns[*column];
-            let squares: Vec<f64> = column
-                .numbers()
-                .unwrap_or(&[])
-                .iter()
-                .map(|u| u * u)
-                .collect();
+            let numbers = column.numbers().unwrap_or(&[]);
+            let squares = |factor: &f64| numbers.iter().map(|u| (factor * u).powi(2)).collect();
+            let variances = factors.iter().map(squares).collect();
             (
-                vec![squares; case.responses.len()],
+                variances,
                 f64::INFINITY,
                 Origin::Column(column.name.clone()),
             )

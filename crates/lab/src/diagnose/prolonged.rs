@@ -106,7 +106,7 @@ pub(super) fn noise_of(
     recorded: usize,
 ) -> Claimed {
     match &known.design.case.noise {
-        NoiseClaim::Stated { .. } | NoiseClaim::AtRest { .. } | NoiseClaim::PerRow(_) => {
+        NoiseClaim::Stated { .. } | NoiseClaim::AtRest { .. } | NoiseClaim::PerRow { .. } => {
             noise::planned(design, fit)
         }
         NoiseClaim::Estimated | NoiseClaim::Replicates(_) => {

@@ -3,8 +3,10 @@
 use std::ops::Range;
 
 use super::checker::Checker;
+use super::entries::RoleWord;
 use super::faults::NOISE;
-use super::tables::{NoiseTable, NoiseWord};
+use super::source::entries;
+use super::tables::{ColumnTable, NoiseTable, NoiseWord};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::toml::{Amount, Stated};
@@ -81,6 +83,39 @@ impl<'s> Checker<'s> {
             Ok(found) => Some(found),
             Err(message) => self.refuse(Fault::new(NOISE, path.span.clone(), message)),
         }
+    }
+
+    /// The column that holds the standard uncertainty of each row, with its place.
+    pub fn column_of_u(&self) -> Option<(&'s str, Range<usize>)> {
+        let mut declared = entries(&self.source.table.columns).iter();
+        let role = |entry: &ColumnTable| entry.role.as_ref().map(|role| role.value);
+        let found = declared.find(|(_, entry)| role(&entry.value.0) == Some(RoleWord::Uncertainty));
+        found.map(|(name, entry)| (name.as_str(), entry.key.clone()))
+    }
+
+    /// What the numbers of that column are multiplied by for each of these outputs: they are in the unit of the column, or in that
+    /// of the output where it has none.
+    pub fn factors_of_u(&mut self, own: &Unit, outputs: &[(String, Unit)]) -> Option<Vec<f64>> {
+        let stated = own.difference();
+        let factor = |(_, unit): &(String, Unit)| match own.is_one() {
+            true => Some(1.0),
+            false => stated.conversion_to(unit).map(|to| to.factor),
+        };
+        let found: Vec<Option<f64>> = outputs.iter().map(factor).collect();
+        let wrong = found.iter().position(Option::is_none);
+        if let (Some(at), Some((column, place))) = (wrong, self.column_of_u()) {
+            let (output, unit) = &outputs[at];
+            let message = say!("{} cannot be converted to {}", stated.symbol, unit.symbol);
+            return self.refuse(
+                Fault::new(NOISE, place, message)
+                    .label(say!("the standard uncertainty of {output}"))
+                    .help(say!(
+                        "write its unit into the heading of the column, or {column} = {{ role = \"u\", unit = \"{}\" }}",
+                        unit.symbol
+                    )),
+            );
+        }
+        found.into_iter().collect()
     }
 
     fn only_with_u(&mut self, table: &NoiseTable) {

@@ -5,7 +5,6 @@ use crate::diagnose::faults::TOO_FEW;
 use crate::experiment::checker::Checker;
 use crate::experiment::columns::Column as Wanted;
 use crate::experiment::entries::RoleWord;
-use crate::experiment::faults::NOISE;
 use crate::experiment::tables::ColumnTable;
 use crate::recording::Recording;
 use gumption_core::quantity::Unit;
@@ -56,42 +55,7 @@ impl Checker<'_> {
                 ..Column::new(&w.name, w.role, &unit, data.taken(&complete))
             });
         }
-        self.as_outputs(wanted, &mut columns);
         (columns, complete.len(), all - complete.len())
-    }
-
-    /// Standard uncertainties of the rows, in the unit of the output.
-    fn as_outputs(&mut self, wanted: &[Wanted<'_>], columns: &mut [Column]) {
-        let output = columns
-            .iter()
-            .find(|column| column.role == RoleWord::Output);
-        let Some(unit) = output.map(|output| output.unit.difference()) else {
-            return;
-        };
-        for (column, w) in columns.iter_mut().zip(wanted) {
-            let Data::Numbers(numbers) = &mut column.data else {
-                continue;
-            };
-            if column.role != RoleWord::Uncertainty || column.unit.is_one() {
-                continue;
-            }
-            let stated = column.unit.difference();
-            let Some(conversion) = stated.conversion_to(&unit) else {
-                let role = w.table.and_then(|table| table.role.as_ref());
-                let place = role.map_or(0..0, |role| role.span.clone());
-                let message = say!("{} cannot be converted to {}", stated.symbol, unit.symbol);
-                let label = say!("the standard uncertainty of the output");
-                self.faults
-                    .push(Fault::new(NOISE, place, message).label(label));
-                continue;
-            };
-            for number in numbers {
-                *number *= conversion.factor;
-            }
-            column.unit = unit.clone();
-            // Its heading states the other unit.
-            column.header = column.name.clone();
-        }
     }
 }
 

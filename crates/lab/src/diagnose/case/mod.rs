@@ -163,8 +163,13 @@ pub enum NoiseClaim {
         /// Where it comes from.
         origin: NoiseOrigin,
     },
-    /// A column holds it.
-    PerRow(usize),
+    /// A column holds the standard uncertainty of each row.
+    PerRow {
+        /// The column.
+        column: usize,
+        /// What multiplies its numbers for each response.
+        factors: Vec<f64>,
+    },
     /// Rows that agree in these columns are replicates.
     Replicates(Vec<usize>),
     /// A recording at rest.

@@ -25,10 +25,14 @@ impl Checker<'_> {
         let per_row = columns
             .iter()
             .position(|column| column.role == RoleWord::Uncertainty);
-        let Some((way, place)) = self.noise_way(per_row.is_some()) else {
-            return per_row.map_or(NoiseClaim::Estimated, NoiseClaim::PerRow);
-        };
         let responses = declared.map_or(&[][..], |declared| declared.responses.as_slice());
+        let Some((way, place)) = self.noise_way(per_row.is_some()) else {
+            let column = per_row.and_then(|column| {
+                let factors = self.factors_of_u(&columns[column].unit, &of_outputs(responses))?;
+                Some(NoiseClaim::PerRow { column, factors })
+            });
+            return column.unwrap_or(NoiseClaim::Estimated);
+        };
         match way {
             Way::Stated(amount, dof) => {
                 let units: Vec<Unit> = responses.iter().map(|r| r.unit.difference()).collect();
@@ -48,18 +52,15 @@ impl Checker<'_> {
                 NoiseClaim::Replicates(found.collect())
             }
             Way::AtRest(at_rest) => self.of_rest(at_rest, columns, responses),
-            Way::Budget(path) => {
-                let outputs = responses.iter();
-                let outputs = outputs.map(|r| (r.name.clone(), r.unit.difference()));
-                let outputs: Vec<(String, Unit)> = outputs.collect();
-                self.noise_of_budget(path, &outputs)
-                    .map_or(NoiseClaim::Estimated, |(u, dof)| NoiseClaim::Stated {
-                        walk: vec![0.0; u.len()],
-                        u,
-                        dof,
-                        origin: NoiseOrigin::Budget(path.value.clone()),
-                    })
-            }
+            Way::Budget(path) => self.noise_of_budget(path, &of_outputs(responses)).map_or(
+                NoiseClaim::Estimated,
+                |(u, dof)| NoiseClaim::Stated {
+                    walk: vec![0.0; u.len()],
+                    u,
+                    dof,
+                    origin: NoiseOrigin::Budget(path.value.clone()),
+                },
+            ),
             Way::From(NoiseWord::Stated) => self.of_readings(place, responses, stated),
             Way::From(NoiseWord::Dwells) => self.of_dwells(file, place, columns),
             Way::From(NoiseWord::Residuals) => NoiseClaim::Estimated,
@@ -203,4 +204,12 @@ impl Checker<'_> {
         let of = |response: &Response| self.spread(stated, &response.unit).unwrap_or(0.0);
         responses.iter().map(of).collect()
     }
+}
+
+/// Names of responses, and the units of their differences.
+fn of_outputs(responses: &[Response]) -> Vec<(String, Unit)> {
+    let outputs = responses.iter();
+    outputs
+        .map(|response| (response.name.clone(), response.unit.difference()))
+        .collect()
 }

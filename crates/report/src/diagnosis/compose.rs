@@ -217,12 +217,18 @@ fn named(case: &Case, diagnosis: &Diagnosis, slot: &Slot, names: Names<'_>) -> V
 
 /// What no catalogue lists, in place of names that hold.
 fn unlisted(slot: &Slot, names: Names<'_>) -> Option<String> {
-    let p = chance(slot.doubted()?);
-    let place = names.plain(slot.generic.first()?.candidate);
-    Some(names.l.pick(
-        format!("A form that no catalogue lists is not excluded either ({p} %): {place}."),
-        format!("目录之外的某种形式也不能排除（{p} %）：{place}。"),
-    ))
+    let share = slot.doubted()?;
+    let (p, place) = (chance(share), names.plain(slot.generic.first()?.candidate));
+    Some(match share > 0.5 {
+        true => names.l.pick(
+            format!("A form that no catalogue lists is likelier ({p} %): {place}."),
+            format!("目录之外的某种形式可能性更大（{p} %）：{place}。"),
+        ),
+        false => names.l.pick(
+            format!("A form that no catalogue lists is not excluded either ({p} %): {place}."),
+            format!("目录之外的某种形式也不能排除（{p} %）：{place}。"),
+        ),
+    })
 }
 
 /// Why a name says no more than what the effect acts like.

@@ -305,7 +305,7 @@ pub struct BlockRunner<'m> {
 impl<'m> BlockRunner<'m> {
     /// Prepares the scratch registers.
     pub fn new(model: &'m Model) -> Self {
-        let program = &model.program;
+        let program = model.program();
         let mut registers = vec![Box::new(Block::ZERO); program.registers];
         for (register, value) in &program.constants {
             registers[*register].0 = [*value; LANES];

@@ -5,7 +5,6 @@ use std::rc::Rc;
 
 use smallvec::smallvec;
 
-use super::block::Program;
 use super::catalogue;
 use super::expressions;
 use super::faults;
@@ -414,13 +413,12 @@ impl<'r> Check<'r> {
         let ids: Vec<Id> = outcomes.iter().flat_map(|o| o.ids.clone()).collect();
         let inputs = input_count(request.symbols);
         let graph = self.l.builder.finish(&ids);
-        let program = Program::new(&graph, inputs);
         let unused = (0..request.symbols.len()).filter(|i| !used[*i]).collect();
         Ok(Model {
             inputs,
             outputs: outputs.into(),
             graph: graph.into(),
-            program: program.into(),
+            program: Default::default(),
             unused,
             plain_angles: self.l.plain_angles.into(),
             blocks: Default::default(),

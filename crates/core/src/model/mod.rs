@@ -190,7 +190,8 @@ pub struct Model {
     inputs: usize,
     outputs: Arc<[Output]>,
     graph: Arc<graph::Graph>,
-    program: Arc<block::Program>,
+    /// For trials; arranged when the first block is run, which not every use of a model does.
+    program: Arc<OnceLock<block::Program>>,
     unused: Arc<[usize]>,
     plain_angles: Arc<[usize]>,
     /// What [`Model::interactions`] has found.
@@ -238,6 +239,12 @@ impl Model {
             }
         }
         out
+    }
+
+    /// The graph arranged for blocks.
+    fn program(&self) -> &block::Program {
+        let arranged = || block::Program::new(&self.graph, self.inputs);
+        self.program.get_or_init(arranged)
     }
 
     /// First, second and third derivatives along `direction`, for every output.
@@ -348,8 +355,8 @@ impl Model {
         }
         let graph = self.graph.unrolled(&centres)?;
         Some(Model {
-            program: block::Program::new(&graph, self.inputs).into(),
             graph: graph.into(),
+            program: Arc::default(),
             blocks: Arc::default(),
             ..self.clone()
         })

@@ -69,7 +69,7 @@ pub fn language(bytes: &[u8]) {
 
 fn formula(text: &str, units: &UnitTable) {
     let symbol = |(name, unit, role): (&str, &str, Role)| Symbol {
-        name: name.to_string(),
+        name: name.into(),
         unit: units
             .parse(unit)
             .unwrap_or_else(|_| gumption::quantity::Unit::one()),

@@ -303,7 +303,7 @@ impl Sheet {
             .zip(&used)
             .filter(|(input, used)| **used && input.terms.is_empty());
         let mut exact: Vec<(String, f64, String)> = certain
-            .map(|(input, _)| (input.name.clone(), input.estimate, symbol(&input.unit)))
+            .map(|(input, _)| (input.name.to_string(), input.estimate, symbol(&input.unit)))
             .collect();
         for constant in &budget.constants {
             let [value] = constant.values.as_slice() else {

@@ -203,7 +203,7 @@ impl Writer<'_> {
             file: self.file(report, &identity.part.file),
             row: identity.part.row.as_deref().map(str::to_string),
             name: identity.name.to_string(),
-            label: component.label.clone(),
+            label: component.label.to_string(),
             source: match &component.owner {
                 Owner::Source(name) => {
                     Some(name.rsplit('.').next().unwrap_or_default().to_string())
@@ -218,7 +218,7 @@ impl Writer<'_> {
                 Kind::TypeA => TypeEntry::A,
                 Kind::TypeB => TypeEntry::B,
             },
-            how: component.how.clone(),
+            how: component.how.to_string(),
             certificate: component.certificate.clone(),
             reference: component.reference.clone(),
         };

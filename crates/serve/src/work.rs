@@ -398,7 +398,7 @@ impl Asked<'_> {
         let (target, row, measurand) = asked.ok_or_else(|| self.no_target())?;
         let inputs = row.budget.inputs.iter();
         let costs: Vec<f64> = inputs
-            .map(|input| match target.costs.get(&input.name) {
+            .map(|input| match target.costs.get(input.name.as_str()) {
                 Some(cost) => cost.unwrap_or(f64::INFINITY),
                 None => COST,
             })

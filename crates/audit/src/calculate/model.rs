@@ -236,7 +236,7 @@ fn compiled(formula: &str, units: &[Unit], target: Unit, used: &[bool]) -> Resul
         .enumerate()
         .filter(|(i, _)| used[*i])
         .map(|(i, unit)| Symbol {
-            name: format!("x_{i}_"),
+            name: format!("x_{i}_").into(),
             unit: unit.clone(),
             role: Role::Input(i),
         })

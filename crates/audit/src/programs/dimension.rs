@@ -68,7 +68,11 @@ impl Statement {
         };
         let inputs = self.inputs.iter().enumerate().map(|(i, input)| {
             let (name, role) = (input.name.clone(), Role::Input(i));
-            parsed(&input.unit).map(|unit| Symbol { name, unit, role })
+            parsed(&input.unit).map(|unit| Symbol {
+                name: name.into(),
+                unit,
+                role,
+            })
         });
         let (Some(symbols), Some(unit)) = (inputs.collect::<Option<Vec<_>>>(), parsed(unit)) else {
             return false;

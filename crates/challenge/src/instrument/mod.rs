@@ -182,7 +182,7 @@ impl Instrument {
             .iter()
             .enumerate()
             .map(|(place, name)| Symbol {
-                name: name.clone(),
+                name: name.as_str().into(),
                 unit: Unit::one(),
                 role: Role::Input(place),
             })

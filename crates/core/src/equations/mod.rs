@@ -35,6 +35,7 @@ use crate::model::{
 };
 use crate::quantity::{Unit, UnitTable};
 use gumption_fault::{Fault, nearest, say};
+use smol_str::format_smolstr;
 
 use faults::{NO_RESPONSE, TWO_EQUATIONS};
 
@@ -201,7 +202,7 @@ impl Equations {
 
 fn inputs(symbols: &[Quantity]) -> impl Iterator<Item = Symbol> {
     symbols.iter().enumerate().map(|(place, quantity)| Symbol {
-        name: quantity.name.clone(),
+        name: quantity.name.as_str().into(),
         unit: quantity.unit.clone(),
         role: Role::Input(place),
     })
@@ -297,7 +298,7 @@ fn with_gaps(mut own: Vec<Symbol>, all: &[Symbol]) -> Vec<Symbol> {
             .find(|symbol| !own.iter().any(|o| o.name == symbol.name))
     {
         own.push(Symbol {
-            name: format!("observed {}", missing.name),
+            name: format_smolstr!("observed {}", missing.name),
             ..missing.clone()
         });
     }

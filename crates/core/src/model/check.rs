@@ -329,7 +329,7 @@ impl<'r> Check<'r> {
         while let Some(e) = open.pop() {
             match &e.node {
                 Node::Name(name)
-                    if !own.contains(name)
+                    if !own.iter().any(|own| own == name)
                         && self.l.binding(name).is_none()
                         && !catalogue::is_pi(name) =>
                 {
@@ -497,7 +497,7 @@ pub fn unknowns(body: &Expr) -> Vec<String> {
             && name.text == "solve"
             && let Some(Node::Name(unknown)) = arguments.get(1).map(|a| &a.node)
         {
-            found.push(unknown.clone());
+            found.push(unknown.to_string());
         }
         open.extend(e.children());
     }

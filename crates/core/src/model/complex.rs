@@ -95,7 +95,7 @@ fn pair(l: &mut Lowering<'_>, function: &str, e: &Expr) -> Option<Pair> {
     Some(Pair {
         re,
         im,
-        unit,
+        unit: unit.clone(),
         literal,
     })
 }
@@ -212,7 +212,13 @@ fn polar(l: &mut Lowering<'_>, r: &Expr, angle: &Expr) -> Option<Value> {
     );
     let (unit, turn) = (unit?, turn?);
     let literal = size.literal && turn.literal;
-    Some(turned(l, size.elements[0], turn.elements[0], unit, literal))
+    Some(turned(
+        l,
+        size.elements[0],
+        turn.elements[0],
+        unit.clone(),
+        literal,
+    ))
 }
 
 /// size·(cos angle + i sin angle).

@@ -281,7 +281,7 @@ fn interpolate(
     Some(Value {
         elements,
         vector: x.vector,
-        kind: Kind::Quantity(unit),
+        kind: Kind::Quantity(unit.clone()),
         zero: false,
         literal: false,
     })

@@ -94,7 +94,7 @@ pub fn solve(
 ) -> Option<Value> {
     let begin = l
         .scalar(start)
-        .and_then(|s| Some((l.quantity(&s, start)?, s)));
+        .and_then(|s| Some((l.quantity(&s, start)?.clone(), s)));
     let name = unknown_name(l, unknown);
     let ((unit, begin), name) = (begin?, name?);
     let y = l.builder.unknown();
@@ -134,9 +134,9 @@ fn unknown_name(l: &mut Lowering<'_>, unknown: &Expr) -> Option<String> {
             let local = l
                 .locals
                 .last()
-                .is_some_and(|frame| frame.contains_key(name));
+                .is_some_and(|frame| frame.contains_key(name.as_str()));
             if !local && l.binding(name).is_none() {
-                return Some(name.clone());
+                return Some(name.to_string());
             }
             (
                 say!("`{name}` has a value already and cannot be the unknown"),

@@ -213,7 +213,7 @@ fn unary_call(
         | DimensionRule::Ratio
         | DimensionRule::Truth => {
             let unit = l.difference(operand)?;
-            (x.clone(), unit)
+            (x.clone(), unit.clone())
         }
     };
     l.spend(input.elements.len(), &e.span).then_some(())?;
@@ -260,7 +260,7 @@ fn binary_call(
             l.quantity(&x, only)?
         };
         let id = fold(l, &x.elements, |l, a, b| l.builder.binary(row, a, b));
-        let out = Value::scalar(id, unit);
+        let out = Value::scalar(id, unit.clone());
         l.watch(&out, e, only);
         return Some(out);
     }
@@ -326,7 +326,11 @@ fn quantize(l: &mut Lowering<'_>, e: &Expr, argument: &Expr, step: &Expr) -> Opt
         b.call_binary("quantize", x, y)
     })?;
     l.watch(&out, e, argument);
-    let unit = if unit.is_point() { unit } else { joined.unit };
+    let unit = if unit.is_point() {
+        unit.clone()
+    } else {
+        joined.unit
+    };
     Some(Value {
         kind: Kind::Quantity(unit),
         zero: false,

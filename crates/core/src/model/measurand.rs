@@ -209,7 +209,7 @@ impl Check<'_> {
             return None;
         };
         let value = value.with_unit_if_zero(wanted);
-        let found = value.unit().cloned().unwrap_or(found);
+        let found = value.unit().unwrap_or(found);
         if found.dimension != wanted.dimension {
             let message = say!(
                 "the value is {}, but `{}` is wanted {}",

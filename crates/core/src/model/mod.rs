@@ -50,6 +50,7 @@ use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 use nalgebra::DMatrix;
+use smol_str::SmolStr;
 
 pub use block::BlockRunner;
 pub use catalogue::{FunctionInfo, functions, is_reserved};
@@ -83,7 +84,7 @@ pub fn names(text: &str) -> Vec<(String, Range<usize>)> {
 #[derive(Debug, Clone)]
 pub struct Symbol {
     /// As the file calls it.
-    pub name: String,
+    pub name: SmolStr,
     /// Unit of its numbers; the unit one when none is stated.
     pub unit: Unit,
     /// What stands behind it.

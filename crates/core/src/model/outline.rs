@@ -125,7 +125,7 @@ fn values(expr: &Expr) -> Vec<(String, Span)> {
     let mut open = vec![expr];
     while let Some(e) = open.pop() {
         if let Node::Name(name) = &e.node {
-            found.push((name.clone(), e.span.clone()));
+            found.push((name.to_string(), e.span.clone()));
         }
         open.extend(e.children().into_iter().rev());
     }

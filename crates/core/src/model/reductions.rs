@@ -88,8 +88,8 @@ pub fn reduce(
         })?;
     }
     let (id, unit) = match name {
-        "mean" => (average(l, &x.elements), unit),
-        "sum" => (total(l, &x.elements), unit),
+        "mean" => (average(l, &x.elements), unit.clone()),
+        "sum" => (total(l, &x.elements), unit.clone()),
         "prod" => {
             let Some(unit) = i32::try_from(n).ok().and_then(|n| unit.powr(n, 1)) else {
                 l.report(
@@ -108,11 +108,11 @@ pub fn reduce(
         "norm" => {
             let squared = squares(l, &x.elements);
             let sum = total(l, &squared);
-            (l.builder.power(sum, 0.5), unit)
+            (l.builder.power(sum, 0.5), unit.clone())
         }
         "median" => {
             l.spend(n * 64, &e.span).then_some(())?;
-            (median(l, &x.elements), unit)
+            (median(l, &x.elements), unit.clone())
         }
         "sd" => (deviation(l, e, &x.elements)?, unit.difference()),
         _ => (l.builder.constant(n as f64), Unit::one()),
@@ -247,7 +247,7 @@ pub fn pair(
     } else {
         let (mx, my) = (average(l, &x.elements), average(l, &y.elements));
         let shift = l.builder.mul(slope, mx);
-        Value::scalar(l.builder.sub(my, shift), b)
+        Value::scalar(l.builder.sub(my, shift), b.clone())
     };
     Some(Value { literal, ..out })
 }

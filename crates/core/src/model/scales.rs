@@ -50,7 +50,7 @@ impl Lowering<'_> {
                 Some(Joined {
                     left: Cow::Borrowed(left.value),
                     right: Cow::Owned(joined.right.into_owned()),
-                    unit: a,
+                    unit: a.clone(),
                 })
             }
             (false, Infix::Add, true) => {
@@ -72,7 +72,7 @@ impl Lowering<'_> {
                 Some(Joined {
                     left: Cow::Owned(joined.right.into_owned()),
                     right: Cow::Borrowed(right.value),
-                    unit: b,
+                    unit: b.clone(),
                 })
             }
             (true, Infix::Add, true) => {

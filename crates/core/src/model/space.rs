@@ -43,7 +43,7 @@ fn arrow(l: &mut Lowering<'_>, function: &str, e: &Expr) -> Option<([Id; 3], Uni
         expr: e,
     })?;
     if let [x, y, z] = value.elements[..] {
-        return Some(([x, y, z], unit, value));
+        return Some(([x, y, z], unit.clone(), value));
     }
     let text = printer::expression(e);
     let what = if value.vector {

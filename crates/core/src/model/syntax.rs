@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use smol_str::SmolStr;
+
 /// Bytes of the model text.
 pub type Span = Range<usize>;
 
@@ -114,7 +116,7 @@ pub enum Node {
     /// A quoted unit by itself, allowed only where a function asks for one.
     Unit(UnitText),
     /// A name.
-    Name(String),
+    Name(SmolStr),
     /// Operators of one level, applied from left to right: `a + b - c`.
     Chain {
         first: Box<Expr>,

@@ -126,7 +126,10 @@ impl Lowering<'_> {
         let Node::Name(name) = &argument.node else {
             return;
         };
-        let is_local = self.locals.iter().any(|names| names.contains_key(name));
+        let is_local = self
+            .locals
+            .iter()
+            .any(|names| names.contains_key(name.as_str()));
         let symbol = self.symbol(name).filter(|_| !is_local);
         let plain = symbol.filter(|symbol| symbol.unit.symbol == Unit::one().symbol);
         if let Some(Role::Input(place)) = plain.map(|symbol| &symbol.role) {

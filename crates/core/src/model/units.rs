@@ -52,9 +52,9 @@ impl Lowering<'_> {
     }
 
     /// The quantity of a value that must not be a truth.
-    pub fn quantity(&mut self, value: &Value, expr: &Expr) -> Option<Unit> {
+    pub fn quantity<'v>(&mut self, value: &'v Value, expr: &Expr) -> Option<&'v Unit> {
         match &value.kind {
-            Kind::Quantity(unit) => Some(unit.clone()),
+            Kind::Quantity(unit) => Some(unit),
             Kind::Truth => {
                 let text = printer::expression(expr);
                 self.report(
@@ -90,7 +90,7 @@ impl Lowering<'_> {
     }
 
     /// The unit of a quantity that must not have an origin.
-    pub fn difference(&mut self, operand: Operand<'_>) -> Option<Unit> {
+    pub fn difference<'v>(&mut self, operand: Operand<'v>) -> Option<&'v Unit> {
         let unit = self.quantity(operand.value, operand.expr)?;
         if unit.is_point() {
             self.point_fault(operand.expr, &unit);

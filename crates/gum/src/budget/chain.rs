@@ -10,6 +10,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
+use smol_str::SmolStr;
 
 use super::{Component, Group, Law, Remark};
 
@@ -29,7 +30,7 @@ pub struct Identity {
     /// The file that states it.
     pub part: Part,
     /// Its name in that file.
-    pub name: Arc<str>,
+    pub name: SmolStr,
 }
 
 /// A group of correlated components with all of its members, of which a budget may need some only.

@@ -2,6 +2,7 @@
 
 use gumption_format::toml::words;
 use nalgebra::DMatrix;
+use smol_str::SmolStr;
 
 use gumption_core::distribution::Distribution;
 use gumption_core::quantity::Unit;
@@ -10,7 +11,7 @@ use gumption_core::quantity::Unit;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Input {
     /// `V`, or `U[3]` for an element of a vector (counted from 1).
-    pub name: String,
+    pub name: SmolStr,
     /// What it is.
     pub description: Option<String>,
     /// For subtotals in the budget table.
@@ -45,9 +46,9 @@ pub enum Owner {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Component {
     /// Unique and stable: `V.calibration`, `V` when it is the only one, `table` for a source.
-    pub name: String,
+    pub name: SmolStr,
     /// Without the owner: `calibration`.
-    pub label: String,
+    pub label: SmolStr,
     /// Who has it.
     pub owner: Owner,
     /// Unit of the deviation (K for an input in °C).
@@ -62,7 +63,7 @@ pub struct Component {
     /// Type A or Type B.
     pub evaluation: Evaluation,
     /// How u was obtained from what the file states, for the reader: `U/k = 4.0e-5/2`, `a/√3`.
-    pub how: String,
+    pub how: SmolStr,
     /// The certificate behind it.
     pub certificate: Option<Certificate>,
     /// Where the number comes from.

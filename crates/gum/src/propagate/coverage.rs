@@ -183,7 +183,7 @@ impl<'b> Situation<'b> {
                 }
             }
         };
-        let dominant = vec![self.components[part.component].name.clone()];
+        let dominant = vec![self.components[part.component].name.to_string()];
         Output {
             shape,
             basis: CoverageBasis::Output {
@@ -203,7 +203,7 @@ impl<'b> Situation<'b> {
         };
         let dominant = parts
             .iter()
-            .map(|p| self.components[p.component].name.clone())
+            .map(|p| self.components[p.component].name.to_string())
             .collect();
         Output {
             shape,

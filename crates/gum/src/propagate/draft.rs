@@ -14,15 +14,15 @@ use gumption_core::quantity::{Unit, UnitTable};
 /// A component of the first input, of dimension one.
 pub(super) fn component(name: &str, distribution: Distribution, u: f64, dof: f64) -> Component {
     Component {
-        name: name.to_string(),
-        label: name.to_string(),
+        name: name.into(),
+        label: name.into(),
         owner: Owner::Input(0),
         unit: Unit::one(),
         distribution,
         u,
         dof,
         evaluation: Evaluation::TypeB,
-        how: String::new(),
+        how: String::new().into(),
         certificate: None,
         reference: None,
     }
@@ -78,7 +78,7 @@ impl Draft {
             ..self::component(name, distribution, u, dof)
         });
         self.inputs.push(Input {
-            name: name.to_string(),
+            name: name.into(),
             description: None,
             group: None,
             unit: Unit::one(),
@@ -139,7 +139,7 @@ impl Draft {
 
     pub(super) fn budget(self, p: f64, models: &[(&str, &str)]) -> Budget {
         let place = |(i, name): (usize, &String)| Symbol {
-            name: name.clone(),
+            name: name.as_str().into(),
             unit: Unit::one(),
             role: Role::Input(i),
         };

@@ -167,7 +167,7 @@ fn require_derivatives(budget: &Budget, linear: &Linear) -> Result<(), Evaluatio
         if let Some(input) = linear.missing_derivative(measurand) {
             return Err(EvaluationError::NoDerivative {
                 measurand: output.name.clone(),
-                input: budget.inputs[input].name.clone(),
+                input: budget.inputs[input].name.to_string(),
             });
         }
     }
@@ -231,7 +231,7 @@ fn first_order(budget: &Budget, linear: &Linear, measurand: usize) -> Gum {
         u: of.u,
         inputs: linear.input_lines(measurand),
         components: linear.component_lines(measurand, budget.components.len()),
-        freedom: freedom.report(|component| budget.components[component].name.clone()),
+        freedom: freedom.report(|component| budget.components[component].name.to_string()),
         coverage,
     }
 }

@@ -49,7 +49,7 @@ pub(super) fn behind(budget: &Budget, gum: &Gum) -> Vec<FewReadings> {
                 false => f64::INFINITY,
             };
             let readings = FewReadings {
-                component: component.name.clone(),
+                component: component.name.to_string(),
                 dof,
                 share: line.share,
             };

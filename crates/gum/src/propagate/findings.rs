@@ -212,7 +212,7 @@ impl Evidence<'_> {
         let ratio = size(&input) / rest;
         let large = ratio > BEYOND_DOUBT || exceeds && ratio > LARGE;
         (large && rest > 0.0).then(|| FindingKind::LargeUncertainty {
-            input: self.budget.inputs[input].name.clone(),
+            input: self.budget.inputs[input].name.to_string(),
             ratio,
         })
     }
@@ -240,7 +240,7 @@ impl Evidence<'_> {
             .uncertainty(reference * same.min(k) / k)
             .to_f64();
         (expanded < certified).then(|| FindingKind::BelowReference {
-            component: component.name.clone(),
+            component: component.name.to_string(),
             k,
             reference,
         })
@@ -328,7 +328,7 @@ impl Evidence<'_> {
                 .iter()
                 .zip(&self.budget.inputs)
                 .filter(|(sight, _)| unseen(sight))
-                .map(|(_, input)| input.name.clone())
+                .map(|(_, input)| input.name.to_string())
                 .collect(),
             shift,
             u_effect,
@@ -466,8 +466,8 @@ impl Evidence<'_> {
     fn owner(&self, component: usize) -> String {
         let component = &self.budget.components[component];
         match component.owner {
-            Owner::Input(input) => self.budget.inputs[input].name.clone(),
-            Owner::Source(_) => component.name.clone(),
+            Owner::Input(input) => self.budget.inputs[input].name.to_string(),
+            Owner::Source(_) => component.name.to_string(),
         }
     }
 }

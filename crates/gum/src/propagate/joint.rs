@@ -60,7 +60,7 @@ fn freedom_of_all(budget: &Budget, linear: &Linear) -> Freedom {
         .map(|m| if one_unit || m.u == 0.0 { 1.0 } else { m.u })
         .collect();
     freedom::effective_joint(&linear.covariance, &forms, &scales)
-        .report(|component| budget.components[component].name.clone())
+        .report(|component| budget.components[component].name.to_string())
 }
 
 fn in_one_unit(outputs: &[Output]) -> bool {

@@ -110,7 +110,7 @@ impl Found {
     fn doubt(&self, stated: &Quantities, index: usize) -> Doubt {
         let component = &stated.components[index];
         Doubt {
-            name: component.name.clone(),
+            name: component.name.to_string(),
             acts: self.acts.clone(),
             scope: self.scope.clone(),
             u: component.u,
@@ -119,7 +119,7 @@ impl Found {
             unit: component.unit.clone(),
             distribution: component.distribution.clone(),
             evaluation: component.evaluation,
-            how: component.how.clone(),
+            how: component.how.to_string(),
             certificate: component.certificate.clone(),
         }
     }
@@ -142,7 +142,10 @@ fn factored(stated: &Quantities, group: &Group, found: &[Found]) -> Option<Vec<D
         group.correlation[(members[i], members[j])]
     });
     let factor = lower_factor(&r);
-    let names: Vec<String> = members.iter().map(|p| component(*p).name.clone()).collect();
+    let names: Vec<String> = members
+        .iter()
+        .map(|p| component(*p).name.to_string())
+        .collect();
     let dofs = members.iter().map(|place| component(*place).dof);
     let part = |column: usize| Doubt {
         name: names.join(" & "),
@@ -250,7 +253,7 @@ fn scopes_differ(checker: &Checker<'_>, stated: &Quantities, group: &Group) -> F
     let names: Vec<String> = group
         .members
         .iter()
-        .map(|index| stated.components[*index].name.clone())
+        .map(|index| stated.components[*index].name.to_string())
         .collect();
     Fault::new(
         KEY,

@@ -56,7 +56,7 @@ impl Checker<'_> {
             .constants
             .iter()
             .map(|(name, unit, values)| Symbol {
-                name: name.clone(),
+                name: name.as_str().into(),
                 unit: unit.clone(),
                 role: match values.as_slice() {
                     [value] => Role::Constant(*value),

@@ -219,7 +219,7 @@ fn searched(
         return units;
     }
     let symbols = known.iter().filter(|symbol| {
-        let parameter = names.contains(&symbol.name);
+        let parameter = names.iter().any(|name| symbol.name == *name);
         let constant = constants
             .iter()
             .any(|constant| constant.name == symbol.name);

@@ -263,7 +263,7 @@ fn constants(checker: &Checker<'_>) -> Vec<Symbol> {
 
 fn column_symbol(quantity: &Quantity) -> Symbol {
     Symbol {
-        name: quantity.name.clone(),
+        name: quantity.name.as_str().into(),
         unit: quantity.unit.clone(),
         role: Role::Input(0),
     }

@@ -24,7 +24,7 @@ pub(crate) fn quantity(name: &str, unit: &Unit) -> Quantity {
 /// A symbol for the inference of units, where its place does not matter.
 pub(crate) fn symbol(quantity: Quantity) -> Symbol {
     Symbol {
-        name: quantity.name,
+        name: quantity.name.into(),
         unit: quantity.unit,
         role: Role::Input(0),
     }

@@ -38,7 +38,7 @@ pub(super) fn blocks(report: &Report<'_>, measurand: usize) -> Vec<Block> {
         let names: Vec<String> = selection
             .without_contribution
             .iter()
-            .map(|i| report.budget.inputs[*i].name.clone())
+            .map(|i| report.budget.inputs[*i].name.to_string())
             .collect();
         let shown = shortened(&names, report.language);
         blocks.push(Block::Paragraph(match report.language {
@@ -78,7 +78,7 @@ fn select(report: &Report<'_>, measurand: usize) -> Selection {
     let several = report.evaluation.results.len() > 1;
     let hidden = |i: &usize| {
         let name = &report.budget.inputs[*i].name;
-        let flagged = |k: &FindingKind| matches!(k, FindingKind::VanishingSensitivity { inputs, .. } if inputs.contains(name));
+        let flagged = |k: &FindingKind| matches!(k, FindingKind::VanishingSensitivity { inputs, .. } if inputs.iter().any(|input| name == input));
         several && contributions[*i].sensitivity == 0.0 && !report.finds(measurand, flagged)
     };
     let (without_contribution, mut shown): (Vec<usize>, Vec<usize>) =
@@ -187,11 +187,11 @@ fn component_row(
         share(&gum.components[term.component], gum).into()
     };
     let part = match &component.owner {
-        Owner::Source(source) if component.name == *source => source,
-        _ => &component.label,
+        Owner::Source(source) if component.name == *source => source.as_str(),
+        _ => component.label.as_str(),
     };
     table.push(vec![
-        Cell::Part(part.clone()),
+        Cell::Part(part.to_string()),
         Cell::Empty,
         symbol(&input.unit).into(),
         significant(u, TABLE_DIGITS).into(),

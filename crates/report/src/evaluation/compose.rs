@@ -113,7 +113,7 @@ fn model(report: &Report<'_>) -> Vec<Block> {
         .budget
         .inputs
         .iter()
-        .filter_map(|i| Some((i.name.clone(), i.description.clone()?)))
+        .filter_map(|i| Some((i.name.to_string(), i.description.clone()?)))
         .collect();
     /// A longer list of words says nothing that the file does not say better.
     const MOST: usize = 40;

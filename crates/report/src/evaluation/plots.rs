@@ -126,7 +126,7 @@ fn waterfall(report: &Report<'_>, m: usize) -> Panel {
         at += change;
     };
     for i in &order {
-        step(report.budget.inputs[*i].name.clone(), part(*i));
+        step(report.budget.inputs[*i].name.to_string(), part(*i));
     }
     let all: f64 = (0..gum.inputs.len()).map(part).sum();
     let shown: f64 = order.iter().map(|i| part(*i)).sum();

@@ -158,7 +158,7 @@ impl<'a> Components<'a> {
         for (a, b, r) in &self.pairs {
             let name = |n: &usize| {
                 let component = &self.report.budget.components[self.shown[*n]];
-                Entry::Words(component.name.clone())
+                Entry::Words(component.name.to_string())
             };
             let contribution = |n: &usize| self.gum.components[self.shown[*n]].contribution;
             let [left, right] = [a, b].map(|n| address(CONTRIBUTION, self.row(*n)));
@@ -205,7 +205,7 @@ impl<'a> Components<'a> {
             }
         };
         vec![
-            Entry::Words(component.name.clone()),
+            Entry::Words(component.name.to_string()),
             Entry::Words(match component.evaluation {
                 Kind::TypeA => "A".to_string(),
                 Kind::TypeB => "B".to_string(),

@@ -96,7 +96,7 @@ impl<'a> Writer<'a> {
                 None => Entry::Fixed(line.sensitivity),
             };
             let at = self.sheet.push(vec![
-                Entry::Words(input.name.clone()),
+                Entry::Words(input.name.to_string()),
                 Entry::Given(input.estimate),
                 Entry::Words(symbol(&input.unit)),
                 Entry::formula(components.of_input(i), line.u),

@@ -54,7 +54,7 @@ impl Model {
                 .budget
                 .inputs
                 .iter()
-                .map(|i| i.name.clone())
+                .map(|i| i.name.to_string())
                 .collect(),
             points,
             steps,

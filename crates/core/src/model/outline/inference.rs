@@ -32,7 +32,7 @@ impl Outline {
             for (name, unit) in parameters.iter().zip(&found) {
                 match unit {
                     Some(unit) => symbols.push(Symbol {
-                        name: name.clone(),
+                        name: name.as_str().into(),
                         unit: unit.clone(),
                         // Not as a constant: a power with it has no unit of its own.
                         role: Role::Input(symbols.len()),
@@ -132,7 +132,7 @@ impl Inference<'_> {
             .or_else(|| self.unit(expr))
             .filter(|unit| !unit.is_point());
         match &expr.node {
-            Node::Name(name) => Some((name.clone(), wanted?)),
+            Node::Name(name) => Some((name.to_string(), wanted?)),
             Node::Minus(inner) => self.find(inner, wanted),
             Node::Call { name, arguments } if takes_a_number(&name.text) => {
                 arguments.iter().find_map(|argument| {

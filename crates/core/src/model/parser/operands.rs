@@ -33,7 +33,7 @@ impl Parser<'_> {
             }
             Kind::Name(text) => Expr {
                 span: token.span.clone(),
-                node: Node::Name(text.to_string()),
+                node: Node::Name((*text).into()),
             },
             Kind::Sign("(") => {
                 self.open.push(("(", token.span.clone()));

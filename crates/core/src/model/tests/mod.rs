@@ -34,7 +34,7 @@ pub fn symbols(text: &str) -> Vec<Symbol> {
             }
         };
         out.push(Symbol {
-            name: name.to_string(),
+            name: name.into(),
             unit: unit(unit_text),
             role,
         });

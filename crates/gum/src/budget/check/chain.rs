@@ -17,6 +17,7 @@ use crate::budget::tables::FileTable;
 use crate::budget::{Budget, Component, Group, Input, Loaded, Owner, Remark, TScale, Term};
 use gumption_core::distribution::Distribution;
 use gumption_fault::{Fault, Said, say};
+use smol_str::{SmolStr, format_smolstr};
 
 /// A budget while results of other files come into it.
 struct Merge<'a> {
@@ -131,9 +132,9 @@ impl Checker<'_> {
 impl<'a> Merge<'a> {
     /// The budget as the file alone states it.
     fn new(part: &Part, file: &FileTable, register: &'a mut Register, groups: &[Group]) -> Self {
-        let identity = |name: &str| Identity {
+        let identity = |name: &SmolStr| Identity {
             part: part.clone(),
-            name: name.into(),
+            name: name.clone(),
         };
         let inputs: Vec<Identity> = register.inputs.iter().map(|x| identity(&x.name)).collect();
         let components: Vec<Identity> = register
@@ -220,7 +221,7 @@ impl<'a> Merge<'a> {
             places,
         });
         self.chain.taken.push(TakenResult {
-            input: entry.name.clone(),
+            input: entry.name.to_string(),
             file: taken.file.clone(),
             row: loaded.rows[row].label.clone(),
             measurand: found.name.clone(),
@@ -255,7 +256,7 @@ impl<'a> Merge<'a> {
             self.register.act(place, index, factor * sensitivity);
         }
         self.chain.taken.push(TakenResult {
-            input: name,
+            input: name.to_string(),
             file: taken.file.clone(),
             row: found.row.clone(),
             measurand: found.measurand.clone(),
@@ -395,13 +396,13 @@ fn rename(
     let added = register.inputs.iter_mut().zip(&chain.inputs).skip(inputs);
     for (input, identity) in added {
         let prefix = prefix(identity);
-        input.name = format!("{prefix}.{}", identity.name);
+        input.name = format_smolstr!("{prefix}.{}", identity.name);
         input.group.get_or_insert_with(|| prefix.to_string());
     }
     let added = register.components.iter_mut().zip(&chain.components);
     for (component, identity) in added.skip(components) {
         let prefix = prefix(identity);
-        component.name = format!("{prefix}.{}", identity.name);
+        component.name = format_smolstr!("{prefix}.{}", identity.name);
         if let Owner::Source(name) = &mut component.owner {
             let bare = name.rsplit('.').next().unwrap_or_default().to_string();
             *name = format!("{prefix}.{bare}");

@@ -266,7 +266,7 @@ impl Checker<'_> {
             }
             return self.refuse(unknown(name, register));
         };
-        let place = register.places.get(&name.value).copied();
+        let place = register.places.get(name.value.as_str()).copied();
         self.side_of(name, &members, place, register)
     }
 

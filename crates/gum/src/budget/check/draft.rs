@@ -12,6 +12,7 @@ use gumption_core::quantity::Unit;
 pub(super) use gumption_core::quantity::show;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
+use smol_str::SmolStr;
 
 /// What a component is drafted for.
 #[derive(Debug, Clone)]
@@ -70,7 +71,7 @@ pub(super) enum Kind {
 #[derive(Debug, Clone)]
 pub(super) struct Draft {
     /// Its name, from the file or from the way it is stated.
-    pub label: String,
+    pub label: SmolStr,
     /// Place of the name, if the file states one.
     pub named: Option<Range<usize>>,
     /// Zero-mean.
@@ -78,11 +79,13 @@ pub(super) struct Draft {
     pub u: f64,
     pub dof: f64,
     pub evaluation: Evaluation,
-    pub how: String,
+    pub how: SmolStr,
     /// Where the statement puts the quantity.
     pub location: Location,
     /// What its readings say.
     pub findings: Vec<Finding>,
+    /// The readings behind it, where they are its own.
+    pub readings: Option<Vec<f64>>,
     pub kind: Kind,
     /// How its uncertainty follows the estimate.
     pub follows: Option<Follows>,
@@ -119,14 +122,14 @@ pub(super) struct Core {
     pub distribution: Distribution,
     pub u: f64,
     pub dof: f64,
-    pub how: String,
+    pub how: SmolStr,
     pub location: Location,
     /// What its readings say.
     pub findings: Vec<Finding>,
 }
 
 impl Core {
-    pub(super) fn new(distribution: Distribution, u: f64, how: impl Into<String>) -> Self {
+    pub(super) fn new(distribution: Distribution, u: f64, how: impl Into<SmolStr>) -> Self {
         Core {
             distribution,
             u,

@@ -352,7 +352,7 @@ fn is_missing(fault: &Fault) -> bool {
 /// Constants first, then inputs, each in the order of the file.
 fn symbols(constants: &[Constant], register: &Register) -> Vec<Symbol> {
     let constants = constants.iter().map(|constant| Symbol {
-        name: constant.name.clone(),
+        name: constant.name.as_str().into(),
         unit: constant.unit.clone(),
         role: match constant.values.as_slice() {
             [value] => Role::Constant(*value),

@@ -15,10 +15,12 @@ use crate::budget::{Follows, Owner};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::{Slot, Stated};
+use smallvec::{SmallVec, smallvec};
+use smol_str::format_smolstr;
 
 /// A reason for doubt of one input.
 pub(super) enum Piece {
-    Own(Box<Draft>, Option<Vec<f64>>),
+    Own(Box<Draft>),
     Shared {
         component: usize,
         coefficient: f64,
@@ -26,12 +28,18 @@ pub(super) enum Piece {
     },
 }
 
+/// The reasons for doubt of an input, mostly one.
+pub(super) type Pieces = SmallVec<[Piece; 1]>;
+
 /// A component of the file, and the way it is stated.
 pub(super) struct Entry<'f> {
     pub table: &'f ComponentTable,
     pub way: Way,
     pub place: Range<usize>,
 }
+
+/// The components of an input or source, mostly one.
+pub(super) type Entries<'f> = SmallVec<[Entry<'f>; 1]>;
 
 impl Checker<'_> {
     /// Reads `[input.X]`.
@@ -84,7 +92,7 @@ impl Checker<'_> {
             // What was refused may have held the unit: formulas are not judged by dimension one.
             let silent = table.unit.is_none() && (table.refused || table.component.refused);
             register.entries.push(InputEntry {
-                name: name.clone(),
+                name: name.as_str().into(),
                 place: stated.key.clone(),
                 places: start..start + count,
                 vector,
@@ -102,7 +110,7 @@ impl Checker<'_> {
         direct: &'f ComponentTable,
         place: &Range<usize>,
         unit: &Unit,
-    ) -> Option<Vec<Entry<'f>>> {
+    ) -> Option<Entries<'f>> {
         if let (Some(list), Some((key, span))) = (list, direct.present.first()) {
             return self.refuse(
                 Fault::new(
@@ -120,21 +128,20 @@ impl Checker<'_> {
                 }),
             );
         }
-        let tables: Vec<(&ComponentTable, Range<usize>)> = match list {
-            Some(list) if list.value.is_empty() => vec![(direct, list.span.clone())],
-            Some(list) => list
-                .value
-                .iter()
-                .map(|item| (&item.value, item.span.clone()))
-                .collect(),
-            None => vec![(direct, place.clone())],
-        };
-        let mut entries = Vec::with_capacity(tables.len());
+        let listed = list.as_ref().map_or(&[][..], |list| &list.value);
+        let alone = list.as_ref().map_or(place, |list| &list.span);
+        let alone = listed.is_empty().then_some((direct, alone));
+        let listed = listed.iter().map(|item| (&item.value, &item.span));
+        let mut entries = Entries::new();
         let mut complete = true;
-        for (table, place) in tables {
+        for (table, place) in alone.into_iter().chain(listed) {
             let context = Context::new(name, None, unit, place.clone());
             match self.way(table, &context) {
-                Some(way) => entries.push(Entry { table, way, place }),
+                Some(way) => entries.push(Entry {
+                    table,
+                    way,
+                    place: place.clone(),
+                }),
                 None => complete = false,
             }
         }
@@ -147,12 +154,12 @@ impl Checker<'_> {
         stated: &'f Stated<InputTable>,
         unit: &Unit,
         register: &Register,
-    ) -> Option<Vec<Entry<'f>>> {
+    ) -> Option<Entries<'f>> {
         let table = &stated.value;
         let bare = table.components.is_none() && table.component.present.is_empty();
         if register.by_matrix.iter().any(|by_matrix| by_matrix == name) {
             if bare {
-                return Some(Vec::new());
+                return Some(Entries::new());
             }
             // A list of components adds other reasons for doubt; a bare u states the same one again.
             if let Some((key, span)) = table.component.present.first() {
@@ -209,7 +216,7 @@ impl Checker<'_> {
             Some(value) => value,
             None => self.estimate(name, stated, &list, unit)?,
         };
-        let mut pieces = Vec::with_capacity(list.len());
+        let mut pieces = Pieces::new();
         let mut complete = true;
         for entry in &list {
             let context = Context::new(name, Some(base), unit, entry.place.clone());
@@ -223,7 +230,7 @@ impl Checker<'_> {
         }
         let mut estimate = base;
         for piece in &pieces {
-            if let Piece::Own(draft, _) = piece {
+            if let Piece::Own(draft) = piece {
                 estimate += self.shift(name, draft, value, &table.value)?;
             }
         }
@@ -327,7 +334,7 @@ impl Checker<'_> {
         context: &Context<'_>,
         list: &[Entry<'_>],
         register: &mut Register,
-    ) -> Option<Vec<Piece>> {
+    ) -> Option<Pieces> {
         if entry.way == Way::Source {
             return self.shared_pieces(entry, context, register);
         }
@@ -337,16 +344,16 @@ impl Checker<'_> {
                 format!("{owner}: all readings are {value}; their scatter is below the resolution and left to it."),
                 format!("{owner}：各次读数均为 {value}，分散性小于分辨力，由分辨力分量包含。"),
             );
-            return Some(Vec::new());
+            return Some(Pieces::new());
         }
-        let draft = self.draft_following(entry.table, entry.way, context)?;
-        let readings = match &entry.table.readings {
+        let mut draft = self.draft_following(entry.table, entry.way, context)?;
+        draft.readings = match &entry.table.readings {
             Some(readings) if entry.table.pooled.is_none() => {
                 self.numbers(readings, Some(context.unit))
             }
             _ => None,
         };
-        Some(vec![Piece::Own(Box::new(draft), readings)])
+        Some(smallvec![Piece::Own(draft)])
     }
 
     /// How far a component moves the estimate, with a remark when it does.
@@ -416,7 +423,7 @@ impl Checker<'_> {
     fn enter(
         &mut self,
         name: &str,
-        pieces: Vec<Piece>,
+        pieces: Pieces,
         unit: &Unit,
         resolution: ResolutionWord,
         register: &mut Register,
@@ -424,13 +431,9 @@ impl Checker<'_> {
     ) {
         let alone = pieces.len() == 1;
         let mut drafts = Vec::with_capacity(pieces.len());
-        let mut readings = Vec::with_capacity(pieces.len());
         for piece in pieces {
             match piece {
-                Piece::Own(draft, numbers) => {
-                    readings.push((draft.place.clone(), numbers));
-                    drafts.push(*draft);
-                }
+                Piece::Own(draft) => drafts.push(draft),
                 Piece::Shared {
                     component,
                     coefficient,
@@ -442,23 +445,19 @@ impl Checker<'_> {
             }
         }
         self.label_uniquely(name, &mut drafts);
-        for draft in self.absorb(name, drafts, resolution) {
-            let numbers = readings
-                .iter()
-                .find(|(place, _)| *place == draft.place)
-                .and_then(|(_, n)| n.clone());
-            let follows = draft.follows;
+        for mut draft in self.absorb(name, drafts, resolution) {
+            let (follows, readings) = (draft.follows, draft.readings.take());
             let component = register.add(Owner::Input(place), name, unit, draft, alone);
             register.follow(place, component, 1.0, follows);
             register.act(place, component, 1.0);
-            if let Some(numbers) = numbers {
-                register.readings.insert(component, numbers);
+            if let Some(readings) = readings {
+                register.readings.insert(component, readings);
             }
         }
     }
 
     /// Gives components without a name different labels; reports names that are stated twice.
-    pub(super) fn label_uniquely(&mut self, owner: &str, drafts: &mut [Draft]) {
+    pub(super) fn label_uniquely(&mut self, owner: &str, drafts: &mut [Box<Draft>]) {
         for index in 1..drafts.len() {
             let (before, rest) = drafts.split_at_mut(index);
             let Some(draft) = rest.first_mut() else {
@@ -481,9 +480,9 @@ impl Checker<'_> {
             }
             let same = before
                 .iter()
-                .filter(|other| other.label.starts_with(&draft.label))
+                .filter(|other| other.label.starts_with(draft.label.as_str()))
                 .count();
-            draft.label = format!("{} {}", draft.label, same + 1);
+            draft.label = format_smolstr!("{} {}", draft.label, same + 1);
         }
     }
 }

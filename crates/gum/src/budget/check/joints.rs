@@ -268,7 +268,7 @@ impl Checker<'_> {
             let input = register.inputs.get(*place)?;
             let alone = input.terms.is_empty();
             let unit = input.unit.clone();
-            let draft = Draft {
+            let draft = Box::new(Draft {
                 label: "covariance matrix".into(),
                 named: None,
                 distribution: self.t_or_normal(*u, dof, &stated.span)?,
@@ -288,7 +288,8 @@ impl Checker<'_> {
                     .map(|text| text.value.clone()),
                 place: stated.span.clone(),
                 stated: stated.span.clone(),
-            };
+                readings: None,
+            });
             let component = register.add(Owner::Input(*place), &name.value, &unit, draft, alone);
             register.act(*place, component, 1.0);
             members.push(component);
@@ -524,14 +525,14 @@ fn joints(file: &FileTable) -> &[Stated<JointTable>] {
 
 /// The places of a named input: of all elements of a vector, or of one of them.
 fn places_of(name: &Stated<String>, register: &Register) -> Option<Vec<(usize, Stated<String>)>> {
-    if let Some(place) = register.places.get(&name.value) {
+    if let Some(place) = register.places.get(name.value.as_str()) {
         return Some(vec![(*place, name.clone())]);
     }
     let mut entries = register.entries.iter();
     if let Some(entry) = entries.find(|entry| entry.name == name.value) {
         let own = |place: usize| {
             let input = register.inputs.get(place);
-            input.map_or_else(String::new, |input| input.name.clone())
+            input.map_or_else(String::new, |input| input.name.to_string())
         };
         let places = entry.places.clone();
         let named = places.map(|place| (place, name.map(|_| own(place))));

@@ -12,11 +12,12 @@ use gumption_core::distribution::{Distribution, StudentT};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
+use smol_str::{SmolStr, format_smolstr};
 
 /// One `[input.X]`.
 #[derive(Debug, Clone)]
 pub(super) struct InputEntry {
-    pub name: String,
+    pub name: SmolStr,
     /// Place of its header.
     pub place: Range<usize>,
     /// Its places in the input vector.
@@ -42,7 +43,7 @@ pub(super) struct SourceEntry {
 pub(super) struct Register {
     pub inputs: Vec<Input>,
     /// Where the inputs stand by their names, from when all are there.
-    pub places: HashMap<String, usize>,
+    pub places: HashMap<SmolStr, usize>,
     pub components: Vec<Component>,
     pub entries: Vec<InputEntry>,
     pub sources: Vec<SourceEntry>,
@@ -73,16 +74,16 @@ impl Register {
         owner: Owner,
         owner_name: &str,
         unit: &Unit,
-        draft: Draft,
+        draft: Box<Draft>,
         alone: bool,
     ) -> usize {
         let name = if alone {
-            owner_name.to_string()
+            owner_name.into()
         } else {
-            format!("{owner_name}.{}", draft.label)
+            format_smolstr!("{owner_name}.{}", draft.label)
         };
         let analysed = draft.findings.into_iter().map(|found| Analysis {
-            name: name.clone(),
+            name: name.to_string(),
             unit: unit.clone(),
             found,
         });
@@ -222,7 +223,7 @@ impl Register {
 
     /// Every name that a correlation may use.
     pub fn names(&self) -> Vec<String> {
-        let inputs = self.inputs.iter().map(|input| input.name.clone());
+        let inputs = self.inputs.iter().map(|input| input.name.to_string());
         let sources = self.sources.iter().map(|source| source.name.clone());
         inputs
             .chain(sources)
@@ -268,7 +269,7 @@ pub(super) fn blank(
     element: Option<usize>,
 ) -> Input {
     Input {
-        name: element.map_or_else(|| name.to_string(), |element| element_name(name, element)),
+        name: element.map_or_else(|| name.into(), |element| element_name(name, element).into()),
         description: table.description.as_ref().map(|text| text.value.clone()),
         group: table.group.as_ref().map(|text| text.value.clone()),
         unit: unit.cloned().unwrap_or_else(Unit::one),

@@ -10,9 +10,9 @@ impl Checker<'_> {
     pub(super) fn absorb(
         &mut self,
         owner: &str,
-        drafts: Vec<Draft>,
+        drafts: Vec<Box<Draft>>,
         convention: ResolutionWord,
-    ) -> Vec<Draft> {
+    ) -> Vec<Box<Draft>> {
         if convention == ResolutionWord::Add {
             return drafts;
         }

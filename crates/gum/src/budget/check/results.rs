@@ -55,7 +55,7 @@ impl Checker<'_> {
             unit = Some(found);
         }
         register.entries.push(InputEntry {
-            name: name.to_string(),
+            name: name.into(),
             place: stated.key.clone(),
             places: start..end,
             vector: false,

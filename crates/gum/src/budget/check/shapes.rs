@@ -11,13 +11,14 @@ use gumption_core::distribution::stating::{Bell, ParameterError, ParameterRule, 
 use gumption_core::distribution::{Distribution, Entry, Normal, REGISTRY, Uniform};
 use gumption_core::special::student_t_two_sided_quantile;
 use gumption_fault::{Fault, Said, say};
+use smol_str::{SmolStr, format_smolstr};
 
 /// A width from the file, whose shape is still to be found.
 struct Unshaped<'a> {
     table: &'a ComponentTable,
     width: Width,
     /// How the width came about.
-    how: &'a str,
+    how: &'a SmolStr,
     context: &'a Context<'a>,
 }
 
@@ -45,13 +46,14 @@ impl Checker<'_> {
         table: &ComponentTable,
         width: Width,
         default: &'static Entry,
-        how: String,
+        how: impl Into<SmolStr>,
         context: &Context<'_>,
     ) -> Option<Core> {
         let stated = stated_shape(table);
         let shape = stated.unwrap_or(default);
         self.shape_keys(table, shape);
         let dof = self.dof(table)?;
+        let how = how.into();
         let unshaped = Unshaped {
             table,
             width,
@@ -165,7 +167,7 @@ impl Checker<'_> {
             );
         }
         let (u, how) = match unshaped.width {
-            Width::U(u) => (u, unshaped.how.to_string()),
+            Width::U(u) => (u, unshaped.how.clone()),
             Width::Half(a) => {
                 let Some(p) = &unshaped.table.p else {
                     let message =
@@ -180,7 +182,10 @@ impl Checker<'_> {
                 };
                 let p = self.probability(p)?;
                 let k = student_t_two_sided_quantile(p, dof);
-                (a / k, format!("a/k = {}/{} (p = {p})", show(a), show(k)))
+                (
+                    a / k,
+                    format_smolstr!("a/k = {}/{} (p = {p})", show(a), show(k)),
+                )
             }
         };
         let distribution = match bell {

@@ -2,7 +2,7 @@
 
 use super::checker::Checker;
 use super::draft::{Context, Draft, Location, show};
-use super::inputs::{Entry, Piece};
+use super::inputs::{Entry, Piece, Pieces};
 use super::register::{Register, SourceEntry};
 use super::ways::Way;
 use crate::budget::faults::{TWO_ESTIMATES, UNIT_CLASH, UNKNOWN_NAME, UNUSED, VECTOR};
@@ -53,7 +53,7 @@ impl Checker<'_> {
         name: &str,
         stated: &Stated<SourceTable>,
         unit: &Unit,
-    ) -> Option<Vec<Draft>> {
+    ) -> Option<Vec<Box<Draft>>> {
         let table = &stated.value;
         let list = self.ways(
             name,
@@ -132,7 +132,7 @@ impl Checker<'_> {
         entry: &Entry<'_>,
         context: &Context<'_>,
         register: &mut Register,
-    ) -> Option<Vec<Piece>> {
+    ) -> Option<Pieces> {
         let stated = entry.table.source.as_ref()?;
         if entry.table.refused {
             return None;

@@ -253,7 +253,7 @@ impl Checker<'_> {
             distribution,
             u,
             dof,
-            how,
+            how: how.into(),
             location: mean.map_or(Location::None, Location::Mean),
             findings,
         })

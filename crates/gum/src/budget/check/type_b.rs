@@ -13,6 +13,7 @@ use gumption_fault::{Fault, say};
 use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
 use gumption_format::toml::faults::WRONG_TYPE;
+use smol_str::SmolStr;
 
 impl Checker<'_> {
     /// The component that limits, a certificate, a specification or a stated u describe.
@@ -31,7 +32,7 @@ impl Checker<'_> {
                     table,
                     Width::U(u),
                     Entry::of::<Normal>(),
-                    "u as stated".into(),
+                    SmolStr::new_static("u as stated"),
                     context,
                 )
             }

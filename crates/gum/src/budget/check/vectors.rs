@@ -189,7 +189,7 @@ impl Checker<'_> {
             }
             let mut draft = self.element_draft(vector, entry, element)?;
             let label = label.get_or_insert_with(|| another(&mut vector.labels, &draft.label));
-            draft.label.clone_from(label);
+            draft.label = label.as_str().into();
             let sign = if relative { value.signum() } else { 1.0 };
             let (follows, dof, u) = (draft.follows, draft.dof, draft.u);
             let (component, coefficient) = match first {
@@ -215,7 +215,7 @@ impl Checker<'_> {
         vector: &Vector<'_>,
         entry: &Entry<'_>,
         element: usize,
-    ) -> Option<Draft> {
+    ) -> Option<Box<Draft>> {
         let context = vector.context(entry, element);
         let draft = match of_element(entry.table, element) {
             Some(table) => self.draft_following(&table, entry.way, &context)?,
@@ -238,7 +238,7 @@ impl Checker<'_> {
         vector: &Vector<'_>,
         entry: &Entry<'_>,
         element: usize,
-        draft: Draft,
+        draft: Box<Draft>,
         register: &mut Register,
     ) -> usize {
         let owner = if is_common(entry.table) {

@@ -11,6 +11,8 @@ use crate::budget::{Certificate, Evaluation, Follows};
 use gumption_core::distribution::Distribution as Shape;
 use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::{Date, Slot};
+use smallvec::SmallVec;
+use smol_str::{SmolStr, format_smolstr};
 
 /// Declares the ways in which a component can state its uncertainty: the key that states it, what the component is called
 /// in the budget table where the file gives it no name, whether the way determines the estimate by itself, and which other
@@ -186,7 +188,7 @@ pub(super) fn stated_ways(
 impl Checker<'_> {
     /// The one way in which a component states its uncertainty; nothing if it was refused already.
     pub(super) fn way(&mut self, table: &ComponentTable, context: &Context<'_>) -> Option<Way> {
-        let ways: Vec<_> = stated_ways(table).collect();
+        let ways: SmallVec<[_; 2]> = stated_ways(table).collect();
         match ways[..] {
             [(way, key, span)] => {
                 self.modifiers(table, way, key, span);
@@ -280,7 +282,7 @@ impl Checker<'_> {
         table: &ComponentTable,
         way: Way,
         context: &Context<'_>,
-    ) -> Option<Draft> {
+    ) -> Option<Box<Draft>> {
         if table.refused {
             return None;
         }
@@ -304,7 +306,7 @@ impl Checker<'_> {
         table: &ComponentTable,
         way: Way,
         context: &Context<'_>,
-    ) -> Option<Draft> {
+    ) -> Option<Box<Draft>> {
         let mut draft = self.draft(table, way, context)?;
         draft.follows = match (way, context.used()) {
             (Count, _) => Some(Follows::Root),
@@ -329,11 +331,11 @@ impl Checker<'_> {
         way: Way,
         context: &Context<'_>,
         core: Core,
-    ) -> Option<Draft> {
+    ) -> Option<Box<Draft>> {
         let mut core = core;
         if let Some(gum_u) = &table.gum_u {
             core.u = self.positive_deviation(gum_u, "gum_u", context, false)?;
-            core.how = format!("{} (GUM: u as stated)", core.how);
+            core.how = format_smolstr!("{} (GUM: u as stated)", core.how);
         }
         let certificate = table
             .certificate
@@ -346,9 +348,9 @@ impl Checker<'_> {
             _ => Kind::Other,
         };
         self.limits_without_freedom(&core, context);
-        let name = table.name.as_ref().map(|name| name.value.clone());
-        Some(Draft {
-            label: name.unwrap_or_else(|| way.label().to_string()),
+        let name = table.name.as_ref().map(|name| name.value.as_str().into());
+        Some(Box::new(Draft {
+            label: name.unwrap_or_else(|| SmolStr::new_static(way.label())),
             named: table.name.as_ref().map(|name| name.span.clone()),
             distribution: core.distribution,
             u: core.u,
@@ -370,7 +372,8 @@ impl Checker<'_> {
                 .next()
                 .map_or(&context.place, |(_, _, key)| key)
                 .clone(),
-        })
+            readings: None,
+        }))
     }
 
     /// Remarks on finite ν of a shape that has no place for it.

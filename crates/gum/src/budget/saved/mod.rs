@@ -327,8 +327,8 @@ impl ComponentEntry {
             .validate()
             .map_err(|fault| say!("the distribution of {name} is not usable: {fault}"))?;
         Ok(Component {
-            name: name.clone(),
-            label: self.label.clone(),
+            name: name.as_str().into(),
+            label: self.label.as_str().into(),
             // Which input it acts on is seen when it is used.
             owner: Owner::Source(self.source.clone().unwrap_or_default()),
             unit,
@@ -339,7 +339,7 @@ impl ComponentEntry {
                 TypeEntry::A => Evaluation::TypeA,
                 TypeEntry::B => Evaluation::TypeB,
             },
-            how: self.how.clone(),
+            how: self.how.as_str().into(),
             certificate: self.certificate.clone(),
             reference: self.reference.clone(),
         })

@@ -114,7 +114,7 @@ pub(super) fn component(name: &str, distribution: Distribution, u: f64) -> Compo
         u,
         dof: f64::INFINITY,
         evaluation: Evaluation::TypeB,
-        how: String::new(),
+        how: String::new().into(),
         certificate: None,
         reference: None,
     }

@@ -12,7 +12,7 @@ const INF: f64 = f64::INFINITY;
 
 fn input(component: usize) -> Input {
     Input {
-        name: format!("x{component}"),
+        name: format!("x{component}").into(),
         description: None,
         group: None,
         unit: Unit::one(),

@@ -184,7 +184,7 @@ fn unit_of(
     });
     let symbols: Vec<Quantity> = symbols.collect();
     let inputs = symbols.iter().enumerate().map(|(at, quantity)| Symbol {
-        name: quantity.name.clone(),
+        name: quantity.name.as_str().into(),
         unit: quantity.unit.clone(),
         role: Role::Input(at),
     });

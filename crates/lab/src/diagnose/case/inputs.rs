@@ -27,7 +27,7 @@ impl Checker<'_> {
             let error = Error::of(experiment, &Target::Input(place));
             if error.is_none() {
                 constants.push(Symbol {
-                    name: input.name.clone(),
+                    name: input.name.as_str().into(),
                     unit: input.unit.clone(),
                     role: Role::Constant(input.value),
                 });

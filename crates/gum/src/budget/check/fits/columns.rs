@@ -229,11 +229,11 @@ impl Checker<'_> {
             &column.unit,
         )?;
         let mut common = Vec::new();
-        let mut drafts: Vec<(Draft, Vec<f64>)> = Vec::new();
+        let mut drafts: Vec<(Box<Draft>, Vec<f64>)> = Vec::new();
         for entry in &list {
             match self.fit_cause(&name, entry, column, register) {
                 Some(Cause::Independent(u)) => errors.add(u.into_iter().map(|u| u * u).collect()),
-                Some(Cause::Common(draft, coefficients)) => drafts.push((*draft, coefficients)),
+                Some(Cause::Common(draft, coefficients)) => drafts.push((draft, coefficients)),
                 Some(Cause::Shared(causes)) => common.extend(causes),
                 None => {}
             }
@@ -321,7 +321,7 @@ impl Checker<'_> {
         let common = entry.table.common.as_ref();
         if common.is_some_and(|stated| stated.value) {
             let coefficients = u.iter().map(|u| u / first.u).collect();
-            return Some(Cause::Common(Box::new(first), coefficients));
+            return Some(Cause::Common(first, coefficients));
         }
         if first.dof.is_finite() {
             return self.refuse(
@@ -344,9 +344,9 @@ impl Checker<'_> {
         name: &str,
         entry: &Entry<'_>,
         column: &Column<'_>,
-    ) -> Option<(Vec<f64>, Option<Draft>)> {
+    ) -> Option<(Vec<f64>, Option<Box<Draft>>)> {
         let relative = self.acts_in_proportion(entry, &column.unit);
-        let mut first: Option<Draft> = None;
+        let mut first: Option<Box<Draft>> = None;
         let mut u = Vec::new();
         for (element, value) in column.values.iter().enumerate() {
             // A fraction of zero is zero.
@@ -411,13 +411,14 @@ impl Checker<'_> {
         &mut self,
         name: &str,
         column: &Column<'_>,
-        causes: Vec<(Draft, Vec<f64>)>,
+        causes: Vec<(Box<Draft>, Vec<f64>)>,
         register: &mut Register,
     ) -> Vec<Common> {
         if causes.is_empty() {
             return Vec::new();
         }
-        let (mut drafts, coefficients): (Vec<Draft>, Vec<Vec<f64>>) = causes.into_iter().unzip();
+        let (mut drafts, coefficients): (Vec<Box<Draft>>, Vec<Vec<f64>>) =
+            causes.into_iter().unzip();
         self.label_uniquely(name, &mut drafts);
         let mut source = SourceEntry {
             name: name.to_string(),

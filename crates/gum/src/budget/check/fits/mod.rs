@@ -34,6 +34,7 @@ use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Named;
 use gumption_format::toml::{Slot, Stated};
+use smol_str::format_smolstr;
 
 use columns::ColumnErrors;
 use formula::{Parameter, Scope};
@@ -137,7 +138,7 @@ impl Checker<'_> {
             }
             let place = register.inputs.len();
             register.inputs.push(Input {
-                name: name.clone(),
+                name: name.as_str().into(),
                 description: parameter.description.clone(),
                 group: None,
                 unit: parameter.unit.clone().unwrap_or_else(Unit::one),
@@ -145,7 +146,7 @@ impl Checker<'_> {
                 terms: Vec::new(),
             });
             register.entries.push(InputEntry {
-                name: name.clone(),
+                name: name.as_str().into(),
                 place: parameter.place.clone(),
                 places: place..place + 1,
                 vector: false,
@@ -172,16 +173,16 @@ impl Checker<'_> {
             fit.dof as f64
         };
         let how = match (fit.stated, fit.weighted) {
-            (true, _) => format!(
+            (true, _) => format_smolstr!(
                 "least squares, n = {}, u of the data as stated",
                 fit.points()
             ),
-            (false, false) => format!(
+            (false, false) => format_smolstr!(
                 "least squares, n = {}, s = {}",
                 fit.points(),
                 show(fit.residual_sd.unwrap_or_default())
             ),
-            (false, true) => format!(
+            (false, true) => format_smolstr!(
                 "least squares, n = {}, u of the data times {}",
                 fit.points(),
                 show(fit.residual_sd.unwrap_or_default())
@@ -194,7 +195,7 @@ impl Checker<'_> {
                 break;
             };
             let alone = register.inputs[parameter.input].terms.is_empty();
-            let draft = Draft {
+            let draft = Box::new(Draft {
                 label: "fit".into(),
                 named: None,
                 distribution,
@@ -214,7 +215,8 @@ impl Checker<'_> {
                 reference: fit.reference.clone(),
                 place: stated.span.clone(),
                 stated: stated.key.clone(),
-            };
+                readings: None,
+            });
             let owner = Owner::Input(parameter.input);
             let component = register.add(owner, &parameter.name, &parameter.unit, draft, alone);
             register.act(parameter.input, component, 1.0);

@@ -365,7 +365,7 @@ fn fit_column(
         u,
         common: common
             .iter()
-            .filter_map(|component| Some(register.components.get(*component)?.name.clone()))
+            .filter_map(|component| Some(register.components.get(*component)?.name.to_string()))
             .collect(),
     }
 }

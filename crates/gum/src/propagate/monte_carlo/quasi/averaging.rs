@@ -59,7 +59,7 @@ impl Averaged {
     pub(super) fn names(&self, budget: &Budget) -> Vec<String> {
         let names = self.direction.iter();
         names
-            .map(|(component, _)| budget.components[*component].name.clone())
+            .map(|(component, _)| budget.components[*component].name.to_string())
             .collect()
     }
 

@@ -119,7 +119,7 @@ fn suitable(budget: &Budget) -> Result<(), WhyRandom> {
         .find(|component| component.distribution.variance().is_none());
     if let Some(component) = heavy {
         return Err(WhyRandom::HeavyTail {
-            component: component.name.clone(),
+            component: component.name.to_string(),
         });
     }
     let x: Vec<f64> = budget.inputs.iter().map(|input| input.estimate).collect();

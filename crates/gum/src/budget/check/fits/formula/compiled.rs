@@ -177,7 +177,7 @@ impl<'f> Written<'f> {
     /// Constants and predictors as the compiler sees them: after so many parameters.
     fn symbols(&self, known: &Known<'_>, parameters: usize) -> Vec<Symbol> {
         let fixed = known.constants.iter().map(|constant| Symbol {
-            name: constant.name.clone(),
+            name: constant.name.as_str().into(),
             unit: constant.unit.clone(),
             role: match constant.values.as_slice() {
                 [value] => Role::Constant(*value),
@@ -186,7 +186,7 @@ impl<'f> Written<'f> {
         });
         let predictors = known.predictors.iter().enumerate();
         let observed = predictors.map(|(place, index)| Symbol {
-            name: self.fit.columns[*index].name.to_string(),
+            name: self.fit.columns[*index].name.into(),
             unit: self.fit.columns[*index].unit.clone(),
             role: Role::Input(parameters + place),
         });
@@ -196,7 +196,7 @@ impl<'f> Written<'f> {
 
 fn symbol((place, parameter): (usize, &Parameter)) -> Symbol {
     Symbol {
-        name: parameter.name.clone(),
+        name: parameter.name.as_str().into(),
         unit: parameter.unit.clone().unwrap_or_else(Unit::one),
         role: Role::Input(place),
     }

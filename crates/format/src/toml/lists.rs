@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use toml::de::DeValue;
 
 use super::faults::{AMOUNT, QUOTED_NUMBER};
-use super::matrix::{Matrix, Number, Row};
+use super::matrix::{Matrix, Row};
 use super::table::{FromToml, KeyRow, Raw, Reader, Stated, in_order, inner};
 use gumption_fault::{Fault, Said, say};
 
@@ -75,10 +75,13 @@ impl FromToml for Matrix {
             return Some(matrix);
         }
         let lists = Lists::read(value, reader)?;
-        let number = |number: Stated<f64>| Number::new(number.value, number.span);
-        let rows = lists.into_iter().map(|row| Row {
-            numbers: row.value.into_iter().map(number).collect(),
-            span: row.span,
+        let rows = lists.into_iter().map(|list| {
+            let mut row = Row::empty(list.span.start, list.value.len());
+            for number in list.value {
+                row.push(number.value, number.span);
+            }
+            row.span = list.span;
+            row
         });
         Some(Matrix::new(rows.collect()))
     }
@@ -92,13 +95,17 @@ impl FromToml for Matrix {
     }
 }
 
-impl Number {
-    /// With its place.
-    pub fn stated(&self) -> Stated<f64> {
+impl Row {
+    /// The number in this column with its place.
+    ///
+    /// # Panics
+    /// The row has no such column.
+    pub fn stated(&self, column: usize) -> Stated<f64> {
+        let place = self.place(column);
         Stated {
-            value: self.value,
-            span: self.span(),
-            key: self.span(),
+            value: self.values()[column],
+            span: place.clone(),
+            key: place,
         }
     }
 }

@@ -16,22 +16,14 @@ use toml_parser::lexer::TokenKind;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Matrix(Arc<[Row]>);
 
-/// A row of a matrix.
+/// A row of a matrix. What is computed with are the numbers; their places are apart, for messages.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// Its numbers.
-    pub numbers: Vec<Number>,
+    values: Vec<f64>,
+    /// Where each of them begins and ends; files are far shorter than 4 GiB.
+    places: Vec<(u32, u32)>,
     /// Its place with the brackets.
     pub span: Range<usize>,
-}
-
-/// A number of a matrix.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Number {
-    /// The number.
-    pub value: f64,
-    /// Files are far shorter than 4 GiB.
-    place: (u32, u32),
 }
 
 impl Matrix {
@@ -45,17 +37,34 @@ impl Matrix {
     }
 }
 
-impl Number {
-    pub(super) fn new(value: f64, span: Range<usize>) -> Number {
-        Number {
-            value,
-            place: (span.start as u32, span.end as u32),
+impl Row {
+    /// A row that begins there, without numbers, but with room for so many.
+    pub(super) fn empty(start: usize, room: usize) -> Row {
+        Row {
+            values: Vec::with_capacity(room),
+            places: Vec::with_capacity(room),
+            span: start..start,
         }
     }
 
-    /// Its place.
-    pub fn span(&self) -> Range<usize> {
-        self.place.0 as usize..self.place.1 as usize
+    /// Adds a number.
+    pub(super) fn push(&mut self, value: f64, place: Range<usize>) {
+        self.values.push(value);
+        self.places.push((place.start as u32, place.end as u32));
+    }
+
+    /// Its numbers.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Where the number in this column stands.
+    ///
+    /// # Panics
+    /// The row has no such column.
+    pub fn place(&self, column: usize) -> Range<usize> {
+        let (start, end) = self.places[column];
+        start as usize..end as usize
     }
 }
 
@@ -145,66 +154,71 @@ const EXACT: [f64; 16] = [
 /// Reads a matrix of plain numbers; anything else ends the reading.
 struct Scan<'t> {
     text: &'t str,
-    at: usize,
+    /// What is still to be read.
+    rest: &'t [u8],
 }
 
 impl<'t> Scan<'t> {
     /// The rows of the matrix whose outer bracket stands there, and where it ends.
     fn matrix(text: &'t str, open: usize) -> Option<(Vec<Row>, usize)> {
-        let mut scan = Scan { text, at: open };
-        // As a rule all rows are of one length.
-        let mut length = 0;
-        let rows = scan.list(0, |scan| {
-            let row = scan.row(length)?;
-            length = row.numbers.len();
-            Some(row)
+        let rest = &text.as_bytes()[open..];
+        let mut scan = Scan { text, rest };
+        let mut rows: Vec<Row> = Vec::new();
+        scan.list(|scan| {
+            // As a rule all rows are of one length.
+            let length = rows.last().map_or(0, |row| row.values.len());
+            rows.push(scan.row(length)?);
+            Some(())
         })?;
-        Some((rows, scan.at))
+        Some((rows, scan.at()))
     }
 
-    /// Entries in brackets, at least one; room for as many as are expected.
-    fn list<T>(
-        &mut self,
-        expected: usize,
-        mut entry: impl FnMut(&mut Self) -> Option<T>,
-    ) -> Option<Vec<T>> {
+    /// Where it reads.
+    fn at(&self) -> usize {
+        self.text.len() - self.rest.len()
+    }
+
+    /// Entries in brackets, at least one.
+    fn list(&mut self, mut entry: impl FnMut(&mut Self) -> Option<()>) -> Option<()> {
         self.take(b'[')?;
-        let mut entries = Vec::with_capacity(expected);
         loop {
             self.blanks();
-            if !entries.is_empty() && self.take(b']').is_some() {
-                return Some(entries);
-            }
-            entries.push(entry(self)?);
+            entry(self)?;
             self.blanks();
-            if self.take(b',').is_none() {
-                self.take(b']')?;
-                return Some(entries);
+            let comma = self.take(b',');
+            self.blanks();
+            if self.take(b']').is_some() {
+                return Some(());
             }
+            comma?;
         }
     }
 
     fn row(&mut self, expected: usize) -> Option<Row> {
-        let start = self.at;
-        let numbers = self.list(expected, Scan::number)?;
+        let mut row = Row::empty(self.at(), expected);
+        self.list(|scan| {
+            let start = scan.at();
+            let value = scan.number()?;
+            row.push(value, start..scan.at());
+            Some(())
+        })?;
+        row.span.end = self.at();
         // Commas close and apart in turns between whole numbers may be decimal commas.
-        let close = |at: usize| numbers[at].span().end + 1 == numbers[at + 1].span().start;
-        let whole = numbers.iter().all(|number| number.value.fract() == 0.0);
-        let doubtful = whole && numbers.len() > 2 && close(0) && !close(1);
-        (!doubtful).then_some(Row {
-            numbers,
-            span: start..self.at,
-        })
+        let close = |at: usize| row.place(at).end + 1 == row.place(at + 1).start;
+        let doubtful = row.values.len() > 2
+            && close(0)
+            && !close(1)
+            && row.values.iter().all(|value| value.fract() == 0.0);
+        (!doubtful).then_some(row)
     }
 
     /// A decimal number as TOML has it, without underscores, plus sign and more than 15 digits before the point.
-    fn number(&mut self) -> Option<Number> {
-        let start = self.at;
+    fn number(&mut self) -> Option<f64> {
+        let start = self.at();
         let sign = self.take(b'-').map_or(1.0, |()| -1.0);
-        let first = self.at;
+        let zero = self.rest.first() == Some(&b'0');
         let mut digits = 0;
         let before = self.digits(&mut digits)?;
-        let leading_zero = before > 1 && self.text.as_bytes()[first] == b'0';
         let mut behind = 0;
         if self.take(b'.').is_some() {
             behind = self.digits(&mut digits)?;
@@ -217,40 +231,38 @@ impl<'t> Scan<'t> {
         }
         let value = match EXACT.get(before + behind) {
             Some(_) if !scaled => sign * (digits as f64 / EXACT[behind]),
-            _ => self.text[start..self.at].parse().ok()?,
+            _ => self.text[start..self.at()].parse().ok()?,
         };
         // Whole numbers have one zero.
         let whole = behind == 0 && !scaled;
         let value = if whole { value + 0.0 } else { value };
+        let leading_zero = zero && before > 1;
         let plain = !leading_zero && before <= 15 && value.is_finite();
-        plain.then(|| Number::new(value, start..self.at))
+        plain.then_some(value)
     }
 
     /// How many digits follow, at least one; they are put behind those before.
     fn digits(&mut self, before: &mut u64) -> Option<usize> {
-        let rest = &self.text.as_bytes()[self.at..];
-        let digits = rest.iter().take_while(|byte| byte.is_ascii_digit());
-        let mut count = 0;
-        for digit in digits {
+        let start = self.rest.len();
+        while let [digit @ b'0'..=b'9', rest @ ..] = self.rest {
             *before = before
                 .wrapping_mul(10)
                 .wrapping_add(u64::from(digit - b'0'));
-            count += 1;
+            self.rest = rest;
         }
-        self.at += count;
+        let count = start - self.rest.len();
         (count > 0).then_some(count)
     }
 
     fn blanks(&mut self) {
-        while let Some(b' ' | b'\t' | b'\n') = self.text.as_bytes().get(self.at) {
-            self.at += 1;
+        while let [b' ' | b'\t' | b'\n', rest @ ..] = self.rest {
+            self.rest = rest;
         }
     }
 
     fn take(&mut self, byte: u8) -> Option<()> {
-        let found = self.text.as_bytes().get(self.at) == Some(&byte);
-        self.at += usize::from(found);
-        found.then_some(())
+        let (first, rest) = self.rest.split_first()?;
+        (*first == byte).then(|| self.rest = rest)
     }
 }
 
@@ -270,8 +282,13 @@ mod tests {
         assert!(left.ends_with(" ]\nb = [[1, 2]]\n"), "{left}");
         assert!(toml::de::DeTable::parse(&left).is_ok());
         let matrix = taken.at(text.find("[\n").unwrap()).unwrap();
-        let numbers = matrix.rows().iter().flat_map(|row| &row.numbers);
-        let found: Vec<(&str, f64)> = numbers.map(|n| (&text[n.span()], n.value)).collect();
+        let numbers = |row: &Row| {
+            (0..row.values.len())
+                .map(|at| (row.place(at), row.values[at]))
+                .collect::<Vec<_>>()
+        };
+        let numbers = matrix.rows().iter().flat_map(numbers);
+        let found: Vec<(&str, f64)> = numbers.map(|(place, x)| (&text[place], x)).collect();
         assert_eq!(
             found,
             [
@@ -308,7 +325,7 @@ mod tests {
                 );
                 continue;
             };
-            let read = rows[0].numbers[0].value;
+            let read = rows[0].values[0];
             let parsed: f64 = number.parse().unwrap();
             assert_eq!(read.to_bits(), parsed.to_bits(), "{number}");
         }

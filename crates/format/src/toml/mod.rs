@@ -16,7 +16,7 @@ pub mod writing;
 pub use edit::{Content, Unedited, spliced};
 pub use file::{decoded, tables_of};
 pub use lists::{Named, OneOrMany, as_a_list};
-pub use matrix::{Matrices, Matrix, Number, Row};
+pub use matrix::{Matrices, Matrix, Row};
 pub use places::{Form, Places, Statement, Step, Written};
 pub use strings::StringMap;
 pub use syntax::{document, elsewhere, leaves_the_rest, syntax_faults, without_comma};

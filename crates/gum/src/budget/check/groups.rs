@@ -225,9 +225,16 @@ pub(super) fn connected(
     }
     let mut sets = vec![Vec::new(); components];
     for index in 0..components {
-        sets[find(&mut root, index)].push(index);
+        // A set has the place of its first component, which as a rule is alone.
+        let first = find(&mut root, index);
+        if first != index {
+            if sets[first].is_empty() {
+                sets[first].push(first);
+            }
+            sets[first].push(index);
+        }
     }
-    sets.retain(|set| set.len() > 1);
+    sets.retain(|set| !set.is_empty());
     sets
 }
 

@@ -16,7 +16,7 @@ use crate::budget::faults::{CORRELATION_TWICE, JOINT, MODIFIER, NOT_SEMIDEFINITE
 use crate::budget::tables::{FileTable, JointTable};
 use crate::budget::{Evaluation, Group, Owner, TScale};
 use gumption_fault::{Fault, Said, say};
-use gumption_format::toml::{Matrix, Number, Row, Stated};
+use gumption_format::toml::{Matrix, Row, Stated};
 
 impl Checker<'_> {
     /// Notes the inputs whose uncertainty a joint statement states, before they are read.
@@ -161,12 +161,12 @@ impl Checker<'_> {
         what: Said,
     ) -> Option<&'m [Row]> {
         let rows = stated.value.rows();
-        if let Some(row) = rows.iter().find(|row| row.numbers.len() != size) {
+        if let Some(row) = rows.iter().find(|row| row.values().len() != size) {
             return self.refuse(
                 Fault::new(
                     JOINT,
                     row.span.clone(),
-                    say!("a row of {} numbers for {size} {what}", row.numbers.len()),
+                    say!("a row of {} numbers for {size} {what}", row.values().len()),
                 )
                 .label(say!("expected {size} numbers")),
             );
@@ -184,28 +184,25 @@ impl Checker<'_> {
         let Some((i, j)) = unequal(rows) else {
             return Some(rows);
         };
-        let (below, above) = (rows[i].numbers[j], rows[j].numbers[i]);
+        let (below, above) = (rows[i].stated(j), rows[j].stated(i));
         let (lower, upper) = (below.value, above.value);
         self.refuse(
             Fault::new(
                 JOINT,
-                below.span(),
+                below.span,
                 say!("the matrix is not symmetric: {lower} and {upper}"),
             )
             .label(say!("this element"))
-            .related(above.span(), say!("and this one must be equal")),
+            .related(above.span, say!("and this one must be equal")),
         )
     }
 
     /// How far the digits of a covariance matrix leave each correlation coefficient open.
     fn halves_of_covariance(&self, stated: &Stated<Matrix>, matrix: &DMatrix<f64>) -> DMatrix<f64> {
         let half = |i: usize, j: usize| {
-            let entry = stated
-                .value
-                .rows()
-                .get(i)
-                .and_then(|row| row.numbers.get(j));
-            entry.map_or(0.0, |entry| self.half_of(entry.value, entry.span()))
+            let row = stated.value.rows().get(i);
+            let row = row.filter(|row| j < row.values().len());
+            row.map_or(0.0, |row| self.half_of(row.values()[j], row.place(j)))
         };
         DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
             let (v, w) = (matrix[(i, i)], matrix[(j, j)]);
@@ -226,7 +223,7 @@ impl Checker<'_> {
             return self.refuse(
                 Fault::new(
                     JOINT,
-                    covariance.value.rows()[i].numbers[i].span(),
+                    covariance.value.rows()[i].place(i),
                     say!(
                         "the variance of {} is {}",
                         inputs[i].1.value,
@@ -332,7 +329,7 @@ impl Checker<'_> {
             products.sum::<f64>() / (a.2 * b.2).sqrt()
         };
         let rows = correlation.value.rows();
-        let stated = |i: usize, j: usize| rows.get(i)?.numbers.get(j).map(|r| r.value);
+        let stated = |i: usize, j: usize| rows.get(i)?.values().get(j).copied();
         (0..series.len()).all(|i| {
             (0..i).all(|j| stated(i, j).is_some_and(|r| (r - coefficient(i, j)).abs() <= ROUNDED))
         })
@@ -356,18 +353,18 @@ impl Checker<'_> {
         let Some(rows) = self.matrix(correlation, inputs.len()) else {
             return;
         };
-        let coefficient = |i: usize, j: usize| rows[i].numbers[j];
+        let coefficient = |i: usize, j: usize| rows[i].values()[j];
         for (i, (_, name)) in inputs.iter().enumerate() {
             let itself = coefficient(i, i);
-            if (itself.value - 1.0).abs() > 1e-9 {
+            if (itself - 1.0).abs() > 1e-9 {
                 self.report(
                     Fault::new(
                         JOINT,
-                        itself.span(),
+                        rows[i].place(i),
                         say!(
                             "the correlation of {} with itself is {}",
                             name.value,
-                            itself.value
+                            itself
                         ),
                     )
                     .label(say!("must be 1"))
@@ -376,8 +373,7 @@ impl Checker<'_> {
                 return;
             }
         }
-        let correlated =
-            |i: usize| (0..inputs.len()).any(|j| j != i && coefficient(i, j).value != 0.0);
+        let correlated = |i: usize| (0..inputs.len()).any(|j| j != i && coefficient(i, j) != 0.0);
         let sides: Vec<Option<Side>> = inputs
             .iter()
             .enumerate()
@@ -386,14 +382,15 @@ impl Checker<'_> {
                 self.side_of(name, &own, Some(*place), register)
             })
             .collect();
+        let before = |i: usize| (0..i).filter(move |j| coefficient(i, *j) != 0.0);
+        statements.reserve((0..sides.len()).map(|i| before(i).count()).sum());
         for (i, second) in sides.iter().enumerate() {
-            for (j, first) in sides[..i].iter().enumerate() {
-                let r = coefficient(i, j);
-                if r.value != 0.0
-                    && self.is_coefficient(&r.stated())
-                    && let (Some(first), Some(second)) = (first, second)
+            for j in before(i) {
+                let r = rows[i].stated(j);
+                if self.is_coefficient(&r)
+                    && let (Some(first), Some(second)) = (&sides[j], second)
                 {
-                    statements.extend(self.pair(first, second, &r.stated(), register));
+                    statements.extend(self.pair(first, second, &r, register));
                 }
             }
         }
@@ -543,25 +540,24 @@ fn places_of(name: &Stated<String>, register: &Register) -> Option<Vec<(usize, S
 
 /// The numbers of a square matrix.
 pub(super) fn dense(rows: &[Row]) -> DMatrix<f64> {
-    let numbers = rows.iter().flat_map(|row| &row.numbers);
-    DMatrix::from_row_iterator(rows.len(), rows.len(), numbers.map(|number| number.value))
+    let numbers = rows.iter().flat_map(Row::values);
+    DMatrix::from_row_iterator(rows.len(), rows.len(), numbers.copied())
 }
 
 /// Where a square matrix is not symmetric: the first row, and the first column left of the diagonal.
 fn unequal(rows: &[Row]) -> Option<(usize, usize)> {
     /// Rows and columns that are looked at together, as both triangles of a large matrix are not near at once.
     const TILE: usize = 32;
-    let differ = |(lower, upper): (&Number, &Number)| {
-        let (lower, upper) = (lower.value, upper.value);
-        (lower - upper).abs() > 1e-9 * lower.abs().max(upper.abs())
+    let differ = |(lower, upper): (&f64, f64)| {
+        *lower != upper && (lower - upper).abs() > 1e-9 * lower.abs().max(upper.abs())
     };
     (0..rows.len()).step_by(TILE).find_map(|top| {
         let tiles = (0..=top).step_by(TILE);
         let firsts = tiles.filter_map(|left| {
             (top..rows.len().min(top + TILE)).find_map(|i| {
                 let columns = left..i.min(left + TILE);
-                let upper = rows[columns.clone()].iter().map(|row| &row.numbers[i]);
-                let j = rows[i].numbers[columns]
+                let upper = rows[columns.clone()].iter().map(|row| row.values()[i]);
+                let j = rows[i].values()[columns]
                     .iter()
                     .zip(upper)
                     .position(differ)?;

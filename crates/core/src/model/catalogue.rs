@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
+use foldhash::fast::RandomState;
+
 use super::operation::{BINARY, UNARY};
 
 /// What the help says about a function.
@@ -102,7 +104,7 @@ fn is_identifier(name: &str) -> bool {
 
 /// The function of a name.
 pub fn find(name: &str) -> Option<&'static FunctionInfo> {
-    static NAMED: LazyLock<HashMap<&str, &FunctionInfo>> =
+    static NAMED: LazyLock<HashMap<&str, &FunctionInfo, RandomState>> =
         LazyLock::new(|| functions().iter().rev().map(|f| (f.name, f)).collect());
     NAMED.get(name).copied()
 }

@@ -83,11 +83,12 @@ impl<'r> Check<'r> {
         for (index, symbol) in symbols.iter().enumerate() {
             let name = &symbol.name;
             self.l.place = Place::Symbol(index);
+            let named = self.l.name_symbol(index);
             let mut value = None;
             if catalogue::is_reserved(name) {
                 // What uses the name is judged when it has another one.
                 self.l.report(reserved(name, 0..0));
-            } else if self.l.place_of(name) != Some(index) {
+            } else if !named {
                 self.l.report(
                     Fault::new(
                         faults::DEFINED_TWICE,

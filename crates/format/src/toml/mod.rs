@@ -21,8 +21,8 @@ pub use places::{Form, Places, Statement, Step, Written};
 pub use strings::StringMap;
 pub use syntax::{document, elsewhere, leaves_the_rest, syntax_faults, without_comma};
 pub use table::{
-    FromToml, Hints, Key, KeyRow, Raw, Reader, Slot, Stated, Table, described, doc_text, in_order,
-    inner, read_table, table, unknown_word, words,
+    FromToml, Hints, Key, KeyRow, Present, Raw, Reader, Slot, Stated, Table, described, doc_text,
+    in_order, inner, read_table, table, unknown_word, words,
 };
 pub use values::{Amount, Cell, Date, Dof, amount_parts};
 

@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use gumption_fault::{Code, Fault, Said, nearest, say};
 use serde_json::{Map, Value};
+use smallvec::SmallVec;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
@@ -43,6 +44,9 @@ impl<T> Stated<T> {
 /// What a table states under one of its keys, if anything. Tables have dozens of keys, of which a file states few, and
 /// there may be a table for each of ten thousand inputs.
 pub type Slot<T> = Option<Box<Stated<T>>>;
+
+/// The keys that a table states, with their places: mostly one or two.
+pub type Present = SmallVec<[(&'static str, Range<usize>); 2]>;
 
 /// A key as the parser gives it.
 pub type Key<'t> = Spanned<DeString<'t>>;
@@ -280,9 +284,9 @@ fn keys_too_deep(key: &Key<'_>, value: &Raw<'_>, known: &[&'static str]) -> Opti
     )
 }
 
-/// The entries of a table in the order of the file (the parser sorts them by name).
-pub fn in_order<'a, 't>(table: &'a DeTable<'t>) -> Vec<(&'a Key<'t>, &'a Raw<'t>)> {
-    let mut entries: Vec<_> = table.iter().collect();
+/// The entries of a table in the order of the file, where one may have been begun by the header of a table inside it.
+pub fn in_order<'a, 't>(table: &'a DeTable<'t>) -> SmallVec<[(&'a Key<'t>, &'a Raw<'t>); 4]> {
+    let mut entries: SmallVec<[_; 4]> = table.iter().collect();
     entries.sort_by_key(|(key, _)| key.span().start);
     entries
 }
@@ -337,7 +341,7 @@ macro_rules! table {
             $( /// The keys that this table shares with another.
             pub $rest: $rest_kind, )?
             /// Every own key that the file states, also those whose value was refused.
-            pub present: Vec<(&'static str, std::ops::Range<usize>)>,
+            pub present: $crate::toml::Present,
             /// Whether a key or its value was refused (what is missing is then not asked for).
             pub refused: bool,
             /// Whether it has a key that is not known, which may have been meant for any other.

@@ -103,14 +103,10 @@ pub type Expression = fn(&mut Lowering<'_>, &Expr) -> Option<Value>;
 
 impl<'r> Lowering<'r> {
     pub fn new(symbols: &'r [Symbol], units: &'r UnitTable, expression: Expression) -> Self {
-        let mut places = HashMap::with_capacity_and_hasher(symbols.len(), RandomState::default());
-        for (place, symbol) in symbols.iter().enumerate() {
-            places.entry(symbol.name.as_str()).or_insert(place);
-        }
         Lowering {
             builder: Builder::default(),
             symbols,
-            places,
+            places: HashMap::with_capacity_and_hasher(symbols.len(), RandomState::default()),
             given: Vec::with_capacity(symbols.len()),
             units,
             scope: HashMap::new(),
@@ -130,6 +126,12 @@ impl<'r> Lowering<'r> {
 
     pub fn symbol(&self, name: &str) -> Option<&'r Symbol> {
         self.place_of(name).map(|place| &self.symbols[place])
+    }
+
+    /// Lets the name of a symbol stand for it, unless an earlier one has that name: then it does not.
+    pub fn name_symbol(&mut self, place: usize) -> bool {
+        let symbol = &self.symbols[place];
+        *self.places.entry(&symbol.name).or_insert(place) == place
     }
 
     /// Which of the symbols has this name.

@@ -7,6 +7,7 @@ use super::faults::{AMOUNT, QUOTED_NUMBER};
 use super::matrix::{Matrix, Row};
 use super::table::{FromToml, KeyRow, Raw, Reader, Stated, in_order, inner};
 use gumption_fault::{Fault, Said, say};
+use smol_str::SmolStr;
 
 impl<T: FromToml> FromToml for Vec<Stated<T>> {
     fn expected() -> Said {
@@ -237,7 +238,7 @@ impl<T: FromToml> FromToml for OneOrMany<T> {
 #[derive(Debug, Clone)]
 pub struct Named<T> {
     /// The entries that could be read.
-    pub entries: Vec<(String, Stated<T>)>,
+    pub entries: Vec<(SmolStr, Stated<T>)>,
     /// Whether an entry could not be read.
     pub refused: bool,
 }
@@ -265,7 +266,7 @@ impl<T: FromToml> FromToml for Named<T> {
                 continue;
             };
             named.entries.push((
-                key.get_ref().to_string(),
+                SmolStr::new(key.get_ref()),
                 Stated {
                     value: read,
                     span: item.span(),

@@ -22,6 +22,7 @@ use gumption_core::quantity::{Conversion, Unit, UnitTable};
 use gumption_format::csv::{Cells, Columns, Row};
 use gumption_format::toml::{Amount, Stated};
 use gumption_lanes::{Block, LANES, level, linear};
+use smol_str::SmolStr;
 
 /// A budget, and the numbers in it that columns set.
 #[derive(Debug, Clone)]
@@ -289,7 +290,7 @@ impl Pattern {
     fn set(
         &mut self,
         path: &[String],
-        inputs: &[(String, Stated<InputTable>)],
+        inputs: &[(SmolStr, Stated<InputTable>)],
         own_units: bool,
     ) -> Option<()> {
         let (name, keys) = match path {

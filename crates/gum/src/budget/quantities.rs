@@ -9,6 +9,7 @@ use gumption_core::quantity::UnitTable;
 use gumption_fault::{Fault, Rejection};
 use gumption_format::files::Files;
 use gumption_format::toml::Stated;
+use smol_str::SmolStr;
 
 /// Checks the quantities of tables whose places are in `text`, with these units; CSV files are looked up in
 /// `folder`. Names that are in `unnamed` stand in no formula, and need not be words of it.
@@ -33,7 +34,7 @@ pub fn quantities(
 }
 
 /// The units of the program and of a file whose table `[unit]` this is, and what is wrong with their definitions.
-pub fn units(stated: &[(String, Stated<String>)], text: &str) -> (UnitTable, Vec<Fault>) {
+pub fn units(stated: &[(SmolStr, Stated<String>)], text: &str) -> (UnitTable, Vec<Fault>) {
     check::units::defined(stated, text)
 }
 

@@ -200,7 +200,7 @@ impl Checker<'_> {
             let response = [quantity(name, &unit)];
             match Equations::compile(&[text], &symbols, &response, constants, &self.units) {
                 Ok(equation) => results.push(FunctionResult {
-                    name: name.clone(),
+                    name: name.to_string(),
                     description: words(&entry.value.description, &entry.value.description_zh),
                     unit,
                     equation,

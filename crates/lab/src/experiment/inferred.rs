@@ -11,6 +11,7 @@ use gumption_core::model::outline;
 use gumption_core::quantity::UnitTable;
 use gumption_fault::nearest;
 use gumption_format::files::Files;
+use smol_str::SmolStr;
 
 /// Lists the parameters of a file that has no `[parameter]`.
 pub(crate) fn add(source: &mut Source, units: &UnitTable, files: Files<'_>, folder: &Path) {
@@ -26,8 +27,8 @@ pub(crate) fn complete(source: &mut Source, units: &UnitTable, files: Files<'_>,
     };
     let shared = source.table.model.as_ref().map_or("", |text| &text.value);
     let listed = entries(&source.table.parameter).iter();
-    let listed: Vec<&String> = listed.map(|(name, _)| name).collect();
-    let mut found: Vec<(String, Stated<ParameterTable>)> = Vec::new();
+    let listed: Vec<&str> = listed.map(|(name, _)| name.as_str()).collect();
+    let mut found: Vec<(SmolStr, Stated<ParameterTable>)> = Vec::new();
     let mut place = 0..0;
     for text in source.table.equations.iter().flat_map(|list| &list.value.0) {
         let Ok(outline) = outline(&format!("{shared}\n{}", text.value), units) else {
@@ -36,7 +37,7 @@ pub(crate) fn complete(source: &mut Source, units: &UnitTable, files: Files<'_>,
         place = text.span.clone();
         let given = outline.gives.as_ref().map(|(name, _)| name);
         for (name, _) in &outline.needs {
-            let is_listed = found.iter().any(|(other, _)| other == name) || listed.contains(&name);
+            let is_listed = found.iter().any(|(other, _)| other == name) || listed.contains(&name.as_str());
             let is_known = given == Some(name) || known.contains(name);
             if !is_listed && !is_known && !is_slip(name, &known) {
                 let table = Stated {
@@ -44,7 +45,7 @@ pub(crate) fn complete(source: &mut Source, units: &UnitTable, files: Files<'_>,
                     span: place.clone(),
                     key: place.clone(),
                 };
-                found.push((name.clone(), table));
+                found.push((name.as_str().into(), table));
             }
         }
     }
@@ -99,13 +100,13 @@ fn known(
     if known.is_empty() {
         return None;
     }
-    known.extend(entries(&table.columns).iter().map(|(name, _)| name.clone()));
+    known.extend(entries(&table.columns).iter().map(|(name, _)| name.to_string()));
     known.extend(
         entries(&table.constant)
             .iter()
-            .map(|(name, _)| name.clone()),
+            .map(|(name, _)| name.to_string()),
     );
-    known.extend(entries(&table.input).iter().map(|(name, _)| name.clone()));
+    known.extend(entries(&table.input).iter().map(|(name, _)| name.to_string()));
     let gives = table
         .positions
         .as_ref()

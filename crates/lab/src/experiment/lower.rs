@@ -20,6 +20,7 @@ use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::{Slot, Stated};
 use gumption_gum::budget::Remark;
+use smol_str::SmolStr;
 
 impl Checker<'_> {
     /// Quantities, parameters and equations over columns of numbers in these units. Where equations use a
@@ -91,7 +92,7 @@ impl Checker<'_> {
             units: self.units.clone(),
             own_units: entries(&self.source.table.unit)
                 .iter()
-                .map(|(name, definition)| (name.clone(), definition.value.clone()))
+                .map(|(name, definition)| (name.to_string(), definition.value.clone()))
                 .collect(),
             columns: columns.to_vec(),
             observed: responses.observed_of(&equations),
@@ -321,7 +322,7 @@ impl Responses {
     }
 }
 
-fn place_of<T>(entries: &[(String, Stated<T>)], name: &str) -> Range<usize> {
+fn place_of<T>(entries: &[(SmolStr, Stated<T>)], name: &str) -> Range<usize> {
     let entry = entries.iter().find(|(other, _)| other == name);
     entry.map_or(0..0, |(_, entry)| entry.key.clone())
 }

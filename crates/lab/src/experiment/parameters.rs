@@ -45,7 +45,7 @@ impl Checker<'_> {
             }
             units.push(unit);
         }
-        let names: Vec<String> = stated.iter().map(|(name, _)| name.clone()).collect();
+        let names: Vec<String> = stated.iter().map(|(name, _)| name.to_string()).collect();
         let units = self.inferred(&names, units, &known, constants, responses);
         let open = names.iter().zip(&units).filter(|(_, unit)| unit.is_none());
         let open: Vec<String> = open.map(|(name, _)| name.clone()).collect();
@@ -62,7 +62,7 @@ impl Checker<'_> {
                 None => known.map(|prior| prior.value),
             };
             parameters.push(Parameter {
-                name: name.clone(),
+                name: name.to_string(),
                 description: words(&entry.value.description, &entry.value.description_zh),
                 unit,
                 start,

@@ -23,6 +23,7 @@ use gumption_gum::budget::tables::{
     ConstantTable, CorrelationTable, FileTable, InputTable, SourceTable,
 };
 use gumption_gum::budget::{Conventions, Remark};
+use smol_str::SmolStr;
 
 /// What the file says of inputs, readings and constants.
 pub(crate) struct Doubts {
@@ -63,9 +64,9 @@ pub(crate) fn of(checker: &mut Checker<'_>, names: &Names, columns: &[Quantity])
         conventions: stated.conventions.clone(),
         remarks: stated.remarks.clone(),
     };
-    let parameters: Vec<&String> = entries(&checker.source.table.parameter)
+    let parameters: Vec<&str> = entries(&checker.source.table.parameter)
         .iter()
-        .map(|(name, _)| name)
+        .map(|(name, _)| name.as_str())
         .collect();
     for one in known.iter().filter(|one| !one.is_reading) {
         let value = value_of(&stated, one);
@@ -135,8 +136,8 @@ fn known<'t>(
             .required
             .as_ref()
             .is_some_and(|stated| stated.value)
-            && !source.listed.inputs.contains(name)
-            && !source.listed.parameters.contains(name)
+            && !source.listed.inputs.contains(name.as_str())
+            && !source.listed.parameters.contains(name.as_str())
         {
             checker
                 .faults
@@ -149,7 +150,7 @@ fn known<'t>(
             (None, None) => Unit::one(),
         };
         symbols.push(column_symbol(&Quantity {
-            name: name.clone(),
+            name: name.to_string(),
             unit: unit.clone(),
         }));
         all.push(Known {
@@ -166,7 +167,8 @@ fn known<'t>(
         let planned = || {
             names
                 .responses
-                .contains(name)
+                .iter()
+                .any(|response| name == response)
                 .then(|| checker.planned_unit(name).unwrap_or_else(Unit::one))
         };
         let Some(own) = column
@@ -244,7 +246,7 @@ fn known<'t>(
 /// Constants as far as their units can be read; their check tells what is wrong with the others.
 fn constants(checker: &Checker<'_>) -> Vec<Symbol> {
     let entries = entries(&checker.source.table.constant).iter();
-    let symbol = |(name, entry): &(String, Stated<ConstantEntry>)| {
+    let symbol = |(name, entry): &(SmolStr, Stated<ConstantEntry>)| {
         let table = &entry.value.0;
         let own = table.unit.as_ref().map(|text| text.value.as_str());
         let amount = table
@@ -254,7 +256,7 @@ fn constants(checker: &Checker<'_>) -> Vec<Symbol> {
         let text = own.or(amount.map(|(text, _)| text.as_str()));
         let unit = text.map_or(Some(Unit::one()), |text| checker.units.parse(text).ok())?;
         Some(column_symbol(&Quantity {
-            name: name.clone(),
+            name: name.to_string(),
             unit,
         }))
     };
@@ -290,7 +292,7 @@ fn state_input(
 fn tables(checker: &Checker<'_>, known: &[Known<'_>]) -> FileTable {
     let table = &checker.source.table;
     let mut inputs = Vec::new();
-    let mut constants: Vec<(String, Stated<ConstantEntry>)> = entries(&table.constant).to_vec();
+    let mut constants: Vec<(SmolStr, Stated<ConstantEntry>)> = entries(&table.constant).to_vec();
     for one in known {
         let key = &one.entry.key;
         let unit = Some(Box::new(at(one.unit.symbol.clone(), key)));
@@ -306,14 +308,14 @@ fn tables(checker: &Checker<'_>, known: &[Known<'_>]) -> FileTable {
                 unit,
                 ..ConstantTable::default()
             });
-            constants.push((one.own_name(), at(constant, key)));
+            constants.push((one.own_name().into(), at(constant, key)));
         } else {
             let input = InputTable {
                 value,
                 unit,
                 ..one.table().clone()
             };
-            inputs.push((one.own_name(), one.entry.map(|_| input.clone())));
+            inputs.push((one.own_name().into(), one.entry.map(|_| input.clone())));
         }
     }
     FileTable {
@@ -330,7 +332,7 @@ fn tables(checker: &Checker<'_>, known: &[Known<'_>]) -> FileTable {
 }
 
 /// Shared causes as those of a budget.
-fn shared(checker: &Checker<'_>) -> Vec<(String, Stated<SourceTable>)> {
+fn shared(checker: &Checker<'_>) -> Vec<(SmolStr, Stated<SourceTable>)> {
     let table = |entry: &Stated<SharedTable>| Stated {
         value: entry.value.source.clone(),
         span: entry.span.clone(),
@@ -365,7 +367,7 @@ fn correlation(checker: &Checker<'_>, known: &[Known<'_>]) -> Slot<OneOrMany<Cor
     Some(stated)
 }
 
-fn named<T>(entries: Vec<(String, Stated<T>)>) -> Named<T> {
+fn named<T>(entries: Vec<(SmolStr, Stated<T>)>) -> Named<T> {
     Named {
         entries,
         refused: false,

@@ -12,6 +12,7 @@ use gumption_format::toml::Named;
 use gumption_format::toml::tables_of;
 use gumption_format::toml::{Slot, Stated, Table};
 use gumption_gum::budget::faults::UNUSED;
+use smol_str::SmolStr;
 
 /// The tables of a file over those of its procedure.
 pub(crate) struct Source {
@@ -76,13 +77,13 @@ pub(crate) fn read(text: &str) -> Result<Source, Vec<Fault>> {
 }
 
 /// The named entries of an optional table.
-pub(crate) fn entries<T>(named: &Slot<Named<T>>) -> &[(String, Stated<T>)] {
+pub(crate) fn entries<T>(named: &Slot<Named<T>>) -> &[(SmolStr, Stated<T>)] {
     named.as_ref().map_or(&[], |stated| &stated.value.entries)
 }
 
 fn names<T>(named: &Slot<Named<T>>) -> HashSet<String> {
     let entries = named.iter().flat_map(|stated| &stated.value.entries);
-    entries.map(|(name, _)| name.clone()).collect()
+    entries.map(|(name, _)| name.to_string()).collect()
 }
 
 fn no_procedure(stated: &Stated<String>) -> Fault {
@@ -149,7 +150,7 @@ fn change_places(own: &mut ExperimentTable, base: &ExperimentTable) {
             ];
             texts.into_iter().for_each(|(own, below)| fill(own, below));
             // A value that is known besides brings its own unit.
-            if !known.contains(name) && table.unit.is_none() && table.like.is_none() {
+            if !known.contains(name.as_str()) && table.unit.is_none() && table.like.is_none() {
                 fill(&mut table.unit, &below.input.unit);
                 fill(&mut table.like, &below.like);
             }
@@ -177,12 +178,12 @@ fn fill<T: Clone>(own: &mut Option<T>, below: &Option<T>) {
     }
 }
 
-fn of_name<'t, T>(entries: &'t [(String, Stated<T>)], name: &str) -> Option<&'t Stated<T>> {
+fn of_name<'t, T>(entries: &'t [(SmolStr, Stated<T>)], name: &str) -> Option<&'t Stated<T>> {
     let found = entries.iter().find(|(other, _)| other == name);
     found.map(|(_, entry)| entry)
 }
 
-fn entries_mut<T>(named: &mut Slot<Named<T>>) -> &mut [(String, Stated<T>)] {
+fn entries_mut<T>(named: &mut Slot<Named<T>>) -> &mut [(SmolStr, Stated<T>)] {
     named
         .as_mut()
         .map_or(&mut [], |stated| stated.value.entries.as_mut_slice())

@@ -161,7 +161,7 @@ impl<'a> Merge<'a> {
         };
         let units: Vec<(String, String)> = super::entries::entries(&file.unit)
             .iter()
-            .map(|(name, definition)| (name.clone(), definition.value.clone()))
+            .map(|(name, definition)| (name.to_string(), definition.value.clone()))
             .collect();
         if !units.is_empty() {
             chain.units.insert(Arc::clone(&part.file), units);

@@ -364,7 +364,7 @@ impl Checker<'_> {
             .map(|entry| (entry, Figure::Correlation as fn(usize) -> Figure))
             .chain(covariances.map(|entry| (entry, Figure::Covariance as fn(usize) -> Figure)));
         for ((name, number), figure) in all {
-            let wanted = number.map(|_| name.clone());
+            let wanted = number.map(|_| name.to_string());
             let wanted = Some(Box::new(Stated {
                 span: number.key.clone(),
                 ..wanted
@@ -489,7 +489,7 @@ impl Checker<'_> {
             if known().any(|figure| figure == name) {
                 let tolerance = reading.tolerance(|t| &t.figures);
                 let half = self.half_digit(stated);
-                reading.push(Figure::Named(name.clone()), stated.value, half, tolerance);
+                reading.push(Figure::Named(name.to_string()), stated.value, half, tolerance);
                 continue;
             }
             if self.figures.incomplete || self.scatters.iter().any(|fit| fit.withholds(name)) {

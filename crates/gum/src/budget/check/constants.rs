@@ -38,7 +38,7 @@ impl Checker<'_> {
                 ),
             };
             constants.push(Constant {
-                name: name.clone(),
+                name: name.to_string(),
                 values: values.unwrap_or_else(|| vec![f64::NAN]),
                 unit: unit.unwrap_or_else(Unit::one),
                 description: table.description.as_ref().map(|text| text.value.clone()),

@@ -3,16 +3,17 @@
 use gumption_format::toml::{Named, Slot, Stated};
 
 use crate::budget::tables::{FileTable, SourceTable};
+use smol_str::SmolStr;
 
 /// The shared causes of a file.
-pub(super) fn shared(file: &FileTable) -> &[(String, Stated<SourceTable>)] {
+pub(super) fn shared(file: &FileTable) -> &[(SmolStr, Stated<SourceTable>)] {
     file.source
         .as_ref()
         .map_or(&[], |stated| &stated.value.0.entries)
 }
 
 /// The named entries of an optional table.
-pub(super) fn entries<T>(named: &Slot<Named<T>>) -> &[(String, Stated<T>)] {
+pub(super) fn entries<T>(named: &Slot<Named<T>>) -> &[(SmolStr, Stated<T>)] {
     named.as_ref().map_or(&[], |stated| &stated.value.entries)
 }
 

@@ -58,7 +58,7 @@ pub(super) fn results(file: &FileTable, model: Option<&Model>) -> Vec<(String, u
         None => entries(&file.measurand)
             .iter()
             .enumerate()
-            .map(|(index, (name, _))| (name.clone(), index))
+            .map(|(index, (name, _))| (name.to_string(), index))
             .collect(),
     }
 }
@@ -310,7 +310,7 @@ impl Checker<'_> {
                 continue;
             }
             let constant = entries(&file.constant).get(index);
-            if constant.is_some_and(|(name, _)| self.names.used_by_fits.contains(name)) {
+            if constant.is_some_and(|(name, _)| self.names.used_by_fits.iter().any(|used| name == used)) {
                 continue;
             }
             let place = self.symbol_place(index, file, constants, register);

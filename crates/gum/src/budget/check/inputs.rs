@@ -92,7 +92,7 @@ impl Checker<'_> {
             // What was refused may have held the unit: formulas are not judged by dimension one.
             let silent = table.unit.is_none() && (table.refused || table.component.refused);
             register.entries.push(InputEntry {
-                name: name.as_str().into(),
+                name: name.clone(),
                 place: stated.key.clone(),
                 places: start..start + count,
                 vector,

@@ -54,7 +54,7 @@ impl Checker<'_> {
             .iter()
             .map(|(name, stated)| (name, stated.key.clone(), say!("an input")));
         for (name, place, kind) in constants.chain(inputs) {
-            if !unnamed.contains(name) {
+            if !unnamed.iter().any(|unnamed| name == unnamed) {
                 self.check_name(name, &place, &kind);
             }
             self.check_use(&mut used, name, place);

@@ -11,12 +11,13 @@ use crate::budget::{Follows, Owner};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
+use smol_str::SmolStr;
 
 impl Checker<'_> {
     /// Reads `[source.S]`.
     pub(super) fn sources(
         &mut self,
-        sources: &[(String, Stated<SourceTable>)],
+        sources: &[(SmolStr, Stated<SourceTable>)],
         register: &mut Register,
     ) {
         for (name, stated) in sources {
@@ -27,7 +28,7 @@ impl Checker<'_> {
                 stated => self.unit(stated),
             };
             let mut entry = SourceEntry {
-                name: name.clone(),
+                name: name.to_string(),
                 unit: unit.clone(),
                 components: Vec::new(),
                 used: false,
@@ -38,7 +39,7 @@ impl Checker<'_> {
                 let drafts = drafts.unwrap_or_default();
                 let alone = drafts.len() == 1;
                 for draft in drafts {
-                    let owner = Owner::Source(name.clone());
+                    let owner = Owner::Source(name.to_string());
                     entry
                         .components
                         .push(register.add(owner, name, &unit, draft, alone));
@@ -109,7 +110,7 @@ impl Checker<'_> {
     /// Reports sources that no input refers to.
     pub(super) fn unused_sources(
         &mut self,
-        sources: &[(String, Stated<SourceTable>)],
+        sources: &[(SmolStr, Stated<SourceTable>)],
         register: &Register,
     ) {
         for (name, stated) in sources {

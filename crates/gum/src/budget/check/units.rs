@@ -3,10 +3,11 @@
 use gumption_core::quantity::{DefinitionError, UnitTable};
 use gumption_fault::{Fault, say};
 use gumption_format::toml::{Stated, StringMap};
+use smol_str::SmolStr;
 
 /// The units of the program and of the file, and what is wrong with their definitions in `text`.
 pub(in crate::budget) fn defined(
-    stated: &[(String, Stated<String>)],
+    stated: &[(SmolStr, Stated<String>)],
     text: &str,
 ) -> (UnitTable, Vec<Fault>) {
     let mut units = UnitTable::default();

@@ -97,7 +97,7 @@ impl FromToml for FitParameters {
                 let names: Vec<Stated<String>> = Vec::read(value, reader)?;
                 let entries = names.into_iter().map(|name| {
                     let table = name.map(|_| FitParameterTable::default());
-                    (name.value, table)
+                    (name.value.into(), table)
                 });
                 Some(FitParameters(Named {
                     entries: entries.collect(),

@@ -56,7 +56,7 @@ pub(super) fn candidates(
         let typical = table.typical.as_ref();
         let node = table.node.as_ref().or(table.response.as_ref());
         found.push(UserCandidate {
-            name: name.clone(),
+            name: name.to_string(),
             formula: formula.value.clone(),
             unit: unit.unwrap_or_else(Unit::one),
             equations,

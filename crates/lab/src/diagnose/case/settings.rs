@@ -141,7 +141,7 @@ impl Checker<'_> {
                 self.faults
                     .push(fault.label(say!("expected a share of full scale such as 1e-4")));
             } else {
-                sizes.push((id.clone(), share.value));
+                sizes.push((id.to_string(), share.value));
             }
         }
         sizes

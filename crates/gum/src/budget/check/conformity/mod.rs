@@ -82,7 +82,7 @@ impl Checker<'_> {
             name: table
                 .name
                 .as_ref()
-                .map_or_else(|| name.clone(), |text| text.value.clone()),
+                .map_or_else(|| name.to_string(), |text| text.value.clone()),
             measurand,
             tolerance: tolerance?,
             stated: compared?,

@@ -311,14 +311,14 @@ impl Checker<'_> {
             .iter()
             .filter_map(|(_, fit)| fit.value.parameters.as_ref())
             .flat_map(|stated| &stated.value.0.entries)
-            .filter_map(|(name, entry)| Some((name.clone(), entry.value.description.clone()?)))
+            .filter_map(|(name, entry)| Some((name.to_string(), entry.value.description.clone()?)))
             .collect();
         let measurands = self.names.parameters.iter().map(|(name, _)| {
             let table = MeasurandTable {
                 description: described.get(name).cloned(),
                 ..MeasurandTable::default()
             };
-            (name.clone(), first.map(|_| table))
+            (name.as_str().into(), first.map(|_| table))
         });
         let mut file = file.clone();
         let measurands = Named {
@@ -351,7 +351,7 @@ fn names(file: &FileTable) -> HashMap<String, Range<usize>> {
     let inputs = entries(&file.input).iter().map(|(n, s)| (n, &s.key));
     let sources = shared(file).iter().map(|(n, s)| (n, &s.key));
     for (name, place) in constants.chain(inputs).chain(sources) {
-        names.insert(name.clone(), place.clone());
+        names.insert(name.to_string(), place.clone());
     }
     names
 }

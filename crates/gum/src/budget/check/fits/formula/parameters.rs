@@ -11,6 +11,7 @@ use crate::budget::faults::{FIT, NAME_TWICE, UNKNOWN_NAME, UNUSED};
 use crate::budget::tables::FitParameterTable;
 use gumption_fault::{Fault, Said, nearest, say};
 use gumption_format::toml::Stated;
+use smol_str::SmolStr;
 
 /// What a name on the right side of a formula is.
 enum Meaning<'f> {
@@ -171,10 +172,10 @@ impl<'f> Written<'f> {
 }
 
 /// A parameter of the list.
-fn listed((name, stated): &(String, Stated<FitParameterTable>)) -> Parameter {
+fn listed((name, stated): &(SmolStr, Stated<FitParameterTable>)) -> Parameter {
     let description = stated.value.description.as_ref();
     Parameter {
-        name: name.clone(),
+        name: name.to_string(),
         place: stated.key.clone(),
         unit: None,
         start: None,

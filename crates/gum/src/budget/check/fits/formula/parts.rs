@@ -12,6 +12,7 @@ use gumption_core::least_squares::{Gradient, Polynomial, Response};
 use gumption_core::model::Model;
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, nearest, say};
+use smol_str::SmolStr;
 
 /// A compiled formula: parameters first in its input vector, then the predictors.
 pub(crate) type Compiled = Gradient<Box<dyn Fn(&[f64], &mut [f64]) -> f64>>;
@@ -76,7 +77,7 @@ impl<'f> Scope<'f> {
     }
 
     /// What the file says about the parameters, if it lists them.
-    pub(super) fn declared(&self) -> Option<&'f [(String, Stated<FitParameterTable>)]> {
+    pub(super) fn declared(&self) -> Option<&'f [(SmolStr, Stated<FitParameterTable>)]> {
         let parameters = self.stated.value.parameters.as_ref()?;
         Some(parameters.value.0.entries.as_slice())
     }

@@ -95,7 +95,7 @@ fn polyval(l: &mut Lowering<'_>, e: &Expr, coefficients: &Expr, x_expr: &Expr) -
     })?;
     l.spend(2 * items.len() * x.elements.len(), &e.span)
         .then_some(())?;
-    let unit = term_unit(l, &items, &by)?;
+    let unit = term_unit(l, &items, by)?;
     let mut scaled = Vec::with_capacity(items.len());
     for (k, (value, expr)) in items.iter().enumerate() {
         let own = value.unit().cloned().unwrap_or_else(Unit::one);

@@ -213,36 +213,36 @@ impl Check<'_> {
         if found.dimension != wanted.dimension {
             let message = say!(
                 "the value is {}, but `{}` is wanted {}",
-                in_words(&found),
+                in_words(found),
                 measurand.name,
                 in_words(wanted)
             );
-            let help = self.result_help(expr, &found, wanted);
+            let help = self.result_help(expr, found, wanted);
             self.l.report(
                 Fault::new(faults::RESULT_UNIT, expr.span.clone(), message)
-                    .label(in_words(&found))
+                    .label(in_words(found))
                     .help(help),
             );
             return None;
         }
         if found.is_point() != wanted.is_point() {
-            self.point_result(measurand.name, expr, &found, wanted);
+            self.point_result(measurand.name, expr, found, wanted);
             return None;
         }
-        if let Some(help) = revolutions_as_angle(&found, wanted, &printer::factor(expr)) {
-            let help = match unit_of_angle(&found) {
+        if let Some(help) = revolutions_as_angle(found, wanted, &printer::factor(expr)) {
+            let help = match unit_of_angle(found) {
                 Some(other) => say!("{help}, or {other}"),
                 None => help,
             };
             let message = say!(
                 "the value is {}, but `{}` is wanted {}",
-                in_words(&found),
+                in_words(found),
                 measurand.name,
                 in_words(wanted)
             );
             self.l.report(
                 Fault::new(faults::REVOLUTIONS, expr.span.clone(), message)
-                    .label(in_words(&found))
+                    .label(in_words(found))
                     .help(help),
             );
             return None;

@@ -213,7 +213,7 @@ pub fn pair(
         if name == "dot" {
             return Some(Value {
                 literal,
-                ..Value::scalar(sxy, a.product(&b))
+                ..Value::scalar(sxy, a.product(b))
             });
         }
         let xx = squares(l, &x.elements);
@@ -221,7 +221,7 @@ pub fn pair(
         let id = l.builder.div(sxy, sxx);
         let out = Value {
             literal,
-            ..Value::scalar(id, b.quotient(&a))
+            ..Value::scalar(id, b.quotient(a))
         };
         l.watch(&out, e, e);
         return Some(out);

@@ -36,8 +36,8 @@ impl Lowering<'_> {
                 })
             }
             (true, _, false) => {
-                self.no_zero_of_kelvin(left, &a, right)?;
-                self.no_bare_number(left, infix, right, &a)?;
+                self.no_zero_of_kelvin(left, a, right)?;
+                self.no_bare_number(left, infix, right, a)?;
                 let step = left.value.clone().with_kind(Kind::Quantity(a.difference()));
                 let joined = self.join(
                     Operand {
@@ -54,8 +54,8 @@ impl Lowering<'_> {
                 })
             }
             (false, Infix::Add, true) => {
-                self.no_zero_of_kelvin(right, &b, left)?;
-                self.no_bare_number(right, infix, left, &b)?;
+                self.no_zero_of_kelvin(right, b, left)?;
+                self.no_bare_number(right, infix, left, b)?;
                 let step = right
                     .value
                     .clone()
@@ -76,11 +76,11 @@ impl Lowering<'_> {
                 })
             }
             (true, Infix::Add, true) => {
-                self.sum_of_points(left.expr, right.expr, &b);
+                self.sum_of_points(left.expr, right.expr, b);
                 None
             }
             _ => {
-                self.point_fault(right.expr, &b);
+                self.point_fault(right.expr, b);
                 None
             }
         }

@@ -93,7 +93,7 @@ impl Lowering<'_> {
     pub fn difference<'v>(&mut self, operand: Operand<'v>) -> Option<&'v Unit> {
         let unit = self.quantity(operand.value, operand.expr)?;
         if unit.is_point() {
-            self.point_fault(operand.expr, &unit);
+            self.point_fault(operand.expr, unit);
             return None;
         }
         Some(unit)
@@ -106,12 +106,12 @@ impl Lowering<'_> {
             return self.converted(&operand.value.with_unit_if_zero(&Unit::one()), &Unit::one());
         }
         if unit.is_point() {
-            self.point_fault(operand.expr, &unit);
+            self.point_fault(operand.expr, unit);
             return None;
         }
         let text = printer::expression(operand.expr);
         let symbol = &unit.symbol;
-        let help = hint_for_clash(&Unit::one(), &unit).unwrap_or_else(|| {
+        let help = hint_for_clash(&Unit::one(), unit).unwrap_or_else(|| {
             say!(
                 "divide by a reference quantity, or write `value_in({text}, '{symbol}')` for its number in {symbol}"
             )
@@ -140,13 +140,13 @@ impl Lowering<'_> {
         let (a, b) = (a?, b?);
         if a.is_point() != b.is_point() {
             let (point, unit) = if a.is_point() { (left, a) } else { (right, b) };
-            self.point_fault(point.expr, &unit);
+            self.point_fault(point.expr, unit);
             return None;
         }
         let (to, zeros) = match (left.value.zero, right.value.zero) {
             (_, true) => (a.clone(), true),
             (true, false) => (b.clone(), true),
-            (false, false) => (self.common_unit(left, right, &a, &b, what)?, false),
+            (false, false) => (self.common_unit(left, right, a, b, what)?, false),
         };
         if zeros {
             return Some(Joined {
@@ -330,7 +330,7 @@ impl Lowering<'_> {
             Some((c, unit.powr(num, den)?))
         });
         let Some((c, powered)) = powered else {
-            self.exponent_fault(base.expr, exponent.expr, &unit, constant);
+            self.exponent_fault(base.expr, exponent.expr, unit, constant);
             return None;
         };
         let mut out = base.value.clone();
@@ -355,7 +355,7 @@ impl Lowering<'_> {
             )
             .label(say!("expected a number"))
             .help(
-                hint_for_clash(&Unit::one(), &unit)
+                hint_for_clash(&Unit::one(), unit)
                     .unwrap_or_else(|| say!("divide the exponent by a quantity of the same kind")),
             ),
         );

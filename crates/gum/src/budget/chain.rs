@@ -40,7 +40,7 @@ pub struct Ensemble {
     /// The members.
     pub members: Vec<Member>,
     /// As in [`Group`].
-    pub correlation: DMatrix<f64>,
+    pub correlation: Arc<DMatrix<f64>>,
     /// As in [`Group`].
     pub law: Law,
     /// As in [`Group`].
@@ -83,7 +83,7 @@ impl Ensemble {
         };
         Some(Group {
             members,
-            correlation: part(&self.correlation),
+            correlation: part(&self.correlation).into(),
             law,
             dof: self.dof,
         })

@@ -1,5 +1,7 @@
 //! Inputs, and the components that doubt them.
 
+use std::sync::Arc;
+
 use gumption_format::toml::words;
 use nalgebra::DMatrix;
 use smol_str::SmolStr;
@@ -93,7 +95,8 @@ pub struct Group {
     /// Indices into [`Budget::components`](super::Budget::components).
     pub members: Vec<usize>,
     /// Product-moment correlation of the members (GUM: r(x_i, x_j)); positive semidefinite.
-    pub correlation: DMatrix<f64>,
+    /// It may have millions of elements, and copies share it.
+    pub correlation: Arc<DMatrix<f64>>,
     /// How the members are distributed together.
     pub law: Law,
     /// ν shared by all members when they come from one set of simultaneous readings, or all state the

@@ -11,6 +11,7 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
@@ -47,7 +48,7 @@ enum Place {
 #[derive(Debug, Clone)]
 pub(super) struct Correlated {
     /// Product-moment correlation.
-    pub correlation: DMatrix<f64>,
+    pub correlation: Arc<DMatrix<f64>>,
     /// ν that all members have in common.
     pub dof: Option<f64>,
     /// Lᵀ of R = L Lᵀ, rank × members: the coordinates of a member stand together.
@@ -84,7 +85,7 @@ impl Covariance {
             let range = coordinates..coordinates + factor.nrows();
             coordinates = range.end;
             correlated.push(Correlated {
-                correlation: group.correlation.clone(),
+                correlation: Arc::clone(&group.correlation),
                 dof: group.dof,
                 factor,
                 coordinates: range,
@@ -280,7 +281,7 @@ mod tests {
     fn group(members: &[usize], correlation: DMatrix<f64>) -> Group {
         Group {
             members: members.to_vec(),
-            correlation,
+            correlation: correlation.into(),
             law: Law::Normal,
             dof: None,
         }

@@ -120,7 +120,7 @@ impl Draft {
         let correlation = DMatrix::from_row_slice(n, n, entries);
         self.groups.push(Group {
             members: members.to_vec(),
-            correlation,
+            correlation: correlation.into(),
             law: Law::Normal,
             dof,
         });

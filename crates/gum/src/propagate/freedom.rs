@@ -329,7 +329,7 @@ mod tests {
         let n = members.len();
         Group {
             members: members.to_vec(),
-            correlation: DMatrix::from_row_slice(n, n, entries),
+            correlation: DMatrix::from_row_slice(n, n, entries).into(),
             law: Law::Normal,
             dof,
         }
@@ -474,13 +474,13 @@ mod tests {
         let groups = [
             Group {
                 members: vec![0, 1],
-                correlation: r1,
+                correlation: r1.into(),
                 law: Law::Normal,
                 dof: Some(4.0),
             },
             Group {
                 members: vec![2, 3],
-                correlation: r2,
+                correlation: r2.into(),
                 law: Law::Normal,
                 dof: Some(4.0),
             },

@@ -37,7 +37,8 @@ pub(crate) fn complete(source: &mut Source, units: &UnitTable, files: Files<'_>,
         place = text.span.clone();
         let given = outline.gives.as_ref().map(|(name, _)| name);
         for (name, _) in &outline.needs {
-            let is_listed = found.iter().any(|(other, _)| other == name) || listed.contains(&name.as_str());
+            let is_listed =
+                found.iter().any(|(other, _)| other == name) || listed.contains(&name.as_str());
             let is_known = given == Some(name) || known.contains(name);
             if !is_listed && !is_known && !is_slip(name, &known) {
                 let table = Stated {
@@ -100,13 +101,21 @@ fn known(
     if known.is_empty() {
         return None;
     }
-    known.extend(entries(&table.columns).iter().map(|(name, _)| name.to_string()));
+    known.extend(
+        entries(&table.columns)
+            .iter()
+            .map(|(name, _)| name.to_string()),
+    );
     known.extend(
         entries(&table.constant)
             .iter()
             .map(|(name, _)| name.to_string()),
     );
-    known.extend(entries(&table.input).iter().map(|(name, _)| name.to_string()));
+    known.extend(
+        entries(&table.input)
+            .iter()
+            .map(|(name, _)| name.to_string()),
+    );
     let gives = table
         .positions
         .as_ref()

@@ -70,7 +70,7 @@ pub(crate) fn of(checker: &mut Checker<'_>, names: &Names, columns: &[Quantity])
         .collect();
     for one in known.iter().filter(|one| !one.is_reading) {
         let value = value_of(&stated, one);
-        if parameters.iter().any(|name| *name == one.name) {
+        if parameters.contains(&one.name) {
             let prior = prior(&stated, one, value);
             if prior.u > 0.0 {
                 doubts

@@ -110,9 +110,9 @@ impl Lowering<'_> {
                 let (a, b) = (self.difference(left), self.difference(right));
                 let (a, b) = (a?, b?);
                 let unit = if infix == Infix::Mul {
-                    a.product(&b)
+                    a.product(b)
                 } else {
-                    a.quotient(&b)
+                    a.quotient(b)
                 };
                 self.apply(infix.symbol(), left.value, right.value, span)?
                     .with_kind(Kind::Quantity(unit))

@@ -149,7 +149,7 @@ impl<'a> Merge<'a> {
         let ensembles = groups.iter().map(|group| {
             Arc::new(Ensemble {
                 members: group.members.iter().map(member).collect(),
-                correlation: group.correlation.clone(),
+                correlation: Arc::clone(&group.correlation),
                 law: group.law.clone(),
                 dof: group.dof,
             })
@@ -460,7 +460,7 @@ fn same_group(a: &Ensemble, b: &Ensemble) -> bool {
         let members = e.members.iter();
         members.map(|member| member.identity.clone()).collect()
     };
-    let matrices = a.correlation.iter().zip(&b.correlation);
+    let matrices = a.correlation.iter().zip(&*b.correlation);
     let dof = match (a.dof, b.dof) {
         (Some(a), Some(b)) => near(a, b, 0.0),
         (a, b) => a == b,

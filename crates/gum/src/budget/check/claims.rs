@@ -489,7 +489,12 @@ impl Checker<'_> {
             if known().any(|figure| figure == name) {
                 let tolerance = reading.tolerance(|t| &t.figures);
                 let half = self.half_digit(stated);
-                reading.push(Figure::Named(name.to_string()), stated.value, half, tolerance);
+                reading.push(
+                    Figure::Named(name.to_string()),
+                    stated.value,
+                    half,
+                    tolerance,
+                );
                 continue;
             }
             if self.figures.incomplete || self.scatters.iter().any(|fit| fit.withholds(name)) {

@@ -12,6 +12,7 @@ use gumption_core::quantity::Unit;
 pub(super) use gumption_core::quantity::show;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
+use smallvec::SmallVec;
 use smol_str::SmolStr;
 
 /// What a component is drafted for.
@@ -96,6 +97,9 @@ pub(super) struct Draft {
     /// Place of the statement of its uncertainty.
     pub stated: Range<usize>,
 }
+
+/// Drafts of one owner, mostly one; each stays where it was made.
+pub(super) type Drafts = SmallVec<[Box<Draft>; 1]>;
 
 /// What a component says about the estimate.
 #[derive(Debug, Clone, Copy, PartialEq)]

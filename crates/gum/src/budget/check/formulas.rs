@@ -310,7 +310,9 @@ impl Checker<'_> {
                 continue;
             }
             let constant = entries(&file.constant).get(index);
-            if constant.is_some_and(|(name, _)| self.names.used_by_fits.iter().any(|used| name == used)) {
+            if constant
+                .is_some_and(|(name, _)| self.names.used_by_fits.iter().any(|used| name == used))
+            {
                 continue;
             }
             let place = self.symbol_place(index, file, constants, register);

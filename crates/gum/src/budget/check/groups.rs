@@ -137,7 +137,7 @@ impl Checker<'_> {
         };
         Some(Group {
             members,
-            correlation,
+            correlation: correlation.into(),
             law,
             dof,
         })

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::checker::Checker;
-use super::draft::{Context, Draft, Location, show};
+use super::draft::{Context, Draft, Drafts, Location, show};
 use super::entries::entries;
 use super::register::{InputEntry, Register, blank};
 use super::type_a::all_equal;
@@ -16,7 +16,7 @@ use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::{Slot, Stated};
 use smallvec::{SmallVec, smallvec};
-use smol_str::format_smolstr;
+use smol_str::{SmolStr, format_smolstr};
 
 /// A reason for doubt of one input.
 pub(super) enum Piece {
@@ -199,7 +199,7 @@ impl Checker<'_> {
 
     fn scalar(
         &mut self,
-        name: &str,
+        name: &SmolStr,
         stated: &Stated<InputTable>,
         unit: &Unit,
         resolution: ResolutionWord,
@@ -422,7 +422,7 @@ impl Checker<'_> {
     /// Enters the components of a scalar input.
     fn enter(
         &mut self,
-        name: &str,
+        name: &SmolStr,
         pieces: Pieces,
         unit: &Unit,
         resolution: ResolutionWord,
@@ -430,7 +430,7 @@ impl Checker<'_> {
         place: usize,
     ) {
         let alone = pieces.len() == 1;
-        let mut drafts = Vec::with_capacity(pieces.len());
+        let mut drafts = Drafts::new();
         for piece in pieces {
             match piece {
                 Piece::Own(draft) => drafts.push(draft),

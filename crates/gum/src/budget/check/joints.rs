@@ -261,10 +261,10 @@ impl Checker<'_> {
             None => f64::INFINITY,
         };
         let mut members = Vec::new();
-        for ((place, name), u) in inputs.iter().zip(&u) {
+        for ((place, _), u) in inputs.iter().zip(&u) {
             let input = register.inputs.get(*place)?;
             let alone = input.terms.is_empty();
-            let unit = input.unit.clone();
+            let (name, unit) = (input.name.clone(), input.unit.clone());
             let draft = Box::new(Draft {
                 label: "covariance matrix".into(),
                 named: None,
@@ -287,7 +287,7 @@ impl Checker<'_> {
                 stated: stated.span.clone(),
                 readings: None,
             });
-            let component = register.add(Owner::Input(*place), &name.value, &unit, draft, alone);
+            let component = register.add(Owner::Input(*place), &name, &unit, draft, alone);
             register.act(*place, component, 1.0);
             members.push(component);
         }
@@ -383,7 +383,6 @@ impl Checker<'_> {
             })
             .collect();
         let before = |i: usize| (0..i).filter(move |j| coefficient(i, *j) != 0.0);
-        statements.reserve((0..sides.len()).map(|i| before(i).count()).sum());
         for (i, second) in sides.iter().enumerate() {
             for j in before(i) {
                 let r = rows[i].stated(j);

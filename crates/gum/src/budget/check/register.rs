@@ -72,13 +72,13 @@ impl Register {
     pub fn add(
         &mut self,
         owner: Owner,
-        owner_name: &str,
+        owner_name: &SmolStr,
         unit: &Unit,
         draft: Box<Draft>,
         alone: bool,
     ) -> usize {
         let name = if alone {
-            owner_name.into()
+            owner_name.clone()
         } else {
             format_smolstr!("{owner_name}.{}", draft.label)
         };
@@ -263,13 +263,16 @@ pub(super) fn element_name(name: &str, element: usize) -> String {
 
 /// An input of which nothing is known yet but its words.
 pub(super) fn blank(
-    name: &str,
+    name: &SmolStr,
     table: &InputTable,
     unit: Option<&Unit>,
     element: Option<usize>,
 ) -> Input {
     Input {
-        name: element.map_or_else(|| name.into(), |element| element_name(name, element).into()),
+        name: element.map_or_else(
+            || name.clone(),
+            |element| element_name(name, element).into(),
+        ),
         description: table.description.as_ref().map(|text| text.value.clone()),
         group: table.group.as_ref().map(|text| text.value.clone()),
         unit: unit.cloned().unwrap_or_else(Unit::one),

@@ -1,7 +1,7 @@
 //! Resolution beside repeatability: double counting, and readings that do not scatter at all.
 
 use super::checker::Checker;
-use super::draft::{Draft, Kind, show};
+use super::draft::{Drafts, Kind, show};
 use crate::budget::tables::ResolutionWord;
 
 impl Checker<'_> {
@@ -10,9 +10,9 @@ impl Checker<'_> {
     pub(super) fn absorb(
         &mut self,
         owner: &str,
-        drafts: Vec<Box<Draft>>,
+        drafts: Drafts,
         convention: ResolutionWord,
-    ) -> Vec<Box<Draft>> {
+    ) -> Drafts {
         if convention == ResolutionWord::Add {
             return drafts;
         }

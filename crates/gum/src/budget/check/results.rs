@@ -14,6 +14,7 @@ use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, Said, nearest, say};
 use gumption_format::toml::Stated;
 use gumption_format::toml::faults::UNREADABLE_FILE;
+use smol_str::SmolStr;
 
 /// One thing to choose from in another file.
 struct Candidate<'a> {
@@ -25,7 +26,7 @@ impl Checker<'_> {
     /// Reads an input that is a result of another file.
     pub(super) fn taken(
         &mut self,
-        name: &str,
+        name: &SmolStr,
         stated: &Stated<InputTable>,
         from: &Stated<FromTable>,
         register: &mut Register,
@@ -55,7 +56,7 @@ impl Checker<'_> {
             unit = Some(found);
         }
         register.entries.push(InputEntry {
-            name: name.into(),
+            name: name.clone(),
             place: stated.key.clone(),
             places: start..end,
             vector: false,

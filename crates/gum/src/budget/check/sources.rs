@@ -1,7 +1,7 @@
 //! Shared sources: one cause of error that acts on several inputs.
 
 use super::checker::Checker;
-use super::draft::{Context, Draft, Location, show};
+use super::draft::{Context, Drafts, Location, show};
 use super::inputs::{Entry, Piece, Pieces};
 use super::register::{Register, SourceEntry};
 use super::ways::Way;
@@ -54,7 +54,7 @@ impl Checker<'_> {
         name: &str,
         stated: &Stated<SourceTable>,
         unit: &Unit,
-    ) -> Option<Vec<Box<Draft>>> {
+    ) -> Option<Drafts> {
         let table = &stated.value;
         let list = self.ways(
             name,
@@ -63,7 +63,7 @@ impl Checker<'_> {
             &stated.span,
             unit,
         )?;
-        let mut drafts = Vec::new();
+        let mut drafts = Drafts::new();
         for entry in list {
             let context = Context::new(name, None, unit, entry.place.clone());
             if entry.way == Way::Source {

@@ -242,9 +242,9 @@ impl Checker<'_> {
         register: &mut Register,
     ) -> usize {
         let owner = if is_common(entry.table) {
-            vector.name.to_string()
+            vector.name.into()
         } else {
-            element_name(vector.name, element)
+            element_name(vector.name, element).into()
         };
         let place = Owner::Input(vector.start + element);
         let component = register.add(place, &owner, vector.unit, draft, vector.alone);

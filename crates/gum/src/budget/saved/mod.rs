@@ -406,7 +406,7 @@ impl GroupEntry {
         };
         Ok(Ensemble {
             members: found.ok_or_else(unfit)?,
-            correlation: matrix(&self.correlation)?,
+            correlation: matrix(&self.correlation)?.into(),
             law,
             dof: self.degrees_of_freedom,
         })

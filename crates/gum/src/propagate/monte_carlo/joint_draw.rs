@@ -197,14 +197,14 @@ impl JointSampler {
     ) -> Self {
         let members = || group.members.iter().map(|&member| &components[member]);
         let (law, correlation) = match &group.law {
-            Law::Normal => (JointLaw::Normal, &group.correlation),
+            Law::Normal => (JointLaw::Normal, &*group.correlation),
             Law::StudentT { dof, scale } => {
                 let law = JointLaw::StudentT {
                     scale: scale.clone(),
                     dof: *dof,
                     stream,
                 };
-                (law, &group.correlation)
+                (law, &*group.correlation)
             }
             Law::GaussianCopula { latent } => (
                 JointLaw::Copula(members().map(|c| Margin::of(&c.distribution)).collect()),
@@ -314,7 +314,7 @@ mod tests {
     fn group(law: Law, r: f64) -> Group {
         Group {
             members: vec![0, 1],
-            correlation: pair(r),
+            correlation: pair(r).into(),
             law,
             dof: None,
         }

@@ -145,7 +145,7 @@ fn correlated(r: f64) -> [Group; 1] {
     let correlation = DMatrix::from_row_slice(2, 2, &[1.0, r, r, 1.0]);
     [Group {
         members: vec![0, 1],
-        correlation,
+        correlation: correlation.into(),
         law: Law::Normal,
         dof: None,
     }]

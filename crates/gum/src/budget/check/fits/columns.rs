@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::super::checker::Checker;
-use super::super::draft::{Context, Draft, Location};
+use super::super::draft::{Context, Draft, Drafts, Location};
 use super::super::entries::entries;
 use super::super::inputs::{Entry, Piece, single};
 use super::super::joints::dense;
@@ -417,8 +417,7 @@ impl Checker<'_> {
         if causes.is_empty() {
             return Vec::new();
         }
-        let (mut drafts, coefficients): (Vec<Box<Draft>>, Vec<Vec<f64>>) =
-            causes.into_iter().unzip();
+        let (mut drafts, coefficients): (Drafts, Vec<Vec<f64>>) = causes.into_iter().unzip();
         self.label_uniquely(name, &mut drafts);
         let mut source = SourceEntry {
             name: name.to_string(),
@@ -429,7 +428,7 @@ impl Checker<'_> {
         let mut common = Vec::new();
         for (draft, coefficients) in drafts.into_iter().zip(coefficients) {
             let owner = Owner::Source(name.to_string());
-            let component = register.add(owner, name, &column.unit, draft, false);
+            let component = register.add(owner, &name.into(), &column.unit, draft, false);
             source.components.push(component);
             common.push(Common {
                 component,

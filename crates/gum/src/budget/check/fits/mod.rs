@@ -218,7 +218,8 @@ impl Checker<'_> {
                 readings: None,
             });
             let owner = Owner::Input(parameter.input);
-            let component = register.add(owner, &parameter.name, &parameter.unit, draft, alone);
+            let name = parameter.name.as_str().into();
+            let component = register.add(owner, &name, &parameter.unit, draft, alone);
             register.act(parameter.input, component, 1.0);
             members.push(component);
         }

@@ -104,7 +104,7 @@ fn elements_that_share_one_u_share_its_doubt() {
         panic!("{:?}", common.groups)
     };
     assert_eq!((group.members.len(), group.dof), (3, Some(9.0)));
-    assert_eq!(group.correlation, nalgebra::DMatrix::identity(3, 3));
+    assert_eq!(*group.correlation, nalgebra::DMatrix::identity(3, 3));
     assert!(matches!(group.law, Law::StudentT { dof, .. } if dof == 9.0));
     // A list states each u by itself.
     assert_eq!(

@@ -219,7 +219,7 @@ impl<'b> Joint<'b> {
         let (law, correlation) = match &group.law {
             Law::Normal => (
                 JointLaw::Normal(members().map(|member| member.u).collect()),
-                &group.correlation,
+                &*group.correlation,
             ),
             Law::StudentT { dof, scale } if dof.is_finite() => {
                 let law = JointLaw::StudentT {
@@ -227,9 +227,9 @@ impl<'b> Joint<'b> {
                     mixing: shapes::mixing(*dof),
                     dimension: 0,
                 };
-                (law, &group.correlation)
+                (law, &*group.correlation)
             }
-            Law::StudentT { scale, .. } => (JointLaw::Normal(scale.clone()), &group.correlation),
+            Law::StudentT { scale, .. } => (JointLaw::Normal(scale.clone()), &*group.correlation),
             Law::GaussianCopula { latent } => {
                 let of_score = |member: &crate::budget::Component| {
                     member

@@ -81,7 +81,10 @@ impl Checker<'_> {
         let (fit, power) = (between.fit, place + between.lowest());
         let entry = fit.declared().and_then(|list| list.get(place));
         let unit = between.unit(power)?;
-        let name = entry.map_or_else(|| format!("{}_{power}", fit.name), |(name, _)| name.to_string());
+        let name = entry.map_or_else(
+            || format!("{}_{power}", fit.name),
+            |(name, _)| name.to_string(),
+        );
         if let Some((_, stated)) = entry {
             self.check_fit_coefficient(&name, &stated.value, &unit)?;
         }

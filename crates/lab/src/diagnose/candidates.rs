@@ -93,7 +93,7 @@ impl<'f> Candidates<'f> {
         };
         let seen = spreads.iter().map(with);
         let seen = seen.collect::<Result<Vec<_>, _>>()?.concat();
-        let contest = evidence::contest(&seen, &self.candidates, &self.atoms, settings)?;
+        let contest = evidence::contest(&seen, &self.candidates, &self.atoms, settings);
         let log_posterior = match contest.p <= settings.alpha {
             true => &contest.with,
             false => &contest.alone,

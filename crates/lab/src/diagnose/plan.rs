@@ -108,7 +108,7 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
     let mut candidates = Candidates::new(fitted, &claimed, &baseline);
     let unified = named(&mut candidates);
     step(progress, 0.1)?;
-    let found = evidence::visibility(&baseline, &candidates.candidates, &candidates.atoms)?;
+    let found = evidence::visibility(&baseline, &candidates.candidates, &candidates.atoms);
     let effects = prospects(&candidates, &unified, &found);
     let unknowns = estimates(&design, &fit, &claimed);
     let u: Vec<f64> = unknowns.iter().map(|unknown| unknown.u).collect();

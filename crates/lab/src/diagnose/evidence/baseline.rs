@@ -68,8 +68,8 @@ impl Baseline {
     ///
     /// # Errors
     ///
-    /// Sizes that disagree, numbers that are not finite, a covariance matrix that is none, parameters
-    /// that the recording does not determine, and recordings without a degree of freedom.
+    /// Numbers that are not finite, a covariance matrix that is none, parameters that the recording does
+    /// not determine, and recordings without a degree of freedom.
     pub fn new(
         jacobian: &DMatrix<f64>,
         residuals: &DVector<f64>,
@@ -77,16 +77,10 @@ impl Baseline {
         prior: &Prior,
     ) -> Result<Baseline, Refusal> {
         let (rows, parameters) = jacobian.shape();
-        let known = prior.residuals.len();
-        let covariances = [&noise.covariance].into_iter().chain(&noise.draws);
-        let fit = covariances.map(Covariance::rows).all(|own| own == rows);
-        if !fit || residuals.len() != rows || prior.jacobian.shape() != (known, parameters) {
-            return Err(Refusal::Sizes);
-        }
         check_finite(jacobian, residuals, prior)?;
         let whitener = Factor::whitening(&noise.covariance)?;
         let draws = factors(&noise.draws)?;
-        let total = rows + known;
+        let total = rows + prior.residuals.len();
         if total <= parameters {
             return Err(Refusal::NoFreedom {
                 rows: total,

@@ -86,15 +86,12 @@ struct Seen<'c> {
 }
 
 /// Whether effects beat correlated noise.
-///
-/// # Errors
-/// Atoms that do not fit the recording.
 pub fn contest(
     courses: &[Course],
     candidates: &[Candidate],
     atoms: &[Atom],
     settings: &Settings,
-) -> Result<Contest, Refusal> {
+) -> Contest {
     let alone: Vec<f64> = courses.iter().map(Course::log_posterior).collect();
     let top = maximum(&alone);
     let weights: Vec<f64> = alone.iter().map(|l| libm::exp(l - top)).collect();
@@ -103,29 +100,28 @@ pub fn contest(
     let simulated: Vec<Baseline> = (courses.iter())
         .map(|course| course.baseline.clone().with_draws(null.clone()))
         .collect();
-    let see = |at: usize| -> Result<Seen<'_>, Refusal> {
+    let see = |at: usize| {
         let question = Question {
             baseline: &simulated[at],
             candidates,
             atoms,
             settings: settings.clone(),
         };
-        let space = Space::new(&question)?;
+        let space = Space::new(&question);
         let frame = space.empty();
         let strongest = Panel::new(&space, &question, &frame).observed(&space, 0.0);
         let gain = strongest.map_or(0.0, |one| one.statistic);
         let two = Singles::new(&space, &question).observed(&space);
-        Ok(Seen {
+        Seen {
             course: &courses[at],
             alone: alone[at],
             with: alone[at] + gain.max(two).max(0.0),
             space,
             frame,
             question,
-        })
+        }
     };
-    let seen = side_by_side(courses.len(), see).into_iter();
-    let seen: Vec<Seen<'_>> = seen.collect::<Result<_, _>>()?;
+    let seen: Vec<Seen<'_>> = side_by_side(courses.len(), see);
     let with: Vec<f64> = seen.iter().map(|one| one.with).collect();
     let observed = maximum(&with) - top;
     let likely =
@@ -133,7 +129,7 @@ pub fn contest(
     let likely: Vec<&Seen<'_>> = seen.iter().filter(likely).collect();
     let benches: Vec<Bench<'_>> = likely.iter().map(|one| Bench::new(one)).collect();
     let p = probability(&benches, observed, settings);
-    Ok(Contest { p, alone, with })
+    Contest { p, alone, with }
 }
 
 /// Probability that the best effect gains as much in recordings with nothing but noise, the course chosen anew in each.

@@ -28,12 +28,12 @@ const LEFT: f64 = 0.01;
 ///
 /// # Errors
 ///
-/// Atoms that do not fit the baseline, and [`Refusal::Cancelled`].
+/// [`Refusal::Cancelled`].
 pub fn examine(
     question: &Question,
     progress: &dyn Fn(f64) -> ControlFlow<()>,
 ) -> Result<Examination, Refusal> {
-    let space = Space::new(question)?;
+    let space = Space::new(question);
     let settings = &question.settings;
     let simulated = Simulated::new(question.baseline, &space, settings.seed, settings.draws);
     let mut search = search(&space, question, &simulated, progress)?;

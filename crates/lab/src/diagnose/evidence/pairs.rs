@@ -248,7 +248,7 @@ mod tests {
             let asked = Asked::of(&residuals, &estimated(ROWS))
                 .with_each([square.clone()])
                 .with(repeats, (0..ROWS).map(|at| shape(outlier(at))).collect());
-            let space = Space::new(&asked.question()).unwrap();
+            let space = Space::new(&asked.question());
             let found = Singles::new(&space, &asked.question()).observed(&space);
             (found, asked.examined())
         };

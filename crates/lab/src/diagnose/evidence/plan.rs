@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::baseline::Baseline;
 use super::directions::{INVISIBLE, without};
 use super::question::{Atom, Candidate, Kind, Question, Settings, Shape};
-use super::refusal::Refusal;
+
 use super::space::{Block, Space};
 
 /// What an experiment of this design can see and tell apart. Sizes refer to the noise of the baseline.
@@ -53,22 +53,14 @@ const SEPARATED: f64 = 5.0;
 const ALIAS: f64 = 1e-3;
 
 /// What an experiment can see and tell apart. The residuals of the baseline do not matter.
-///
-/// # Errors
-///
-/// Atoms that do not fit the baseline.
-pub fn visibility(
-    baseline: &Baseline,
-    candidates: &[Candidate],
-    atoms: &[Atom],
-) -> Result<Plan, Refusal> {
+pub fn visibility(baseline: &Baseline, candidates: &[Candidate], atoms: &[Atom]) -> Plan {
     let question = Question {
         baseline,
         candidates,
         atoms,
         settings: Settings::default(),
     };
-    let space = Space::new(&question)?;
+    let space = Space::new(&question);
     let blocks = space.blocks.iter();
     let named: Vec<&Block> = blocks.filter(|block| block.kind() == Kind::Named).collect();
     let seen = |(index, atom): (usize, &Atom)| match &atom.shape {
@@ -85,11 +77,11 @@ pub fn visibility(
             .map(|rival| pair(block, rival));
         rivals.max_by(|a, b| a.cosine.total_cmp(&b.cosine))
     };
-    Ok(Plan {
+    Plan {
         seen: atoms.iter().enumerate().filter_map(seen).collect(),
         classes: classes(&named),
         pairs: named.iter().filter_map(nearest).collect(),
-    })
+    }
 }
 
 fn seen(baseline: &Baseline, atom: usize, columns: &DMatrix<f64>) -> Seen {
@@ -175,7 +167,7 @@ mod tests {
             share: 1.0,
         });
         let atoms: Vec<Atom> = atoms.collect();
-        visibility(&tumble.baseline(), &candidates, &atoms).unwrap()
+        visibility(&tumble.baseline(), &candidates, &atoms)
     }
 
     fn index(name: &str) -> usize {

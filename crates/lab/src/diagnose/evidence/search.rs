@@ -275,7 +275,7 @@ mod tests {
         let (one, other, none) = (wave(0.31), wave(0.73), wave(1.37));
         let columns = [one.clone(), other.clone(), &one + &other + &none * 0.5];
         let asked = Asked::of(&(one * 5.0 + other * 5.0), &white(ROWS)).with_each(columns);
-        let space = Space::new(&asked.question()).unwrap();
+        let space = Space::new(&asked.question());
         assert_eq!(needed(&space, space.frame_of(&[0, 1, 2])), [0, 1]);
         assert_eq!(needed(&space, space.frame_of(&[2])), [2]);
     }

@@ -5,7 +5,6 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use super::closed_form::{Ladder, Scale, named, scatter};
 use super::directions::{INVISIBLE, joined, orthonormal, own, without};
 use super::question::{Atom, Kind, Question, Shape};
-use super::refusal::Refusal;
 
 /// Prior odds of all generics together, over those of all named candidates.
 const GENERIC_ODDS: f64 = 0.15;
@@ -99,7 +98,7 @@ pub(super) struct Frame {
 }
 
 impl Space {
-    pub(super) fn new(question: &Question) -> Result<Space, Refusal> {
+    pub(super) fn new(question: &Question) -> Space {
         let baseline = question.baseline;
         let odds = Odds::new(question);
         let mut space = Space {
@@ -114,9 +113,7 @@ impl Space {
             starts: vec![0],
             components: DVector::zeros(0),
         };
-        for (index, atom) in question.atoms.iter().enumerate() {
-            check(index, atom)?;
-        }
+
         // All columns at once: products with few columns spend their time on reading the whitener.
         let (seen, lengths) = baseline.visible(&all_columns(baseline.rows(), question.atoms));
         let mut start = 0;
@@ -138,7 +135,7 @@ impl Space {
             own.copy_from(&block.basis);
         }
         space.components = space.directions.tr_mul(&space.z);
-        Ok(space)
+        space
     }
 
     /// Places of the directions of a block among all.
@@ -279,14 +276,6 @@ impl Block {
     pub(super) fn determined(&self) -> DMatrix<f64> {
         self.columns.select_columns(&self.kept)
     }
-}
-
-fn check(atom: usize, own: &Atom) -> Result<(), Refusal> {
-    let is_bad =
-        |columns: &DMatrix<f64>, row: usize| columns.row(row).iter().any(|x| !x.is_finite());
-    let columns = own.shape.columns();
-    let bad = columns.and_then(|columns| (0..columns.nrows()).find(|row| is_bad(columns, *row)));
-    bad.map_or(Ok(()), |row| Err(Refusal::AtomNotFinite { atom, row }))
 }
 
 /// The columns of all atoms side by side.

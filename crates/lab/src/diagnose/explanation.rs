@@ -2,66 +2,47 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::catalogue::{Cell, EffectId, FittedModel, Pattern, Variation, Words};
+use super::catalogue::modifiers::known;
+use super::catalogue::{Cell, FittedModel, Pattern, Variation};
 use super::evidence::{self, Baseline, Standing};
 use super::prolonged::{Prolonged, Recorded};
 use gumption_core::special::normal_quantile;
 
 /// An explanation among others for the same mismatch.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Explanation {
-    /// Identifier of the effect.
-    id: EffectId,
-    /// What its texts speak of.
-    words: Words,
-    /// Whether several of its variants may act at once.
-    repeats: bool,
+#[derive(Debug)]
+pub(super) struct Explanation<'c> {
+    cell: &'c Cell,
     /// Its posterior probability.
     pub(super) probability: f64,
     /// What it may look like, the most probable first.
-    likely: Vec<Likely>,
+    likely: Vec<Likely<'c>>,
 }
 
 /// A variant that an explanation may have.
-#[derive(Debug, Clone, PartialEq)]
-struct Likely {
-    /// Its label.
-    label: String,
-    /// The value of its continuous parameter.
-    shape: Option<f64>,
+#[derive(Debug)]
+struct Likely<'c> {
+    variation: &'c Variation,
     /// What is seen of it in the recording, a column for each of the sizes that it may have.
     seen: DMatrix<f64>,
-}
-
-impl Likely {
-    fn of(variation: &Variation, seen: DMatrix<f64>) -> Likely {
-        Likely {
-            label: variation.label.clone(),
-            shape: value(variation),
-            seen,
-        }
-    }
 }
 
 /// Sizes and shapes for which a promise is formed.
 const DRAWS: usize = 40;
 
-impl Explanation {
+impl<'c> Explanation<'c> {
     /// A variation of a cell with coefficients; those that are not finite count as zero.
     pub(super) fn new(
         recorded: &Recorded<'_>,
-        cell: &Cell,
-        variation: &Variation,
+        cell: &'c Cell,
+        variation: &'c Variation,
         sizes: &DMatrix<f64>,
         probability: f64,
-    ) -> Explanation {
-        let sizes = sizes.map(|x| if x.is_finite() { x } else { 0.0 });
+    ) -> Explanation<'c> {
+        let seen = recorded.seen(variation) * sizes.map(known);
         Explanation {
-            id: cell.effect.id,
-            words: cell.words.clone(),
-            repeats: cell.effect.repeats,
+            cell,
             probability,
-            likely: vec![Likely::of(variation, recorded.seen(variation) * sizes)],
+            likely: vec![Likely { variation, seen }],
         }
     }
 
@@ -69,8 +50,8 @@ impl Explanation {
     pub(super) fn with(
         mut self,
         recorded: &Recorded<'_>,
-        variations: &[(&Variation, f64)],
-    ) -> Explanation {
+        variations: &[(&'c Variation, f64)],
+    ) -> Explanation<'c> {
         let Some(first) = self.likely.first_mut() else {
             return self;
         };
@@ -89,7 +70,7 @@ impl Explanation {
             let own = seen.columns(begin, end - begin).into_owned();
             let columns = recorded.seen(variation);
             let seen = fitted(&columns, &own).map_or(own, |sizes| columns * sizes);
-            likely.push(Likely::of(variation, seen));
+            likely.push(Likely { variation, seen });
             begin = end;
         }
         self.likely = likely;
@@ -109,7 +90,7 @@ impl Explanation {
         Standing {
             effects: evidence::all(self.likely.iter().map(|likely| likely.seen.clone())),
             variants: variants.filter_map(seen).collect(),
-            repeats: self.repeats,
+            repeats: self.cell.effect.repeats,
         }
     }
 
@@ -142,29 +123,24 @@ impl Explanation {
         Some(Standing {
             effects,
             variants: variants.into_iter().filter_map(seen).collect(),
-            repeats: self.repeats,
+            repeats: self.cell.effect.repeats,
         })
     }
 
     /// Columns of all variants that it has among some cells.
     fn variants(&self, fitted: &FittedModel<'_>, cells: &[Cell]) -> Vec<DMatrix<f64>> {
-        let alike = cells.iter().filter(|cell| self.is(cell));
+        let alike = cells.iter().filter(|cell| self.cell.is(cell));
         alike.flat_map(|cell| finite(fitted, cell)).collect()
-    }
-
-    pub(super) fn is(&self, cell: &Cell) -> bool {
-        // Each harmonic of an angle is a cell of its own.
-        cell.effect.id == self.id && cell.words == self.words
     }
 
     /// The columns of its variation in another design. A grid that follows the rows may have another step
     /// there: what is nearest to it, or else its middle, then stands for it.
     fn columns(&self, prolonged: &Prolonged<'_>) -> Option<DMatrix<f64>> {
-        let own = self.likely.first()?;
-        let cell = prolonged.cells.iter().find(|cell| self.is(cell))?;
+        let own = self.likely.first()?.variation;
+        let cell = prolonged.cells.iter().find(|cell| self.cell.is(cell))?;
         let same = cell.variants.iter().find(|v| v.label == own.label);
         let nearest = || {
-            let own = own.shape?;
+            let own = value(own)?;
             let far =
                 |other: &Variation| value(other).map_or(f64::NAN, |value| (value - own).abs());
             let shaped = cell.variants.iter().filter(|other| other.shape.is_some());
@@ -197,7 +173,7 @@ fn value(variation: &Variation) -> Option<f64> {
 pub(super) fn standing(
     recorded: &Recorded<'_>,
     prolonged: &Prolonged<'_>,
-    set: &[Explanation],
+    set: &[Explanation<'_>],
 ) -> Option<Vec<Standing>> {
     let each = set.iter().map(|one| one.standing(recorded, prolonged));
     each.collect()
@@ -210,9 +186,8 @@ fn fitted(columns: &DMatrix<f64>, effects: &DMatrix<f64>) -> Option<DMatrix<f64>
 
 /// Sizes that an estimate allows, itself first: quantiles of a normal distribution, by a Halton sequence.
 pub(super) fn sizes(estimate: &DVector<f64>, covariance: &DMatrix<f64>) -> DMatrix<f64> {
-    let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
-    let estimate = estimate.map(finite);
-    let spread = covariance.map(finite).symmetric_eigen();
+    let estimate = estimate.map(known);
+    let spread = covariance.map(known).symmetric_eigen();
     let widths = spread.eigenvalues.map(|variance| variance.max(0.0).sqrt());
     let root = &spread.eigenvectors * DMatrix::from_diagonal(&widths);
     let normals = DMatrix::from_fn(estimate.len(), DRAWS, |k, draw| match draw {
@@ -251,12 +226,12 @@ fn visible(baseline: &Baseline, columns: DMatrix<f64>) -> Option<DMatrix<f64>> {
 }
 
 /// A variation that does what an explanation does, as far as it can.
-pub(super) fn likened(
+pub(super) fn likened<'c>(
     recorded: &Recorded<'_>,
-    explanation: &Explanation,
-    cell: &Cell,
-    variation: &Variation,
-) -> Option<Explanation> {
+    explanation: &Explanation<'_>,
+    cell: &'c Cell,
+    variation: &'c Variation,
+) -> Option<Explanation<'c>> {
     let seen = &explanation.likely.first()?.seen;
     let sizes = fitted(&recorded.seen(variation), seen)?;
     /// The most that an explanation has which is not listed: less than whatever is.
@@ -268,49 +243,40 @@ pub(super) fn likened(
 const FAR: f64 = 8.0;
 
 /// What a candidate that is not in a list leaves of each explanation of it.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Unlisted {
-    id: EffectId,
-    words: Words,
+#[derive(Debug)]
+pub(super) struct Unlisted<'c> {
+    pub cell: &'c Cell,
     /// κ of each.
     pub kappas: Vec<f64>,
     /// Whether it comes to stand beside each whatever the odds say.
     pub stays: Vec<bool>,
 }
 
-impl Unlisted {
-    /// Whether both are the same candidate.
-    pub(super) fn is(&self, other: &Unlisted) -> bool {
-        self.id == other.id && self.words == other.words
-    }
-}
-
 /// All candidates that are not in a list: named ones whose size is free. Single rows and waves of any
 /// period come near to anything a little, and seldom stand for it.
-pub(super) fn unlisted(
+pub(super) fn unlisted<'c>(
     fitted: &FittedModel<'_>,
-    cells: &[Cell],
+    cells: &'c [Cell],
     baseline: &Baseline,
-    set: &[Explanation],
+    set: &[Explanation<'_>],
     standing: &[Standing],
-) -> Vec<Unlisted> {
+) -> Vec<Unlisted<'c>> {
     let effects = standing.iter().map(|one| one.effects.column(0));
     let effects = DMatrix::from_columns(&effects.collect::<Vec<_>>());
     let counts = |cell: &&Cell| {
         let named =
             cell.variants.iter().all(|v| v.spectrum.is_none()) && cell.effect.exact.is_none();
         let rows = matches!(cell.effect.pattern, Some(Pattern::Row | Pattern::Wave));
-        named && !rows && !set.iter().any(|one| one.is(cell))
+        named && !rows && !set.iter().any(|one| one.cell.is(cell))
     };
-    let of = |cell: &Cell| {
+    let of = |cell: &'c Cell| {
         let seen = finite(fitted, cell).filter_map(|columns| visible(baseline, columns));
         let seen: Vec<DMatrix<f64>> = seen.collect();
         let kappas = evidence::left(&effects, seen.iter().cloned());
         let near = (kappas.iter().zip(standing))
             .map(|(kappa, one)| *kappa < FAR && !cell.effect.repeats && one.keeps(&seen));
         Unlisted {
-            id: cell.effect.id,
-            words: cell.words.clone(),
+            cell,
             stays: near.collect(),
             kappas,
         }

@@ -116,7 +116,7 @@ impl Model<'_> {
             _ => 0.0,
         };
         let covariance = DMatrix::from_fn(places.len(), places.len(), covariance);
-        let slopes = confirm::over_noise(&fit.jacobian, claimed);
+        let slopes = confirm::over_noise(&fit.jacobian, &claimed.u);
         let errors = fit.residuals.component_div(&claimed.u);
         let chi_squared = chi_squared(&errors, slopes, &covariance);
         Prediction {

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::candidates::Candidates;
 use super::case::Role;
-use super::catalogue::modifiers::{levels_of, range};
+use super::catalogue::modifiers::{known, levels_of, range};
 use super::catalogue::{Cell, FittedModel, Kind, Variation};
 use super::declared_form;
 use super::evidence::{self, Baseline, TRACE};
@@ -176,7 +176,7 @@ pub(super) fn choice(
     let moved = |alternative: &evidence::Alternative| -> Option<DVector<f64>> {
         let variation = candidates.variation(alternative.variants.first()?.atom);
         let columns = variation.columns(&candidates.fitted);
-        let size = (alternative.estimate).map(|x| if x.is_finite() { x } else { 0.0 });
+        let size = alternative.estimate.map(known);
         (columns.ncols() == size.len()).then(|| declared.gain(&columns) * size)
     };
     let mut squares = DVector::zeros(declared.parameters());

@@ -110,7 +110,7 @@ impl Separability {
             ..fit.clone()
         };
         let beside = baseline(&common, &rest, &claimed.uncorrelated()).ok()?;
-        let over_noise = over_noise(&columns, claimed);
+        let over_noise = over_noise(&columns, &claimed.u);
         let whole = over_noise.column_iter().map(|column| column.norm_squared());
         Some(Separability {
             start: fit.unknowns[at],

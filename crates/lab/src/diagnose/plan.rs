@@ -272,11 +272,11 @@ fn pairs(effects: &[Prospect]) -> Vec<(usize, usize)> {
 }
 
 /// Both of a pair, with sizes that have the same strength in the experiment as it is.
-fn explanations(
-    recorded: &Recorded<'_>,
+fn explanations<'r>(
+    recorded: &'r Recorded<'_>,
     effects: &[Prospect],
     (a, b): (usize, usize),
-) -> Vec<Explanation> {
+) -> Vec<Explanation<'r>> {
     let of = |cell: usize| {
         let effect = effects.iter().find(|effect| effect.cell == cell)?;
         let cell = &recorded.candidates.cells[cell];
@@ -292,7 +292,7 @@ fn explanations(
 
 /// What further measurements are asked for.
 struct Explanations<'o> {
-    sets: Vec<Vec<Explanation>>,
+    sets: Vec<Vec<Explanation<'o>>>,
     hidden: Vec<&'o Omitted>,
 }
 
@@ -304,14 +304,14 @@ impl Explanations<'_> {
             let sizes = DMatrix::from_element(variation.coefficients(), 1, 1.0);
             Explanation::new(recorded, cell, variation, &sizes, EVEN)
         });
-        let asked: Vec<Explanation> = asked.collect();
+        let asked: Vec<Explanation<'_>> = asked.collect();
         let (resolved, revealed) = examined(recorded, extra, |prolonged| {
             let is_told = |at: &usize| {
                 let standing = standing(recorded, prolonged, &self.sets[*at]);
                 let apart = standing.and_then(|standing| evidence::apart(&standing));
                 apart.is_some_and(|apart| apart.least() >= SEPARATED)
             };
-            let shows = |(one, line): (&Explanation, &&Omitted)| {
+            let shows = |(one, line): (&Explanation<'_>, &&Omitted)| {
                 let share = one.visibility(prolonged)?;
                 (share > VISIBLE).then_some(line.cell)
             };

@@ -34,7 +34,7 @@ pub(super) fn separating(recorded: &Recorded<'_>, examination: &Examination) -> 
     let mut lists = Vec::new();
     for (slot, of) in examination.slots.iter().enumerate() {
         let mut rivals = Vec::new();
-        let mut set: Vec<Explanation> = Vec::new();
+        let mut set: Vec<Explanation<'_>> = Vec::new();
         for alternative in of.named.iter().take(CONTENDERS) {
             let variants: Vec<(&Variation, f64)> = (alternative.variants.iter())
                 .map(|variant| (candidates.variation(variant.atom), variant.share))
@@ -97,15 +97,15 @@ pub(super) fn separating(recorded: &Recorded<'_>, examination: &Examination) -> 
 }
 
 /// Explanations that stand against each other for one effect.
-struct List {
+struct List<'c> {
     slot: usize,
     rivals: Vec<usize>,
     kappa: f64,
-    set: Vec<Explanation>,
+    set: Vec<Explanation<'c>>,
     /// Probability that one of the set is right, if any name of the list is.
     share: f64,
     before: Separability,
-    outside: Vec<Unlisted>,
+    outside: Vec<Unlisted<'c>>,
 }
 
 /// How the explanations of a list are apart with a further measurement, and for each the probability that
@@ -115,7 +115,7 @@ struct After {
     doubts: Vec<f64>,
 }
 
-impl List {
+impl List<'_> {
     fn after(&self, recorded: &Recorded<'_>, prolonged: &Prolonged<'_>) -> Option<After> {
         let standing = standing(recorded, prolonged, &self.set)?;
         let apart = evidence::apart(&standing)?;
@@ -123,7 +123,7 @@ impl List {
         let outside = unlisted(fitted, &prolonged.cells, baseline, &self.set, &standing);
         let mut doubts = vec![0.0_f64; self.set.len()];
         for one in &outside {
-            let before = self.outside.iter().find(|other| other.is(one));
+            let before = (self.outside.iter()).find(|other| other.cell.is(one.cell));
             for (at, doubt) in doubts.iter_mut().enumerate() {
                 // What the recording had no such candidate for may come now.
                 let before = before.map_or(f64::INFINITY, |before| before.kappas[at]);

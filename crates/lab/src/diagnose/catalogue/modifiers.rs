@@ -328,6 +328,11 @@ pub fn map(x: &[f64], f: impl Fn(f64) -> f64) -> Vec<f64> {
     x.iter().map(|x| f(*x)).collect()
 }
 
+/// Nothing for what is not finite.
+pub fn known(x: f64) -> f64 {
+    if x.is_finite() { x } else { 0.0 }
+}
+
 /// 1 where something is so.
 pub fn flag(is_so: bool) -> f64 {
     f64::from(u8::from(is_so))

@@ -8,7 +8,7 @@ use super::absorbed::Absorbed;
 use super::building::{cell, on_output, plain};
 use super::fitted::{FittedModel, Node};
 use super::levels::{Factor, factors};
-use super::modifiers::map;
+use super::modifiers::{known, map};
 use super::{Cell, EffectId, Modifier, Term, Variation, tied};
 
 /// Longer recordings are not searched row by row.
@@ -91,7 +91,7 @@ struct Deleted<'g, 'f> {
 impl<'g, 'f> Deleted<'g, 'f> {
     fn new(fitted: &'g FittedModel<'f>) -> Self {
         let absorbed = Absorbed::by_parameters(fitted);
-        let known = |r: f64| if r.is_finite() { r } else { 0.0 };
+
         let residuals = fitted.fit.residuals.map(known);
         let rest = absorbed.rest(&residuals);
         Deleted {

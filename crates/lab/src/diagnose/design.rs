@@ -148,6 +148,14 @@ impl<'c> Design<'c> {
         whole.map_or(row..row + 1, |whole| whole.rows[row].clone())
     }
 
+    /// What reports call some rows: by their numbers in the recording.
+    pub fn called(&self, first: usize, last: usize) -> String {
+        match (self.recorded(first).start + 1, self.recorded(last).end) {
+            (first, last) if first == last => format!("row {first}"),
+            (first, last) => format!("rows {first} to {last}"),
+        }
+    }
+
     /// Values of the rows of the design for all rows of the recording.
     pub fn spread(&self, values: &[f64]) -> Vec<f64> {
         let rows = values.iter().enumerate();

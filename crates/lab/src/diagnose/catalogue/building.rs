@@ -85,6 +85,17 @@ pub(super) fn on_output(modifier: Modifier) -> Term {
     Term::new(Node::Output, modifier)
 }
 
+/// What is added to one response, in its unit.
+pub(super) fn added(
+    fitted: &FittedModel<'_>,
+    response: usize,
+    values: Vec<f64>,
+    text: impl Into<String>,
+) -> Term {
+    let unit = fitted.case().responses[response].unit.difference();
+    on_output(Modifier::new(values, text, unit)).on(response)
+}
+
 /// A cell on a node along something, with its variants as they are.
 pub(super) fn cell(
     fitted: &FittedModel<'_>,

@@ -1,7 +1,7 @@
 //! Ends of the range and dead zones of a column: saturation, a change of slope, a band around zero in which
 //! nothing happens.
 
-use super::building::{form, on_node, on_output, plain, scoped_label};
+use super::building::{added, form, on_node, on_output, plain, scoped_label};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{figure, figure_to, five_digits, largest, levels_of, map, range, rounded};
 use super::sharp::sharpened;
@@ -134,8 +134,7 @@ fn ceiling(
         label = format!("{label}{before}{end} {shown}");
     }
     let text = format!("({text} - {name})");
-    let term = on_output(Modifier::new(modifier, text, unit.difference())).on(response);
-    Variation::one(label, term)
+    Variation::one(label, added(fitted, response, modifier, text))
 }
 
 /// A step at zero, and bands of several widths around it.

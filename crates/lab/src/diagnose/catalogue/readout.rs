@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::building::{on_output, plain};
+use super::building::{added, on_output, plain};
 use super::fitted::{FittedModel, varies};
 use super::modifiers::{figure, largest, levels_of, map, rounded};
 use super::sharp::nearly_all;
@@ -39,9 +39,8 @@ fn quantisation(fitted: &FittedModel<'_>, response: usize) -> Option<Cell> {
             true => (sharp, String::new()),
             false => (blurred, format!(", noise {}", figure(blur * step))),
         };
-        let term = on_output(Modifier::new(modifier, text, unit.difference()));
         let label = format!("step {shown}{noise} {}", unit.after_number());
-        Variation::one(label, term.on(response))
+        Variation::one(label, added(fitted, response, modifier, text))
     };
     // What the declared model leaves is noise, and perhaps something else.
     let most = blur(fitted, response, step);
@@ -214,12 +213,10 @@ fn shifted(fitted: &FittedModel<'_>) -> Option<Cell> {
     };
     let variant = |label: &str, modifiers: Vec<Vec<f64>>| {
         let terms = modifiers.into_iter().enumerate();
+        let terms = terms.filter(|(_, modifier)| varies(modifier));
         let terms = terms.map(|(response, modifier)| {
-            let unit = fitted.case().responses[response].unit.difference();
-            let text = format!("outputs {label}");
-            on_output(Modifier::new(modifier, text, unit)).on(response)
+            added(fitted, response, modifier, format!("outputs {label}"))
         });
-        let terms = terms.filter(|term| varies(&term.modifier.values));
         Variation::of(label, tied(terms.collect()))
     };
     let ways = [("one row late", true), ("one row early", false)];

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use nalgebra::{DMatrix, DVector};
 
 use super::absorbed::Absorbed;
-use super::building::{cell, on_output, plain};
+use super::building::{added, cell, on_output, plain};
 use super::fitted::{FittedModel, Node};
 use super::levels::{Factor, factors};
 use super::modifiers::{known, map};
@@ -24,16 +24,17 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     if blocks.len() > MOST || blocks.len() < 5 {
         return Vec::new();
     }
+    let named = |rows: &[usize]| fitted.design.called(rows[0], rows[rows.len() - 1]);
     let outliers = blocks.iter().map(|rows| {
         let terms = (0..fitted.case().responses.len()).map(|response| {
             let mut modifier = vec![0.0; fitted.rows()];
             for row in rows {
                 modifier[*row] = 1.0;
             }
-            let text = format!("[{}]", named(fitted, rows));
+            let text = format!("[{}]", named(rows));
             on_output(Modifier::number(modifier, text)).on(response)
         });
-        Variation::of(named(fitted, rows), terms.collect())
+        Variation::of(named(rows), terms.collect())
     });
     let mut cells = vec![plain(fitted, EffectId::Outlier, "row", outliers.collect())];
     if blocks.len() == fitted.rows() && fitted.has_signal() && blocks.len() <= MOST / 2 {
@@ -41,14 +42,6 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         cells.push(reversed(fitted));
     }
     cells
-}
-
-fn named(fitted: &FittedModel<'_>, rows: &[usize]) -> String {
-    let first = fitted.design.recorded(rows[0]).start + 1;
-    match fitted.design.recorded(rows[rows.len() - 1]).end {
-        last if last == first => format!("row {first}"),
-        last => format!("rows {first} to {last}"),
-    }
 }
 
 /// Rows with each other's output: successive ones, and among those that agree worst with the others any two.
@@ -68,9 +61,7 @@ fn swapped(fitted: &FittedModel<'_>) -> Cell {
             let mut modifier = vec![0.0; rows];
             modifier[first] = step;
             modifier[second] = -step;
-            let unit = fitted.case().responses[response].unit.difference();
-            let text = format!("exchange of {label}");
-            on_output(Modifier::new(modifier, text, unit)).on(response)
+            added(fitted, response, modifier, format!("exchange of {label}"))
         });
         // All responses of a row are exchanged together: one coefficient.
         Variation::of(label.clone(), tied(terms.collect()))

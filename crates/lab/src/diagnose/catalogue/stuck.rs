@@ -3,10 +3,10 @@
 
 use nalgebra::DVector;
 
-use super::building::{on_output, plain};
+use super::building::{added, plain};
 use super::fitted::FittedModel;
 use super::modifiers::{map2, range, spacing, typical_step};
-use super::{Cell, EffectId, Modifier, Variation};
+use super::{Cell, EffectId, Variation};
 use crate::diagnose::evidence;
 
 /// Fewer readings in a row are alike by chance.
@@ -36,7 +36,6 @@ fn of_response(fitted: &FittedModel<'_>, response: usize) -> Vec<Variation> {
         .collect();
     found.sort_by_key(|(first, last)| std::cmp::Reverse(last - first));
     let held = found.into_iter().take(STRETCHES);
-    let unit = fitted.case().responses[response].unit.difference();
     held.map(|(first, last)| {
         let is_such = |row: usize| (first..last).contains(&row);
         let model = beside(fitted, response, &observed, &is_such);
@@ -44,11 +43,9 @@ fn of_response(fitted: &FittedModel<'_>, response: usize) -> Vec<Variation> {
             true => observed[first] - model[row],
             false => 0.0,
         });
-        let [from, to] = [first, last - 1].map(|row| fitted.design.recorded(row));
-        let label = format!("rows {} to {}", from.start + 1, to.end);
+        let label = fitted.design.called(first, last - 1);
         let text = format!("(reading held in {label})");
-        let modifier = Modifier::new(modifier.collect(), text, unit.clone());
-        Variation::one(label, on_output(modifier).on(response))
+        Variation::one(label, added(fitted, response, modifier.collect(), text))
     })
     .collect()
 }

@@ -137,36 +137,27 @@ fn stretch(fitted: &FittedModel<'_>, along: &str, node: Node, id: EffectId) -> O
     let all: Vec<(usize, usize)> = (2..blocks.len().saturating_sub(LEAST + 1))
         .flat_map(ends)
         .collect();
-    let within = |(first, end): (usize, usize)| {
-        let (from, to) = (blocks[first][0], blocks[end][0]);
-        let values = (0..fitted.rows()).map(|at| f64::from(u8::from((from..to).contains(&at))));
-        let [number, last] = [from, to - 1].map(|row| fitted.design.recorded(row));
-        let label = format!("rows {} to {}", number.start + 1, last.end);
-        let modifier = Modifier::number(values.collect(), format!("[{label}]"));
-        (label, modifier)
-    };
     // What the node does in all blocks, of which a stretch has some.
     let everywhere = Modifier::number(vec![1.0; fitted.rows()], "1");
     let whole = fitted.column(&Term::new(node, everywhere));
     let mut columns = all.iter().map(|(first, end)| {
-        let part = whole.iter().enumerate();
-        let part = part.map(|(block, x)| {
-            if (*first..*end).contains(&block) {
-                *x
-            } else {
-                0.0
-            }
-        });
-        DVector::from_iterator(whole.len(), part)
+        let inside = |block: usize| (*first..*end).contains(&block);
+        DVector::from_fn(
+            whole.len(),
+            |block, _| if inside(block) { whole[block] } else { 0.0 },
+        )
     });
-    let found = all[nearly_all(fitted, &mut columns)?];
-    let (label, modifier) = within(found);
+    let (first, end) = all[nearly_all(fitted, &mut columns)?];
+    let (from, to) = (blocks[first][0], blocks[end][0]);
+    let inside = (0..fitted.rows()).map(|row| flag((from..to).contains(&row)));
+    let label = fitted.design.called(from, to - 1);
+    let within = Modifier::number(inside.collect(), format!("[{label}]"));
     Some(on_node(
         fitted,
         id,
         along,
         node,
-        [form(label, vec![modifier])],
+        [form(label, vec![within])],
     ))
 }
 

@@ -11,6 +11,7 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use super::case::{Case, Rows};
+use super::catalogue::modifiers::successive;
 use super::design::{Design, Linear, Whole};
 use super::fit::Fit;
 use crate::recording::Labels;
@@ -98,19 +99,11 @@ fn longest(design: &Design<'_>) -> usize {
 
 /// Successive rows of one block, with the same labels.
 fn pieces(design: &Design<'_>, block_of: &[Option<usize>]) -> Vec<Range<usize>> {
-    let most = longest(design);
     let labels: Vec<&Labels> = design.case.labels().collect();
     let alike = |a: usize, b: usize| {
         block_of[a] == block_of[b] && labels.iter().all(|l| l.of_row[a] == l.of_row[b])
     };
-    let mut pieces: Vec<Range<usize>> = Vec::new();
-    for row in 0..design.case.rows {
-        match pieces.last_mut() {
-            Some(piece) if piece.len() < most && alike(piece.start, row) => piece.end = row + 1,
-            _ => pieces.push(row..row + 1),
-        }
-    }
-    pieces
+    successive(design.case.rows, longest(design), alike)
 }
 
 fn at_means(pieces: &[Range<usize>], fit: &Fit) -> Fit {

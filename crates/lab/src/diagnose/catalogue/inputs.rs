@@ -76,13 +76,13 @@ fn inputs(fitted: &FittedModel<'_>) -> Vec<Input> {
 /// Where a head turns in one direction through each run, it goes back behind the first angle before the run,
 /// so that this one too is reached like the others; no row shows that.
 fn came(fitted: &FittedModel<'_>, response: usize) -> Vec<Option<(f64, f64)>> {
-    let Some((angle, starts)) = super::angles::runs_of_turns(fitted) else {
+    let Some((angle, runs)) = super::angles::runs_of_turns(fitted) else {
         return Vec::new();
     };
     let (x, t) = (fitted.numbers(angle), &fitted.clock.values);
     let size = size(fitted.signal(response));
     let mut came = vec![None; fitted.rows()];
-    for first in starts {
+    for first in runs.into_iter().map(|run| run.start) {
         let behind = 2.0 * x[first] - x[first + 1];
         let signal = fitted.signal_at(response, first, angle, behind);
         came[first] = Some((signal / size, t[first + 1] - t[first]));

@@ -125,13 +125,25 @@ pub fn late(t: &[f64], x: &[f64], came: &[Option<(f64, f64)>], tau: f64) -> Vec<
     Course::possible(x)[0].late(t, x, came, tau)
 }
 
+/// Rows in succession that belong together, each to the one before it; no more than so many.
+pub fn successive(
+    rows: usize,
+    most: usize,
+    together: impl Fn(usize, usize) -> bool,
+) -> Vec<Range<usize>> {
+    let mut found: Vec<Range<usize>> = Vec::new();
+    for row in 0..rows {
+        match found.last_mut() {
+            Some(own) if own.len() < most && together(row - 1, row) => own.end = row + 1,
+            _ => found.push(row..row + 1),
+        }
+    }
+    found
+}
+
 /// Rows between which the time does not go backwards: another recording begins where it does, with a history of its own.
 pub fn recordings(t: &[f64]) -> Vec<Range<usize>> {
-    let begins = (1..t.len()).filter(|row| t[*row] < t[*row - 1]);
-    let begins: Vec<usize> = std::iter::once(0).chain(begins).collect();
-    let ends = begins[1..].iter().copied().chain([t.len()]);
-    let both = begins.iter().zip(ends);
-    both.map(|(from, to)| *from..to).collect()
+    successive(t.len(), t.len(), |before, row| t[before] <= t[row])
 }
 
 /// The course a time `delay` earlier, along straight lines between the rows; where the recording had not

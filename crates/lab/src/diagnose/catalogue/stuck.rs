@@ -1,11 +1,13 @@
 //! Readings that stand still while the model moves on: a logger that repeats its last value, a frozen channel,
 //! a lock that was left on.
 
+use std::ops::Range;
+
 use nalgebra::DVector;
 
 use super::building::{added, plain};
 use super::fitted::FittedModel;
-use super::modifiers::{map2, range, spacing, typical_step};
+use super::modifiers::{map2, range, spacing, successive, typical_step};
 use super::{Cell, EffectId, Variation};
 use crate::diagnose::evidence;
 
@@ -30,38 +32,29 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Option<Cell> {
 
 fn of_response(fitted: &FittedModel<'_>, response: usize) -> Vec<Variation> {
     let observed = fitted.design.observed(response);
-    let mut found: Vec<(usize, usize)> = stretches(&observed)
-        .into_iter()
-        .filter(|(first, last)| moves_on(fitted, response, &observed, *first..*last))
-        .collect();
-    found.sort_by_key(|(first, last)| std::cmp::Reverse(last - first));
+    let mut found = stretches(&observed);
+    found.retain(|rows| moves_on(fitted, response, &observed, rows.clone()));
+    found.sort_by_key(|rows| std::cmp::Reverse(rows.len()));
     let held = found.into_iter().take(STRETCHES);
-    held.map(|(first, last)| {
-        let is_such = |row: usize| (first..last).contains(&row);
+    held.map(|rows| {
+        let is_such = |row: usize| rows.contains(&row);
         let model = beside(fitted, response, &observed, &is_such);
         let modifier = (0..observed.len()).map(|row| match is_such(row) {
-            true => observed[first] - model[row],
+            true => observed[rows.start] - model[row],
             false => 0.0,
         });
-        let label = fitted.design.called(first, last - 1);
+        let label = fitted.design.called(rows.start, rows.end - 1);
         let text = format!("(reading held in {label})");
         Variation::one(label, added(fitted, response, modifier.collect(), text))
     })
     .collect()
 }
 
-/// Stretches of equal readings, from the first row to the one behind the last.
-fn stretches(observed: &[f64]) -> Vec<(usize, usize)> {
-    let mut found = Vec::new();
-    let mut first = 0;
-    for row in 1..=observed.len() {
-        if observed.get(row) != Some(&observed[first]) {
-            if row - first >= ROWS {
-                found.push((first, row));
-            }
-            first = row;
-        }
-    }
+/// Stretches of equal readings.
+fn stretches(observed: &[f64]) -> Vec<Range<usize>> {
+    let rows = observed.len();
+    let mut found = successive(rows, rows, |before, row| observed[before] == observed[row]);
+    found.retain(|rows| rows.len() >= ROWS);
     found
 }
 
@@ -110,7 +103,7 @@ mod tests {
     #[test]
     fn a_stretch_is_five_equal_readings() {
         let readings = [1.0, 2.0, 2.0, 2.0, 2.0, 2.0, 3.0, 4.0, 4.0, 4.0, 4.0];
-        assert_eq!(stretches(&readings), [(1, 6)]);
-        assert_eq!(stretches(&[7.0; 6]), [(0, 6)]);
+        assert_eq!(stretches(&readings), [1..6]);
+        assert_eq!(stretches(&[7.0; 6]), [0..6]);
     }
 }

@@ -1,13 +1,16 @@
 //! Laws of time: drift, ageing, warm-up, season, steps.
 
+use std::ops::Range;
+
 use nalgebra::DVector;
 
+use super::angles::runs;
 use super::building::{form, on_node, on_output, timed, wave};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, five_digits, flag, grid, map, range};
 use super::sharp::{self, nearly_all, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variation};
-use crate::diagnose::case::Role;
+
 use gumption_core::quantity::Unit;
 
 /// More steps than that are not scanned.
@@ -105,24 +108,13 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
 /// The time since the start of each run, where the instrument was off before it for longer than it then was on; nothing where it was
 /// not, or where there is one run.
 fn started(fitted: &FittedModel<'_>) -> Option<Vec<f64>> {
-    let case = fitted.case();
-    let runs = case.with_role(Role::Run).next()?;
-    let labels = case.columns[runs].labels()?;
-    let t = &fitted.clock.values;
-    let mut since = Vec::with_capacity(t.len());
-    let (mut start, mut count) = (*t.first()?, 1);
-    for row in 0..t.len() {
-        if row > 0 && labels.of_row[row] != labels.of_row[row - 1] {
-            let (pause, on) = (t[row] - t[row - 1], t[row - 1] - start);
-            if pause <= on {
-                return None;
-            }
-            start = t[row];
-            count += 1;
-        }
-        since.push(t[row] - start);
-    }
-    (count > 1).then_some(since)
+    let (t, runs) = (&fitted.clock.values, runs(fitted));
+    let rested = |pair: &[Range<usize>]| {
+        let (start, last, next) = (t[pair[0].start], t[pair[0].end - 1], t[pair[1].start]);
+        next - last > last - start
+    };
+    let since = (runs.iter()).flat_map(|run| map(&t[run.clone()], |own| own - t[run.start]));
+    (runs.len() > 1 && runs.windows(2).all(rested)).then(|| since.collect())
 }
 
 /// A stretch of rows that alone is nearly all that is left.

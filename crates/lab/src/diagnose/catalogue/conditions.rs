@@ -3,9 +3,7 @@
 
 use super::building::{form, on_node, on_output, pair, time_constants, timed};
 use super::fitted::{FittedModel, Node, varies};
-use super::modifiers::{
-    centred, correlation, figure, five_digits, late, levels_of, map, map2, range,
-};
+use super::modifiers::{centred, correlation, five_digits, late, levels_of, map, map2, range};
 use super::sharp::sharpened;
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -136,15 +134,14 @@ fn stands_for_temperature(fitted: &FittedModel<'_>, column: usize) -> bool {
 fn squares(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     /// Through so many values a square with a line goes anyhow.
     const FEW: usize = 3;
-    let (x, label) = (fitted.numbers(column), fitted.label(column));
+    let x = fitted.numbers(column);
     let square = map(x, |x| x * x);
     if !varies(&square) {
         return Vec::new();
     }
     let mut variants = Vec::new();
     if correlation(&square, x).abs() <= 0.995 {
-        let own = Modifier::new(x.to_vec(), label, fitted.step_unit(column));
-        variants.push(form("square alone", vec![own.square()]));
+        variants.push(form("square alone", vec![fitted.own(column).square()]));
     }
     if levels_of(x).len() > FEW {
         let own = fitted.centred(column);
@@ -158,7 +155,6 @@ fn squares(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
 fn delayed(fitted: &FittedModel<'_>, column: usize, node: Node, own: &Modifier) -> Vec<Variation> {
     let mut variants = vec![form("", vec![own.clone()])];
     if fitted.is_timed() && !fitted.is_immediate(column) {
-        let unit = fitted.time_unit();
         let course = |tau: f64| late(&fitted.clock.values, &own.values, &[], tau);
         let term = |tau: f64| Term::new(node, Modifier::unnamed(course(tau)));
         let inner = own.text.strip_prefix('(');
@@ -166,7 +162,7 @@ fn delayed(fitted: &FittedModel<'_>, column: usize, node: Node, own: &Modifier) 
         let inner = inner.unwrap_or(&own.text);
         let scales = sharpened(fitted, time_constants(fitted), &term);
         variants.extend(fitted.finer.times(scales).into_iter().map(|tau| {
-            let text = format!("lag({inner}, {} {unit})", figure(tau));
+            let text = format!("lag({inner}, {})", fitted.duration(tau));
             let modifier = Modifier::new(course(tau), text, own.unit.clone());
             timed(fitted, &[five_digits(tau)], vec![on_output(modifier)])
         }));

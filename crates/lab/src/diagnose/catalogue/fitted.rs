@@ -2,7 +2,9 @@
 
 use nalgebra::DVector;
 
-use super::modifiers::{centred, correlation, crosses_zero, largest, map2, middle, range, rate};
+use super::modifiers::{
+    centred, correlation, crosses_zero, figure, largest, map, map2, middle, range, rate,
+};
 use super::{Finer, Modifier, Term};
 use crate::diagnose::case::{Case, Observed, Role};
 use crate::diagnose::design::{Clock, Design};
@@ -231,6 +233,11 @@ impl<'f> FittedModel<'f> {
         (self.clock.column).map_or_else(|| "row".to_owned(), |column| self.unit(column))
     }
 
+    /// A time as formulas and labels show it.
+    pub fn duration(&self, time: f64) -> String {
+        format!("{} {}", figure(time), self.time_unit())
+    }
+
     /// What the time is called: its column, or the row.
     pub fn along_time(&self) -> String {
         (self.clock.column)
@@ -276,14 +283,20 @@ impl<'f> FittedModel<'f> {
         }
     }
 
-    /// What a column follows less its middle.
+    /// What follows a column by a law, in its unit.
+    pub fn by(&self, column: usize, text: impl Into<String>, law: impl Fn(f64) -> f64) -> Modifier {
+        Modifier::new(map(self.numbers(column), law), text, self.step_unit(column))
+    }
+
+    /// A column as it is.
+    pub fn own(&self, column: usize) -> Modifier {
+        self.by(column, self.label(column), |x| x)
+    }
+
+    /// A column less its middle.
     pub fn centred(&self, column: usize) -> Modifier {
-        let x = self.numbers(column);
-        Modifier::new(
-            centred(x),
-            self.less(column, middle(x)),
-            self.step_unit(column),
-        )
+        let middle = middle(self.numbers(column));
+        self.by(column, self.less(column, middle), |x| x - middle)
     }
 
     /// The time less its middle.

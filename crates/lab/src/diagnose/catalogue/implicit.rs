@@ -24,9 +24,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
     cells.push(cell(EffectId::CrossAxis, singles_and_all(pairs)));
     let own = used.iter().map(|column| {
         let label = fitted.label(*column).to_owned();
-        let x = fitted.numbers(*column).to_vec();
-        let own = Modifier::new(x, &label, fitted.step_unit(*column));
-        (label, term(*column, own))
+        (label, term(*column, fitted.own(*column)))
     });
     let mut scales = cell(EffectId::AxisScale, singles_and_all(own.collect()));
     let absorbed = Absorbed::by_parameters(fitted);

@@ -11,8 +11,8 @@ use super::fitted::{FittedModel, Node, varies};
 use super::generics::over_signals;
 use super::history::comes_back;
 use super::modifiers::{
-    correlation, creeps, crosses_zero, figure, five_digits, largest, late, map, map2, mean_of,
-    play_from, range, rate, recordings,
+    correlation, creeps, crosses_zero, five_digits, largest, late, map, map2, mean_of, play_from,
+    range, rate, recordings,
 };
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -327,15 +327,14 @@ fn memory(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
         return cells;
     }
     let t = fitted.clock.values.clone();
-    let unit = fitted.time_unit();
     let scales = time_constants(fitted);
     let lacks = |input: &Input, tau: f64| {
         let own = &input.own;
         let modifier = map2(&late(&t, own, &input.came, tau), own, |late, now| {
             late - now
         });
-        let (own, shown) = (&input.text, figure(tau));
-        Modifier::number(modifier, format!("(lag({own}, {shown} {unit}) - {own})"))
+        let (own, shown) = (&input.text, fitted.duration(tau));
+        Modifier::number(modifier, format!("(lag({own}, {shown}) - {own})"))
     };
     let lacks = &lacks;
     let singles = fitted.finer.times(scales.clone());

@@ -6,7 +6,7 @@ use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{figure, figure_to, five_digits, largest, levels_of, map, range, rounded};
 use super::sharp::sharpened;
 use super::stuck::{beside, moves_on};
-use super::{Cell, EffectId, Modifier, Term, Variation};
+use super::{Cell, EffectId, Modifier, Variation};
 use crate::diagnose::case::Response;
 
 /// Rounding of knees in formulas, as a share of the range: whoever writes the formula into a model has the
@@ -157,14 +157,14 @@ fn dead_band(fitted: &FittedModel<'_>, column: usize) -> Cell {
 
 /// Both ends bend alike.
 fn soft_limit(fitted: &FittedModel<'_>, column: usize) -> Cell {
-    let (x, name) = (fitted.numbers(column), fitted.label(column));
+    let name = fitted.label(column);
     let unit = fitted.unit(column);
-    let most = largest(x);
+    let most = largest(fitted.numbers(column));
     let beyond = |limit: f64| {
-        let modifier = map(x, |x| -(x.abs() - limit).max(0.0) * x.signum());
         let shown = fitted.figure(column, rounded(limit, KNEE * most));
         let text = format!("-sign({name})*max(abs({name}) - {shown}, 0)");
-        on_output(Modifier::new(modifier, text, fitted.step_unit(column)))
+        let beyond = |x: f64| -(x.abs() - limit).max(0.0) * x.signum();
+        on_output(fitted.by(column, text, beyond))
     };
     let limits = [0.5, 0.6, 0.7, 0.8, 0.9].map(|share| share * most);
     let limits = sharpened(fitted, limits.into(), &beyond);
@@ -189,11 +189,9 @@ fn kink(fitted: &FittedModel<'_>, column: usize) -> Cell {
     let ends = [values[1], values[values.len() - 2]];
     let knees = fitted.finer.levels(parts.chain(ends).collect());
     let variants = knees.into_iter().map(|at| {
-        let modifier = map(x, |x| (x - at).max(0.0));
         let shown = figure_to(at, LABEL * (most - least));
         let beyond = fitted.beyond(column, rounded(at, KNEE * (most - least)));
-        let text = format!("max({beyond}, 0)");
-        let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
+        let modifier = fitted.by(column, format!("max({beyond}, 0)"), |x| (x - at).max(0.0));
         Variation::one(format!("at {shown} {unit}"), on_output(modifier)).shaped("x₀", at, &unit)
     });
     let (id, name) = (EffectId::Kink, fitted.label(column));
@@ -237,17 +235,15 @@ fn at_end(
     let away = (outside - inside).signum();
     let knees = (1..=KNEES).map(|step| {
         let knee = inside + (outside - inside) * step as f64 / KNEES as f64;
-        let modifier = map(x, |x| -(away * (x - knee)).max(0.0));
         let shown = figure_to(knee, LABEL * (most - least));
         let at = rounded(knee, KNEE * (most - least));
         let text = match side {
             "above" => format!("-max({}, 0)", fitted.beyond(column, at)),
             _ => format!("-max({} - {name}, 0)", fitted.figure(column, at)),
         };
-        let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
-        let term: Term = on_output(modifier);
+        let missing = fitted.by(column, text, |x| -(away * (x - knee)).max(0.0));
         let label = format!("{side} {shown} {unit}");
-        let mut form = Variation::one(label, term).shaped("x₀", knee, &unit);
+        let mut form = Variation::one(label, on_output(missing)).shaped("x₀", knee, &unit);
         if let responses @ [_, _, ..] = &fitted.case().responses[..] {
             form.label = scoped_label(&responses[response].name, &form);
             form.terms[0].response = Some(response);

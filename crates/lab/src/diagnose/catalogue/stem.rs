@@ -1,9 +1,9 @@
 //! Loss along the stem of a probe, which dies away with the depth of immersion.
 
-use super::building::{form, on_node};
+use super::building::{decay, form, on_node};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, five_digits, levels_of, map, range};
-use super::{Cell, EffectId, Modifier};
+use super::{Cell, EffectId};
 
 /// Cells of columns that may be depths.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
@@ -20,16 +20,14 @@ fn stem(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     }
     let name = fitted.label(column);
     let unit = fitted.unit(column);
+    let (along, began) = (map(x, |x| x - least), fitted.less(column, least));
     let forms = [0.1, 0.2, 0.4, 0.8].map(|part| {
         let depth = five_digits(part * (most - least));
-        let modifier = map(x, |x| libm::exp(-(x - least) / depth));
-        let text = format!(
-            "exp(-{}/({}))",
-            fitted.less(column, least),
-            fitted.figure(column, depth)
-        );
         let label = format!("over {} {unit}", figure(depth));
-        form(label, vec![Modifier::number(modifier, text)])
+        form(
+            label,
+            vec![decay(&along, &began, depth, &fitted.figure(column, depth))],
+        )
     });
     let id = EffectId::Immersion;
     Some(on_node(fitted, id, name, Node::Gain, forms))

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::DVector;
 
 use super::angles::runs;
-use super::building::{form, on_node, on_output, timed, wave};
+use super::building::{decay, form, on_node, on_output, timed, wave};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, five_digits, flag, grid, map, range};
 use super::sharp::{self, nearly_all, sharpened};
@@ -53,35 +53,27 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let steps = steps(fitted, &along);
     add(&[EffectId::Step, EffectId::StepScale], steps);
     if fitted.is_timed() {
-        let unit = fitted.time_unit();
-        let decay = |tau: f64| {
-            let modifier = map(&since, |t| libm::exp(-t / tau));
-            let text = format!("exp(-{began}/({} {unit}))", figure(tau));
-            on_output(Modifier::number(modifier, text))
+        let dying = |since: &[f64], began: &str, tau: f64| {
+            on_output(decay(since, began, tau, &fitted.duration(tau)))
         };
-        let scales = sharpened(fitted, scales, &decay);
+        let once = |tau: f64| dying(&since, &began, tau);
+        let scales = sharpened(fitted, scales, &once);
         let singles = fitted.finer.times(scales.clone());
         let single = singles
             .iter()
-            .map(|tau| timed(fitted, &[five_digits(*tau)], vec![decay(*tau)]));
+            .map(|tau| timed(fitted, &[five_digits(*tau)], vec![once(*tau)]));
         // A small body warms in a large one.
         let double = scales.iter().step_by(2).map(|tau| {
-            let terms = vec![decay(*tau), decay(4.0 * tau)];
+            let terms = vec![once(*tau), once(4.0 * tau)];
             timed(fitted, &[*tau, 4.0 * tau], terms)
         });
         let since_start = started(fitted);
         let anew = since_start.iter().flat_map(|since| {
-            let unit = &unit;
-            scales.iter().map(move |tau| {
-                let shown = figure(*tau);
-                let modifier = map(since, |t| libm::exp(-t / tau));
-                let text = format!("exp(-(time since the start of the run)/({shown} {unit}))");
-                let label = format!("τ = {shown} {unit}, anew in each run");
-                form(label, vec![Modifier::number(modifier, text)]).shaped(
-                    "τ",
-                    five_digits(*tau),
-                    unit,
-                )
+            scales.iter().map(|tau| {
+                let term = dying(since, "(time since the start of the run)", *tau);
+                let mut form = timed(fitted, &[five_digits(*tau)], vec![term]);
+                form.label += ", anew in each run";
+                form
             })
         });
         let decays = single.chain(double).chain(anew).collect();
@@ -156,15 +148,14 @@ fn stretch(fitted: &FittedModel<'_>, along: &str, node: Node, id: EffectId) -> O
 /// Drifts that are not steady: bent, and slowing down with the logarithm of time, as where many processes
 /// relax, or with its root, as where something diffuses.
 fn curved(fitted: &FittedModel<'_>, since: &[f64], began: &str, scales: &[f64]) -> Vec<Variation> {
-    let unit = fitted.time_unit();
     let logarithms = scales.iter().map(|scale| {
-        let shown = figure(*scale);
+        let shown = fitted.duration(*scale);
         let slowing = Modifier::number(
             map(since, |t| libm::log1p(t / scale)),
-            format!("ln(1 + {began}/({shown} {unit}))"),
+            format!("ln(1 + {began}/({shown}))"),
         );
-        let label = format!("slowing down, t₀ = {shown} {unit}");
-        form(label, vec![slowing]).shaped("t₀", five_digits(*scale), &unit)
+        let form = form(format!("slowing down, t₀ = {shown}"), vec![slowing]);
+        form.shaped("t₀", five_digits(*scale), &fitted.time_unit())
     });
     let per_root = fitted.clock_unit().powr(1, 2).unwrap_or_else(Unit::one);
     let root = Modifier::new(map(since, libm::sqrt), format!("sqrt({began})"), per_root);

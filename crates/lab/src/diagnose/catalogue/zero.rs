@@ -21,13 +21,11 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         // A direction or a switch by which the model multiplies has no scale to be wrong.
         let has_scale = !data.unit.is_one() || fitted.is_direct(column);
         let exact = exact && has_scale;
-        let Some(numbers) = data.numbers().filter(|_| exact && fitted.in_model(column)) else {
-            continue;
-        };
-        let node = Node::Column(column);
-        let own = Modifier::new(numbers.to_vec(), &data.name, fitted.step_unit(column));
-        cells.push(cell(fitted, EffectId::ZeroOf, node, shift()));
-        cells.push(cell(fitted, EffectId::FactorOf, node, own));
+        if exact && fitted.in_model(column) && data.numbers().is_some() {
+            let node = Node::Column(column);
+            cells.push(cell(fitted, EffectId::ZeroOf, node, shift()));
+            cells.push(cell(fitted, EffectId::FactorOf, node, fitted.own(column)));
+        }
     }
     let absorbed = Absorbed::by_parameters(fitted);
     let shows = |variation: &Variation| absorbed.leaves_of(fitted, variation).contains(&true);

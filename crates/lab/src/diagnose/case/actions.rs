@@ -33,9 +33,8 @@ impl Checker<'_> {
         let table = &stated.value;
         let cost = table.cost.as_ref();
         if let Some(cost) = cost.filter(|cost| cost.value.is_nan() || cost.value <= 0.0) {
-            let fault = Fault::new(SETTING, cost.span.clone(), say!("a cost is positive"));
-            self.faults
-                .push(fault.label(say!("expected a positive number")));
+            let expected = say!("expected a positive number");
+            self.wrong(SETTING, &cost.span, say!("a cost is positive"), expected);
         }
         let again = table.again.is_some() || table.order.is_some();
         let (Some(name), true) = (&table.name, table.rows.is_some() != again) else {
@@ -85,9 +84,8 @@ impl Checker<'_> {
             let cells = &list.value.0;
             if cells.len() != 1 && cells.len() != count {
                 let message = say!("{name} has {} values, others {count}", cells.len());
-                let fault = Fault::new(ROWS, list.span.clone(), message);
-                self.faults
-                    .push(fault.label(say!("expected one value, or as many as the others")));
+                let expected = say!("expected one value, or as many as the others");
+                self.wrong(ROWS, &list.span, message, expected);
                 continue;
             }
             let cells = (0..count).map(|row| &cells[row.min(cells.len() - 1)]);
@@ -99,9 +97,8 @@ impl Checker<'_> {
                 Some(own) => data.push(own),
                 None if self.faults.len() == before => {
                     let message = say!("the rows do not say what {} is", column.name);
-                    let fault = Fault::new(ROWS, entry.span.clone(), message);
-                    self.faults
-                        .push(fault.label(say!("{} is missing", column.name)));
+                    let missing = say!("{} is missing", column.name);
+                    self.wrong(ROWS, &entry.span, message, missing);
                 }
                 None => {}
             }
@@ -170,9 +167,8 @@ impl Checker<'_> {
         for cell in cells {
             let Cell::Number(number) = cell.value else {
                 let message = say!("{} holds numbers", column.name);
-                let fault = Fault::new(ROWS, cell.span.clone(), message);
-                self.faults
-                    .push(fault.label(say!("expected a number in {}", column.unit.symbol)));
+                let expected = say!("expected a number in {}", column.unit.symbol);
+                self.wrong(ROWS, &cell.span, message, expected);
                 return None;
             };
             numbers.push(number);

@@ -183,8 +183,7 @@ impl Checker<'_> {
         let Some(path) = &stated.value.file else {
             if !stated.value.refused {
                 let message = say!("[held_out] has no `file`");
-                let fault = Fault::new(MISSING, stated.span.clone(), message);
-                self.faults.push(fault.label(say!("`file` is missing")));
+                self.wrong(MISSING, &stated.span, message, say!("`file` is missing"));
             }
             return None;
         };

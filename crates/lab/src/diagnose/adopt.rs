@@ -182,18 +182,12 @@ pub fn start(fitted: &FittedModel<'_>, design: &Design<'_>, effects: &[Free]) ->
 }
 
 fn free(case: &Case, stem: &str, number: usize) -> String {
-    let headers = case
-        .columns
-        .iter()
-        .flat_map(|column| [&column.name, &column.header]);
-    let known = case
-        .parameters
-        .iter()
-        .map(|parameter| &parameter.name)
-        .chain(headers);
-    let known: Vec<&String> = known.collect();
+    let is_known = |name: &String| {
+        let column = |column: &Column| [&column.name, &column.header].contains(&name);
+        case.parameters.iter().any(|own| own.name == *name) || case.columns.iter().any(column)
+    };
     let mut name = format!("{stem}_{number}");
-    while known.contains(&&name) {
+    while is_known(&name) {
         name.push('_');
     }
     name

@@ -49,7 +49,6 @@ pub(super) fn adopt_named(
     for (estimated, addition) in coefficients.iter_mut().zip(&extended.additions) {
         let (atom, coefficient) = (atoms[addition.effect], addition.coefficient);
         restate(examination, atom, coefficient, estimated);
-        widen(estimated, atom, coefficient, examination);
     }
     drop(design);
     Ok(Some(Adopted {
@@ -96,19 +95,15 @@ impl Adopted {
     }
 }
 
-/// Whether an alternative is what stands for an atom.
-fn is_of(alternative: &Alternative, atom: usize) -> bool {
-    alternative
-        .variants
-        .first()
-        .is_some_and(|one| one.atom == atom)
-}
-
-/// The size of an effect is that of the adopted model, wherever it is stated.
-fn restate(examination: &mut Examination, atom: usize, coefficient: usize, fitted: &Estimated) {
-    let firsts = (examination.slots.iter_mut()).filter_map(|slot| slot.named.first_mut());
-    let is_it = |first: &&mut Alternative| is_of(first, atom) && first.estimate.len() > coefficient;
-    for first in firsts.filter(is_it) {
+/// The size of an effect is that of the adopted model, wherever it is stated. Its uncertainty has what the fit does not know
+/// beside it: that other effects may have other explanations, and that weak ones are found where they come out large.
+fn restate(examination: &mut Examination, atom: usize, coefficient: usize, fitted: &mut Estimated) {
+    let is_it = |one: &&mut Alternative| one.variants.first().is_some_and(|v| v.atom == atom);
+    let mut firsts = (examination.slots.iter_mut()).filter_map(|slot| slot.named.first_mut());
+    let Some(first) = firsts.find(is_it) else {
+        return;
+    };
+    if first.estimate.len() > coefficient {
         let factor = fitted.u / first.covariance[(coefficient, coefficient)].sqrt();
         if factor.is_finite() && factor > 0.0 {
             first.estimate[coefficient] = fitted.value;
@@ -117,15 +112,7 @@ fn restate(examination: &mut Examination, atom: usize, coefficient: usize, fitte
             first.covariance.column_mut(coefficient).scale_mut(factor);
         }
     }
-}
-
-/// Adds to the uncertainty of a fitted coefficient of an atom what the fit does not know: that other effects
-/// may have other explanations, and that weak ones are found where they come out large.
-fn widen(estimated: &mut Estimated, atom: usize, coefficient: usize, examination: &Examination) {
-    let mut firsts = (examination.slots.iter()).filter_map(|slot| slot.named.first());
-    if let Some(found) = firsts.find(|first| is_of(first, atom)) {
-        let choice = found.choice.get(coefficient).copied();
-        let choice = choice.filter(|choice| choice.is_finite()).unwrap_or(0.0);
-        estimated.u = found.widened(estimated.u, choice);
-    }
+    let choice = first.choice.get(coefficient).copied();
+    let choice = choice.filter(|choice| choice.is_finite()).unwrap_or(0.0);
+    fitted.u = first.widened(fitted.u, choice);
 }

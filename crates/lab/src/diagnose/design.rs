@@ -187,6 +187,12 @@ impl<'c> Design<'c> {
         DVector::from_vec(values.collect())
     }
 
+    /// What is stated of the unknowns, and another value for those of which nothing is.
+    pub fn stated_or(&self, value: f64) -> DVector<f64> {
+        let stated = (self.unknowns.iter()).map(|unknown| unknown.stated().unwrap_or(value));
+        DVector::from_vec(stated.collect())
+    }
+
     /// Number of unknowns of which something is known beforehand.
     pub fn priors(&self) -> usize {
         self.unknowns

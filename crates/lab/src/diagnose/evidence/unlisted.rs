@@ -104,36 +104,23 @@ fn condensed(directions: &DMatrix<f64>, weights: &DVector<f64>) -> DMatrix<f64> 
     basis * half
 }
 
-/// A named set against the competitor with the best part of the set: by how much the set is better, as the logarithm of the
-/// odds without prior odds of the competitor; nothing where nothing competes.
-pub(super) struct Rivalry(Option<f64>);
-
-impl Rivalry {
-    pub(super) fn new(space: &Space, named: &[usize], competitor: &Unlisted) -> Rivalry {
-        let Some(whole) = space.frame(named) else {
-            return Rivalry(None);
-        };
-        let own = space.score(&whole);
-        let count = named.len();
-        let rivals = (0..(1_usize << count) - 1).filter_map(|subset| {
-            let part = (0..count).filter(|i| subset & (1 << i) != 0);
-            let part: Vec<usize> = part.map(|i| named[i]).collect();
-            let frame = space.frame(&part)?;
-            let (ladder, basis) = competitor.beside(&frame)?;
-            let components = basis.tr_mul(&space.z);
-            Some(
-                space.score(&frame) + evidence(&ladder, components.iter(), &space.residual(&frame)),
-            )
-        });
-        Rivalry(rivals.max_by(f64::total_cmp).map(|score| own - score))
-    }
-
-    /// Whether a set of so many effects stands. Several effects have to be better than one that is not
-    /// listed; a single one that is worse would not have passed the gate as complete, and where it is one of
-    /// a list, the list and not the set would have to be compared.
-    pub(super) fn stands(&self, effects: usize) -> bool {
-        effects < 2 || self.0.is_none_or(|margin| margin >= 0.0)
-    }
+/// Whether a named set is as good as the competitor with the best part of the set, without prior odds of the competitor. Several
+/// effects have to be; a single one that is worse would not have passed the gate as complete, and where it is one of a list,
+/// the list and not the set would have to be compared.
+pub(super) fn stands(space: &Space, named: &[usize], competitor: &Unlisted) -> bool {
+    let Some(whole) = space.frame(named).filter(|_| named.len() > 1) else {
+        return true;
+    };
+    let is_as_good = |subset: usize| {
+        let part = (0..named.len()).filter(|at| subset & (1 << at) != 0);
+        let frame = space.frame(&part.map(|at| named[at]).collect::<Vec<_>>())?;
+        let (ladder, basis) = competitor.beside(&frame)?;
+        let components = basis.tr_mul(&space.z);
+        let more = evidence(&ladder, components.iter(), &space.residual(&frame));
+        Some(space.score(&whole) >= space.score(&frame) + more)
+    };
+    let mut parts = 0..(1_usize << named.len()) - 1;
+    parts.all(|subset| is_as_good(subset).unwrap_or(true))
 }
 
 /// Probability that as much is left beside a set as there is, if the set is all there is: of the

@@ -216,7 +216,7 @@ fn prospects(
         let Some((seen, detectable)) = own.get(own.len().saturating_sub(1) / 2) else {
             continue;
         };
-        let pair = found.pairs.iter().find(|pair| pair.atom == seen.atom);
+        let pair = seen.rival.as_ref();
         let variation = candidates.places[seen.atom].1;
         let (form, unified) = (&of.variants[variation], &unified[seen.atom]);
         prospects.push(Prospect {

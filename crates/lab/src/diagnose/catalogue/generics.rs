@@ -159,16 +159,18 @@ pub(super) fn over_signals(
         let on = |response: usize| {
             move |(wave, variance): &Feature| (on_output(wave.clone()).on(response), *variance)
         };
-        let features = of
-            .iter()
-            .flat_map(|(response, waves)| waves.iter().map(on(*response)));
-        let (terms, spectrum) = features.unzip();
-        unnamed(label, terms, spectrum)
+        let waves = of.iter();
+        unnamed(
+            label,
+            waves.flat_map(|(response, waves)| waves.iter().map(on(*response))),
+        )
     };
     each.chain(several).map(variation).collect()
 }
 
-fn unnamed(label: &str, terms: Vec<Term>, spectrum: Vec<f64>) -> Variation {
+/// From terms and the variances of their coefficients.
+fn unnamed(label: &str, features: impl Iterator<Item = (Term, f64)>) -> Variation {
+    let (terms, spectrum) = features.unzip();
     Variation {
         spectrum: Some(spectrum),
         ..Variation::of(label, terms)
@@ -183,11 +185,9 @@ fn generic(
     along: &str,
     forms: &[&[Feature]],
 ) -> Cell {
-    let form = |features: &&[Feature]| {
-        let (terms, spectrum) = (features.iter())
-            .map(|(modifier, variance)| (on_output(modifier.clone()), *variance))
-            .unzip();
-        unnamed("", terms, spectrum)
-    };
-    on_node(fitted, id, along, node, forms.iter().map(form))
+    let term = |(modifier, variance): &Feature| (on_output(modifier.clone()), *variance);
+    let forms = forms
+        .iter()
+        .map(|features| unnamed("", features.iter().map(term)));
+    on_node(fitted, id, along, node, forms)
 }

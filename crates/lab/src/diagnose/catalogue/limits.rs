@@ -121,20 +121,18 @@ fn ceiling(
             .trim_end()
             .to_owned()
     };
-    let [mut text, mut label] = [name.clone(), String::new()];
+    let (mut text, mut labels) = (name.clone(), Vec::new());
     for Pile { sign, level, .. } in piles {
         let shown = shown(*level);
-        let (least, end) = if *sign > 0.0 {
-            ("min", "above")
-        } else {
-            ("max", "below")
+        let [least, end] = match *sign > 0.0 {
+            true => ["min", "above"],
+            false => ["max", "below"],
         };
         text = format!("{least}({text}, {shown})");
-        let before = if label.is_empty() { "" } else { ", " };
-        label = format!("{label}{before}{end} {shown}");
+        labels.push(format!("{end} {shown}"));
     }
-    let text = format!("({text} - {name})");
-    Variation::one(label, added(fitted, response, modifier, text))
+    let term = added(fitted, response, modifier, format!("({text} - {name})"));
+    Variation::one(labels.join(", "), term)
 }
 
 /// A step at zero, and bands of several widths around it.
@@ -206,10 +204,10 @@ fn plateaus(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
     let mut variants = Vec::new();
     for response in 0..fitted.case().responses.len() {
-        variants.extend(at_end(fitted, column, response, &order, "above"));
-        order.reverse();
-        variants.extend(at_end(fitted, column, response, &order, "below"));
-        order.reverse();
+        for side in ["above", "below"] {
+            variants.extend(at_end(fitted, column, response, &order, side));
+            order.reverse();
+        }
     }
     variants
 }

@@ -158,8 +158,7 @@ pub(super) fn joined(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> 
 mod tests {
     use nalgebra::DVector;
 
-    use super::super::baseline::Prior;
-    use super::super::fixture::white;
+    use super::super::fixture::{beside, white};
     use super::*;
 
     #[test]
@@ -168,10 +167,7 @@ mod tests {
         let rounded = |row: usize, digits: f64| (libm::cos(angle(row)) * digits).round() / digits;
         let free = |digits: f64, columns: &DMatrix<f64>| {
             let jacobian = DMatrix::from_fn(20, 1, |row, _| rounded(row, digits));
-            let noise = white(20);
-            let baseline =
-                Baseline::new(&jacobian, &DVector::zeros(20), &noise, &Prior::none(1)).unwrap();
-            determined(&baseline, columns)
+            determined(&beside(&jacobian, &DVector::zeros(20), &white(20)), columns)
         };
         let both = DMatrix::from_fn(20, 2, |row, column| match column {
             0 => libm::cos(angle(row)),

@@ -59,13 +59,8 @@ const LEVELS: usize = 100;
 
 /// All further measurements of a case.
 pub fn extras(case: &Case) -> Vec<Extra> {
-    let own = case.actions.iter().map(|action| Extra {
-        measure: Measure::Own(action.name.clone()),
-        cost: action.cost,
-        rows: action.rows.clone(),
-    });
-    let mut extras: Vec<Extra> = own.collect();
-    let recorded = Rows::of(case);
+    let mut extras = case.actions.clone();
+    let recorded = Rows::of(&case.columns, case.rows);
     let again = |measure: Measure, cost: f64, reversed: bool| Extra {
         measure,
         cost,

@@ -1,7 +1,8 @@
 //! Further measurements that the user could make.
 
 use super::rows::{Complete, Rows, continued};
-use super::{Action, Column, Data};
+use super::{Column, Data};
+use crate::diagnose::extra::{Extra, Measure};
 use crate::diagnose::faults::{MISSING, ROWS, SETTING};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RowsEntry;
@@ -18,7 +19,7 @@ impl Checker<'_> {
         file: &ExperimentTable,
         columns: &[Column],
         rows: usize,
-    ) -> Vec<Action> {
+    ) -> Vec<Extra> {
         let list = file.action.iter().flat_map(|list| &list.value.0);
         list.filter_map(|stated| self.action(stated, columns, rows))
             .collect()
@@ -29,7 +30,7 @@ impl Checker<'_> {
         stated: &Stated<ActionTable>,
         columns: &[Column],
         rows: usize,
-    ) -> Option<Action> {
+    ) -> Option<Extra> {
         let table = &stated.value;
         let cost = table.cost.as_ref();
         if let Some(cost) = cost.filter(|cost| cost.value.is_nan() || cost.value <= 0.0) {
@@ -59,8 +60,8 @@ impl Checker<'_> {
             },
             None => self.again(table, columns, rows)?,
         };
-        Some(Action {
-            name: name.value.clone(),
+        Some(Extra {
+            measure: Measure::Own(name.value.clone()),
             cost: cost.map_or(1.0, |cost| cost.value),
             rows,
         })
@@ -109,10 +110,7 @@ impl Checker<'_> {
     /// The rows of the recording once more.
     fn again(&mut self, table: &ActionTable, columns: &[Column], count: usize) -> Option<Rows> {
         let before = self.faults.len();
-        let recorded = Rows {
-            count,
-            data: columns.iter().map(|c| c.data.clone()).collect(),
-        };
+        let recorded = Rows::of(columns, count);
         let order = table.order.as_ref().map(|order| order.value);
         let reversed = order == Some(OrderWord::Reversed);
         let mut rows = repeated(&recorded, columns, reversed);

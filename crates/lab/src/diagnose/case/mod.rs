@@ -3,7 +3,7 @@
 mod actions;
 mod candidates;
 mod check;
-mod checker;
+
 mod columns;
 mod declared;
 mod disused;
@@ -14,6 +14,7 @@ mod settings;
 
 use std::path::{Path, PathBuf};
 
+use super::extra::Extra;
 use crate::recording::Labels;
 use gumption_core::equations::Equations;
 use gumption_core::model::Symbol;
@@ -67,7 +68,7 @@ pub struct Case {
     /// The user's own explanations.
     pub candidates: Vec<UserCandidate>,
     /// Further measurements that could be made.
-    pub actions: Vec<Action>,
+    pub actions: Vec<Extra>,
     /// A recording that the fit does not see, and that it is to predict.
     pub held_out: Option<HeldOut>,
     /// How rows are averaged.
@@ -209,17 +210,6 @@ pub struct UserCandidate {
     pub typical: Option<f64>,
     /// A sentence that explains it.
     pub description: Option<String>,
-}
-
-/// A further measurement that could be made.
-#[derive(Debug, Clone)]
-pub struct Action {
-    /// Its name.
-    pub name: String,
-    /// Effort.
-    pub cost: f64,
-    /// The rows that would be recorded.
-    pub rows: Rows,
 }
 
 /// A recording of the same columns that is to be predicted.

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::{Case, Column, Data, HeldOut};
+use crate::diagnose::catalogue::modifiers::{mean, usual};
 use crate::diagnose::faults::{MISSING, ROWS};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
@@ -23,11 +24,11 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// The rows of the recording of a case.
-    pub fn of(case: &Case) -> Rows {
+    /// So many rows of columns.
+    pub fn of(columns: &[Column], count: usize) -> Rows {
         Rows {
-            count: case.rows,
-            data: case.columns.iter().map(|c| c.data.clone()).collect(),
+            count,
+            data: columns.iter().map(|column| column.data.clone()).collect(),
         }
     }
 
@@ -147,10 +148,7 @@ pub(super) fn continued(column: &Column, count: usize) -> Option<Data> {
                 let at = |row: usize| last + step * (row + 1) as f64;
                 Some(Data::Numbers((0..count).map(at).collect()))
             }
-            _ => {
-                let mean = numbers.iter().sum::<f64>() / numbers.len().max(1) as f64;
-                Some(Data::Numbers(vec![mean; count]))
-            }
+            _ => Some(Data::Numbers(vec![mean(numbers); count])),
         },
     }
 }
@@ -158,9 +156,7 @@ pub(super) fn continued(column: &Column, count: usize) -> Option<Data> {
 /// The usual distance of successive rows in time.
 pub(in crate::diagnose) fn interval(times: &[f64]) -> f64 {
     let steps = times.windows(2).map(|pair| pair[1] - pair[0]);
-    let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
-    steps.sort_by(f64::total_cmp);
-    steps.get(steps.len() / 2).copied().unwrap_or(1.0)
+    usual(steps).unwrap_or(1.0)
 }
 
 /// What a file of rows must hold.

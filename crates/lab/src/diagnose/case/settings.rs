@@ -1,6 +1,6 @@
 //! How rows are averaged, and how the diagnosis is run.
 
-use super::checker::nearly;
+use super::columns::nearly;
 use super::rows::interval;
 use super::{Averaging, Blocks, Column, Role, Settings};
 use crate::diagnose::catalogue::effects;

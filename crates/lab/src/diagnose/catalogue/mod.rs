@@ -15,8 +15,7 @@
 //! | `fitted` | the fitted model: slopes of the nodes, and which columns can be what |
 //! | `response`, `powers`, `limits`, `history` | what a stimulus does otherwise than declared |
 //! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
-//! | `implicit` | the same where the model holds a constant against several columns |
-//! | `cross` | what an output takes of the stimuli of others |
+//! | `axes` | the same where the model holds a constant against several columns, and between outputs |
 //! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
 //! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
 //! | `heating`, `stem`, `waves` | power of the signal, loss along a stem, what repeats |
@@ -27,9 +26,9 @@
 
 mod absorbed;
 mod angles;
+mod axes;
 mod building;
 mod conditions;
-mod cross;
 mod effect;
 mod fields;
 mod finer;
@@ -37,7 +36,7 @@ mod fitted;
 pub(super) mod generics;
 mod heating;
 mod history;
-mod implicit;
+
 mod inputs;
 mod levels;
 mod limits;
@@ -357,7 +356,7 @@ impl Variation {
 pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let mut cells = response::cells(fitted);
     cells.extend(inputs::cells(fitted));
-    cells.extend(cross::cells(fitted));
+    cells.extend(axes::crossed(fitted));
     cells.extend(fields::cells(fitted));
     cells.extend(conditions::cells(fitted));
     cells.extend(zero::cells(fitted));

@@ -268,12 +268,16 @@ pub fn range(x: &[f64]) -> (f64, f64) {
     (least, most)
 }
 
-/// The usual difference of successive values; 0 where nothing moves.
-pub fn typical_step(x: &[f64]) -> f64 {
-    let steps = x.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+/// The median of those steps that go on; nothing where none does.
+pub fn usual(steps: impl Iterator<Item = f64>) -> Option<f64> {
     let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
     steps.sort_by(f64::total_cmp);
-    steps.get(steps.len() / 2).copied().unwrap_or(0.0)
+    steps.get(steps.len() / 2).copied()
+}
+
+/// The usual difference of successive values; 0 where nothing moves.
+pub fn typical_step(x: &[f64]) -> f64 {
+    usual(x.windows(2).map(|pair| (pair[1] - pair[0]).abs())).unwrap_or(0.0)
 }
 
 /// The least distance of different values; infinite where all are the same.

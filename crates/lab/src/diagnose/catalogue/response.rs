@@ -19,7 +19,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     used.retain(|column| fitted.in_model(*column));
     let implicit = (0..fitted.case().responses.len()).all(|r| fitted.is_implicit(r));
     if implicit || Norm::of(fitted).is_some() {
-        return super::implicit::cells(fitted, &used);
+        return super::axes::cells(fitted, &used);
     }
     // A factor of a product is not what an axis takes in; it may act on the offset all the same.
     let (direct, factors): (Vec<usize>, Vec<usize>) =

@@ -158,22 +158,20 @@ fn probability(benches: &[Bench<'_>], observed: f64, settings: &Settings) -> f64
 
 /// A course with recordings to try it on.
 struct Bench<'s> {
-    course: &'s Course,
+    seen: &'s Seen<'s>,
     simulated: Simulated<'s>,
     panel: Panel<'s>,
-    space: &'s Space,
     singles: Singles,
 }
 
 impl<'s> Bench<'s> {
-    fn new(seen: &'s Seen<'_>) -> Bench<'s> {
+    fn new(seen: &'s Seen<'s>) -> Bench<'s> {
         let settings = &seen.question.settings;
         let draws = settings.draws.min(DRAWS);
         Bench {
-            course: seen.course,
+            seen,
             simulated: Simulated::new(seen.question.baseline, &seen.space, settings.seed, draws),
             panel: Panel::new(&seen.space, &seen.question, &seen.frame),
-            space: &seen.space,
             singles: Singles::new(&seen.space, &seen.question),
         }
     }
@@ -187,10 +185,11 @@ impl<'s> Bench<'s> {
         let rss: Vec<f64> = (sums.iter().zip(&recordings.offsets))
             .map(|(sum, offset)| sum + offset)
             .collect();
-        let pairs = (self.singles).in_turn(self.space, &recordings.components, &rss);
+        let pairs = (self.singles).in_turn(&self.seen.space, &recordings.components, &rss);
         let each = sums.iter().zip(gains).zip(pairs);
         let both = each.map(|((sum, [gain, _]), two)| {
-            let alone = self.course.log_prior + self.course.baseline.log_likelihood_of(*sum);
+            let course = self.seen.course;
+            let alone = course.log_prior + course.baseline.log_likelihood_of(*sum);
             [alone, alone + gain.max(two).max(0.0)]
         });
         both.collect()

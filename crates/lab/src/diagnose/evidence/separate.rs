@@ -223,11 +223,20 @@ mod tests {
 
     fn worth(mounts: &[f64], sizes: &[f64], probabilities: [f64; 2]) -> Worth {
         let before = held(&design(&mounts[..1]), sizes);
-        held(&design(mounts), sizes).worth(&Prospects {
-            before: &before,
-            probabilities: &probabilities,
-            classes: &[0, 1],
-            outside: &[0.0, 0.0],
+        judged(
+            &held(&design(mounts), sizes),
+            &before,
+            &probabilities,
+            &[0, 1],
+        )
+    }
+
+    fn judged(after: &Separability, before: &Separability, p: &[f64], classes: &[usize]) -> Worth {
+        after.worth(&Prospects {
+            before,
+            probabilities: p,
+            classes,
+            outside: &vec![0.0; p.len()],
         })
     }
 
@@ -279,14 +288,8 @@ mod tests {
             let columns = [own.clone(), rival];
             let before = held(&columns, &[0.01 * size]);
             let apart = held(&columns, &[size]);
-            let outside = [0.0; 2];
-            let prospects = Prospects {
-                before: &before,
-                probabilities: &[0.5, 0.5],
-                classes: &[0, 1],
-                outside: &outside,
-            };
-            (apart.left[0][1][0], apart.worth(&prospects).resolved)
+            let worth = judged(&apart, &before, &[0.5, 0.5], &[0, 1]);
+            (apart.left[0][1][0], worth.resolved)
         };
         let (kappa, promised) = resolved(0.5, 15.0);
         assert!(kappa > 8.0 && promised > 0.99, "{kappa} {promised}");
@@ -312,15 +315,8 @@ mod tests {
         assert!(apart.alike(0, 1) && !apart.alike(0, 2));
         let [own, other] = design(&[0.0]);
         let before = held(&[own.clone(), -&own, other], &[4.0]);
-        let resolved = |classes: &[usize]| {
-            let prospects = Prospects {
-                before: &before,
-                probabilities: &[0.3, 0.3, 0.4],
-                classes,
-                outside: &[0.0; 3],
-            };
-            apart.worth(&prospects).resolved
-        };
+        let resolved =
+            |classes: &[usize]| judged(&apart, &before, &[0.3, 0.3, 0.4], classes).resolved;
         assert!(resolved(&[0, 1, 2]) < 0.5 && resolved(&[0, 0, 2]) > 0.9);
     }
 }

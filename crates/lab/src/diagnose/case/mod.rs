@@ -3,7 +3,6 @@
 mod actions;
 mod candidates;
 mod check;
-
 mod columns;
 mod declared;
 mod disused;

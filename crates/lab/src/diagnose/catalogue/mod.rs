@@ -36,7 +36,6 @@ mod fitted;
 pub(super) mod generics;
 mod heating;
 mod history;
-
 mod inputs;
 mod levels;
 mod limits;

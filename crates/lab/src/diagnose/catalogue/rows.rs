@@ -82,7 +82,6 @@ struct Deleted<'g, 'f> {
 impl<'g, 'f> Deleted<'g, 'f> {
     fn new(fitted: &'g FittedModel<'f>) -> Self {
         let absorbed = Absorbed::by_parameters(fitted);
-
         let residuals = fitted.fit.residuals.map(known);
         let rest = absorbed.rest(&residuals);
         Deleted {

@@ -10,7 +10,6 @@ use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, five_digits, flag, grid, map, range};
 use super::sharp::{self, nearly_all, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variation};
-
 use gumption_core::quantity::Unit;
 
 /// More steps than that are not scanned.

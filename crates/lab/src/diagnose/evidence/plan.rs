@@ -5,7 +5,6 @@ use nalgebra::DMatrix;
 use super::baseline::Baseline;
 use super::directions::{INVISIBLE, without};
 use super::question::{Atom, Candidate, Kind, Question, Settings, Shape};
-
 use super::space::{Block, Space};
 
 /// What an experiment of this design can see and tell apart. Sizes refer to the noise of the baseline.

@@ -103,7 +103,6 @@ pub struct Atom {
 pub struct Settings {
     /// Probability of an alarm on a recording that agrees with the model.
     pub alpha: f64,
-
     /// Seed of the simulated null distributions.
     pub seed: u64,
     /// Draws of each simulated null distribution.
@@ -118,7 +117,6 @@ impl Default for Settings {
     fn default() -> Settings {
         Settings {
             alpha: 0.01,
-
             seed: 1,
             draws: 4000,
             by_noise: 0.0,

@@ -45,7 +45,6 @@ impl std::fmt::Display for Refusal {
             Refusal::Variance { row } => write!(f, "the variance of row {row} is not positive"),
             Refusal::NotPositive => write!(f, "the covariance matrix is not positive definite"),
             Refusal::NotFinite { row } => write!(f, "row {row} has a value that is not finite"),
-
             Refusal::Cancelled => write!(f, "stopped"),
         }
     }

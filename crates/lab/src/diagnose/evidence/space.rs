@@ -113,7 +113,6 @@ impl Space {
             starts: vec![0],
             components: DVector::zeros(0),
         };
-
         // All columns at once: products with few columns spend their time on reading the whitener.
         let (seen, lengths) = baseline.visible(&all_columns(baseline.rows(), question.atoms));
         let mut start = 0;

@@ -4,10 +4,10 @@ use super::declared::Declared;
 use super::{Column, UserCandidate};
 use crate::diagnose::faults::{CANDIDATE, UNKNOWN_NAME};
 use crate::experiment::checker::Checker;
-use crate::experiment::symbols::quantity;
+use crate::experiment::symbols::{quantity, symbol};
 use crate::experiment::tables::{ExperimentTable, OmittedTable};
 use gumption_core::equations::{EquationText, Equations, Quantity};
-use gumption_core::model::{Role, Symbol, outline};
+use gumption_core::model::{Symbol, outline};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
@@ -183,11 +183,7 @@ fn unit_of(
     /// Its unit is one over that of what it multiplies.
     const SIZE: &str = "the_size";
     let symbols = symbols(columns, declared, Unit::difference);
-    let inputs = symbols.iter().enumerate().map(|(at, quantity)| Symbol {
-        name: quantity.name.clone(),
-        unit: quantity.unit.clone(),
-        role: Role::Input(at),
-    });
+    let inputs = symbols.iter().cloned().map(symbol);
     let known: Vec<Symbol> = constants.iter().cloned().chain(inputs).collect();
     let text = format!("{LEFT} = {SIZE} * ({})", formula.value);
     let size = outline(&text, &checker.units)

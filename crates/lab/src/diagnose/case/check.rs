@@ -7,6 +7,7 @@ use super::{Case, Column, Purpose, Settings, columns, disused, inputs};
 use crate::diagnose::faults::MISSING;
 use crate::experiment::checker::{Checker, made, opened};
 use crate::experiment::names::{Kind, Names};
+use crate::experiment::symbols::quantity;
 use crate::experiment::tables::ExperimentTable;
 use crate::experiment::{Purpose as Use, inferred, positions};
 use crate::recording::{Recording, Request};
@@ -175,11 +176,8 @@ fn quantities(columns: &[Column], names: &Names) -> Vec<Quantity> {
         column.labels().is_none() && names.kind(&column.name) == Some(Kind::Column)
     };
     let used = columns.iter().filter(is_named);
-    used.map(|column| Quantity {
-        name: column.name.clone(),
-        unit: column.unit.clone(),
-    })
-    .collect()
+    used.map(|column| quantity(&column.name, &column.unit))
+        .collect()
 }
 
 /// The equations, each behind the statements that all of them see.

@@ -1,7 +1,6 @@
 //! Errors of axes: in models that hold a constant against several columns, such as |a| = g for a triad at rest, and between outputs
 //! that have a stimulus each.
 
-use super::absorbed::Absorbed;
 use super::building::cell;
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{map, range, rounded};
@@ -29,11 +28,8 @@ pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
         (label, term(*column, fitted.own(*column)))
     });
     let mut scales = cell(EffectId::AxisScale, singles_and_all(own.collect()));
-    let absorbed = Absorbed::by_parameters(fitted);
-    (scales.variants).retain(|variation| {
-        let left = absorbed.leaves_of(fitted, variation);
-        left.into_iter().all(|some| some)
-    });
+    let leaves = |variation: &Variation| fitted.absorbed().leaves_of(fitted, variation);
+    (scales.variants).retain(|variation| !leaves(variation).contains(&false));
     cells.push(scales);
     type Law = fn(f64) -> f64;
     let laws: [(EffectId, [&str; 2], i32, Law); 3] = [

@@ -1,7 +1,10 @@
 //! Slopes of the nodes at the fitted model, and which columns can be what.
 
+use std::sync::OnceLock;
+
 use nalgebra::DVector;
 
+use super::absorbed::Absorbed;
 use super::modifiers::{
     centred, correlation, crosses_zero, figure, largest, map, map2, middle, range, rate,
 };
@@ -37,6 +40,7 @@ pub struct FittedModel<'f> {
     pub finer: Finer,
     /// What the model gives besides constant terms, for each response and row.
     signal: Vec<Vec<f64>>,
+    absorbed: OnceLock<Absorbed>,
 }
 
 impl<'f> FittedModel<'f> {
@@ -51,6 +55,7 @@ impl<'f> FittedModel<'f> {
             signal: responses
                 .map(|response| signal(design, fit, response))
                 .collect(),
+            absorbed: OnceLock::new(),
         }
     }
 
@@ -58,6 +63,11 @@ impl<'f> FittedModel<'f> {
     #[must_use]
     pub fn refined(self, finer: Finer) -> FittedModel<'f> {
         FittedModel { finer, ..self }
+    }
+
+    /// What its parameters take away.
+    pub(super) fn absorbed(&self) -> &Absorbed {
+        (self.absorbed).get_or_init(|| Absorbed::by_parameters(self.fit))
     }
 
     /// The case.

@@ -1,7 +1,6 @@
 //! Squares and cubes of what the model takes in, about the zero that the declared model has for it: so its
 //! offset, its slope and its further coefficients keep their meaning beside the new term.
 
-use super::absorbed::Absorbed;
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
     crosses_zero, largest, line_through, map, map2, mean, middle, range, rounded,
@@ -86,11 +85,10 @@ fn absorbs_all(fitted: &FittedModel<'_>, powers: &[Modifier]) -> bool {
     if case.parameters.iter().any(|p| p.prior.is_some()) {
         return false;
     }
-    let absorbed = Absorbed::by_parameters(fitted);
     (0..case.responses.len()).all(|response| {
         powers.iter().all(|power| {
             let term = Term::new(Node::Output, power.clone()).on(response);
-            !absorbed.leaves(&fitted.column(&term))
+            !fitted.absorbed().leaves(&fitted.column(&term))
         })
     })
 }

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::absorbed::Absorbed;
 use super::building::{added, cell, on_output, plain};
 use super::fitted::{FittedModel, Node};
 use super::levels::{Factor, factors};
@@ -72,24 +71,14 @@ fn swapped(fitted: &FittedModel<'_>) -> Cell {
 /// The model fitted without single rows, which may have bent the fit; all rows alike.
 struct Deleted<'g, 'f> {
     fitted: &'g FittedModel<'f>,
-    absorbed: Absorbed,
-    /// What the parameters leave of the residuals; what is still to be recorded has none.
-    rest: DVector<f64>,
-    /// What they take up of them, where rows had weights.
+    /// What the parameters take up of the residuals, where rows had weights.
     taken: DVector<f64>,
 }
 
 impl<'g, 'f> Deleted<'g, 'f> {
     fn new(fitted: &'g FittedModel<'f>) -> Self {
-        let absorbed = Absorbed::by_parameters(fitted);
-        let residuals = fitted.fit.residuals.map(known);
-        let rest = absorbed.rest(&residuals);
-        Deleted {
-            fitted,
-            absorbed,
-            taken: residuals - &rest,
-            rest,
-        }
+        let taken = fitted.fit.residuals.map(known) - &fitted.absorbed().left;
+        Deleted { fitted, taken }
     }
 
     fn places(&self, rows: &[usize]) -> Vec<usize> {
@@ -101,11 +90,12 @@ impl<'g, 'f> Deleted<'g, 'f> {
     /// How far some observations bend the fit where they stand: H(1 − H)⁻¹r with their residuals r and their block
     /// H of the hat matrix.
     fn bent(&self, places: &[usize]) -> DVector<f64> {
-        let hat = self.absorbed.hat(places);
+        let absorbed = self.fitted.absorbed();
+        let hat = absorbed.hat(places);
         let left = DMatrix::identity(places.len(), places.len()) - &hat;
         // Rows without which a parameter is not determined say nothing of themselves.
         let determined = left.symmetric_eigenvalues().min() > UNDETERMINED;
-        let residuals = self.rest.select_rows(places);
+        let residuals = absorbed.left.select_rows(places);
         let solved = determined.then(|| left.lu().solve(&residuals)).flatten();
         solved.map_or_else(|| DVector::zeros(places.len()), |solved| hat * solved)
     }
@@ -128,7 +118,7 @@ impl<'g, 'f> Deleted<'g, 'f> {
         let mut squares = vec![0.0; rows];
         let distances = (0..rows).map(|row| {
             let places = self.places(&[row]);
-            self.rest.select_rows(&places) + self.bent(&places)
+            self.fitted.absorbed().left.select_rows(&places) + self.bent(&places)
         });
         let distances: Vec<DVector<f64>> = distances.collect();
         for response in 0..self.fitted.case().responses.len() {

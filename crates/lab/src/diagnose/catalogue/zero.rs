@@ -27,13 +27,13 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
             cells.push(cell(fitted, EffectId::FactorOf, node, fitted.own(column)));
         }
     }
-    let absorbed = Absorbed::by_parameters(fitted);
+    let absorbed = fitted.absorbed();
     let shows = |variation: &Variation| absorbed.leaves_of(fitted, variation).contains(&true);
     for cell in &mut cells {
         cell.variants.retain(shows);
     }
     cells.retain(|cell| !cell.variants.is_empty());
-    cells.extend(of_output(fitted, &absorbed, &cells));
+    cells.extend(of_output(fitted, absorbed, &cells));
     cells
 }
 

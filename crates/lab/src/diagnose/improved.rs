@@ -4,6 +4,7 @@
 use super::Diagnosis;
 use super::case::{Blocks, Case, Column, Data, NoiseClaim, NoiseOrigin, Role};
 use super::simulate::{heading, recorded};
+use crate::experiment::written::own_units;
 use crate::recording::{Heading, text_of};
 use gumption_format::files::Files;
 use gumption_format::toml::writing::{key, quoted};
@@ -31,7 +32,7 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
         [one] => format!("equations = {one}\n"),
         several => format!("equations = [\n    {},\n]\n", several.join(",\n    ")),
     };
-    text += &own_units(case);
+    text += &own_units(&case.own_units);
     text += "\n[columns]\n";
     let is_there = |column: &&Column| !matches!(column.data, Data::Absent);
     for column in extended.columns.iter().filter(is_there) {
@@ -77,16 +78,6 @@ pub(super) fn title(case: &Case, title: &str) -> String {
         quoted(title),
         reference.unwrap_or_default()
     )
-}
-
-/// The units of its own.
-pub(super) fn own_units(case: &Case) -> String {
-    let line =
-        |(name, definition): &(String, String)| format!("{} = {}\n", key(name), quoted(definition));
-    match case.own_units.as_slice() {
-        [] => String::new(),
-        units => "\n[unit]\n".to_owned() + &units.iter().map(line).collect::<String>(),
-    }
 }
 
 /// A model as the case has it: several lines stay lines.

@@ -12,7 +12,7 @@ use super::extra::Extra;
 use super::fit::{self, Fit};
 use super::noise::{self, Claimed};
 
-/// What is known of a case before a further measurement.
+/// What is known of a case before a further measurement: a model, fitted to its recording, and the noise.
 pub(super) struct Known<'k> {
     pub design: &'k Design<'k>,
     pub fit: &'k Fit,

@@ -28,9 +28,6 @@ pub(super) struct Candidates<'f> {
     pub(super) places: Vec<(usize, usize)>,
 }
 
-/// The refit with the named effects in the model; nothing where there are none, or where the equations cannot be written.
-pub(super) type Refit = Result<Option<(adopt::Extended, Fit)>, NoFit>;
-
 impl<'f> Candidates<'f> {
     pub(super) fn new(
         fitted: FittedModel<'f>,
@@ -136,8 +133,12 @@ impl<'f> Candidates<'f> {
         &self.cell(atom).variants[self.places[atom].1]
     }
 
-    /// The refit with the named effects in the model.
-    pub(super) fn adopted_fit(&self, examination: &Examination, claimed: &Claimed) -> Refit {
+    /// The refit with the named effects in the model; nothing where there are none, or where the equations cannot be written.
+    pub(super) fn adopted_fit(
+        &self,
+        examination: &Examination,
+        claimed: &Claimed,
+    ) -> Result<Option<(adopt::Extended, Fit)>, NoFit> {
         let found = examination.fitted.as_ref();
         let found = found.filter(|found| !found.atoms.is_empty());
         let with_effects = found.and_then(|found| self.with_effects(found, claimed));
@@ -290,12 +291,11 @@ fn shape(columns: DMatrix<f64>, variation: &Variation, claimed: &Claimed) -> Opt
 
 /// Effects with coefficients that the recording does not determine beside the parameters and one another.
 fn undetermined(fitted: &FittedModel<'_>, baseline: &Baseline, effects: &[Free]) -> Vec<usize> {
-    let columns = effects.iter().map(|free| free.variation.columns(fitted));
-    let all = evidence::all(columns);
-    if all.is_empty() {
-        return Vec::new();
-    }
-    let kept = evidence::determined(baseline, &all);
+    let all = evidence::all(effects.iter().map(|free| free.variation.columns(fitted)));
+    let kept = match all.is_empty() {
+        true => Vec::new(),
+        false => evidence::determined(baseline, &all),
+    };
     let of = effects.iter().enumerate();
     let of = of.flat_map(|(at, own)| std::iter::repeat_n(at, own.variation.coefficients()));
     let open = of.enumerate().filter(|(at, _)| !kept.contains(at));

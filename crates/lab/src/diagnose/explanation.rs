@@ -14,16 +14,9 @@ pub(super) struct Explanation<'c> {
     cell: &'c Cell,
     /// Its posterior probability.
     pub(super) probability: f64,
-    /// What it may look like, the most probable first.
-    likely: Vec<Likely<'c>>,
-}
-
-/// A variant that an explanation may have.
-#[derive(Debug)]
-struct Likely<'c> {
-    variation: &'c Variation,
-    /// What is seen of it in the recording, a column for each of the sizes that it may have.
-    seen: DMatrix<f64>,
+    /// What is seen of the variants that it may be in the recording, the most probable first, with a column for each of the
+    /// sizes that they may have.
+    likely: Vec<DMatrix<f64>>,
 }
 
 /// Sizes and shapes for which a promise is formed.
@@ -34,29 +27,25 @@ impl<'c> Explanation<'c> {
     pub(super) fn new(
         recorded: &Recorded<'_>,
         cell: &'c Cell,
-        variation: &'c Variation,
+        variation: &Variation,
         sizes: &DMatrix<f64>,
         probability: f64,
     ) -> Explanation<'c> {
-        let seen = recorded.seen(variation) * sizes.map(known);
         Explanation {
             cell,
             probability,
-            likely: vec![Likely { variation, seen }],
+            likely: vec![recorded.seen(variation) * sizes.map(known)],
         }
     }
 
     /// The same where it may have other variants too: some of the sizes are theirs, by their shares.
     pub(super) fn with(
-        mut self,
+        self,
         recorded: &Recorded<'_>,
-        variations: &[(&'c Variation, f64)],
+        variations: &[(&Variation, f64)],
     ) -> Explanation<'c> {
-        let Some(first) = self.likely.first_mut() else {
-            return self;
-        };
         let whole: f64 = variations.iter().map(|(_, share)| share).sum();
-        let seen = std::mem::take(&mut first.seen);
+        let seen = evidence::all(self.likely.into_iter());
         let mut bound = 0.0;
         let mut begin = 0;
         let mut likely = Vec::new();
@@ -69,17 +58,10 @@ impl<'c> Explanation<'c> {
             }
             let own = seen.columns(begin, end - begin).into_owned();
             let columns = recorded.seen(variation);
-            let seen = fitted(&columns, &own).map_or(own, |sizes| columns * sizes);
-            likely.push(Likely { variation, seen });
+            likely.push(fitted(&columns, &own).map_or(own, |sizes| columns * sizes));
             begin = end;
         }
-        self.likely = likely;
-        self
-    }
-
-    /// Share of it that the parameters do not absorb in another design.
-    pub(super) fn visibility(&self, prolonged: &Prolonged<'_>) -> Option<f64> {
-        Some(prolonged.baseline.visibility(&self.columns(prolonged)?))
+        Explanation { likely, ..self }
     }
 
     /// How it stands in the recording.
@@ -88,7 +70,7 @@ impl<'c> Explanation<'c> {
         let variants = self.variants(&own.fitted, &own.cells).into_iter();
         let seen = |columns: DMatrix<f64>| visible(recorded.baseline, columns);
         Standing {
-            effects: evidence::all(self.likely.iter().map(|likely| likely.seen.clone())),
+            effects: evidence::all(self.likely.iter().cloned()),
             variants: variants.filter_map(seen).collect(),
             repeats: self.cell.effect.repeats,
         }
@@ -107,14 +89,14 @@ impl<'c> Explanation<'c> {
         /// A variant that leaves more of the effect (squared) is another one.
         const MOST_LEFT: f64 = 0.5;
         // The variant there that does the same to the rows of the recording.
-        let effects = self.likely.iter().map(|likely| {
+        let effects = self.likely.iter().map(|seen| {
             let ranked = before.iter().zip(&variants).filter_map(|(before, whole)| {
-                let sizes = fitted(before, &likely.seen)?;
-                let left = (&likely.seen - before * &sizes).norm_squared();
+                let sizes = fitted(before, seen)?;
+                let left = (seen - before * &sizes).norm_squared();
                 Some((left, whole, sizes))
             });
             let (left, whole, sizes) = ranked.min_by(|a, b| a.0.total_cmp(&b.0))?;
-            let same = left <= MOST_LEFT * likely.seen.norm_squared();
+            let same = left <= MOST_LEFT * seen.norm_squared();
             same.then(|| prolonged.baseline.project(&(whole * sizes)))
         });
         let effects: Option<Vec<DMatrix<f64>>> = effects.collect();
@@ -132,25 +114,6 @@ impl<'c> Explanation<'c> {
         let alike = cells.iter().filter(|cell| self.cell.is(cell));
         alike.flat_map(|cell| finite(fitted, cell)).collect()
     }
-
-    /// The columns of its variation in another design. A grid that follows the rows may have another step
-    /// there: what is nearest to it, or else its middle, then stands for it.
-    fn columns(&self, prolonged: &Prolonged<'_>) -> Option<DMatrix<f64>> {
-        let own = self.likely.first()?.variation;
-        let cell = prolonged.cells.iter().find(|cell| self.cell.is(cell))?;
-        let same = cell.variants.iter().find(|v| v.label == own.label);
-        let nearest = || {
-            let own = value(own)?;
-            let far =
-                |other: &Variation| value(other).map_or(f64::NAN, |value| (value - own).abs());
-            let shaped = cell.variants.iter().filter(|other| other.shape.is_some());
-            shaped.min_by(|a, b| far(a).total_cmp(&far(b)))
-        };
-        let middle = || cell.variants.get(cell.variants.len() / 2);
-        let found = same.or_else(nearest).or_else(middle)?;
-        let columns = found.columns(&prolonged.fitted);
-        columns.iter().all(|x| x.is_finite()).then_some(columns)
-    }
 }
 
 /// Columns of the variants of a cell, where they are finite.
@@ -163,10 +126,6 @@ fn finite<'c>(
         .iter()
         .map(|variation| variation.columns(fitted));
     columns.filter(|columns| columns.ncols() > 0 && columns.iter().all(|x| x.is_finite()))
-}
-
-fn value(variation: &Variation) -> Option<f64> {
-    Some(variation.shape.as_ref()?.value)
 }
 
 /// How explanations stand in another design; nothing where one of them is none there.
@@ -230,10 +189,9 @@ pub(super) fn likened<'c>(
     recorded: &Recorded<'_>,
     explanation: &Explanation<'_>,
     cell: &'c Cell,
-    variation: &'c Variation,
+    variation: &Variation,
 ) -> Option<Explanation<'c>> {
-    let seen = &explanation.likely.first()?.seen;
-    let sizes = fitted(&recorded.seen(variation), seen)?;
+    let sizes = fitted(&recorded.seen(variation), explanation.likely.first()?)?;
     /// The most that an explanation has which is not listed: less than whatever is.
     const MOST: f64 = 0.01;
     Some(Explanation::new(recorded, cell, variation, &sizes, MOST))

@@ -6,6 +6,7 @@ use super::case::{Blocks, Case, Column, Data, NoiseClaim, NoiseOrigin, Role};
 use super::simulate::{heading, recorded};
 use crate::experiment::written::own_units;
 use crate::recording::{Heading, text_of};
+use gumption_core::quantity::Unit;
 use gumption_format::files::Files;
 use gumption_format::toml::writing::{key, quoted};
 
@@ -49,17 +50,16 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
             value.name == parameter.name || value.name.starts_with(&format!("{}[", parameter.name))
         });
         let start = of.map_or(1.0, |value| value.value);
-        let mut parts = vec![format!("start = {start:e}")];
-        if !parameter.unit.is_one() {
-            parts.push(format!("unit = {}", quoted(&parameter.unit.symbol)));
-        }
-        if let Some(per) = parameter.per {
-            parts.push(format!("per = {}", quoted(&extended.columns[per].name)));
-        }
-        if let Some((value, u)) = parameter.prior {
-            parts.push(format!("value = {value:e}, u = {u:e}"));
-        }
-        text += &format!("{} = {{ {} }}\n", key(&parameter.name), parts.join(", "));
+        let per =
+            (parameter.per).map(|per| format!("per = {}", quoted(&extended.columns[per].name)));
+        let prior = (parameter.prior).map(|(value, u)| format!("value = {value:e}, u = {u:e}"));
+        let stated = [
+            Some(format!("start = {start:e}")),
+            unit(&parameter.unit),
+            per,
+            prior,
+        ];
+        text += &entry_of(&parameter.name, stated);
     }
     text += &constants(case);
     let at_rest = at_rest(case);
@@ -78,6 +78,16 @@ pub(super) fn title(case: &Case, title: &str) -> String {
         quoted(title),
         reference.unwrap_or_default()
     )
+}
+
+/// An entry with what is stated.
+fn entry_of(name: &str, stated: impl IntoIterator<Item = Option<String>>) -> String {
+    let stated: Vec<String> = stated.into_iter().flatten().collect();
+    format!("{} = {{ {} }}\n", key(name), stated.join(", "))
+}
+
+fn unit(unit: &Unit) -> Option<String> {
+    (!unit.is_one()).then(|| format!("unit = {}", quoted(&unit.symbol)))
 }
 
 /// A model as the case has it: several lines stay lines.
@@ -156,12 +166,7 @@ fn constants(case: &Case) -> String {
             }
             _ => continue,
         };
-        let unit = if constant.unit.is_one() {
-            String::new()
-        } else {
-            format!(", unit = {}", quoted(&constant.unit.symbol))
-        };
-        text += &format!("{} = {{ {value}{unit} }}\n", key(&constant.name));
+        text += &entry_of(&constant.name, [Some(value), unit(&constant.unit)]);
     }
     text
 }

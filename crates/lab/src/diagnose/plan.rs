@@ -298,26 +298,20 @@ struct Explanations<'o> {
 
 impl Explanations<'_> {
     fn promise(&self, recorded: &Recorded<'_>, extra: &Extra) -> Option<Promise> {
-        let asked = self.hidden.iter().map(|line| {
-            let cell = &recorded.candidates.cells[line.cell];
-            let variation = &cell.variants[line.variation];
-            let sizes = DMatrix::from_element(variation.coefficients(), 1, 1.0);
-            Explanation::new(recorded, cell, variation, &sizes, EVEN)
-        });
-        let asked: Vec<Explanation<'_>> = asked.collect();
         let (resolved, revealed) = examined(recorded, extra, |prolonged| {
             let is_told = |at: &usize| {
                 let standing = standing(recorded, prolonged, &self.sets[*at]);
                 let apart = standing.and_then(|standing| evidence::apart(&standing));
                 apart.is_some_and(|apart| apart.least() >= SEPARATED)
             };
-            let shows = |(one, line): (&Explanation<'_>, &&Omitted)| {
-                let share = one.visibility(prolonged)?;
-                (share > VISIBLE).then_some(line.cell)
+            let shows = |line: &&&Omitted| {
+                let cell = &recorded.candidates.cells[line.cell];
+                let share = prolonged.visibility(cell, &cell.variants[line.variation]);
+                share.is_some_and(|share| share > VISIBLE)
             };
             let resolved: Vec<usize> = (0..self.sets.len()).filter(is_told).collect();
-            let revealed: Vec<usize> = (asked.iter().zip(&self.hidden)).filter_map(shows).collect();
-            (resolved, revealed)
+            let revealed = self.hidden.iter().filter(shows).map(|line| line.cell);
+            (resolved, revealed.collect())
         })?;
         Some(Promise {
             extra: extra.clone(),

@@ -74,6 +74,26 @@ impl Recorded<'_> {
 }
 
 impl Prolonged<'_> {
+    /// Share of a variation that the parameters do not absorb. A grid that follows the rows may have another step here: what is
+    /// nearest to it, or else its middle, then stands for it.
+    pub(super) fn visibility(&self, cell: &Cell, own: &Variation) -> Option<f64> {
+        let variants = &self.cells.iter().find(|other| other.is(cell))?.variants;
+        let same = variants.iter().find(|other| other.label == own.label);
+        let nearest = || {
+            let own = own.shape.as_ref()?.value;
+            let far = |other: &Variation| Some((other.shape.as_ref()?.value - own).abs());
+            let shaped = variants
+                .iter()
+                .filter_map(|other| Some((far(other)?, other)));
+            let nearest = shaped.min_by(|a, b| a.0.total_cmp(&b.0));
+            nearest.map(|(_, other)| other)
+        };
+        let middle = || variants.get(variants.len() / 2);
+        let found = same.or_else(nearest).or_else(middle)?;
+        let columns = found.columns(&self.fitted);
+        let finite = columns.iter().all(|x| x.is_finite());
+        finite.then(|| self.baseline.visibility(&columns))
+    }
     /// The observations of the recording alone.
     pub(super) fn recorded(&self, recorded: &Recorded<'_>, columns: &DMatrix<f64>) -> DMatrix<f64> {
         let design = self.fitted.design;

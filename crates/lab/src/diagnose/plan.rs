@@ -128,14 +128,12 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
     let sets = pairs
         .iter()
         .map(|pair| explanations(&recorded, &effects, *pair));
-    let explanations = Explanations {
-        sets: sets.collect(),
-        hidden: omitted.iter().filter(|line| line.is_invisible()).collect(),
-    };
+    let sets: Vec<Vec<Explanation<'_>>> = sets.collect();
+    let hidden: Vec<&Omitted> = omitted.iter().filter(|line| line.is_invisible()).collect();
     let mut promises = Vec::new();
     let all = extras(case);
     for (at, extra) in all.iter().enumerate() {
-        promises.extend(explanations.promise(&recorded, extra));
+        promises.extend(promise(&recorded, &sets, &hidden, extra));
         step(progress, 0.4 + 0.6 * (at + 1) as f64 / all.len() as f64)?;
     }
     let worth = |promise: &Promise| {
@@ -290,33 +288,31 @@ fn explanations<'r>(
     [a, b].into_iter().filter_map(of).collect()
 }
 
-/// What further measurements are asked for.
-struct Explanations<'o> {
-    sets: Vec<Vec<Explanation<'o>>>,
-    hidden: Vec<&'o Omitted>,
-}
-
-impl Explanations<'_> {
-    fn promise(&self, recorded: &Recorded<'_>, extra: &Extra) -> Option<Promise> {
-        let (resolved, revealed) = examined(recorded, extra, |prolonged| {
-            let is_told = |at: &usize| {
-                let standing = standing(recorded, prolonged, &self.sets[*at]);
-                let apart = standing.and_then(|standing| evidence::apart(&standing));
-                apart.is_some_and(|apart| apart.least() >= SEPARATED)
-            };
-            let shows = |line: &&&Omitted| {
-                let cell = &recorded.candidates.cells[line.cell];
-                let share = prolonged.visibility(cell, &cell.variants[line.variation]);
-                share.is_some_and(|share| share > VISIBLE)
-            };
-            let resolved: Vec<usize> = (0..self.sets.len()).filter(is_told).collect();
-            let revealed = self.hidden.iter().filter(shows).map(|line| line.cell);
-            (resolved, revealed.collect())
-        })?;
-        Some(Promise {
-            extra: extra.clone(),
-            resolved,
-            revealed,
-        })
-    }
+/// Which of some sets of explanations a further measurement tells apart, and what it shows of that which is hidden.
+fn promise(
+    recorded: &Recorded<'_>,
+    sets: &[Vec<Explanation<'_>>],
+    hidden: &[&Omitted],
+    extra: &Extra,
+) -> Option<Promise> {
+    let (resolved, revealed) = examined(recorded, extra, |prolonged| {
+        let is_told = |at: &usize| {
+            let standing = standing(recorded, prolonged, &sets[*at]);
+            let apart = standing.and_then(|standing| evidence::apart(&standing));
+            apart.is_some_and(|apart| apart.least() >= SEPARATED)
+        };
+        let shows = |line: &&&Omitted| {
+            let cell = &recorded.candidates.cells[line.cell];
+            let share = prolonged.visibility(cell, &cell.variants[line.variation]);
+            share.is_some_and(|share| share > VISIBLE)
+        };
+        let resolved: Vec<usize> = (0..sets.len()).filter(is_told).collect();
+        let revealed = hidden.iter().filter(shows).map(|line| line.cell);
+        (resolved, revealed.collect())
+    })?;
+    Some(Promise {
+        extra: extra.clone(),
+        resolved,
+        revealed,
+    })
 }

@@ -2,7 +2,7 @@
 
 use super::building::{self, course, scoped, time_constants_from, timed};
 use super::fitted::{FittedModel, Node, varies};
-use super::inputs::Signal;
+use super::inputs::signal;
 use super::modifiers::{Course, largest, map, range};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -35,9 +35,7 @@ fn of_signals(fitted: &FittedModel<'_>) -> Cell {
         .filter(|response| swings(fitted.signal(*response)))
         .collect();
     let warm = responses.into_iter().map(|response| {
-        let signal = Signal::new(fitted, response);
-        let power = Modifier::number(signal.parts, signal.text).square();
-        let at_once = Term::new(Node::Gain, power).on(response);
+        let at_once = Term::new(Node::Gain, signal(fitted, response).square()).on(response);
         (response, late(fitted, at_once))
     });
     let warm: Vec<_> = warm.collect();
@@ -91,9 +89,7 @@ fn by_resistance(fitted: &FittedModel<'_>, node: Node, power: &Modifier) -> Opti
     if fitted.case().responses.len() != 1 || !fitted.has_signal() {
         return None;
     }
-    let signal = Signal::new(fitted, 0);
-    let modifier = power.times(&Modifier::number(signal.parts, signal.text));
-    let term = Term::new(node, modifier);
+    let term = Term::new(node, power.times(&signal(fitted, 0)));
     Some(Variation::one("in proportion to the signal", term))
 }
 

@@ -61,11 +61,11 @@ fn inputs(fitted: &FittedModel<'_>) -> Vec<Input> {
         let signal = fitted.signal(response);
         let is_column = columns.iter().any(|c| fitted.takes_in(response, *c));
         let formed = !fitted.is_implicit(response) && varies(signal) && !is_column;
-        let Signal { parts, text } = Signal::new(fitted, response);
+        let Modifier { values, text, .. } = self::signal(fitted, response);
         formed.then(|| Input {
             response,
             text,
-            own: parts,
+            own: values.to_vec(),
             others: others(fitted, response),
             came: came(fitted, response),
         })
@@ -90,24 +90,10 @@ fn came(fitted: &FittedModel<'_>, response: usize) -> Vec<Option<(f64, f64)>> {
     came
 }
 
-/// The signal of a response as a part of its largest value, which the formula shows.
-pub(super) struct Signal {
-    /// Row by row.
-    pub parts: Vec<f64>,
-    /// Such as `(signal/(2.5 V))`.
-    pub text: String,
-}
-
-impl Signal {
-    pub(super) fn new(fitted: &FittedModel<'_>, response: usize) -> Signal {
-        let signal = fitted.signal(response);
-        let unit = fitted.case().responses[response].unit.difference();
-        let Modifier { values, text, .. } = part(signal, "signal", &unit);
-        Signal {
-            parts: values.to_vec(),
-            text,
-        }
-    }
+/// The signal of a response as a part of its largest value, which the formula shows: `(signal/(2.5 V))`.
+pub(super) fn signal(fitted: &FittedModel<'_>, response: usize) -> Modifier {
+    let unit = fitted.case().responses[response].unit.difference();
+    part(fitted.signal(response), "signal", &unit)
 }
 
 /// The largest value, to five digits.

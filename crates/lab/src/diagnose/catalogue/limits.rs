@@ -58,12 +58,11 @@ pub(super) fn of_outputs(fitted: &FittedModel<'_>, columns: &[usize]) -> Vec<Cel
     cells.collect()
 }
 
-/// The readings of a response at one of its ends.
+/// Where readings of a response end.
 struct Pile {
     /// 1 at the upper end, −1 at the lower one.
     sign: f64,
     level: f64,
-    rows: Vec<usize>,
 }
 
 impl Pile {
@@ -72,10 +71,13 @@ impl Pile {
         const ROWS: usize = 3;
         let most = observed.iter().map(|y| sign * y);
         let level = sign * most.fold(f64::NEG_INFINITY, f64::max);
-        let rows: Vec<usize> = (0..observed.len())
-            .filter(|row| observed[*row] == level)
-            .collect();
-        (rows.len() >= ROWS).then_some(Pile { sign, level, rows })
+        let pile = Pile { sign, level };
+        (pile.rows(observed).count() >= ROWS).then_some(pile)
+    }
+
+    fn rows<'p>(&self, observed: &'p [f64]) -> impl Iterator<Item = usize> + 'p {
+        let level = self.level;
+        (0..observed.len()).filter(move |row| observed[*row] == level)
     }
 }
 
@@ -87,7 +89,7 @@ fn ceilings(fitted: &FittedModel<'_>, response: usize) -> Vec<Variation> {
         return Vec::new();
     }
     let piles = [1.0, -1.0].map(|sign| Pile::of(&observed, sign));
-    let certain = |pile: &&Pile| moves_on(fitted, response, &observed, pile.rows.iter().copied());
+    let certain = |pile: &&Pile| moves_on(fitted, response, &observed, pile.rows(&observed));
     let ends: Vec<&Pile> = piles.iter().flatten().filter(certain).collect();
     let each = ends.iter().map(|end| vec![*end]);
     let both = match (&piles, ends.is_empty()) {
@@ -106,7 +108,7 @@ fn ceiling(
     observed: &[f64],
     piles: &[&Pile],
 ) -> Variation {
-    let is_there = |row: usize| piles.iter().any(|pile| pile.rows.contains(&row));
+    let is_there = |row: usize| piles.iter().any(|pile| pile.level == observed[row]);
     let model = beside(fitted, response, observed, &is_there);
     let within = |y: f64| {
         let ends = piles.iter();

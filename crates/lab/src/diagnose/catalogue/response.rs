@@ -8,7 +8,6 @@ use super::modifiers::{
     Course, creeps, delayed, figure, five_digits, grid, largest, levels_of, map, map2, mean, range,
 };
 use super::norm::Norm;
-use super::powers::Power;
 use super::sharp::{best_pair, sharpened, size_of};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -131,13 +130,16 @@ fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     } else {
         EffectId::Quadratic
     };
-    let [square, cube] = super::powers::of(fitted, column);
-    let mut cells = vec![
-        power(fitted, column, second, square),
-        power(fitted, column, EffectId::Cubic, cube),
-    ];
+    let label = fitted.label(column);
+    let both = [second, EffectId::Cubic].into_iter();
+    let powers = both
+        .zip(super::powers::of(fitted, column))
+        .map(|(id, power)| {
+            let form = power.map(|term| Variation::one("", term));
+            on_node(fitted, id, label, Node::Output, form)
+        });
+    let mut cells: Vec<Cell> = powers.collect();
     if fitted.passes_zero(column) {
-        let label = fitted.label(column);
         let form = form(
             "",
             vec![fitted.by(column, format!("abs({label})"), f64::abs)],
@@ -148,12 +150,6 @@ fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         cells[0].variants.extend(levelling(fitted, column));
     }
     cells
-}
-
-fn power(fitted: &FittedModel<'_>, column: usize, id: EffectId, power: Option<Power>) -> Cell {
-    let term = power.map(|power| on_output(power.searched).written_as(power.written));
-    let form = term.map(|term| Variation::one("", term));
-    on_node(fitted, id, fitted.label(column), Node::Output, form)
 }
 
 /// A square that levels off, as counting losses of a dead time do, and detectors near their limit.

@@ -11,22 +11,19 @@ use super::fitted::FittedModel;
 /// Ratio of variances from which on an effect shows.
 const SHOWS: f64 = 16.0;
 
-/// What the residuals say of regressors.
-struct Residuals<'g>(&'g Absorbed);
+/// What the residuals say of regressors. Outputs of several axes have laws of their own and are left alone.
+fn residuals<'g>(fitted: &'g FittedModel<'_>) -> Option<&'g Absorbed> {
+    (fitted.case().responses.len() == 1).then(|| fitted.absorbed())
+}
 
-impl<'g> Residuals<'g> {
-    /// Outputs of several axes have laws of their own and are left alone.
-    fn of(fitted: &'g FittedModel<'_>) -> Option<Residuals<'g>> {
-        (fitted.case().responses.len() == 1).then(|| Residuals(fitted.absorbed()))
-    }
-
+impl Absorbed {
     /// Sum of squares that a regressor takes away from the residuals.
     fn power(&self, column: &DVector<f64>) -> f64 {
         /// A regressor of which the parameters leave less than this (squared) is invisible.
         const LEAST: f64 = 1e-10;
-        let rest = self.0.rest(column);
+        let rest = self.rest(column);
         let shows = rest.norm_squared() > LEAST * column.norm_squared();
-        let power = along(&rest, &self.0.left);
+        let power = along(&rest, &self.left);
         if shows && power.is_finite() {
             power
         } else {
@@ -35,14 +32,14 @@ impl<'g> Residuals<'g> {
     }
 
     fn shows(&self, power: f64) -> bool {
-        let left = self.0.left.norm_squared() - power;
+        let left = self.left.norm_squared() - power;
         power * self.degrees() > SHOWS * left
     }
 
     /// Degrees of freedom beside the parameters and one effect.
     fn degrees(&self) -> f64 {
-        let used = self.0.directions() + 1;
-        self.0.left.len().saturating_sub(used) as f64
+        let used = self.directions() + 1;
+        self.left.len().saturating_sub(used) as f64
     }
 }
 
@@ -55,7 +52,7 @@ pub(super) fn sharpened(
     if grid.len() < 2 || grid.iter().any(|value| *value <= 0.0) {
         return grid;
     }
-    let Some(residuals) = Residuals::of(fitted) else {
+    let Some(residuals) = residuals(fitted) else {
         return grid;
     };
     let power = |value: f64| residuals.power(&fitted.column(&term(value)));
@@ -75,7 +72,7 @@ pub(super) fn best(
     fitted: &FittedModel<'_>,
     terms: &mut dyn Iterator<Item = Term>,
 ) -> Option<usize> {
-    let residuals = Residuals::of(fitted)?;
+    let residuals = residuals(fitted)?;
     let powers = terms.map(|term| residuals.power(&fitted.column(&term)));
     let powers: Vec<f64> = powers.collect();
     let best = largest_at(&powers);
@@ -87,11 +84,11 @@ pub(super) fn best(
 
 /// The size of a term by itself, where an effect of this kind shows at all.
 pub(super) fn size_of(fitted: &FittedModel<'_>, term: &Term) -> Option<f64> {
-    let residuals = Residuals::of(fitted)?;
+    let residuals = residuals(fitted)?;
     let column = fitted.column(term);
-    let rest = residuals.0.rest(&column);
+    let rest = residuals.rest(&column);
     let shows = residuals.shows(residuals.power(&column));
-    shows.then(|| rest.dot(&residuals.0.left) / rest.norm_squared())
+    shows.then(|| rest.dot(&residuals.left) / rest.norm_squared())
 }
 
 /// The best of many regressors, where it alone explains nearly all of the residuals.
@@ -105,14 +102,14 @@ pub(super) fn nearly_all(
     const CHANCE: f64 = 1e-3;
     /// Rounding of powers.
     const EQUAL: f64 = 1e-9;
-    let residuals = Residuals::of(fitted)?;
+    let residuals = residuals(fitted)?;
     let powers: Vec<f64> = columns.map(|column| residuals.power(&column)).collect();
     // Rows in which nothing is to be seen belong to either side: the first of equal ones.
     let most = powers.iter().copied().fold(0.0, f64::max);
     let best = powers
         .iter()
         .position(|power| *power >= (1.0 - EQUAL) * most)?;
-    let (power, whole) = (powers[best], residuals.0.left.norm_squared());
+    let (power, whole) = (powers[best], residuals.left.norm_squared());
     let degrees = residuals.degrees().max(1.0);
     let by_chance = f_sf(power * degrees / (whole - power).max(0.0), 1.0, degrees);
     let is_chosen = power > SHARE * whole && powers.len() as f64 * by_chance < CHANCE;
@@ -128,7 +125,7 @@ pub(super) fn best_pair(
 ) -> Option<(f64, f64)> {
     /// Values nearer to one another are one.
     const APART: f64 = 2.5;
-    let Residuals(absorbed) = Residuals::of(fitted)?;
+    let absorbed = residuals(fitted)?;
     let rest = |value: &f64| absorbed.rest(&fitted.column(&term(*value)));
     let rests: Vec<DVector<f64>> = grid.iter().map(rest).collect();
     let single = |at: usize| along(&rests[at], &absorbed.left);

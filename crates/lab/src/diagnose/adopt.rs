@@ -174,7 +174,7 @@ pub fn start(fitted: &FittedModel<'_>, design: &Design<'_>, effects: &[Free]) ->
     let mut sizes = effects.iter().flat_map(|free| &free.sizes);
     let mut own = fitted.fit.unknowns.iter();
     let of = design.unknowns.iter().map(|unknown| match unknown.kind {
-        UnknownKind::Parameter { parameter, .. } if parameter >= declared => sizes.next(),
+        UnknownKind::Parameter(parameter) if parameter >= declared => sizes.next(),
         _ => own.next(),
     });
     let values = of.map(|value| value.copied().filter(|x| x.is_finite()).unwrap_or(0.0));

@@ -54,18 +54,10 @@ pub struct Unknown {
 /// What an unknown is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UnknownKind {
-    /// A parameter of the model, and the label for which it holds.
-    Parameter {
-        /// Index of the parameter.
-        parameter: usize,
-        /// Index of the label; 0 for a parameter with one value.
-        level: usize,
-    },
+    /// A parameter of the model, or its value for one label.
+    Parameter(usize),
     /// The error of a column that all rows share.
-    CommonError {
-        /// Index of the column.
-        column: usize,
-    },
+    CommonError(usize),
 }
 
 /// The model at some values of the unknowns, row by row.
@@ -100,10 +92,7 @@ impl<'c> Design<'c> {
                 };
                 unknowns.push(Unknown {
                     name,
-                    kind: UnknownKind::Parameter {
-                        parameter: index,
-                        level,
-                    },
+                    kind: UnknownKind::Parameter(index),
                     start: parameter.start,
                     prior: parameter.prior,
                 });
@@ -113,7 +102,7 @@ impl<'c> Design<'c> {
             if let Some(u) = column.u_common {
                 unknowns.push(Unknown {
                     name: format!("common error of {}", column.name),
-                    kind: UnknownKind::CommonError { column: index },
+                    kind: UnknownKind::CommonError(index),
                     start: Some(0.0),
                     prior: Some((0.0, u)),
                 });
@@ -211,8 +200,8 @@ impl<'c> Design<'c> {
 
     fn unit_of(&self, unknown: &Unknown) -> &Unit {
         match unknown.kind {
-            UnknownKind::Parameter { parameter, .. } => &self.case.parameters[parameter].unit,
-            UnknownKind::CommonError { column } => &self.case.columns[column].unit,
+            UnknownKind::Parameter(parameter) => &self.case.parameters[parameter].unit,
+            UnknownKind::CommonError(column) => &self.case.columns[column].unit,
         }
     }
 
@@ -236,7 +225,7 @@ impl<'c> Design<'c> {
         let mut values: Vec<f64> = parameters.chain(columns).collect();
         let parameters = self.case.parameters.len();
         for (unknown, value) in self.unknowns.iter().zip(unknowns.iter()) {
-            if let UnknownKind::CommonError { column } = unknown.kind {
+            if let UnknownKind::CommonError(column) = unknown.kind {
                 values[parameters + column] += value;
             }
         }
@@ -279,7 +268,7 @@ impl<'c> Design<'c> {
                             weight * slopes[(*row, parameter)];
                     }
                     for (index, unknown) in self.unknowns.iter().enumerate() {
-                        if let UnknownKind::CommonError { column } = unknown.kind {
+                        if let UnknownKind::CommonError(column) = unknown.kind {
                             jacobian[(at, index)] += weight * slopes[(*row, parameters + column)];
                         }
                     }

@@ -66,7 +66,7 @@ struct ResultOf<'r> {
 fn results<'r>(design: &Design<'_>, estimates: &'r [Estimated]) -> Vec<ResultOf<'r>> {
     let of = |(place, estimate): (usize, &'r Estimated)| {
         let unknown = &design.unknowns[design.named(&estimate.name)?];
-        let UnknownKind::Parameter { parameter, .. } = unknown.kind else {
+        let UnknownKind::Parameter(parameter) = unknown.kind else {
             return None;
         };
         Some(ResultOf {

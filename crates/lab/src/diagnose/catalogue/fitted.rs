@@ -255,6 +255,14 @@ impl<'f> FittedModel<'f> {
             .to_owned()
     }
 
+    /// A column, or the time, by its name and its numbers.
+    pub fn course(&self, column: Option<usize>) -> (String, &[f64]) {
+        match column {
+            Some(column) => (self.label(column).to_owned(), self.numbers(column)),
+            None => (self.along_time(), &self.clock.values),
+        }
+    }
+
     /// The unit in which a column differs from row to row.
     pub fn step_unit(&self, column: usize) -> Unit {
         self.case().columns[column].unit.difference()

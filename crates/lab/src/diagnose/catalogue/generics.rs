@@ -25,9 +25,11 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
     let nodes = fitted.offset_and_scale();
     let turning = turning(fitted);
-    for (name, course) in courses(fitted) {
+    let columns = fitted.numeric().into_iter().chain(angles(fitted));
+    for column in columns.map(Some).chain([None]) {
+        let (name, course) = fitted.course(column);
         for node in &nodes {
-            cells.extend(smooth(fitted, *node, &name, &course));
+            cells.extend(smooth(fitted, *node, &name, course));
         }
     }
     for column in fitted.numeric() {
@@ -67,17 +69,6 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
 pub(in crate::diagnose) fn unsteady(fitted: &FittedModel<'_>) -> Cell {
     let (id, along) = (EffectId::Unsteady, fitted.along_time());
     generic(fitted, id, Node::Output, &along, &[&[]])
-}
-
-/// What a smooth curve may follow.
-fn courses(fitted: &FittedModel<'_>) -> Vec<(String, Vec<f64>)> {
-    let columns = fitted.numeric().into_iter().chain(angles(fitted));
-    let named = |column| {
-        let name = fitted.label(column).to_owned();
-        (name, fitted.numbers(column).to_vec())
-    };
-    let time = (fitted.along_time(), fitted.clock.values.clone());
-    columns.map(named).chain([time]).collect()
 }
 
 /// A feature: what it multiplies, and the variance of its coefficient relative to the others.

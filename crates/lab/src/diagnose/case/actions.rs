@@ -1,13 +1,12 @@
 //! Further measurements that the user could make.
 
-use super::rows::{Complete, Rows, continued};
+use super::rows::{Complete, Rows, continued, joined};
 use super::{Column, Data};
 use crate::diagnose::extra::{Extra, Measure};
 use crate::diagnose::faults::{MISSING, ROWS, SETTING};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RowsEntry;
 use crate::experiment::tables::{ActionTable, ExperimentTable, OrderWord};
-use crate::recording::Labels;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 use gumption_format::toml::{Cell, Named, OneOrMany};
@@ -143,23 +142,13 @@ impl Checker<'_> {
         cells: impl Iterator<Item = &'c Stated<Cell>>,
     ) -> Option<Data> {
         if let Some(known) = column.labels() {
-            let mut labels = Labels {
-                levels: known.levels.clone(),
-                of_row: Vec::new(),
-            };
-            for cell in cells {
-                let text = match &cell.value {
-                    Cell::Text(text) => text.clone(),
-                    Cell::Number(number) => number.to_string(),
-                };
-                let at = labels.levels.iter().position(|level| *level == text);
-                let at = at.unwrap_or_else(|| {
-                    labels.levels.push(text);
-                    labels.levels.len() - 1
-                });
-                labels.of_row.push(at as u32);
-            }
-            return Some(Data::Labels(labels));
+            let texts = cells.map(|cell| match &cell.value {
+                Cell::Text(text) => text.clone(),
+                Cell::Number(number) => number.to_string(),
+            });
+            let texts: Vec<String> = texts.collect();
+            let texts = texts.iter().map(String::as_str);
+            return Some(Data::Labels(joined(known, 0, texts)));
         }
         let mut numbers = Vec::new();
         for cell in cells {
@@ -233,6 +222,7 @@ fn renewed(data: &mut Data) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::recording::Labels;
 
     #[test]
     fn times_go_on_in_the_steps_that_they_had() {

@@ -9,9 +9,9 @@ use crate::diagnose::faults::{MISSING, ROWS};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::tables::ExperimentTable;
-use crate::recording::{self, Content, Heading, Labels, Recording, Request, headings, text_of};
+use crate::recording::{self, Heading, Labels, Recording, Request, headings, text_of};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, Rejection, Said, say};
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Stated;
 
 /// Rows with a value for each column of a case, in their order.
@@ -80,7 +80,9 @@ impl Case {
         case.rows = rows.count;
         for (column, data) in case.columns.iter_mut().zip(&rows.data) {
             column.data = match (&column.data, data) {
-                (Data::Labels(own), Data::Labels(other)) => Data::Labels(joined(own, other, 0)),
+                (Data::Labels(own), Data::Labels(other)) => {
+                    Data::Labels(joined(own, 0, other.texts()))
+                }
                 _ => data.clone(),
             };
         }
@@ -102,7 +104,7 @@ impl Case {
                     Data::Numbers(own.iter().chain(other).copied().collect())
                 }
                 (Data::Labels(own), Data::Labels(other)) => {
-                    Data::Labels(joined(own, other, own.of_row.len()))
+                    Data::Labels(joined(own, own.of_row.len(), other.texts()))
                 }
                 _ => Data::Absent,
             };
@@ -112,21 +114,19 @@ impl Case {
 }
 
 /// The first rows of labels and then others, with one list of levels.
-fn joined(own: &Labels, other: &Labels, kept: usize) -> Labels {
+pub(super) fn joined<'t>(
+    own: &'t Labels,
+    kept: usize,
+    others: impl Iterator<Item = &'t str>,
+) -> Labels {
     let mut levels = own.levels.clone();
     let mut of_row = own.of_row[..kept].to_vec();
-    let mut places: BTreeMap<u32, u32> = BTreeMap::new();
-    for level in &other.of_row {
-        let place = *places.entry(*level).or_insert_with(|| {
-            let text = &other.levels[*level as usize];
-            let known = levels.iter().position(|own| own == text);
-            let at = known.unwrap_or(levels.len());
-            if at == levels.len() {
-                levels.push(text.clone());
-            }
-            at as u32
-        });
-        of_row.push(place);
+    let mut places: BTreeMap<&str, u32> = own.levels.iter().map(String::as_str).zip(0..).collect();
+    for text in others {
+        of_row.push(*places.entry(text).or_insert_with(|| {
+            levels.push(text.to_owned());
+            levels.len() as u32 - 1
+        }));
     }
     Labels { levels, of_row }
 }
@@ -214,12 +214,8 @@ impl Checker<'_> {
         columns: &[Column],
         complete: Complete,
     ) -> Result<Rows, Vec<Said>> {
-        let first = |rejection: Rejection| {
-            let first = rejection.faults.first();
-            first.map_or_else(Said::default, |fault| fault.message.clone())
-        };
         let text = text_of(self.files, &self.folder.join(path), path);
-        let text = text.map_err(|rejection| vec![first(rejection)])?;
+        let text = text.map_err(|rejection| vec![rejection.said()])?;
         let known = headings(&text, &self.units)
             .map_err(|fault| vec![say!("{}: {}", path, fault.message)])?;
         let request = |column: &Column| {
@@ -228,18 +224,14 @@ impl Checker<'_> {
                 heading.text == column.header || names.contains(&&heading.name)
             };
             let heading = known.iter().find(is_it)?;
-            let numbers = Request::numbers(&column.name, &heading.text);
             Some(match column.data {
-                Data::Labels(_) => Request {
-                    content: Content::Labels,
-                    ..numbers
-                },
-                _ => numbers,
+                Data::Labels(_) => Request::labels(&column.name, &heading.text),
+                _ => Request::numbers(&column.name, &heading.text),
             })
         };
         let requests: Vec<Request> = columns.iter().filter_map(request).collect();
         let recorded = Recording::read(path, &text, &requests, &self.units)
-            .map_err(|rejection| vec![say!("{}: {}", path, first(rejection))])?;
+            .map_err(|rejection| vec![say!("{}: {}", path, rejection.said())])?;
         let (mut data, mut wrong) = (Vec::new(), Vec::new());
         for column in columns {
             let (name, unit) = (&column.name, &column.unit.symbol);

@@ -15,7 +15,7 @@ use super::space::{Form, Frame, NEAR, Residual, Space, principal};
 /// Every block that may join a set, beside it.
 pub(super) struct Remainders<'s> {
     pub(super) space: &'s Space,
-    frame: &'s Frame,
+    pub(super) frame: &'s Frame,
     /// A = FᵀU for the directions of all blocks.
     along: DMatrix<f64>,
     /// What is left of z when the set is adopted.

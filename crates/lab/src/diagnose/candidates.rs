@@ -24,8 +24,6 @@ pub(super) struct Candidates<'f> {
     pub(super) cells: Vec<Cell>,
     pub(super) candidates: Vec<Candidate>,
     pub(super) atoms: Vec<Atom>,
-    /// Cell and variation of each atom.
-    pub(super) places: Vec<(usize, usize)>,
 }
 
 impl<'f> Candidates<'f> {
@@ -35,27 +33,19 @@ impl<'f> Candidates<'f> {
         white: &Baseline,
     ) -> Candidates<'f> {
         let cells = catalogue::cells(&fitted);
-        let (candidates, atoms, places) = question(&fitted, &cells, claimed, white);
+        let (candidates, atoms) = question(&fitted, &cells, claimed, white);
         Candidates {
             fitted,
             cells,
             candidates,
             atoms,
-            places,
         }
     }
 
     /// Keeps some of the atoms.
     pub(super) fn retain(&mut self, mut keeps: impl FnMut(&mut Atom, &Cell) -> bool) {
-        let places = std::mem::take(&mut self.places).into_iter();
-        let mut places = places.map(|place| (place, &self.cells[place.0]));
-        let mut kept = Vec::new();
-        self.atoms.retain_mut(|atom| {
-            let place = places.next().filter(|(_, cell)| keeps(atom, cell));
-            kept.extend(place.map(|(place, _)| place));
-            place.is_some()
-        });
-        self.places = kept;
+        let cells = &self.cells;
+        (self.atoms).retain_mut(|atom| keeps(atom, &cells[atom.candidate]));
     }
 
     /// The noise that is left when the named effects are in the model.
@@ -125,12 +115,12 @@ impl<'f> Candidates<'f> {
 
     /// The cell of an atom.
     pub(super) fn cell(&self, atom: usize) -> &Cell {
-        &self.cells[self.places[atom].0]
+        &self.cells[self.atoms[atom].candidate]
     }
 
     /// The variation of its cell that an atom is.
     pub(super) fn variation(&self, atom: usize) -> &Variation {
-        &self.cell(atom).variants[self.places[atom].1]
+        &self.cell(atom).variants[self.atoms[atom].variant]
     }
 
     /// The refit with the named effects in the model; nothing where there are none, or where the equations cannot be written.
@@ -195,15 +185,14 @@ pub(super) fn baseline(
     reduced(design, fit, &claimed.noise())
 }
 
-/// Candidates and atoms, and the cell and variation of each atom.
+/// Candidates, one for each cell, and atoms.
 fn question(
     fitted: &FittedModel<'_>,
     cells: &[Cell],
     claimed: &Claimed,
     baseline: &Baseline,
-) -> (Vec<Candidate>, Vec<Atom>, Vec<(usize, usize)>) {
-    let mut candidates = Vec::new();
-    let (mut atoms, mut places) = (Vec::new(), Vec::new());
+) -> (Vec<Candidate>, Vec<Atom>) {
+    let (mut candidates, mut atoms) = (Vec::new(), Vec::new());
     for (index, cell) in cells.iter().enumerate() {
         candidates.push(Candidate {
             name: format!("{} {}", cell.effect.id, cell.words.x),
@@ -214,7 +203,7 @@ fn question(
             describes: cell.effect.pattern.is_some(),
             odds: cell.odds,
         });
-        let before = atoms.len();
+        let before: usize = atoms.len();
         let shapes: Vec<(usize, Shape)> = (cell.variants.iter().enumerate())
             .filter_map(|(number, variation)| {
                 let columns = variation.columns(fitted);
@@ -225,17 +214,17 @@ fn question(
         for ((number, shape), _) in shapes.into_iter().zip(shown).filter(|(_, shown)| *shown) {
             atoms.push(Atom {
                 candidate: index,
+                variant: number,
                 shape,
                 share: cell.variants[number].weight,
             });
-            places.push((index, number));
         }
         let whole: f64 = atoms[before..].iter().map(|atom| atom.share).sum();
         for atom in &mut atoms[before..] {
             atom.share /= whole;
         }
     }
-    (candidates, atoms, places)
+    (candidates, atoms)
 }
 
 /// The cell that stands for the cause of one: that of which it is another order, or itself.

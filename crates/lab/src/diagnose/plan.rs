@@ -215,7 +215,7 @@ fn prospects(
             continue;
         };
         let pair = seen.rival.as_ref();
-        let variation = candidates.places[seen.atom].1;
+        let variation = atoms[seen.atom].variant;
         let (form, unified) = (&of.variants[variation], &unified[seen.atom]);
         prospects.push(Prospect {
             cell,
@@ -234,7 +234,7 @@ fn prospects(
 fn classes(candidates: &Candidates<'_>, atoms: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let mut classes: Vec<Vec<usize>> = Vec::new();
     for class in atoms {
-        let of = class.iter().map(|atom| candidates.places[*atom].0);
+        let of = class.iter().map(|atom| candidates.atoms[*atom].candidate);
         // A single row or a jump is an alias of much in few rows.
         let is_alias = |cell: &usize| candidates.cells[*cell].effect.kind == Kind::Record;
         let mut of: Vec<usize> = of.filter(|cell| !is_alias(cell)).collect();

@@ -148,6 +148,8 @@ pub fn diagnose(
         baseline: &baseline,
     };
     let separating = separation::separating(&recorded, &examination);
+    let atoms = candidates.atoms.iter();
+    let atoms = atoms.map(|atom| (atom.candidate, atom.variant)).collect();
     Ok(Diagnosis {
         examination,
         located,
@@ -162,7 +164,7 @@ pub fn diagnose(
         choices,
         steady: candidates.fitted.is_steady(),
         cells: candidates.cells,
-        atoms: candidates.places,
+        atoms,
         fit,
         noise: claimed,
     })

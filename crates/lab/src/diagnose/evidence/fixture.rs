@@ -54,8 +54,10 @@ impl Asked {
     /// With a candidate whose variants are these shapes.
     pub(super) fn with(mut self, candidate: Candidate, variants: Vec<Shape>) -> Asked {
         let own = self.candidates.len();
-        self.atoms.extend((variants.into_iter()).map(|shape| Atom {
+        let variants = variants.into_iter().enumerate();
+        self.atoms.extend(variants.map(|(variant, shape)| Atom {
             candidate: own,
+            variant,
             shape,
             share: 1.0,
         }));

@@ -162,6 +162,7 @@ mod tests {
         let candidates: Vec<Candidate> = candidates.collect();
         let atoms = laws.map(|(candidate, (_, law))| Atom {
             candidate,
+            variant: 0,
             shape: shape(tumble.column(law)),
             share: 1.0,
         });

@@ -92,6 +92,8 @@ pub enum Kind {
 pub struct Atom {
     /// Index of its candidate in [`Question::candidates`].
     pub candidate: usize,
+    /// Its number among the variants of that.
+    pub variant: usize,
     /// Its effect on the rows.
     pub shape: Shape,
     /// Prior share among the variants of its candidate; shares are normalised to sum to one.

@@ -100,7 +100,7 @@ pub(super) struct Frame {
 impl Space {
     pub(super) fn new(question: &Question) -> Space {
         let baseline = question.baseline;
-        let odds = Odds::new(question);
+        let log_odds = log_odds(question);
         let mut space = Space {
             z: baseline.residuals().clone(),
             blocks: Vec::new(),
@@ -120,7 +120,7 @@ impl Space {
             let own = start..start + atom.shape.width();
             start = own.end;
             let columns = seen.columns_range(own.clone()).into_owned();
-            let block = block(index, atom, odds.of(atom), columns, &lengths[own]);
+            let block = block(index, atom, log_odds[index], columns, &lengths[own]);
             space.blocks.extend(block);
         }
         for block in &space.blocks {
@@ -357,43 +357,30 @@ pub(super) fn principal(gram: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
     Some((Ladder::new(&eigenvalues), turn))
 }
 
-/// Prior odds: as likely as not nothing was left out, all usual named candidates alike, a share for those
-/// without a name.
-struct Odds {
-    named: f64,
-    generic: f64,
-    /// Sum of the shares of each candidate's atoms, over its own odds.
-    shares: Vec<f64>,
-}
-
-impl Odds {
-    fn new(question: &Question) -> Odds {
-        let count = question.candidates.len();
-        let mut shares = vec![0.0; count];
-        let mut kinds: Vec<Option<Kind>> = vec![None; count];
-        for atom in question.atoms {
-            kinds[atom.candidate] = Some(atom.shape.kind());
-            shares[atom.candidate] += atom.share;
-        }
-        let of = |kind| kinds.iter().filter(|k| **k == Some(kind)).count().max(1) as f64;
-        let (named, generic) = (of(Kind::Named), of(Kind::Generic));
-        for (share, candidate) in shares.iter_mut().zip(question.candidates) {
-            *share /= candidate.odds;
-        }
-        let none = libm::exp2(-1.0 / named);
-        let odds = (1.0 - none) / none;
-        Odds {
-            named: libm::log(odds),
-            generic: libm::log(odds * GENERIC_ODDS * named / generic),
-            shares,
-        }
+/// Logarithms of the prior odds of atoms: as likely as not nothing was left out, all usual named candidates alike, a share for
+/// those without a name.
+fn log_odds(question: &Question) -> Vec<f64> {
+    let count = question.candidates.len();
+    // Of the atoms of each candidate, over its own odds.
+    let mut shares = vec![0.0; count];
+    let mut kinds: Vec<Option<Kind>> = vec![None; count];
+    for atom in question.atoms {
+        kinds[atom.candidate] = Some(atom.shape.kind());
+        shares[atom.candidate] += atom.share;
     }
-
-    fn of(&self, atom: &Atom) -> f64 {
-        let odds = match atom.shape.kind() {
-            Kind::Named => self.named,
-            Kind::Generic => self.generic,
+    let of = |kind| kinds.iter().filter(|k| **k == Some(kind)).count().max(1) as f64;
+    let (named, generic) = (of(Kind::Named), of(Kind::Generic));
+    for (share, candidate) in shares.iter_mut().zip(question.candidates) {
+        *share /= candidate.odds;
+    }
+    let none = libm::exp2(-1.0 / named);
+    let odds = (1.0 - none) / none;
+    let of_atom = |atom: &Atom| {
+        let of_kind = match atom.shape.kind() {
+            Kind::Named => libm::log(odds),
+            Kind::Generic => libm::log(odds * GENERIC_ODDS * named / generic),
         };
-        odds + libm::log(atom.share / self.shares[atom.candidate])
-    }
+        of_kind + libm::log(atom.share / shares[atom.candidate])
+    };
+    question.atoms.iter().map(of_atom).collect()
 }

@@ -204,14 +204,15 @@ fn question(
             odds: cell.odds,
         });
         let before: usize = atoms.len();
-        let shapes: Vec<(usize, Shape)> = (cell.variants.iter().enumerate())
+        let (numbers, shapes): (Vec<usize>, Vec<Shape>) = (cell.variants.iter().enumerate())
             .filter_map(|(number, variation)| {
                 let columns = variation.columns(fitted);
                 Some((number, shape(columns, variation, claimed)?))
             })
-            .collect();
-        let shown = showing(baseline, shapes.iter().map(|(_, shape)| shape));
-        for ((number, shape), _) in shapes.into_iter().zip(shown).filter(|(_, shown)| *shown) {
+            .unzip();
+        let shown = showing(baseline, &shapes);
+        let shapes = numbers.into_iter().zip(shapes).zip(shown);
+        for ((number, shape), _) in shapes.filter(|(_, shown)| *shown) {
             atoms.push(Atom {
                 candidate: index,
                 variant: number,
@@ -238,25 +239,19 @@ fn cause(cells: &[Cell], index: usize) -> usize {
 /// Of which effects more than a trace is left beside the parameters. Less is what the curvature of the
 /// model makes of an exact alias; it would take sizes that are out of the question. What has no visible
 /// part at all is kept: it is listed as invisible.
-fn showing<'s>(baseline: &Baseline, shapes: impl Iterator<Item = &'s Shape>) -> Vec<bool> {
+fn showing<'s>(baseline: &Baseline, shapes: &'s [Shape]) -> Vec<bool> {
     const NOTHING: f64 = 1e-6;
     let named = |shape: &'s Shape| match shape {
         Shape::Columns(columns) => Some(columns),
         Shape::Smooth { .. } | Shape::Scatter => None,
     };
-    let shapes: Vec<&Shape> = shapes.collect();
-    let columns = shapes.iter().filter_map(|shape| named(shape));
-    let columns: Vec<_> = columns.flat_map(|columns| columns.column_iter()).collect();
-    if columns.is_empty() {
-        return vec![true; shapes.len()];
-    }
-    let shares = baseline.visibilities(&DMatrix::from_columns(&columns));
+    let columns = shapes.iter().filter_map(named);
+    let shares = baseline.visibilities(&evidence::side_by_side(baseline.rows(), columns));
     let mut shares = shares.into_iter();
-    let shown = |shape: &&'s Shape| {
-        named(shape).is_none_or(|columns| {
-            let most = (shares.by_ref().take(columns.ncols())).fold(0.0, f64::max);
-            !(NOTHING..TRACE).contains(&most)
-        })
+    let shown = |shape: &'s Shape| {
+        let width = named(shape).map_or(0, DMatrix::ncols);
+        let most = shares.by_ref().take(width).fold(0.0, f64::max);
+        !(NOTHING..TRACE).contains(&most)
     };
     shapes.iter().map(shown).collect()
 }

@@ -128,16 +128,6 @@ fn finite<'c>(
     columns.filter(|columns| columns.ncols() > 0 && columns.iter().all(|x| x.is_finite()))
 }
 
-/// How explanations stand in another design; nothing where one of them is none there.
-pub(super) fn standing(
-    recorded: &Recorded<'_>,
-    prolonged: &Prolonged<'_>,
-    set: &[Explanation<'_>],
-) -> Option<Vec<Standing>> {
-    let each = set.iter().map(|one| one.standing(recorded, prolonged));
-    each.collect()
-}
-
 /// The sizes with which columns come nearest to effects.
 fn fitted(columns: &DMatrix<f64>, effects: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     (columns.amax() > 0.0).then(|| evidence::inverse(columns) * effects)

@@ -12,7 +12,7 @@ use super::coarse::Coarse;
 use super::confirm::{Estimated, estimates};
 use super::design::Design;
 use super::evidence::{self, Refusal, Shape, TRACE};
-use super::explanation::{Explanation, standing};
+use super::explanation::Explanation;
 use super::extra::{Extra, extras};
 use super::failure::Failure;
 use super::fit::Fit;
@@ -297,7 +297,8 @@ fn promise(
 ) -> Option<Promise> {
     let (resolved, revealed) = examined(recorded, extra, |prolonged| {
         let is_told = |at: &usize| {
-            let standing = standing(recorded, prolonged, &sets[*at]);
+            let standing = (sets[*at].iter()).map(|one| one.standing(recorded, prolonged));
+            let standing = standing.collect::<Option<Vec<_>>>();
             let apart = standing.and_then(|standing| evidence::apart(&standing));
             apart.is_some_and(|apart| apart.least() >= SEPARATED)
         };

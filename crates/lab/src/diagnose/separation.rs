@@ -2,7 +2,7 @@
 
 use super::catalogue::Variation;
 use super::evidence::{self, Examination, Prospects, Separability, Standing, Worth};
-use super::explanation::{Explanation, Unlisted, likened, sizes, standing, unlisted};
+use super::explanation::{Explanation, Unlisted, likened, sizes, unlisted};
 use super::extra::Extra;
 use super::prolonged::{Prolonged, Recorded, examined};
 
@@ -117,7 +117,8 @@ struct After {
 
 impl List<'_> {
     fn after(&self, recorded: &Recorded<'_>, prolonged: &Prolonged<'_>) -> Option<After> {
-        let standing = standing(recorded, prolonged, &self.set)?;
+        let standing = (self.set.iter()).map(|one| one.standing(recorded, prolonged));
+        let standing = standing.collect::<Option<Vec<Standing>>>()?;
         let apart = evidence::apart(&standing)?;
         let (fitted, baseline) = (&prolonged.fitted, &prolonged.baseline);
         let outside = unlisted(fitted, &prolonged.cells, baseline, &self.set, &standing);

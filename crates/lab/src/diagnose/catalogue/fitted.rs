@@ -6,7 +6,7 @@ use nalgebra::DVector;
 
 use super::absorbed::Absorbed;
 use super::modifiers::{
-    centred, correlation, crosses_zero, figure, largest, map, map2, middle, range, rate,
+    amount, centred, correlation, crosses_zero, figure, largest, map, map2, middle, range, rate,
 };
 use super::{Finer, Modifier, Term};
 use crate::diagnose::case::{Case, Observed, Role};
@@ -275,7 +275,7 @@ impl<'f> FittedModel<'f> {
 
     /// A number in the unit of a column.
     pub fn figure(&self, column: usize, x: f64) -> String {
-        format!("{x} {}", self.unit(column)).trim_end().to_owned()
+        amount(x, &self.unit(column))
     }
 
     /// A column less a number, as a formula that binds like a name.

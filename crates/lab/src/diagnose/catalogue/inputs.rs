@@ -11,8 +11,8 @@ use super::fitted::{FittedModel, Node, varies};
 use super::generics::over_signals;
 use super::history::comes_back;
 use super::modifiers::{
-    correlation, creeps, crosses_zero, five_digits, largest, late, map, map2, mean_of, play_from,
-    range, rate, recordings,
+    amount, correlation, creeps, crosses_zero, five_digits, largest, late, map, map2, mean_of,
+    play_from, range, rate, recordings,
 };
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -104,8 +104,7 @@ fn size(x: &[f64]) -> f64 {
 /// As a part of the largest.
 fn part(x: &[f64], name: &str, unit: &Unit) -> Modifier {
     let size = size(x);
-    let shown = format!("{size} {}", unit.after_number());
-    let text = format!("({name}/({}))", shown.trim_end());
+    let text = format!("({name}/({}))", amount(size, &unit.after_number()));
     Modifier::number(map(x, |x| x / size), text)
 }
 

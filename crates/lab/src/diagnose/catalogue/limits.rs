@@ -3,7 +3,9 @@
 
 use super::building::{added, form, on_node, on_output, plain, scoped_label};
 use super::fitted::{FittedModel, Node, varies};
-use super::modifiers::{figure, figure_to, five_digits, largest, levels_of, map, range, rounded};
+use super::modifiers::{
+    amount, figure, figure_to, five_digits, largest, levels_of, map, range, rounded,
+};
 use super::sharp::sharpened;
 use super::stuck::{beside, moves_on};
 use super::{Cell, EffectId, Modifier, Variation};
@@ -118,14 +120,9 @@ fn ceiling(
     };
     let modifier = map(&model, |y| within(y) - y);
     let Response { name, unit, .. } = &fitted.case().responses[response];
-    let shown = |level: f64| {
-        format!("{level} {}", unit.after_number())
-            .trim_end()
-            .to_owned()
-    };
     let (mut text, mut labels) = (name.clone(), Vec::new());
     for Pile { sign, level, .. } in piles {
-        let shown = shown(*level);
+        let shown = amount(level, &unit.after_number());
         let [least, end] = match *sign > 0.0 {
             true => ["min", "above"],
             false => ["max", "below"],

@@ -1,5 +1,6 @@
 //! What a disturbance may follow, computed row by row along the recorded order.
 
+use std::fmt::Display;
 use std::ops::Range;
 
 /// Less the middle.
@@ -246,6 +247,11 @@ pub fn grid(low: f64, high: f64, ratio: f64, most: usize) -> Vec<f64> {
     (0..=steps)
         .map(|step| low * libm::pow(factor, step as f64))
         .collect()
+}
+
+/// A number with its unit, which may be none.
+pub fn amount(x: impl Display, unit: &str) -> String {
+    format!("{x} {unit}").trim_end().to_owned()
 }
 
 /// A number as formulas and labels show it: five digits.

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use super::angles::harmonic;
 use super::building::{form, on_node, wave};
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{correlation, figure, levels_of, map, range, rounded};
+use super::modifiers::{amount, correlation, figure, levels_of, map, range, rounded};
 use super::sharp::summit;
 use super::{Cell, EffectId};
 use crate::diagnose::case::Role;
@@ -89,8 +89,7 @@ fn periods(fitted: &FittedModel<'_>, column: Option<usize>, words: String) -> Op
     };
     let forms = periods.into_iter().map(|period| {
         let phase = map(course, |x| TAU * (x - least) / period);
-        let shown = format!("{} {unit}", figure(period));
-        let shown = shown.trim_end();
+        let shown = amount(figure(period), &unit);
         let argument = format!("2*pi*{began}/({shown})");
         let label = format!("period {shown}");
         form(label, wave(&phase, &argument)).shaped("P", period, &unit)

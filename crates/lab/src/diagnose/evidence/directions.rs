@@ -121,8 +121,23 @@ pub(in crate::diagnose) fn without(columns: &DMatrix<f64>, basis: &DMatrix<f64>)
 
 /// Matrices side by side; nothing of none.
 pub fn all(parts: impl Iterator<Item = DMatrix<f64>>) -> DMatrix<f64> {
-    let all = parts.reduce(|left, right| joined(&left, &right));
-    all.unwrap_or_else(|| DMatrix::zeros(0, 0))
+    let parts: Vec<DMatrix<f64>> = parts.collect();
+    let rows = parts.first().map_or(0, DMatrix::nrows);
+    side_by_side(rows, parts.iter())
+}
+
+/// Matrices of so many rows side by side.
+pub fn side_by_side<'m>(
+    rows: usize,
+    parts: impl Iterator<Item = &'m DMatrix<f64>> + Clone,
+) -> DMatrix<f64> {
+    let mut all = DMatrix::zeros(rows, parts.clone().map(DMatrix::ncols).sum());
+    let mut start = 0;
+    for part in parts {
+        all.columns_mut(start, part.ncols()).copy_from(part);
+        start += part.ncols();
+    }
+    all
 }
 
 /// A⁻¹ by least squares: coefficients of columns are A⁻¹z, and their covariance matrix is A⁻¹A⁻ᵀ where z has unit variance.
@@ -147,11 +162,7 @@ pub fn inverse(columns: &DMatrix<f64>) -> DMatrix<f64> {
 }
 
 pub(super) fn joined(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut out = DMatrix::zeros(right.nrows(), left.ncols() + right.ncols());
-    out.columns_mut(0, left.ncols()).copy_from(left);
-    out.columns_mut(left.ncols(), right.ncols())
-        .copy_from(right);
-    out
+    side_by_side(right.nrows(), [left, right].into_iter())
 }
 
 #[cfg(test)]

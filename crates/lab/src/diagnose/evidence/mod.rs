@@ -93,7 +93,7 @@ mod unsteady;
 
 pub use baseline::{Baseline, Prior, Spread};
 pub use contest::{Contest, Course, contest};
-pub use directions::{TRACE, all, determined, inverse, left, left_beside, span};
+pub use directions::{TRACE, all, determined, inverse, left, left_beside, side_by_side, span};
 pub(super) use directions::{orthonormal, without};
 pub use examine::examine;
 pub use findings::{Alternative, Examination, Fitted, Level, Rival, Slot, State, Variant, Verdict};

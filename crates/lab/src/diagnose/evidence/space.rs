@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::closed_form::{Ladder, Scale, named, scatter};
-use super::directions::{INVISIBLE, joined, orthonormal, own, without};
+use super::directions::{INVISIBLE, joined, orthonormal, own, side_by_side, without};
 use super::question::{Atom, Kind, Question, Shape};
 
 /// Prior odds of all generics together, over those of all named candidates.
@@ -114,7 +114,8 @@ impl Space {
             components: DVector::zeros(0),
         };
         // All columns at once: products with few columns spend their time on reading the whitener.
-        let (seen, lengths) = baseline.visible(&all_columns(baseline.rows(), question.atoms));
+        let columns = (question.atoms.iter()).filter_map(|atom| atom.shape.columns());
+        let (seen, lengths) = baseline.visible(&side_by_side(baseline.rows(), columns));
         let mut start = 0;
         for (index, atom) in question.atoms.iter().enumerate() {
             let own = start..start + atom.shape.width();
@@ -127,12 +128,8 @@ impl Space {
             let last = space.starts[space.starts.len() - 1];
             space.starts.push(last + block.basis.ncols());
         }
-        let total = space.starts[space.blocks.len()];
-        space.directions = DMatrix::zeros(space.z.len(), total);
-        for (block, start) in space.blocks.iter().zip(&space.starts) {
-            let mut own = space.directions.columns_mut(*start, block.basis.ncols());
-            own.copy_from(&block.basis);
-        }
+        let bases = space.blocks.iter().map(|block| &block.basis);
+        space.directions = side_by_side(space.z.len(), bases);
         space.components = space.directions.tr_mul(&space.z);
         space
     }
@@ -275,17 +272,6 @@ impl Block {
     pub(super) fn determined(&self) -> DMatrix<f64> {
         self.columns.select_columns(&self.kept)
     }
-}
-
-/// The columns of all atoms side by side.
-fn all_columns(rows: usize, atoms: &[Atom]) -> DMatrix<f64> {
-    let mut all = DMatrix::zeros(rows, atoms.iter().map(|atom| atom.shape.width()).sum());
-    let mut start = 0;
-    for columns in atoms.iter().filter_map(|atom| atom.shape.columns()) {
-        all.columns_mut(start, columns.ncols()).copy_from(columns);
-        start += columns.ncols();
-    }
-    all
 }
 
 /// An atom with its columns as they are seen, and the lengths that these had with what the parameters absorb.

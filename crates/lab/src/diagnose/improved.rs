@@ -1,9 +1,9 @@
 //! The improved model as files: a case with the new terms, and the recording with the columns that they
 //! need.
 
-use super::Diagnosis;
-use super::case::{Blocks, Case, Column, Data, NoiseClaim, NoiseOrigin, Role};
+use super::case::{Blocks, Case, Column, Data, NoiseClaim, Role};
 use super::simulate::{heading, recorded};
+use super::{Diagnosis, Origin};
 use crate::experiment::written::own_units;
 use crate::recording::{Heading, text_of};
 use gumption_core::quantity::Unit;
@@ -185,7 +185,7 @@ fn at_rest(case: &Case) -> Option<String> {
 fn claims(case: &Case, at_rest: Option<&str>) -> String {
     let noise = match &case.noise {
         NoiseClaim::Stated {
-            origin: NoiseOrigin::Budget(file),
+            origin: Origin::Budget(file),
             ..
         } => format!("\n[noise]\nbudget = {}\n", path(case, file)),
         NoiseClaim::Stated { u, dof, walk, .. } => {

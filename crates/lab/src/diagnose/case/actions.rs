@@ -1,6 +1,6 @@
 //! Further measurements that the user could make.
 
-use super::rows::{Complete, Rows, continued, joined};
+use super::rows::{Rows, continued, joined};
 use super::{Column, Data};
 use crate::diagnose::extra::{Extra, Measure};
 use crate::diagnose::faults::{MISSING, ROWS, SETTING};
@@ -53,7 +53,7 @@ impl Checker<'_> {
             Some(entry) => match &entry.value {
                 RowsEntry::File(path) => {
                     let path = entry.map(|_| path.clone());
-                    self.rows_of_file(&path, columns, Complete::Planned)?
+                    self.rows_of_file(&path, columns, continued)?
                 }
                 RowsEntry::Lists(lists) => self.listed(entry, lists, columns)?,
             },

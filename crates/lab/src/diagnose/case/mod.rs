@@ -14,6 +14,7 @@ mod settings;
 use std::path::{Path, PathBuf};
 
 use super::extra::Extra;
+use super::noise::Origin;
 use crate::recording::Labels;
 use gumption_core::equations::Equations;
 use gumption_core::model::Symbol;
@@ -160,8 +161,8 @@ pub enum NoiseClaim {
         dof: f64,
         /// Random walk beside it, per root of an hour, one for each response; 0 if none is claimed.
         walk: Vec<f64>,
-        /// Where it comes from.
-        origin: NoiseOrigin,
+        /// Where it comes from: the case itself, or a budget.
+        origin: Origin,
     },
     /// A column holds the standard uncertainty of each row.
     PerRow {
@@ -181,15 +182,6 @@ pub enum NoiseClaim {
         /// One for each response.
         readings: Vec<RestReadings>,
     },
-}
-
-/// Where a stated noise comes from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum NoiseOrigin {
-    /// The case itself.
-    Case,
-    /// A budget.
-    Budget(String),
 }
 
 /// An explanation of the user's own.

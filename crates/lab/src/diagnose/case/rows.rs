@@ -159,15 +159,6 @@ pub(in crate::diagnose) fn interval(times: &[f64]) -> f64 {
     usual(steps).unwrap_or(1.0)
 }
 
-/// What a file of rows must hold.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Complete {
-    /// Every column of the recording.
-    Recorded,
-    /// What was applied; the rest goes on as recorded.
-    Planned,
-}
-
 impl Checker<'_> {
     /// The recording that is to be predicted.
     pub(super) fn held_out(
@@ -183,22 +174,22 @@ impl Checker<'_> {
             }
             return None;
         };
-        let rows = self.rows_of_file(path, columns, Complete::Recorded)?;
+        let rows = self.rows_of_file(path, columns, |_, _| None)?;
         Some(HeldOut {
             file: path.value.clone(),
             rows,
         })
     }
 
-    /// Reads rows of the columns of a case from another file.
+    /// Reads rows of the columns of a case from another file; `otherwise` gives those of columns that it does not have.
     pub(super) fn rows_of_file(
         &mut self,
         path: &Stated<String>,
         columns: &[Column],
-        complete: Complete,
+        otherwise: fn(&Column, usize) -> Option<Data>,
     ) -> Option<Rows> {
         let refused = |message: Said| Fault::new(ROWS, path.span.clone(), message);
-        match self.read_rows(&path.value, columns, complete) {
+        match self.read_rows(&path.value, columns, otherwise) {
             Ok(rows) => Some(rows),
             Err(messages) => {
                 self.faults.extend(messages.into_iter().map(refused));
@@ -212,7 +203,7 @@ impl Checker<'_> {
         &self,
         path: &str,
         columns: &[Column],
-        complete: Complete,
+        otherwise: fn(&Column, usize) -> Option<Data>,
     ) -> Result<Rows, Vec<Said>> {
         let text = text_of(self.files, &self.folder.join(path), path);
         let text = text.map_err(|rejection| vec![rejection.said()])?;
@@ -239,8 +230,7 @@ impl Checker<'_> {
             let found = match own {
                 Some(own) => in_unit(own, &column.unit)
                     .ok_or_else(|| say!("{}: {} is not in a unit such as {}", path, name, unit)),
-                None => continued(column, recorded.rows())
-                    .filter(|_| complete == Complete::Planned)
+                None => otherwise(column, recorded.rows())
                     .ok_or_else(|| say!("{} has no column \"{}\"", path, column.header)),
             };
             match found {

@@ -4,8 +4,8 @@ use nalgebra::DMatrix;
 
 use super::directions::left;
 use super::findings::ALONE;
+use super::fit::reached;
 use super::look_alikes::stays;
-use gumption_core::special::normal_cdf;
 
 /// A rival explanation in a design, as it is seen beside the fitted parameters
 /// ([`Baseline::project`](super::Baseline::project)).
@@ -122,9 +122,6 @@ impl Separability {
     }
 
     /// What the measurement is worth with which explanations are as far apart as this.
-    ///
-    /// If `a` is the truth, what is still to be recorded adds to its log odds over `b` on average half of what
-    /// κ² gains, with a variance of the whole of it.
     pub fn worth(&self, prospects: &Prospects<'_>) -> Worth {
         let mut kappa = f64::INFINITY;
         let (mut resolved, mut whole) = (0.0, 0.0);
@@ -185,11 +182,7 @@ fn log_odds(a: f64, b: f64) -> f64 {
 
 /// Probability that the truth comes to stand alone, from its log odds and what κ² gains.
 fn decided(odds: f64, gain: f64) -> f64 {
-    if gain > NOTHING {
-        normal_cdf((odds + 0.5 * gain - alone()) / gain.sqrt())
-    } else {
-        f64::from(u8::from(odds >= alone()))
-    }
+    reached(odds, gain, alone())
 }
 
 #[cfg(test)]

@@ -86,7 +86,7 @@ impl<'f> Candidates<'f> {
             false => &contest.alone,
         };
         let each = log_posterior.chunks(seen.len() / spreads.len());
-        let most = |of: &[f64]| of.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let most = evidence::maximum;
         let likeliest = (spreads.iter().zip(each)).max_by(|a, b| most(a.1).total_cmp(&most(b.1)));
         let claimed = likeliest.map(|(spread, own)| Claimed {
             correlated: courses.likely(own),

@@ -12,7 +12,7 @@ use super::confirm::{self, Estimated, Quality, estimates};
 use super::design::Design;
 use super::evidence::{self, Examination, Located};
 use super::failure::Failure;
-use super::fit::{Fit, ModelVersion, NoFit, Trouble, Unsettled};
+use super::fit::{Fit, ModelVersion, Trouble, Unsettled};
 use super::held_out::{self, HeldOutQuality};
 use super::inquiry::{Answer, Declared, Inquiry};
 use super::noise::{self, Claimed};
@@ -119,7 +119,10 @@ pub fn diagnose(
     let unknowns = estimates(&design, &fit, &claimed);
     let (adopted, no_fit) = match adopt_named(&candidates, &mut examination, &claimed) {
         Ok(adopted) => (adopted, None),
-        Err(why) => (None, Some(without_fit(why))),
+        Err(why) => {
+            let (model, trouble) = (ModelVersion::Improved, Trouble::NoFit(why));
+            (None, Some(Unsettled { model, trouble }))
+        }
     };
     let worse = (adopted.as_ref()).is_some_and(|adopted| adopted.predicts_worse(&before));
     let adopted = adopted.filter(|_| !worse);
@@ -168,13 +171,6 @@ pub fn diagnose(
         fit,
         noise: claimed,
     })
-}
-
-fn without_fit(why: NoFit) -> Unsettled {
-    Unsettled {
-        model: ModelVersion::Improved,
-        trouble: Trouble::NoFit(why),
-    }
 }
 
 /// Whether every effect that is adopted would be there in another recording.

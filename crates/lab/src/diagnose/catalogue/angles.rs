@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use super::building::{cell, form, on_node, wave};
 use super::fitted::{FittedModel, Node, varies};
@@ -39,7 +39,9 @@ pub(super) fn turning(fitted: &FittedModel<'_>) -> Vec<usize> {
 
 fn of_angle(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let name = fitted.label(column);
-    let variants = harmonics(fitted, column);
+    // A wave shows by half of it, and by two positions.
+    let last = (positions(&radians(fitted, column)) / 2).min(HIGHEST as usize) as u32;
+    let variants = harmonics(fitted, column, 1..=last, 0.9 * PI);
     // Harmonics are independent of one another: each is a candidate of its own.
     let each = |id: EffectId, node: Node| -> Vec<Cell> {
         let one = |form: &Variation| on_node(fitted, id, name, node, [form.clone()]);
@@ -61,24 +63,22 @@ fn of_angle(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     cells
 }
 
-/// Sine and cosine of the multiples of an angle that its positions can tell apart.
-fn harmonics(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
-    let name = fitted.label(column);
+/// Sine and cosine of multiples of an angle, of which the recording has more than a phase.
+pub(super) fn harmonics(
+    fitted: &FittedModel<'_>,
+    column: usize,
+    orders: RangeInclusive<u32>,
+    phase: f64,
+) -> Vec<Variation> {
     let phi = radians(fitted, column);
     let (least, most) = range(&phi);
-    let positions = positions(&phi);
-    // A wave shows by half of it, and by two positions.
-    let shows =
-        |k: &u32| f64::from(*k) * (most - least) > 0.9 * PI && 2 * (*k as usize) <= positions;
-    let each = (1..=HIGHEST).filter(shows);
-    each.map(|k| harmonic(&phi, name, k)).collect()
-}
-
-/// So many waves in each turn of an angle.
-pub(super) fn harmonic(phi: &[f64], name: &str, k: u32) -> Variation {
-    let phase = map(phi, |phi| f64::from(k) * phi);
-    let waves = wave(&phase, &format!("{k}*{name}"));
-    form(format!("{k} per turn"), waves)
+    let each = orders.filter(|k| f64::from(*k) * (most - least) > phase);
+    let harmonic = |k: u32| {
+        let phase = map(&phi, |phi| f64::from(k) * phi);
+        let argument = format!("{k}*{}", fitted.label(column));
+        form(format!("{k} per turn"), wave(&phase, &argument))
+    };
+    each.map(harmonic).collect()
 }
 
 /// Different places on the circle, to a ten-thousandth of a turn.

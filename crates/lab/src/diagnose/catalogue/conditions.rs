@@ -39,7 +39,6 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let own = fitted.centred(column);
     let temperature = fitted.is_temperature(column);
     let stimulus = fitted.case().columns[column].role == Role::Stimulus;
-    let mut cells = Vec::new();
     let [second, on_scale, by_rate] = match temperature {
         true => [
             EffectId::TempcoQuadratic,
@@ -58,9 +57,6 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         delayed.iter().cloned().chain(leading).collect()
     };
     let delayed = on(Node::Output);
-    let offset =
-        |id: EffectId, forms: Vec<Variation>| on_node(fitted, id, label, Node::Output, forms);
-    cells.push(offset(on_offset(fitted, column), linear(&delayed)));
     let square = delayed.iter().map(|late| {
         let squares = late.terms.iter().map(|term| term.modifier.square());
         Variation {
@@ -69,33 +65,35 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         }
     });
     let square = square.chain(squares(fitted, column)).collect();
-    cells.push(offset(second, square));
+    let (output, gain) = (Node::Output, Node::Gain);
+    let first = on_offset(fitted, column);
+    let mut effects = vec![(first, output, linear(&delayed)), (second, output, square)];
     if fitted.has_signal() {
-        let mut scale = |id: EffectId, forms: Vec<Variation>| {
-            cells.push(on_node(fitted, id, label, Node::Gain, forms));
-        };
-        scale(on_scale, linear(&on(Node::Gain)));
-        scale(EffectId::SensitivityScaleQuadratic, squares(fitted, column));
+        let second_on_scale = EffectId::SensitivityScaleQuadratic;
+        effects.push((on_scale, gain, linear(&on(gain))));
+        effects.push((second_on_scale, gain, squares(fitted, column)));
     }
     if fitted.is_timed() {
         let rate = form("", vec![fitted.rate(column)]);
-        cells.push(offset(by_rate, vec![rate]));
+        effects.push((by_rate, output, vec![rate]));
     }
     if !stimulus && stands_for_temperature(fitted, column) {
-        cells.push(offset(EffectId::UnrecordedTemperature, linear(&delayed)));
+        let id = EffectId::UnrecordedTemperature;
+        effects.push((id, output, linear(&delayed)));
     }
     let odds = match !stimulus && is_of_air(fitted, column) {
         true => AIR,
         false => 1.0,
     };
-    for cell in &mut cells {
-        cell.odds = match cell.effect.id {
+    let cell = |(id, node, forms): (EffectId, Node, Vec<Variation>)| Cell {
+        odds: match id {
             EffectId::UnrecordedTemperature => 1.0,
-            _ if cell.effect.is_higher => odds * HIGHER,
+            _ if id.entry().is_higher => odds * HIGHER,
             _ => odds,
-        };
-    }
-    cells
+        },
+        ..on_node(fitted, id, label, node, forms)
+    };
+    effects.into_iter().map(cell).collect()
 }
 
 /// What a column does to the offset.

@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use super::angles::harmonic;
+use super::angles::harmonics;
 use super::building::{form, on_node, wave};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{amount, correlation, figure, levels_of, map, range, rounded};
@@ -121,18 +121,14 @@ fn set_points(ascending: &[f64]) -> usize {
 fn lines(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     /// Fewer positions are those of a test in steps, not of a scan of a graduation.
     const POSITIONS: usize = 64;
-    let phi = super::angles::radians(fitted, column);
-    let positions = super::angles::positions(&phi);
-    let (least, most) = range(&phi);
+    let positions = super::angles::positions(&super::angles::radians(fitted, column));
     if positions < POSITIONS || fitted.design.blocks.len() < fitted.rows() {
         return None;
     }
-    let name = fitted.label(column);
-    let shows = |k: &u32| f64::from(*k) * (most - least) > FEWEST_PERIODS * TAU;
     let last = u32::try_from((positions - 1) / 2).ok()?;
-    let forms = (super::angles::HIGHEST + 1..=last).filter(shows);
-    let forms = forms.map(|k| harmonic(&phi, name, k));
-    let id = EffectId::Wave;
+    let orders = super::angles::HIGHEST + 1..=last;
+    let forms = harmonics(fitted, column, orders, FEWEST_PERIODS * TAU);
+    let (id, name) = (EffectId::Wave, fitted.label(column));
     Some(on_node(fitted, id, name, Node::Output, forms))
 }
 

@@ -216,6 +216,7 @@ impl Baseline {
     }
 }
 
-fn maximum(values: &[f64]) -> f64 {
+/// The largest; −∞ of none.
+pub fn maximum(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
 }

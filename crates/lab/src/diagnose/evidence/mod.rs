@@ -92,7 +92,7 @@ mod unlisted;
 mod unsteady;
 
 pub use baseline::{Baseline, Prior, Spread};
-pub use contest::{Contest, Course, contest};
+pub use contest::{Contest, Course, contest, maximum};
 pub use directions::{TRACE, all, determined, inverse, left, left_beside, side_by_side, span};
 pub(super) use directions::{orthonormal, without};
 pub use examine::examine;

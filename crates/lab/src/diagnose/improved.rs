@@ -124,22 +124,18 @@ fn entry(column: &Column, case: &Case) -> String {
         Role::Uncertainty => "u",
         other => other.word(),
     };
-    let mut parts = vec![format!("role = \"{role}\"")];
-    if !is_found_by_name(column, case) {
-        let heading = heading(column, &case.units);
-        parts.push(format!("column = {}", quoted(&heading)));
-    }
-    for (key, stated) in [
+    let heading = (!is_found_by_name(column, case)).then(|| heading(column, &case.units));
+    let stated = [
         ("u", column.u),
         ("u_common", column.u_common),
         ("full_scale", column.full_scale),
-    ] {
-        parts.extend(stated.map(|value| format!("{key} = {value:e}")));
-    }
-    if parts.len() == 1 {
-        format!("\"{role}\"")
-    } else {
-        format!("{{ {} }}", parts.join(", "))
+    ];
+    let stated = stated.map(|(key, stated)| stated.map(|value| format!("{key} = {value:e}")));
+    let heading = heading.map(|heading| format!("column = {}", quoted(&heading)));
+    let others: Vec<String> = std::iter::once(heading).chain(stated).flatten().collect();
+    match others.as_slice() {
+        [] => format!("\"{role}\""),
+        others => format!("{{ role = \"{role}\", {} }}", others.join(", ")),
     }
 }
 

@@ -1,9 +1,11 @@
 //! What recorded conditions may do that the model leaves out: on the offset, on the scale, with a lag,
 //! squared, as a rate, inversely, and together.
 
-use super::building::{form, on_node, on_output, pair, time_constants, timed};
+use super::building::{decay, form, on_node, on_output, pair, time_constants, timed};
 use super::fitted::{FittedModel, Node, varies};
-use super::modifiers::{centred, correlation, five_digits, late, levels_of, map, map2, range};
+use super::modifiers::{
+    centred, correlation, figure, five_digits, late, levels_of, map, map2, range,
+};
 use super::sharp::sharpened;
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -244,4 +246,33 @@ fn meet(fitted: &FittedModel<'_>, x: usize, z: usize) -> bool {
     let applied = |c: usize| fitted.case().columns[c].role == Role::Stimulus;
     let of_air = |c: usize| fitted.is_temperature(c) || is_of_air(fitted, c);
     applied(x) || applied(z) || of_air(x) && of_air(z)
+}
+
+/// Cells of the columns that may be depths of immersion.
+pub(super) fn stems(fitted: &FittedModel<'_>) -> Vec<Cell> {
+    let numeric = fitted.numeric().into_iter();
+    numeric.filter_map(|column| stem(fitted, column)).collect()
+}
+
+/// Loss along the stem of a probe, which dies away with the depth.
+fn stem(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
+    let x = fitted.numbers(column);
+    let (least, most) = range(x);
+    let length = fitted.is_like(column, "m") && least >= 0.0 && levels_of(x).len() >= 3;
+    if fitted.in_model(column) || !length || !fitted.has_signal() {
+        return None;
+    }
+    let name = fitted.label(column);
+    let unit = fitted.unit(column);
+    let (along, began) = (map(x, |x| x - least), fitted.less(column, least));
+    let forms = [0.1, 0.2, 0.4, 0.8].map(|part| {
+        let depth = five_digits(part * (most - least));
+        let label = format!("over {} {unit}", figure(depth));
+        form(
+            label,
+            vec![decay(&along, &began, depth, &fitted.figure(column, depth))],
+        )
+    });
+    let id = EffectId::Immersion;
+    Some(on_node(fitted, id, name, Node::Gain, forms))
 }

@@ -87,8 +87,9 @@ impl<'g> Turning<'g> {
         }
         let both = [("", 1.0), ("angle counted clockwise", -1.0)];
         let across = both.map(|(label, sense)| {
-            let terms = [self.along(), self.common(sense, |_| 1.0)].concat();
-            Variation::of(label, terms)
+            // Along the axis, and across it, all outputs sense it alike.
+            let along = self.tied(|a, row| self.axis[row][a], ALONG);
+            Variation::of(label, [along, self.common(sense, |_| 1.0)].concat())
         });
         let responses = &self.fitted.case().responses;
         let each: Vec<Vec<Term>> = (0..responses.len()).map(|a| self.alone(a)).collect();
@@ -134,11 +135,6 @@ impl<'g> Turning<'g> {
             }
         }
         all
-    }
-
-    /// A field along the axis that all outputs sense alike.
-    fn along(&self) -> Vec<Term> {
-        self.tied(|a, row| self.axis[row][a], ALONG)
     }
 
     fn tied(&self, component: impl Fn(usize, usize) -> f64, text: &str) -> Vec<Term> {

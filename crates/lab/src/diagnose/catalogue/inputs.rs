@@ -122,11 +122,7 @@ fn others(fitted: &FittedModel<'_>, response: usize) -> Vec<Modifier> {
         return vec![by(Node::Column(angle), &fitted.step_unit(angle))];
     }
     // Along one column there is no other axis: the slopes by the parameters are the course of the model itself.
-    let inputs = (0..case.columns.len()).filter(|c| {
-        let role = case.columns[*c].role;
-        matches!(role, Role::Stimulus | Role::Angle) && fitted.in_model(*c)
-    });
-    if inputs.count() < 2 {
+    if formed_from(fitted).len() < 2 {
         return Vec::new();
     }
     let signal = fitted.signal(response);
@@ -166,7 +162,8 @@ fn of_inputs(
     id: EffectId,
     variants: Vec<Variation>,
 ) -> Cell {
-    let mut cell = plain(fitted, id, &along(fitted), variants);
+    let along = fitted.names(&formed_from(fitted));
+    let mut cell = plain(fitted, id, &along, variants);
     let name = |input: &Input| fitted.case().responses[input.response].name.as_str();
     let names: Vec<&str> = inputs.iter().map(name).collect();
     cell.words.x = format!("signal({})", names.join(", "));
@@ -174,11 +171,11 @@ fn of_inputs(
 }
 
 /// The columns that inputs are formed from.
-fn along(fitted: &FittedModel<'_>) -> String {
+fn formed_from(fitted: &FittedModel<'_>) -> Vec<usize> {
     let columns = &fitted.case().columns;
     let forms =
         |c: &usize| matches!(columns[*c].role, Role::Stimulus | Role::Angle) && fitted.in_model(*c);
-    fitted.names(&(0..columns.len()).filter(forms).collect::<Vec<usize>>())
+    (0..columns.len()).filter(forms).collect()
 }
 
 fn powers(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {

@@ -18,7 +18,7 @@
 //! | `axes` | the same where the model holds a constant against several columns, and between outputs |
 //! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
 //! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
-//! | `heating`, `stem`, `waves` | power of the signal, loss along a stem, what repeats |
+//! | `heating`, `waves` | power of the signal, what repeats |
 //! | `readout`, `stuck` | rounding and slips, readings that stand still |
 //! | `angles`, `fields` | errors of angles; what stays in the laboratory while the sensor turns |
 //! | `finer` | values between those of the grids |
@@ -47,7 +47,6 @@ mod readout;
 mod response;
 mod rows;
 mod sharp;
-mod stem;
 mod stuck;
 mod time;
 mod user;
@@ -367,7 +366,7 @@ pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     cells.extend(rows::cells(fitted));
     cells.extend(readout::cells(fitted));
     cells.extend(stuck::cells(fitted));
-    cells.extend(stem::cells(fitted));
+    cells.extend(conditions::stems(fitted));
     cells.extend(heating::cells(fitted));
     cells.extend(user::cells(fitted));
     if let Some(norm) = norm::Norm::of(fitted) {

@@ -1,7 +1,7 @@
 //! What further measurements tell apart.
 
 use super::catalogue::Variation;
-use super::evidence::{self, Examination, Prospects, Separability, Standing, Worth};
+use super::evidence::{self, Examination, Separability, Standing, Worth};
 use super::explanation::{Explanation, Unlisted, likened, sizes, unlisted};
 use super::extra::Extra;
 use super::prolonged::{Prolonged, Recorded, examined};
@@ -143,12 +143,8 @@ impl List<'_> {
         let classes = classes(self.set.len(), &self.before, &aparts);
         let probabilities: Vec<f64> = self.set.iter().map(|one| one.probability).collect();
         let worth = |after: &After| {
-            let mut worth = after.apart.worth(&Prospects {
-                before: &self.before,
-                probabilities: &probabilities,
-                classes: &classes,
-                outside: &after.doubts,
-            });
+            let (before, doubts) = (&self.before, &after.doubts);
+            let mut worth = after.apart.worth(before, &probabilities, &classes, doubts);
             worth.resolved *= self.share;
             worth
         };

@@ -3,20 +3,21 @@
 use std::path::Path;
 
 use super::candidates;
-use super::{Case, Column, Purpose, Settings, columns, disused, inputs};
+use super::{Case, Column, Purpose, Settings, columns, inputs};
 use crate::diagnose::faults::MISSING;
 use crate::experiment::checker::{Checker, made, opened};
 use crate::experiment::names::{Kind, Names};
+use crate::experiment::source::Source;
 use crate::experiment::symbols::quantity;
-use crate::experiment::tables::ExperimentTable;
+use crate::experiment::tables::{ExperimentTable, RecordingTable};
 use crate::experiment::{Purpose as Use, inferred, positions};
 use crate::recording::{Recording, Request};
 use gumption_core::equations::Quantity;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::faults::TOML_SYNTAX;
-use gumption_format::toml::{OneOrMany, Stated};
+use gumption_format::toml::{OneOrMany, Slot, Stated};
 use gumption_gum::budget::quantities::text_of;
-use gumption_gum::budget::{Files, Rejection};
+use gumption_gum::budget::{Files, Rejection, Remark};
 
 /// Reads and checks a case.
 pub(super) fn load(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
@@ -127,7 +128,7 @@ impl Checker<'_> {
                 .map_or_else(stem, |title| title.value.clone()),
             reference: file.reference.as_ref().map(|text| text.value.clone()),
             note: file.note.as_ref().map(|text| text.value.clone()),
-            remarks: [experiment.remarks, disused::remarks(self.source, file)].concat(),
+            remarks: [experiment.remarks, disused(self.source, file)].concat(),
             text: self.source.text[..self.source.own].to_owned(),
             path: path.to_path_buf(),
             units: self.units.clone(),
@@ -189,4 +190,30 @@ fn models(file: &ExperimentTable) -> Option<Stated<OneOrMany<String>>> {
         }
     }
     Some(models)
+}
+
+/// Remarks on keys of the file itself that only calibrations use.
+fn disused(source: &Source, file: &ExperimentTable) -> Vec<Remark> {
+    let default = RecordingTable::default();
+    let recording = file.recording.as_ref().map_or(&default, |r| &r.value.0);
+    let keys = [
+        ("`steps` of the recording", place(&recording.steps)),
+        ("`still` of the recording", place(&recording.still)),
+        ("`dwell` of the recording", place(&recording.dwell)),
+        ("`together` of the recording", place(&recording.together)),
+        ("`separately`", place(&file.separately)),
+        ("`weights`", place(&file.weights)),
+        ("[[correlation]]", place(&file.correlation)),
+    ];
+    keys.into_iter()
+        .filter(|(_, place)| place.as_ref().is_some_and(|place| !source.is_base(place)))
+        .map(|(key, _)| Remark {
+            en: format!("{key} is used by `calibrate` only"),
+            zh: format!("{key} 仅用于 `calibrate`"),
+        })
+        .collect()
+}
+
+fn place<T>(stated: &Slot<T>) -> Option<std::ops::Range<usize>> {
+    stated.as_ref().map(|stated| stated.span.clone())
 }

@@ -5,7 +5,6 @@ mod candidates;
 mod check;
 mod columns;
 mod declared;
-mod disused;
 mod inputs;
 mod noise;
 mod rows;

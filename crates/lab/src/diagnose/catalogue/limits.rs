@@ -6,8 +6,8 @@ use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
     amount, figure, figure_to, five_digits, largest, levels_of, map, range, rounded,
 };
+use super::readout::{beside, moves_on};
 use super::sharp::sharpened;
-use super::stuck::{beside, moves_on};
 use super::{Cell, EffectId, Modifier, Variation};
 use crate::diagnose::case::Response;
 

@@ -19,7 +19,7 @@
 //! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
 //! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
 //! | `heating`, `waves` | power of the signal, what repeats |
-//! | `readout`, `stuck` | rounding and slips, readings that stand still |
+//! | `readout` | rounding and slips, readings that stand still |
 //! | `angles`, `fields` | errors of angles; what stays in the laboratory while the sensor turns |
 //! | `finer` | values between those of the grids |
 //! | `generics` | competitors without a name |
@@ -47,7 +47,6 @@ mod readout;
 mod response;
 mod rows;
 mod sharp;
-mod stuck;
 mod time;
 mod user;
 mod waves;
@@ -365,7 +364,6 @@ pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     cells.extend(angles::cells(fitted));
     cells.extend(rows::cells(fitted));
     cells.extend(readout::cells(fitted));
-    cells.extend(stuck::cells(fitted));
     cells.extend(conditions::stems(fitted));
     cells.extend(heating::cells(fitted));
     cells.extend(user::cells(fitted));

@@ -51,20 +51,6 @@ pub struct Worth {
     pub repeats: f64,
 }
 
-/// What is known of rival explanations from the recording at hand.
-#[derive(Debug, Clone, Copy)]
-pub struct Prospects<'p> {
-    /// How far they are apart in it.
-    pub before: &'p Separability,
-    /// Their posterior probabilities.
-    pub probabilities: &'p [f64],
-    /// A number for each; those that no measurement tells apart share one, and are not asked to be.
-    pub classes: &'p [usize],
-    /// For each the probability that something comes to stand beside it that is none of them
-    /// ([`doubt`]).
-    pub outside: &'p [f64],
-}
-
 /// Separability with which rivals are told apart nearly always.
 const SEPARATED: f64 = 5.0;
 /// No number of repetitions helps below this separability.
@@ -121,17 +107,24 @@ impl Separability {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// What the measurement is worth with which explanations are as far apart as this.
-    pub fn worth(&self, prospects: &Prospects<'_>) -> Worth {
+    /// What the measurement is worth with which explanations are as far apart as this, and `before` it as far as that. Of each,
+    /// `probabilities` has the posterior one, `classes` a number, which those share that no measurement tells apart and that are
+    /// not asked to be, and `outside` the probability that something comes to stand beside it that is none of them ([`doubt`]).
+    pub fn worth(
+        &self,
+        before: &Separability,
+        probabilities: &[f64],
+        classes: &[usize],
+        outside: &[f64],
+    ) -> Worth {
         let mut kappa = f64::INFINITY;
         let (mut resolved, mut whole) = (0.0, 0.0);
         for a in 0..self.left.len() {
-            let mut doubts = vec![prospects.outside[a]; self.whole[a].len()];
-            for b in (0..self.left.len()).filter(|b| prospects.classes[a] != prospects.classes[*b])
-            {
+            let mut doubts = vec![outside[a]; self.whole[a].len()];
+            for b in (0..self.left.len()).filter(|b| classes[a] != classes[*b]) {
                 kappa = kappa.min(self.left[a][b][0]);
-                let odds = log_odds(prospects.probabilities[a], prospects.probabilities[b]);
-                let kappas = self.left[a][b].iter().zip(&prospects.before.left[a][b]);
+                let odds = log_odds(probabilities[a], probabilities[b]);
+                let kappas = self.left[a][b].iter().zip(&before.left[a][b]);
                 for (doubt, (after, before)) in doubts.iter_mut().zip(kappas) {
                     *doubt += if self.stays[a][b] {
                         1.0
@@ -141,8 +134,8 @@ impl Separability {
                 }
             }
             let sure: f64 = doubts.iter().map(|doubt| (1.0 - doubt).max(0.0)).sum();
-            resolved += prospects.probabilities[a] * sure / doubts.len() as f64;
-            whole += prospects.probabilities[a];
+            resolved += probabilities[a] * sure / doubts.len() as f64;
+            whole += probabilities[a];
         }
         Worth {
             kappa,
@@ -225,12 +218,7 @@ mod tests {
     }
 
     fn judged(after: &Separability, before: &Separability, p: &[f64], classes: &[usize]) -> Worth {
-        after.worth(&Prospects {
-            before,
-            probabilities: p,
-            classes,
-            outside: &vec![0.0; p.len()],
-        })
+        after.worth(before, p, classes, &vec![0.0; p.len()])
     }
 
     #[test]

@@ -34,7 +34,7 @@
 //! | `reduced` | a recording reduced to its residuals |
 //! | `inquiry` | the recording asked in stages, noise and effects in turn |
 //! | `run` | a diagnosis from end to end |
-//! | `adopt`, `adopted` | the model with effects in it: its equations, its fit |
+//! | `adopt` | the model with effects in it: its equations, its fit |
 //! | `confirm`, `parts`, `held_out` | how well a model describes the recording, its parts, and a recording that the fit has not seen |
 //! | `regions` | where the mismatch may sit |
 //! | `plan` | what an experiment can see and tell apart, without data |
@@ -51,7 +51,6 @@
 //! | `stand_in` | what can stand in for something whose trace is known |
 
 mod adopt;
-mod adopted;
 mod blocks;
 mod candidates;
 pub mod case;
@@ -91,8 +90,7 @@ mod size;
 mod stand_in;
 mod typical;
 
-pub use adopt::{Addition, Extended, Free};
-pub use adopted::Adopted;
+pub use adopt::{Addition, Adopted, Extended, Free};
 pub use conclusion::{Conclusion, Doubt};
 pub use confirm::{Estimated, Quality};
 pub use emphasis::{Agreement, Unseen};

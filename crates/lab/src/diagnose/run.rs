@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::ops::ControlFlow;
 
-use super::adopted::{Adopted, adopt_named};
+use super::adopt::{Adopted, adopt_named};
 use super::candidates::{Candidates, baseline};
 use super::case::Case;
 use super::catalogue::{Cell, Pattern};

@@ -19,23 +19,28 @@ use gumption_format::toml::{OneOrMany, Slot, Stated};
 use gumption_gum::budget::quantities::text_of;
 use gumption_gum::budget::{Files, Rejection, Remark};
 
-/// Reads and checks a case.
-pub(super) fn load(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
-    let name = path.display().to_string();
-    let text = text_of(files, path)?;
-    let source = opened(&text, &name)?;
-    if source.faults.iter().any(|fault| fault.code == TOML_SYNTAX) {
-        return Err(Rejection::new(&name, &text, source.faults));
+impl Case {
+    /// As [`load`](Self::load), with files that may be in memory.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn load_from(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
+        let name = path.display().to_string();
+        let text = text_of(files, path)?;
+        let source = opened(&text, &name)?;
+        if source.faults.iter().any(|fault| fault.code == TOML_SYNTAX) {
+            return Err(Rejection::new(&name, &text, source.faults));
+        }
+        let folder = path.parent().unwrap_or_else(|| Path::new(""));
+        let purpose = match purpose {
+            Purpose::Diagnosis => Use::Calibrate,
+            Purpose::Plan => Use::Plan,
+        };
+        let list = inferred::complete;
+        made(source, &name, purpose, files, folder, list, |checker| {
+            checker.case(path)
+        })
     }
-    let folder = path.parent().unwrap_or_else(|| Path::new(""));
-    let purpose = match purpose {
-        Purpose::Diagnosis => Use::Calibrate,
-        Purpose::Plan => Use::Plan,
-    };
-    let list = inferred::complete;
-    made(source, &name, purpose, files, folder, list, |checker| {
-        checker.case(path)
-    })
 }
 
 impl Checker<'_> {

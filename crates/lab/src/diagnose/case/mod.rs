@@ -266,15 +266,7 @@ impl Case {
     /// # Errors
     /// All faults of the case, or all faults of the recording.
     pub fn load(path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
-        check::load(Files::Disk, path, purpose)
-    }
-
-    /// As [`load`](Self::load), with files that may be in memory.
-    ///
-    /// # Errors
-    /// As [`load`](Self::load).
-    pub fn load_from(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
-        check::load(files, path, purpose)
+        Case::load_from(Files::Disk, path, purpose)
     }
 
     /// The column of a name.

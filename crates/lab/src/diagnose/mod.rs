@@ -39,7 +39,7 @@
 //! | `regions` | where the mismatch may sit |
 //! | `plan` | what an experiment can see and tell apart, without data |
 //! | `extra`, `prolonged` | measurements that may follow, and the recording together with one of them |
-//! | `explanation`, `separation` | explanations of the same mismatch, and what tells them apart |
+//! | `explanation` | explanations of the same mismatch, and what tells them apart |
 //! | `typical`, `omitted` | usual sizes of effects, and what those cost that are not in the model |
 //! | `declared_form` | whether the declared model has an effect already, by its form |
 //! | `conclusion` | what is said: names that are told, tentative ones, what has none |
@@ -84,7 +84,6 @@ mod regions;
 mod replicates;
 mod result;
 mod run;
-mod separation;
 mod simulate;
 mod size;
 mod stand_in;
@@ -94,6 +93,7 @@ pub use adopt::{Addition, Adopted, Extended, Free};
 pub use conclusion::{Conclusion, Doubt};
 pub use confirm::{Estimated, Quality};
 pub use emphasis::{Agreement, Unseen};
+pub use explanation::Separating;
 pub use extra::{Extra, Measure};
 pub use failure::Failure;
 pub use fit::{ModelVersion, NoFit, Trouble, Unsettled};
@@ -107,6 +107,5 @@ pub use parts::Confirmation;
 pub use plan::{Outlook, Promise, Prospect, plan};
 pub use result::budget;
 pub use run::{Diagnosis, diagnose};
-pub use separation::Separating;
 pub use simulate::{Sheet, Simulation, simulate};
 pub use stand_in::{Pick, StandIn, stand_ins};

@@ -11,6 +11,7 @@ use super::coarse::Coarse;
 use super::confirm::{self, Estimated, Quality, estimates};
 use super::design::Design;
 use super::evidence::{self, Examination, Located};
+use super::explanation::{self, Separating};
 use super::failure::Failure;
 use super::fit::{Fit, ModelVersion, Trouble, Unsettled};
 use super::held_out::{self, HeldOutQuality};
@@ -18,7 +19,6 @@ use super::inquiry::{Answer, Declared, Inquiry};
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
 use super::prolonged::{Known, Recorded};
-use super::separation::{self, Separating};
 use super::size;
 
 /// Everything that a diagnosis found.
@@ -150,7 +150,7 @@ pub fn diagnose(
         candidates: &candidates,
         baseline: &baseline,
     };
-    let separating = separation::separating(&recorded, &examination);
+    let separating = explanation::separating(&recorded, &examination);
     let atoms = candidates.atoms.iter();
     let atoms = atoms.map(|atom| (atom.candidate, atom.variant)).collect();
     Ok(Diagnosis {

@@ -108,12 +108,15 @@ fn pieces(design: &Design<'_>, block_of: &[Option<usize>]) -> Vec<Range<usize>> 
 
 fn at_means(pieces: &[Range<usize>], fit: &Fit) -> Fit {
     let (values, slopes) = (fit.linear.values.iter(), fit.linear.slopes.iter());
+    let of_columns = |columns: &DMatrix<f64>| {
+        let each = columns.as_slice().chunks(columns.nrows().max(1));
+        let means = each.flat_map(|column| means(pieces, column));
+        DMatrix::from_iterator(pieces.len(), columns.ncols(), means)
+    };
     Fit {
         linear: Linear {
             values: values.map(|values| means(pieces, values)).collect(),
-            slopes: slopes
-                .map(|slopes| means_of_columns(pieces, slopes))
-                .collect(),
+            slopes: slopes.map(of_columns).collect(),
         },
         ..fit.clone()
     }
@@ -129,12 +132,6 @@ fn means(pieces: &[Range<usize>], values: &[f64]) -> Vec<f64> {
         }
     };
     pieces.iter().map(mean).collect()
-}
-
-fn means_of_columns(pieces: &[Range<usize>], columns: &DMatrix<f64>) -> DMatrix<f64> {
-    let rows = columns.nrows().max(1);
-    let means = (columns.as_slice().chunks(rows)).flat_map(|column| means(pieces, column));
-    DMatrix::from_iterator(pieces.len(), columns.ncols(), means)
 }
 
 #[cfg(test)]

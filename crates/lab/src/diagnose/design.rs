@@ -317,14 +317,9 @@ impl<'c> Design<'c> {
         (observation / blocks, observation % blocks)
     }
 
-    /// The number of a row in the recording, from zero; of a mean, the mean of its rows.
-    fn middle(&self, row: usize) -> f64 {
-        let rows = self.recorded(row);
-        (rows.start + rows.end - 1) as f64 / 2.0
-    }
-
-    /// The time of each row, or its number where no time was recorded; whether it is a time.
+    /// The time of each row, or its number in the recording where no time was recorded, from zero; of a mean, the mean of its rows.
     pub fn time(&self) -> Clock {
+        let middle = |rows: Range<usize>| (rows.start + rows.end - 1) as f64 / 2.0;
         let of = |role: Role| {
             let column = self.case.with_role(role).next()?;
             let numbers = self.case.columns[column].numbers()?;
@@ -336,7 +331,9 @@ impl<'c> Design<'c> {
         of(Role::Time)
             .or_else(|| of(Role::Order))
             .unwrap_or_else(|| Clock {
-                values: (0..self.case.rows).map(|row| self.middle(row)).collect(),
+                values: (0..self.case.rows)
+                    .map(|row| middle(self.recorded(row)))
+                    .collect(),
                 column: None,
             })
     }

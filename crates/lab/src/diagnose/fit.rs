@@ -111,6 +111,8 @@ pub fn fit(design: &Design<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
         });
     }
     let problem = Problem::new(design, u);
+    let parameters: Vec<usize> = (0..design.case.parameters.len()).collect();
+    let is_linear = design.case.equations.are_affine_in(&parameters);
     let mut best: Option<(f64, Fit)> = None;
     let mut failure = NoFit::NoStart;
     for start in starts(design) {
@@ -122,7 +124,7 @@ pub fn fit(design: &Design<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
             Err(why) => failure = why,
         }
         // A model that is linear in its parameters has one minimum.
-        if best.is_some() && problem.is_linear() {
+        if best.is_some() && is_linear {
             break;
         }
     }
@@ -243,11 +245,6 @@ impl<'f, 'c> Problem<'f, 'c> {
             u,
             priors: known.collect(),
         }
-    }
-
-    fn is_linear(&self) -> bool {
-        let parameters: Vec<usize> = (0..self.design.case.parameters.len()).collect();
-        self.design.case.equations.are_affine_in(&parameters)
     }
 
     /// The fit to which a start leads, with its χ².

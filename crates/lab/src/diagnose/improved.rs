@@ -6,6 +6,7 @@ use super::simulate::{heading, recorded};
 use super::{Diagnosis, Origin};
 use crate::experiment::written::own_units;
 use crate::recording::{Heading, text_of};
+use gumption_core::model::{Role as SymbolRole, Symbol};
 use gumption_core::quantity::Unit;
 use gumption_format::files::Files;
 use gumption_format::toml::writing::{key, quoted};
@@ -148,23 +149,25 @@ fn is_found_by_name(column: &Column, case: &Case) -> bool {
 }
 
 fn constants(case: &Case) -> String {
-    use gumption_core::model::Role as SymbolRole;
-    let mut text = String::new();
-    for constant in &case.constants {
-        if text.is_empty() {
-            text += "\n[constant]\n";
-        }
+    let line = |constant: &Symbol| {
         let value = match &constant.role {
             SymbolRole::Constant(value) => format!("value = {value:e}"),
             SymbolRole::ConstantVector(values) => {
                 let list: Vec<String> = values.iter().map(|value| format!("{value:e}")).collect();
                 format!("values = [{}]", list.join(", "))
             }
-            _ => continue,
+            _ => return None,
         };
-        text += &entry_of(&constant.name, [Some(value), unit(&constant.unit)]);
+        Some(entry_of(
+            &constant.name,
+            [Some(value), unit(&constant.unit)],
+        ))
+    };
+    let lines: String = case.constants.iter().filter_map(line).collect();
+    match lines.is_empty() {
+        true => lines,
+        false => format!("\n[constant]\n{lines}"),
     }
-    text
 }
 
 /// The text of the recording at rest, which goes with the improved case.

@@ -11,8 +11,8 @@ use super::fitted::{FittedModel, Node, varies};
 use super::generics::over_signals;
 use super::history::comes_back;
 use super::modifiers::{
-    amount, correlation, creeps, crosses_zero, five_digits, largest, late, map, map2, mean_of,
-    play_from, range, rate, recordings,
+    amount, correlation, creeps, crosses_zero, five_digits, in_each, largest, late, map, map2,
+    mean_of, play_from, range, rate,
 };
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -331,12 +331,10 @@ fn loops(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Variation> {
     const WIDTHS: [f64; 5] = [0.1, 0.3, 0.6, 1.0, 1.5];
     let behind = |input: &Input, width: f64| {
         // At rest there was no input.
-        let each = recordings(&fitted.clock.values).into_iter();
-        let played = each.flat_map(|rows| {
+        let played = in_each(&fitted.clock.values, |rows| {
             let came = input.came.get(rows.clone()).unwrap_or_default();
             play_from(0.0, &input.own[rows], came, width)
         });
-        let played: Vec<f64> = played.collect();
         map2(&input.own, &played, |s, behind| s - behind)
     };
     let one = WIDTHS.map(|width| {

@@ -142,17 +142,17 @@ pub fn successive(
     found
 }
 
-/// Rows between which the time does not go backwards: another recording begins where it does, with a history of its own.
-pub fn recordings(t: &[f64]) -> Vec<Range<usize>> {
-    successive(t.len(), t.len(), |before, row| t[before] <= t[row])
+/// A course that is formed in each part of the rows between which the time does not go backwards: another recording begins where
+/// it does, with a history of its own.
+pub fn in_each(t: &[f64], of: impl Fn(Range<usize>) -> Vec<f64>) -> Vec<f64> {
+    let recordings = successive(t.len(), t.len(), |before, row| t[before] <= t[row]);
+    recordings.into_iter().flat_map(of).collect()
 }
 
 /// The course a time `delay` earlier, along straight lines between the rows; where the recording had not
 /// begun, or is over, along the line of its ends.
 pub fn delayed(t: &[f64], x: &[f64], delay: f64) -> Vec<f64> {
-    let each = recordings(t).into_iter();
-    each.flat_map(|rows| delayed_in_one(&t[rows.clone()], &x[rows], delay))
-        .collect()
+    in_each(t, |rows| delayed_in_one(&t[rows.clone()], &x[rows], delay))
 }
 
 fn delayed_in_one(t: &[f64], x: &[f64], delay: f64) -> Vec<f64> {
@@ -189,8 +189,7 @@ pub fn rate(t: &[f64], x: &[f64]) -> Vec<f64> {
 /// The direction in which `x` moved last: +1 or −1; the first rows take that of the first movement, and so do those after the
 /// time went backwards.
 pub fn direction(t: &[f64], x: &[f64]) -> Vec<f64> {
-    let each = recordings(t).into_iter();
-    each.flat_map(|rows| direction_in_one(&x[rows])).collect()
+    in_each(t, |rows| direction_in_one(&x[rows]))
 }
 
 fn direction_in_one(x: &[f64]) -> Vec<f64> {
@@ -212,9 +211,7 @@ fn direction_in_one(x: &[f64]) -> Vec<f64> {
 /// Play of width `w`: what follows `x` only when `x` reaches the end of the gap. It begins in the middle of its gap, and anew
 /// where the time goes backwards.
 pub fn play(t: &[f64], x: &[f64], w: f64) -> Vec<f64> {
-    let each = recordings(t).into_iter();
-    each.flat_map(|rows| play_from(x[rows.start], &x[rows], &[], w))
-        .collect()
+    in_each(t, |rows| play_from(x[rows.start], &x[rows], &[], w))
 }
 
 /// Play of width `w` that begins in the middle of its gap at a value; some rows were reached by way of

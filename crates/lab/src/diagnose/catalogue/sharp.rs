@@ -160,9 +160,8 @@ fn along(column: &DVector<f64>, residuals: &DVector<f64>) -> f64 {
 }
 
 fn largest_at(powers: &[f64]) -> usize {
-    (0..powers.len())
-        .max_by(|a, b| powers[*a].total_cmp(&powers[*b]))
-        .unwrap_or(0)
+    let places = 0..powers.len();
+    (places.max_by(|a, b| powers[*a].total_cmp(&powers[*b]))).unwrap_or(0)
 }
 
 /// The highest point between two values, on a logarithmic scale.

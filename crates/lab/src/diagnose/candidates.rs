@@ -203,7 +203,7 @@ fn question(
             describes: cell.effect.pattern.is_some(),
             odds: cell.odds,
         });
-        let before: usize = atoms.len();
+        let before = atoms.len();
         let (numbers, shapes): (Vec<usize>, Vec<Shape>) = (cell.variants.iter().enumerate())
             .filter_map(|(number, variation)| {
                 let columns = variation.columns(fitted);

@@ -108,12 +108,9 @@ impl Prolonged<'_> {
 /// The blocks of the recording, and after them those that the further rows have by themselves.
 fn blocks(known: &Known<'_>, extra: &Extra) -> Vec<Vec<usize>> {
     let alone = known.design.case.with(&extra.rows);
+    let behind = |row: usize| row + known.design.case.rows;
     let further = Design::new(&alone).blocks.into_iter();
-    let further = further.map(|rows| {
-        rows.into_iter()
-            .map(|row| row + known.design.case.rows)
-            .collect()
-    });
+    let further = further.map(|rows| rows.into_iter().map(behind).collect());
     known.design.blocks.iter().cloned().chain(further).collect()
 }
 

@@ -39,7 +39,9 @@ pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
     ];
     for (id, [before, after], power, law) in laws {
         let own = used.iter().map(|column| {
-            let centre = mean_of_range(fitted.numbers(*column));
+            let (least, most) = range(fitted.numbers(*column));
+            // The middle of the range, where a sensor that turned through all positions has its zero.
+            let centre = rounded((least + most) / 2.0, 1e-4 * (most - least));
             let modifier = map(fitted.numbers(*column), |x| law(x - centre));
             let text = format!("{before}{}{after}", fitted.less(*column, centre));
             let unit = fitted.step_unit(*column).powr(power, 1);
@@ -63,12 +65,6 @@ fn of_axes(
     cell.words.p = disturbed;
     "axes".clone_into(&mut cell.place.node);
     cell
-}
-
-/// The middle of the range, where a sensor that turned through all positions has its zero.
-fn mean_of_range(x: &[f64]) -> f64 {
-    let (least, most) = range(x);
-    rounded((least + most) / 2.0, 1e-4 * (most - least))
 }
 
 /// A variant for each term alone, and one with all of them.

@@ -49,16 +49,13 @@ fn of_output(fitted: &FittedModel<'_>, absorbed: &Absorbed, others: &[Cell]) -> 
     let column = |cell: &Cell| fitted.column(&cell.variants[0].terms[0]);
     let own = column(&cell);
     let rest = absorbed.rest(&own);
-    let is_such = |other: &Cell| {
+    let has_it = |other: &Cell| {
         let other = absorbed.rest(&column(other));
         let both = rest.dot(&other).abs();
         other.norm() > 0.0 && both > SAME * rest.norm() * other.norm()
     };
-    let factors = others
-        .iter()
-        .filter(|cell| cell.effect.id == EffectId::FactorOf);
-    let told = factors.into_iter().any(is_such);
-    (!told && absorbed.leaves(&own)).then_some(cell)
+    let told = |other: &Cell| other.effect.id == EffectId::FactorOf && has_it(other);
+    (!others.iter().any(told) && absorbed.leaves(&own)).then_some(cell)
 }
 
 fn cell(fitted: &FittedModel<'_>, id: EffectId, node: Node, modifier: Modifier) -> Cell {

@@ -373,7 +373,8 @@ impl List<'_> {
         let worths = worths.map(|(extra, after)| ((*extra).clone(), worth(after)));
         let mut extras: Vec<(Extra, Worth)> = worths.collect();
         // The cheapest that separates; of those alike what decides more surely.
-        let value = |(extra, worth): &(Extra, Worth)| worth.kappa.min(5.0) / extra.cost;
+        let value =
+            |(extra, worth): &(Extra, Worth)| worth.kappa.min(evidence::SEPARATED) / extra.cost;
         extras.sort_by(|a, b| {
             let by_value = value(b).total_cmp(&value(a));
             by_value.then(b.1.resolved.total_cmp(&a.1.resolved))

@@ -11,7 +11,7 @@ use super::catalogue::{Cell, FittedModel, Kind};
 use super::coarse::Coarse;
 use super::confirm::{Estimated, estimates};
 use super::design::Design;
-use super::evidence::{self, Refusal, Shape, TRACE};
+use super::evidence::{self, Refusal, SEPARATED, Shape, TRACE};
 use super::explanation::Explanation;
 use super::extra::{Extra, extras};
 use super::failure::Failure;
@@ -79,8 +79,6 @@ pub struct Promise {
     pub revealed: Vec<usize>,
 }
 
-/// Told apart as good as always.
-const SEPARATED: f64 = 5.0;
 /// Strength of the effects for which further measurements are judged.
 const STRENGTH: f64 = 8.0;
 /// Before anything is recorded, one of two is as probable as the other.

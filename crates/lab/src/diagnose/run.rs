@@ -139,9 +139,8 @@ pub fn diagnose(
     let listed = examination.slots.iter().filter(|_| adopted.is_some());
     let named = listed.clone().flat_map(|slot| &slot.named);
     let named: Vec<usize> = named.map(|named| named.candidate).collect();
-    let choices = listed
-        .map(|slot| omitted::choice(&candidates, &baseline, slot))
-        .collect();
+    let choices = listed.map(|slot| omitted::choice(&candidates, &baseline, slot));
+    let choices = choices.collect();
     let improved = (adopted.as_ref()).and_then(|adopted| adopted.baseline(&claimed));
     let u: Vec<f64> = unknowns.iter().map(|unknown| unknown.u).collect();
     let omitted = omitted::lines(&candidates, &baseline, improved.as_ref(), &named, &u);

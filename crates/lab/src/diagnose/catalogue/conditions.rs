@@ -248,14 +248,8 @@ fn meet(fitted: &FittedModel<'_>, x: usize, z: usize) -> bool {
     applied(x) || applied(z) || of_air(x) && of_air(z)
 }
 
-/// Cells of the columns that may be depths of immersion.
-pub(super) fn stems(fitted: &FittedModel<'_>) -> Vec<Cell> {
-    let numeric = fitted.numeric().into_iter();
-    numeric.filter_map(|column| stem(fitted, column)).collect()
-}
-
-/// Loss along the stem of a probe, which dies away with the depth.
-fn stem(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
+/// Loss along the stem of a probe, which dies away with the depth of immersion.
+pub(super) fn stem(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let x = fitted.numbers(column);
     let (least, most) = range(x);
     let length = fitted.is_like(column, "m") && least >= 0.0 && levels_of(x).len() >= 3;

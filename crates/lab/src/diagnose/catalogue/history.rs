@@ -24,7 +24,8 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let widths = widths.into_iter().map(five_digits);
     let widths = widths.filter(|width| *width < 2.0 * step || step == 0.0);
     // Below the least step a play follows every reversal at once: such gaps act like one another.
-    let least_step = least_step(x);
+    let steps = x.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    let least_step = (steps.filter(|step| *step > 0.0)).fold(f64::INFINITY, f64::min);
     let told_apart = (widths.enumerate()).filter(|(at, width)| *at == 0 || *width > least_step);
     let variants = told_apart.map(|(_, width)| {
         let modifier = map2(&play(&fitted.clock.values, x, width), x, |played, x| {
@@ -51,14 +52,6 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         cells.push(plain(fitted, EffectId::Play, label, wide));
     }
     cells
-}
-
-/// The least step of a course that moves; nothing where it does not.
-fn least_step(x: &[f64]) -> f64 {
-    let steps = x.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-    steps
-        .filter(|step| *step > 0.0)
-        .fold(f64::INFINITY, f64::min)
 }
 
 /// Shapes of a loop: a constant offset between both ways, a loop that is closed at both ends of the range

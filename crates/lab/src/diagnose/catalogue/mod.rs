@@ -364,7 +364,8 @@ pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     cells.extend(angles::cells(fitted));
     cells.extend(rows::cells(fitted));
     cells.extend(readout::cells(fitted));
-    cells.extend(conditions::stems(fitted));
+    let depths = fitted.numeric().into_iter();
+    cells.extend(depths.filter_map(|column| conditions::stem(fitted, column)));
     cells.extend(heating::cells(fitted));
     cells.extend(user::cells(fitted));
     if let Some(norm) = norm::Norm::of(fitted) {

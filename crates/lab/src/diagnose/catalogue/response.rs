@@ -294,11 +294,6 @@ fn delays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
 
 fn interaction(fitted: &FittedModel<'_>, x: usize, z: usize) -> Cell {
     let product = form("", vec![fitted.centred_product(x, z)]);
-    pair(
-        fitted,
-        EffectId::Interaction,
-        [x, z],
-        Node::Output,
-        [product],
-    )
+    let (id, node) = (EffectId::Interaction, Node::Output);
+    pair(fitted, id, [x, z], node, [product])
 }

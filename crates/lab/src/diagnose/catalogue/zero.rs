@@ -20,8 +20,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         let exact = matches!(data.role, Role::Stimulus | Role::Angle | Role::Time);
         // A direction or a switch by which the model multiplies has no scale to be wrong.
         let has_scale = !data.unit.is_one() || fitted.is_direct(column);
-        let exact = exact && has_scale;
-        if exact && fitted.in_model(column) && data.numbers().is_some() {
+        if exact && has_scale && fitted.in_model(column) && data.numbers().is_some() {
             let node = Node::Column(column);
             cells.push(cell(fitted, EffectId::ZeroOf, node, shift()));
             cells.push(cell(fitted, EffectId::FactorOf, node, fitted.own(column)));

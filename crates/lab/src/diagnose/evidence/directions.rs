@@ -146,9 +146,8 @@ pub fn inverse(columns: &DMatrix<f64>) -> DMatrix<f64> {
     /// Directions that columns of unit length reach no further have none.
     const FLAT: f64 = 1e-10;
     // Units of columns may be very different.
-    let lengths: Vec<f64> = columns.column_iter().map(|c| c.norm()).collect();
-    let scale = |length: &f64| if *length > 0.0 { 1.0 / length } else { 0.0 };
-    let scales: Vec<f64> = lengths.iter().map(scale).collect();
+    let scale = |length: f64| if length > 0.0 { 1.0 / length } else { 0.0 };
+    let scales: Vec<f64> = columns.column_iter().map(|c| scale(c.norm())).collect();
     let mut unit = columns.clone();
     for (mut column, scale) in unit.column_iter_mut().zip(&scales) {
         column *= *scale;

@@ -104,5 +104,5 @@ pub use omitted::omitted;
 pub use plan::{Pair, Plan, Seen, visibility};
 pub use question::{Atom, Candidate, Kind, Place, Question, Settings, Shape};
 pub use refusal::Refusal;
-pub use separate::{Separability, Standing, Worth, apart, doubt};
+pub use separate::{SEPARATED, Separability, Standing, Worth, apart, doubt};
 pub use unsteady::unsteadiness;

@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 use nalgebra::DMatrix;
 
 use super::closed_form::{Scale, named};
+use super::contest::maximum;
 use super::question::{Kind, Question};
 use super::space::Space;
 
@@ -162,8 +163,7 @@ impl Pairs {
 
     /// The greatest statistic of the recording: half the reduction of χ², with the prior odds.
     pub(super) fn observed(&self, space: &Space) -> f64 {
-        let values = self.values(space).into_iter();
-        values.fold(f64::NEG_INFINITY, f64::max)
+        maximum(&self.values(space))
     }
 
     /// The best pairs, as blocks of the space: of any two candidates the best of their variants.

@@ -5,6 +5,7 @@ use nalgebra::DMatrix;
 use super::baseline::Baseline;
 use super::directions::{INVISIBLE, without};
 use super::question::{Atom, Candidate, Kind, Question, Settings, Shape};
+use super::separate::SEPARATED;
 use super::space::{Block, Space};
 
 /// What an experiment of this design can see and tell apart. Sizes refer to the noise of the baseline.
@@ -44,8 +45,6 @@ pub struct Pair {
 
 /// Strength with which effects are detected nearly always.
 const DETECTED: f64 = 6.0;
-/// Separability with which effects are named nearly always.
-const SEPARATED: f64 = 5.0;
 /// Sine of the angle under which two effects are one.
 const ALIAS: f64 = 1e-3;
 

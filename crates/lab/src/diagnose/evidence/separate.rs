@@ -52,7 +52,7 @@ pub struct Worth {
 }
 
 /// Separability with which rivals are told apart nearly always.
-const SEPARATED: f64 = 5.0;
+pub const SEPARATED: f64 = 5.0;
 /// No number of repetitions helps below this separability.
 const NOTHING: f64 = 1e-6;
 /// Explanations are the same where less than this share of either is left.

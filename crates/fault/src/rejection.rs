@@ -26,6 +26,11 @@ pub struct Rejection {
 }
 
 impl Rejection {
+    /// What is said first, for a sentence about the file.
+    pub fn said(&self) -> Said {
+        let first = self.faults.first();
+        first.map_or_else(Said::default, |fault| fault.message.clone())
+    }
     /// Sorts the faults by place and drops repeated ones.
     pub fn new(name: &str, text: &str, mut faults: Vec<Fault>) -> Self {
         faults.sort_by(|a, b| {

@@ -210,6 +210,11 @@ impl Column {
 }
 
 impl Labels {
+    /// The texts of all rows.
+    pub fn texts(&self) -> impl Iterator<Item = &str> {
+        (0..self.of_row.len()).map(|row| self.text(row))
+    }
+
     /// The text of a row; empty where it is missing.
     pub fn text(&self, row: usize) -> &str {
         let level = self.of_row.get(row).map(|level| *level as usize);

@@ -11,6 +11,7 @@ use super::campaign::Campaign;
 use super::cause::{Cause, Origin};
 use super::coefficient::Coefficient;
 use crate::experiment::components::lower_factor;
+use crate::experiment::written::{own_units, unit_line};
 use crate::experiment::{Doubt, Scope};
 use gumption_core::distribution::{Distribution, Normal, Uniform, Univariate};
 use gumption_core::quantity::Unit;
@@ -97,13 +98,7 @@ fn head(campaign: &Campaign, language: Language) -> String {
     text += "t_scale = \"standard-deviation\"\n";
     let mut own = experiment.own_units.clone();
     own.sort();
-    if !own.is_empty() {
-        text += "\n[unit]\n";
-        for (name, definition) in own {
-            let _ = writeln!(text, "{} = {}", quoted(&name), quoted(&definition));
-        }
-    }
-    text
+    text + &own_units(&own)
 }
 
 fn measurand(text: &mut String, found: &Calibration, index: usize, inputs: &[InputOfCause]) {
@@ -309,14 +304,6 @@ fn quotient(unit: &Unit, by: &Unit) -> Unit {
         unit.clone()
     } else {
         unit.quotient(by)
-    }
-}
-
-fn unit_line(unit: &Unit) -> String {
-    if unit.is_one() {
-        String::new()
-    } else {
-        format!("unit = {}\n", quoted(&unit.symbol))
     }
 }
 

@@ -9,7 +9,7 @@ use std::path::Path;
 use super::campaign::{Campaign, Scatter, Weights};
 use super::points::{PointColumn, Points};
 use super::{contrary, data, noise};
-use crate::experiment::checker::{Checker, opened};
+use crate::experiment::checker::{Checker, made, opened};
 use crate::experiment::entries::{Short, Shorthand};
 use crate::experiment::faults::{NO_EQUATIONS, NO_PARAMETERS};
 use crate::experiment::names::{Kind, Names};
@@ -92,22 +92,15 @@ fn read_from(
     if let Some(recording) = recording {
         put_in_place(&mut source.table, recording);
     }
-    let units = Checker::new(&source, purpose, files, folder).units;
-    inferred::add(&mut source, &units, files, folder);
-    let mut checker = Checker::new(&source, purpose, files, folder);
-    let campaign = checker.campaign();
-    let is_whole = checker.faults.is_empty();
-    match campaign {
-        Ok(Some(campaign)) if is_whole => Ok(campaign),
-        Ok(_) => Err(checker.rejection(name)),
-        // What is wrong in the recording is told after what is wrong in the file.
-        Err(recording) if is_whole => Err(*recording),
-        Err(recording) => {
-            let mut rejection = checker.rejection(name);
-            rejection.others.push(*recording);
-            Err(rejection)
-        }
-    }
+    made(
+        source,
+        name,
+        purpose,
+        files,
+        folder,
+        inferred::add,
+        |checker| checker.campaign(),
+    )
 }
 
 /// Names another recording, which is averaged as the file says.

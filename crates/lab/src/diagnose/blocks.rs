@@ -1,7 +1,7 @@
 //! Blocks of consecutive rows: of each, the mean is one observation.
 
 use super::case::{Blocks, Case, Role};
-use super::catalogue::modifiers::mean;
+use super::catalogue::modifiers::{mean, successive};
 use crate::recording::Labels;
 
 /// Prolonged recordings in time are averaged in blocks, unless the case says otherwise.
@@ -85,14 +85,8 @@ fn cut(case: &Case, size: usize) -> Vec<Vec<usize>> {
         _ => case.labels().collect(),
     };
     let same = |a: usize, b: usize| labels.iter().all(|l| l.of_row[a] == l.of_row[b]);
-    let mut blocks: Vec<Vec<usize>> = Vec::new();
-    for row in 0..case.rows {
-        match blocks.last_mut() {
-            Some(block) if block.len() < size && same(block[0], row) => block.push(row),
-            _ => blocks.push(vec![row]),
-        }
-    }
-    blocks
+    let blocks = successive(case.rows, size, same).into_iter();
+    blocks.map(Iterator::collect).collect()
 }
 
 /// Some of many blocks, one in each of equal parts of the recording; where in it is shifted by the golden ratio from part to

@@ -24,12 +24,7 @@ pub(super) struct Candidates<'f> {
     pub(super) cells: Vec<Cell>,
     pub(super) candidates: Vec<Candidate>,
     pub(super) atoms: Vec<Atom>,
-    /// Cell and variation of each atom.
-    pub(super) places: Vec<(usize, usize)>,
 }
-
-/// The refit with the named effects in the model; nothing where there are none, or where the equations cannot be written.
-pub(super) type Refit = Result<Option<(adopt::Extended, Fit)>, NoFit>;
 
 impl<'f> Candidates<'f> {
     pub(super) fn new(
@@ -38,27 +33,19 @@ impl<'f> Candidates<'f> {
         white: &Baseline,
     ) -> Candidates<'f> {
         let cells = catalogue::cells(&fitted);
-        let (candidates, atoms, places) = question(&fitted, &cells, claimed, white);
+        let (candidates, atoms) = question(&fitted, &cells, claimed, white);
         Candidates {
             fitted,
             cells,
             candidates,
             atoms,
-            places,
         }
     }
 
     /// Keeps some of the atoms.
     pub(super) fn retain(&mut self, mut keeps: impl FnMut(&mut Atom, &Cell) -> bool) {
-        let places = std::mem::take(&mut self.places).into_iter();
-        let mut places = places.map(|place| (place, &self.cells[place.0]));
-        let mut kept = Vec::new();
-        self.atoms.retain_mut(|atom| {
-            let place = places.next().filter(|(_, cell)| keeps(atom, cell));
-            kept.extend(place.map(|(place, _)| place));
-            place.is_some()
-        });
-        self.places = kept;
+        let cells = &self.cells;
+        (self.atoms).retain_mut(|atom| keeps(atom, &cells[atom.candidate]));
     }
 
     /// The noise that is left when the named effects are in the model.
@@ -93,13 +80,13 @@ impl<'f> Candidates<'f> {
         };
         let seen = spreads.iter().map(with);
         let seen = seen.collect::<Result<Vec<_>, _>>()?.concat();
-        let contest = evidence::contest(&seen, &self.candidates, &self.atoms, settings)?;
+        let contest = evidence::contest(&seen, &self.candidates, &self.atoms, settings);
         let log_posterior = match contest.p <= settings.alpha {
             true => &contest.with,
             false => &contest.alone,
         };
         let each = log_posterior.chunks(seen.len() / spreads.len());
-        let most = |of: &[f64]| of.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let most = evidence::maximum;
         let likeliest = (spreads.iter().zip(each)).max_by(|a, b| most(a.1).total_cmp(&most(b.1)));
         let claimed = likeliest.map(|(spread, own)| Claimed {
             correlated: courses.likely(own),
@@ -128,16 +115,20 @@ impl<'f> Candidates<'f> {
 
     /// The cell of an atom.
     pub(super) fn cell(&self, atom: usize) -> &Cell {
-        &self.cells[self.places[atom].0]
+        &self.cells[self.atoms[atom].candidate]
     }
 
     /// The variation of its cell that an atom is.
     pub(super) fn variation(&self, atom: usize) -> &Variation {
-        &self.cell(atom).variants[self.places[atom].1]
+        &self.cell(atom).variants[self.atoms[atom].variant]
     }
 
-    /// The refit with the named effects in the model.
-    pub(super) fn adopted_fit(&self, examination: &Examination, claimed: &Claimed) -> Refit {
+    /// The refit with the named effects in the model; nothing where there are none, or where the equations cannot be written.
+    pub(super) fn adopted_fit(
+        &self,
+        examination: &Examination,
+        claimed: &Claimed,
+    ) -> Result<Option<(adopt::Extended, Fit)>, NoFit> {
         let found = examination.fitted.as_ref();
         let found = found.filter(|found| !found.atoms.is_empty());
         let with_effects = found.and_then(|found| self.with_effects(found, claimed));
@@ -194,15 +185,14 @@ pub(super) fn baseline(
     reduced(design, fit, &claimed.noise())
 }
 
-/// Candidates and atoms, and the cell and variation of each atom.
+/// Candidates, one for each cell, and atoms.
 fn question(
     fitted: &FittedModel<'_>,
     cells: &[Cell],
     claimed: &Claimed,
     baseline: &Baseline,
-) -> (Vec<Candidate>, Vec<Atom>, Vec<(usize, usize)>) {
-    let mut candidates = Vec::new();
-    let (mut atoms, mut places) = (Vec::new(), Vec::new());
+) -> (Vec<Candidate>, Vec<Atom>) {
+    let (mut candidates, mut atoms) = (Vec::new(), Vec::new());
     for (index, cell) in cells.iter().enumerate() {
         candidates.push(Candidate {
             name: format!("{} {}", cell.effect.id, cell.words.x),
@@ -214,27 +204,28 @@ fn question(
             odds: cell.odds,
         });
         let before = atoms.len();
-        let shapes: Vec<(usize, Shape)> = (cell.variants.iter().enumerate())
+        let (numbers, shapes): (Vec<usize>, Vec<Shape>) = (cell.variants.iter().enumerate())
             .filter_map(|(number, variation)| {
                 let columns = variation.columns(fitted);
                 Some((number, shape(columns, variation, claimed)?))
             })
-            .collect();
-        let shown = showing(baseline, shapes.iter().map(|(_, shape)| shape));
-        for ((number, shape), _) in shapes.into_iter().zip(shown).filter(|(_, shown)| *shown) {
+            .unzip();
+        let shown = showing(baseline, &shapes);
+        let shapes = numbers.into_iter().zip(shapes).zip(shown);
+        for ((number, shape), _) in shapes.filter(|(_, shown)| *shown) {
             atoms.push(Atom {
                 candidate: index,
+                variant: number,
                 shape,
                 share: cell.variants[number].weight,
             });
-            places.push((index, number));
         }
         let whole: f64 = atoms[before..].iter().map(|atom| atom.share).sum();
         for atom in &mut atoms[before..] {
             atom.share /= whole;
         }
     }
-    (candidates, atoms, places)
+    (candidates, atoms)
 }
 
 /// The cell that stands for the cause of one: that of which it is another order, or itself.
@@ -248,25 +239,19 @@ fn cause(cells: &[Cell], index: usize) -> usize {
 /// Of which effects more than a trace is left beside the parameters. Less is what the curvature of the
 /// model makes of an exact alias; it would take sizes that are out of the question. What has no visible
 /// part at all is kept: it is listed as invisible.
-fn showing<'s>(baseline: &Baseline, shapes: impl Iterator<Item = &'s Shape>) -> Vec<bool> {
+fn showing<'s>(baseline: &Baseline, shapes: &'s [Shape]) -> Vec<bool> {
     const NOTHING: f64 = 1e-6;
     let named = |shape: &'s Shape| match shape {
         Shape::Columns(columns) => Some(columns),
         Shape::Smooth { .. } | Shape::Scatter => None,
     };
-    let shapes: Vec<&Shape> = shapes.collect();
-    let columns = shapes.iter().filter_map(|shape| named(shape));
-    let columns: Vec<_> = columns.flat_map(|columns| columns.column_iter()).collect();
-    if columns.is_empty() {
-        return vec![true; shapes.len()];
-    }
-    let shares = baseline.visibilities(&DMatrix::from_columns(&columns));
+    let columns = shapes.iter().filter_map(named);
+    let shares = baseline.visibilities(&evidence::side_by_side(baseline.rows(), columns));
     let mut shares = shares.into_iter();
-    let shown = |shape: &&'s Shape| {
-        named(shape).is_none_or(|columns| {
-            let most = (shares.by_ref().take(columns.ncols())).fold(0.0, f64::max);
-            !(NOTHING..TRACE).contains(&most)
-        })
+    let shown = |shape: &'s Shape| {
+        let width = named(shape).map_or(0, DMatrix::ncols);
+        let most = shares.by_ref().take(width).fold(0.0, f64::max);
+        !(NOTHING..TRACE).contains(&most)
     };
     shapes.iter().map(shown).collect()
 }
@@ -290,12 +275,11 @@ fn shape(columns: DMatrix<f64>, variation: &Variation, claimed: &Claimed) -> Opt
 
 /// Effects with coefficients that the recording does not determine beside the parameters and one another.
 fn undetermined(fitted: &FittedModel<'_>, baseline: &Baseline, effects: &[Free]) -> Vec<usize> {
-    let columns = effects.iter().map(|free| free.variation.columns(fitted));
-    let all = evidence::all(columns);
-    if all.is_empty() {
-        return Vec::new();
-    }
-    let kept = evidence::determined(baseline, &all);
+    let all = evidence::all(effects.iter().map(|free| free.variation.columns(fitted)));
+    let kept = match all.is_empty() {
+        true => Vec::new(),
+        false => evidence::determined(baseline, &all),
+    };
     let of = effects.iter().enumerate();
     let of = of.flat_map(|(at, own)| std::iter::repeat_n(at, own.variation.coefficients()));
     let open = of.enumerate().filter(|(at, _)| !kept.contains(at));

@@ -11,6 +11,7 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use super::case::{Case, Rows};
+use super::catalogue::modifiers::successive;
 use super::design::{Design, Linear, Whole};
 use super::fit::Fit;
 use crate::recording::Labels;
@@ -98,29 +99,24 @@ fn longest(design: &Design<'_>) -> usize {
 
 /// Successive rows of one block, with the same labels.
 fn pieces(design: &Design<'_>, block_of: &[Option<usize>]) -> Vec<Range<usize>> {
-    let most = longest(design);
     let labels: Vec<&Labels> = design.case.labels().collect();
     let alike = |a: usize, b: usize| {
         block_of[a] == block_of[b] && labels.iter().all(|l| l.of_row[a] == l.of_row[b])
     };
-    let mut pieces: Vec<Range<usize>> = Vec::new();
-    for row in 0..design.case.rows {
-        match pieces.last_mut() {
-            Some(piece) if piece.len() < most && alike(piece.start, row) => piece.end = row + 1,
-            _ => pieces.push(row..row + 1),
-        }
-    }
-    pieces
+    successive(design.case.rows, longest(design), alike)
 }
 
 fn at_means(pieces: &[Range<usize>], fit: &Fit) -> Fit {
     let (values, slopes) = (fit.linear.values.iter(), fit.linear.slopes.iter());
+    let of_columns = |columns: &DMatrix<f64>| {
+        let each = columns.as_slice().chunks(columns.nrows().max(1));
+        let means = each.flat_map(|column| means(pieces, column));
+        DMatrix::from_iterator(pieces.len(), columns.ncols(), means)
+    };
     Fit {
         linear: Linear {
             values: values.map(|values| means(pieces, values)).collect(),
-            slopes: slopes
-                .map(|slopes| means_of_columns(pieces, slopes))
-                .collect(),
+            slopes: slopes.map(of_columns).collect(),
         },
         ..fit.clone()
     }
@@ -136,12 +132,6 @@ fn means(pieces: &[Range<usize>], values: &[f64]) -> Vec<f64> {
         }
     };
     pieces.iter().map(mean).collect()
-}
-
-fn means_of_columns(pieces: &[Range<usize>], columns: &DMatrix<f64>) -> DMatrix<f64> {
-    let rows = columns.nrows().max(1);
-    let means = (columns.as_slice().chunks(rows)).flat_map(|column| means(pieces, column));
-    DMatrix::from_iterator(pieces.len(), columns.ncols(), means)
 }
 
 #[cfg(test)]

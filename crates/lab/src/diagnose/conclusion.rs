@@ -64,6 +64,9 @@ pub enum Doubt<'d> {
     },
 }
 
+/// Less likely than this, what has no name is out of the question.
+const UNLIKELY: f64 = 0.05;
+
 impl Slot {
     /// Whether no explanation of a list is far likelier than the others.
     pub fn is_open(&self) -> bool {
@@ -76,8 +79,6 @@ impl Slot {
     /// The probability that something without a name stands here instead of names that hold; `None` where that is out of the
     /// question.
     pub fn doubted(&self) -> Option<f64> {
-        /// Below it something without a name is.
-        const UNLIKELY: f64 = 0.05;
         let share = Some(self.generic_share).filter(|share| *share >= UNLIKELY);
         share.filter(|_| self.is_explained())
     }
@@ -166,9 +167,7 @@ impl Diagnosis {
 
     /// The name of a slot that is not certain, but far likelier than everything without a name.
     fn tentative<'d>(&self, slot: &'d Slot) -> Option<&'d Alternative> {
-        /// What has no name is out of question below this …
-        const UNLIKELY: f64 = 0.05;
-        /// … and a name is tentative from here on.
+        /// A name is tentative from here on.
         const LIKELY: f64 = 0.5;
         let unlikely = slot.generic.iter().all(|one| one.probability < UNLIKELY);
         let first = slot.named.first().filter(|one| one.probability > LIKELY);

@@ -148,9 +148,9 @@ fn held_out(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> DVector<f64> {
 }
 
 /// Rows of the observations in units of their noise.
-pub(super) fn over_noise(rows: &DMatrix<f64>, claimed: &Claimed) -> DMatrix<f64> {
+pub(super) fn over_noise(rows: &DMatrix<f64>, u: &DVector<f64>) -> DMatrix<f64> {
     let mut rows = rows.clone();
-    for (mut row, u) in rows.row_iter_mut().zip(&claimed.u) {
+    for (mut row, u) in rows.row_iter_mut().zip(u) {
         row /= *u;
     }
     rows
@@ -164,7 +164,7 @@ pub(super) fn covariance(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> D
             None => baseline.covariance(),
         };
     }
-    let mut rows = over_noise(&fit.jacobian, claimed);
+    let mut rows = over_noise(&fit.jacobian, &claimed.u);
     for (at, unknown) in design.unknowns.iter().enumerate() {
         if let Some((_, u)) = unknown.prior {
             rows = rows.insert_row(0, 0.0);

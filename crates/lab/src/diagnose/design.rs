@@ -54,18 +54,10 @@ pub struct Unknown {
 /// What an unknown is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UnknownKind {
-    /// A parameter of the model, and the label for which it holds.
-    Parameter {
-        /// Index of the parameter.
-        parameter: usize,
-        /// Index of the label; 0 for a parameter with one value.
-        level: usize,
-    },
+    /// A parameter of the model, or its value for one label.
+    Parameter(usize),
     /// The error of a column that all rows share.
-    CommonError {
-        /// Index of the column.
-        column: usize,
-    },
+    CommonError(usize),
 }
 
 /// The model at some values of the unknowns, row by row.
@@ -100,10 +92,7 @@ impl<'c> Design<'c> {
                 };
                 unknowns.push(Unknown {
                     name,
-                    kind: UnknownKind::Parameter {
-                        parameter: index,
-                        level,
-                    },
+                    kind: UnknownKind::Parameter(index),
                     start: parameter.start,
                     prior: parameter.prior,
                 });
@@ -113,7 +102,7 @@ impl<'c> Design<'c> {
             if let Some(u) = column.u_common {
                 unknowns.push(Unknown {
                     name: format!("common error of {}", column.name),
-                    kind: UnknownKind::CommonError { column: index },
+                    kind: UnknownKind::CommonError(index),
                     start: Some(0.0),
                     prior: Some((0.0, u)),
                 });
@@ -148,6 +137,14 @@ impl<'c> Design<'c> {
         whole.map_or(row..row + 1, |whole| whole.rows[row].clone())
     }
 
+    /// What reports call some rows: by their numbers in the recording.
+    pub fn called(&self, first: usize, last: usize) -> String {
+        match (self.recorded(first).start + 1, self.recorded(last).end) {
+            (first, last) if first == last => format!("row {first}"),
+            (first, last) => format!("rows {first} to {last}"),
+        }
+    }
+
     /// Values of the rows of the design for all rows of the recording.
     pub fn spread(&self, values: &[f64]) -> Vec<f64> {
         let rows = values.iter().enumerate();
@@ -179,6 +176,12 @@ impl<'c> Design<'c> {
         DVector::from_vec(values.collect())
     }
 
+    /// What is stated of the unknowns, and another value for those of which nothing is.
+    pub fn stated_or(&self, value: f64) -> DVector<f64> {
+        let stated = (self.unknowns.iter()).map(|unknown| unknown.stated().unwrap_or(value));
+        DVector::from_vec(stated.collect())
+    }
+
     /// Number of unknowns of which something is known beforehand.
     pub fn priors(&self) -> usize {
         self.unknowns
@@ -197,8 +200,8 @@ impl<'c> Design<'c> {
 
     fn unit_of(&self, unknown: &Unknown) -> &Unit {
         match unknown.kind {
-            UnknownKind::Parameter { parameter, .. } => &self.case.parameters[parameter].unit,
-            UnknownKind::CommonError { column } => &self.case.columns[column].unit,
+            UnknownKind::Parameter(parameter) => &self.case.parameters[parameter].unit,
+            UnknownKind::CommonError(column) => &self.case.columns[column].unit,
         }
     }
 
@@ -222,7 +225,7 @@ impl<'c> Design<'c> {
         let mut values: Vec<f64> = parameters.chain(columns).collect();
         let parameters = self.case.parameters.len();
         for (unknown, value) in self.unknowns.iter().zip(unknowns.iter()) {
-            if let UnknownKind::CommonError { column } = unknown.kind {
+            if let UnknownKind::CommonError(column) = unknown.kind {
                 values[parameters + column] += value;
             }
         }
@@ -265,7 +268,7 @@ impl<'c> Design<'c> {
                             weight * slopes[(*row, parameter)];
                     }
                     for (index, unknown) in self.unknowns.iter().enumerate() {
-                        if let UnknownKind::CommonError { column } = unknown.kind {
+                        if let UnknownKind::CommonError(column) = unknown.kind {
                             jacobian[(at, index)] += weight * slopes[(*row, parameters + column)];
                         }
                     }
@@ -314,14 +317,9 @@ impl<'c> Design<'c> {
         (observation / blocks, observation % blocks)
     }
 
-    /// The number of a row in the recording, from zero; of a mean, the mean of its rows.
-    fn middle(&self, row: usize) -> f64 {
-        let rows = self.recorded(row);
-        (rows.start + rows.end - 1) as f64 / 2.0
-    }
-
-    /// The time of each row, or its number where no time was recorded; whether it is a time.
+    /// The time of each row, or its number in the recording where no time was recorded, from zero; of a mean, the mean of its rows.
     pub fn time(&self) -> Clock {
+        let middle = |rows: Range<usize>| (rows.start + rows.end - 1) as f64 / 2.0;
         let of = |role: Role| {
             let column = self.case.with_role(role).next()?;
             let numbers = self.case.columns[column].numbers()?;
@@ -333,7 +331,9 @@ impl<'c> Design<'c> {
         of(Role::Time)
             .or_else(|| of(Role::Order))
             .unwrap_or_else(|| Clock {
-                values: (0..self.case.rows).map(|row| self.middle(row)).collect(),
+                values: (0..self.case.rows)
+                    .map(|row| middle(self.recorded(row)))
+                    .collect(),
                 column: None,
             })
     }

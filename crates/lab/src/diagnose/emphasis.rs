@@ -3,12 +3,12 @@
 use super::case::Case;
 use super::confirm::Estimated;
 use super::evidence::{Cell, Located, Worth};
+use super::explanation::Separating;
 use super::extra::Extra;
 use super::omitted::Omitted;
 use super::parts::Confirmation;
 use super::plan::{Outlook, Promise};
 use super::run::Diagnosis;
-use super::separation::Separating;
 
 /// What is smaller than this part of a parameter's u does not change it.
 const MATTERS: f64 = 0.1;

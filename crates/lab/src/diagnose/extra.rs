@@ -36,20 +36,11 @@ pub enum Measure {
         unit: String,
     },
     /// The same at values half way between those of a column.
-    Between {
-        /// The column.
-        column: String,
-    },
-    /// The same with a condition that varies twice as much, in the opposite sense.
-    Opposite {
-        /// The column.
-        column: String,
-    },
-    /// The same with labels exchanged.
-    Exchanged {
-        /// The column.
-        column: String,
-    },
+    Between(String),
+    /// The same with a condition, a column, that varies twice as much, in the opposite sense.
+    Opposite(String),
+    /// The same with the labels of a column exchanged.
+    Exchanged(String),
 }
 
 /// A column of angles with at most so many values is a mounting.
@@ -59,13 +50,8 @@ const LEVELS: usize = 100;
 
 /// All further measurements of a case.
 pub fn extras(case: &Case) -> Vec<Extra> {
-    let own = case.actions.iter().map(|action| Extra {
-        measure: Measure::Own(action.name.clone()),
-        cost: action.cost,
-        rows: action.rows.clone(),
-    });
-    let mut extras: Vec<Extra> = own.collect();
-    let recorded = Rows::of(case);
+    let mut extras = case.actions.clone();
+    let recorded = Rows::of(&case.columns, case.rows);
     let again = |measure: Measure, cost: f64, reversed: bool| Extra {
         measure,
         cost,
@@ -95,19 +81,19 @@ pub fn extras(case: &Case) -> Vec<Extra> {
                 } else if (3..=LEVELS).contains(&levels.len()) {
                     let turn = turn(column);
                     let between = Data::Numbers(map(numbers, |x| between(x, &levels, turn)));
-                    changed(Measure::Between { column: name }, 1.0, between);
+                    changed(Measure::Between(name), 1.0, between);
                 }
             }
             (Data::Numbers(numbers), Role::Covariate) if levels(numbers).len() > 1 => {
                 let mean = mean(numbers);
                 let opposite = Data::Numbers(map(numbers, |x| mean - 2.0 * (x - mean)));
-                changed(Measure::Opposite { column: name }, 1.5, opposite);
+                changed(Measure::Opposite(name), 1.5, opposite);
             }
             (Data::Labels(labels), Role::Factor) if (2..=LEVELS).contains(&labels.levels.len()) => {
                 let count = labels.levels.len() as u32;
                 let exchanged = labels.of_row.iter().map(|l| (l + 1) % count);
                 let exchanged = Data::labels(labels, exchanged.collect());
-                changed(Measure::Exchanged { column: name }, 1.0, exchanged);
+                changed(Measure::Exchanged(name), 1.0, exchanged);
             }
             _ => {}
         }

@@ -20,22 +20,8 @@ pub struct Fit {
     pub jacobian: DMatrix<f64>,
     /// Observed less modelled.
     pub residuals: DVector<f64>,
-    /// How the unknowns came to their values.
-    pub ending: Ending,
-}
-
-/// How the unknowns of a fit came to their values.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ending {
-    /// They were given.
-    Given,
-    /// The search found a minimum.
-    Minimum,
-    /// The search ended elsewhere: no step improved χ² any more, or there was no end of them.
-    Lost {
-        /// Steps made.
-        steps: usize,
-    },
+    /// The steps of a search that did not end in a minimum: none improved χ² any more, or there was no end of them.
+    pub lost: Option<usize>,
 }
 
 /// A model that a diagnosis fits.
@@ -71,13 +57,8 @@ pub enum Trouble {
 impl Fit {
     /// What is to be said of this fit of a model, if anything.
     pub fn unsettled(&self, model: ModelVersion) -> Option<Unsettled> {
-        match self.ending {
-            Ending::Given | Ending::Minimum => None,
-            Ending::Lost { steps } => Some(Unsettled {
-                model,
-                trouble: Trouble::NoMinimum { steps },
-            }),
-        }
+        let trouble = self.lost.map(|steps| Trouble::NoMinimum { steps });
+        trouble.map(|trouble| Unsettled { model, trouble })
     }
 }
 
@@ -130,6 +111,8 @@ pub fn fit(design: &Design<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
         });
     }
     let problem = Problem::new(design, u);
+    let parameters: Vec<usize> = (0..design.case.parameters.len()).collect();
+    let is_linear = design.case.equations.are_affine_in(&parameters);
     let mut best: Option<(f64, Fit)> = None;
     let mut failure = NoFit::NoStart;
     for start in starts(design) {
@@ -141,7 +124,7 @@ pub fn fit(design: &Design<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
             Err(why) => failure = why,
         }
         // A model that is linear in its parameters has one minimum.
-        if best.is_some() && problem.is_linear() {
+        if best.is_some() && is_linear {
             break;
         }
     }
@@ -164,7 +147,7 @@ fn without_turns(design: &Design<'_>, mut fit: Fit) -> Fit {
         let mut unwound = fit.unknowns.clone();
         unwound[place] -= turns * turn;
         let unwound = Fit {
-            ending: fit.ending,
+            lost: fit.lost,
             ..at(design, unwound)
         };
         if same_values(&fit, &unwound) {
@@ -204,7 +187,7 @@ pub fn from(design: &Design<'_>, u: &DVector<f64>, start: DVector<f64>) -> Resul
 /// As [`fit`].
 pub fn near(design: &Design<'_>, u: &DVector<f64>, start: DVector<f64>) -> Result<Fit, NoFit> {
     match from(design, u, start) {
-        Ok(found) if found.ending == Ending::Minimum => Ok(found),
+        Ok(found) if found.lost.is_none() => Ok(found),
         first => match (first, fit(design, u)) {
             // The search from elsewhere may end in a place that is no better.
             (Ok(first), Err(_)) => Ok(first),
@@ -223,7 +206,7 @@ pub fn at(design: &Design<'_>, unknowns: DVector<f64>) -> Fit {
         residuals: observed - modelled,
         unknowns,
         linear,
-        ending: Ending::Given,
+        lost: None,
     }
 }
 
@@ -231,19 +214,10 @@ pub fn at(design: &Design<'_>, unknowns: DVector<f64>) -> Fit {
 fn starts(design: &Design<'_>) -> Vec<DVector<f64>> {
     let observed = design.observed_column(|response| design.observed(response));
     let mean = observed.mean();
-    let fill = |value: f64| {
-        let of = design.unknowns.iter();
-        DVector::from_vec(
-            of.map(|unknown| unknown.stated().unwrap_or(value))
-                .collect(),
-        )
-    };
+    let fill = |value: f64| design.stated_or(value);
     let mut starts = vec![fill(1.0)];
-    if design
-        .unknowns
-        .iter()
-        .any(|unknown| unknown.stated().is_none())
-    {
+    let mut unknowns = design.unknowns.iter();
+    if unknowns.any(|unknown| unknown.stated().is_none()) {
         starts.extend([0.1, 0.01, 10.0, mean, -1.0].map(fill));
     }
     starts
@@ -273,25 +247,20 @@ impl<'f, 'c> Problem<'f, 'c> {
         }
     }
 
-    fn is_linear(&self) -> bool {
-        let parameters: Vec<usize> = (0..self.design.case.parameters.len()).collect();
-        self.design.case.equations.are_affine_in(&parameters)
-    }
-
     /// The fit to which a start leads, with its χ².
     fn search(&self, start: DVector<f64>) -> Result<(f64, Fit), NoFit> {
         let first = self.at(start.as_slice(), None).ok_or(NoFit::NoStart)?;
         if start.is_empty() {
             return Ok((first.chi_squared(), at(self.design, start)));
         }
-        let (unknowns, linear, ending) = match minimise(self, start.as_slice()) {
-            Ok(minimum) => (minimum.parameters, minimum.linear, Ending::Minimum),
+        let (unknowns, linear, lost) = match minimise(self, start.as_slice()) {
+            Ok(minimum) => (minimum.parameters, minimum.linear, None),
             Err(Stuck::Lost {
                 iterations,
                 parameters,
             }) => {
                 let linear = self.at(&parameters, None).ok_or(NoFit::NoMinimum)?;
-                (parameters, linear, Ending::Lost { steps: iterations })
+                (parameters, linear, Some(iterations))
             }
             Err(Stuck::Start) => return Err(NoFit::NoStart),
             Err(Stuck::Flat { parameters }) => {
@@ -305,7 +274,7 @@ impl<'f, 'c> Problem<'f, 'c> {
         };
         self.determined(&linear)?;
         let fit = Fit {
-            ending,
+            lost,
             ..at(self.design, DVector::from_vec(unknowns))
         };
         Ok((linear.chi_squared(), fit))

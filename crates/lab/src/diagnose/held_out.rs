@@ -4,15 +4,14 @@
 use gumption_core::special::{chi_squared_sf, f_sf};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::adopt::stands_alone;
-use super::adopted::Adopted;
+use super::adopt::{Adopted, stands_alone};
 use super::candidates::Candidates;
 use super::case::Data;
 use super::catalogue::modifiers::{line_through, map, range};
 use super::catalogue::{self, Cell, FittedModel, Pattern, Term};
 use super::coarse::Coarse;
 use super::confirm;
-use super::design::Design;
+use super::design::{Design, Unknown};
 use super::fit::{self, Fit};
 use super::noise::Claimed;
 use super::prolonged::{Known, noise_of};
@@ -73,50 +72,35 @@ pub(super) fn held_out(
     let held = known.design.case.held_out.as_ref()?;
     let case = known.design.case.with(&held.rows);
     let design = Design::new(&case);
-    let model = Model {
-        design: known.design,
-        fit: known.fit,
-        known,
-    };
-    let (fit, claimed) = model.at(&design);
+    let (fit, claimed) = known.at(&design);
     let after = adopted.and_then(|adopted| improved(known, candidates, adopted));
     Some(HeldOutQuality {
         file: held.file.clone(),
         observations: design.observations(),
         expected: design.root_mean_squares(&claimed.u),
-        before: model.prediction(&design, &fit, &claimed),
+        before: known.prediction(&design, &fit, &claimed),
         after,
     })
 }
 
-/// A fitted model, to be evaluated on other rows.
-struct Model<'m> {
-    design: &'m Design<'m>,
-    fit: &'m Fit,
-    known: &'m Known<'m>,
-}
-
-impl Model<'_> {
+impl Known<'_> {
     /// On other rows, with the noise that these have.
     fn at(&self, design: &Design<'_>) -> (Fit, Claimed) {
         let fit = fit::at(design, self.design.carried(&self.fit.unknowns, design));
-        let claimed = noise_of(self.known, design, &fit, 0);
+        let claimed = noise_of(self, design, &fit, 0);
         (fit, claimed)
     }
 
     fn prediction(&self, design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Prediction {
-        let own = confirm::covariance(self.design, self.fit, self.known.claimed);
-        let places = design
-            .unknowns
-            .iter()
-            .map(|unknown| self.design.named(&unknown.name));
-        let places: Vec<Option<usize>> = places.collect();
+        let own = confirm::covariance(self.design, self.fit, self.claimed);
+        let place = |unknown: &Unknown| self.design.named(&unknown.name);
+        let places: Vec<Option<usize>> = design.unknowns.iter().map(place).collect();
         let covariance = |a: usize, b: usize| match (places[a], places[b]) {
             (Some(a), Some(b)) => own[(a, b)],
             _ => 0.0,
         };
         let covariance = DMatrix::from_fn(places.len(), places.len(), covariance);
-        let slopes = confirm::over_noise(&fit.jacobian, claimed);
+        let slopes = confirm::over_noise(&fit.jacobian, &claimed.u);
         let errors = fit.residuals.component_div(&claimed.u);
         let chi_squared = chi_squared(&errors, slopes, &covariance);
         Prediction {
@@ -129,16 +113,15 @@ impl Model<'_> {
     /// Probability of a χ² of so many observations by chance, with noise that was estimated Fisher's; of correlated noise nobody
     /// knows how the single rows scatter.
     fn chance(&self, chi_squared: f64, observations: f64) -> Option<f64> {
-        let claimed = self.known.claimed;
-        let dof = match claimed.is_estimated() {
+        let dof = match self.claimed.is_estimated() {
             true => confirm::degrees(self.design),
-            false => claimed.dof,
+            false => self.claimed.dof,
         };
         let p = match dof.is_finite() {
             true => f_sf(chi_squared / observations, observations, dof.max(1.0)),
             false => chi_squared_sf(chi_squared, observations),
         };
-        claimed.correlated.is_none().then_some(p)
+        self.claimed.correlated.is_none().then_some(p)
     }
 }
 
@@ -203,11 +186,10 @@ fn improved(
         }
     }
     let extended = &adopted.extended.case;
-    let fitted = Design::new(extended);
-    let model = Model {
-        design: &fitted,
+    let model = Known {
+        design: &Design::new(extended),
         fit: &adopted.fit,
-        known,
+        claimed: known.claimed,
     };
     let case = extended.with(&rows);
     let design = Design::new(&case);

@@ -1,10 +1,13 @@
 //! The improved model as files: a case with the new terms, and the recording with the columns that they
 //! need.
 
-use super::Diagnosis;
-use super::case::{Blocks, Case, Column, Data, NoiseClaim, NoiseOrigin, Role};
+use super::case::{Blocks, Case, Column, Data, NoiseClaim, Role};
 use super::simulate::{heading, recorded};
+use super::{Diagnosis, Origin};
+use crate::experiment::written::own_units;
 use crate::recording::{Heading, text_of};
+use gumption_core::model::{Role as SymbolRole, Symbol};
+use gumption_core::quantity::Unit;
 use gumption_format::files::Files;
 use gumption_format::toml::writing::{key, quoted};
 
@@ -31,7 +34,7 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
         [one] => format!("equations = {one}\n"),
         several => format!("equations = [\n    {},\n]\n", several.join(",\n    ")),
     };
-    text += &own_units(case);
+    text += &own_units(&case.own_units);
     text += "\n[columns]\n";
     let is_there = |column: &&Column| !matches!(column.data, Data::Absent);
     for column in extended.columns.iter().filter(is_there) {
@@ -48,17 +51,16 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
             value.name == parameter.name || value.name.starts_with(&format!("{}[", parameter.name))
         });
         let start = of.map_or(1.0, |value| value.value);
-        let mut parts = vec![format!("start = {start:e}")];
-        if !parameter.unit.is_one() {
-            parts.push(format!("unit = {}", quoted(&parameter.unit.symbol)));
-        }
-        if let Some(per) = parameter.per {
-            parts.push(format!("per = {}", quoted(&extended.columns[per].name)));
-        }
-        if let Some((value, u)) = parameter.prior {
-            parts.push(format!("value = {value:e}, u = {u:e}"));
-        }
-        text += &format!("{} = {{ {} }}\n", key(&parameter.name), parts.join(", "));
+        let per =
+            (parameter.per).map(|per| format!("per = {}", quoted(&extended.columns[per].name)));
+        let prior = (parameter.prior).map(|(value, u)| format!("value = {value:e}, u = {u:e}"));
+        let stated = [
+            Some(format!("start = {start:e}")),
+            unit(&parameter.unit),
+            per,
+            prior,
+        ];
+        text += &entry_of(&parameter.name, stated);
     }
     text += &constants(case);
     let at_rest = at_rest(case);
@@ -79,14 +81,14 @@ pub(super) fn title(case: &Case, title: &str) -> String {
     )
 }
 
-/// The units of its own.
-pub(super) fn own_units(case: &Case) -> String {
-    let line =
-        |(name, definition): &(String, String)| format!("{} = {}\n", key(name), quoted(definition));
-    match case.own_units.as_slice() {
-        [] => String::new(),
-        units => "\n[unit]\n".to_owned() + &units.iter().map(line).collect::<String>(),
-    }
+/// An entry with what is stated.
+fn entry_of(name: &str, stated: impl IntoIterator<Item = Option<String>>) -> String {
+    let stated: Vec<String> = stated.into_iter().flatten().collect();
+    format!("{} = {{ {} }}\n", key(name), stated.join(", "))
+}
+
+fn unit(unit: &Unit) -> Option<String> {
+    (!unit.is_one()).then(|| format!("unit = {}", quoted(&unit.symbol)))
 }
 
 /// A model as the case has it: several lines stay lines.
@@ -123,22 +125,18 @@ fn entry(column: &Column, case: &Case) -> String {
         Role::Uncertainty => "u",
         other => other.word(),
     };
-    let mut parts = vec![format!("role = \"{role}\"")];
-    if !is_found_by_name(column, case) {
-        let heading = heading(column, &case.units);
-        parts.push(format!("column = {}", quoted(&heading)));
-    }
-    for (key, stated) in [
+    let heading = (!is_found_by_name(column, case)).then(|| heading(column, &case.units));
+    let stated = [
         ("u", column.u),
         ("u_common", column.u_common),
         ("full_scale", column.full_scale),
-    ] {
-        parts.extend(stated.map(|value| format!("{key} = {value:e}")));
-    }
-    if parts.len() == 1 {
-        format!("\"{role}\"")
-    } else {
-        format!("{{ {} }}", parts.join(", "))
+    ];
+    let stated = stated.map(|(key, stated)| stated.map(|value| format!("{key} = {value:e}")));
+    let heading = heading.map(|heading| format!("column = {}", quoted(&heading)));
+    let others: Vec<String> = std::iter::once(heading).chain(stated).flatten().collect();
+    match others.as_slice() {
+        [] => format!("\"{role}\""),
+        others => format!("{{ role = \"{role}\", {} }}", others.join(", ")),
     }
 }
 
@@ -151,28 +149,25 @@ fn is_found_by_name(column: &Column, case: &Case) -> bool {
 }
 
 fn constants(case: &Case) -> String {
-    use gumption_core::model::Role as SymbolRole;
-    let mut text = String::new();
-    for constant in &case.constants {
-        if text.is_empty() {
-            text += "\n[constant]\n";
-        }
+    let line = |constant: &Symbol| {
         let value = match &constant.role {
             SymbolRole::Constant(value) => format!("value = {value:e}"),
             SymbolRole::ConstantVector(values) => {
                 let list: Vec<String> = values.iter().map(|value| format!("{value:e}")).collect();
                 format!("values = [{}]", list.join(", "))
             }
-            _ => continue,
+            _ => return None,
         };
-        let unit = if constant.unit.is_one() {
-            String::new()
-        } else {
-            format!(", unit = {}", quoted(&constant.unit.symbol))
-        };
-        text += &format!("{} = {{ {value}{unit} }}\n", key(&constant.name));
+        Some(entry_of(
+            &constant.name,
+            [Some(value), unit(&constant.unit)],
+        ))
+    };
+    let lines: String = case.constants.iter().filter_map(line).collect();
+    match lines.is_empty() {
+        true => lines,
+        false => format!("\n[constant]\n{lines}"),
     }
-    text
 }
 
 /// The text of the recording at rest, which goes with the improved case.
@@ -189,7 +184,7 @@ fn at_rest(case: &Case) -> Option<String> {
 fn claims(case: &Case, at_rest: Option<&str>) -> String {
     let noise = match &case.noise {
         NoiseClaim::Stated {
-            origin: NoiseOrigin::Budget(file),
+            origin: Origin::Budget(file),
             ..
         } => format!("\n[noise]\nbudget = {}\n", path(case, file)),
         NoiseClaim::Stated { u, dof, walk, .. } => {

@@ -136,7 +136,7 @@ impl<'i> Inquiry<'i> {
         }
         let stands = self.settings.by_noise <= self.settings.alpha;
         let (begun, share) = (self.answer.clone(), 0.3 / starts.len() as f64);
-        let (mut best, mut atoms) = (f64::NEG_INFINITY, self.candidates.places.len());
+        let (mut best, mut atoms) = (f64::NEG_INFINITY, self.candidates.atoms.len());
         for (at, start) in starts.into_iter().enumerate() {
             let from = 0.4 + share * at as f64;
             let first = match stands && start == begun.claimed {
@@ -146,11 +146,11 @@ impl<'i> Inquiry<'i> {
             let found = self.in_turn(first, from, from + share)?;
             let score = found.log_posterior();
             if score > best {
-                (best, atoms) = (score, self.candidates.places.len());
+                (best, atoms) = (score, self.candidates.atoms.len());
                 self.answer = found;
             }
         }
-        if atoms != self.candidates.places.len() {
+        if atoms != self.candidates.atoms.len() {
             // What cannot have its size with one noise was left out: atoms have other numbers now.
             self.answer = self.asked(self.answer.claimed.clone(), 0.7, 0.7)?;
         }

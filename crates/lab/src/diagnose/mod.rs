@@ -34,12 +34,12 @@
 //! | `reduced` | a recording reduced to its residuals |
 //! | `inquiry` | the recording asked in stages, noise and effects in turn |
 //! | `run` | a diagnosis from end to end |
-//! | `adopt`, `adopted` | the model with effects in it: its equations, its fit |
+//! | `adopt` | the model with effects in it: its equations, its fit |
 //! | `confirm`, `parts`, `held_out` | how well a model describes the recording, its parts, and a recording that the fit has not seen |
 //! | `regions` | where the mismatch may sit |
 //! | `plan` | what an experiment can see and tell apart, without data |
 //! | `extra`, `prolonged` | measurements that may follow, and the recording together with one of them |
-//! | `explanation`, `separation` | explanations of the same mismatch, and what tells them apart |
+//! | `explanation` | explanations of the same mismatch, and what tells them apart |
 //! | `typical`, `omitted` | usual sizes of effects, and what those cost that are not in the model |
 //! | `declared_form` | whether the declared model has an effect already, by its form |
 //! | `conclusion` | what is said: names that are told, tentative ones, what has none |
@@ -51,7 +51,6 @@
 //! | `stand_in` | what can stand in for something whose trace is known |
 
 mod adopt;
-mod adopted;
 mod blocks;
 mod candidates;
 pub mod case;
@@ -85,17 +84,16 @@ mod regions;
 mod replicates;
 mod result;
 mod run;
-mod separation;
 mod simulate;
 mod size;
 mod stand_in;
 mod typical;
 
-pub use adopt::{Addition, Extended, Free};
-pub use adopted::Adopted;
+pub use adopt::{Addition, Adopted, Extended, Free};
 pub use conclusion::{Conclusion, Doubt};
 pub use confirm::{Estimated, Quality};
 pub use emphasis::{Agreement, Unseen};
+pub use explanation::Separating;
 pub use extra::{Extra, Measure};
 pub use failure::Failure;
 pub use fit::{ModelVersion, NoFit, Trouble, Unsettled};
@@ -109,6 +107,5 @@ pub use parts::Confirmation;
 pub use plan::{Outlook, Promise, Prospect, plan};
 pub use result::budget;
 pub use run::{Diagnosis, diagnose};
-pub use separation::Separating;
 pub use simulate::{Sheet, Simulation, simulate};
 pub use stand_in::{Pick, StandIn, stand_ins};

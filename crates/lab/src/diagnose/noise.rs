@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::case::{Case, NoiseClaim, NoiseOrigin, RestReadings, Role, hours};
+use super::case::{Case, NoiseClaim, RestReadings, Role, hours};
 use super::design::Design;
 use super::evidence::{self, Correlation, Covariance, Noise};
 use super::fit::{self, Fit, NoFit};
@@ -229,11 +229,7 @@ fn claimed(design: &Design<'_>, fit: Option<&Fit>) -> Option<Claimed> {
         NoiseClaim::Stated { u, dof, origin, .. } => {
             let counts = counts(case);
             let of = |u: &f64| counts.iter().map(|n| u * u / n).collect();
-            let origin = match origin {
-                NoiseOrigin::Case => Origin::Case,
-                NoiseOrigin::Budget(file) => Origin::Budget(file.clone()),
-            };
-            (u.iter().map(of).collect(), *dof, origin)
+            (u.iter().map(of).collect(), *dof, origin.clone())
         }
         NoiseClaim::AtRest { file, readings, .. } => {
             let scatter = |rest: &RestReadings| {

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::candidates::Candidates;
 use super::case::Role;
-use super::catalogue::modifiers::{levels_of, range};
+use super::catalogue::modifiers::{known, levels_of, range};
 use super::catalogue::{Cell, FittedModel, Kind, Variation};
 use super::declared_form;
 use super::evidence::{self, Baseline, TRACE};
@@ -149,21 +149,15 @@ impl Cost {
         let spread = shift.map(|shift| shift / 3.0_f64.sqrt());
         let u = spread.map(|spread| evidence::omitted(baseline, columns, spread));
         let u = u.unwrap_or_else(|| DVector::zeros(unknowns));
-        let mut gain = largest(&baseline.gain(columns));
-        gain.truncate(unknowns);
+        // For each unknown that of the column that moves it most.
+        let most = |a: f64, b: &f64| if b.abs() > a.abs() { *b } else { a };
+        let gain = baseline.gain(columns);
+        let gain = (gain.row_iter().take(unknowns)).map(|row| row.iter().fold(0.0, most));
         Cost {
-            gain,
+            gain: gain.collect(),
             u: u.iter().take(unknowns).copied().collect(),
         }
     }
-}
-
-/// For each unknown the gain of the column that moves it most.
-fn largest(gain: &DMatrix<f64>) -> Vec<f64> {
-    let most = |a: f64, b: &f64| if b.abs() > a.abs() { *b } else { a };
-    gain.row_iter()
-        .map(|row| row.iter().fold(0.0, most))
-        .collect()
 }
 
 /// What it costs that a slot has several explanations: for each unknown the root of Σ p·d², d being how
@@ -176,7 +170,7 @@ pub(super) fn choice(
     let moved = |alternative: &evidence::Alternative| -> Option<DVector<f64>> {
         let variation = candidates.variation(alternative.variants.first()?.atom);
         let columns = variation.columns(&candidates.fitted);
-        let size = (alternative.estimate).map(|x| if x.is_finite() { x } else { 0.0 });
+        let size = alternative.estimate.map(known);
         (columns.ncols() == size.len()).then(|| declared.gain(&columns) * size)
     };
     let mut squares = DVector::zeros(declared.parameters());

@@ -9,7 +9,7 @@ use super::candidates::baseline;
 use super::case::Role;
 use super::confirm::{degrees, over_noise};
 use super::design::Design;
-use super::evidence::Fitted;
+use super::evidence::{Baseline, Fitted};
 use super::fit::Fit;
 use super::noise::Claimed;
 use crate::recording::Labels;
@@ -38,13 +38,12 @@ pub(super) fn confirmation(
     let first = design.case.parameters.len() - added;
     let (names, members): (Vec<String>, Vec<Vec<usize>>) = divided(design).into_iter().unzip();
     let at = design.unknown_of(first, 0);
-    let apart = Separability::new(design, fit, claimed, at, &members);
     let mut confirmation = Confirmation {
         promised: fitted.chi_squared,
         parts: Vec::new(),
         agreement: None,
     };
-    let estimates = apart.map(|apart| apart.estimates());
+    let estimates = apart(design, fit, claimed, at, &members);
     let Some((seen, values, covariance)) = estimates.filter(|(seen, ..)| seen.len() > 1) else {
         return confirmation;
     };
@@ -70,102 +69,86 @@ pub(super) fn confirmation(
     confirmation
 }
 
-/// An unknown with a value of its own in each part, beside everything that is common.
-struct Separability {
-    /// The common value.
-    start: f64,
-    /// What is known beforehand of each value: information, and how strongly it pulls.
-    known: (f64, f64),
-    /// What each part shows of it beside the other unknowns, in units of the noise.
-    columns: DMatrix<f64>,
-    /// The squares of what each part would show if the other unknowns were known.
-    whole: Vec<f64>,
-    /// What the fit leaves.
-    residuals: DVector<f64>,
+/// Parts that show an effect, their values of it, and the covariance matrix of these.
+type Parts = (Vec<usize>, DVector<f64>, DMatrix<f64>);
+
+/// The unknown `at` with a value of its own for each list of observations, beside everything that is common.
+fn apart(
+    design: &Design<'_>,
+    fit: &Fit,
+    claimed: &Claimed,
+    at: usize,
+    members: &[Vec<usize>],
+) -> Option<Parts> {
+    let mut columns = DMatrix::zeros(design.observations(), members.len());
+    for (part, members) in members.iter().enumerate() {
+        for observation in members {
+            columns[(*observation, part)] = fit.jacobian[(*observation, at)];
+        }
+    }
+    let mut common = Design::new(design.case);
+    let own = common.unknowns.remove(at);
+    let known = own.prior.map_or((0.0, 0.0), |(value, u)| {
+        (1.0 / (u * u), (value - fit.unknowns[at]) / (u * u))
+    });
+    let rest = Fit {
+        unknowns: fit.unknowns.clone().remove_row(at),
+        jacobian: fit.jacobian.clone().remove_column(at),
+        ..fit.clone()
+    };
+    let beside = baseline(&common, &rest, &claimed.uncorrelated()).ok()?;
+    let alone = over_noise(&columns, &claimed.u);
+    let (seen, values, covariance) = estimates(&beside, &columns, &alone, known);
+    Some((seen, values.add_scalar(fit.unknowns[at]), covariance))
 }
 
-impl Separability {
-    /// Takes the unknown `at` apart, one for each list of observations.
-    fn new(
-        design: &Design<'_>,
-        fit: &Fit,
-        claimed: &Claimed,
-        at: usize,
-        members: &[Vec<usize>],
-    ) -> Option<Separability> {
-        let mut columns = DMatrix::zeros(design.observations(), members.len());
-        for (part, members) in members.iter().enumerate() {
-            for observation in members {
-                columns[(*observation, part)] = fit.jacobian[(*observation, at)];
-            }
-        }
-        let mut common = Design::new(design.case);
-        let own = common.unknowns.remove(at);
-        let known = own.prior.map_or((0.0, 0.0), |(value, u)| {
-            (1.0 / (u * u), (value - fit.unknowns[at]) / (u * u))
-        });
-        let rest = Fit {
-            unknowns: fit.unknowns.clone().remove_row(at),
-            jacobian: fit.jacobian.clone().remove_column(at),
-            ..fit.clone()
-        };
-        let beside = baseline(&common, &rest, &claimed.uncorrelated()).ok()?;
-        let over_noise = over_noise(&columns, claimed);
-        let whole = over_noise.column_iter().map(|column| column.norm_squared());
-        Some(Separability {
-            start: fit.unknowns[at],
-            known,
-            whole: whole.collect(),
-            columns: beside.project(&columns),
-            residuals: beside.residuals().clone(),
-        })
+/// How much the values of parts differ from the common one. `alone` is what the parts would show if the other unknowns were known, in
+/// units of the noise; `known` what is known beforehand of each value: information, and how strongly it pulls.
+fn estimates(
+    beside: &Baseline,
+    columns: &DMatrix<f64>,
+    alone: &DMatrix<f64>,
+    known: (f64, f64),
+) -> Parts {
+    /// Information below this part of what a part would show alone is rounding.
+    const NOTHING: f64 = 1e-9;
+    /// A direction that nothing determines takes part in a value from this share on.
+    const TAKES_PART: f64 = 1e-6;
+    /// A value with so many times the standard uncertainty of the common one says nothing.
+    const FAR: f64 = 20.0;
+    let parts = alone.ncols();
+    let unit = |part: usize| match alone.column(part).norm_squared() {
+        whole if whole > 0.0 => 1.0 / whole.sqrt(),
+        _ => 0.0,
+    };
+    let units = DMatrix::from_diagonal(&DVector::from_fn(parts, |part, _| unit(part)));
+    let shown = beside.project(columns);
+    let mut information = shown.tr_mul(&shown);
+    let mut pull = shown.tr_mul(beside.residuals());
+    for part in 0..parts {
+        information[(part, part)] += known.0;
+        pull[part] += known.1;
     }
-
-    /// The parts that show the effect, their values, and the covariance matrix of these.
-    fn estimates(&self) -> (Vec<usize>, DVector<f64>, DMatrix<f64>) {
-        /// Information below this part of what a part would show alone is rounding.
-        const NOTHING: f64 = 1e-9;
-        /// A direction that nothing determines takes part in a value from this share on.
-        const TAKES_PART: f64 = 1e-6;
-        /// A value with so many times the standard uncertainty of the common one says nothing.
-        const FAR: f64 = 20.0;
-        let parts = self.whole.len();
-        let unit = |whole: &f64| {
-            if *whole > 0.0 {
-                1.0 / whole.sqrt()
-            } else {
-                0.0
-            }
-        };
-        let units = DVector::from_iterator(parts, self.whole.iter().map(unit));
-        let units = DMatrix::from_diagonal(&units);
-        let mut information = self.columns.tr_mul(&self.columns);
-        let mut pull = self.columns.tr_mul(&self.residuals);
-        for part in 0..parts {
-            information[(part, part)] += self.known.0;
-            pull[part] += self.known.1;
+    let eigen = SymmetricEigen::new(&units * &information * &units);
+    let (mut inverse, mut open) = (DMatrix::zeros(parts, parts), DVector::zeros(parts));
+    let axes = eigen
+        .eigenvalues
+        .iter()
+        .zip(eigen.eigenvectors.column_iter());
+    for (value, direction) in axes {
+        if *value > NOTHING {
+            inverse += direction * direction.transpose() / *value;
+        } else {
+            open += direction.component_mul(&direction);
         }
-        let eigen = SymmetricEigen::new(&units * &information * &units);
-        let (mut inverse, mut open) = (DMatrix::zeros(parts, parts), DVector::zeros(parts));
-        let axes = eigen
-            .eigenvalues
-            .iter()
-            .zip(eigen.eigenvectors.column_iter());
-        for (value, direction) in axes {
-            if *value > NOTHING {
-                inverse += direction * direction.transpose() / *value;
-            } else {
-                open += direction.component_mul(&direction);
-            }
-        }
-        let covariance = &units * inverse * &units;
-        let values = (&covariance * pull).add_scalar(self.start);
-        let most = FAR * FAR / information.sum();
-        let shows = |part: &usize| open[*part] < TAKES_PART && covariance[(*part, *part)] < most;
-        let seen: Vec<usize> = (0..parts).filter(shows).collect();
-        let covariance = covariance.select_columns(&seen).select_rows(&seen);
-        (seen.clone(), values.select_rows(&seen), covariance)
     }
+    let covariance = &units * inverse * &units;
+    let values = &covariance * pull;
+    let most = FAR * FAR / information.sum();
+    let shows = |part: &usize| open[*part] < TAKES_PART && covariance[(*part, *part)] < most;
+    let seen: Vec<usize> = (0..parts).filter(shows).collect();
+    let covariance = covariance.select_columns(&seen).select_rows(&seen);
+    (seen.clone(), values.select_rows(&seen), covariance)
 }
 
 /// Sum of squares of the deviations of correlated values from their mean, in units of their covariance matrix:
@@ -205,22 +188,8 @@ fn divided(design: &Design<'_>) -> Vec<(String, Vec<usize>)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::evidence::Baseline;
     use super::super::evidence::fixture::{beside_constant, white};
     use super::*;
-
-    fn apart(baseline: &Baseline, columns: &DMatrix<f64>) -> Separability {
-        Separability {
-            start: 0.0,
-            known: (0.0, 0.0),
-            columns: baseline.project(columns),
-            whole: columns
-                .column_iter()
-                .map(|column| column.norm_squared())
-                .collect(),
-            residuals: baseline.residuals().clone(),
-        }
-    }
 
     #[test]
     fn a_part_learns_the_parameters_from_the_others() {
@@ -232,7 +201,7 @@ mod tests {
             _ => 0.0,
         };
         let columns = DMatrix::from_fn(7, 3, members);
-        let (seen, values, covariance) = apart(&baseline, &columns).estimates();
+        let (seen, values, covariance) = estimates(&baseline, &columns, &columns, (0.0, 0.0));
         assert_eq!(seen, [1, 2]);
         assert!((values[0] - 3.0).abs() < 1e-12 && (values[1] - 5.0).abs() < 1e-12);
         // u² of the mean of the part and of the offset.
@@ -253,6 +222,7 @@ mod tests {
             true => level[part],
             false => 0.0,
         });
-        assert!(apart(&baseline, &columns).estimates().0.is_empty());
+        let (seen, ..) = estimates(&baseline, &columns, &columns, (0.0, 0.0));
+        assert!(seen.is_empty());
     }
 }

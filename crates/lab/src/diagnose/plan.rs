@@ -11,8 +11,8 @@ use super::catalogue::{Cell, FittedModel, Kind};
 use super::coarse::Coarse;
 use super::confirm::{Estimated, estimates};
 use super::design::Design;
-use super::evidence::{self, Refusal, Shape, TRACE};
-use super::explanation::{Explanation, standing};
+use super::evidence::{self, Refusal, SEPARATED, Shape, TRACE};
+use super::explanation::Explanation;
 use super::extra::{Extra, extras};
 use super::failure::Failure;
 use super::fit::Fit;
@@ -79,8 +79,6 @@ pub struct Promise {
     pub revealed: Vec<usize>,
 }
 
-/// Told apart as good as always.
-const SEPARATED: f64 = 5.0;
 /// Strength of the effects for which further measurements are judged.
 const STRENGTH: f64 = 8.0;
 /// Before anything is recorded, one of two is as probable as the other.
@@ -108,7 +106,7 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
     let mut candidates = Candidates::new(fitted, &claimed, &baseline);
     let unified = named(&mut candidates);
     step(progress, 0.1)?;
-    let found = evidence::visibility(&baseline, &candidates.candidates, &candidates.atoms)?;
+    let found = evidence::visibility(&baseline, &candidates.candidates, &candidates.atoms);
     let effects = prospects(&candidates, &unified, &found);
     let unknowns = estimates(&design, &fit, &claimed);
     let u: Vec<f64> = unknowns.iter().map(|unknown| unknown.u).collect();
@@ -128,14 +126,12 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
     let sets = pairs
         .iter()
         .map(|pair| explanations(&recorded, &effects, *pair));
-    let explanations = Explanations {
-        sets: sets.collect(),
-        hidden: omitted.iter().filter(|line| line.is_invisible()).collect(),
-    };
+    let sets: Vec<Vec<Explanation<'_>>> = sets.collect();
+    let hidden: Vec<&Omitted> = omitted.iter().filter(|line| line.is_invisible()).collect();
     let mut promises = Vec::new();
     let all = extras(case);
     for (at, extra) in all.iter().enumerate() {
-        promises.extend(explanations.promise(&recorded, extra));
+        promises.extend(promise(&recorded, &sets, &hidden, extra));
         step(progress, 0.4 + 0.6 * (at + 1) as f64 / all.len() as f64)?;
     }
     let worth = |promise: &Promise| {
@@ -216,8 +212,8 @@ fn prospects(
         let Some((seen, detectable)) = own.get(own.len().saturating_sub(1) / 2) else {
             continue;
         };
-        let pair = found.pairs.iter().find(|pair| pair.atom == seen.atom);
-        let variation = candidates.places[seen.atom].1;
+        let pair = seen.rival.as_ref();
+        let variation = atoms[seen.atom].variant;
         let (form, unified) = (&of.variants[variation], &unified[seen.atom]);
         prospects.push(Prospect {
             cell,
@@ -236,7 +232,7 @@ fn prospects(
 fn classes(candidates: &Candidates<'_>, atoms: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let mut classes: Vec<Vec<usize>> = Vec::new();
     for class in atoms {
-        let of = class.iter().map(|atom| candidates.places[*atom].0);
+        let of = class.iter().map(|atom| candidates.atoms[*atom].candidate);
         // A single row or a jump is an alias of much in few rows.
         let is_alias = |cell: &usize| candidates.cells[*cell].effect.kind == Kind::Record;
         let mut of: Vec<usize> = of.filter(|cell| !is_alias(cell)).collect();
@@ -272,11 +268,11 @@ fn pairs(effects: &[Prospect]) -> Vec<(usize, usize)> {
 }
 
 /// Both of a pair, with sizes that have the same strength in the experiment as it is.
-fn explanations(
-    recorded: &Recorded<'_>,
+fn explanations<'r>(
+    recorded: &'r Recorded<'_>,
     effects: &[Prospect],
     (a, b): (usize, usize),
-) -> Vec<Explanation> {
+) -> Vec<Explanation<'r>> {
     let of = |cell: usize| {
         let effect = effects.iter().find(|effect| effect.cell == cell)?;
         let cell = &recorded.candidates.cells[cell];
@@ -290,39 +286,32 @@ fn explanations(
     [a, b].into_iter().filter_map(of).collect()
 }
 
-/// What further measurements are asked for.
-struct Explanations<'o> {
-    sets: Vec<Vec<Explanation>>,
-    hidden: Vec<&'o Omitted>,
-}
-
-impl Explanations<'_> {
-    fn promise(&self, recorded: &Recorded<'_>, extra: &Extra) -> Option<Promise> {
-        let asked = self.hidden.iter().map(|line| {
+/// Which of some sets of explanations a further measurement tells apart, and what it shows of that which is hidden.
+fn promise(
+    recorded: &Recorded<'_>,
+    sets: &[Vec<Explanation<'_>>],
+    hidden: &[&Omitted],
+    extra: &Extra,
+) -> Option<Promise> {
+    let (resolved, revealed) = examined(recorded, extra, |prolonged| {
+        let is_told = |at: &usize| {
+            let standing = (sets[*at].iter()).map(|one| one.standing(recorded, prolonged));
+            let standing = standing.collect::<Option<Vec<_>>>();
+            let apart = standing.and_then(|standing| evidence::apart(&standing));
+            apart.is_some_and(|apart| apart.least() >= SEPARATED)
+        };
+        let shows = |line: &&&Omitted| {
             let cell = &recorded.candidates.cells[line.cell];
-            let variation = &cell.variants[line.variation];
-            let sizes = DMatrix::from_element(variation.coefficients(), 1, 1.0);
-            Explanation::new(recorded, cell, variation, &sizes, EVEN)
-        });
-        let asked: Vec<Explanation> = asked.collect();
-        let (resolved, revealed) = examined(recorded, extra, |prolonged| {
-            let is_told = |at: &usize| {
-                let standing = standing(recorded, prolonged, &self.sets[*at]);
-                let apart = standing.and_then(|standing| evidence::apart(&standing));
-                apart.is_some_and(|apart| apart.least() >= SEPARATED)
-            };
-            let shows = |(one, line): (&Explanation, &&Omitted)| {
-                let share = one.visibility(prolonged)?;
-                (share > VISIBLE).then_some(line.cell)
-            };
-            let resolved: Vec<usize> = (0..self.sets.len()).filter(is_told).collect();
-            let revealed: Vec<usize> = (asked.iter().zip(&self.hidden)).filter_map(shows).collect();
-            (resolved, revealed)
-        })?;
-        Some(Promise {
-            extra: extra.clone(),
-            resolved,
-            revealed,
-        })
-    }
+            let share = prolonged.visibility(cell, &cell.variants[line.variation]);
+            share.is_some_and(|share| share > VISIBLE)
+        };
+        let resolved: Vec<usize> = (0..sets.len()).filter(is_told).collect();
+        let revealed = hidden.iter().filter(shows).map(|line| line.cell);
+        (resolved, revealed.collect())
+    })?;
+    Some(Promise {
+        extra: extra.clone(),
+        resolved,
+        revealed,
+    })
 }

@@ -8,8 +8,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::candidates::Candidates;
 use super::case::Observed;
-use super::catalogue::modifiers::{line_through, map2};
+use super::catalogue::modifiers::{known, line_through, map2};
 use super::catalogue::{FittedModel, Node, Term, Variation};
+use super::confirm::over_noise;
 use super::evidence::{self, Alternative, Examination};
 use super::noise::Claimed;
 
@@ -53,13 +54,9 @@ fn scales(
     sizes: &DVector<f64>,
     claimed: &Claimed,
 ) -> Vec<f64> {
-    let known = |x: f64| if x.is_finite() { x } else { 0.0 };
     let left = &fitted.fit.residuals - variation.columns(fitted) * sizes.map(known);
-    let weights = claimed.u.map(|u| 1.0 / u);
-    let over_noise = DMatrix::from_fn(left.len(), fitted.fit.jacobian.ncols(), |row, at| {
-        fitted.fit.jacobian[(row, at)] * weights[row]
-    });
-    let moved = evidence::inverse(&over_noise) * left.map(known).component_mul(&weights);
+    let over_noise = over_noise(&fitted.fit.jacobian, &claimed.u);
+    let moved = evidence::inverse(&over_noise) * left.map(known).component_div(&claimed.u);
     let change = &fitted.fit.jacobian * moved;
     let blocks = fitted.design.blocks.len();
     let responses = 0..fitted.case().responses.len();
@@ -124,8 +121,7 @@ fn is_explained(
     let before = residuals.component_div(u).norm_squared();
     let (parameters, sizes) = (model.ncols(), effects.ncols());
     let all = evidence::all([model, effects].into_iter().cloned());
-    let over_noise = DMatrix::from_fn(all.nrows(), all.ncols(), |row, at| all[(row, at)] / u[row]);
-    let found = evidence::inverse(&over_noise) * residuals.component_div(u);
+    let found = evidence::inverse(&over_noise(&all, u)) * residuals.component_div(u);
     let left = effects * found.rows(parameters, sizes);
     let rest = residuals - &all * &found;
     let in_units = |row: usize| rest[row] / u[row] * constant / (constant - left[row]);

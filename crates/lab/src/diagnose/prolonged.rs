@@ -12,7 +12,7 @@ use super::extra::Extra;
 use super::fit::{self, Fit};
 use super::noise::{self, Claimed};
 
-/// What is known of a case before a further measurement.
+/// What is known of a case before a further measurement: a model, fitted to its recording, and the noise.
 pub(super) struct Known<'k> {
     pub design: &'k Design<'k>,
     pub fit: &'k Fit,
@@ -74,6 +74,26 @@ impl Recorded<'_> {
 }
 
 impl Prolonged<'_> {
+    /// Share of a variation that the parameters do not absorb. A grid that follows the rows may have another step here: what is
+    /// nearest to it, or else its middle, then stands for it.
+    pub(super) fn visibility(&self, cell: &Cell, own: &Variation) -> Option<f64> {
+        let variants = &self.cells.iter().find(|other| other.is(cell))?.variants;
+        let same = variants.iter().find(|other| other.label == own.label);
+        let nearest = || {
+            let own = own.shape.as_ref()?.value;
+            let far = |other: &Variation| Some((other.shape.as_ref()?.value - own).abs());
+            let shaped = variants
+                .iter()
+                .filter_map(|other| Some((far(other)?, other)));
+            let nearest = shaped.min_by(|a, b| a.0.total_cmp(&b.0));
+            nearest.map(|(_, other)| other)
+        };
+        let middle = || variants.get(variants.len() / 2);
+        let found = same.or_else(nearest).or_else(middle)?;
+        let columns = found.columns(&self.fitted);
+        let finite = columns.iter().all(|x| x.is_finite());
+        finite.then(|| self.baseline.visibility(&columns))
+    }
     /// The observations of the recording alone.
     pub(super) fn recorded(&self, recorded: &Recorded<'_>, columns: &DMatrix<f64>) -> DMatrix<f64> {
         let design = self.fitted.design;
@@ -88,12 +108,9 @@ impl Prolonged<'_> {
 /// The blocks of the recording, and after them those that the further rows have by themselves.
 fn blocks(known: &Known<'_>, extra: &Extra) -> Vec<Vec<usize>> {
     let alone = known.design.case.with(&extra.rows);
+    let behind = |row: usize| row + known.design.case.rows;
     let further = Design::new(&alone).blocks.into_iter();
-    let further = further.map(|rows| {
-        rows.into_iter()
-            .map(|row| row + known.design.case.rows)
-            .collect()
-    });
+    let further = further.map(|rows| rows.into_iter().map(behind).collect());
     known.design.blocks.iter().cloned().chain(further).collect()
 }
 

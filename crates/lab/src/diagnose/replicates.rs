@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use gumption_lanes::sampler::gamma_block;
 use gumption_lanes::{Block, Generator, LANES, level};
 
+use super::case::Data;
 use super::catalogue::modifiers::spacing;
 use super::design::Design;
 use super::noise_growth::{self, Growth, Spread};
@@ -64,17 +65,14 @@ pub(super) fn scatter(design: &Design<'_>, columns: &[usize]) -> Option<Vec<Scat
 fn agreeing(design: &Design<'_>, columns: &[usize]) -> Vec<Vec<usize>> {
     let case = design.case;
     let key = |row: usize| -> Vec<u64> {
-        let of = columns.iter().map(|column| {
-            match (
-                case.columns[*column].labels(),
-                case.columns[*column].numbers(),
-            ) {
-                (Some(labels), _) => u64::from(labels.of_row[row]),
+        let of = columns
+            .iter()
+            .map(|column| match &case.columns[*column].data {
+                Data::Labels(labels) => u64::from(labels.of_row[row]),
                 // Zero has one sign.
-                (None, Some(numbers)) => (numbers[row] + 0.0).to_bits(),
-                (None, None) => 0,
-            }
-        });
+                Data::Numbers(numbers) => (numbers[row] + 0.0).to_bits(),
+                Data::Absent => 0,
+            });
         of.collect()
     };
     let mut groups: BTreeMap<Vec<u64>, Vec<usize>> = BTreeMap::new();
@@ -119,21 +117,17 @@ fn of_response(design: &Design<'_>, response: usize, rows: &[Vec<usize>]) -> Opt
     let likely = (dof as usize >= LEAST)
         .then(|| noise_growth::likely(&of_groups, GAIN, |spread| misfit(&groups, spread)))
         .flatten();
-    let seed = design.case.settings.seed;
-    let Some(likely) = likely else {
-        return Some(Scatter {
-            variances: at(&Spread::CONSTANT, pooled),
-            dof,
-            growth: None,
-            draws: Vec::new(),
-            uneven: uneven(&groups, &Spread::CONSTANT, seed),
+    let (best, draws) = likely
+        .as_ref()
+        .map_or((Spread::CONSTANT, &[][..]), |likely| {
+            (likely.best, likely.draws.as_slice())
         });
-    };
     // The shape costs one degree of freedom.
-    let left = dof - 1.0;
+    let left = dof - f64::from(u8::from(likely.is_some()));
     let scale = |spread: &Spread| self::pooled(&groups, spread) * dof / left;
     let unit = design.case.responses[response].unit.typeset();
-    let count = likely.draws.len();
+    let growth = (likely.as_ref()).map(|_| best.growth(scale(&best).sqrt(), unit));
+    let count = draws.len();
     let draw = |(index, spread): (usize, &Spread)| {
         // The two are open independently of each other: a step that meets every part of the distribution.
         let part = ((7 * index) % count) as f64 + 0.5;
@@ -141,11 +135,11 @@ fn of_response(design: &Design<'_>, response: usize, rows: &[Vec<usize>]) -> Opt
         at(spread, scale(spread) * factor)
     };
     Some(Scatter {
-        variances: at(&likely.best, scale(&likely.best)),
+        variances: at(&best, scale(&best)),
         dof: left,
-        growth: Some(likely.best.growth(scale(&likely.best).sqrt(), unit)),
-        draws: likely.draws.iter().enumerate().map(draw).collect(),
-        uneven: uneven(&groups, &likely.best, seed),
+        growth,
+        draws: draws.iter().enumerate().map(draw).collect(),
+        uneven: uneven(&groups, &best, design.case.settings.seed),
     })
 }
 

@@ -10,9 +10,10 @@ use super::case::Case;
 use super::confirm::{self, Estimated};
 use super::design::{Design, UnknownKind};
 use super::fit::Fit;
-use super::improved::{own_units, title};
+use super::improved::title;
 use super::omitted::Omitted;
 use super::run::Diagnosis;
+use crate::experiment::written::{own_units, unit_line};
 use gumption_core::quantity::Unit;
 use gumption_format::toml::writing::{key, quoted};
 
@@ -36,7 +37,7 @@ pub fn budget(case: &Case, diagnosis: &Diagnosis) -> String {
         "# Written by `gumption diagnose`: the parameters, with what may be there unseen.\n",
     );
     text += &title(case, &case.title);
-    text += &own_units(case);
+    text += &own_units(&case.own_units);
     let lines = lines(diagnosis, estimates);
     for result in &results {
         measurand(&mut text, result, &lines);
@@ -65,7 +66,7 @@ struct ResultOf<'r> {
 fn results<'r>(design: &Design<'_>, estimates: &'r [Estimated]) -> Vec<ResultOf<'r>> {
     let of = |(place, estimate): (usize, &'r Estimated)| {
         let unknown = &design.unknowns[design.named(&estimate.name)?];
-        let UnknownKind::Parameter { parameter, .. } = unknown.kind else {
+        let UnknownKind::Parameter(parameter) = unknown.kind else {
             return None;
         };
         Some(ResultOf {
@@ -170,14 +171,6 @@ fn input(text: &mut String, result: &ResultOf<'_>, dof: f64) {
     );
     if dof.is_finite() && dof > 2.0 {
         let _ = writeln!(text, "dof = {dof:?}\ndistribution = \"normal\"");
-    }
-}
-
-fn unit_line(unit: &Unit) -> String {
-    if unit.is_one() {
-        String::new()
-    } else {
-        format!("unit = {}\n", quoted(&unit.symbol))
     }
 }
 

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::ops::ControlFlow;
 
-use super::adopted::{Adopted, adopt_named};
+use super::adopt::{Adopted, adopt_named};
 use super::candidates::{Candidates, baseline};
 use super::case::Case;
 use super::catalogue::{Cell, Pattern};
@@ -11,14 +11,14 @@ use super::coarse::Coarse;
 use super::confirm::{self, Estimated, Quality, estimates};
 use super::design::Design;
 use super::evidence::{self, Examination, Located};
+use super::explanation::{self, Separating};
 use super::failure::Failure;
-use super::fit::{Fit, ModelVersion, NoFit, Trouble, Unsettled};
+use super::fit::{Fit, ModelVersion, Trouble, Unsettled};
 use super::held_out::{self, HeldOutQuality};
 use super::inquiry::{Answer, Declared, Inquiry};
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
 use super::prolonged::{Known, Recorded};
-use super::separation::{self, Separating};
 use super::size;
 
 /// Everything that a diagnosis found.
@@ -119,7 +119,10 @@ pub fn diagnose(
     let unknowns = estimates(&design, &fit, &claimed);
     let (adopted, no_fit) = match adopt_named(&candidates, &mut examination, &claimed) {
         Ok(adopted) => (adopted, None),
-        Err(why) => (None, Some(without_fit(why))),
+        Err(why) => {
+            let (model, trouble) = (ModelVersion::Improved, Trouble::NoFit(why));
+            (None, Some(Unsettled { model, trouble }))
+        }
     };
     let worse = (adopted.as_ref()).is_some_and(|adopted| adopted.predicts_worse(&before));
     let adopted = adopted.filter(|_| !worse);
@@ -136,9 +139,8 @@ pub fn diagnose(
     let listed = examination.slots.iter().filter(|_| adopted.is_some());
     let named = listed.clone().flat_map(|slot| &slot.named);
     let named: Vec<usize> = named.map(|named| named.candidate).collect();
-    let choices = listed
-        .map(|slot| omitted::choice(&candidates, &baseline, slot))
-        .collect();
+    let choices = listed.map(|slot| omitted::choice(&candidates, &baseline, slot));
+    let choices = choices.collect();
     let improved = (adopted.as_ref()).and_then(|adopted| adopted.baseline(&claimed));
     let u: Vec<f64> = unknowns.iter().map(|unknown| unknown.u).collect();
     let omitted = omitted::lines(&candidates, &baseline, improved.as_ref(), &named, &u);
@@ -147,7 +149,9 @@ pub fn diagnose(
         candidates: &candidates,
         baseline: &baseline,
     };
-    let separating = separation::separating(&recorded, &examination);
+    let separating = explanation::separating(&recorded, &examination);
+    let atoms = candidates.atoms.iter();
+    let atoms = atoms.map(|atom| (atom.candidate, atom.variant)).collect();
     Ok(Diagnosis {
         examination,
         located,
@@ -162,17 +166,10 @@ pub fn diagnose(
         choices,
         steady: candidates.fitted.is_steady(),
         cells: candidates.cells,
-        atoms: candidates.places,
+        atoms,
         fit,
         noise: claimed,
     })
-}
-
-fn without_fit(why: NoFit) -> Unsettled {
-    Unsettled {
-        model: ModelVersion::Improved,
-        trouble: Trouble::NoFit(why),
-    }
 }
 
 /// Whether every effect that is adopted would be there in another recording.

@@ -20,12 +20,11 @@ pub struct Unified {
 }
 
 /// The columns of a variation; nothing where one is not finite or does nothing.
-pub fn unified(columns: DMatrix<f64>) -> Option<Unified> {
+pub fn unified(mut columns: DMatrix<f64>) -> Option<Unified> {
     let peaks: Vec<f64> = columns.column_iter().map(|column| column.amax()).collect();
     if peaks.is_empty() || !peaks.iter().all(|peak| peak.is_finite() && *peak > 0.0) {
         return None;
     }
-    let mut columns = columns;
     for (mut column, peak) in columns.column_iter_mut().zip(&peaks) {
         column /= *peak;
     }

@@ -103,10 +103,7 @@ impl Rest<'_> {
         output: &Headed,
         times: Option<&[f64]>,
     ) -> Result<RestReadings, Said> {
-        let recording = self.open("rest", name).map_err(|rejection| {
-            let first = rejection.faults.first();
-            first.map_or_else(Said::default, |fault| fault.message.clone())
-        })?;
+        let recording = (self.open("rest", name)).map_err(|rejection| rejection.said())?;
         let column = recording.column("rest");
         let factor = match column.and_then(|column| column.unit.clone()) {
             None => 1.0,

@@ -1,12 +1,13 @@
 //! What all checks of an experiment share: the file with its places, the files that it names, its units.
 
+use std::ops::Range;
 use std::path::Path;
 
 use super::faults::{KEY, UNIT};
 use super::purpose::Purpose;
 use super::source::{self, Source, entries};
 use gumption_core::quantity::{Unit, UnitTable};
-use gumption_fault::{Fault, Rejection, say};
+use gumption_fault::{Code, Fault, Rejection, Said, say};
 use gumption_format::files::Files;
 use gumption_format::toml::{Amount, Stated};
 use gumption_gum::budget::quantities;
@@ -32,6 +33,36 @@ pub(crate) fn opened(text: &str, name: &str) -> Result<Source, Rejection> {
     source::read(text).map_err(|faults| Rejection::new(name, text, faults))
 }
 
+/// What is made of a file, after `list` has listed parameters that the file does not list.
+///
+/// # Errors
+/// All faults of the file, and after them those of its recording.
+pub(crate) fn made<T>(
+    mut source: Source,
+    name: &str,
+    purpose: Purpose,
+    files: Files<'_>,
+    folder: &Path,
+    list: impl FnOnce(&mut Source, &UnitTable, Files<'_>, &Path),
+    make: impl FnOnce(&mut Checker<'_>) -> Result<Option<T>, Box<Rejection>>,
+) -> Result<T, Rejection> {
+    let units = Checker::new(&source, purpose, files, folder).units;
+    list(&mut source, &units, files, folder);
+    let mut checker = Checker::new(&source, purpose, files, folder);
+    let made = make(&mut checker);
+    let is_whole = checker.faults.is_empty();
+    match made {
+        Ok(Some(made)) if is_whole => Ok(made),
+        Ok(_) => Err(checker.rejection(name)),
+        Err(recording) if is_whole => Err(*recording),
+        Err(recording) => {
+            let mut rejection = checker.rejection(name);
+            rejection.others.push(*recording);
+            Err(rejection)
+        }
+    }
+}
+
 impl<'s> Checker<'s> {
     /// Nothing is checked yet but the units of the file's own.
     pub fn new(
@@ -51,6 +82,12 @@ impl<'s> Checker<'s> {
             units,
             faults,
         }
+    }
+
+    /// Reports a fault, with what was expected at its place.
+    pub fn wrong(&mut self, code: Code, place: &Range<usize>, message: Said, expected: Said) {
+        let fault = Fault::new(code, place.clone(), message);
+        self.faults.push(fault.label(expected));
     }
 
     /// Reports a fault; nothing can be returned.

@@ -14,6 +14,7 @@
 //! | `positions`, `noise`, `at_rest` | what labels stand for; what tells the noise |
 //! | `symbols`, `parameters`, `lower` | units of what is estimated; the equations |
 //! | `checked`, `words` | the checked experiment; texts in both languages |
+//! | `written` | what files that are written say of units |
 
 pub(crate) mod at_rest;
 mod checked;
@@ -41,6 +42,7 @@ pub(crate) mod source;
 pub(crate) mod symbols;
 pub mod tables;
 pub(crate) mod words;
+pub(crate) mod written;
 
 pub use at_rest::RestReadings;
 pub use checked::{Experiment, Heading, Observed, Parameter};

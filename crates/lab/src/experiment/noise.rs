@@ -156,8 +156,7 @@ fn of_budget(
     outputs: &[(String, Unit)],
 ) -> Result<(Vec<f64>, f64), Said> {
     let loaded = loaded.as_ref().map_err(|rejection| {
-        let first = rejection.faults.first();
-        let first = first.map_or_else(Said::default, |fault| fault.message.clone());
+        let first = rejection.said();
         say!("the budget {path} is refused: {first}")
     })?;
     let row = loaded.rows.first().ok_or(say!("the budget is empty"))?;

@@ -60,9 +60,9 @@ form! {
             Measure::Again => "again",
             Measure::Reversed => "reversed",
             Measure::Set { .. } => "set",
-            Measure::Between { .. } => "between",
-            Measure::Opposite { .. } => "opposite",
-            Measure::Exchanged { .. } => "exchanged",
+            Measure::Between(_) => "between",
+            Measure::Opposite(_) => "opposite",
+            Measure::Exchanged(_) => "exchanged",
         },
         /// Name of a measurement of the user's own.
         #[serde(skip_serializing_if = "Option::is_none")]
@@ -74,9 +74,9 @@ form! {
         #[serde(skip_serializing_if = "Option::is_none")]
         column: Option<String> = match measure {
             Measure::Set { column, .. }
-            | Measure::Between { column }
-            | Measure::Opposite { column }
-            | Measure::Exchanged { column } => Some(column.clone()),
+            | Measure::Between(column)
+            | Measure::Opposite(column)
+            | Measure::Exchanged(column) => Some(column.clone()),
             Measure::Own(_) | Measure::Again | Measure::Reversed => None,
         },
         /// The value to which it is set.

@@ -31,15 +31,15 @@ pub(super) fn measure(measure: &Measure, l: Language) -> String {
                 format!("将 {column} 设为 {value} 后重复一次"),
             )
         }
-        Measure::Between { column } => l.pick(
+        Measure::Between(column) => l.pick(
             format!("the same once more with {column} half way between its values"),
             format!("将 {column} 取在原有各值的中间后重复一次"),
         ),
-        Measure::Opposite { column } => l.pick(
+        Measure::Opposite(column) => l.pick(
             format!("the same once more while {column} varies twice as much in the opposite sense"),
             format!("使 {column} 反向并以两倍幅度变化时重复一次"),
         ),
-        Measure::Exchanged { column } => l.pick(
+        Measure::Exchanged(column) => l.pick(
             format!("the same once more with each {column} in the place of the next"),
             format!("将各 {column} 依次互换后重复一次"),
         ),

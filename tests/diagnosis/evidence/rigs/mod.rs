@@ -74,6 +74,7 @@ impl Catalogue {
     fn atom(&mut self, candidate: usize, shape: Shape) {
         self.atoms.push(Atom {
             candidate,
+            variant: 0,
             shape,
             share: 1.0,
         });

@@ -1,12 +1,12 @@
 //! Further measurements that the user could make.
 
-use super::rows::{Complete, Rows, continued};
-use super::{Action, Column, Data};
+use super::rows::{Rows, continued, joined};
+use super::{Column, Data};
+use crate::diagnose::extra::{Extra, Measure};
 use crate::diagnose::faults::{MISSING, ROWS, SETTING};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RowsEntry;
 use crate::experiment::tables::{ActionTable, ExperimentTable, OrderWord};
-use crate::recording::Labels;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 use gumption_format::toml::{Cell, Named, OneOrMany};
@@ -18,7 +18,7 @@ impl Checker<'_> {
         file: &ExperimentTable,
         columns: &[Column],
         rows: usize,
-    ) -> Vec<Action> {
+    ) -> Vec<Extra> {
         let list = file.action.iter().flat_map(|list| &list.value.0);
         list.filter_map(|stated| self.action(stated, columns, rows))
             .collect()
@@ -29,13 +29,12 @@ impl Checker<'_> {
         stated: &Stated<ActionTable>,
         columns: &[Column],
         rows: usize,
-    ) -> Option<Action> {
+    ) -> Option<Extra> {
         let table = &stated.value;
         let cost = table.cost.as_ref();
         if let Some(cost) = cost.filter(|cost| cost.value.is_nan() || cost.value <= 0.0) {
-            let fault = Fault::new(SETTING, cost.span.clone(), say!("a cost is positive"));
-            self.faults
-                .push(fault.label(say!("expected a positive number")));
+            let expected = say!("expected a positive number");
+            self.wrong(SETTING, &cost.span, say!("a cost is positive"), expected);
         }
         let again = table.again.is_some() || table.order.is_some();
         let (Some(name), true) = (&table.name, table.rows.is_some() != again) else {
@@ -54,14 +53,14 @@ impl Checker<'_> {
             Some(entry) => match &entry.value {
                 RowsEntry::File(path) => {
                     let path = entry.map(|_| path.clone());
-                    self.rows_of_file(&path, columns, Complete::Planned)?
+                    self.rows_of_file(&path, columns, continued)?
                 }
                 RowsEntry::Lists(lists) => self.listed(entry, lists, columns)?,
             },
             None => self.again(table, columns, rows)?,
         };
-        Some(Action {
-            name: name.value.clone(),
+        Some(Extra {
+            measure: Measure::Own(name.value.clone()),
             cost: cost.map_or(1.0, |cost| cost.value),
             rows,
         })
@@ -85,9 +84,8 @@ impl Checker<'_> {
             let cells = &list.value.0;
             if cells.len() != 1 && cells.len() != count {
                 let message = say!("{name} has {} values, others {count}", cells.len());
-                let fault = Fault::new(ROWS, list.span.clone(), message);
-                self.faults
-                    .push(fault.label(say!("expected one value, or as many as the others")));
+                let expected = say!("expected one value, or as many as the others");
+                self.wrong(ROWS, &list.span, message, expected);
                 continue;
             }
             let cells = (0..count).map(|row| &cells[row.min(cells.len() - 1)]);
@@ -99,9 +97,8 @@ impl Checker<'_> {
                 Some(own) => data.push(own),
                 None if self.faults.len() == before => {
                     let message = say!("the rows do not say what {} is", column.name);
-                    let fault = Fault::new(ROWS, entry.span.clone(), message);
-                    self.faults
-                        .push(fault.label(say!("{} is missing", column.name)));
+                    let missing = say!("{} is missing", column.name);
+                    self.wrong(ROWS, &entry.span, message, missing);
                 }
                 None => {}
             }
@@ -112,10 +109,7 @@ impl Checker<'_> {
     /// The rows of the recording once more.
     fn again(&mut self, table: &ActionTable, columns: &[Column], count: usize) -> Option<Rows> {
         let before = self.faults.len();
-        let recorded = Rows {
-            count,
-            data: columns.iter().map(|c| c.data.clone()).collect(),
-        };
+        let recorded = Rows::of(columns, count);
         let order = table.order.as_ref().map(|order| order.value);
         let reversed = order == Some(OrderWord::Reversed);
         let mut rows = repeated(&recorded, columns, reversed);
@@ -148,31 +142,20 @@ impl Checker<'_> {
         cells: impl Iterator<Item = &'c Stated<Cell>>,
     ) -> Option<Data> {
         if let Some(known) = column.labels() {
-            let mut labels = Labels {
-                levels: known.levels.clone(),
-                of_row: Vec::new(),
-            };
-            for cell in cells {
-                let text = match &cell.value {
-                    Cell::Text(text) => text.clone(),
-                    Cell::Number(number) => number.to_string(),
-                };
-                let at = labels.levels.iter().position(|level| *level == text);
-                let at = at.unwrap_or_else(|| {
-                    labels.levels.push(text);
-                    labels.levels.len() - 1
-                });
-                labels.of_row.push(at as u32);
-            }
-            return Some(Data::Labels(labels));
+            let texts = cells.map(|cell| match &cell.value {
+                Cell::Text(text) => text.clone(),
+                Cell::Number(number) => number.to_string(),
+            });
+            let texts: Vec<String> = texts.collect();
+            let texts = texts.iter().map(String::as_str);
+            return Some(Data::Labels(joined(known, 0, texts)));
         }
         let mut numbers = Vec::new();
         for cell in cells {
             let Cell::Number(number) = cell.value else {
                 let message = say!("{} holds numbers", column.name);
-                let fault = Fault::new(ROWS, cell.span.clone(), message);
-                self.faults
-                    .push(fault.label(say!("expected a number in {}", column.unit.symbol)));
+                let expected = say!("expected a number in {}", column.unit.symbol);
+                self.wrong(ROWS, &cell.span, message, expected);
                 return None;
             };
             numbers.push(number);
@@ -239,6 +222,7 @@ fn renewed(data: &mut Data) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::recording::Labels;
 
     #[test]
     fn times_go_on_in_the_steps_that_they_had() {

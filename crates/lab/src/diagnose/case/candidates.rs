@@ -4,9 +4,10 @@ use super::declared::Declared;
 use super::{Column, UserCandidate};
 use crate::diagnose::faults::{CANDIDATE, UNKNOWN_NAME};
 use crate::experiment::checker::Checker;
+use crate::experiment::symbols::{quantity, symbol};
 use crate::experiment::tables::{ExperimentTable, OmittedTable};
 use gumption_core::equations::{EquationText, Equations, Quantity};
-use gumption_core::model::{Role, Symbol, outline};
+use gumption_core::model::{Symbol, outline};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
@@ -127,24 +128,30 @@ fn formula_of(
     declared: &Declared,
 ) -> Option<Equations> {
     // The coefficient takes whatever unit is left over: numbers are taken as they stand in their columns.
-    let pure = |name: &str| Quantity {
-        name: name.to_owned(),
-        unit: Unit::one(),
-    };
-    let parameters = declared.parameters.iter().map(|p| pure(&p.name));
-    let symbols: Vec<Quantity> = parameters
-        .chain(columns.iter().map(|c| pure(&c.name)))
-        .collect();
+    let symbols = symbols(columns, declared, |_| Unit::one());
     let numbers = constants.iter().map(|constant| Symbol {
         unit: Unit::one(),
         ..constant.clone()
     });
     let numbers: Vec<Symbol> = numbers.collect();
-    let compiled = compiled(checker, formula, &symbols, pure(LEFT), &numbers);
+    let compiled = compiled(
+        checker,
+        formula,
+        &symbols,
+        quantity(LEFT, &Unit::one()),
+        &numbers,
+    );
     let moved = |fault: Fault| fault.moved(|_| formula.span.clone());
     compiled
         .map_err(|faults| checker.faults.extend(faults.into_iter().map(moved)))
         .ok()
+}
+
+/// Parameters and columns, in units that are made of theirs.
+fn symbols(columns: &[Column], declared: &Declared, of: fn(&Unit) -> Unit) -> Vec<Quantity> {
+    let parameters = declared.parameters.iter().map(|p| (&p.name, &p.unit));
+    let all = parameters.chain(columns.iter().map(|c| (&c.name, &c.unit)));
+    all.map(|(name, unit)| quantity(name, &of(unit))).collect()
 }
 
 /// The formula as the right side of an equation of such symbols.
@@ -175,19 +182,8 @@ fn unit_of(
 ) -> Option<Unit> {
     /// Its unit is one over that of what it multiplies.
     const SIZE: &str = "the_size";
-    let parameters = declared.parameters.iter();
-    let quantities = parameters.map(|p| (&p.name, &p.unit));
-    let quantities = quantities.chain(columns.iter().map(|c| (&c.name, &c.unit)));
-    let symbols = quantities.map(|(name, unit)| Quantity {
-        name: name.clone(),
-        unit: unit.difference(),
-    });
-    let symbols: Vec<Quantity> = symbols.collect();
-    let inputs = symbols.iter().enumerate().map(|(at, quantity)| Symbol {
-        name: quantity.name.as_str().into(),
-        unit: quantity.unit.clone(),
-        role: Role::Input(at),
-    });
+    let symbols = symbols(columns, declared, Unit::difference);
+    let inputs = symbols.iter().cloned().map(symbol);
     let known: Vec<Symbol> = constants.iter().cloned().chain(inputs).collect();
     let text = format!("{LEFT} = {SIZE} * ({})", formula.value);
     let size = outline(&text, &checker.units)
@@ -195,11 +191,7 @@ fn unit_of(
         .parameter_units(&[SIZE.to_owned()], &known, &Unit::one(), &checker.units)
         .pop()??;
     let unit = Unit::one().quotient(&size);
-    let response = Quantity {
-        name: LEFT.to_owned(),
-        unit: unit.clone(),
-    };
-    let quantities = compiled(checker, formula, &symbols, response, constants).ok()?;
+    let quantities = compiled(checker, formula, &symbols, quantity(LEFT, &unit), constants).ok()?;
     // Values of no meaning, different from symbol to symbol: what agrees there is the same formula.
     let values = (0..symbols.len()).map(|at| 1.0 + 0.37 * at as f64);
     let values: Vec<f64> = values.collect();

@@ -3,63 +3,56 @@
 use std::path::Path;
 
 use super::candidates;
-use super::{Case, Column, Purpose, columns, disused, inputs};
+use super::{Case, Column, Purpose, Settings, columns, inputs};
 use crate::diagnose::faults::MISSING;
-use crate::experiment::checker::{Checker, opened};
+use crate::experiment::checker::{Checker, made, opened};
 use crate::experiment::names::{Kind, Names};
-use crate::experiment::tables::ExperimentTable;
+use crate::experiment::source::Source;
+use crate::experiment::symbols::quantity;
+use crate::experiment::tables::{ExperimentTable, RecordingTable};
 use crate::experiment::{Purpose as Use, inferred, positions};
-use crate::recording::Request;
+use crate::recording::{Recording, Request};
 use gumption_core::equations::Quantity;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::faults::TOML_SYNTAX;
-use gumption_format::toml::{OneOrMany, Stated};
+use gumption_format::toml::{OneOrMany, Slot, Stated};
 use gumption_gum::budget::quantities::text_of;
-use gumption_gum::budget::{Files, Rejection};
+use gumption_gum::budget::{Files, Rejection, Remark};
 
-/// Reads and checks a case.
-pub(super) fn load(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
-    let name = path.display().to_string();
-    let text = text_of(files, path)?;
-    let mut source = opened(&text, &name)?;
-    if source.faults.iter().any(|fault| fault.code == TOML_SYNTAX) {
-        return Err(Rejection::new(&name, &text, source.faults));
-    }
-    let folder = path.parent().unwrap_or_else(|| Path::new(""));
-    let purpose = match purpose {
-        Purpose::Diagnosis => Use::Calibrate,
-        Purpose::Plan => Use::Plan,
-    };
-    let units = Checker::new(&source, purpose, files, folder).units;
-    inferred::complete(&mut source, &units, files, folder);
-    let mut checker = Checker::new(&source, purpose, files, folder);
-    let case = checker.case(path);
-    let is_whole = checker.faults.is_empty();
-    match case {
-        Ok(Some(case)) if is_whole => Ok(case),
-        Err(recording) if is_whole => Err(*recording),
-        Ok(_) => Err(checker.rejection(&name)),
-        // What is wrong in the recording is told after what is wrong in the file.
-        Err(recording) => {
-            let mut rejection = checker.rejection(&name);
-            rejection.others.push(*recording);
-            Err(rejection)
+impl Case {
+    /// As [`load`](Self::load), with files that may be in memory.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn load_from(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
+        let name = path.display().to_string();
+        let text = text_of(files, path)?;
+        let source = opened(&text, &name)?;
+        if source.faults.iter().any(|fault| fault.code == TOML_SYNTAX) {
+            return Err(Rejection::new(&name, &text, source.faults));
         }
+        let folder = path.parent().unwrap_or_else(|| Path::new(""));
+        let purpose = match purpose {
+            Purpose::Diagnosis => Use::Calibrate,
+            Purpose::Plan => Use::Plan,
+        };
+        let list = inferred::complete;
+        made(source, &name, purpose, files, folder, list, |checker| {
+            checker.case(path)
+        })
     }
 }
 
 impl Checker<'_> {
     fn case(&mut self, path: &Path) -> Result<Option<Case>, Box<Rejection>> {
         let file = &self.source.table;
-        let models = models(file);
-        let (Some(recording), Some(models)) = (&file.recording, &models) else {
+        let (Some(recording), Some(models)) = (&file.recording, models(file)) else {
             self.missing(file);
             return Ok(None);
         };
         let Some(csv) = recording.value.0.file.as_ref() else {
             let message = say!("the recording has no file");
-            let fault = Fault::new(MISSING, recording.key.clone(), message);
-            self.faults.push(fault.label(say!("`file` is missing")));
+            self.wrong(MISSING, &recording.key, message, say!("`file` is missing"));
             return Ok(None);
         };
         let Some(headings) = self.headings(csv)? else {
@@ -67,36 +60,45 @@ impl Checker<'_> {
         };
         // They need no column: what is wrong in them is told beside wrong columns.
         let settings = self.settings(file);
-        let Some(names) = Names::of(self) else {
-            return Ok(None);
-        };
-        let Some(wanted) = self.columns(&names, &headings) else {
+        let names = Names::of(self);
+        let wanted = (names.as_ref()).and_then(|names| self.columns(names, &headings));
+        let (Some(names), Some(wanted)) = (names, wanted) else {
             return Ok(None);
         };
         let present = wanted.iter().filter(|column| column.is_there);
         let requests: Vec<Request> = present.map(|column| column.request()).collect();
         let csv_path = self.folder.join(&csv.value);
         let recorded = self.recording(&csv_path, &requests)?;
-        let (mut columns, rows, left_out) = self.rows_of(&wanted, &recorded);
-        if rows == 0 {
+        let rows = self.rows_of(&wanted, &recorded);
+        if rows.1 == 0 {
             let fault = columns::nothing_left(csv, &wanted, &recorded);
             self.faults.push(fault);
             return Ok(None);
         }
+        let model = models.value.0.into_iter().map(|model| model.value);
+        Ok(self.with_rows(path, &names, rows, &recorded, settings, model.collect()))
+    }
+
+    /// The case with these columns, rows, and rows that are left out.
+    fn with_rows(
+        &mut self,
+        path: &Path,
+        names: &Names,
+        (mut columns, rows, left_out): (Vec<Column>, usize, usize),
+        recorded: &Recording,
+        settings: Settings,
+        model: Vec<String>,
+    ) -> Option<Case> {
+        let file = &self.source.table;
         let labels = |name: &str| {
             let mut columns = columns.iter();
             let column = columns.find(|column| column.name == name)?;
             column.labels().cloned()
         };
         let row = |row: usize| format!("line {}", recorded.line(row));
-        let Some(given) = positions::given(self, labels, row) else {
-            return Ok(None);
-        };
-        let given = given.into_iter();
+        let given = positions::given(self, labels, row)?.into_iter();
         columns.extend(given.map(|own| Column::applied(&own.name, &own.unit, own.values)));
-        let Some(experiment) = self.experiment(&names, &quantities(&columns, &names)) else {
-            return Ok(None);
-        };
+        let experiment = self.experiment(names, &quantities(&columns, names))?;
         let differs = |used: &Quantity| {
             let mut own = columns.iter().filter(|column| column.name == used.name);
             own.any(|column| column.unit != used.unit)
@@ -107,18 +109,16 @@ impl Checker<'_> {
             column.as_difference = as_differences && column.unit.is_point();
         }
         let mut constants = experiment.constants.clone();
-        let unknowns = self.unknowns(&experiment, &names, &mut columns, &mut constants, rows);
+        let unknowns = self.unknowns(&experiment, names, &mut columns, &mut constants, rows);
         let stated = inputs::errors_of_readings(&experiment, &mut columns);
         let declared = unknowns.and_then(|unknowns| {
-            self.declared_model(&experiment, &names, unknowns, &columns, &constants)
+            self.declared_model(&experiment, names, unknowns, &columns, &constants)
         });
         let noise = self.noise(file, &columns, declared.as_ref(), &stated);
         let averaging = self.averaging(file, &columns);
         let actions = self.actions(file, &columns, rows);
         let held_out = self.held_out(file, &columns);
-        let Some(declared) = declared else {
-            return Ok(None);
-        };
+        let declared = declared?;
         let candidates = candidates::candidates(self, file, &columns, &constants, &declared);
         let stem = || {
             path.file_stem()
@@ -126,14 +126,14 @@ impl Checker<'_> {
                 .to_string_lossy()
                 .into_owned()
         };
-        Ok(Some(Case {
+        Some(Case {
             title: file
                 .title
                 .as_ref()
                 .map_or_else(stem, |title| title.value.clone()),
             reference: file.reference.as_ref().map(|text| text.value.clone()),
             note: file.note.as_ref().map(|text| text.value.clone()),
-            remarks: [experiment.remarks, disused::remarks(self.source, file)].concat(),
+            remarks: [experiment.remarks, disused(self.source, file)].concat(),
             text: self.source.text[..self.source.own].to_owned(),
             path: path.to_path_buf(),
             units: self.units.clone(),
@@ -145,14 +145,14 @@ impl Checker<'_> {
             constants,
             responses: declared.responses,
             equations: declared.equations,
-            model: models.value.0.iter().map(|m| m.value.clone()).collect(),
+            model,
             noise,
             candidates,
             actions,
             held_out,
             averaging,
             settings,
-        }))
+        })
     }
 
     fn missing(&mut self, file: &ExperimentTable) {
@@ -182,11 +182,8 @@ fn quantities(columns: &[Column], names: &Names) -> Vec<Quantity> {
         column.labels().is_none() && names.kind(&column.name) == Some(Kind::Column)
     };
     let used = columns.iter().filter(is_named);
-    used.map(|column| Quantity {
-        name: column.name.clone(),
-        unit: column.unit.clone(),
-    })
-    .collect()
+    used.map(|column| quantity(&column.name, &column.unit))
+        .collect()
 }
 
 /// The equations, each behind the statements that all of them see.
@@ -198,4 +195,30 @@ fn models(file: &ExperimentTable) -> Option<Stated<OneOrMany<String>>> {
         }
     }
     Some(models)
+}
+
+/// Remarks on keys of the file itself that only calibrations use.
+fn disused(source: &Source, file: &ExperimentTable) -> Vec<Remark> {
+    let default = RecordingTable::default();
+    let recording = file.recording.as_ref().map_or(&default, |r| &r.value.0);
+    let keys = [
+        ("`steps` of the recording", place(&recording.steps)),
+        ("`still` of the recording", place(&recording.still)),
+        ("`dwell` of the recording", place(&recording.dwell)),
+        ("`together` of the recording", place(&recording.together)),
+        ("`separately`", place(&file.separately)),
+        ("`weights`", place(&file.weights)),
+        ("[[correlation]]", place(&file.correlation)),
+    ];
+    keys.into_iter()
+        .filter(|(_, place)| place.as_ref().is_some_and(|place| !source.is_base(place)))
+        .map(|(key, _)| Remark {
+            en: format!("{key} is used by `calibrate` only"),
+            zh: format!("{key} 仅用于 `calibrate`"),
+        })
+        .collect()
+}
+
+fn place<T>(stated: &Slot<T>) -> Option<std::ops::Range<usize>> {
+    stated.as_ref().map(|stated| stated.span.clone())
 }

@@ -40,16 +40,13 @@ impl Checker<'_> {
                     ..Column::applied(&input.name, &input.unit, vec![input.value; rows])
                 });
             } else {
-                let per = (error.by.1 > 0.0).then(|| {
-                    let mut columns = columns.iter();
-                    columns.position(|column| column.name == error.by.0)
-                });
+                let by = columns.iter().position(|column| column.name == error.by.0);
                 parameters.push(Parameter {
                     name: input.name.clone(),
                     unit: input.unit.clone(),
                     start: Some(input.value),
                     prior: Some((input.value, libm::hypot(error.common, error.by.1))),
-                    per: per.flatten(),
+                    per: by.filter(|_| error.by.1 > 0.0),
                 });
             }
         }

@@ -3,10 +3,8 @@
 mod actions;
 mod candidates;
 mod check;
-mod checker;
 mod columns;
 mod declared;
-mod disused;
 mod inputs;
 mod noise;
 mod rows;
@@ -14,6 +12,8 @@ mod settings;
 
 use std::path::{Path, PathBuf};
 
+use super::extra::Extra;
+use super::noise::Origin;
 use crate::recording::Labels;
 use gumption_core::equations::Equations;
 use gumption_core::model::Symbol;
@@ -67,7 +67,7 @@ pub struct Case {
     /// The user's own explanations.
     pub candidates: Vec<UserCandidate>,
     /// Further measurements that could be made.
-    pub actions: Vec<Action>,
+    pub actions: Vec<Extra>,
     /// A recording that the fit does not see, and that it is to predict.
     pub held_out: Option<HeldOut>,
     /// How rows are averaged.
@@ -160,8 +160,8 @@ pub enum NoiseClaim {
         dof: f64,
         /// Random walk beside it, per root of an hour, one for each response; 0 if none is claimed.
         walk: Vec<f64>,
-        /// Where it comes from.
-        origin: NoiseOrigin,
+        /// Where it comes from: the case itself, or a budget.
+        origin: Origin,
     },
     /// A column holds the standard uncertainty of each row.
     PerRow {
@@ -183,15 +183,6 @@ pub enum NoiseClaim {
     },
 }
 
-/// Where a stated noise comes from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum NoiseOrigin {
-    /// The case itself.
-    Case,
-    /// A budget.
-    Budget(String),
-}
-
 /// An explanation of the user's own.
 #[derive(Debug, Clone)]
 pub struct UserCandidate {
@@ -209,17 +200,6 @@ pub struct UserCandidate {
     pub typical: Option<f64>,
     /// A sentence that explains it.
     pub description: Option<String>,
-}
-
-/// A further measurement that could be made.
-#[derive(Debug, Clone)]
-pub struct Action {
-    /// Its name.
-    pub name: String,
-    /// Effort.
-    pub cost: f64,
-    /// The rows that would be recorded.
-    pub rows: Rows,
 }
 
 /// A recording of the same columns that is to be predicted.
@@ -286,15 +266,7 @@ impl Case {
     /// # Errors
     /// All faults of the case, or all faults of the recording.
     pub fn load(path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
-        check::load(Files::Disk, path, purpose)
-    }
-
-    /// As [`load`](Self::load), with files that may be in memory.
-    ///
-    /// # Errors
-    /// As [`load`](Self::load).
-    pub fn load_from(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
-        check::load(files, path, purpose)
+        Case::load_from(Files::Disk, path, purpose)
     }
 
     /// The column of a name.

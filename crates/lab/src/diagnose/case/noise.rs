@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use super::declared::Declared;
-use super::{Column, NoiseClaim, NoiseOrigin, Observed, Response};
+use super::{Column, NoiseClaim, Observed, Response};
+use crate::diagnose::noise::Origin;
 use crate::experiment::at_rest::{Headed, hours};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
@@ -44,7 +45,7 @@ impl Checker<'_> {
                     u: self.with_resolution(&table, columns, responses, u),
                     dof,
                     walk: self.walk(&table, columns, responses),
-                    origin: NoiseOrigin::Case,
+                    origin: Origin::Case,
                 }
             }
             Way::Replicates(names) => {
@@ -58,7 +59,7 @@ impl Checker<'_> {
                     walk: vec![0.0; u.len()],
                     u,
                     dof,
-                    origin: NoiseOrigin::Budget(path.value.clone()),
+                    origin: Origin::Budget(path.value.clone()),
                 },
             ),
             Way::From(NoiseWord::Stated) => self.of_readings(place, responses, stated),
@@ -94,7 +95,7 @@ impl Checker<'_> {
             walk: vec![0.0; u.len()],
             u,
             dof: f64::INFINITY,
-            origin: NoiseOrigin::Case,
+            origin: Origin::Case,
         }
     }
 

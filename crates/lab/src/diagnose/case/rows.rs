@@ -4,13 +4,14 @@
 use std::collections::BTreeMap;
 
 use super::{Case, Column, Data, HeldOut};
+use crate::diagnose::catalogue::modifiers::{mean, usual};
 use crate::diagnose::faults::{MISSING, ROWS};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::tables::ExperimentTable;
-use crate::recording::{self, Content, Heading, Labels, Recording, Request, headings, text_of};
+use crate::recording::{self, Heading, Labels, Recording, Request, headings, text_of};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, Rejection, Said, say};
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Stated;
 
 /// Rows with a value for each column of a case, in their order.
@@ -23,11 +24,11 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// The rows of the recording of a case.
-    pub fn of(case: &Case) -> Rows {
+    /// So many rows of columns.
+    pub fn of(columns: &[Column], count: usize) -> Rows {
         Rows {
-            count: case.rows,
-            data: case.columns.iter().map(|c| c.data.clone()).collect(),
+            count,
+            data: columns.iter().map(|column| column.data.clone()).collect(),
         }
     }
 
@@ -79,7 +80,9 @@ impl Case {
         case.rows = rows.count;
         for (column, data) in case.columns.iter_mut().zip(&rows.data) {
             column.data = match (&column.data, data) {
-                (Data::Labels(own), Data::Labels(other)) => Data::Labels(joined(own, other, 0)),
+                (Data::Labels(own), Data::Labels(other)) => {
+                    Data::Labels(joined(own, 0, other.texts()))
+                }
                 _ => data.clone(),
             };
         }
@@ -101,7 +104,7 @@ impl Case {
                     Data::Numbers(own.iter().chain(other).copied().collect())
                 }
                 (Data::Labels(own), Data::Labels(other)) => {
-                    Data::Labels(joined(own, other, own.of_row.len()))
+                    Data::Labels(joined(own, own.of_row.len(), other.texts()))
                 }
                 _ => Data::Absent,
             };
@@ -111,21 +114,19 @@ impl Case {
 }
 
 /// The first rows of labels and then others, with one list of levels.
-fn joined(own: &Labels, other: &Labels, kept: usize) -> Labels {
+pub(super) fn joined<'t>(
+    own: &'t Labels,
+    kept: usize,
+    others: impl Iterator<Item = &'t str>,
+) -> Labels {
     let mut levels = own.levels.clone();
     let mut of_row = own.of_row[..kept].to_vec();
-    let mut places: BTreeMap<u32, u32> = BTreeMap::new();
-    for level in &other.of_row {
-        let place = *places.entry(*level).or_insert_with(|| {
-            let text = &other.levels[*level as usize];
-            let known = levels.iter().position(|own| own == text);
-            let at = known.unwrap_or(levels.len());
-            if at == levels.len() {
-                levels.push(text.clone());
-            }
-            at as u32
-        });
-        of_row.push(place);
+    let mut places: BTreeMap<&str, u32> = own.levels.iter().map(String::as_str).zip(0..).collect();
+    for text in others {
+        of_row.push(*places.entry(text).or_insert_with(|| {
+            levels.push(text.to_owned());
+            levels.len() as u32 - 1
+        }));
     }
     Labels { levels, of_row }
 }
@@ -147,10 +148,7 @@ pub(super) fn continued(column: &Column, count: usize) -> Option<Data> {
                 let at = |row: usize| last + step * (row + 1) as f64;
                 Some(Data::Numbers((0..count).map(at).collect()))
             }
-            _ => {
-                let mean = numbers.iter().sum::<f64>() / numbers.len().max(1) as f64;
-                Some(Data::Numbers(vec![mean; count]))
-            }
+            _ => Some(Data::Numbers(vec![mean(numbers); count])),
         },
     }
 }
@@ -158,18 +156,7 @@ pub(super) fn continued(column: &Column, count: usize) -> Option<Data> {
 /// The usual distance of successive rows in time.
 pub(in crate::diagnose) fn interval(times: &[f64]) -> f64 {
     let steps = times.windows(2).map(|pair| pair[1] - pair[0]);
-    let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
-    steps.sort_by(f64::total_cmp);
-    steps.get(steps.len() / 2).copied().unwrap_or(1.0)
-}
-
-/// What a file of rows must hold.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Complete {
-    /// Every column of the recording.
-    Recorded,
-    /// What was applied; the rest goes on as recorded.
-    Planned,
+    usual(steps).unwrap_or(1.0)
 }
 
 impl Checker<'_> {
@@ -183,27 +170,26 @@ impl Checker<'_> {
         let Some(path) = &stated.value.file else {
             if !stated.value.refused {
                 let message = say!("[held_out] has no `file`");
-                let fault = Fault::new(MISSING, stated.span.clone(), message);
-                self.faults.push(fault.label(say!("`file` is missing")));
+                self.wrong(MISSING, &stated.span, message, say!("`file` is missing"));
             }
             return None;
         };
-        let rows = self.rows_of_file(path, columns, Complete::Recorded)?;
+        let rows = self.rows_of_file(path, columns, |_, _| None)?;
         Some(HeldOut {
             file: path.value.clone(),
             rows,
         })
     }
 
-    /// Reads rows of the columns of a case from another file.
+    /// Reads rows of the columns of a case from another file; `otherwise` gives those of columns that it does not have.
     pub(super) fn rows_of_file(
         &mut self,
         path: &Stated<String>,
         columns: &[Column],
-        complete: Complete,
+        otherwise: fn(&Column, usize) -> Option<Data>,
     ) -> Option<Rows> {
         let refused = |message: Said| Fault::new(ROWS, path.span.clone(), message);
-        match self.read_rows(&path.value, columns, complete) {
+        match self.read_rows(&path.value, columns, otherwise) {
             Ok(rows) => Some(rows),
             Err(messages) => {
                 self.faults.extend(messages.into_iter().map(refused));
@@ -217,14 +203,10 @@ impl Checker<'_> {
         &self,
         path: &str,
         columns: &[Column],
-        complete: Complete,
+        otherwise: fn(&Column, usize) -> Option<Data>,
     ) -> Result<Rows, Vec<Said>> {
-        let first = |rejection: Rejection| {
-            let first = rejection.faults.first();
-            first.map_or_else(Said::default, |fault| fault.message.clone())
-        };
         let text = text_of(self.files, &self.folder.join(path), path);
-        let text = text.map_err(|rejection| vec![first(rejection)])?;
+        let text = text.map_err(|rejection| vec![rejection.said()])?;
         let known = headings(&text, &self.units)
             .map_err(|fault| vec![say!("{}: {}", path, fault.message)])?;
         let request = |column: &Column| {
@@ -233,18 +215,14 @@ impl Checker<'_> {
                 heading.text == column.header || names.contains(&&heading.name)
             };
             let heading = known.iter().find(is_it)?;
-            let numbers = Request::numbers(&column.name, &heading.text);
             Some(match column.data {
-                Data::Labels(_) => Request {
-                    content: Content::Labels,
-                    ..numbers
-                },
-                _ => numbers,
+                Data::Labels(_) => Request::labels(&column.name, &heading.text),
+                _ => Request::numbers(&column.name, &heading.text),
             })
         };
         let requests: Vec<Request> = columns.iter().filter_map(request).collect();
         let recorded = Recording::read(path, &text, &requests, &self.units)
-            .map_err(|rejection| vec![say!("{}: {}", path, first(rejection))])?;
+            .map_err(|rejection| vec![say!("{}: {}", path, rejection.said())])?;
         let (mut data, mut wrong) = (Vec::new(), Vec::new());
         for column in columns {
             let (name, unit) = (&column.name, &column.unit.symbol);
@@ -252,8 +230,7 @@ impl Checker<'_> {
             let found = match own {
                 Some(own) => in_unit(own, &column.unit)
                     .ok_or_else(|| say!("{}: {} is not in a unit such as {}", path, name, unit)),
-                None => continued(column, recorded.rows())
-                    .filter(|_| complete == Complete::Planned)
+                None => otherwise(column, recorded.rows())
                     .ok_or_else(|| say!("{} has no column \"{}\"", path, column.header)),
             };
             match found {

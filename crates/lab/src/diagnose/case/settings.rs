@@ -1,6 +1,6 @@
 //! How rows are averaged, and how the diagnosis is run.
 
-use super::checker::nearly;
+use super::columns::nearly;
 use super::rows::interval;
 use super::{Averaging, Blocks, Column, Role, Settings};
 use crate::diagnose::catalogue::effects;
@@ -25,9 +25,8 @@ impl Checker<'_> {
                     };
                     if columns[column].labels().is_none() {
                         let message = say!("{} holds numbers, not labels", name.value);
-                        let fault = Fault::new(ROLE, name.span.clone(), message);
-                        self.faults
-                            .push(fault.label(say!("expected a run, factor or position")));
+                        let expected = say!("expected a run, factor or position");
+                        self.wrong(ROLE, &name.span, message, expected);
                     }
                     found.push(column);
                 }
@@ -71,9 +70,8 @@ impl Checker<'_> {
         if let Some(stated) = alpha.filter(|alpha| !is_small(alpha.value)) {
             let alpha = stated.value;
             let message = say!("alpha = {alpha} is not a small probability");
-            let fault = Fault::new(SETTING, stated.span.clone(), message);
-            self.faults
-                .push(fault.label(say!("expected a number between 0 and 0.5")));
+            let expected = say!("expected a number between 0 and 0.5");
+            self.wrong(SETTING, &stated.span, message, expected);
         }
         let excluded = table.exclude.as_ref();
         Settings {
@@ -94,10 +92,9 @@ impl Checker<'_> {
         };
         if !RANGE.contains(&draws.value) {
             let message = say!("draws = {} is too few or too many", draws.value);
-            let fault = Fault::new(SETTING, draws.span.clone(), message);
             let (least, most) = (RANGE.start(), RANGE.end());
-            self.faults
-                .push(fault.label(say!("expected a number from {} to {}", least, most)));
+            let expected = say!("expected a number from {} to {}", least, most);
+            self.wrong(SETTING, &draws.span, message, expected);
         }
         draws.value.min(*RANGE.end()) as usize
     }
@@ -137,9 +134,8 @@ impl Checker<'_> {
                 self.faults.push(nearly(fault, id, ids, lists));
             } else if !(share.value > 0.0 && share.value.is_finite()) {
                 let message = say!("a typical size is positive");
-                let fault = Fault::new(SETTING, share.span.clone(), message);
-                self.faults
-                    .push(fault.label(say!("expected a share of full scale such as 1e-4")));
+                let expected = say!("expected a share of full scale such as 1e-4");
+                self.wrong(SETTING, &share.span, message, expected);
             } else {
                 sizes.push((id.to_string(), share.value));
             }

@@ -1,31 +1,37 @@
-//! What the parameters of the model take away from a regressor.
+//! What the parameters of the model take away from a regressor, and leave of the residuals.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::Variation;
 use super::fitted::FittedModel;
+use super::modifiers::known;
 use crate::diagnose::evidence;
+use crate::diagnose::fit::Fit;
 
 /// Part of a regressor that must be left when the parameters have absorbed what they can.
 const LEFT: f64 = 1e-3;
 
 /// What the parameters of the model take away from a regressor.
+#[derive(Debug)]
 pub(super) struct Absorbed {
     /// Orthonormal directions, observations × at most the number of unknowns.
     basis: DMatrix<f64>,
+    /// What they leave of the residuals; what is still to be recorded has none.
+    pub(super) left: DVector<f64>,
 }
 
 impl Absorbed {
-    pub(super) fn by_parameters(fitted: &FittedModel<'_>) -> Absorbed {
+    pub(super) fn by_parameters(fit: &Fit) -> Absorbed {
         /// Directions that slopes of unit length reach no further are noise of the arithmetic.
         const LEAST: f64 = 1e-9;
-        let slopes = &fitted.fit.jacobian;
-        Absorbed {
-            basis: match slopes.ncols() {
-                0 => slopes.clone(),
-                _ => evidence::span(slopes.clone(), LEAST),
-            },
-        }
+        let slopes = &fit.jacobian;
+        let basis = match slopes.ncols() {
+            0 => slopes.clone(),
+            _ => evidence::span(slopes.clone(), LEAST),
+        };
+        let residuals = fit.residuals.map(known);
+        let left = &residuals - &basis * basis.tr_mul(&residuals);
+        Absorbed { basis, left }
     }
 
     /// What the parameters leave of a regressor.

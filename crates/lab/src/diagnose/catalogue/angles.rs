@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
+use std::ops::{Range, RangeInclusive};
 
 use super::building::{cell, form, on_node, wave};
 use super::fitted::{FittedModel, Node, varies};
-use super::modifiers::{map, range};
+use super::modifiers::{map, range, successive};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 use gumption_core::quantity::UnitTable;
@@ -38,7 +39,9 @@ pub(super) fn turning(fitted: &FittedModel<'_>) -> Vec<usize> {
 
 fn of_angle(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let name = fitted.label(column);
-    let variants = harmonics(fitted, column);
+    // A wave shows by half of it, and by two positions.
+    let last = (positions(&radians(fitted, column)) / 2).min(HIGHEST as usize) as u32;
+    let variants = harmonics(fitted, column, 1..=last, 0.9 * PI);
     // Harmonics are independent of one another: each is a candidate of its own.
     let each = |id: EffectId, node: Node| -> Vec<Cell> {
         let one = |form: &Variation| on_node(fitted, id, name, node, [form.clone()]);
@@ -60,24 +63,22 @@ fn of_angle(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     cells
 }
 
-/// Sine and cosine of the multiples of an angle that its positions can tell apart.
-fn harmonics(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
-    let name = fitted.label(column);
+/// Sine and cosine of multiples of an angle, of which the recording has more than a phase.
+pub(super) fn harmonics(
+    fitted: &FittedModel<'_>,
+    column: usize,
+    orders: RangeInclusive<u32>,
+    phase: f64,
+) -> Vec<Variation> {
     let phi = radians(fitted, column);
     let (least, most) = range(&phi);
-    let positions = positions(&phi);
-    // A wave shows by half of it, and by two positions.
-    let shows =
-        |k: &u32| f64::from(*k) * (most - least) > 0.9 * PI && 2 * (*k as usize) <= positions;
-    let each = (1..=HIGHEST).filter(shows);
-    each.map(|k| harmonic(&phi, name, k)).collect()
-}
-
-/// So many waves in each turn of an angle.
-pub(super) fn harmonic(phi: &[f64], name: &str, k: u32) -> Variation {
-    let phase = map(phi, |phi| f64::from(k) * phi);
-    let waves = wave(&phase, &format!("{k}*{name}"));
-    form(format!("{k} per turn"), waves)
+    let each = orders.filter(|k| f64::from(*k) * (most - least) > phase);
+    let harmonic = |k: u32| {
+        let phase = map(&phi, |phi| f64::from(k) * phi);
+        let argument = format!("{k}*{}", fitted.label(column));
+        form(format!("{k} per turn"), wave(&phase, &argument))
+    };
+    each.map(harmonic).collect()
 }
 
 /// Different places on the circle, to a ten-thousandth of a turn.
@@ -116,12 +117,13 @@ fn play(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
 /// angle, which no row shows: that one too is reached in the direction in which the run goes on.
 fn approach(fitted: &FittedModel<'_>, column: usize) -> Vec<f64> {
     let x = fitted.numbers(column);
-    let starts = starts(fitted);
+    let runs = runs(fitted);
+    let starts = |row: usize| runs.iter().any(|run| run.start == row);
     let last = x.len() - 1;
     let mut side: Vec<f64> = vec![1.0; x.len()];
     for row in 0..x.len() {
         let before = row.saturating_sub(1);
-        let step = match starts.contains(&row) && row < last {
+        let step = match starts(row) && row < last {
             true => x[row + 1] - x[row],
             false => x[row] - x[before],
         };
@@ -134,28 +136,25 @@ fn approach(fitted: &FittedModel<'_>, column: usize) -> Vec<f64> {
     side
 }
 
-/// Rows in which a run begins.
-fn starts(fitted: &FittedModel<'_>) -> Vec<usize> {
+/// The rows of each run.
+pub(super) fn runs(fitted: &FittedModel<'_>) -> Vec<Range<usize>> {
     let run = fitted.case().with_role(Role::Run).next();
     let run = run.and_then(|c| fitted.case().columns[c].labels());
-    let begins = |row: &usize| {
-        *row == 0 || run.is_some_and(|labels| labels.of_row[*row] != labels.of_row[row - 1])
-    };
-    (0..fitted.rows()).filter(begins).collect()
+    let same = |a: usize, b: usize| run.is_none_or(|run| run.of_row[a] == run.of_row[b]);
+    successive(fitted.rows(), fitted.rows(), same)
 }
 
-/// The angle that turns in one direction through every run, with the rows in which runs begin.
-pub(super) fn runs_of_turns(fitted: &FittedModel<'_>) -> Option<(usize, Vec<usize>)> {
+/// The angle that turns in one direction through every run, with the rows of these.
+pub(super) fn runs_of_turns(fitted: &FittedModel<'_>) -> Option<(usize, Vec<Range<usize>>)> {
     let ([angle], true) = (&turning(fitted)[..], fitted.is_timed()) else {
         return None;
     };
     let x = fitted.numbers(*angle);
-    let starts = starts(fitted);
-    let ends = starts[1..].iter().copied().chain([x.len()]);
-    let steady = starts.iter().zip(ends).all(|(start, end)| {
-        let steps: Vec<f64> = x[*start..end].windows(2).map(|w| w[1] - w[0]).collect();
+    let runs = runs(fitted);
+    let steady = runs.iter().all(|run| {
+        let steps: Vec<f64> = x[run.clone()].windows(2).map(|w| w[1] - w[0]).collect();
         let one_way = |sign: f64| steps.iter().all(|step| sign * step > 0.0);
         steps.len() >= 3 && (one_way(1.0) || one_way(-1.0))
     });
-    (steady && starts.len() > 1).then_some((*angle, starts))
+    (steady && runs.len() > 1).then_some((*angle, runs))
 }

@@ -85,6 +85,23 @@ pub(super) fn on_output(modifier: Modifier) -> Term {
     Term::new(Node::Output, modifier)
 }
 
+/// What dies away over a time or a length, both also as formulas show them.
+pub(super) fn decay(since: &[f64], began: &str, over: f64, shown: &str) -> Modifier {
+    let values = map(since, |since| libm::exp(-since / over));
+    Modifier::number(values, format!("exp(-{began}/({shown}))"))
+}
+
+/// What is added to one response, in its unit.
+pub(super) fn added(
+    fitted: &FittedModel<'_>,
+    response: usize,
+    values: Vec<f64>,
+    text: impl Into<String>,
+) -> Term {
+    let unit = fitted.case().responses[response].unit.difference();
+    on_output(Modifier::new(values, text, unit)).on(response)
+}
+
 /// A cell on a node along something, with its variants as they are.
 pub(super) fn cell(
     fitted: &FittedModel<'_>,

@@ -1,7 +1,7 @@
 //! What recorded conditions may do that the model leaves out: on the offset, on the scale, with a lag,
 //! squared, as a rate, inversely, and together.
 
-use super::building::{form, on_node, on_output, pair, time_constants, timed};
+use super::building::{decay, form, on_node, on_output, pair, time_constants, timed};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
     centred, correlation, figure, five_digits, late, levels_of, map, map2, range,
@@ -41,7 +41,6 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let own = fitted.centred(column);
     let temperature = fitted.is_temperature(column);
     let stimulus = fitted.case().columns[column].role == Role::Stimulus;
-    let mut cells = Vec::new();
     let [second, on_scale, by_rate] = match temperature {
         true => [
             EffectId::TempcoQuadratic,
@@ -60,9 +59,6 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         delayed.iter().cloned().chain(leading).collect()
     };
     let delayed = on(Node::Output);
-    let offset =
-        |id: EffectId, forms: Vec<Variation>| on_node(fitted, id, label, Node::Output, forms);
-    cells.push(offset(on_offset(fitted, column), linear(&delayed)));
     let square = delayed.iter().map(|late| {
         let squares = late.terms.iter().map(|term| term.modifier.square());
         Variation {
@@ -71,33 +67,35 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         }
     });
     let square = square.chain(squares(fitted, column)).collect();
-    cells.push(offset(second, square));
+    let (output, gain) = (Node::Output, Node::Gain);
+    let first = on_offset(fitted, column);
+    let mut effects = vec![(first, output, linear(&delayed)), (second, output, square)];
     if fitted.has_signal() {
-        let mut scale = |id: EffectId, forms: Vec<Variation>| {
-            cells.push(on_node(fitted, id, label, Node::Gain, forms));
-        };
-        scale(on_scale, linear(&on(Node::Gain)));
-        scale(EffectId::SensitivityScaleQuadratic, squares(fitted, column));
+        let second_on_scale = EffectId::SensitivityScaleQuadratic;
+        effects.push((on_scale, gain, linear(&on(gain))));
+        effects.push((second_on_scale, gain, squares(fitted, column)));
     }
     if fitted.is_timed() {
         let rate = form("", vec![fitted.rate(column)]);
-        cells.push(offset(by_rate, vec![rate]));
+        effects.push((by_rate, output, vec![rate]));
     }
     if !stimulus && stands_for_temperature(fitted, column) {
-        cells.push(offset(EffectId::UnrecordedTemperature, linear(&delayed)));
+        let id = EffectId::UnrecordedTemperature;
+        effects.push((id, output, linear(&delayed)));
     }
     let odds = match !stimulus && is_of_air(fitted, column) {
         true => AIR,
         false => 1.0,
     };
-    for cell in &mut cells {
-        cell.odds = match cell.effect.id {
+    let cell = |(id, node, forms): (EffectId, Node, Vec<Variation>)| Cell {
+        odds: match id {
             EffectId::UnrecordedTemperature => 1.0,
-            _ if cell.effect.is_higher => odds * HIGHER,
+            _ if id.entry().is_higher => odds * HIGHER,
             _ => odds,
-        };
-    }
-    cells
+        },
+        ..on_node(fitted, id, label, node, forms)
+    };
+    effects.into_iter().map(cell).collect()
 }
 
 /// What a column does to the offset.
@@ -136,15 +134,14 @@ fn stands_for_temperature(fitted: &FittedModel<'_>, column: usize) -> bool {
 fn squares(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     /// Through so many values a square with a line goes anyhow.
     const FEW: usize = 3;
-    let (x, label) = (fitted.numbers(column), fitted.label(column));
+    let x = fitted.numbers(column);
     let square = map(x, |x| x * x);
     if !varies(&square) {
         return Vec::new();
     }
     let mut variants = Vec::new();
     if correlation(&square, x).abs() <= 0.995 {
-        let own = Modifier::new(x.to_vec(), label, fitted.step_unit(column));
-        variants.push(form("square alone", vec![own.square()]));
+        variants.push(form("square alone", vec![fitted.own(column).square()]));
     }
     if levels_of(x).len() > FEW {
         let own = fitted.centred(column);
@@ -158,7 +155,6 @@ fn squares(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
 fn delayed(fitted: &FittedModel<'_>, column: usize, node: Node, own: &Modifier) -> Vec<Variation> {
     let mut variants = vec![form("", vec![own.clone()])];
     if fitted.is_timed() && !fitted.is_immediate(column) {
-        let unit = fitted.time_unit();
         let course = |tau: f64| late(&fitted.clock.values, &own.values, &[], tau);
         let term = |tau: f64| Term::new(node, Modifier::unnamed(course(tau)));
         let inner = own.text.strip_prefix('(');
@@ -166,7 +162,7 @@ fn delayed(fitted: &FittedModel<'_>, column: usize, node: Node, own: &Modifier) 
         let inner = inner.unwrap_or(&own.text);
         let scales = sharpened(fitted, time_constants(fitted), &term);
         variants.extend(fitted.finer.times(scales).into_iter().map(|tau| {
-            let text = format!("lag({inner}, {} {unit})", figure(tau));
+            let text = format!("lag({inner}, {})", fitted.duration(tau));
             let modifier = Modifier::new(course(tau), text, own.unit.clone());
             timed(fitted, &[five_digits(tau)], vec![on_output(modifier)])
         }));
@@ -250,4 +246,27 @@ fn meet(fitted: &FittedModel<'_>, x: usize, z: usize) -> bool {
     let applied = |c: usize| fitted.case().columns[c].role == Role::Stimulus;
     let of_air = |c: usize| fitted.is_temperature(c) || is_of_air(fitted, c);
     applied(x) || applied(z) || of_air(x) && of_air(z)
+}
+
+/// Loss along the stem of a probe, which dies away with the depth of immersion.
+pub(super) fn stem(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
+    let x = fitted.numbers(column);
+    let (least, most) = range(x);
+    let length = fitted.is_like(column, "m") && least >= 0.0 && levels_of(x).len() >= 3;
+    if fitted.in_model(column) || !length || !fitted.has_signal() {
+        return None;
+    }
+    let name = fitted.label(column);
+    let unit = fitted.unit(column);
+    let (along, began) = (map(x, |x| x - least), fitted.less(column, least));
+    let forms = [0.1, 0.2, 0.4, 0.8].map(|part| {
+        let depth = five_digits(part * (most - least));
+        let label = format!("over {} {unit}", figure(depth));
+        form(
+            label,
+            vec![decay(&along, &began, depth, &fitted.figure(column, depth))],
+        )
+    });
+    let id = EffectId::Immersion;
+    Some(on_node(fitted, id, name, Node::Gain, forms))
 }

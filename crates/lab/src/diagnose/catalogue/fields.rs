@@ -12,7 +12,7 @@ use super::modifiers::{flag, largest, map2};
 use super::{Cell, EffectId, Modifier, Term, Variation, tied};
 use crate::diagnose::case::Role;
 
-type Vector = [f64; 3];
+type Vector = nalgebra::Vector3<f64>;
 
 /// What a field along the axis follows.
 const ALONG: &str = "component along the axis";
@@ -62,7 +62,7 @@ struct Turning<'g> {
 impl<'g> Turning<'g> {
     fn new(fitted: &'g FittedModel<'_>, directions: [usize; 3], angle: usize) -> Turning<'g> {
         let axis: Vec<Vector> = (0..fitted.rows())
-            .map(|row| directions.map(|c| fitted.numbers(c)[row]))
+            .map(|row| directions.map(|c| fitted.numbers(c)[row]).into())
             .collect();
         let mut mounts: Vec<Vector> = Vec::new();
         for direction in &axis {
@@ -87,8 +87,9 @@ impl<'g> Turning<'g> {
         }
         let both = [("", 1.0), ("angle counted clockwise", -1.0)];
         let across = both.map(|(label, sense)| {
-            let terms = [self.along(), self.common(sense, |_| 1.0)].concat();
-            Variation::of(label, terms)
+            // Along the axis, and across it, all outputs sense it alike.
+            let along = self.tied(|a, row| self.axis[row][a], ALONG);
+            Variation::of(label, [along, self.common(sense, |_| 1.0)].concat())
         });
         let responses = &self.fitted.case().responses;
         let each: Vec<Vec<Term>> = (0..responses.len()).map(|a| self.alone(a)).collect();
@@ -108,12 +109,9 @@ impl<'g> Turning<'g> {
 
     /// The signals along the axis of turning: the rate of a gyroscope.
     fn rate(&self) -> Vec<f64> {
-        let along = |row: usize| {
-            (0..3)
-                .map(|a| self.fitted.signal(a)[row] * self.axis[row][a])
-                .sum()
-        };
-        (0..self.fitted.rows()).map(along).collect()
+        let signal = |row: usize| Vector::from_fn(|a, _| self.fitted.signal(a)[row]);
+        let axes = self.axis.iter().enumerate();
+        axes.map(|(row, axis)| signal(row).dot(axis)).collect()
     }
 
     /// A field across the axis that all outputs sense alike, times something.
@@ -122,7 +120,7 @@ impl<'g> Turning<'g> {
         let mut all = Vec::new();
         for (number, mount) in self.mounts.iter().enumerate() {
             let first = perpendicular(mount);
-            let second = cross(mount, &first);
+            let second = mount.cross(&first);
             for (part, turned) in [("cos", 0.0), ("sin", -std::f64::consts::FRAC_PI_2)] {
                 // Seen from the sensor, what stays in the laboratory turns back.
                 let component = |a: usize, row: usize| {
@@ -137,11 +135,6 @@ impl<'g> Turning<'g> {
             }
         }
         all
-    }
-
-    /// A field along the axis that all outputs sense alike.
-    fn along(&self) -> Vec<Term> {
-        self.tied(|a, row| self.axis[row][a], ALONG)
     }
 
     fn tied(&self, component: impl Fn(usize, usize) -> f64, text: &str) -> Vec<Term> {
@@ -178,30 +171,14 @@ impl<'g> Turning<'g> {
 }
 
 fn same(x: &Vector, z: &Vector) -> bool {
-    x.iter().zip(z).all(|(x, z)| (x - z).abs() < 1e-3)
-}
-
-fn cross(x: &Vector, z: &Vector) -> Vector {
-    [
-        x[1] * z[2] - x[2] * z[1],
-        x[2] * z[0] - x[0] * z[2],
-        x[0] * z[1] - x[1] * z[0],
-    ]
+    (x - z).amax() < 1e-3
 }
 
 /// A unit vector at right angles to another.
 fn perpendicular(axis: &Vector) -> Vector {
-    let mut least = 0;
-    for a in 1..3 {
-        if axis[a].abs() < axis[least].abs() {
-            least = a;
-        }
-    }
-    let mut other = [0.0; 3];
-    other[least] = 1.0;
-    let across = cross(axis, &other);
-    let length = libm::sqrt(across.iter().map(|x| x * x).sum());
-    across.map(|x| x / length)
+    let mut other = Vector::zeros();
+    other[axis.iamin()] = 1.0;
+    axis.cross(&other).normalize()
 }
 
 #[cfg(test)]
@@ -210,13 +187,11 @@ mod tests {
 
     #[test]
     fn the_frame_of_a_mount_is_at_right_angles() {
-        for axis in [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.48, 0.6, 0.64]] {
+        for axis in [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.48, 0.6, 0.64]].map(Vector::from) {
             let first = perpendicular(&axis);
-            let second = cross(&axis, &first);
-            let dot = |x: &Vector, z: &Vector| -> f64 { x.iter().zip(z).map(|(x, z)| x * z).sum() };
-            assert!(dot(&axis, &first).abs() < 1e-12 && dot(&axis, &second).abs() < 1e-12);
-            assert!((dot(&first, &first) - 1.0).abs() < 1e-12);
-            assert!((dot(&second, &second) - 1.0).abs() < 1e-12);
+            let second = axis.cross(&first);
+            assert!(axis.dot(&first).abs() < 1e-12 && axis.dot(&second).abs() < 1e-12);
+            assert!((first.norm() - 1.0).abs() < 1e-12 && (second.norm() - 1.0).abs() < 1e-12);
         }
     }
 }

@@ -47,7 +47,8 @@ impl Finer {
         let between =
             |next: f64| (1..PARTS).map(move |part| own + (next - own) * part as f64 / PARTS as f64);
         let values: Vec<f64> = neighbours.into_iter().flatten().flat_map(between).collect();
-        let new = values.iter().any(|x| !self.has(cell, *x));
+        let known = |x: &f64| (self.0.iter()).any(|around| around.is_of(cell) && around.has(*x));
+        let new = !values.iter().all(known);
         self.0.push(Around::of(cell, is_time, values, span));
         new
     }
@@ -82,22 +83,14 @@ impl Finer {
     /// Takes the values between away from effects that were not found.
     pub(super) fn prune(&self, cells: &mut [Cell]) {
         for cell in cells {
-            let other = |x: f64| self.0.iter().any(|around| around.has(x)) && !self.has(cell, x);
-            let keeps = |variation: &Variation| {
-                let shape = variation.shape.as_ref();
-                shape.is_none_or(|shape| !other(shape.value))
-            };
-            let kept: Vec<bool> = cell.variants.iter().map(keeps).collect();
-            let mut kept = kept.into_iter();
-            cell.variants.retain(|_| kept.next().unwrap_or(true));
+            let (own, others): (Vec<&Around>, Vec<&Around>) =
+                self.0.iter().partition(|around| around.is_of(cell));
+            let has = |all: &[&Around], x: f64| all.iter().any(|around| around.has(x));
+            cell.variants.retain(|variation| {
+                let value = variation.shape.as_ref().map(|shape| shape.value);
+                value.is_none_or(|x| has(&own, x) || !has(&others, x))
+            });
         }
-    }
-
-    fn has(&self, cell: &Cell, x: f64) -> bool {
-        let mut own = self.0.iter();
-        own.any(|around| {
-            around.id == cell.effect.id && around.along == cell.place.along && around.has(x)
-        })
     }
 }
 
@@ -110,6 +103,10 @@ impl Around {
             values,
             span,
         }
+    }
+
+    fn is_of(&self, cell: &Cell) -> bool {
+        self.id == cell.effect.id && self.along == cell.place.along
     }
 
     fn has(&self, x: f64) -> bool {

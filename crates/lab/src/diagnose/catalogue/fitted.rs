@@ -1,8 +1,13 @@
 //! Slopes of the nodes at the fitted model, and which columns can be what.
 
+use std::sync::OnceLock;
+
 use nalgebra::DVector;
 
-use super::modifiers::{centred, correlation, crosses_zero, largest, map2, middle, range, rate};
+use super::absorbed::Absorbed;
+use super::modifiers::{
+    amount, centred, correlation, crosses_zero, figure, largest, map, map2, middle, range, rate,
+};
 use super::{Finer, Modifier, Term};
 use crate::diagnose::case::{Case, Observed, Role};
 use crate::diagnose::design::{Clock, Design};
@@ -35,6 +40,7 @@ pub struct FittedModel<'f> {
     pub finer: Finer,
     /// What the model gives besides constant terms, for each response and row.
     signal: Vec<Vec<f64>>,
+    absorbed: OnceLock<Absorbed>,
 }
 
 impl<'f> FittedModel<'f> {
@@ -49,6 +55,7 @@ impl<'f> FittedModel<'f> {
             signal: responses
                 .map(|response| signal(design, fit, response))
                 .collect(),
+            absorbed: OnceLock::new(),
         }
     }
 
@@ -56,6 +63,11 @@ impl<'f> FittedModel<'f> {
     #[must_use]
     pub fn refined(self, finer: Finer) -> FittedModel<'f> {
         FittedModel { finer, ..self }
+    }
+
+    /// What its parameters take away.
+    pub(super) fn absorbed(&self) -> &Absorbed {
+        (self.absorbed).get_or_init(|| Absorbed::by_parameters(self.fit))
     }
 
     /// The case.
@@ -231,11 +243,24 @@ impl<'f> FittedModel<'f> {
         (self.clock.column).map_or_else(|| "row".to_owned(), |column| self.unit(column))
     }
 
+    /// A time as formulas and labels show it.
+    pub fn duration(&self, time: f64) -> String {
+        format!("{} {}", figure(time), self.time_unit())
+    }
+
     /// What the time is called: its column, or the row.
     pub fn along_time(&self) -> String {
         (self.clock.column)
             .map_or("row", |column| self.label(column))
             .to_owned()
+    }
+
+    /// A column, or the time, by its name and its numbers.
+    pub fn course(&self, column: Option<usize>) -> (String, &[f64]) {
+        match column {
+            Some(column) => (self.label(column).to_owned(), self.numbers(column)),
+            None => (self.along_time(), &self.clock.values),
+        }
     }
 
     /// The unit in which a column differs from row to row.
@@ -250,7 +275,7 @@ impl<'f> FittedModel<'f> {
 
     /// A number in the unit of a column.
     pub fn figure(&self, column: usize, x: f64) -> String {
-        format!("{x} {}", self.unit(column)).trim_end().to_owned()
+        amount(x, &self.unit(column))
     }
 
     /// A column less a number, as a formula that binds like a name.
@@ -276,14 +301,20 @@ impl<'f> FittedModel<'f> {
         }
     }
 
-    /// What a column follows less its middle.
+    /// What follows a column by a law, in its unit.
+    pub fn by(&self, column: usize, text: impl Into<String>, law: impl Fn(f64) -> f64) -> Modifier {
+        Modifier::new(map(self.numbers(column), law), text, self.step_unit(column))
+    }
+
+    /// A column as it is.
+    pub fn own(&self, column: usize) -> Modifier {
+        self.by(column, self.label(column), |x| x)
+    }
+
+    /// A column less its middle.
     pub fn centred(&self, column: usize) -> Modifier {
-        let x = self.numbers(column);
-        Modifier::new(
-            centred(x),
-            self.less(column, middle(x)),
-            self.step_unit(column),
-        )
+        let middle = middle(self.numbers(column));
+        self.by(column, self.less(column, middle), |x| x - middle)
     }
 
     /// The time less its middle.

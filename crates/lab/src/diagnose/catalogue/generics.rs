@@ -25,9 +25,11 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
     let nodes = fitted.offset_and_scale();
     let turning = turning(fitted);
-    for (name, course) in courses(fitted) {
+    let columns = fitted.numeric().into_iter().chain(angles(fitted));
+    for column in columns.map(Some).chain([None]) {
+        let (name, course) = fitted.course(column);
         for node in &nodes {
-            cells.extend(smooth(fitted, *node, &name, &course));
+            cells.extend(smooth(fitted, *node, &name, course));
         }
     }
     for column in fitted.numeric() {
@@ -67,17 +69,6 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
 pub(in crate::diagnose) fn unsteady(fitted: &FittedModel<'_>) -> Cell {
     let (id, along) = (EffectId::Unsteady, fitted.along_time());
     generic(fitted, id, Node::Output, &along, &[&[]])
-}
-
-/// What a smooth curve may follow.
-fn courses(fitted: &FittedModel<'_>) -> Vec<(String, Vec<f64>)> {
-    let columns = fitted.numeric().into_iter().chain(angles(fitted));
-    let named = |column| {
-        let name = fitted.label(column).to_owned();
-        (name, fitted.numbers(column).to_vec())
-    };
-    let time = (fitted.along_time(), fitted.clock.values.clone());
-    columns.map(named).chain([time]).collect()
 }
 
 /// A feature: what it multiplies, and the variance of its coefficient relative to the others.
@@ -159,16 +150,18 @@ pub(super) fn over_signals(
         let on = |response: usize| {
             move |(wave, variance): &Feature| (on_output(wave.clone()).on(response), *variance)
         };
-        let features = of
-            .iter()
-            .flat_map(|(response, waves)| waves.iter().map(on(*response)));
-        let (terms, spectrum) = features.unzip();
-        unnamed(label, terms, spectrum)
+        let waves = of.iter();
+        unnamed(
+            label,
+            waves.flat_map(|(response, waves)| waves.iter().map(on(*response))),
+        )
     };
     each.chain(several).map(variation).collect()
 }
 
-fn unnamed(label: &str, terms: Vec<Term>, spectrum: Vec<f64>) -> Variation {
+/// From terms and the variances of their coefficients.
+fn unnamed(label: &str, features: impl Iterator<Item = (Term, f64)>) -> Variation {
+    let (terms, spectrum) = features.unzip();
     Variation {
         spectrum: Some(spectrum),
         ..Variation::of(label, terms)
@@ -183,11 +176,9 @@ fn generic(
     along: &str,
     forms: &[&[Feature]],
 ) -> Cell {
-    let form = |features: &&[Feature]| {
-        let (terms, spectrum) = (features.iter())
-            .map(|(modifier, variance)| (on_output(modifier.clone()), *variance))
-            .unzip();
-        unnamed("", terms, spectrum)
-    };
-    on_node(fitted, id, along, node, forms.iter().map(form))
+    let term = |(modifier, variance): &Feature| (on_output(modifier.clone()), *variance);
+    let forms = forms
+        .iter()
+        .map(|features| unnamed("", features.iter().map(term)));
+    on_node(fitted, id, along, node, forms)
 }

@@ -2,8 +2,8 @@
 
 use super::building::{self, course, scoped, time_constants_from, timed};
 use super::fitted::{FittedModel, Node, varies};
-use super::inputs::Signal;
-use super::modifiers::{Course, figure, largest, map, range};
+use super::inputs::signal;
+use super::modifiers::{Course, largest, map, range};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 
@@ -35,9 +35,7 @@ fn of_signals(fitted: &FittedModel<'_>) -> Cell {
         .filter(|response| swings(fitted.signal(*response)))
         .collect();
     let warm = responses.into_iter().map(|response| {
-        let signal = Signal::new(fitted, response);
-        let power = Modifier::number(signal.parts, signal.text).square();
-        let at_once = Term::new(Node::Gain, power).on(response);
+        let at_once = Term::new(Node::Gain, signal(fitted, response).square()).on(response);
         (response, late(fitted, at_once))
     });
     let warm: Vec<_> = warm.collect();
@@ -54,8 +52,7 @@ fn of_signals(fitted: &FittedModel<'_>) -> Cell {
 
 fn of_column(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let name = fitted.label(column);
-    let x = fitted.numbers(column).to_vec();
-    let power = Modifier::new(x, name, fitted.step_unit(column)).square();
+    let power = fitted.own(column).square();
     let warm = late(fitted, Term::new(Node::Output, power.clone()));
     let scales = fitted.finer.times(scales(fitted)).into_iter();
     let warming = scales.map(|tau| timed(fitted, &[tau], vec![warm(tau)]));
@@ -92,23 +89,20 @@ fn by_resistance(fitted: &FittedModel<'_>, node: Node, power: &Modifier) -> Opti
     if fitted.case().responses.len() != 1 || !fitted.has_signal() {
         return None;
     }
-    let signal = Signal::new(fitted, 0);
-    let modifier = power.times(&Modifier::number(signal.parts, signal.text));
-    let term = Term::new(node, modifier);
+    let term = Term::new(node, power.times(&signal(fitted, 0)));
     Some(Variation::one("in proportion to the signal", term))
 }
 
 /// What a power does at once, late: by the time constant.
 fn late<'f>(fitted: &'f FittedModel<'f>, at_once: Term) -> impl Fn(f64) -> Term + 'f {
     let power = at_once.modifier.clone();
-    let unit = fitted.time_unit();
     let late = move |course: Course, tau: f64| {
         let mut term = at_once.clone();
         let power = &mut term.modifier;
         power.values = course
             .late(&fitted.clock.values, &power.values, &[], tau)
             .into();
-        power.text = format!("lag({}, {} {unit})", power.text, figure(tau));
+        power.text = format!("lag({}, {})", power.text, fitted.duration(tau));
         term
     };
     let course = course(fitted, &power.values, &late);

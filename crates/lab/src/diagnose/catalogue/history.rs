@@ -23,7 +23,11 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let widths = grid((most - least) * 1e-3, (most - least) * 0.3, 3.0, 6);
     let widths = widths.into_iter().map(five_digits);
     let widths = widths.filter(|width| *width < 2.0 * step || step == 0.0);
-    let variants = told_apart(x, widths).into_iter().map(|width| {
+    // Below the least step a play follows every reversal at once: such gaps act like one another.
+    let steps = x.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    let least_step = (steps.filter(|step| *step > 0.0)).fold(f64::INFINITY, f64::min);
+    let told_apart = (widths.enumerate()).filter(|(at, width)| *at == 0 || *width > least_step);
+    let variants = told_apart.map(|(_, width)| {
         let modifier = map2(&play(&fitted.clock.values, x, width), x, |played, x| {
             (played - x) / width
         });
@@ -31,7 +35,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         let text = format!("(play({label}, {shown}) - {label})/({shown})");
         let term = Term::new(Node::Column(column), Modifier::number(modifier, text));
         // A gap that no step tells from a narrower one has its size alone.
-        let label = match width > least_step(x) {
+        let label = match width > least_step {
             true => format!("gap {} {unit}", figure(width)),
             false => String::new(),
         };
@@ -48,22 +52,6 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         cells.push(plain(fitted, EffectId::Play, label, wide));
     }
     cells
-}
-
-/// Widths of gaps without those that act like the one before: below the least step a play follows every reversal at once.
-fn told_apart(x: &[f64], widths: impl Iterator<Item = f64>) -> Vec<f64> {
-    let least = least_step(x);
-    let widths = widths.enumerate();
-    let kept = widths.filter(|(at, width)| *at == 0 || *width > least);
-    kept.map(|(_, width)| width).collect()
-}
-
-/// The least step of a course that moves; nothing where it does not.
-fn least_step(x: &[f64]) -> f64 {
-    let steps = x.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-    steps
-        .filter(|step| *step > 0.0)
-        .fold(f64::INFINITY, f64::min)
 }
 
 /// Shapes of a loop: a constant offset between both ways, a loop that is closed at both ends of the range

@@ -6,13 +6,13 @@
 
 use std::collections::BTreeSet;
 
-use super::building::{on_output, plain, scoped, time_constants, timed};
+use super::building::{form, on_output, plain, scoped, time_constants, timed};
 use super::fitted::{FittedModel, Node, varies};
 use super::generics::over_signals;
 use super::history::comes_back;
 use super::modifiers::{
-    correlation, creeps, crosses_zero, figure, five_digits, largest, late, map, map2, mean_of,
-    play_from, range, rate, recordings,
+    amount, correlation, creeps, crosses_zero, five_digits, in_each, largest, late, map, map2,
+    mean_of, play_from, range, rate,
 };
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -61,11 +61,11 @@ fn inputs(fitted: &FittedModel<'_>) -> Vec<Input> {
         let signal = fitted.signal(response);
         let is_column = columns.iter().any(|c| fitted.takes_in(response, *c));
         let formed = !fitted.is_implicit(response) && varies(signal) && !is_column;
-        let Signal { parts, text } = Signal::new(fitted, response);
+        let Modifier { values, text, .. } = self::signal(fitted, response);
         formed.then(|| Input {
             response,
             text,
-            own: parts,
+            own: values.to_vec(),
             others: others(fitted, response),
             came: came(fitted, response),
         })
@@ -76,13 +76,13 @@ fn inputs(fitted: &FittedModel<'_>) -> Vec<Input> {
 /// Where a head turns in one direction through each run, it goes back behind the first angle before the run,
 /// so that this one too is reached like the others; no row shows that.
 fn came(fitted: &FittedModel<'_>, response: usize) -> Vec<Option<(f64, f64)>> {
-    let Some((angle, starts)) = super::angles::runs_of_turns(fitted) else {
+    let Some((angle, runs)) = super::angles::runs_of_turns(fitted) else {
         return Vec::new();
     };
     let (x, t) = (fitted.numbers(angle), &fitted.clock.values);
     let size = size(fitted.signal(response));
     let mut came = vec![None; fitted.rows()];
-    for first in starts {
+    for first in runs.into_iter().map(|run| run.start) {
         let behind = 2.0 * x[first] - x[first + 1];
         let signal = fitted.signal_at(response, first, angle, behind);
         came[first] = Some((signal / size, t[first + 1] - t[first]));
@@ -90,24 +90,10 @@ fn came(fitted: &FittedModel<'_>, response: usize) -> Vec<Option<(f64, f64)>> {
     came
 }
 
-/// The signal of a response as a part of its largest value, which the formula shows.
-pub(super) struct Signal {
-    /// Row by row.
-    pub parts: Vec<f64>,
-    /// Such as `(signal/(2.5 V))`.
-    pub text: String,
-}
-
-impl Signal {
-    pub(super) fn new(fitted: &FittedModel<'_>, response: usize) -> Signal {
-        let signal = fitted.signal(response);
-        let unit = fitted.case().responses[response].unit.difference();
-        let Modifier { values, text, .. } = part(signal, "signal", &unit);
-        Signal {
-            parts: values.to_vec(),
-            text,
-        }
-    }
+/// The signal of a response as a part of its largest value, which the formula shows: `(signal/(2.5 V))`.
+pub(super) fn signal(fitted: &FittedModel<'_>, response: usize) -> Modifier {
+    let unit = fitted.case().responses[response].unit.difference();
+    part(fitted.signal(response), "signal", &unit)
 }
 
 /// The largest value, to five digits.
@@ -118,8 +104,7 @@ fn size(x: &[f64]) -> f64 {
 /// As a part of the largest.
 fn part(x: &[f64], name: &str, unit: &Unit) -> Modifier {
     let size = size(x);
-    let shown = format!("{size} {}", unit.after_number());
-    let text = format!("({name}/({}))", shown.trim_end());
+    let text = format!("({name}/({}))", amount(size, &unit.after_number()));
     Modifier::number(map(x, |x| x / size), text)
 }
 
@@ -137,11 +122,7 @@ fn others(fitted: &FittedModel<'_>, response: usize) -> Vec<Modifier> {
         return vec![by(Node::Column(angle), &fitted.step_unit(angle))];
     }
     // Along one column there is no other axis: the slopes by the parameters are the course of the model itself.
-    let inputs = (0..case.columns.len()).filter(|c| {
-        let role = case.columns[*c].role;
-        matches!(role, Role::Stimulus | Role::Angle) && fitted.in_model(*c)
-    });
-    if inputs.count() < 2 {
+    if formed_from(fitted).len() < 2 {
         return Vec::new();
     }
     let signal = fitted.signal(response);
@@ -157,42 +138,21 @@ fn others(fitted: &FittedModel<'_>, response: usize) -> Vec<Modifier> {
         .collect()
 }
 
-/// A law of one input: a modifier for each coefficient.
-type Law<'l> = Box<dyn Fn(&Input) -> Vec<Modifier> + 'l>;
-
-/// A form that each input has in terms of its own, by its law.
-struct Form<'l> {
-    /// Without terms.
-    form: Variation,
-    law: Law<'l>,
-}
-
-impl<'l> Form<'l> {
-    fn new(form: Variation, law: impl Fn(&Input) -> Vec<Modifier> + 'l) -> Form<'l> {
-        Form {
-            form,
-            law: Box::new(law),
-        }
-    }
-
-    fn plain(label: &str, law: impl Fn(&Input) -> Vec<Modifier> + 'l) -> Form<'l> {
-        Form::new(Variation::of(label, Vec::new()), law)
-    }
-}
-
-/// A cell whose effect may be on one axis, or on all of them, on each with a size of its own.
-fn cell(fitted: &FittedModel<'_>, inputs: &[Input], id: EffectId, forms: Vec<Form<'_>>) -> Cell {
-    let mut variants = Vec::new();
-    for Form { form, law } in forms {
-        let part = |input: &Input| -> (usize, Vec<Term>) {
-            let modifiers = law(input).into_iter();
-            let moving = modifiers.filter(|modifier| varies(&modifier.values));
-            let terms = moving.map(|modifier| on_output(modifier).on(input.response));
-            (input.response, terms.collect())
-        };
-        variants.extend(scoped(fitted, &form, inputs.iter().map(part).collect()));
-    }
-    of_inputs(fitted, inputs, id, variants)
+/// A form without terms, which each input has in terms of its own by a law, with a modifier for each coefficient: on one axis,
+/// and on all of them, on each with a size of its own.
+fn by_law(
+    fitted: &FittedModel<'_>,
+    inputs: &[Input],
+    form: &Variation,
+    law: impl Fn(&Input) -> Vec<Modifier>,
+) -> Vec<Variation> {
+    let part = |input: &Input| -> (usize, Vec<Term>) {
+        let modifiers = law(input).into_iter();
+        let moving = modifiers.filter(|modifier| varies(&modifier.values));
+        let terms = moving.map(|modifier| on_output(modifier).on(input.response));
+        (input.response, terms.collect())
+    };
+    scoped(fitted, form, inputs.iter().map(part).collect())
 }
 
 /// A cell on the outputs, along the columns that inputs are formed from.
@@ -202,7 +162,8 @@ fn of_inputs(
     id: EffectId,
     variants: Vec<Variation>,
 ) -> Cell {
-    let mut cell = plain(fitted, id, &along(fitted), variants);
+    let along = fitted.names(&formed_from(fitted));
+    let mut cell = plain(fitted, id, &along, variants);
     let name = |input: &Input| fitted.case().responses[input.response].name.as_str();
     let names: Vec<&str> = inputs.iter().map(name).collect();
     cell.words.x = format!("signal({})", names.join(", "));
@@ -210,11 +171,11 @@ fn of_inputs(
 }
 
 /// The columns that inputs are formed from.
-fn along(fitted: &FittedModel<'_>) -> String {
+fn formed_from(fitted: &FittedModel<'_>) -> Vec<usize> {
     let columns = &fitted.case().columns;
     let forms =
         |c: &usize| matches!(columns[*c].role, Role::Stimulus | Role::Angle) && fitted.in_model(*c);
-    fitted.names(&(0..columns.len()).filter(forms).collect::<Vec<usize>>())
+    (0..columns.len()).filter(forms).collect()
 }
 
 fn powers(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
@@ -225,11 +186,11 @@ fn powers(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
         (EffectId::Asymmetry, ["abs", ""], f64::abs),
     ];
     let one = |(id, [before, after], law): Power| {
-        let law = move |input: &Input| {
+        let variants = by_law(fitted, inputs, &form("", Vec::new()), |input| {
             let text = format!("{before}{}{after}", input.text);
             vec![Modifier::number(map(&input.own, law), text)]
-        };
-        cell(fitted, inputs, id, vec![Form::plain("", law)])
+        });
+        of_inputs(fitted, inputs, id, variants)
     };
     // What has one sign is no more than a scale.
     let two_signs = inputs.iter().any(|input| crosses_zero(&input.own));
@@ -238,14 +199,19 @@ fn powers(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
     let mut cells: Vec<Cell> = laws.map(one).collect();
     // Small inputs are other axes' inputs that leak in: they have no sign of their own.
     let steps = [0.02, 0.1].map(|width: f64| {
-        let law = move |input: &Input| {
+        let form = form(format!("within {} %", 100.0 * width), Vec::new());
+        by_law(fitted, inputs, &form, |input| {
             let modifier = map(&input.own, |s| (s / width).clamp(-1.0, 1.0));
             let text = format!("clamp({}/{width}, -1, 1)", input.text);
             vec![Modifier::number(modifier, text)]
-        };
-        Form::plain(&format!("within {} %", 100.0 * width), law)
+        })
     });
-    cells.push(cell(fitted, inputs, EffectId::ZeroStep, steps.into()));
+    cells.push(of_inputs(
+        fitted,
+        inputs,
+        EffectId::ZeroStep,
+        steps.concat(),
+    ));
     cells
 }
 
@@ -262,14 +228,19 @@ fn limits(fitted: &FittedModel<'_>, inputs: &[Input]) -> Option<Cell> {
         return None;
     }
     let knees = [0.5, 0.6, 0.7, 0.8, 0.9].map(|knee: f64| {
-        let form = Variation::of(format!("above {knee} of the largest"), Vec::new());
-        Form::new(form.shaped("x₀", knee, ""), move |input: &Input| {
+        let form = form(format!("above {knee} of the largest"), Vec::new());
+        by_law(fitted, inputs, &form.shaped("x₀", knee, ""), |input| {
             let modifier = map(&input.own, |s| -(s.abs() - knee).max(0.0) * s.signum());
             let text = format!("-sign(signal)*max(abs{} - {knee}, 0)", input.text);
             vec![Modifier::number(modifier, text)]
         })
     });
-    Some(cell(fitted, inputs, EffectId::Saturation, knees.into()))
+    Some(of_inputs(
+        fitted,
+        inputs,
+        EffectId::Saturation,
+        knees.concat(),
+    ))
 }
 
 /// Products with the inputs of other axes, and their squares.
@@ -286,33 +257,29 @@ fn products(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
         1 => String::new(),
         _ => format!("other axis {}", other + 1),
     };
-    let crossed = each.clone().map(|at| {
-        let law = move |input: &Input| {
+    let crossed = each.clone().flat_map(|at| {
+        by_law(fitted, inputs, &form(name(at), Vec::new()), |input| {
             let other = input.others.get(at).into_iter();
             other.filter_map(|other| product(input, other)).collect()
-        };
-        Form::plain(&name(at), law)
+        })
     });
-    let mut crossed: Vec<Form<'_>> = crossed.collect();
+    let mut crossed: Vec<Variation> = crossed.collect();
     if each.len() > 1 {
-        let all = |input: &Input| {
+        crossed.extend(by_law(fitted, inputs, &form("", Vec::new()), |input| {
             let others = input.others.iter();
             others.filter_map(|other| product(input, other)).collect()
-        };
-        crossed.push(Form::plain("", all));
+        }));
     }
     // All squares together are the square of the own input: the field has a length.
-    let squared = each.clone().map(|at| {
-        let law = move |input: &Input| {
+    let squared = each.clone().flat_map(|at| {
+        by_law(fitted, inputs, &form(name(at), Vec::new()), |input| {
             let other = input.others.get(at).into_iter();
             other.map(Modifier::square).collect()
-        };
-        Form::plain(&name(at), law)
+        })
     });
-    let squared = squared.collect();
     vec![
-        cell(fitted, inputs, EffectId::CrossProduct, crossed),
-        cell(fitted, inputs, EffectId::CrossSquare, squared),
+        of_inputs(fitted, inputs, EffectId::CrossProduct, crossed),
+        of_inputs(fitted, inputs, EffectId::CrossSquare, squared.collect()),
     ]
 }
 
@@ -321,62 +288,58 @@ fn memory(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
     let mut cells = Vec::new();
     let t = &fitted.clock.values;
     if inputs.iter().any(|input| comes_back(t, &input.own)) {
-        cells.push(cell(fitted, inputs, EffectId::Hysteresis, loops(t)));
+        let loops = loops(fitted, inputs);
+        cells.push(of_inputs(fitted, inputs, EffectId::Hysteresis, loops));
     }
     if !fitted.is_timed() {
         return cells;
     }
-    let t = fitted.clock.values.clone();
-    let unit = fitted.time_unit();
     let scales = time_constants(fitted);
     let lacks = |input: &Input, tau: f64| {
         let own = &input.own;
-        let modifier = map2(&late(&t, own, &input.came, tau), own, |late, now| {
-            late - now
-        });
-        let (own, shown) = (&input.text, figure(tau));
-        Modifier::number(modifier, format!("(lag({own}, {shown} {unit}) - {own})"))
+        let modifier = map2(&late(t, own, &input.came, tau), own, |late, now| late - now);
+        let (own, shown) = (&input.text, fitted.duration(tau));
+        Modifier::number(modifier, format!("(lag({own}, {shown}) - {own})"))
     };
-    let lacks = &lacks;
     let singles = fitted.finer.times(scales.clone());
-    let of = |scales: Vec<f64>| {
-        let form = timed(fitted, &scales, Vec::new());
-        Form::new(form, move |input: &Input| {
-            scales.iter().map(|tau| lacks(input, *tau)).collect()
-        })
+    let of = |scales: &[f64]| {
+        by_law(
+            fitted,
+            inputs,
+            &timed(fitted, scales, Vec::new()),
+            |input| scales.iter().map(|tau| lacks(input, *tau)).collect(),
+        )
     };
-    let single = singles.iter().map(|tau| of(vec![*tau]));
+    let single = singles.iter().flat_map(|tau| of(&[*tau]));
     // Real bodies relax more than once: a quick part and a slow one.
-    let double = (scales.iter().step_by(2)).map(|tau| of(vec![*tau, 4.0 * tau]));
+    let double = (scales.iter().step_by(2)).flat_map(|tau| of(&[*tau, 4.0 * tau]));
     let lags = single.chain(double).collect();
-    cells.push(cell(fitted, inputs, EffectId::Lag, lags));
-    let skew = |input: &Input| {
+    cells.push(of_inputs(fitted, inputs, EffectId::Lag, lags));
+    let skew = by_law(fitted, inputs, &form("", Vec::new()), |input| {
         let per_time = Unit::one().quotient(&fitted.clock_unit());
         let text = format!("d{}/dt", input.text);
-        let modifier = Modifier::new(rate(&t, &input.own), text, per_time).negated();
+        let modifier = Modifier::new(rate(t, &input.own), text, per_time).negated();
         let moving = creeps(&input.own);
         moving.then_some(modifier).into_iter().collect()
-    };
-    let skew = vec![Form::plain("", skew)];
-    cells.push(cell(fitted, inputs, EffectId::TimingSkew, skew));
+    });
+    cells.push(of_inputs(fitted, inputs, EffectId::TimingSkew, skew));
     cells
 }
 
 /// Loops of a body with inner friction: one play, or several of growing width in parallel.
-fn loops(t: &[f64]) -> Vec<Form<'_>> {
+fn loops(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Variation> {
     const WIDTHS: [f64; 5] = [0.1, 0.3, 0.6, 1.0, 1.5];
     let behind = |input: &Input, width: f64| {
         // At rest there was no input.
-        let each = recordings(t).into_iter();
-        let played = each.flat_map(|rows| {
+        let played = in_each(&fitted.clock.values, |rows| {
             let came = input.came.get(rows.clone()).unwrap_or_default();
             play_from(0.0, &input.own[rows], came, width)
         });
-        let played: Vec<f64> = played.collect();
         map2(&input.own, &played, |s, behind| s - behind)
     };
     let one = WIDTHS.map(|width| {
-        Form::plain(&format!("width {width}"), move |input: &Input| {
+        let form = form(format!("width {width}"), Vec::new());
+        by_law(fitted, inputs, &form, |input| {
             let (least, most) = range(&input.own);
             if most - least <= width {
                 return Vec::new();
@@ -385,12 +348,17 @@ fn loops(t: &[f64]) -> Vec<Form<'_>> {
             vec![Modifier::number(behind(input, width), text)]
         })
     });
-    let many = Form::plain("several widths", move |input: &Input| {
-        let mean = mean_of(&WIDTHS.map(|width| behind(input, width)));
-        let (own, widths) = (&input.text, WIDTHS.map(|width| width.to_string()));
-        let widths = widths.join(", ");
-        let text = format!("mean of ({own} - play({own}, w)) over w = {widths}");
-        vec![Modifier::number(mean, text)]
-    });
-    one.into_iter().chain([many]).collect()
+    let many = by_law(
+        fitted,
+        inputs,
+        &form("several widths", Vec::new()),
+        |input| {
+            let mean = mean_of(&WIDTHS.map(|width| behind(input, width)));
+            let (own, widths) = (&input.text, WIDTHS.map(|width| width.to_string()));
+            let widths = widths.join(", ");
+            let text = format!("mean of ({own} - play({own}, w)) over w = {widths}");
+            vec![Modifier::number(mean, text)]
+        },
+    );
+    [one.concat(), many].concat()
 }

@@ -1,12 +1,14 @@
 //! Ends of the range and dead zones of a column: saturation, a change of slope, a band around zero in which
 //! nothing happens.
 
-use super::building::{form, on_node, on_output, plain, scoped_label};
+use super::building::{added, form, on_node, on_output, plain, scoped_label};
 use super::fitted::{FittedModel, Node, varies};
-use super::modifiers::{figure, figure_to, five_digits, largest, levels_of, map, range, rounded};
+use super::modifiers::{
+    amount, figure, figure_to, five_digits, largest, levels_of, map, range, rounded,
+};
+use super::readout::{beside, moves_on};
 use super::sharp::sharpened;
-use super::stuck::{beside, moves_on};
-use super::{Cell, EffectId, Modifier, Term, Variation};
+use super::{Cell, EffectId, Modifier, Variation};
 use crate::diagnose::case::Response;
 
 /// Rounding of knees in formulas, as a share of the range: whoever writes the formula into a model has the
@@ -58,12 +60,11 @@ pub(super) fn of_outputs(fitted: &FittedModel<'_>, columns: &[usize]) -> Vec<Cel
     cells.collect()
 }
 
-/// The readings of a response at one of its ends.
+/// Where readings of a response end.
 struct Pile {
     /// 1 at the upper end, −1 at the lower one.
     sign: f64,
     level: f64,
-    rows: Vec<usize>,
 }
 
 impl Pile {
@@ -72,10 +73,13 @@ impl Pile {
         const ROWS: usize = 3;
         let most = observed.iter().map(|y| sign * y);
         let level = sign * most.fold(f64::NEG_INFINITY, f64::max);
-        let rows: Vec<usize> = (0..observed.len())
-            .filter(|row| observed[*row] == level)
-            .collect();
-        (rows.len() >= ROWS).then_some(Pile { sign, level, rows })
+        let pile = Pile { sign, level };
+        (pile.rows(observed).count() >= ROWS).then_some(pile)
+    }
+
+    fn rows<'p>(&self, observed: &'p [f64]) -> impl Iterator<Item = usize> + 'p {
+        let level = self.level;
+        (0..observed.len()).filter(move |row| observed[*row] == level)
     }
 }
 
@@ -87,7 +91,7 @@ fn ceilings(fitted: &FittedModel<'_>, response: usize) -> Vec<Variation> {
         return Vec::new();
     }
     let piles = [1.0, -1.0].map(|sign| Pile::of(&observed, sign));
-    let certain = |pile: &&Pile| moves_on(fitted, response, &observed, pile.rows.iter().copied());
+    let certain = |pile: &&Pile| moves_on(fitted, response, &observed, pile.rows(&observed));
     let ends: Vec<&Pile> = piles.iter().flatten().filter(certain).collect();
     let each = ends.iter().map(|end| vec![*end]);
     let both = match (&piles, ends.is_empty()) {
@@ -106,7 +110,7 @@ fn ceiling(
     observed: &[f64],
     piles: &[&Pile],
 ) -> Variation {
-    let is_there = |row: usize| piles.iter().any(|pile| pile.rows.contains(&row));
+    let is_there = |row: usize| piles.iter().any(|pile| pile.level == observed[row]);
     let model = beside(fitted, response, observed, &is_there);
     let within = |y: f64| {
         let ends = piles.iter();
@@ -116,26 +120,18 @@ fn ceiling(
     };
     let modifier = map(&model, |y| within(y) - y);
     let Response { name, unit, .. } = &fitted.case().responses[response];
-    let shown = |level: f64| {
-        format!("{level} {}", unit.after_number())
-            .trim_end()
-            .to_owned()
-    };
-    let [mut text, mut label] = [name.clone(), String::new()];
+    let (mut text, mut labels) = (name.clone(), Vec::new());
     for Pile { sign, level, .. } in piles {
-        let shown = shown(*level);
-        let (least, end) = if *sign > 0.0 {
-            ("min", "above")
-        } else {
-            ("max", "below")
+        let shown = amount(level, &unit.after_number());
+        let [least, end] = match *sign > 0.0 {
+            true => ["min", "above"],
+            false => ["max", "below"],
         };
         text = format!("{least}({text}, {shown})");
-        let before = if label.is_empty() { "" } else { ", " };
-        label = format!("{label}{before}{end} {shown}");
+        labels.push(format!("{end} {shown}"));
     }
-    let text = format!("({text} - {name})");
-    let term = on_output(Modifier::new(modifier, text, unit.difference())).on(response);
-    Variation::one(label, term)
+    let term = added(fitted, response, modifier, format!("({text} - {name})"));
+    Variation::one(labels.join(", "), term)
 }
 
 /// A step at zero, and bands of several widths around it.
@@ -158,14 +154,14 @@ fn dead_band(fitted: &FittedModel<'_>, column: usize) -> Cell {
 
 /// Both ends bend alike.
 fn soft_limit(fitted: &FittedModel<'_>, column: usize) -> Cell {
-    let (x, name) = (fitted.numbers(column), fitted.label(column));
+    let name = fitted.label(column);
     let unit = fitted.unit(column);
-    let most = largest(x);
+    let most = largest(fitted.numbers(column));
     let beyond = |limit: f64| {
-        let modifier = map(x, |x| -(x.abs() - limit).max(0.0) * x.signum());
         let shown = fitted.figure(column, rounded(limit, KNEE * most));
         let text = format!("-sign({name})*max(abs({name}) - {shown}, 0)");
-        on_output(Modifier::new(modifier, text, fitted.step_unit(column)))
+        let beyond = |x: f64| -(x.abs() - limit).max(0.0) * x.signum();
+        on_output(fitted.by(column, text, beyond))
     };
     let limits = [0.5, 0.6, 0.7, 0.8, 0.9].map(|share| share * most);
     let limits = sharpened(fitted, limits.into(), &beyond);
@@ -190,11 +186,9 @@ fn kink(fitted: &FittedModel<'_>, column: usize) -> Cell {
     let ends = [values[1], values[values.len() - 2]];
     let knees = fitted.finer.levels(parts.chain(ends).collect());
     let variants = knees.into_iter().map(|at| {
-        let modifier = map(x, |x| (x - at).max(0.0));
         let shown = figure_to(at, LABEL * (most - least));
         let beyond = fitted.beyond(column, rounded(at, KNEE * (most - least)));
-        let text = format!("max({beyond}, 0)");
-        let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
+        let modifier = fitted.by(column, format!("max({beyond}, 0)"), |x| (x - at).max(0.0));
         Variation::one(format!("at {shown} {unit}"), on_output(modifier)).shaped("x₀", at, &unit)
     });
     let (id, name) = (EffectId::Kink, fitted.label(column));
@@ -209,10 +203,10 @@ fn plateaus(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
     let mut variants = Vec::new();
     for response in 0..fitted.case().responses.len() {
-        variants.extend(at_end(fitted, column, response, &order, "above"));
-        order.reverse();
-        variants.extend(at_end(fitted, column, response, &order, "below"));
-        order.reverse();
+        for side in ["above", "below"] {
+            variants.extend(at_end(fitted, column, response, &order, side));
+            order.reverse();
+        }
     }
     variants
 }
@@ -238,17 +232,15 @@ fn at_end(
     let away = (outside - inside).signum();
     let knees = (1..=KNEES).map(|step| {
         let knee = inside + (outside - inside) * step as f64 / KNEES as f64;
-        let modifier = map(x, |x| -(away * (x - knee)).max(0.0));
         let shown = figure_to(knee, LABEL * (most - least));
         let at = rounded(knee, KNEE * (most - least));
         let text = match side {
             "above" => format!("-max({}, 0)", fitted.beyond(column, at)),
             _ => format!("-max({} - {name}, 0)", fitted.figure(column, at)),
         };
-        let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
-        let term: Term = on_output(modifier);
+        let missing = fitted.by(column, text, |x| -(away * (x - knee)).max(0.0));
         let label = format!("{side} {shown} {unit}");
-        let mut form = Variation::one(label, term).shaped("x₀", knee, &unit);
+        let mut form = Variation::one(label, on_output(missing)).shaped("x₀", knee, &unit);
         if let responses @ [_, _, ..] = &fitted.case().responses[..] {
             form.label = scoped_label(&responses[response].name, &form);
             form.terms[0].response = Some(response);

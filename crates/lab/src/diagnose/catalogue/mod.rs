@@ -15,21 +15,20 @@
 //! | `fitted` | the fitted model: slopes of the nodes, and which columns can be what |
 //! | `response`, `powers`, `limits`, `history` | what a stimulus does otherwise than declared |
 //! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
-//! | `implicit` | the same where the model holds a constant against several columns |
-//! | `cross` | what an output takes of the stimuli of others |
+//! | `axes` | the same where the model holds a constant against several columns, and between outputs |
 //! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
 //! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
-//! | `heating`, `stem`, `waves` | power of the signal, loss along a stem, what repeats |
-//! | `readout`, `stuck` | rounding and slips, readings that stand still |
+//! | `heating`, `waves` | power of the signal, what repeats |
+//! | `readout` | rounding and slips, readings that stand still |
 //! | `angles`, `fields` | errors of angles; what stays in the laboratory while the sensor turns |
 //! | `finer` | values between those of the grids |
 //! | `generics` | competitors without a name |
 
 mod absorbed;
 mod angles;
+mod axes;
 mod building;
 mod conditions;
-mod cross;
 mod effect;
 mod fields;
 mod finer;
@@ -37,7 +36,6 @@ mod fitted;
 pub(super) mod generics;
 mod heating;
 mod history;
-mod implicit;
 mod inputs;
 mod levels;
 mod limits;
@@ -49,8 +47,6 @@ mod readout;
 mod response;
 mod rows;
 mod sharp;
-mod stem;
-mod stuck;
 mod time;
 mod user;
 mod waves;
@@ -357,7 +353,7 @@ impl Variation {
 pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let mut cells = response::cells(fitted);
     cells.extend(inputs::cells(fitted));
-    cells.extend(cross::cells(fitted));
+    cells.extend(axes::crossed(fitted));
     cells.extend(fields::cells(fitted));
     cells.extend(conditions::cells(fitted));
     cells.extend(zero::cells(fitted));
@@ -368,8 +364,8 @@ pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     cells.extend(angles::cells(fitted));
     cells.extend(rows::cells(fitted));
     cells.extend(readout::cells(fitted));
-    cells.extend(stuck::cells(fitted));
-    cells.extend(stem::cells(fitted));
+    let depths = fitted.numeric().into_iter();
+    cells.extend(depths.filter_map(|column| conditions::stem(fitted, column)));
     cells.extend(heating::cells(fitted));
     cells.extend(user::cells(fitted));
     if let Some(norm) = norm::Norm::of(fitted) {

@@ -1,5 +1,6 @@
 //! What a disturbance may follow, computed row by row along the recorded order.
 
+use std::fmt::Display;
 use std::ops::Range;
 
 /// Less the middle.
@@ -125,21 +126,33 @@ pub fn late(t: &[f64], x: &[f64], came: &[Option<(f64, f64)>], tau: f64) -> Vec<
     Course::possible(x)[0].late(t, x, came, tau)
 }
 
-/// Rows between which the time does not go backwards: another recording begins where it does, with a history of its own.
-pub fn recordings(t: &[f64]) -> Vec<Range<usize>> {
-    let begins = (1..t.len()).filter(|row| t[*row] < t[*row - 1]);
-    let begins: Vec<usize> = std::iter::once(0).chain(begins).collect();
-    let ends = begins[1..].iter().copied().chain([t.len()]);
-    let both = begins.iter().zip(ends);
-    both.map(|(from, to)| *from..to).collect()
+/// Rows in succession that belong together, each to the one before it; no more than so many.
+pub fn successive(
+    rows: usize,
+    most: usize,
+    together: impl Fn(usize, usize) -> bool,
+) -> Vec<Range<usize>> {
+    let mut found: Vec<Range<usize>> = Vec::new();
+    for row in 0..rows {
+        match found.last_mut() {
+            Some(own) if own.len() < most && together(row - 1, row) => own.end = row + 1,
+            _ => found.push(row..row + 1),
+        }
+    }
+    found
+}
+
+/// A course that is formed in each part of the rows between which the time does not go backwards: another recording begins where
+/// it does, with a history of its own.
+pub fn in_each(t: &[f64], of: impl Fn(Range<usize>) -> Vec<f64>) -> Vec<f64> {
+    let recordings = successive(t.len(), t.len(), |before, row| t[before] <= t[row]);
+    recordings.into_iter().flat_map(of).collect()
 }
 
 /// The course a time `delay` earlier, along straight lines between the rows; where the recording had not
 /// begun, or is over, along the line of its ends.
 pub fn delayed(t: &[f64], x: &[f64], delay: f64) -> Vec<f64> {
-    let each = recordings(t).into_iter();
-    each.flat_map(|rows| delayed_in_one(&t[rows.clone()], &x[rows], delay))
-        .collect()
+    in_each(t, |rows| delayed_in_one(&t[rows.clone()], &x[rows], delay))
 }
 
 fn delayed_in_one(t: &[f64], x: &[f64], delay: f64) -> Vec<f64> {
@@ -176,8 +189,7 @@ pub fn rate(t: &[f64], x: &[f64]) -> Vec<f64> {
 /// The direction in which `x` moved last: +1 or −1; the first rows take that of the first movement, and so do those after the
 /// time went backwards.
 pub fn direction(t: &[f64], x: &[f64]) -> Vec<f64> {
-    let each = recordings(t).into_iter();
-    each.flat_map(|rows| direction_in_one(&x[rows])).collect()
+    in_each(t, |rows| direction_in_one(&x[rows]))
 }
 
 fn direction_in_one(x: &[f64]) -> Vec<f64> {
@@ -199,9 +211,7 @@ fn direction_in_one(x: &[f64]) -> Vec<f64> {
 /// Play of width `w`: what follows `x` only when `x` reaches the end of the gap. It begins in the middle of its gap, and anew
 /// where the time goes backwards.
 pub fn play(t: &[f64], x: &[f64], w: f64) -> Vec<f64> {
-    let each = recordings(t).into_iter();
-    each.flat_map(|rows| play_from(x[rows.start], &x[rows], &[], w))
-        .collect()
+    in_each(t, |rows| play_from(x[rows.start], &x[rows], &[], w))
 }
 
 /// Play of width `w` that begins in the middle of its gap at a value; some rows were reached by way of
@@ -236,6 +246,11 @@ pub fn grid(low: f64, high: f64, ratio: f64, most: usize) -> Vec<f64> {
         .collect()
 }
 
+/// A number with its unit, which may be none.
+pub fn amount(x: impl Display, unit: &str) -> String {
+    format!("{x} {unit}").trim_end().to_owned()
+}
+
 /// A number as formulas and labels show it: five digits.
 pub fn figure(x: f64) -> String {
     format!("{}", five_digits(x))
@@ -256,12 +271,16 @@ pub fn range(x: &[f64]) -> (f64, f64) {
     (least, most)
 }
 
-/// The usual difference of successive values; 0 where nothing moves.
-pub fn typical_step(x: &[f64]) -> f64 {
-    let steps = x.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+/// The median of those steps that go on; nothing where none does.
+pub fn usual(steps: impl Iterator<Item = f64>) -> Option<f64> {
     let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
     steps.sort_by(f64::total_cmp);
-    steps.get(steps.len() / 2).copied().unwrap_or(0.0)
+    steps.get(steps.len() / 2).copied()
+}
+
+/// The usual difference of successive values; 0 where nothing moves.
+pub fn typical_step(x: &[f64]) -> f64 {
+    usual(x.windows(2).map(|pair| (pair[1] - pair[0]).abs())).unwrap_or(0.0)
 }
 
 /// The least distance of different values; infinite where all are the same.
@@ -326,6 +345,11 @@ pub fn map2(x: &[f64], z: &[f64], f: impl Fn(f64, f64) -> f64) -> Vec<f64> {
 /// Element by element.
 pub fn map(x: &[f64], f: impl Fn(f64) -> f64) -> Vec<f64> {
     x.iter().map(|x| f(*x)).collect()
+}
+
+/// Nothing for what is not finite.
+pub fn known(x: f64) -> f64 {
+    if x.is_finite() { x } else { 0.0 }
 }
 
 /// 1 where something is so.

@@ -6,8 +6,8 @@ use nalgebra::{DMatrix, DVector};
 use super::building::scoped_label;
 use super::effect::{Kind, Pattern};
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{map, map2, range, rounded};
-use super::{Cell, Modifier, Term, Variation};
+use super::modifiers::{map2, range, rounded};
+use super::{Cell, Term, Variation};
 
 /// The readings of a vector.
 pub(in crate::diagnose) struct Norm {
@@ -92,11 +92,7 @@ impl Norm {
             return Vec::new();
         }
         let on = |(column, centre): &(usize, f64)| -> Vec<Term> {
-            let reading = || {
-                let x = map(fitted.numbers(*column), |x| x - centre);
-                let text = fitted.less(*column, *centre);
-                Modifier::new(x, text, fitted.step_unit(*column))
-            };
+            let reading = || fitted.by(*column, fitted.less(*column, *centre), |x| x - centre);
             let term = |term: &Term| {
                 let own = term.written();
                 let modifier = match term.node {

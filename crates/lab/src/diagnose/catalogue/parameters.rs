@@ -65,11 +65,8 @@ fn of_parameter(fitted: &FittedModel<'_>, node: Node) -> Vec<Cell> {
     let turns = turns_an_angle(fitted, node);
     let is_named = |role: Role| matches!(role, Role::Run | Role::Factor | Role::Direction);
     for factor in factors(fitted, (1, 4)).filter(|factor| !turns && is_named(factor.column.role)) {
-        add(
-            EffectId::ParameterShift,
-            &factor.column.name,
-            factor.differences(),
-        );
+        let (id, name) = (EffectId::ParameterShift, &factor.column.name);
+        add(id, name, factor.differences());
     }
     cells
 }

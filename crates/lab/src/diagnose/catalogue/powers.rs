@@ -1,24 +1,16 @@
 //! Squares and cubes of what the model takes in, about the zero that the declared model has for it: so its
 //! offset, its slope and its further coefficients keep their meaning beside the new term.
 
-use super::absorbed::Absorbed;
+use super::building::on_output;
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
     crosses_zero, largest, line_through, map, map2, mean, middle, range, rounded,
 };
 use super::{Modifier, Term};
 
-/// A power, as the search takes it and as the improved model has it.
-pub(super) struct Power {
-    /// Differs from the other by what the parameters absorb.
-    pub searched: Modifier,
-    /// As it is printed and fitted.
-    pub written: Modifier,
-}
-
 /// The square and the cube of a column; without those that a model has, beside an offset that it takes as exact, about its own
 /// zero: `R_0*(1 + A*T + B*T^2)` with R_0 known.
-pub(super) fn of(fitted: &FittedModel<'_>, column: usize) -> [Option<Power>; 2] {
+pub(super) fn of(fitted: &FittedModel<'_>, column: usize) -> [Option<Term>; 2] {
     let lines = absorbs(fitted, column, 1);
     let declared = |exponent| !lines && declares(fitted, column, exponent);
     let [searched, zero] = match lines {
@@ -30,14 +22,10 @@ pub(super) fn of(fitted: &FittedModel<'_>, column: usize) -> [Option<Power>; 2] 
     let squares = lines && absorbs(fitted, column, 2);
     let near = is_within(fitted.numbers(column), zero, FAR);
     [(2, lines), (3, squares)].map(|(exponent, absorbed)| {
-        let power = || Power {
-            searched: about(fitted, column, searched, exponent),
-            written: match absorbed && near {
-                true => about(fitted, column, zero, exponent),
-                false => about(fitted, column, searched, exponent),
-            },
-        };
-        (!declared(exponent)).then(power)
+        // What is printed and fitted differs from what is searched by what the parameters absorb.
+        let written = if absorbed && near { zero } else { searched };
+        let about = |zero: f64| about(fitted, column, zero, exponent);
+        (!declared(exponent)).then(|| on_output(about(searched)).written_as(about(written)))
     })
 }
 
@@ -86,11 +74,10 @@ fn absorbs_all(fitted: &FittedModel<'_>, powers: &[Modifier]) -> bool {
     if case.parameters.iter().any(|p| p.prior.is_some()) {
         return false;
     }
-    let absorbed = Absorbed::by_parameters(fitted);
     (0..case.responses.len()).all(|response| {
         powers.iter().all(|power| {
             let term = Term::new(Node::Output, power.clone()).on(response);
-            !absorbed.leaves(&fitted.column(&term))
+            !fitted.absorbed().leaves(&fitted.column(&term))
         })
     })
 }

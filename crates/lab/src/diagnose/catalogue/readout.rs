@@ -1,19 +1,25 @@
-//! What the readout and the protocol do: rounding to a step, outputs in the wrong line.
+//! What the readout and the protocol do: rounding to a step, outputs in the wrong line, readings that stand still while the model
+//! moves on (a logger that repeats its last value, a frozen channel, a lock that was left on).
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
-use super::building::{on_output, plain};
+use nalgebra::DVector;
+
+use super::building::{added, on_output, plain};
 use super::fitted::{FittedModel, varies};
-use super::modifiers::{figure, largest, levels_of, map, rounded};
+use super::modifiers::{
+    figure, largest, levels_of, map, map2, range, rounded, spacing, successive, typical_step,
+};
 use super::sharp::nearly_all;
-use super::stuck::beside;
 use super::{Cell, EffectId, Modifier, Variation, tied};
+use crate::diagnose::evidence;
 
 /// Cells of the readout.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let responses = 0..fitted.case().responses.len();
     let steps = responses.filter_map(|response| quantisation(fitted, response));
-    steps.chain(shifted(fitted)).collect()
+    steps.chain(shifted(fitted)).chain(stuck(fitted)).collect()
 }
 
 /// Rounding of the model's output to the step in which readings come: an error of known size.
@@ -39,9 +45,8 @@ fn quantisation(fitted: &FittedModel<'_>, response: usize) -> Option<Cell> {
             true => (sharp, String::new()),
             false => (blurred, format!(", noise {}", figure(blur * step))),
         };
-        let term = on_output(Modifier::new(modifier, text, unit.difference()));
         let label = format!("step {shown}{noise} {}", unit.after_number());
-        Variation::one(label, term.on(response))
+        Variation::one(label, added(fitted, response, modifier, text))
     };
     // What the declared model leaves is noise, and perhaps something else.
     let most = blur(fitted, response, step);
@@ -108,7 +113,7 @@ fn steps(readings: &[f64]) -> Option<Steps> {
         return None;
     }
     let digit = digit(&values)?;
-    let (step, tried) = spacing(&values, digit)?;
+    let (step, tried) = largest_step(&values, digit)?;
     // Of the readings that the file can hold, so many lie next to a step, on either side.
     let near = (2.0 * digit / step).min(1.0);
     let by_chance = tried as f64 * libm::pow(near, (values.len() - 2) as f64);
@@ -142,7 +147,7 @@ fn digit(values: &[f64]) -> Option<f64> {
 
 /// The largest step of which all distances of ascending values are multiples, each value rounded to a digit, and how many steps
 /// were possible on the way to it.
-fn spacing(values: &[f64], digit: f64) -> Option<(f64, usize)> {
+fn largest_step(values: &[f64], digit: f64) -> Option<(f64, usize)> {
     let digits = |x: f64| (x / digit).round() as i64;
     let steps = values
         .windows(2)
@@ -214,12 +219,10 @@ fn shifted(fitted: &FittedModel<'_>) -> Option<Cell> {
     };
     let variant = |label: &str, modifiers: Vec<Vec<f64>>| {
         let terms = modifiers.into_iter().enumerate();
+        let terms = terms.filter(|(_, modifier)| varies(modifier));
         let terms = terms.map(|(response, modifier)| {
-            let unit = fitted.case().responses[response].unit.difference();
-            let text = format!("outputs {label}");
-            on_output(Modifier::new(modifier, text, unit)).on(response)
+            added(fitted, response, modifier, format!("outputs {label}"))
         });
-        let terms = terms.filter(|term| varies(&term.modifier.values));
         Variation::of(label, tied(terms.collect()))
     };
     let ways = [("one row late", true), ("one row early", false)];
@@ -248,6 +251,92 @@ fn shifted(fitted: &FittedModel<'_>) -> Option<Cell> {
         }));
     }
     Some(plain(fitted, EffectId::Shifted, "row", variants))
+}
+
+/// Fewer readings in a row are alike by chance.
+const HELD: usize = 5;
+/// Stretches that are looked at, the longest ones.
+const STRETCHES: usize = 4;
+
+/// One cell with a variant for each stretch in which an output stands still.
+fn stuck(fitted: &FittedModel<'_>) -> Option<Cell> {
+    let case = fitted.case();
+    let whole = case.parameters.iter().all(|p| p.per.is_none());
+    if !whole || fitted.rows() < 4 * HELD {
+        return None;
+    }
+    let variants = (0..case.responses.len())
+        .filter(|response| !fitted.is_implicit(*response))
+        .flat_map(|response| held(fitted, response))
+        .collect();
+    Some(plain(fitted, EffectId::Stuck, "row", variants))
+}
+
+fn held(fitted: &FittedModel<'_>, response: usize) -> Vec<Variation> {
+    let observed = fitted.design.observed(response);
+    let mut found = stretches(&observed);
+    found.retain(|rows| moves_on(fitted, response, &observed, rows.clone()));
+    found.sort_by_key(|rows| std::cmp::Reverse(rows.len()));
+    let longest = found.into_iter().take(STRETCHES);
+    longest
+        .map(|rows| {
+            let is_such = |row: usize| rows.contains(&row);
+            let model = beside(fitted, response, &observed, &is_such);
+            let modifier = (0..observed.len()).map(|row| match is_such(row) {
+                true => observed[rows.start] - model[row],
+                false => 0.0,
+            });
+            let label = fitted.design.called(rows.start, rows.end - 1);
+            let text = format!("(reading held in {label})");
+            Variation::one(label, added(fitted, response, modifier.collect(), text))
+        })
+        .collect()
+}
+
+/// Stretches of equal readings.
+fn stretches(observed: &[f64]) -> Vec<Range<usize>> {
+    let rows = observed.len();
+    let mut found = successive(rows, rows, |before, row| observed[before] == observed[row]);
+    found.retain(|rows| rows.len() >= HELD);
+    found
+}
+
+/// Whether the model moves in some rows by far more than residuals change from row to row, and by more than the step in which
+/// readings come.
+pub(super) fn moves_on(
+    fitted: &FittedModel<'_>,
+    response: usize,
+    observed: &[f64],
+    rows: impl IntoIterator<Item = usize>,
+) -> bool {
+    /// So many times the change.
+    const FAR: f64 = 6.0;
+    /// So many steps.
+    const STEPS: f64 = 3.0;
+    let model = &fitted.fit.linear.values[response];
+    let residuals: Vec<f64> = (observed.iter().zip(model)).map(|(y, m)| y - m).collect();
+    let there: Vec<f64> = rows.into_iter().map(|row| model[row]).collect();
+    let (least, most) = range(&there);
+    let far = (FAR * typical_step(&residuals)).max(STEPS * spacing(observed));
+    most - least > far
+}
+
+/// The model as the rows have it that are not such.
+pub(super) fn beside(
+    fitted: &FittedModel<'_>,
+    response: usize,
+    observed: &[f64],
+    is_such: &dyn Fn(usize) -> bool,
+) -> Vec<f64> {
+    let model = &fitted.fit.linear.values[response];
+    let parameters = fitted.case().parameters.len();
+    let slopes = fitted.fit.linear.slopes[response].columns(0, parameters);
+    let others: Vec<usize> = (0..observed.len()).filter(|row| !is_such(*row)).collect();
+    let rest = others.iter().map(|row| observed[*row] - model[*row]);
+    let rest = DVector::from_vec(rest.collect());
+    let change = evidence::inverse(&slopes.select_rows(&others)) * rest;
+    let moved = slopes * change;
+    map2(model, moved.as_slice(), |model, moved| model + moved)
 }
 
 #[cfg(test)]
@@ -295,5 +384,14 @@ mod tests {
         assert_eq!(steps(&fine), None);
         let digits: Vec<f64> = fine.iter().map(|x| (x * 1e5).round() / 1e5).collect();
         assert_eq!(steps(&digits), None);
+    }
+
+    #[test]
+    fn a_stretch_is_five_equal_readings() {
+        let readings = [1.0, 2.0, 2.0, 2.0, 2.0, 2.0, 3.0, 4.0, 4.0, 4.0, 4.0];
+        let ends = |rows: &Range<usize>| (rows.start, rows.end);
+        let found = |readings: &[f64]| -> Vec<_> { stretches(readings).iter().map(ends).collect() };
+        assert_eq!(found(&readings), [(1, 6)]);
+        assert_eq!(found(&[7.0; 6]), [(0, 6)]);
     }
 }

@@ -1,14 +1,13 @@
 //! How the response to the stimuli may differ from the declared one: powers, modulus, limits, cross terms,
 //! lag.
 
-use super::building::{cell, course, form, on_node, on_output, pair, time_constants, timed};
+use super::building::{cell, course, decay, form, on_node, on_output, pair, time_constants, timed};
 use super::conditions::on_offset;
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{
     Course, creeps, delayed, figure, five_digits, grid, largest, levels_of, map, map2, mean, range,
 };
 use super::norm::Norm;
-use super::powers::Power;
 use super::sharp::{best_pair, sharpened, size_of};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -19,7 +18,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     used.retain(|column| fitted.in_model(*column));
     let implicit = (0..fitted.case().responses.len()).all(|r| fitted.is_implicit(r));
     if implicit || Norm::of(fitted).is_some() {
-        return super::implicit::cells(fitted, &used);
+        return super::axes::cells(fitted, &used);
     }
     // A factor of a product is not what an axis takes in; it may act on the offset all the same.
     let (direct, factors): (Vec<usize>, Vec<usize>) =
@@ -108,15 +107,19 @@ fn bends(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let size = five_digits(largest(x));
     let label = fitted.label(column);
     let power = |id: EffectId, exponent: i32| {
-        let modifier = map(x, |x| x * (x / size).powi(exponent - 1));
         let shown = fitted.figure(column, size);
         let text = match exponent {
             2 => format!("{label}*({label}/({shown}))"),
             _ => format!("{label}*({label}/({shown}))^{}", exponent - 1),
         };
-        let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
-        let form = form("", vec![modifier]);
-        on_node(fitted, id, label, Node::Column(column), [form])
+        let bent = fitted.by(column, text, |x| x * (x / size).powi(exponent - 1));
+        on_node(
+            fitted,
+            id,
+            label,
+            Node::Column(column),
+            [form("", vec![bent])],
+        )
     };
     vec![power(EffectId::Quadratic, 2), power(EffectId::Cubic, 3)]
 }
@@ -127,28 +130,26 @@ fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     } else {
         EffectId::Quadratic
     };
-    let [square, cube] = super::powers::of(fitted, column);
-    let mut cells = vec![
-        power(fitted, column, second, square),
-        power(fitted, column, EffectId::Cubic, cube),
-    ];
-    let (x, label) = (fitted.numbers(column), fitted.label(column));
+    let label = fitted.label(column);
+    let both = [second, EffectId::Cubic].into_iter();
+    let powers = both
+        .zip(super::powers::of(fitted, column))
+        .map(|(id, power)| {
+            let form = power.map(|term| Variation::one("", term));
+            on_node(fitted, id, label, Node::Output, form)
+        });
+    let mut cells: Vec<Cell> = powers.collect();
     if fitted.passes_zero(column) {
-        let text = format!("abs({label})");
-        let modulus = Modifier::new(map(x, f64::abs), text, fitted.step_unit(column));
-        let form = form("", vec![modulus]);
+        let form = form(
+            "",
+            vec![fitted.by(column, format!("abs({label})"), f64::abs)],
+        );
         let id = EffectId::Asymmetry;
         cells.push(on_node(fitted, id, label, Node::Output, [form]));
     } else if !fitted.is_temperature(column) {
         cells[0].variants.extend(levelling(fitted, column));
     }
     cells
-}
-
-fn power(fitted: &FittedModel<'_>, column: usize, id: EffectId, power: Option<Power>) -> Cell {
-    let term = power.map(|power| on_output(power.searched).written_as(power.written));
-    let form = term.map(|term| Variation::one("", term));
-    on_node(fitted, id, fitted.label(column), Node::Output, form)
 }
 
 /// A square that levels off, as counting losses of a dead time do, and detectors near their limit.
@@ -189,7 +190,6 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let slowest = fitted.clock.span();
     let (x, label) = (fitted.numbers(column), fitted.label(column));
     let t = &fitted.clock.values;
-    let unit = fitted.time_unit();
     let node = Node::Column(column);
     let id = if fitted.is_temperature(column) {
         EffectId::TemperatureLag
@@ -198,7 +198,7 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     };
     let lacking = |course: Course, tau: f64| {
         let modifier = map2(&course.late(t, x, &[], tau), x, |late, x| late - x);
-        let text = format!("(lag({label}, {tau} {unit}) - {label})", tau = figure(tau));
+        let text = format!("(lag({label}, {}) - {label})", fitted.duration(tau));
         let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
         Term::new(node, modifier)
     };
@@ -220,11 +220,15 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let free = best_pair(fitted, &scales, &lacks).map(|(quick, slow)| both(quick, slow));
     // What the recording begins with was on its way already.
     let began = t.first().copied().unwrap_or(0.0);
+    let since = map(t, |t| t - began);
     let unbalanced = scales.iter().filter(|_| creeps(x)).map(|tau| {
-        let start = map(t, |t| libm::exp(-(t - began) / tau));
-        let since = fitted.time_less(began);
-        let text = format!("exp(-{since}/({} {unit}))", figure(*tau));
-        let start = Term::new(node, Modifier::number(start, text));
+        let start = decay(
+            &since,
+            &fitted.time_less(began),
+            *tau,
+            &fitted.duration(*tau),
+        );
+        let start = Term::new(node, start);
         let mut form = timed(fitted, &[*tau], vec![lacks(*tau), start]);
         form.label += ", not in balance at the start";
         form
@@ -260,7 +264,7 @@ fn delays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     let late = |by: f64| {
         let then = delayed(t, x, by);
         let modifier = map2(&then, x, |then, now| (then - now) / by);
-        let shown = format!("{} {unit}", figure(by.abs()));
+        let shown = fitted.duration(by.abs());
         let (sign, over) = match by < 0.0 {
             true => ('+', format!("(-{shown})")),
             false => ('-', format!("({shown})")),
@@ -281,7 +285,7 @@ fn delays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
         });
         variants.extend(of_size.map(|size| {
             let by = sign * size;
-            let label = format!("by about {} {unit}", figure(by));
+            let label = format!("by about {}", fitted.duration(by));
             Variation::one(label, late(by)).shaped("δ", size, &unit)
         }));
     }
@@ -290,11 +294,6 @@ fn delays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
 
 fn interaction(fitted: &FittedModel<'_>, x: usize, z: usize) -> Cell {
     let product = form("", vec![fitted.centred_product(x, z)]);
-    pair(
-        fitted,
-        EffectId::Interaction,
-        [x, z],
-        Node::Output,
-        [product],
-    )
+    let (id, node) = (EffectId::Interaction, Node::Output);
+    pair(fitted, id, [x, z], node, [product])
 }

@@ -4,11 +4,10 @@ use std::collections::BTreeSet;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::absorbed::Absorbed;
-use super::building::{cell, on_output, plain};
+use super::building::{added, cell, on_output, plain};
 use super::fitted::{FittedModel, Node};
 use super::levels::{Factor, factors};
-use super::modifiers::map;
+use super::modifiers::{known, map};
 use super::{Cell, EffectId, Modifier, Term, Variation, tied};
 
 /// Longer recordings are not searched row by row.
@@ -24,16 +23,17 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     if blocks.len() > MOST || blocks.len() < 5 {
         return Vec::new();
     }
+    let named = |rows: &[usize]| fitted.design.called(rows[0], rows[rows.len() - 1]);
     let outliers = blocks.iter().map(|rows| {
         let terms = (0..fitted.case().responses.len()).map(|response| {
             let mut modifier = vec![0.0; fitted.rows()];
             for row in rows {
                 modifier[*row] = 1.0;
             }
-            let text = format!("[{}]", named(fitted, rows));
+            let text = format!("[{}]", named(rows));
             on_output(Modifier::number(modifier, text)).on(response)
         });
-        Variation::of(named(fitted, rows), terms.collect())
+        Variation::of(named(rows), terms.collect())
     });
     let mut cells = vec![plain(fitted, EffectId::Outlier, "row", outliers.collect())];
     if blocks.len() == fitted.rows() && fitted.has_signal() && blocks.len() <= MOST / 2 {
@@ -41,14 +41,6 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         cells.push(reversed(fitted));
     }
     cells
-}
-
-fn named(fitted: &FittedModel<'_>, rows: &[usize]) -> String {
-    let first = fitted.design.recorded(rows[0]).start + 1;
-    match fitted.design.recorded(rows[rows.len() - 1]).end {
-        last if last == first => format!("row {first}"),
-        last => format!("rows {first} to {last}"),
-    }
 }
 
 /// Rows with each other's output: successive ones, and among those that agree worst with the others any two.
@@ -68,9 +60,7 @@ fn swapped(fitted: &FittedModel<'_>) -> Cell {
             let mut modifier = vec![0.0; rows];
             modifier[first] = step;
             modifier[second] = -step;
-            let unit = fitted.case().responses[response].unit.difference();
-            let text = format!("exchange of {label}");
-            on_output(Modifier::new(modifier, text, unit)).on(response)
+            added(fitted, response, modifier, format!("exchange of {label}"))
         });
         // All responses of a row are exchanged together: one coefficient.
         Variation::of(label.clone(), tied(terms.collect()))
@@ -81,25 +71,14 @@ fn swapped(fitted: &FittedModel<'_>) -> Cell {
 /// The model fitted without single rows, which may have bent the fit; all rows alike.
 struct Deleted<'g, 'f> {
     fitted: &'g FittedModel<'f>,
-    absorbed: Absorbed,
-    /// What the parameters leave of the residuals; what is still to be recorded has none.
-    rest: DVector<f64>,
-    /// What they take up of them, where rows had weights.
+    /// What the parameters take up of the residuals, where rows had weights.
     taken: DVector<f64>,
 }
 
 impl<'g, 'f> Deleted<'g, 'f> {
     fn new(fitted: &'g FittedModel<'f>) -> Self {
-        let absorbed = Absorbed::by_parameters(fitted);
-        let known = |r: f64| if r.is_finite() { r } else { 0.0 };
-        let residuals = fitted.fit.residuals.map(known);
-        let rest = absorbed.rest(&residuals);
-        Deleted {
-            fitted,
-            absorbed,
-            taken: residuals - &rest,
-            rest,
-        }
+        let taken = fitted.fit.residuals.map(known) - &fitted.absorbed().left;
+        Deleted { fitted, taken }
     }
 
     fn places(&self, rows: &[usize]) -> Vec<usize> {
@@ -111,11 +90,12 @@ impl<'g, 'f> Deleted<'g, 'f> {
     /// How far some observations bend the fit where they stand: H(1 − H)⁻¹r with their residuals r and their block
     /// H of the hat matrix.
     fn bent(&self, places: &[usize]) -> DVector<f64> {
-        let hat = self.absorbed.hat(places);
+        let absorbed = self.fitted.absorbed();
+        let hat = absorbed.hat(places);
         let left = DMatrix::identity(places.len(), places.len()) - &hat;
         // Rows without which a parameter is not determined say nothing of themselves.
         let determined = left.symmetric_eigenvalues().min() > UNDETERMINED;
-        let residuals = self.rest.select_rows(places);
+        let residuals = absorbed.left.select_rows(places);
         let solved = determined.then(|| left.lu().solve(&residuals)).flatten();
         solved.map_or_else(|| DVector::zeros(places.len()), |solved| hat * solved)
     }
@@ -138,7 +118,7 @@ impl<'g, 'f> Deleted<'g, 'f> {
         let mut squares = vec![0.0; rows];
         let distances = (0..rows).map(|row| {
             let places = self.places(&[row]);
-            self.rest.select_rows(&places) + self.bent(&places)
+            self.fitted.absorbed().left.select_rows(&places) + self.bent(&places)
         });
         let distances: Vec<DVector<f64>> = distances.collect();
         for response in 0..self.fitted.case().responses.len() {

@@ -11,39 +11,19 @@ use super::fitted::FittedModel;
 /// Ratio of variances from which on an effect shows.
 const SHOWS: f64 = 16.0;
 
-/// What the residuals say of regressors.
-struct Residuals<'g, 'f> {
-    fitted: &'g FittedModel<'f>,
-    absorbed: Absorbed,
-    rest: DVector<f64>,
+/// What the residuals say of regressors. Outputs of several axes have laws of their own and are left alone.
+fn residuals<'g>(fitted: &'g FittedModel<'_>) -> Option<&'g Absorbed> {
+    (fitted.case().responses.len() == 1).then(|| fitted.absorbed())
 }
 
-impl<'g, 'f> Residuals<'g, 'f> {
-    /// Outputs of several axes have laws of their own and are left alone.
-    fn of(fitted: &'g FittedModel<'f>) -> Option<Residuals<'g, 'f>> {
-        if fitted.case().responses.len() != 1 {
-            return None;
-        }
-        let absorbed = Absorbed::by_parameters(fitted);
-        let rest = absorbed.rest(&fitted.fit.residuals);
-        Some(Residuals {
-            fitted,
-            absorbed,
-            rest,
-        })
-    }
-
-    fn power(&self, term: &Term) -> f64 {
-        self.power_of(&self.fitted.column(term))
-    }
-
+impl Absorbed {
     /// Sum of squares that a regressor takes away from the residuals.
-    fn power_of(&self, column: &DVector<f64>) -> f64 {
+    fn power(&self, column: &DVector<f64>) -> f64 {
         /// A regressor of which the parameters leave less than this (squared) is invisible.
         const LEAST: f64 = 1e-10;
-        let rest = self.absorbed.rest(column);
+        let rest = self.rest(column);
         let shows = rest.norm_squared() > LEAST * column.norm_squared();
-        let power = along(&rest, &self.rest);
+        let power = along(&rest, &self.left);
         if shows && power.is_finite() {
             power
         } else {
@@ -52,14 +32,14 @@ impl<'g, 'f> Residuals<'g, 'f> {
     }
 
     fn shows(&self, power: f64) -> bool {
-        let left = self.rest.norm_squared() - power;
+        let left = self.left.norm_squared() - power;
         power * self.degrees() > SHOWS * left
     }
 
     /// Degrees of freedom beside the parameters and one effect.
     fn degrees(&self) -> f64 {
-        let used = self.absorbed.directions() + 1;
-        self.rest.len().saturating_sub(used) as f64
+        let used = self.directions() + 1;
+        self.left.len().saturating_sub(used) as f64
     }
 }
 
@@ -72,10 +52,10 @@ pub(super) fn sharpened(
     if grid.len() < 2 || grid.iter().any(|value| *value <= 0.0) {
         return grid;
     }
-    let Some(residuals) = Residuals::of(fitted) else {
+    let Some(residuals) = residuals(fitted) else {
         return grid;
     };
-    let power = |value: f64| residuals.power(&term(value));
+    let power = |value: f64| residuals.power(&fitted.column(&term(value)));
     let powers: Vec<f64> = grid.iter().copied().map(power).collect();
     let best = largest_at(&powers);
     if !residuals.shows(powers[best]) {
@@ -92,8 +72,9 @@ pub(super) fn best(
     fitted: &FittedModel<'_>,
     terms: &mut dyn Iterator<Item = Term>,
 ) -> Option<usize> {
-    let residuals = Residuals::of(fitted)?;
-    let powers: Vec<f64> = terms.map(|term| residuals.power(&term)).collect();
+    let residuals = residuals(fitted)?;
+    let powers = terms.map(|term| residuals.power(&fitted.column(&term)));
+    let powers: Vec<f64> = powers.collect();
     let best = largest_at(&powers);
     let shows = powers
         .get(best)
@@ -103,10 +84,11 @@ pub(super) fn best(
 
 /// The size of a term by itself, where an effect of this kind shows at all.
 pub(super) fn size_of(fitted: &FittedModel<'_>, term: &Term) -> Option<f64> {
-    let residuals = Residuals::of(fitted)?;
-    let rest = residuals.absorbed.rest(&fitted.column(term));
-    let shows = residuals.shows(residuals.power(term));
-    shows.then(|| rest.dot(&residuals.rest) / rest.norm_squared())
+    let residuals = residuals(fitted)?;
+    let column = fitted.column(term);
+    let rest = residuals.rest(&column);
+    let shows = residuals.shows(residuals.power(&column));
+    shows.then(|| rest.dot(&residuals.left) / rest.norm_squared())
 }
 
 /// The best of many regressors, where it alone explains nearly all of the residuals.
@@ -120,14 +102,14 @@ pub(super) fn nearly_all(
     const CHANCE: f64 = 1e-3;
     /// Rounding of powers.
     const EQUAL: f64 = 1e-9;
-    let residuals = Residuals::of(fitted)?;
-    let powers: Vec<f64> = columns.map(|column| residuals.power_of(&column)).collect();
+    let residuals = residuals(fitted)?;
+    let powers: Vec<f64> = columns.map(|column| residuals.power(&column)).collect();
     // Rows in which nothing is to be seen belong to either side: the first of equal ones.
     let most = powers.iter().copied().fold(0.0, f64::max);
     let best = powers
         .iter()
         .position(|power| *power >= (1.0 - EQUAL) * most)?;
-    let (power, whole) = (powers[best], residuals.rest.norm_squared());
+    let (power, whole) = (powers[best], residuals.left.norm_squared());
     let degrees = residuals.degrees().max(1.0);
     let by_chance = f_sf(power * degrees / (whole - power).max(0.0), 1.0, degrees);
     let is_chosen = power > SHARE * whole && powers.len() as f64 * by_chance < CHANCE;
@@ -143,12 +125,10 @@ pub(super) fn best_pair(
 ) -> Option<(f64, f64)> {
     /// Values nearer to one another are one.
     const APART: f64 = 2.5;
-    let residuals = Residuals::of(fitted)?;
-    let rests: Vec<DVector<f64>> = grid
-        .iter()
-        .map(|value| residuals.absorbed.rest(&fitted.column(&term(*value))))
-        .collect();
-    let single = |at: usize| along(&rests[at], &residuals.rest);
+    let absorbed = residuals(fitted)?;
+    let rest = |value: &f64| absorbed.rest(&fitted.column(&term(*value)));
+    let rests: Vec<DVector<f64>> = grid.iter().map(rest).collect();
+    let single = |at: usize| along(&rests[at], &absorbed.left);
     let alone = (0..grid.len()).map(single).fold(0.0, f64::max);
     let mut found = None;
     let mut most = 0.0;
@@ -157,15 +137,15 @@ pub(super) fn best_pair(
             // What the second adds to the first.
             let size = rests[i].norm_squared();
             let second = &rests[j] - &rests[i] * (rests[j].dot(&rests[i]) / size);
-            let together = single(i) + along(&second, &residuals.rest);
+            let together = single(i) + along(&second, &absorbed.left);
             if together > most {
                 (most, found) = (together, Some((grid[i], grid[j])));
             }
         }
     }
     let gain = most - alone;
-    let left = residuals.rest.norm_squared() - most;
-    let degrees = residuals.rest.len() as f64;
+    let left = absorbed.left.norm_squared() - most;
+    let degrees = absorbed.left.len() as f64;
     found.filter(|_| gain * degrees > SHOWS * left)
 }
 
@@ -180,9 +160,8 @@ fn along(column: &DVector<f64>, residuals: &DVector<f64>) -> f64 {
 }
 
 fn largest_at(powers: &[f64]) -> usize {
-    (0..powers.len())
-        .max_by(|a, b| powers[*a].total_cmp(&powers[*b]))
-        .unwrap_or(0)
+    let places = 0..powers.len();
+    (places.max_by(|a, b| powers[*a].total_cmp(&powers[*b]))).unwrap_or(0)
 }
 
 /// The highest point between two values, on a logarithmic scale.

@@ -1,13 +1,15 @@
 //! Laws of time: drift, ageing, warm-up, season, steps.
 
+use std::ops::Range;
+
 use nalgebra::DVector;
 
-use super::building::{form, on_node, on_output, timed, wave};
+use super::angles::runs;
+use super::building::{decay, form, on_node, on_output, timed, wave};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, five_digits, flag, grid, map, range};
 use super::sharp::{self, nearly_all, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variation};
-use crate::diagnose::case::Role;
 use gumption_core::quantity::Unit;
 
 /// More steps than that are not scanned.
@@ -50,35 +52,27 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let steps = steps(fitted, &along);
     add(&[EffectId::Step, EffectId::StepScale], steps);
     if fitted.is_timed() {
-        let unit = fitted.time_unit();
-        let decay = |tau: f64| {
-            let modifier = map(&since, |t| libm::exp(-t / tau));
-            let text = format!("exp(-{began}/({} {unit}))", figure(tau));
-            on_output(Modifier::number(modifier, text))
+        let dying = |since: &[f64], began: &str, tau: f64| {
+            on_output(decay(since, began, tau, &fitted.duration(tau)))
         };
-        let scales = sharpened(fitted, scales, &decay);
+        let once = |tau: f64| dying(&since, &began, tau);
+        let scales = sharpened(fitted, scales, &once);
         let singles = fitted.finer.times(scales.clone());
         let single = singles
             .iter()
-            .map(|tau| timed(fitted, &[five_digits(*tau)], vec![decay(*tau)]));
+            .map(|tau| timed(fitted, &[five_digits(*tau)], vec![once(*tau)]));
         // A small body warms in a large one.
         let double = scales.iter().step_by(2).map(|tau| {
-            let terms = vec![decay(*tau), decay(4.0 * tau)];
+            let terms = vec![once(*tau), once(4.0 * tau)];
             timed(fitted, &[*tau, 4.0 * tau], terms)
         });
         let since_start = started(fitted);
         let anew = since_start.iter().flat_map(|since| {
-            let unit = &unit;
-            scales.iter().map(move |tau| {
-                let shown = figure(*tau);
-                let modifier = map(since, |t| libm::exp(-t / tau));
-                let text = format!("exp(-(time since the start of the run)/({shown} {unit}))");
-                let label = format!("τ = {shown} {unit}, anew in each run");
-                form(label, vec![Modifier::number(modifier, text)]).shaped(
-                    "τ",
-                    five_digits(*tau),
-                    unit,
-                )
+            scales.iter().map(|tau| {
+                let term = dying(since, "(time since the start of the run)", *tau);
+                let mut form = timed(fitted, &[five_digits(*tau)], vec![term]);
+                form.label += ", anew in each run";
+                form
             })
         });
         let decays = single.chain(double).chain(anew).collect();
@@ -105,24 +99,13 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
 /// The time since the start of each run, where the instrument was off before it for longer than it then was on; nothing where it was
 /// not, or where there is one run.
 fn started(fitted: &FittedModel<'_>) -> Option<Vec<f64>> {
-    let case = fitted.case();
-    let runs = case.with_role(Role::Run).next()?;
-    let labels = case.columns[runs].labels()?;
-    let t = &fitted.clock.values;
-    let mut since = Vec::with_capacity(t.len());
-    let (mut start, mut count) = (*t.first()?, 1);
-    for row in 0..t.len() {
-        if row > 0 && labels.of_row[row] != labels.of_row[row - 1] {
-            let (pause, on) = (t[row] - t[row - 1], t[row - 1] - start);
-            if pause <= on {
-                return None;
-            }
-            start = t[row];
-            count += 1;
-        }
-        since.push(t[row] - start);
-    }
-    (count > 1).then_some(since)
+    let (t, runs) = (&fitted.clock.values, runs(fitted));
+    let rested = |pair: &[Range<usize>]| {
+        let (start, last, next) = (t[pair[0].start], t[pair[0].end - 1], t[pair[1].start]);
+        next - last > last - start
+    };
+    let since = (runs.iter()).flat_map(|run| map(&t[run.clone()], |own| own - t[run.start]));
+    (runs.len() > 1 && runs.windows(2).all(rested)).then(|| since.collect())
 }
 
 /// A stretch of rows that alone is nearly all that is left.
@@ -137,51 +120,41 @@ fn stretch(fitted: &FittedModel<'_>, along: &str, node: Node, id: EffectId) -> O
     let all: Vec<(usize, usize)> = (2..blocks.len().saturating_sub(LEAST + 1))
         .flat_map(ends)
         .collect();
-    let within = |(first, end): (usize, usize)| {
-        let (from, to) = (blocks[first][0], blocks[end][0]);
-        let values = (0..fitted.rows()).map(|at| f64::from(u8::from((from..to).contains(&at))));
-        let [number, last] = [from, to - 1].map(|row| fitted.design.recorded(row));
-        let label = format!("rows {} to {}", number.start + 1, last.end);
-        let modifier = Modifier::number(values.collect(), format!("[{label}]"));
-        (label, modifier)
-    };
     // What the node does in all blocks, of which a stretch has some.
     let everywhere = Modifier::number(vec![1.0; fitted.rows()], "1");
     let whole = fitted.column(&Term::new(node, everywhere));
     let mut columns = all.iter().map(|(first, end)| {
-        let part = whole.iter().enumerate();
-        let part = part.map(|(block, x)| {
-            if (*first..*end).contains(&block) {
-                *x
-            } else {
-                0.0
-            }
-        });
-        DVector::from_iterator(whole.len(), part)
+        let inside = |block: usize| (*first..*end).contains(&block);
+        DVector::from_fn(
+            whole.len(),
+            |block, _| if inside(block) { whole[block] } else { 0.0 },
+        )
     });
-    let found = all[nearly_all(fitted, &mut columns)?];
-    let (label, modifier) = within(found);
+    let (first, end) = all[nearly_all(fitted, &mut columns)?];
+    let (from, to) = (blocks[first][0], blocks[end][0]);
+    let inside = (0..fitted.rows()).map(|row| flag((from..to).contains(&row)));
+    let label = fitted.design.called(from, to - 1);
+    let within = Modifier::number(inside.collect(), format!("[{label}]"));
     Some(on_node(
         fitted,
         id,
         along,
         node,
-        [form(label, vec![modifier])],
+        [form(label, vec![within])],
     ))
 }
 
 /// Drifts that are not steady: bent, and slowing down with the logarithm of time, as where many processes
 /// relax, or with its root, as where something diffuses.
 fn curved(fitted: &FittedModel<'_>, since: &[f64], began: &str, scales: &[f64]) -> Vec<Variation> {
-    let unit = fitted.time_unit();
     let logarithms = scales.iter().map(|scale| {
-        let shown = figure(*scale);
+        let shown = fitted.duration(*scale);
         let slowing = Modifier::number(
             map(since, |t| libm::log1p(t / scale)),
-            format!("ln(1 + {began}/({shown} {unit}))"),
+            format!("ln(1 + {began}/({shown}))"),
         );
-        let label = format!("slowing down, t₀ = {shown} {unit}");
-        form(label, vec![slowing]).shaped("t₀", five_digits(*scale), &unit)
+        let form = form(format!("slowing down, t₀ = {shown}"), vec![slowing]);
+        form.shaped("t₀", five_digits(*scale), &fitted.time_unit())
     });
     let per_root = fitted.clock_unit().powr(1, 2).unwrap_or_else(Unit::one);
     let root = Modifier::new(map(since, libm::sqrt), format!("sqrt({began})"), per_root);

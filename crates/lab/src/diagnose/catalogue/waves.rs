@@ -4,10 +4,10 @@
 
 use std::f64::consts::TAU;
 
-use super::angles::harmonic;
+use super::angles::harmonics;
 use super::building::{form, on_node, wave};
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{correlation, figure, levels_of, map, range, rounded};
+use super::modifiers::{amount, correlation, figure, levels_of, map, range, rounded};
 use super::sharp::summit;
 use super::{Cell, EffectId};
 use crate::diagnose::case::Role;
@@ -24,27 +24,17 @@ const FINE: usize = 130;
 /// Highest peaks of the residuals' spectrum, to which the nearest frequency is moved.
 const PEAKS: usize = 3;
 
-/// What a wave may follow.
-struct Course {
-    name: String,
-    /// What reports call it: where a stimulus went on with the time, both.
-    words: String,
-    unit: String,
-    /// Its column; none for the time.
-    column: Option<usize>,
-    values: Vec<f64>,
-}
-
 /// One cell for each course.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let courses = courses(fitted).into_iter();
-    let of_courses = courses.filter_map(|course| periods(fitted, &course));
+    let of_courses = courses.filter_map(|(column, words)| periods(fitted, column, words));
     let turning = super::angles::angles(fitted).into_iter();
     let of_angles = turning.filter_map(|column| lines(fitted, column));
     of_courses.chain(of_angles).collect()
 }
 
-fn courses(fitted: &FittedModel<'_>) -> Vec<Course> {
+/// What a wave may follow, a column or the time, and what reports call it: where a stimulus went on with the time, both.
+fn courses(fitted: &FittedModel<'_>) -> Vec<(Option<usize>, String)> {
     let case = fitted.case();
     // Where a stimulus or an angle went on with the time, a wave is one over that.
     let goes_on = |column: &usize| {
@@ -52,38 +42,27 @@ fn courses(fitted: &FittedModel<'_>) -> Vec<Course> {
             && correlation(fitted.numbers(*column), &fitted.clock.values).abs() > 0.999
     };
     let called = |column: usize| {
-        let name = &case.columns[column].name;
+        let name = fitted.label(column).to_owned();
         match fitted.is_timed() && goes_on(&column) {
             true => format!("{name} ({})", fitted.along_time()),
-            false => name.clone(),
+            false => name,
         }
     };
-    let stimuli = fitted.used(Role::Stimulus).map(|column| Course {
-        name: case.columns[column].name.clone(),
-        words: called(column),
-        unit: fitted.unit(column),
-        column: Some(column),
-        values: fitted.numbers(column).to_vec(),
-    });
-    let mut courses: Vec<Course> = stimuli.collect();
-    if fitted.is_ordered() && !(0..case.columns.len()).any(|column| goes_on(&column)) {
-        courses.push(Course {
-            name: fitted.along_time(),
-            words: fitted.along_time(),
-            unit: fitted.time_unit(),
-            column: None,
-            values: fitted.clock.values.clone(),
-        });
-    }
-    courses
+    let stimuli = fitted.used(Role::Stimulus);
+    let stimuli = stimuli.map(|column| (Some(column), called(column)));
+    let time = fitted.is_ordered() && !(0..case.columns.len()).any(|column| goes_on(&column));
+    let time = time.then(|| (None, fitted.along_time()));
+    stimuli.chain(time).collect()
 }
 
-fn periods(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
-    let blocks = fitted.design.reduced(&course.values);
+fn periods(fitted: &FittedModel<'_>, column: Option<usize>, words: String) -> Option<Cell> {
+    let (name, course) = fitted.course(column);
+    let unit = column.map_or_else(|| fitted.time_unit(), |column| fitted.unit(column));
+    let blocks = fitted.design.reduced(course);
     let (least, most) = range(&blocks);
     let distinct = levels_of(&blocks);
     let span = most - least;
-    let values = match course.column {
+    let values = match column {
         Some(_) => set_points(&distinct),
         None => distinct.len(),
     };
@@ -104,20 +83,19 @@ fn periods(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
     let periods = frequencies.iter().map(|frequency| 1.0 / frequency);
     let periods = fitted.finer.times(periods.collect());
     let least = rounded(least, 1e-4 * span);
-    let began = match course.column {
+    let began = match column {
         Some(column) => fitted.less(column, least),
         None => fitted.time_less(least),
     };
     let forms = periods.into_iter().map(|period| {
-        let phase = map(&course.values, |x| TAU * (x - least) / period);
-        let shown = format!("{} {}", figure(period), course.unit);
-        let shown = shown.trim_end();
+        let phase = map(course, |x| TAU * (x - least) / period);
+        let shown = amount(figure(period), &unit);
         let argument = format!("2*pi*{began}/({shown})");
         let label = format!("period {shown}");
-        form(label, wave(&phase, &argument)).shaped("P", period, &course.unit)
+        form(label, wave(&phase, &argument)).shaped("P", period, &unit)
     });
-    let mut cell = on_node(fitted, EffectId::Wave, &course.name, Node::Output, forms);
-    cell.words.x = course.words.clone();
+    let mut cell = on_node(fitted, EffectId::Wave, &name, Node::Output, forms);
+    cell.words.x = words;
     Some(cell)
 }
 
@@ -143,18 +121,14 @@ fn set_points(ascending: &[f64]) -> usize {
 fn lines(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     /// Fewer positions are those of a test in steps, not of a scan of a graduation.
     const POSITIONS: usize = 64;
-    let phi = super::angles::radians(fitted, column);
-    let positions = super::angles::positions(&phi);
-    let (least, most) = range(&phi);
+    let positions = super::angles::positions(&super::angles::radians(fitted, column));
     if positions < POSITIONS || fitted.design.blocks.len() < fitted.rows() {
         return None;
     }
-    let name = fitted.label(column);
-    let shows = |k: &u32| f64::from(*k) * (most - least) > FEWEST_PERIODS * TAU;
     let last = u32::try_from((positions - 1) / 2).ok()?;
-    let forms = (super::angles::HIGHEST + 1..=last).filter(shows);
-    let forms = forms.map(|k| harmonic(&phi, name, k));
-    let id = EffectId::Wave;
+    let orders = super::angles::HIGHEST + 1..=last;
+    let forms = harmonics(fitted, column, orders, FEWEST_PERIODS * TAU);
+    let (id, name) = (EffectId::Wave, fitted.label(column));
     Some(on_node(fitted, id, name, Node::Output, forms))
 }
 

@@ -20,22 +20,19 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         let exact = matches!(data.role, Role::Stimulus | Role::Angle | Role::Time);
         // A direction or a switch by which the model multiplies has no scale to be wrong.
         let has_scale = !data.unit.is_one() || fitted.is_direct(column);
-        let exact = exact && has_scale;
-        let Some(numbers) = data.numbers().filter(|_| exact && fitted.in_model(column)) else {
-            continue;
-        };
-        let node = Node::Column(column);
-        let own = Modifier::new(numbers.to_vec(), &data.name, fitted.step_unit(column));
-        cells.push(cell(fitted, EffectId::ZeroOf, node, shift()));
-        cells.push(cell(fitted, EffectId::FactorOf, node, own));
+        if exact && has_scale && fitted.in_model(column) && data.numbers().is_some() {
+            let node = Node::Column(column);
+            cells.push(cell(fitted, EffectId::ZeroOf, node, shift()));
+            cells.push(cell(fitted, EffectId::FactorOf, node, fitted.own(column)));
+        }
     }
-    let absorbed = Absorbed::by_parameters(fitted);
+    let absorbed = fitted.absorbed();
     let shows = |variation: &Variation| absorbed.leaves_of(fitted, variation).contains(&true);
     for cell in &mut cells {
         cell.variants.retain(shows);
     }
     cells.retain(|cell| !cell.variants.is_empty());
-    cells.extend(of_output(fitted, &absorbed, &cells));
+    cells.extend(of_output(fitted, absorbed, &cells));
     cells
 }
 
@@ -51,16 +48,13 @@ fn of_output(fitted: &FittedModel<'_>, absorbed: &Absorbed, others: &[Cell]) -> 
     let column = |cell: &Cell| fitted.column(&cell.variants[0].terms[0]);
     let own = column(&cell);
     let rest = absorbed.rest(&own);
-    let is_such = |other: &Cell| {
+    let has_it = |other: &Cell| {
         let other = absorbed.rest(&column(other));
         let both = rest.dot(&other).abs();
         other.norm() > 0.0 && both > SAME * rest.norm() * other.norm()
     };
-    let factors = others
-        .iter()
-        .filter(|cell| cell.effect.id == EffectId::FactorOf);
-    let told = factors.into_iter().any(is_such);
-    (!told && absorbed.leaves(&own)).then_some(cell)
+    let told = |other: &Cell| other.effect.id == EffectId::FactorOf && has_it(other);
+    (!others.iter().any(told) && absorbed.leaves(&own)).then_some(cell)
 }
 
 fn cell(fitted: &FittedModel<'_>, id: EffectId, node: Node, modifier: Modifier) -> Cell {

@@ -68,8 +68,8 @@ impl Baseline {
     ///
     /// # Errors
     ///
-    /// Sizes that disagree, numbers that are not finite, a covariance matrix that is none, parameters
-    /// that the recording does not determine, and recordings without a degree of freedom.
+    /// Numbers that are not finite, a covariance matrix that is none, parameters that the recording does
+    /// not determine, and recordings without a degree of freedom.
     pub fn new(
         jacobian: &DMatrix<f64>,
         residuals: &DVector<f64>,
@@ -77,16 +77,10 @@ impl Baseline {
         prior: &Prior,
     ) -> Result<Baseline, Refusal> {
         let (rows, parameters) = jacobian.shape();
-        let known = prior.residuals.len();
-        let covariances = [&noise.covariance].into_iter().chain(&noise.draws);
-        let fit = covariances.map(Covariance::rows).all(|own| own == rows);
-        if !fit || residuals.len() != rows || prior.jacobian.shape() != (known, parameters) {
-            return Err(Refusal::Sizes);
-        }
         check_finite(jacobian, residuals, prior)?;
         let whitener = Factor::whitening(&noise.covariance)?;
         let draws = factors(&noise.draws)?;
-        let total = rows + known;
+        let total = rows + prior.residuals.len();
         if total <= parameters {
             return Err(Refusal::NoFreedom {
                 rows: total,
@@ -355,7 +349,7 @@ fn stacked(above: DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture::white;
+    use super::super::fixture::{beside, white};
     use super::*;
 
     fn line(prior: &Prior, residuals: &[f64]) -> Result<Baseline, Refusal> {
@@ -409,10 +403,13 @@ mod tests {
         DMatrix::from_fn(n, n, |i, j| libm::pow(phi, i.abs_diff(j) as f64))
     }
 
+    fn slopes(n: usize) -> DMatrix<f64> {
+        DMatrix::from_fn(n, 2, |i, j| libm::pow(i as f64 / n as f64, j as f64))
+    }
+
     fn long_line(n: usize, residuals: &DVector<f64>) -> Baseline {
-        let jacobian = DMatrix::from_fn(n, 2, |i, j| libm::pow(i as f64 / n as f64, j as f64));
         let noise = Noise::with_scale_dof(Covariance::Diagonal(DVector::from_element(n, 4.0)), 0.0);
-        Baseline::new(&jacobian, residuals, &noise, &Prior::none(2)).unwrap()
+        beside(&slopes(n), residuals, &noise)
     }
 
     #[test]
@@ -428,7 +425,7 @@ mod tests {
     fn the_spread_with_other_noise_is_that_of_the_matrices() {
         let (n, matrix) = (12, remembering(12, 0.7));
         let spread = long_line(n, &DVector::zeros(n)).spread(&Covariance::Dense(&matrix * 4.0));
-        let jacobian = DMatrix::from_fn(n, 2, |i, j| libm::pow(i as f64 / n as f64, j as f64));
+        let jacobian = slopes(n);
         let solve = (jacobian.tr_mul(&jacobian)).try_inverse().unwrap() * jacobian.transpose();
         let variances = (&solve * &matrix * solve.transpose()).diagonal() * 4.0;
         assert!((spread.variances - &variances).norm() < 1e-9 * variances.norm());

@@ -86,15 +86,12 @@ struct Seen<'c> {
 }
 
 /// Whether effects beat correlated noise.
-///
-/// # Errors
-/// Atoms that do not fit the recording.
 pub fn contest(
     courses: &[Course],
     candidates: &[Candidate],
     atoms: &[Atom],
     settings: &Settings,
-) -> Result<Contest, Refusal> {
+) -> Contest {
     let alone: Vec<f64> = courses.iter().map(Course::log_posterior).collect();
     let top = maximum(&alone);
     let weights: Vec<f64> = alone.iter().map(|l| libm::exp(l - top)).collect();
@@ -103,29 +100,28 @@ pub fn contest(
     let simulated: Vec<Baseline> = (courses.iter())
         .map(|course| course.baseline.clone().with_draws(null.clone()))
         .collect();
-    let see = |at: usize| -> Result<Seen<'_>, Refusal> {
+    let see = |at: usize| {
         let question = Question {
             baseline: &simulated[at],
             candidates,
             atoms,
             settings: settings.clone(),
         };
-        let space = Space::new(&question)?;
+        let space = Space::new(&question);
         let frame = space.empty();
         let strongest = Panel::new(&space, &question, &frame).observed(&space, 0.0);
         let gain = strongest.map_or(0.0, |one| one.statistic);
         let two = Singles::new(&space, &question).observed(&space);
-        Ok(Seen {
+        Seen {
             course: &courses[at],
             alone: alone[at],
             with: alone[at] + gain.max(two).max(0.0),
             space,
             frame,
             question,
-        })
+        }
     };
-    let seen = side_by_side(courses.len(), see).into_iter();
-    let seen: Vec<Seen<'_>> = seen.collect::<Result<_, _>>()?;
+    let seen: Vec<Seen<'_>> = side_by_side(courses.len(), see);
     let with: Vec<f64> = seen.iter().map(|one| one.with).collect();
     let observed = maximum(&with) - top;
     let likely =
@@ -133,7 +129,7 @@ pub fn contest(
     let likely: Vec<&Seen<'_>> = seen.iter().filter(likely).collect();
     let benches: Vec<Bench<'_>> = likely.iter().map(|one| Bench::new(one)).collect();
     let p = probability(&benches, observed, settings);
-    Ok(Contest { p, alone, with })
+    Contest { p, alone, with }
 }
 
 /// Probability that the best effect gains as much in recordings with nothing but noise, the course chosen anew in each.
@@ -162,22 +158,20 @@ fn probability(benches: &[Bench<'_>], observed: f64, settings: &Settings) -> f64
 
 /// A course with recordings to try it on.
 struct Bench<'s> {
-    course: &'s Course,
+    seen: &'s Seen<'s>,
     simulated: Simulated<'s>,
     panel: Panel<'s>,
-    space: &'s Space,
     singles: Singles,
 }
 
 impl<'s> Bench<'s> {
-    fn new(seen: &'s Seen<'_>) -> Bench<'s> {
+    fn new(seen: &'s Seen<'s>) -> Bench<'s> {
         let settings = &seen.question.settings;
         let draws = settings.draws.min(DRAWS);
         Bench {
-            course: seen.course,
+            seen,
             simulated: Simulated::new(seen.question.baseline, &seen.space, settings.seed, draws),
             panel: Panel::new(&seen.space, &seen.question, &seen.frame),
-            space: &seen.space,
             singles: Singles::new(&seen.space, &seen.question),
         }
     }
@@ -191,10 +185,11 @@ impl<'s> Bench<'s> {
         let rss: Vec<f64> = (sums.iter().zip(&recordings.offsets))
             .map(|(sum, offset)| sum + offset)
             .collect();
-        let pairs = (self.singles).in_turn(self.space, &recordings.components, &rss);
+        let pairs = (self.singles).in_turn(&self.seen.space, &recordings.components, &rss);
         let each = sums.iter().zip(gains).zip(pairs);
         let both = each.map(|((sum, [gain, _]), two)| {
-            let alone = self.course.log_prior + self.course.baseline.log_likelihood_of(*sum);
+            let course = self.seen.course;
+            let alone = course.log_prior + course.baseline.log_likelihood_of(*sum);
             [alone, alone + gain.max(two).max(0.0)]
         });
         both.collect()
@@ -221,6 +216,7 @@ impl Baseline {
     }
 }
 
-fn maximum(values: &[f64]) -> f64 {
+/// The largest; −∞ of none.
+pub fn maximum(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
 }

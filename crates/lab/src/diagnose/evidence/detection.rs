@@ -98,7 +98,6 @@ fn as_well_placed(observed: [f64; 2], draws: &[[f64; 2]]) -> usize {
 /// All blocks that may be left beside a set, side by side.
 pub(super) struct Panel<'a> {
     beside: Remainders<'a>,
-    frame: &'a Frame,
     /// Named rests that differ in their directions only: the best of them is the one with the best fit.
     classes: Vec<Vec<usize>>,
     generics: Vec<usize>,
@@ -121,7 +120,6 @@ impl<'a> Panel<'a> {
         }
         Panel {
             beside,
-            frame,
             classes: classes.into_values().collect(),
             generics,
         }
@@ -150,7 +148,7 @@ impl<'a> Panel<'a> {
         pairs: Option<&Pairs>,
     ) -> Vec<[f64; 2]> {
         let (space, lanes) = (self.beside.space, recordings.errors.nrows());
-        let set = &recordings.errors * &self.frame.basis;
+        let set = &recordings.errors * &self.beside.frame.basis;
         let residuals = recordings.residuals(&set, self.beside.residual);
         let mut reduced;
         let components = if set.ncols() == 0 {

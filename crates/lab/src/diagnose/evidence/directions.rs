@@ -121,8 +121,23 @@ pub(in crate::diagnose) fn without(columns: &DMatrix<f64>, basis: &DMatrix<f64>)
 
 /// Matrices side by side; nothing of none.
 pub fn all(parts: impl Iterator<Item = DMatrix<f64>>) -> DMatrix<f64> {
-    let all = parts.reduce(|left, right| joined(&left, &right));
-    all.unwrap_or_else(|| DMatrix::zeros(0, 0))
+    let parts: Vec<DMatrix<f64>> = parts.collect();
+    let rows = parts.first().map_or(0, DMatrix::nrows);
+    side_by_side(rows, parts.iter())
+}
+
+/// Matrices of so many rows side by side.
+pub fn side_by_side<'m>(
+    rows: usize,
+    parts: impl Iterator<Item = &'m DMatrix<f64>> + Clone,
+) -> DMatrix<f64> {
+    let mut all = DMatrix::zeros(rows, parts.clone().map(DMatrix::ncols).sum());
+    let mut start = 0;
+    for part in parts {
+        all.columns_mut(start, part.ncols()).copy_from(part);
+        start += part.ncols();
+    }
+    all
 }
 
 /// A⁻¹ by least squares: coefficients of columns are A⁻¹z, and their covariance matrix is A⁻¹A⁻ᵀ where z has unit variance.
@@ -131,9 +146,8 @@ pub fn inverse(columns: &DMatrix<f64>) -> DMatrix<f64> {
     /// Directions that columns of unit length reach no further have none.
     const FLAT: f64 = 1e-10;
     // Units of columns may be very different.
-    let lengths: Vec<f64> = columns.column_iter().map(|c| c.norm()).collect();
-    let scale = |length: &f64| if *length > 0.0 { 1.0 / length } else { 0.0 };
-    let scales: Vec<f64> = lengths.iter().map(scale).collect();
+    let scale = |length: f64| if length > 0.0 { 1.0 / length } else { 0.0 };
+    let scales: Vec<f64> = columns.column_iter().map(|c| scale(c.norm())).collect();
     let mut unit = columns.clone();
     for (mut column, scale) in unit.column_iter_mut().zip(&scales) {
         column *= *scale;
@@ -147,19 +161,14 @@ pub fn inverse(columns: &DMatrix<f64>) -> DMatrix<f64> {
 }
 
 pub(super) fn joined(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut out = DMatrix::zeros(right.nrows(), left.ncols() + right.ncols());
-    out.columns_mut(0, left.ncols()).copy_from(left);
-    out.columns_mut(left.ncols(), right.ncols())
-        .copy_from(right);
-    out
+    side_by_side(right.nrows(), [left, right].into_iter())
 }
 
 #[cfg(test)]
 mod tests {
     use nalgebra::DVector;
 
-    use super::super::baseline::Prior;
-    use super::super::fixture::white;
+    use super::super::fixture::{beside, white};
     use super::*;
 
     #[test]
@@ -168,10 +177,7 @@ mod tests {
         let rounded = |row: usize, digits: f64| (libm::cos(angle(row)) * digits).round() / digits;
         let free = |digits: f64, columns: &DMatrix<f64>| {
             let jacobian = DMatrix::from_fn(20, 1, |row, _| rounded(row, digits));
-            let noise = white(20);
-            let baseline =
-                Baseline::new(&jacobian, &DVector::zeros(20), &noise, &Prior::none(1)).unwrap();
-            determined(&baseline, columns)
+            determined(&beside(&jacobian, &DVector::zeros(20), &white(20)), columns)
         };
         let both = DMatrix::from_fn(20, 2, |row, column| match column {
             0 => libm::cos(angle(row)),

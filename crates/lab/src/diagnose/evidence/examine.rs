@@ -11,7 +11,7 @@ use super::refusal::Refusal;
 use super::search::{Search, search};
 use super::slots::{Explanation, Found, LISTED, slots};
 use super::space::Space;
-use super::unlisted::{Restated, Rivalry, leftover, unlisted};
+use super::unlisted::{Restated, leftover, stands, unlisted};
 
 /// Up to this probability of generics the named set is adequate.
 const NAMED_STANDS: f64 = 0.3;
@@ -28,12 +28,12 @@ const LEFT: f64 = 0.01;
 ///
 /// # Errors
 ///
-/// Atoms that do not fit the baseline, and [`Refusal::Cancelled`].
+/// [`Refusal::Cancelled`].
 pub fn examine(
     question: &Question,
     progress: &dyn Fn(f64) -> ControlFlow<()>,
 ) -> Result<Examination, Refusal> {
-    let space = Space::new(question)?;
+    let space = Space::new(question);
     let settings = &question.settings;
     let simulated = Simulated::new(question.baseline, &space, settings.seed, settings.draws);
     let mut search = search(&space, question, &simulated, progress)?;
@@ -138,8 +138,7 @@ fn unnamed(generic: Vec<Alternative>) -> Slot {
 /// Whether a set is better than an effect that no catalogue lists, and leaves nothing that one would be seen in.
 fn beats_unlisted(space: &Space, named: &[usize], simulated: &Simulated) -> bool {
     unlisted(space).is_none_or(|other| {
-        Rivalry::new(space, named, &other).stands(named.len())
-            && leftover(space, named, &other, simulated) >= LEFT
+        stands(space, named, &other) && leftover(space, named, &other, simulated) >= LEFT
     })
 }
 

@@ -86,18 +86,20 @@ pub(super) fn nearest(
                 candidate: block.candidate,
                 kappa,
                 alias: kappa < ALIAS * estimate.lambda,
-                resolved: resolved(kappa),
+                resolved: reached(0.0, kappa * kappa, SURE),
             }
         })
         .min_by(|a, b| a.kappa.total_cmp(&b.kappa))
 }
 
-/// Probability that the truth of two explanations reaches a posterior of 95 % when κ separates them.
-pub(super) fn resolved(kappa: f64) -> f64 {
-    if kappa > 0.0 {
-        normal_cdf((0.5 * kappa * kappa - SURE) / kappa)
-    } else {
-        0.0
+/// Probability that log odds reach a level, if what they belong to is the truth and κ² gains so much: on average they gain half
+/// of that, with a variance of the whole.
+pub(super) fn reached(odds: f64, gain: f64, level: f64) -> f64 {
+    /// Less decides nothing.
+    const NOTHING: f64 = 1e-6;
+    match gain > NOTHING {
+        true => normal_cdf((odds + 0.5 * gain - level) / gain.sqrt()),
+        false => f64::from(u8::from(odds >= level)),
     }
 }
 

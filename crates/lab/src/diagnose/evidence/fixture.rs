@@ -20,10 +20,18 @@ pub(in crate::diagnose) fn estimated(rows: usize) -> Noise {
     Noise::with_scale_dof(white(rows).covariance, 0.0)
 }
 
+/// Residuals to which parameters with these slopes were fitted, nothing being known of them beforehand.
+pub(super) fn beside(slopes: &DMatrix<f64>, residuals: &DVector<f64>, noise: &Noise) -> Baseline {
+    Baseline::new(slopes, residuals, noise, &Prior::none(slopes.ncols())).unwrap()
+}
+
 /// Residuals to which a constant was fitted, with such a noise.
 pub(in crate::diagnose) fn beside_constant(residuals: &DVector<f64>, noise: &Noise) -> Baseline {
-    let ones = DMatrix::from_element(residuals.len(), 1, 1.0);
-    Baseline::new(&ones, residuals, noise, &Prior::none(1)).unwrap()
+    beside(
+        &DMatrix::from_element(residuals.len(), 1, 1.0),
+        residuals,
+        noise,
+    )
 }
 
 /// What is asked of some residuals.
@@ -46,8 +54,10 @@ impl Asked {
     /// With a candidate whose variants are these shapes.
     pub(super) fn with(mut self, candidate: Candidate, variants: Vec<Shape>) -> Asked {
         let own = self.candidates.len();
-        self.atoms.extend((variants.into_iter()).map(|shape| Atom {
+        let variants = variants.into_iter().enumerate();
+        self.atoms.extend(variants.map(|(variant, shape)| Atom {
             candidate: own,
+            variant,
             shape,
             share: 1.0,
         }));
@@ -126,7 +136,10 @@ impl Tumble {
             self.column(|a, _| a.sin()),
             self.column(|a, _| a.cos()),
         ];
-        let (jacobian, noise) = (DMatrix::from_columns(&columns), white(residuals.len()));
-        Baseline::new(&jacobian, residuals, &noise, &Prior::none(3)).unwrap()
+        beside(
+            &DMatrix::from_columns(&columns),
+            residuals,
+            &white(residuals.len()),
+        )
     }
 }

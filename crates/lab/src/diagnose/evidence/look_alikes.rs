@@ -329,7 +329,7 @@ mod tests {
         let effect = relaxation(15.0) * 20.0 + wave() * 4.0;
         let asked = asked_of(&effect, 1);
         let question = asked.question();
-        let space = Space::new(&question).unwrap();
+        let space = Space::new(&question);
         let block = |name: &str| {
             let named = |b: &Block| question.candidates[b.candidate].name == name;
             let fit = |b: &Block| b.basis.tr_mul(&space.z).norm();

@@ -92,8 +92,8 @@ mod unlisted;
 mod unsteady;
 
 pub use baseline::{Baseline, Prior, Spread};
-pub use contest::{Contest, Course, contest};
-pub use directions::{TRACE, all, determined, inverse, left, left_beside, span};
+pub use contest::{Contest, Course, contest, maximum};
+pub use directions::{TRACE, all, determined, inverse, left, left_beside, side_by_side, span};
 pub(super) use directions::{orthonormal, without};
 pub use examine::examine;
 pub use findings::{Alternative, Examination, Fitted, Level, Rival, Slot, State, Variant, Verdict};
@@ -104,5 +104,5 @@ pub use omitted::omitted;
 pub use plan::{Pair, Plan, Seen, visibility};
 pub use question::{Atom, Candidate, Kind, Place, Question, Settings, Shape};
 pub use refusal::Refusal;
-pub use separate::{Prospects, Separability, Standing, Worth, apart, doubt};
+pub use separate::{SEPARATED, Separability, Standing, Worth, apart, doubt};
 pub use unsteady::unsteadiness;

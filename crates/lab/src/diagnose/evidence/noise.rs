@@ -99,15 +99,6 @@ impl Noise {
 }
 
 impl Covariance {
-    /// Number of rows.
-    pub fn rows(&self) -> usize {
-        match self {
-            Covariance::Diagonal(variances) => variances.len(),
-            Covariance::Dense(matrix) => matrix.nrows(),
-            Covariance::Correlated { u, .. } => u.len(),
-        }
-    }
-
     /// The same matrix, with every element written out.
     pub fn to_dense(&self) -> DMatrix<f64> {
         match self {

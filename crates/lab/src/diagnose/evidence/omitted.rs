@@ -28,32 +28,23 @@ pub fn omitted(baseline: &Baseline, columns: &DMatrix<f64>, typical: f64) -> DVe
 
 #[cfg(test)]
 mod tests {
-    use super::super::baseline::Prior;
-    use super::super::noise::{Covariance, Noise};
+    use super::super::fixture::Tumble;
     use super::*;
 
     /// Four positions, bias and scale and level fitted: half of a quadratic error sits in the bias.
-    fn four_points(sigma: f64) -> Baseline {
-        let design = [
-            [1.0, 0.0, 1.0],
-            [1.0, 1.0, 0.0],
-            [1.0, 0.0, -1.0],
-            [1.0, -1.0, 0.0],
-        ];
-        let jacobian = DMatrix::from_fn(4, 3, |i, j| design[i][j]);
-        let variances = DVector::from_element(4, sigma * sigma);
-        let noise = Noise::known(Covariance::Diagonal(variances));
-        Baseline::new(&jacobian, &DVector::zeros(4), &noise, &Prior::none(3)).unwrap()
-    }
 
     #[test]
     fn what_the_recording_does_not_see_costs_its_full_size() {
         let squared = DMatrix::from_column_slice(4, 1, &[0.0, 1.0, 0.0, 1.0]);
+        // In units of the noise.
+        let found = |sigma: f64| {
+            omitted(&Tumble::new(4, &[0.0]).baseline(), &squared, 20.0 / sigma) * sigma
+        };
         // Noise that hides everything: u(K0) is half of ±20.
-        let u = omitted(&four_points(1e6), &squared, 20.0);
+        let u = found(1e6);
         assert!((u[0] - 10.0).abs() < 1e-6 && u[1].abs() < 1e-9);
         // σ = 3: ‖A‖² = 1/9, from the contrast (−½, ½, −½, ½).
-        let u = omitted(&four_points(3.0), &squared, 20.0);
+        let u = found(3.0);
         let expected = 0.5 * 20.0 / (1.0 + 400.0 / 9.0_f64).sqrt();
         assert!((u[0] - expected).abs() < 1e-9);
     }

@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 use nalgebra::DMatrix;
 
 use super::closed_form::{Scale, named};
+use super::contest::maximum;
 use super::question::{Kind, Question};
 use super::space::Space;
 
@@ -162,8 +163,7 @@ impl Pairs {
 
     /// The greatest statistic of the recording: half the reduction of χ², with the prior odds.
     pub(super) fn observed(&self, space: &Space) -> f64 {
-        let values = self.values(space).into_iter();
-        values.fold(f64::NEG_INFINITY, f64::max)
+        maximum(&self.values(space))
     }
 
     /// The best pairs, as blocks of the space: of any two candidates the best of their variants.
@@ -248,7 +248,7 @@ mod tests {
             let asked = Asked::of(&residuals, &estimated(ROWS))
                 .with_each([square.clone()])
                 .with(repeats, (0..ROWS).map(|at| shape(outlier(at))).collect());
-            let space = Space::new(&asked.question()).unwrap();
+            let space = Space::new(&asked.question());
             let found = Singles::new(&space, &asked.question()).observed(&space);
             (found, asked.examined())
         };

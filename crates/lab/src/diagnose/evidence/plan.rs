@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::baseline::Baseline;
 use super::directions::{INVISIBLE, without};
 use super::question::{Atom, Candidate, Kind, Question, Settings, Shape};
-use super::refusal::Refusal;
+use super::separate::SEPARATED;
 use super::space::{Block, Space};
 
 /// What an experiment of this design can see and tell apart. Sizes refer to the noise of the baseline.
@@ -15,8 +15,6 @@ pub struct Plan {
     pub seen: Vec<Seen>,
     /// Named atoms of different candidates that are one in this experiment, two or more in each class.
     pub classes: Vec<Vec<usize>>,
-    /// For each named atom of a visible candidate its nearest rival, exact aliases included.
-    pub pairs: Vec<Pair>,
 }
 
 /// How well an experiment sees one atom.
@@ -29,13 +27,13 @@ pub struct Seen {
     /// Coefficient that is detected as good as always, λ = 6: that of the column seen worst. `None` if a
     /// column is invisible.
     pub detectable: Option<f64>,
+    /// Its nearest rival, exact aliases included; none where it is invisible.
+    pub rival: Option<Pair>,
 }
 
 /// How well an experiment tells an atom from its nearest rival.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pair {
-    /// The atom.
-    pub atom: usize,
     /// The atom of another candidate that resembles it most.
     pub rival: usize,
     /// Cosine of the angle between the two.
@@ -47,34 +45,20 @@ pub struct Pair {
 
 /// Strength with which effects are detected nearly always.
 const DETECTED: f64 = 6.0;
-/// Separability with which effects are named nearly always.
-const SEPARATED: f64 = 5.0;
 /// Sine of the angle under which two effects are one.
 const ALIAS: f64 = 1e-3;
 
 /// What an experiment can see and tell apart. The residuals of the baseline do not matter.
-///
-/// # Errors
-///
-/// Atoms that do not fit the baseline.
-pub fn visibility(
-    baseline: &Baseline,
-    candidates: &[Candidate],
-    atoms: &[Atom],
-) -> Result<Plan, Refusal> {
+pub fn visibility(baseline: &Baseline, candidates: &[Candidate], atoms: &[Atom]) -> Plan {
     let question = Question {
         baseline,
         candidates,
         atoms,
         settings: Settings::default(),
     };
-    let space = Space::new(&question)?;
+    let space = Space::new(&question);
     let blocks = space.blocks.iter();
     let named: Vec<&Block> = blocks.filter(|block| block.kind() == Kind::Named).collect();
-    let seen = |(index, atom): (usize, &Atom)| match &atom.shape {
-        Shape::Columns(columns) => Some(seen(baseline, index, columns)),
-        Shape::Smooth { .. } | Shape::Scatter => None,
-    };
     let nearest = |block: &&Block| {
         let is_rival = |rival: &&&Block| {
             rival.candidate != block.candidate && !extends(candidates, rival, block)
@@ -85,11 +69,17 @@ pub fn visibility(
             .map(|rival| pair(block, rival));
         rivals.max_by(|a, b| a.cosine.total_cmp(&b.cosine))
     };
-    Ok(Plan {
+    let seen = |(index, atom): (usize, &Atom)| match &atom.shape {
+        Shape::Columns(columns) => Some(Seen {
+            rival: (named.iter().find(|block| block.atom == index)).and_then(nearest),
+            ..seen(baseline, index, columns)
+        }),
+        Shape::Smooth { .. } | Shape::Scatter => None,
+    };
+    Plan {
         seen: atoms.iter().enumerate().filter_map(seen).collect(),
         classes: classes(&named),
-        pairs: named.iter().filter_map(nearest).collect(),
-    })
+    }
 }
 
 fn seen(baseline: &Baseline, atom: usize, columns: &DMatrix<f64>) -> Seen {
@@ -101,6 +91,7 @@ fn seen(baseline: &Baseline, atom: usize, columns: &DMatrix<f64>) -> Seen {
         atom,
         visibility,
         detectable: (visibility > INVISIBLE).then(|| DETECTED / shortest),
+        rival: None,
     }
 }
 
@@ -120,7 +111,6 @@ fn pair(block: &Block, rival: &Block) -> Pair {
     let (length, left) = nearest.unwrap_or((1.0, 1.0));
     let sine = (left / length).min(1.0);
     Pair {
-        atom: block.atom,
         rival: rival.atom,
         cosine: (1.0 - sine * sine).sqrt(),
         separable: (sine > ALIAS).then(|| SEPARATED / left),
@@ -171,11 +161,12 @@ mod tests {
         let candidates: Vec<Candidate> = candidates.collect();
         let atoms = laws.map(|(candidate, (_, law))| Atom {
             candidate,
+            variant: 0,
             shape: shape(tumble.column(law)),
             share: 1.0,
         });
         let atoms: Vec<Atom> = atoms.collect();
-        visibility(&tumble.baseline(), &candidates, &atoms).unwrap()
+        visibility(&tumble.baseline(), &candidates, &atoms)
     }
 
     fn index(name: &str) -> usize {
@@ -209,7 +200,7 @@ mod tests {
         assert_eq!(class_of(&plan, "Kip"), ["Kip", "ECC1 sin"]);
         assert_eq!(class_of(&plan, "K3"), ["K3", "ECC2 sin"]);
         assert_eq!(class_of(&plan, "ASYM"), [""; 0]);
-        let pair = plan.pairs.iter().find(|p| p.atom == index("ASYM")).unwrap();
+        let pair = plan.seen[index("ASYM")].rival.as_ref().unwrap();
         // 24 positions and more: 0.957; twelve leave a little more between them.
         assert!(pair.cosine > 0.9 && pair.cosine < 0.99);
     }

@@ -92,6 +92,8 @@ pub enum Kind {
 pub struct Atom {
     /// Index of its candidate in [`Question::candidates`].
     pub candidate: usize,
+    /// Its number among the variants of that.
+    pub variant: usize,
     /// Its effect on the rows.
     pub shape: Shape,
     /// Prior share among the variants of its candidate; shares are normalised to sum to one.
@@ -103,10 +105,6 @@ pub struct Atom {
 pub struct Settings {
     /// Probability of an alarm on a recording that agrees with the model.
     pub alpha: f64,
-    /// At most this many effects at once.
-    pub max_effects: usize,
-    /// Sets of effects that are extended at each level of the search.
-    pub beam: usize,
     /// Seed of the simulated null distributions.
     pub seed: u64,
     /// Draws of each simulated null distribution.
@@ -117,12 +115,10 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// α = 1 %, four effects, beam of 10, 4000 draws.
+    /// α = 1 %, 4000 draws.
     fn default() -> Settings {
         Settings {
             alpha: 0.01,
-            max_effects: 4,
-            beam: 10,
             seed: 1,
             draws: 4000,
             by_noise: 0.0,

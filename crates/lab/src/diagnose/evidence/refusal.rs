@@ -27,15 +27,6 @@ pub enum Refusal {
         /// The row.
         row: usize,
     },
-    /// An effect on a row is not a finite number.
-    AtomNotFinite {
-        /// Index of the atom.
-        atom: usize,
-        /// The row.
-        row: usize,
-    },
-    /// Sizes of matrices contradict each other.
-    Sizes,
     /// The caller asked to stop.
     Cancelled,
 }
@@ -54,10 +45,6 @@ impl std::fmt::Display for Refusal {
             Refusal::Variance { row } => write!(f, "the variance of row {row} is not positive"),
             Refusal::NotPositive => write!(f, "the covariance matrix is not positive definite"),
             Refusal::NotFinite { row } => write!(f, "row {row} has a value that is not finite"),
-            Refusal::AtomNotFinite { atom, row } => {
-                write!(f, "effect {atom} is not finite in row {row}")
-            }
-            Refusal::Sizes => write!(f, "sizes of matrices disagree"),
             Refusal::Cancelled => write!(f, "stopped"),
         }
     }

@@ -15,7 +15,7 @@ use super::space::{Form, Frame, NEAR, Residual, Space, principal};
 /// Every block that may join a set, beside it.
 pub(super) struct Remainders<'s> {
     pub(super) space: &'s Space,
-    frame: &'s Frame,
+    pub(super) frame: &'s Frame,
     /// A = FᵀU for the directions of all blocks.
     along: DMatrix<f64>,
     /// What is left of z when the set is adopted.
@@ -99,17 +99,11 @@ impl<'s> Remainders<'s> {
     /// Components along the directions of a rest, of a vector with these components along all.
     pub(super) fn components(&self, rest: &Remainder, all: &DVector<f64>) -> DVector<f64> {
         let own = self.space.places(rest.block);
-        if rest.turn.nrows() == 0 {
-            return DVector::zeros(0);
-        }
         &rest.turn * all.rows(own.start, own.len())
     }
 
     /// The same for recordings one per row: a column for each direction.
     pub(super) fn turned(&self, rest: &Remainder, recordings: &DMatrix<f64>) -> DMatrix<f64> {
-        if rest.turn.nrows() == 0 {
-            return DMatrix::zeros(recordings.nrows(), 0);
-        }
         recordings.columns_range(self.space.places(rest.block)) * rest.turn.transpose()
     }
 

@@ -1,5 +1,6 @@
 //! Search for the set of effects that explains a recording.
 
+use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
@@ -15,6 +16,10 @@ use super::remainders::Remainders;
 use super::space::{Frame, Space};
 use super::unlisted::Restated;
 
+/// At most this many effects at once.
+const EFFECTS: usize = 4;
+/// Sets of effects that are extended at each level.
+const BEAM: usize = 10;
 /// Logarithm of the odds by which a pair has to beat the best single effect for the search to go on
 /// although nothing stands out beside the single effect.
 const DECISIVE: f64 = 5.0;
@@ -27,6 +32,16 @@ pub(super) struct Visited {
     pub(super) generic: Option<usize>,
     /// Logarithm of its posterior odds.
     pub(super) score: f64,
+}
+
+impl Visited {
+    fn of(space: &Space, frame: Frame) -> Visited {
+        Visited {
+            score: space.score(&frame),
+            named: frame.blocks,
+            generic: None,
+        }
+    }
 }
 
 /// Where the search ended.
@@ -48,30 +63,20 @@ pub(super) fn search(
     progress: &dyn Fn(f64) -> ControlFlow<()>,
 ) -> Result<Search, Refusal> {
     let pairs = Pairs::new(space, question);
+    let mut beam = vec![Visited::of(space, space.empty())];
     let mut search = Search {
         levels: Vec::new(),
         complete: None,
-        visited: vec![Visited {
-            named: Vec::new(),
-            generic: None,
-            score: 0.0,
-        }],
+        visited: beam.clone(),
         seen: BTreeSet::new(),
     };
-    let mut seeds: Vec<Vec<usize>> = Vec::new();
-    let mut beam = vec![(0.0, Vec::new())];
-    for level in 0..=question.settings.max_effects {
-        let Some(best) = beam.first().and_then(|(_, set)| space.frame(set)) else {
+    let mut masking: Vec<Visited> = Vec::new();
+    for level in 0..=EFFECTS {
+        let Some(best) = beam.first().and_then(|set| space.frame(&set.named)) else {
             break;
         };
-        let mut outcome = detection::test(
-            space,
-            question,
-            &best,
-            FORM,
-            (level == 0).then_some(&pairs),
-            simulated,
-        );
+        let with_pairs = (level == 0).then_some(&pairs);
+        let mut outcome = detection::test(space, question, &best, FORM, with_pairs, simulated);
         if level == 0 {
             outcome.p = outcome.p.max(question.settings.by_noise);
         }
@@ -85,29 +90,25 @@ pub(super) fn search(
             p: outcome.p,
             draws: outcome.draws,
         });
-        let masked = seeds
-            .iter()
-            .filter_map(|seed| space.frame(seed))
-            .any(|pair| level == 1 && space.score(&pair) > beam[0].0 + DECISIVE);
-        if outcome.p > question.settings.alpha && !masked {
+        let masked = |pair: &Visited| level == 1 && pair.score > beam[0].score + DECISIVE;
+        if outcome.p > question.settings.alpha && !masking.iter().any(masked) {
             search.complete = Some(needed(space, best));
             break;
         }
-        if level == question.settings.max_effects {
+        if level == EFFECTS {
             break;
         }
         beam = extend(space, question, &beam, &mut search);
-        if level == 0 {
-            seeds = pairs.seeds(space).into_iter().map(Vec::from).collect();
-        }
-        if level <= 1 {
-            let pairs = scored(space, &seeds);
-            search.visit(&pairs);
-            if level == 1 {
-                join(&mut beam, pairs);
+        match level {
+            0 => {
+                let frames = (pairs.seeds(space).into_iter()).filter_map(|pair| space.frame(&pair));
+                masking = frames.map(|pair| Visited::of(space, pair)).collect();
+                search.visit(&masking);
             }
+            1 => join(&mut beam, std::mem::take(&mut masking)),
+            _ => {}
         }
-        let share = (level + 1) as f64 / (question.settings.max_effects + 2) as f64;
+        let share = (level + 1) as f64 / (EFFECTS + 2) as f64;
         if progress(share).is_break() {
             return Err(Refusal::Cancelled);
         }
@@ -137,72 +138,66 @@ fn needed(space: &Space, mut set: Frame) -> Vec<usize> {
 fn extend(
     space: &Space,
     question: &Question,
-    beam: &[(f64, Vec<usize>)],
+    beam: &[Visited],
     search: &mut Search,
-) -> Vec<(f64, Vec<usize>)> {
+) -> Vec<Visited> {
     let mut seen = BTreeSet::new();
     let mut next = Vec::new();
-    let frames = beam
-        .iter()
-        .take(question.settings.beam)
-        .filter_map(|(_, set)| space.frame(set));
-    for frame in frames {
+    let best = beam.iter().take(BEAM);
+    for frame in best.filter_map(|set| space.frame(&set.named)) {
         let beside = Remainders::new(space, question, &frame);
         let observed = beside.observed();
         for rest in &beside.rests {
             let Some(score) = beside.score(rest, &observed) else {
                 continue;
             };
+            let mut named = frame.blocks.clone();
             if rest.kind == Kind::Generic {
+                let generic = Some(rest.block);
                 search.visited.push(Visited {
-                    named: frame.blocks.clone(),
-                    generic: Some(rest.block),
+                    named,
+                    generic,
                     score,
                 });
                 continue;
             }
-            let mut set = frame.blocks.clone();
-            set.push(rest.block);
-            set.sort_unstable();
-            if seen.insert(set.clone()) {
-                next.push((score, set));
+            named.push(rest.block);
+            named.sort_unstable();
+            if seen.insert(named.clone()) {
+                next.push(Visited {
+                    named,
+                    generic: None,
+                    score,
+                });
             }
         }
     }
     search.visit(&next);
-    next.sort_by(|a, b| b.0.total_cmp(&a.0));
+    next.sort_by(|a, b| by_score(&b, &a));
     next
 }
 
-fn scored(space: &Space, sets: &[Vec<usize>]) -> Vec<(f64, Vec<usize>)> {
-    let frames = sets.iter().filter_map(|set| space.frame(set));
-    frames
-        .map(|frame| (space.score(&frame), frame.blocks))
-        .collect()
-}
-
 /// Adds sets to a beam that are not in it.
-fn join(beam: &mut Vec<(f64, Vec<usize>)>, sets: Vec<(f64, Vec<usize>)>) {
-    for (score, set) in sets {
-        if beam.iter().all(|(_, other)| *other != set) {
-            beam.push((score, set));
+fn join(beam: &mut Vec<Visited>, sets: Vec<Visited>) {
+    for set in sets {
+        if beam.iter().all(|other| other.named != set.named) {
+            beam.push(set);
         }
     }
-    beam.sort_by(|a, b| b.0.total_cmp(&a.0));
+    beam.sort_by(|a, b| by_score(&b, &a));
+}
+
+fn by_score(a: &&Visited, b: &&Visited) -> Ordering {
+    a.score.total_cmp(&b.score)
 }
 
 impl Search {
     /// Keeps named sets, each once.
-    fn visit(&mut self, sets: &[(f64, Vec<usize>)]) {
-        for (score, named) in sets {
-            if self.seen.insert(named.clone()) {
-                self.visited.push(Visited {
-                    named: named.clone(),
-                    generic: None,
-                    score: *score,
-                });
-            }
-        }
+    fn visit(&mut self, sets: &[Visited]) {
+        let new = sets
+            .iter()
+            .filter(|set| self.seen.insert(set.named.clone()));
+        self.visited.extend(new.cloned());
     }
 
     /// Named sets that do without a cause: their probability among all named sets, and the best of them.
@@ -220,7 +215,7 @@ impl Search {
             let mut blocks = set.named.iter();
             blocks.all(|block| !question.same_cause(space.blocks[*block].candidate, candidate))
         };
-        let best = (named().filter(lacks)).max_by(|a, b| a.score.total_cmp(&b.score))?;
+        let best = named().filter(lacks).max_by(by_score)?;
         let sum = log_sum(named().filter(lacks).map(|set| set.score));
         let whole = log_sum(named().map(|set| set.score));
         Some((libm::exp(sum - whole), best))
@@ -235,29 +230,23 @@ impl Search {
 
     /// Posterior probability that an effect without a name is there.
     pub(super) fn generic_probability(&self) -> f64 {
-        let with = log_sum(
-            self.visited
-                .iter()
-                .filter(|set| set.generic.is_some())
-                .map(|set| set.score),
-        );
+        let with = log_sum(self.with_generic().map(|set| set.score));
         let all = log_sum(self.visited.iter().map(|set| set.score));
         libm::exp(with - all)
     }
 
+    fn with_generic(&self) -> impl Iterator<Item = &Visited> + Clone {
+        self.visited.iter().filter(|set| set.generic.is_some())
+    }
+
     /// The most probable set that holds a generic.
     pub(super) fn best_with_generic(&self) -> Option<&Visited> {
-        self.visited
-            .iter()
-            .filter(|set| set.generic.is_some())
-            .max_by(|a, b| a.score.total_cmp(&b.score))
+        self.with_generic().max_by(by_score)
     }
 
     /// The most probable set of all.
     pub(super) fn best(&self) -> Option<&Visited> {
-        self.visited
-            .iter()
-            .max_by(|a, b| a.score.total_cmp(&b.score))
+        self.visited.iter().max_by(by_score)
     }
 }
 
@@ -275,7 +264,7 @@ mod tests {
         let (one, other, none) = (wave(0.31), wave(0.73), wave(1.37));
         let columns = [one.clone(), other.clone(), &one + &other + &none * 0.5];
         let asked = Asked::of(&(one * 5.0 + other * 5.0), &white(ROWS)).with_each(columns);
-        let space = Space::new(&asked.question()).unwrap();
+        let space = Space::new(&asked.question());
         assert_eq!(needed(&space, space.frame_of(&[0, 1, 2])), [0, 1]);
         assert_eq!(needed(&space, space.frame_of(&[2])), [2]);
     }

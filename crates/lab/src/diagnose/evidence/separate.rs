@@ -4,8 +4,8 @@ use nalgebra::DMatrix;
 
 use super::directions::left;
 use super::findings::ALONE;
+use super::fit::reached;
 use super::look_alikes::stays;
-use gumption_core::special::normal_cdf;
 
 /// A rival explanation in a design, as it is seen beside the fitted parameters
 /// ([`Baseline::project`](super::Baseline::project)).
@@ -51,22 +51,8 @@ pub struct Worth {
     pub repeats: f64,
 }
 
-/// What is known of rival explanations from the recording at hand.
-#[derive(Debug, Clone, Copy)]
-pub struct Prospects<'p> {
-    /// How far they are apart in it.
-    pub before: &'p Separability,
-    /// Their posterior probabilities.
-    pub probabilities: &'p [f64],
-    /// A number for each; those that no measurement tells apart share one, and are not asked to be.
-    pub classes: &'p [usize],
-    /// For each the probability that something comes to stand beside it that is none of them
-    /// ([`doubt`]).
-    pub outside: &'p [f64],
-}
-
 /// Separability with which rivals are told apart nearly always.
-const SEPARATED: f64 = 5.0;
+pub const SEPARATED: f64 = 5.0;
 /// No number of repetitions helps below this separability.
 const NOTHING: f64 = 1e-6;
 /// Explanations are the same where less than this share of either is left.
@@ -121,20 +107,24 @@ impl Separability {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// What the measurement is worth with which explanations are as far apart as this.
-    ///
-    /// If `a` is the truth, what is still to be recorded adds to its log odds over `b` on average half of what
-    /// κ² gains, with a variance of the whole of it.
-    pub fn worth(&self, prospects: &Prospects<'_>) -> Worth {
+    /// What the measurement is worth with which explanations are as far apart as this, and `before` it as far as that. Of each,
+    /// `probabilities` has the posterior one, `classes` a number, which those share that no measurement tells apart and that are
+    /// not asked to be, and `outside` the probability that something comes to stand beside it that is none of them ([`doubt`]).
+    pub fn worth(
+        &self,
+        before: &Separability,
+        probabilities: &[f64],
+        classes: &[usize],
+        outside: &[f64],
+    ) -> Worth {
         let mut kappa = f64::INFINITY;
         let (mut resolved, mut whole) = (0.0, 0.0);
         for a in 0..self.left.len() {
-            let mut doubts = vec![prospects.outside[a]; self.whole[a].len()];
-            for b in (0..self.left.len()).filter(|b| prospects.classes[a] != prospects.classes[*b])
-            {
+            let mut doubts = vec![outside[a]; self.whole[a].len()];
+            for b in (0..self.left.len()).filter(|b| classes[a] != classes[*b]) {
                 kappa = kappa.min(self.left[a][b][0]);
-                let odds = log_odds(prospects.probabilities[a], prospects.probabilities[b]);
-                let kappas = self.left[a][b].iter().zip(&prospects.before.left[a][b]);
+                let odds = log_odds(probabilities[a], probabilities[b]);
+                let kappas = self.left[a][b].iter().zip(&before.left[a][b]);
                 for (doubt, (after, before)) in doubts.iter_mut().zip(kappas) {
                     *doubt += if self.stays[a][b] {
                         1.0
@@ -144,8 +134,8 @@ impl Separability {
                 }
             }
             let sure: f64 = doubts.iter().map(|doubt| (1.0 - doubt).max(0.0)).sum();
-            resolved += prospects.probabilities[a] * sure / doubts.len() as f64;
-            whole += prospects.probabilities[a];
+            resolved += probabilities[a] * sure / doubts.len() as f64;
+            whole += probabilities[a];
         }
         Worth {
             kappa,
@@ -185,11 +175,7 @@ fn log_odds(a: f64, b: f64) -> f64 {
 
 /// Probability that the truth comes to stand alone, from its log odds and what κ² gains.
 fn decided(odds: f64, gain: f64) -> f64 {
-    if gain > NOTHING {
-        normal_cdf((odds + 0.5 * gain - alone()) / gain.sqrt())
-    } else {
-        f64::from(u8::from(odds >= alone()))
-    }
+    reached(odds, gain, alone())
 }
 
 #[cfg(test)]
@@ -223,12 +209,16 @@ mod tests {
 
     fn worth(mounts: &[f64], sizes: &[f64], probabilities: [f64; 2]) -> Worth {
         let before = held(&design(&mounts[..1]), sizes);
-        held(&design(mounts), sizes).worth(&Prospects {
-            before: &before,
-            probabilities: &probabilities,
-            classes: &[0, 1],
-            outside: &[0.0, 0.0],
-        })
+        judged(
+            &held(&design(mounts), sizes),
+            &before,
+            &probabilities,
+            &[0, 1],
+        )
+    }
+
+    fn judged(after: &Separability, before: &Separability, p: &[f64], classes: &[usize]) -> Worth {
+        after.worth(before, p, classes, &vec![0.0; p.len()])
     }
 
     #[test]
@@ -279,14 +269,8 @@ mod tests {
             let columns = [own.clone(), rival];
             let before = held(&columns, &[0.01 * size]);
             let apart = held(&columns, &[size]);
-            let outside = [0.0; 2];
-            let prospects = Prospects {
-                before: &before,
-                probabilities: &[0.5, 0.5],
-                classes: &[0, 1],
-                outside: &outside,
-            };
-            (apart.left[0][1][0], apart.worth(&prospects).resolved)
+            let worth = judged(&apart, &before, &[0.5, 0.5], &[0, 1]);
+            (apart.left[0][1][0], worth.resolved)
         };
         let (kappa, promised) = resolved(0.5, 15.0);
         assert!(kappa > 8.0 && promised > 0.99, "{kappa} {promised}");
@@ -312,15 +296,8 @@ mod tests {
         assert!(apart.alike(0, 1) && !apart.alike(0, 2));
         let [own, other] = design(&[0.0]);
         let before = held(&[own.clone(), -&own, other], &[4.0]);
-        let resolved = |classes: &[usize]| {
-            let prospects = Prospects {
-                before: &before,
-                probabilities: &[0.3, 0.3, 0.4],
-                classes,
-                outside: &[0.0; 3],
-            };
-            apart.worth(&prospects).resolved
-        };
+        let resolved =
+            |classes: &[usize]| judged(&apart, &before, &[0.3, 0.3, 0.4], classes).resolved;
         assert!(resolved(&[0, 1, 2]) < 0.5 && resolved(&[0, 0, 2]) > 0.9);
     }
 }

@@ -3,9 +3,8 @@
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::closed_form::{Ladder, Scale, named, scatter};
-use super::directions::{INVISIBLE, joined, orthonormal, own, without};
+use super::directions::{INVISIBLE, joined, orthonormal, own, side_by_side, without};
 use super::question::{Atom, Kind, Question, Shape};
-use super::refusal::Refusal;
 
 /// Prior odds of all generics together, over those of all named candidates.
 const GENERIC_ODDS: f64 = 0.15;
@@ -99,9 +98,9 @@ pub(super) struct Frame {
 }
 
 impl Space {
-    pub(super) fn new(question: &Question) -> Result<Space, Refusal> {
+    pub(super) fn new(question: &Question) -> Space {
         let baseline = question.baseline;
-        let odds = Odds::new(question);
+        let log_odds = log_odds(question);
         let mut space = Space {
             z: baseline.residuals().clone(),
             blocks: Vec::new(),
@@ -114,31 +113,25 @@ impl Space {
             starts: vec![0],
             components: DVector::zeros(0),
         };
-        for (index, atom) in question.atoms.iter().enumerate() {
-            check(index, atom)?;
-        }
         // All columns at once: products with few columns spend their time on reading the whitener.
-        let (seen, lengths) = baseline.visible(&all_columns(baseline.rows(), question.atoms));
+        let columns = (question.atoms.iter()).filter_map(|atom| atom.shape.columns());
+        let (seen, lengths) = baseline.visible(&side_by_side(baseline.rows(), columns));
         let mut start = 0;
         for (index, atom) in question.atoms.iter().enumerate() {
             let own = start..start + atom.shape.width();
             start = own.end;
             let columns = seen.columns_range(own.clone()).into_owned();
-            let block = block(index, atom, odds.of(atom), columns, &lengths[own]);
+            let block = block(index, atom, log_odds[index], columns, &lengths[own]);
             space.blocks.extend(block);
         }
         for block in &space.blocks {
             let last = space.starts[space.starts.len() - 1];
             space.starts.push(last + block.basis.ncols());
         }
-        let total = space.starts[space.blocks.len()];
-        space.directions = DMatrix::zeros(space.z.len(), total);
-        for (block, start) in space.blocks.iter().zip(&space.starts) {
-            let mut own = space.directions.columns_mut(*start, block.basis.ncols());
-            own.copy_from(&block.basis);
-        }
+        let bases = space.blocks.iter().map(|block| &block.basis);
+        space.directions = side_by_side(space.z.len(), bases);
         space.components = space.directions.tr_mul(&space.z);
-        Ok(space)
+        space
     }
 
     /// Places of the directions of a block among all.
@@ -281,25 +274,6 @@ impl Block {
     }
 }
 
-fn check(atom: usize, own: &Atom) -> Result<(), Refusal> {
-    let is_bad =
-        |columns: &DMatrix<f64>, row: usize| columns.row(row).iter().any(|x| !x.is_finite());
-    let columns = own.shape.columns();
-    let bad = columns.and_then(|columns| (0..columns.nrows()).find(|row| is_bad(columns, *row)));
-    bad.map_or(Ok(()), |row| Err(Refusal::AtomNotFinite { atom, row }))
-}
-
-/// The columns of all atoms side by side.
-fn all_columns(rows: usize, atoms: &[Atom]) -> DMatrix<f64> {
-    let mut all = DMatrix::zeros(rows, atoms.iter().map(|atom| atom.shape.width()).sum());
-    let mut start = 0;
-    for columns in atoms.iter().filter_map(|atom| atom.shape.columns()) {
-        all.columns_mut(start, columns.ncols()).copy_from(columns);
-        start += columns.ncols();
-    }
-    all
-}
-
 /// An atom with its columns as they are seen, and the lengths that these had with what the parameters absorb.
 fn block(
     index: usize,
@@ -369,43 +343,30 @@ pub(super) fn principal(gram: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
     Some((Ladder::new(&eigenvalues), turn))
 }
 
-/// Prior odds: as likely as not nothing was left out, all usual named candidates alike, a share for those
-/// without a name.
-struct Odds {
-    named: f64,
-    generic: f64,
-    /// Sum of the shares of each candidate's atoms, over its own odds.
-    shares: Vec<f64>,
-}
-
-impl Odds {
-    fn new(question: &Question) -> Odds {
-        let count = question.candidates.len();
-        let mut shares = vec![0.0; count];
-        let mut kinds: Vec<Option<Kind>> = vec![None; count];
-        for atom in question.atoms {
-            kinds[atom.candidate] = Some(atom.shape.kind());
-            shares[atom.candidate] += atom.share;
-        }
-        let of = |kind| kinds.iter().filter(|k| **k == Some(kind)).count().max(1) as f64;
-        let (named, generic) = (of(Kind::Named), of(Kind::Generic));
-        for (share, candidate) in shares.iter_mut().zip(question.candidates) {
-            *share /= candidate.odds;
-        }
-        let none = libm::exp2(-1.0 / named);
-        let odds = (1.0 - none) / none;
-        Odds {
-            named: libm::log(odds),
-            generic: libm::log(odds * GENERIC_ODDS * named / generic),
-            shares,
-        }
+/// Logarithms of the prior odds of atoms: as likely as not nothing was left out, all usual named candidates alike, a share for
+/// those without a name.
+fn log_odds(question: &Question) -> Vec<f64> {
+    let count = question.candidates.len();
+    // Of the atoms of each candidate, over its own odds.
+    let mut shares = vec![0.0; count];
+    let mut kinds: Vec<Option<Kind>> = vec![None; count];
+    for atom in question.atoms {
+        kinds[atom.candidate] = Some(atom.shape.kind());
+        shares[atom.candidate] += atom.share;
     }
-
-    fn of(&self, atom: &Atom) -> f64 {
-        let odds = match atom.shape.kind() {
-            Kind::Named => self.named,
-            Kind::Generic => self.generic,
+    let of = |kind| kinds.iter().filter(|k| **k == Some(kind)).count().max(1) as f64;
+    let (named, generic) = (of(Kind::Named), of(Kind::Generic));
+    for (share, candidate) in shares.iter_mut().zip(question.candidates) {
+        *share /= candidate.odds;
+    }
+    let none = libm::exp2(-1.0 / named);
+    let odds = (1.0 - none) / none;
+    let of_atom = |atom: &Atom| {
+        let of_kind = match atom.shape.kind() {
+            Kind::Named => libm::log(odds),
+            Kind::Generic => libm::log(odds * GENERIC_ODDS * named / generic),
         };
-        odds + libm::log(atom.share / self.shares[atom.candidate])
-    }
+        of_kind + libm::log(atom.share / shares[atom.candidate])
+    };
+    question.atoms.iter().map(of_atom).collect()
 }

@@ -32,20 +32,14 @@ const DIRECTIONS: usize = 40;
 /// Directions with less than this share of the variance are left out.
 const FAINT: f64 = 1e-4;
 
-/// The competitor that resembles the named atoms: features, of which the covariance matrix is the sum of squares.
-pub(super) struct Unlisted {
-    features: DMatrix<f64>,
+/// Directions of features beside a set, with their evidence; `None` if nothing is left of them.
+fn beside(features: &DMatrix<f64>, frame: &Frame) -> Option<(Ladder, DMatrix<f64>)> {
+    smooth(without(features, &frame.basis))
 }
 
-impl Unlisted {
-    /// Its directions beside a set, with their evidence; `None` if nothing is left of it.
-    fn beside(&self, frame: &Frame) -> Option<(Ladder, DMatrix<f64>)> {
-        smooth(without(&self.features, &frame.basis))
-    }
-}
-
-/// The competitor that resembles the named atoms; `None` if there are none.
-pub(super) fn unlisted(space: &Space) -> Option<Unlisted> {
+/// The competitor that resembles the named atoms: features, of which the covariance matrix is the sum of squares; `None` if
+/// there are none.
+pub(super) fn unlisted(space: &Space) -> Option<DMatrix<f64>> {
     let most = (space.blocks.iter())
         .filter(|block| block.kind() == Kind::Named)
         .map(|block| block.log_odds)
@@ -63,7 +57,7 @@ pub(super) fn unlisted(space: &Space) -> Option<Unlisted> {
         return None;
     }
     let features = condensed(&space.directions, &(weights / whole));
-    (features.ncols() > 0).then_some(Unlisted { features })
+    (features.ncols() > 0).then_some(features)
 }
 
 /// Few columns M with nearly MMᵀ = Σ w uuᵀ for unit directions u with weights: coordinates along the
@@ -104,36 +98,23 @@ fn condensed(directions: &DMatrix<f64>, weights: &DVector<f64>) -> DMatrix<f64> 
     basis * half
 }
 
-/// A named set against the competitor with the best part of the set: by how much the set is better, as the logarithm of the
-/// odds without prior odds of the competitor; nothing where nothing competes.
-pub(super) struct Rivalry(Option<f64>);
-
-impl Rivalry {
-    pub(super) fn new(space: &Space, named: &[usize], competitor: &Unlisted) -> Rivalry {
-        let Some(whole) = space.frame(named) else {
-            return Rivalry(None);
-        };
-        let own = space.score(&whole);
-        let count = named.len();
-        let rivals = (0..(1_usize << count) - 1).filter_map(|subset| {
-            let part = (0..count).filter(|i| subset & (1 << i) != 0);
-            let part: Vec<usize> = part.map(|i| named[i]).collect();
-            let frame = space.frame(&part)?;
-            let (ladder, basis) = competitor.beside(&frame)?;
-            let components = basis.tr_mul(&space.z);
-            Some(
-                space.score(&frame) + evidence(&ladder, components.iter(), &space.residual(&frame)),
-            )
-        });
-        Rivalry(rivals.max_by(f64::total_cmp).map(|score| own - score))
-    }
-
-    /// Whether a set of so many effects stands. Several effects have to be better than one that is not
-    /// listed; a single one that is worse would not have passed the gate as complete, and where it is one of
-    /// a list, the list and not the set would have to be compared.
-    pub(super) fn stands(&self, effects: usize) -> bool {
-        effects < 2 || self.0.is_none_or(|margin| margin >= 0.0)
-    }
+/// Whether a named set is as good as the competitor with the best part of the set, without prior odds of the competitor. Several
+/// effects have to be; a single one that is worse would not have passed the gate as complete, and where it is one of a list,
+/// the list and not the set would have to be compared.
+pub(super) fn stands(space: &Space, named: &[usize], competitor: &DMatrix<f64>) -> bool {
+    let Some(whole) = space.frame(named).filter(|_| named.len() > 1) else {
+        return true;
+    };
+    let is_as_good = |subset: usize| {
+        let part = (0..named.len()).filter(|at| subset & (1 << at) != 0);
+        let frame = space.frame(&part.map(|at| named[at]).collect::<Vec<_>>())?;
+        let (ladder, basis) = beside(competitor, &frame)?;
+        let components = basis.tr_mul(&space.z);
+        let more = evidence(&ladder, components.iter(), &space.residual(&frame));
+        Some(space.score(&whole) >= space.score(&frame) + more)
+    };
+    let mut parts = 0..(1_usize << named.len()) - 1;
+    parts.all(|subset| is_as_good(subset).unwrap_or(true))
 }
 
 /// Probability that as much is left beside a set as there is, if the set is all there is: of the
@@ -144,12 +125,12 @@ impl Rivalry {
 pub(super) fn leftover(
     space: &Space,
     named: &[usize],
-    competitor: &Unlisted,
+    competitor: &DMatrix<f64>,
     simulated: &Simulated,
 ) -> f64 {
     let frame = space.frame(named);
-    let beside = frame.and_then(|frame| Some((competitor.beside(&frame)?, frame)));
-    let Some(((ladder, basis), frame)) = beside else {
+    let left = frame.and_then(|frame| Some((beside(competitor, &frame)?, frame)));
+    let Some(((ladder, basis), frame)) = left else {
         return 1.0;
     };
     let residual = space.residual(&frame);

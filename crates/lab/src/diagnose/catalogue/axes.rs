@@ -1,10 +1,11 @@
-//! Models that hold a constant against several columns, such as |a| = g for a triad at rest.
+//! Errors of axes: in models that hold a constant against several columns, such as |a| = g for a triad at rest, and between outputs
+//! that have a stimulus each.
 
-use super::absorbed::Absorbed;
 use super::building::cell;
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{map, range, rounded};
 use super::{Cell, EffectId, Modifier, Term, Variation};
+use crate::diagnose::case::Role;
 use gumption_core::quantity::Unit;
 
 /// Disturbances of each column that the model uses.
@@ -24,16 +25,11 @@ pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
     cells.push(cell(EffectId::CrossAxis, singles_and_all(pairs)));
     let own = used.iter().map(|column| {
         let label = fitted.label(*column).to_owned();
-        let x = fitted.numbers(*column).to_vec();
-        let own = Modifier::new(x, &label, fitted.step_unit(*column));
-        (label, term(*column, own))
+        (label, term(*column, fitted.own(*column)))
     });
     let mut scales = cell(EffectId::AxisScale, singles_and_all(own.collect()));
-    let absorbed = Absorbed::by_parameters(fitted);
-    (scales.variants).retain(|variation| {
-        let left = absorbed.leaves_of(fitted, variation);
-        left.into_iter().all(|some| some)
-    });
+    let leaves = |variation: &Variation| fitted.absorbed().leaves_of(fitted, variation);
+    (scales.variants).retain(|variation| !leaves(variation).contains(&false));
     cells.push(scales);
     type Law = fn(f64) -> f64;
     let laws: [(EffectId, [&str; 2], i32, Law); 3] = [
@@ -43,7 +39,9 @@ pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
     ];
     for (id, [before, after], power, law) in laws {
         let own = used.iter().map(|column| {
-            let centre = mean_of_range(fitted.numbers(*column));
+            let (least, most) = range(fitted.numbers(*column));
+            // The middle of the range, where a sensor that turned through all positions has its zero.
+            let centre = rounded((least + most) / 2.0, 1e-4 * (most - least));
             let modifier = map(fitted.numbers(*column), |x| law(x - centre));
             let text = format!("{before}{}{after}", fitted.less(*column, centre));
             let unit = fitted.step_unit(*column).powr(power, 1);
@@ -56,7 +54,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
 }
 
 /// A cell of several axes together.
-pub(super) fn of_axes(
+fn of_axes(
     fitted: &FittedModel<'_>,
     id: EffectId,
     axes: &[usize],
@@ -69,18 +67,34 @@ pub(super) fn of_axes(
     cell
 }
 
-/// The middle of the range, where a sensor that turned through all positions has its zero.
-fn mean_of_range(x: &[f64]) -> f64 {
-    let (least, most) = range(x);
-    rounded((least + most) / 2.0, 1e-4 * (most - least))
-}
-
 /// A variant for each term alone, and one with all of them.
-pub(super) fn singles_and_all(terms: Vec<(String, Term)>) -> Vec<Variation> {
+fn singles_and_all(terms: Vec<(String, Term)>) -> Vec<Variation> {
     let all: Vec<Term> = terms.iter().map(|(_, term)| term.clone()).collect();
     let together = (all.len() > 1).then(|| Variation::of("all", all));
     let each = terms
         .into_iter()
         .map(|(label, term)| Variation::one(label, term));
     each.chain(together).collect()
+}
+
+/// Where each output of the model has a stimulus of its own: axes that see part of what belongs to another one. One cell: each output with
+/// each stimulus that only others have, and all of them together.
+pub(super) fn crossed(fitted: &FittedModel<'_>) -> Option<Cell> {
+    let case = fitted.case();
+    let stimuli = fitted.used(Role::Stimulus);
+    let stimuli: Vec<usize> = stimuli.filter(|c| !fitted.is_temperature(*c)).collect();
+    let mut pairs = Vec::new();
+    for (response, declared) in case.responses.iter().enumerate() {
+        let uses = case.equations.uses(response);
+        let others = stimuli
+            .iter()
+            .filter(|column| !uses.contains(&(case.parameters.len() + **column)));
+        pairs.extend(others.map(|column| {
+            let label = format!("{} with {}", declared.name, fitted.label(*column));
+            let term = Term::new(Node::Output, fitted.centred(*column)).on(response);
+            (label, term)
+        }));
+    }
+    let (id, output) = (EffectId::CrossAxis, fitted.output());
+    (!pairs.is_empty()).then(|| of_axes(fitted, id, &stimuli, output, singles_and_all(pairs)))
 }

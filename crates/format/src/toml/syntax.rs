@@ -241,6 +241,10 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
         fault(say!("`//` begins no remark in TOML"))
             .label(say!("expected `#`"))
             .help(say!("write {value}  # {remark}"))
+    } else if let (true, Some((first, second))) = (unquoted, two_numbers(marked)) {
+        fault(say!("`{marked}` is two numbers"))
+            .label(say!("expected a comma between them"))
+            .help(say!("write {first}, {second} in a list"))
     } else if unquoted && let Some((number, unit)) = amount(marked) {
         fault(say!("`{marked}` needs quotes"))
             .label(say!("an amount with a unit is a text"))
@@ -484,6 +488,17 @@ pub fn without_comma(number: &str, quotes: &str) -> Said {
     }
 }
 
+/// Two numbers with nothing but blanks between them.
+fn two_numbers(text: &str) -> Option<(&str, &str)> {
+    let (first, second) = text.split_once([' ', '\t'])?;
+    let second = second.trim_start();
+    let is_number = |text: &str| {
+        text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
+            && text.parse::<f64>().is_ok()
+    };
+    (is_number(first) && is_number(second)).then_some((first, second))
+}
+
 /// Number and unit of an amount that was written without quotes.
 fn amount(text: &str) -> Option<(&str, &str)> {
     let end = text
@@ -528,6 +543,8 @@ mod tests {
             ("limits = [1，2]", "，", "write `,`"),
             ("value ＝ 3", "＝", "write `=`"),
             ("value = .5", "", "0.5"),
+            ("readings = [1.0, 1.1 1.2]", "1.1 1.2", "1.1, 1.2"),
+            ("value = 1 200.5", "1 200.5", "write 1200.5"),
         ] {
             let (found, mend) = first(text);
             assert_eq!(found, marked, "{text}");

@@ -297,6 +297,12 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
             .help(say!(
                 "put the text between single quotes, '…', which take a backslash as it is; paths may have `/` as well"
             ))
+    } else if says("unexpected key or value") && says("newline") {
+        fault(say!("something stands behind the value"))
+            .label(say!("expected the end of the line"))
+            .help(say!(
+                "write each key on a line of its own; several on one line stand between braces: {{ value = 1, u = 0.1 }}"
+            ))
     } else {
         let message = of_toml(message);
         fault(say!("not well-formed TOML: {message}")).label(say!("not understood here"))
@@ -422,7 +428,7 @@ fn foreign_sign(span: &Range<usize>, text: &str) -> Option<Fault> {
 }
 
 /// Signs that look like those of TOML, and those.
-const FOREIGN: [(char, &str); 16] = [
+const FOREIGN: [(char, &str); 18] = [
     ('“', "\""),
     ('”', "\""),
     ('„', "\""),
@@ -437,6 +443,8 @@ const FOREIGN: [(char, &str); 16] = [
     ('】', "]"),
     ('＝', "="),
     ('，', ","),
+    (';', ","),
+    ('；', ","),
     ('。', "."),
     ('　', " "),
 ];
@@ -541,6 +549,8 @@ mod tests {
             ("title = “10 kg 砝码”", "“", "write `\"`"),
             ("c = ｛ U = 1, k = 2 }", "｛", "write `{`"),
             ("limits = [1，2]", "，", "write `,`"),
+            ("x = { value = 10; u = 0.1 }", ";", "write `,`"),
+            ("model = \"a\" unit = \"mm\"", "", "a line of its own"),
             ("value ＝ 3", "＝", "write `=`"),
             ("value = .5", "", "0.5"),
             ("readings = [1.0, 1.1 1.2]", "1.1 1.2", "1.1, 1.2"),

@@ -20,7 +20,7 @@ pub static HINTS: Hints = Hints {
 };
 
 /// Words that people try, and the keys and words that they mean.
-pub const SYNONYMS: [(&str, &str); 114] = [
+pub const SYNONYMS: [(&str, &str); 120] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),

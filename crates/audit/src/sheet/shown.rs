@@ -41,7 +41,7 @@ pub(super) fn cell(value: f64, shown: Option<&str>) -> Cell {
 }
 
 /// A number in a cell without a format, where it has more digits than such a cell shows.
-fn general(value: f64) -> Option<String> {
+pub(super) fn general(value: f64) -> Option<String> {
     const SHOWN: u8 = 10;
     let held = Decimal::from_f64(value);
     let shown = held.round_to_significant(SHOWN, Rounding::HalfUp);

@@ -43,11 +43,15 @@ fn sheets(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
         };
         let shows = |row: usize, column: usize, x: f64| {
             let place = (u32::try_from(row).ok()?, u32::try_from(column).ok()?);
-            let format = styles
-                .as_ref()
-                .and_then(|styles| styles.get(place)?.number_format.as_ref());
-            let of_format = format.and_then(|format| shown::formatted(x, &format.format_code));
-            of_format.or_else(|| document.shown.get(&(row, column)).cloned())
+            let of_style = styles.as_ref().and_then(|styles| {
+                let style = styles.get(place);
+                match style.and_then(|style| style.number_format.as_ref()) {
+                    Some(format) => shown::formatted(x, &format.format_code),
+                    None => shown::general(x),
+                }
+            });
+            let of_document = document.shown.get(&(row, column));
+            of_document.cloned().or(of_style)
         };
         let (top, left) = values.start().unwrap_or((0, 0));
         for (row, column, value) in values.used_cells() {

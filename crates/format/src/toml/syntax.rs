@@ -36,8 +36,12 @@ fn is_name(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> bool {
         return false;
     };
     let letter = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
-    let word = text.get(word_at(&span, text)).unwrap_or_default();
-    word.chars().all(letter) && !synonyms.iter().any(|(synonym, _)| *synonym == word)
+    let at = word_at(&span, text);
+    // Behind a dot stands a name, whatever it is: `[measurand.值]`.
+    let of_quantity = text[..at.start].ends_with('.');
+    let word = text.get(at).unwrap_or_default();
+    let is_key = synonyms.iter().any(|(synonym, _)| *synonym == word);
+    word.chars().all(letter) && (of_quantity || !is_key)
 }
 
 /// How the parser says that a key needs quotes.
@@ -138,19 +142,24 @@ fn unquoted_key(span: Range<usize>, marked: &str, text: &str, synonyms: &Synonym
     let meant = synonyms.iter().find(|(word, _)| *word == marked);
     let first = in_header && text[..span.start].ends_with('[');
     let help = match meant {
-        Some((_, key)) if first => say!("the table is [{key}]"),
-        Some((_, key)) if !in_header => say!("the key is `{key}`"),
-        _ => say!(
-            "write \"{marked}\", also behind a dot: [input.\"{marked}\"]; formulas use the name without quotes"
-        ),
+        Some((_, key)) if first => Some(say!("the table is [{key}]")),
+        Some((_, key)) if !in_header => Some(say!("the key is `{key}`")),
+        _ => None,
     };
+    if let Some(help) = help {
+        return Fault::new(TOML_SYNTAX, span, say!("`{marked}` is no key of the file"))
+            .label(say!("another word for a key"))
+            .help(help);
+    }
     Fault::new(
         TOML_SYNTAX,
         span,
         say!("`{marked}` needs quotes where it is a key"),
     )
     .label(say!("only A-Z a-z 0-9 _ - may stand without quotes here"))
-    .help(help)
+    .help(say!(
+        "write \"{marked}\", also behind a dot: [input.\"{marked}\"]; formulas use the name without quotes"
+    ))
 }
 
 /// What to write for a header that stands a second time: tables of one name are a list, or one of them is another.
@@ -573,6 +582,7 @@ mod tests {
             "α-1 = 2",
             "a = { φ = 1, Δ2Δ = 3 }",
             "a.δ.b = 1",
+            "[measurand.单位]",
         ] {
             assert_eq!(errors(text), 0, "{text}");
             let (table, _) = document(text, &synonyms);

@@ -53,7 +53,9 @@ pub fn decoded(bytes: Vec<u8>, path: &Path) -> Result<String, Rejection> {
             vec![Fault::new(TOML_SYNTAX, 0..0, message).help(help)],
         ));
     }
-    if let [_, 0, ..] | [0, _, ..] = bytes.as_slice() {
+    if let [a, 0, b, 0, ..] | [0, a, 0, b, ..] = bytes.as_slice()
+        && [a, b].iter().all(|c| c.is_ascii_graphic())
+    {
         // Without the mark in front it may be read as text with a zero between its letters.
         let message = say!("{name} is not UTF-8 text from byte {} on", 1);
         let help = say!("the file is UTF-16; save it as UTF-8");

@@ -419,9 +419,12 @@ fn bare(line: Range<usize>, text: &str) -> impl Iterator<Item = (usize, char)> {
 
 /// A sign of a Chinese keyboard or of a word processor where TOML has its own: `｛`, `“`, `，`.
 fn foreign_sign(span: &Range<usize>, text: &str) -> Option<Fault> {
-    let (at, sign, meant) = bare(line_of(span.start, text), text).find_map(|(at, sign)| {
+    let line = line_of(span.start, text);
+    // At the end of a line a semicolon closes a statement of other languages, and is too much here.
+    let in_list = |at: usize| text[line.start..at].contains(['{', '[']);
+    let (at, sign, meant) = bare(line.clone(), text).find_map(|(at, sign)| {
         let (_, meant) = FOREIGN.iter().find(|(foreign, _)| *foreign == sign)?;
-        Some((at, sign, meant))
+        (in_list(at) || !matches!(sign, ';' | '；')).then_some((at, sign, meant))
     })?;
     Some(
         Fault::new(

@@ -188,7 +188,7 @@ impl Input<'_> {
         };
         let _ = writeln!(text, "description = {}", quoted(description));
         let said = comment(&row.words);
-        if !said.is_empty() {
+        if !said.is_empty() && said != *description {
             let _ = writeln!(text, "# The sheet: {said}");
         }
         let unit = self.unit(y_unit);
@@ -301,7 +301,11 @@ impl Input<'_> {
                 format!("limits = [{}, {}]\n", number(low), number(high))
             }
             Stated::Deviation { m, .. } | Stated::Range { m, .. } => {
-                format!("# Of the mean of {m} readings.\n{}", standard())
+                let of = match *m {
+                    1.0 => "a single reading".to_string(),
+                    m => format!("the mean of {m} readings"),
+                };
+                format!("# Of {of}.\n{}type = \"A\"\n", standard())
             }
             Stated::Standard { .. } | Stated::Nothing => {
                 format!(

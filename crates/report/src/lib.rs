@@ -90,6 +90,18 @@ pub struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
+    /// The title of the budget; where it has none, what is measured.
+    fn title(&self) -> String {
+        match self.budget.heading.title.as_str() {
+            "" => {
+                let outputs = self.budget.model.outputs().iter();
+                let names: Vec<&str> = outputs.map(|output| output.name.as_str()).collect();
+                names.join(", ")
+            }
+            title => title.to_string(),
+        }
+    }
+
     /// Name and unit of a measurand.
     fn measurand(&self, measurand: usize) -> (&'a str, &'a Unit) {
         let output = &self.budget.model.outputs()[measurand];

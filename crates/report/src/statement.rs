@@ -57,10 +57,16 @@ fn of_measurand(report: &Report<'_>, measurand: usize) -> Option<String> {
         figures: Figures::new(report, measurand),
         gum: &report.evaluation.results[measurand].gum,
         trials: grouped(report.evaluation.run.as_ref().map_or(0, |run| run.trials)),
+        failed: failed(report, measurand),
         conventions: &report.budget.conventions,
         language: report.language,
     };
     Some(subject.sentence())
+}
+
+fn failed(report: &Report<'_>, measurand: usize) -> u64 {
+    let found = report.evaluation.results[measurand].monte_carlo.as_ref();
+    found.map_or(0, |found| found.failed)
 }
 
 /// What a sentence about one measurand needs.
@@ -69,12 +75,37 @@ struct Subject<'a> {
     gum: &'a Gum,
     /// Trials of the run.
     trials: String,
+    /// Those of them in which the model has no value.
+    failed: u64,
     conventions: &'a Conventions,
     language: Language,
 }
 
 impl Subject<'_> {
     fn sentence(&self) -> String {
+        let sentence = self.with_uncertainty();
+        match self.left_out() {
+            Some(left_out) => self.language.pick(
+                format!("{sentence} {left_out}"),
+                format!("{sentence}{left_out}"),
+            ),
+            None => sentence,
+        }
+    }
+
+    /// The trials that the figures of Monte Carlo do not rest on.
+    fn left_out(&self) -> Option<String> {
+        let failed = grouped(self.failed);
+        let counts = self.failed > 0 && self.figures.reported.basis == Basis::MonteCarlo;
+        counts.then(|| {
+            self.language.pick(
+                format!("In {failed} of these trials the model has no value; they are left out."),
+                format!("其中 {failed} 次试验模型无有限值，未计入。"),
+            )
+        })
+    }
+
+    fn with_uncertainty(&self) -> String {
         let reported = &self.figures.reported;
         match (reported.uncertainty, reported.basis) {
             (ReportedUncertainty::Multiple { .. }, Basis::Gum) => self.gum_sentence(),

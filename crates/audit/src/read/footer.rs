@@ -96,11 +96,13 @@ pub fn label(text: &str, measurand: &str) -> Option<Whole> {
         return Some(Whole::Y);
     }
     let lower = absolute(&text.to_lowercase());
-    // `Sum u(m_X)`, `Total u`.
+    // `Sum u(m_X)`, `Total u`, `Total u_c`.
     let total = ["sum ", "total ", "合计 "]
         .iter()
         .find_map(|word| lower.strip_prefix(word));
-    if total.is_some_and(|rest| rest == "u" || rest.starts_with("u(") || rest.starts_with("u_")) {
+    if total.is_some_and(|rest| {
+        matches!(rest, "u" | "uc") || rest.starts_with("u(") || rest.starts_with("u_")
+    }) {
         return Some(Whole::Combined);
     }
     let at = |keys: &[&str]| keys.iter().filter_map(|key| find(&lower, key, 0)).min();

@@ -3,6 +3,7 @@
 //! | chapter | holds |
 //! |---|---|
 //! | `beside` | tables side by side |
+//! | `blocks` | tables that are blocks of one budget |
 //! | `columns` | what a column is, by its head |
 //! | `table` | where a table stands, and its rows |
 //! | `kind` | what is known of a quantity, by the words for it |
@@ -19,6 +20,7 @@
 //! | `words` | words and figures in texts |
 
 mod beside;
+mod blocks;
 mod columns;
 mod converter;
 mod footer;
@@ -64,6 +66,7 @@ pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
         .iter()
         .cloned()
         .partition(|one| found.iter().any(|other| one.states_inputs_of(other)));
+    let evaluated = blocks::joined(&grids, evaluated);
     let outside = |sheet: usize| {
         let of_inputs = |row: usize| {
             inputs
@@ -85,10 +88,10 @@ pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
                 .filter(|o| o.sheet == one.sheet)
         };
         let start = near(i.checked_sub(1)).map_or(0, |other| {
-            between(grid, other.located.end, one.located.head)
+            between(grid, other.located.end, one.first_head())
         });
         let end = near(Some(i + 1)).map_or(grid.rows.len(), |other| {
-            between(grid, one.located.end, other.located.head)
+            between(grid, one.located.end, other.first_head())
         });
         let own: Vec<&Found> = inputs
             .iter()
@@ -104,6 +107,9 @@ pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
 struct Found {
     sheet: usize,
     located: Located,
+    /// Blocks of the same budget above it.
+    above: Vec<Located>,
+    /// Rows of all blocks.
     raw: Vec<table::Raw>,
 }
 
@@ -113,8 +119,28 @@ impl Found {
         Found {
             sheet,
             located,
+            above: Vec::new(),
             raw,
         }
+    }
+
+    /// The same with another block of its budget above it.
+    fn below(mut self, block: Found) -> Found {
+        self.above = block.above;
+        self.above.push(block.located);
+        self.raw.splice(..0, block.raw);
+        self
+    }
+
+    /// Row of the head of its first block.
+    fn first_head(&self) -> usize {
+        self.above.first().unwrap_or(&self.located).head
+    }
+
+    /// Rows above its last block that are no text, and subtotals: no figures of the whole.
+    fn is_of_block(&self, grid: &Grid, row: usize) -> bool {
+        let in_block = self.above.iter().any(|block| block.is_used(row));
+        in_block || !self.above.is_empty() && blocks::is_subtotal(grid, row)
     }
 
     /// Whether this table says what is known of the rows that another one evaluates.
@@ -162,7 +188,10 @@ fn running(all: &[Line], mapping: &Mapping) -> Option<Claimed> {
     let rows: Vec<(usize, Row)> = sentences.iter().enumerate().filter_map(row).collect();
     let claimed = (rows.len() >= 2).then(|| told(&sentences, rows, mapping))?;
     let footer = &claimed.footer;
-    (footer.u_c.is_some() || footer.expanded.is_some()).then_some(claimed)
+    // A contribution that is not understood is no reason to doubt the others.
+    let mut unread = claimed.unplaced.iter();
+    let whole = !unread.any(|line| prose::states_uncertainty(&line.text));
+    (whole && (footer.u_c.is_some() || footer.expanded.is_some())).then_some(claimed)
 }
 
 /// The budget of these rows, which some of the lines are.
@@ -209,8 +238,11 @@ fn budget(
     mapping: &Mapping,
 ) -> Claimed {
     let (sheet, mut located) = (found.sheet, found.located.clone());
+    let blocks = found.above.iter().chain([&located]);
     let mut claimed = Claimed {
-        understood: located.understood(grid, sheet),
+        understood: blocks
+            .flat_map(|block| block.understood(grid, sheet))
+            .collect(),
         ..Claimed::default()
     };
     let mut raw = found.raw.clone();
@@ -220,14 +252,14 @@ fn budget(
             raw.absorb(input);
         }
     }
-    let of_inputs = |row: usize| {
-        inputs
-            .iter()
-            .any(|input| input.sheet == sheet && input.located.is_used(row))
+    let elsewhere = |row: usize| {
+        let mut inputs = inputs.iter();
+        inputs.any(|input| input.sheet == sheet && input.located.is_used(row))
+            || found.is_of_block(grid, row)
     };
     let own = |located: &Located| {
         lines(grid, sheet, bounds.clone(), |row| {
-            located.is_used(row) || of_inputs(row)
+            located.is_used(row) || elsewhere(row)
         })
     };
     let first = own(&located);
@@ -235,7 +267,7 @@ fn budget(
     claimed.unit = located.unit.clone();
     claimed.title = first
         .iter()
-        .find(|line| line.at.row < located.head && !line.text.contains('='))
+        .find(|line| line.at.row < found.first_head() && !line.text.contains('='))
         .map(|line| line.text.clone())
         .unwrap_or_default();
     find_model(
@@ -246,7 +278,7 @@ fn budget(
     drop_measurand(grid, &mut raw, &mut claimed);
     symbols_of_model(&mut raw, &mut claimed);
     let below = located.head + 1..bounds.end;
-    table::footers(grid, sheet, &mut located, below, of_inputs, &mut claimed);
+    table::footers(grid, sheet, &mut located, below, elsewhere, &mut claimed);
     claimed.typed = formulas::typed(grid, sheet, &claimed);
     claimed.stale = formulas::stale(grid, sheet, bounds.clone());
     if located.has_bare_u_behind_c() {
@@ -259,7 +291,7 @@ fn budget(
     // Some sheets have their result in front of the table.
     if claimed.footer.u_c.is_none() && claimed.footer.expanded.is_none() {
         let above = bounds.start..located.head;
-        table::footers(grid, sheet, &mut located, above, of_inputs, &mut claimed);
+        table::footers(grid, sheet, &mut located, above, elsewhere, &mut claimed);
         if claimed.unit.is_empty() {
             claimed.unit = result_unit::unit_of_result(&claimed);
         }

@@ -424,7 +424,10 @@ pub fn model(text: &str, claimed: &Claimed) -> Option<(String, String)> {
         .filter(|row| names_of(row).any(|name| has_symbol(right, name)))
         .count();
     let enough = named >= 2 || named == 1 && claimed.rows.len() <= 2;
-    let identifier = !left.is_empty() && left.chars().count() <= 24 && !left.contains([',', '|']);
+    // `… is 0.2 N (k = 2), giving …` is a sentence.
+    let is_closed = left.matches('(').count() == left.matches(')').count();
+    let short = !left.is_empty() && left.chars().count() <= 24;
+    let identifier = short && is_closed && !left.contains([',', '|']);
     // `u_c = sqrt(u1^2 + …)`, `U = k·u_c`, `k = 2` are no models.
     let of_claim = footer::label(left, "").is_some_and(|whole| whole != footer::Whole::Y);
     let about_u = of_claim

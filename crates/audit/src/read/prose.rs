@@ -5,7 +5,7 @@ use crate::printed::{Place, Printed, leading};
 
 use super::footer;
 use super::kind::{self, Evidence};
-use super::words::{figure_after, has};
+use super::words::{figure_after, figures_with_units, has};
 
 /// Heads of lines that are about the whole.
 const OF_THE_WHOLE: [&str; 12] = [
@@ -100,7 +100,11 @@ fn begins_with_symbol(text: &str) -> bool {
 fn is_name(head: &str) -> bool {
     let long = head.chars().count() > HEAD;
     let of_the_whole = has(&head.to_lowercase(), &OF_THE_WHOLE);
-    !head.is_empty() && !long && !of_the_whole && footer::label(head, "").is_none()
+    // `The resolution is 0.5 N; half of it …`: a sentence.
+    let verbs = [" is ", " are ", " was ", " has ", " have "];
+    let is_sentence = verbs.iter().any(|verb| head.contains(verb));
+    let is_label = footer::label(head, "").is_some();
+    !head.is_empty() && !long && !of_the_whole && !is_sentence && !is_label
 }
 
 /// A line that ends in the standard uncertainty which it comes to, as a row.
@@ -120,30 +124,78 @@ fn of_conclusion(words: &str, u: Printed, at: Place) -> Option<Row> {
 
 /// A sentence that says what is known of a quantity, as a row: it has a figure, and what the figure is.
 pub fn sentence(text: &str, at: Place) -> Option<Row> {
-    const LEADS: [&str; 9] = [
-        " is ", " are ", " was ", " has ", " have ", " may ", " of ", "为", "的",
+    const MARKS: [&str; 8] = [
+        "resolution",
+        "分辨力",
+        "within",
+        "standard deviation",
+        "standard uncertainty",
+        "half-width",
+        "标准差",
+        "标准不确定度",
     ];
+    const OF_U: [&str; 2] = ["standard uncertainty", "标准不确定度"];
     let lower = text.to_lowercase();
-    let marked = lower.contains(['=', '±']) || has(&lower, &["resolution", "分辨力", "within"]);
+    let marked = lower.contains(['=', '±']) || has(&lower, &MARKS);
     let whole = ["combined", "合成", "result", "结果"];
     if !marked || has(&lower, &whole) || figure_after(text, &["expanded uncertainty is"]).is_some()
     {
         return None;
     }
+    let u = figure_after(text, &OF_U).filter(|u| crate::units::parse(&u.unit).is_some());
+    // What leads to a standard uncertainty says what is known, and not the clause that has it.
+    let conclusion = u
+        .as_ref()
+        .and_then(|_| OF_U.iter().find_map(|key| lower.find(key)));
+    let front = conclusion.and_then(|at| text.get(..text.get(..at)?.rfind([',', ';'])?));
     let evidence = Evidence {
-        words: text,
+        words: front.unwrap_or(text),
+        u: u.as_ref(),
         ..Evidence::default()
     };
     let (stated, _) = kind::stated(&evidence);
-    let end = LEADS.iter().filter_map(|lead| text.find(lead)).min()?;
-    let name = text[..end].trim_start_matches("The ").trim();
+    let name = subject(text)?;
     let known = !matches!(stated, Stated::Nothing) && is_name(name);
     known.then(|| Row {
         name: name.into(),
         at,
-        words: text.into(),
+        u: u.map(|u| u.at(at)),
+        words: front.unwrap_or(text).into(),
         ..Row::default()
     })
+}
+
+/// What a sentence is about: `The expanded uncertainty of the standard is …` is about the standard.
+fn subject(text: &str) -> Option<&str> {
+    const LEADS: [&str; 9] = [
+        " is ", " are ", " was ", " has ", " have ", " may ", " of ", "为", "的",
+    ];
+    const OF: [&str; 3] = [
+        "expanded uncertainty of ",
+        "half-width of ",
+        "standard uncertainty of ",
+    ];
+    let text = text.strip_prefix("The ").unwrap_or(text);
+    let lower = text.to_lowercase();
+    let lead = OF.iter().find(|kind| lower.starts_with(**kind));
+    let text = lead.and_then(|kind| text.get(kind.len()..)).unwrap_or(text);
+    let text = text.strip_prefix("the ").unwrap_or(text);
+    let end = LEADS.iter().filter_map(|lead| text.find(lead)).min()?;
+    Some(text[..end].trim())
+}
+
+/// Whether a sentence states an uncertainty, whatever it is of.
+pub fn states_uncertainty(text: &str) -> bool {
+    const WORDS: [&str; 6] = [
+        "uncertainty",
+        "deviation",
+        "half-width",
+        "不确定度",
+        "标准差",
+        "偏差",
+    ];
+    has(&text.to_lowercase(), &WORDS)
+        && figures_with_units(text).any(|figure| !figure.unit.is_empty())
 }
 
 /// The sentences of a line.

@@ -118,7 +118,7 @@ fn named_divisor(distribution: &str) -> Option<f64> {
     let has = |keys: &[&str]| keys.iter().any(|key| text.contains(key));
     if has(&["triang", "三角"]) {
         Some(Shape::Triangular.divisor())
-    } else if has(&["arcsin", "u-shape", "u shape", "反正弦"]) {
+    } else if has(&["arcsin", "u-shape", "u shape", "反正弦", "u形"]) {
         Some(Shape::Arcsine.divisor())
     } else if has(&["rect", "rechteck", "uniform", "均匀", "矩形"]) {
         Some(Shape::Rectangular.divisor())

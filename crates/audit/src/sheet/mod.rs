@@ -7,6 +7,7 @@
 //! | `open_document` | the same of a sheet in OpenDocument, and what its numbers show |
 //! | `shown` | numbers by what their cells show |
 //! | `stale` | formulas that give another figure than their cells hold |
+//! | `uncached` | formulas of which the file keeps no value |
 //! | `text` | separated values, Markdown tables, plain text |
 
 mod hidden;
@@ -14,6 +15,7 @@ mod open_document;
 mod shown;
 mod stale;
 mod text;
+mod uncached;
 mod workbook;
 
 use std::collections::BTreeSet;
@@ -68,6 +70,12 @@ impl Cell {
             Some(shown) => figure.called(shown),
             None => figure,
         })
+    }
+
+    /// Whether it has a formula whose value the file does not keep. A formula that may give an empty text has one.
+    pub(crate) fn lacks_value(&self) -> bool {
+        let formula = self.formula.as_ref().filter(|_| self.is_empty());
+        formula.is_some_and(|formula| !formula.contains("\"\""))
     }
 
     /// Whether nothing stands in it.

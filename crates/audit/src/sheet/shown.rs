@@ -40,8 +40,19 @@ pub(super) fn cell(value: f64, shown: Option<&str>) -> Cell {
     }
 }
 
+/// A number in a cell without a format, where it has more digits than such a cell shows.
+pub(super) fn general(value: f64) -> Option<String> {
+    const SHOWN: u8 = 10;
+    let held = Decimal::from_f64(value);
+    let shown = held.round_to_significant(SHOWN, Rounding::HalfUp);
+    (shown.to_f64() != value).then(|| shown.print_plain(PLAIN))
+}
+
 /// A number in a format of Open XML, as far as that is decimals, percent, powers of ten, and words; `None` for another.
 pub(super) fn formatted(value: f64, format: &str) -> Option<String> {
+    if format.eq_ignore_ascii_case("general") {
+        return general(value);
+    }
     let sections: Vec<&str> = sections(format);
     let is_negative = value < 0.0;
     let (section, own_sign) = match (sections.as_slice(), is_negative) {

@@ -3,7 +3,7 @@
 
 use crate::printed::Printed;
 
-use super::Grid;
+use super::{Cell, Grid};
 
 /// Notes in every cell that its formula gives another figure than it holds.
 pub(crate) fn mark(grid: &mut Grid) {
@@ -23,6 +23,11 @@ pub(crate) fn mark(grid: &mut Grid) {
     for (row, column, gives) in found {
         grid.rows[row][column].gives = Some(gives);
     }
+}
+
+/// What a formula gives, where it can be computed.
+pub(super) fn computed(grid: &Grid, formula: &str) -> Option<f64> {
+    value(grid, formula).map(|value| value.x)
 }
 
 /// What a formula gives, and how far, relatively, the digits of the cells that it names leave that open: other programs
@@ -203,6 +208,9 @@ impl<'t> Reader<'t> {
                     }
                     for row in from.0..=to.0 {
                         let cells = (from.1..=to.1).map(|column| self.grid.cell(row, column));
+                        if cells.clone().any(Cell::lacks_value) {
+                            return None;
+                        }
                         all.extend(cells.filter_map(|cell| Some(known(&cell.figure()?))));
                     }
                     self.rest = &self.rest[end..];
@@ -253,7 +261,6 @@ fn place(name: &str) -> Option<(usize, usize)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Cell;
     use super::*;
 
     #[test]

@@ -6,7 +6,7 @@ use calamine::{Data, DataRef, Reader, SheetVisible, Sheets, open_workbook_auto_f
 
 use gumption_fault::{Said, say};
 
-use super::{Cell, Grid, MOST_CELLS, Unreadable, open_document, shown, stale};
+use super::{Cell, Grid, MOST_CELLS, Unreadable, open_document, shown, stale, uncached};
 use gumption_format::contained::contained;
 
 /// Every sheet of a workbook. Hidden ones come last: what is hidden is read, but does not stand in front.
@@ -41,18 +41,22 @@ fn sheets(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
             hidden_rows: hidden.rows,
             ..Grid::default()
         };
+        let shows = |row: usize, column: usize, x: f64| {
+            let place = (u32::try_from(row).ok()?, u32::try_from(column).ok()?);
+            let of_style = styles.as_ref().and_then(|styles| {
+                let style = styles.get(place);
+                match style.and_then(|style| style.number_format.as_ref()) {
+                    Some(format) => shown::formatted(x, &format.format_code),
+                    None => shown::general(x),
+                }
+            });
+            let of_document = document.shown.get(&(row, column));
+            of_document.cloned().or(of_style)
+        };
         let (top, left) = values.start().unwrap_or((0, 0));
         for (row, column, value) in values.used_cells() {
             let (row, column) = (top as usize + row, left as usize + column);
-            let shows = |x: f64| {
-                let place = (u32::try_from(row).ok()?, u32::try_from(column).ok()?);
-                let format = styles
-                    .as_ref()
-                    .and_then(|styles| styles.get(place)?.number_format.as_ref());
-                let of_format = format.and_then(|format| shown::formatted(x, &format.format_code));
-                of_format.or_else(|| document.shown.get(&(row, column)).cloned())
-            };
-            *cell(&mut grid, row, column) = of_value(value, shows);
+            *cell(&mut grid, row, column) = of_value(value, |x| shows(row, column, x));
         }
         if let Ok(formulas) = book.worksheet_formula(&sheet.name) {
             let (top, left) = formulas.start().unwrap_or((0, 0));
@@ -61,6 +65,7 @@ fn sheets(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
                 cell.formula = Some(formula.trim_start_matches('=').to_string());
             }
         }
+        uncached::compute(&mut grid, shows);
         stale::mark(&mut grid);
         grids.push(grid);
     }

@@ -182,6 +182,7 @@ fn unary_call(
     };
     if row.dimension == DimensionRule::Angle {
         l.converted_once(argument)?;
+        l.plain_turns(argument)?;
         l.note_plain_angle(argument);
     }
     let (input, unit) = match row.dimension {

@@ -121,6 +121,48 @@ impl Lowering<'_> {
         }
     }
 
+    /// Refuses an exactly known number without a unit as an angle of more than a turn: `cos(30)` would be of 30 rad.
+    pub fn plain_turns(&mut self, argument: &Expr) -> Option<()> {
+        let (number, mend) = match &argument.node {
+            Node::Minus(inner) => return self.plain_turns(inner),
+            Node::Number {
+                value, unit: None, ..
+            } => (*value, None),
+            Node::Name(name) => {
+                let is_local = (self.locals.iter()).any(|names| names.contains_key(name.as_str()));
+                let symbol = self.symbol(name).filter(|_| !is_local);
+                let plain = symbol.filter(|symbol| symbol.unit.symbol == Unit::one().symbol);
+                match plain.map(|symbol| &symbol.role) {
+                    Some(Role::Constant(value)) => (*value, Some(name.clone())),
+                    _ => return Some(()),
+                }
+            }
+            _ => return Some(()),
+        };
+        if number.abs() <= std::f64::consts::TAU {
+            return Some(());
+        }
+        let text = printer::expression(argument);
+        let help = match mend {
+            Some(name) => {
+                say!(
+                    "state the unit of `{name}`: unit = \"°\", or unit = \"rad\" if radians are meant"
+                )
+            }
+            None => say!("write `{text} '°'`, or `{text} 'rad'` if radians are meant"),
+        };
+        self.report(
+            Fault::new(
+                faults::BARE_ANGLE,
+                argument.span.clone(),
+                say!("`{text}` has no unit, and as radians it would be more than a turn"),
+            )
+            .label(say!("would be radians"))
+            .help(help),
+        );
+        None
+    }
+
     /// Notes an input without a unit that is an angle by its place alone.
     pub fn note_plain_angle(&mut self, argument: &Expr) {
         let Node::Name(name) = &argument.node else {

@@ -53,6 +53,15 @@ pub fn decoded(bytes: Vec<u8>, path: &Path) -> Result<String, Rejection> {
             vec![Fault::new(TOML_SYNTAX, 0..0, message).help(help)],
         ));
     }
+    if let [a, 0, b, 0, ..] | [0, a, 0, b, ..] = bytes.as_slice()
+        && [a, b].iter().all(|c| c.is_ascii_graphic())
+    {
+        // Without the mark in front it may be read as text with a zero between its letters.
+        let message = say!("{name} is not UTF-8 text from byte {} on", 1);
+        let help = say!("the file is UTF-16; save it as UTF-8");
+        let fault = Fault::new(NOT_UTF8, 0..0, message).help(help);
+        return Err(Rejection::new(&name, "", vec![fault]));
+    }
     let text = String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let valid = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();

@@ -36,8 +36,12 @@ fn is_name(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> bool {
         return false;
     };
     let letter = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
-    let word = text.get(word_at(&span, text)).unwrap_or_default();
-    word.chars().all(letter) && !synonyms.iter().any(|(synonym, _)| *synonym == word)
+    let at = word_at(&span, text);
+    // Behind a dot stands a name, whatever it is: `[measurand.值]`.
+    let of_quantity = text[..at.start].ends_with('.');
+    let word = text.get(at).unwrap_or_default();
+    let is_key = synonyms.iter().any(|(synonym, _)| *synonym == word);
+    word.chars().all(letter) && (of_quantity || !is_key)
 }
 
 /// How the parser says that a key needs quotes.
@@ -138,19 +142,24 @@ fn unquoted_key(span: Range<usize>, marked: &str, text: &str, synonyms: &Synonym
     let meant = synonyms.iter().find(|(word, _)| *word == marked);
     let first = in_header && text[..span.start].ends_with('[');
     let help = match meant {
-        Some((_, key)) if first => say!("the table is [{key}]"),
-        Some((_, key)) if !in_header => say!("the key is `{key}`"),
-        _ => say!(
-            "write \"{marked}\", also behind a dot: [input.\"{marked}\"]; formulas use the name without quotes"
-        ),
+        Some((_, key)) if first => Some(say!("the table is [{key}]")),
+        Some((_, key)) if !in_header => Some(say!("the key is `{key}`")),
+        _ => None,
     };
+    if let Some(help) = help {
+        return Fault::new(TOML_SYNTAX, span, say!("`{marked}` is no key of the file"))
+            .label(say!("another word for a key"))
+            .help(help);
+    }
     Fault::new(
         TOML_SYNTAX,
         span,
         say!("`{marked}` needs quotes where it is a key"),
     )
     .label(say!("only A-Z a-z 0-9 _ - may stand without quotes here"))
-    .help(help)
+    .help(say!(
+        "write \"{marked}\", also behind a dot: [input.\"{marked}\"]; formulas use the name without quotes"
+    ))
 }
 
 /// What to write for a header that stands a second time: tables of one name are a list, or one of them is another.
@@ -241,6 +250,10 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
         fault(say!("`//` begins no remark in TOML"))
             .label(say!("expected `#`"))
             .help(say!("write {value}  # {remark}"))
+    } else if let (true, Some((first, second))) = (unquoted, two_numbers(marked)) {
+        fault(say!("`{marked}` is two numbers"))
+            .label(say!("expected a comma between them"))
+            .help(say!("write {first}, {second} in a list"))
     } else if unquoted && let Some((number, unit)) = amount(marked) {
         fault(say!("`{marked}` needs quotes"))
             .label(say!("an amount with a unit is a text"))
@@ -292,6 +305,12 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
             .label(say!("no escape"))
             .help(say!(
                 "put the text between single quotes, '…', which take a backslash as it is; paths may have `/` as well"
+            ))
+    } else if says("unexpected key or value") && says("newline") {
+        fault(say!("something stands behind the value"))
+            .label(say!("expected the end of the line"))
+            .help(say!(
+                "write each key on a line of its own; several on one line stand between braces: {{ value = 1, u = 0.1 }}"
             ))
     } else {
         let message = of_toml(message);
@@ -400,9 +419,12 @@ fn bare(line: Range<usize>, text: &str) -> impl Iterator<Item = (usize, char)> {
 
 /// A sign of a Chinese keyboard or of a word processor where TOML has its own: `｛`, `“`, `，`.
 fn foreign_sign(span: &Range<usize>, text: &str) -> Option<Fault> {
-    let (at, sign, meant) = bare(line_of(span.start, text), text).find_map(|(at, sign)| {
+    let line = line_of(span.start, text);
+    // At the end of a line a semicolon closes a statement of other languages, and is too much here.
+    let in_list = |at: usize| text[line.start..at].contains(['{', '[']);
+    let (at, sign, meant) = bare(line.clone(), text).find_map(|(at, sign)| {
         let (_, meant) = FOREIGN.iter().find(|(foreign, _)| *foreign == sign)?;
-        Some((at, sign, meant))
+        (in_list(at) || !matches!(sign, ';' | '；')).then_some((at, sign, meant))
     })?;
     Some(
         Fault::new(
@@ -418,7 +440,7 @@ fn foreign_sign(span: &Range<usize>, text: &str) -> Option<Fault> {
 }
 
 /// Signs that look like those of TOML, and those.
-const FOREIGN: [(char, &str); 16] = [
+const FOREIGN: [(char, &str); 18] = [
     ('“', "\""),
     ('”', "\""),
     ('„', "\""),
@@ -433,6 +455,8 @@ const FOREIGN: [(char, &str); 16] = [
     ('】', "]"),
     ('＝', "="),
     ('，', ","),
+    (';', ","),
+    ('；', ","),
     ('。', "."),
     ('　', " "),
 ];
@@ -484,6 +508,17 @@ pub fn without_comma(number: &str, quotes: &str) -> Said {
     }
 }
 
+/// Two numbers with nothing but blanks between them.
+fn two_numbers(text: &str) -> Option<(&str, &str)> {
+    let (first, second) = text.split_once([' ', '\t'])?;
+    let second = second.trim_start();
+    let is_number = |text: &str| {
+        text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
+            && text.parse::<f64>().is_ok()
+    };
+    (is_number(first) && is_number(second)).then_some((first, second))
+}
+
 /// Number and unit of an amount that was written without quotes.
 fn amount(text: &str) -> Option<(&str, &str)> {
     let end = text
@@ -526,8 +561,12 @@ mod tests {
             ("title = “10 kg 砝码”", "“", "write `\"`"),
             ("c = ｛ U = 1, k = 2 }", "｛", "write `{`"),
             ("limits = [1，2]", "，", "write `,`"),
+            ("x = { value = 10; u = 0.1 }", ";", "write `,`"),
+            ("model = \"a\" unit = \"mm\"", "", "a line of its own"),
             ("value ＝ 3", "＝", "write `=`"),
             ("value = .5", "", "0.5"),
+            ("readings = [1.0, 1.1 1.2]", "1.1 1.2", "1.1, 1.2"),
+            ("value = 1 200.5", "1 200.5", "write 1200.5"),
         ] {
             let (found, mend) = first(text);
             assert_eq!(found, marked, "{text}");
@@ -546,6 +585,7 @@ mod tests {
             "α-1 = 2",
             "a = { φ = 1, Δ2Δ = 3 }",
             "a.δ.b = 1",
+            "[measurand.单位]",
         ] {
             assert_eq!(errors(text), 0, "{text}");
             let (table, _) = document(text, &synonyms);

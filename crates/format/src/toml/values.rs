@@ -47,6 +47,11 @@ fn quoted_percent(value: &Raw<'_>, text: &str) -> Option<Fault> {
     )
 }
 
+/// `"1,1"`: a number but for its comma.
+fn has_comma(text: &str) -> bool {
+    text.contains(',') && text.replace(',', "").trim().parse::<f64>().is_ok()
+}
+
 fn quoted_number(value: &Raw<'_>, text: &str) -> Option<Fault> {
     let number = text.trim();
     // TOML has one word for it.
@@ -95,6 +100,10 @@ impl FromToml for f64 {
             (None, DeValue::String(text)) if quoted_percent(value, text).is_some() => {
                 reader.faults.extend(quoted_percent(value, text));
                 None
+            }
+            (None, DeValue::String(text)) if has_comma(text) => {
+                let help = without_comma(text.trim(), "");
+                reader.wrong_type_with(value, say!("a number"), Some(help))
             }
             (None, DeValue::String(text)) if number_and_remark(text).is_some() => {
                 let help = number_and_remark(text).map(|number| say!("write {number} alone"));
@@ -402,7 +411,7 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
         })
     } else if text.contains(',') && split_amount(&bare).is_some() {
         fault.help(without_comma(text.trim(), "\""))
-    } else if text.contains(',') && bare.trim().parse::<f64>().is_ok() {
+    } else if has_comma(text) {
         fault.help(without_comma(text.trim(), ""))
     } else if let Some(amount) = text.trim().strip_prefix('±').map(str::trim) {
         let quotes = match amount.parse::<f64>() {

@@ -20,7 +20,7 @@ pub static HINTS: Hints = Hints {
 };
 
 /// Words that people try, and the keys and words that they mean.
-pub const SYNONYMS: [(&str, &str); 114] = [
+pub const SYNONYMS: [(&str, &str); 120] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),
@@ -90,6 +90,12 @@ pub const SYNONYMS: [(&str, &str); 114] = [
     ("ilac_g8:09/2019", "ILAC-G8"),
     ("标题", "title"),
     ("被测量", "measurand"),
+    ("测量结果", "measurand"),
+    ("输出量", "measurand"),
+    ("output", "measurand"),
+    ("outputs", "measurand"),
+    ("result", "measurand"),
+    ("results", "measurand"),
     ("输入", "input"),
     ("输入量", "input"),
     ("模型", "model"),

@@ -61,8 +61,8 @@ fn heading(report: &Report<'_>) -> Vec<Block> {
     let l = report.language;
     let heading = &report.budget.heading;
     let title = match report.label {
-        Some(label) => format!("{} · {label}", heading.title),
-        None => heading.title.clone(),
+        Some(label) => format!("{} · {label}", report.title()),
+        None => report.title(),
     };
     let mut fields: Vec<(String, String)> = [
         (Word::Method, &heading.method),

@@ -17,7 +17,7 @@ pub(super) fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
         return Vec::new();
     };
     let l = first.language;
-    let mut blocks = vec![Block::Title(first.budget.heading.title.clone())];
+    let mut blocks = vec![Block::Title(first.title())];
     for measurand in 0..first.evaluation.results.len() {
         let (name, unit) = first.measurand(measurand);
         let unit = symbol(unit);

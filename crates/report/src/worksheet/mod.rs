@@ -57,8 +57,7 @@ impl<'a> Writer<'a> {
 
     fn heading(&mut self) {
         let report = self.report;
-        self.sheet
-            .push(vec![Entry::Title(report.budget.heading.title.clone())]);
+        self.sheet.push(vec![Entry::Title(report.title())]);
         let note = self.words(
             "Cells on a coloured ground may be changed; the others follow.",
             "有底色的单元格可以修改，其余单元格随之变化。",

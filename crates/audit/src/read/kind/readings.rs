@@ -210,11 +210,20 @@ fn behind(text: &str, e: &Evidence<'_>, n: Option<f64>) -> Option<f64> {
     mean(text, e).or(n.filter(|_| is_mean))
 }
 
-/// Whether a single reading is what is reported: one whose deviation is stated (`s of a single reading`) is not.
+/// Whether a single reading is what is reported: one whose deviation is stated (`s of a single reading`, `单次 s = …`) is
+/// not.
 fn reports_single(text: &str) -> bool {
     let deviation = ["deviation", "s of", "标准差", "标准偏差"];
-    text.split([',', ';', '。', '、', '('])
-        .any(|clause| has(clause, &["single", "单次"]) && !has(clause, &deviation))
+    let is_of_s = |clause: &str| {
+        let behind = clause
+            .split_once("单次")
+            .map(|(_, behind)| behind.trim_start());
+        let symbol = behind.map(|behind| behind.trim_start_matches("测量").trim_start());
+        symbol.is_some_and(|symbol| symbol.starts_with("s=") || symbol.starts_with("s "))
+    };
+    text.split([',', ';', '。', '、', '(']).any(|clause| {
+        has(clause, &["single", "单次"]) && !has(clause, &deviation) && !is_of_s(clause)
+    })
 }
 
 /// Readings behind the reported value, where their number is said.

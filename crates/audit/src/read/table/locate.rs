@@ -14,6 +14,7 @@ use super::content::{by_content, nameless_figures};
 use super::footers::labels_across;
 use super::head::{head, line_above, second_line};
 use super::located::Located;
+use super::pages::joined;
 
 /// Every table of a sheet that is a budget.
 pub fn locate(grid: &Grid, mapping: &Mapping) -> Vec<Located> {
@@ -46,7 +47,7 @@ pub fn locate(grid: &Grid, mapping: &Mapping) -> Vec<Located> {
             None => row += 1,
         }
     }
-    found
+    joined(grid, found)
 }
 
 fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {

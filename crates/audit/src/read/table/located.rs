@@ -48,6 +48,11 @@ impl Located {
         self.used.contains(&row)
     }
 
+    /// Whether a row of the sheet is a row of the budget.
+    pub fn is_row(&self, row: usize) -> bool {
+        self.rows.contains(&row)
+    }
+
     /// How its columns were understood.
     pub fn understood(&self, grid: &Grid, sheet: usize) -> Vec<Understood> {
         let place = |column: usize| Place {

@@ -6,6 +6,7 @@
 //! | `head` | its head: one line, or two |
 //! | `content` | what stands in a column, where its head is doubtful |
 //! | `locate` | where a table stands, and which rows are its rows |
+//! | `pages` | tables that go on on the next page |
 //! | `rows` | its rows with their figures |
 //! | `footers` | the claimed figures of the whole |
 //! | `interpret` | what is known of each row |
@@ -16,6 +17,7 @@ mod head;
 mod interpret;
 mod locate;
 mod located;
+mod pages;
 mod rows;
 
 pub use footers::footers;

@@ -96,6 +96,8 @@ const CASES: &[(&str, &str, &str, &str, &str)] = &[
     ("n * 1 'r/min' + 1 '1/min'", "1/min", "M0409", "1 '1/min'", "/ (1 'r')"),
     ("L / t", "mm", "M0405", "L / t", "unit = \"mm/s\""),
     ("phi + 90", "°", "M0407", "90", "`90 '°'`"),
+    ("L * cos(30)", "mm", "M0407", "30", "`30 '°'`"),
+    ("L * cos(-45)", "mm", "M0407", "45", "`45 'rad'`"),
     ("sin(phi * pi / 180)", "", "M0408", "phi * pi / 180", "write `phi` without"),
     ("sin(n * phi / n * pi / 180)", "", "M0408", "n * phi / n * pi / 180", "write `n * phi / n` without the factor, or `value_in(n * phi / n, '°')`"),
     ("sin(pi / 180 / t * (phi * t))", "", "M0408", "pi / 180 / t * (phi * t)", "write `phi * t / t` without the factor"),

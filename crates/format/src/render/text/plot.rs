@@ -44,7 +44,7 @@ fn bars(panel: &Panel, page: usize) -> Vec<String> {
             lines.push(format!("  {name}{space} |{}{drawn}", " ".repeat(start)));
         }
     }
-    let [left, right] = limits.map(|place| label(&panel.x, place));
+    let [left, right] = edges(&panel.x, limits);
     let name = panel.x.label();
     let space = width.saturating_sub(left.width() + name.width() + right.width());
     let (before, after) = (
@@ -73,7 +73,7 @@ fn drawn(panel: &Panel, page: usize) -> Vec<String> {
         return bars(panel, page);
     }
     let limits = panel.limits();
-    let [low, high] = limits[1].map(|place| label(&panel.y, place));
+    let [low, high] = edges(&panel.y, limits[1]);
     let margin = low.width().max(high.width());
     let width = page.saturating_sub(margin + 6).clamp(NARROWEST, WIDEST);
     let mut grid = Grid {
@@ -97,7 +97,7 @@ fn drawn(panel: &Panel, page: usize) -> Vec<String> {
     }
     let blank = " ".repeat(margin + 3);
     lines.push(format!("{blank}+{}", "-".repeat(width)));
-    let [left, right] = limits[0].map(|place| label(&panel.x, place));
+    let [left, right] = edges(&panel.x, limits[0]);
     let name = panel.x.label();
     let space = width.saturating_sub(left.width() + name.width() + right.width());
     let (before, after) = (
@@ -203,17 +203,50 @@ fn nearest(place: f64, [low, high]: [f64; 2], count: usize) -> usize {
     ((place - low) / (high - low) * (count - 1) as f64).round() as usize
 }
 
-/// A value at an edge with the digits that matter.
-fn label(axis: &Axis, place: f64) -> String {
-    let value = match axis.scale {
+/// The values at both edges, with the digits that matter, and those that tell one from the other.
+fn edges(axis: &Axis, [low, high]: [f64; 2]) -> [String; 2] {
+    let value = |place: f64| match axis.scale {
         Scale::Linear => place,
         Scale::Logarithmic => libm::pow(10.0, place),
     };
+    let [low, high] = [value(low), value(high)];
+    let line = (high - low).abs() / (2 * HEIGHT) as f64;
+    [low, high].map(|value| label(value, line))
+}
+
+/// A value to a part of a line.
+fn label(value: f64, line: f64) -> String {
+    let places = |unit: f64| match -libm::floor(libm::log10(line / unit)) {
+        places if places.is_finite() => places.clamp(0.0, 15.0) as usize,
+        _ => 0,
+    };
     match value.abs() {
         0.0 => "0".to_string(),
-        size if !(1e-3..1e5).contains(&size) => format!("{value:.1e}"),
-        size if size >= 100.0 => format!("{value:.0}"),
-        size if size >= 1.0 => format!("{value:.2}"),
-        _ => format!("{value:.4}"),
+        size if !(1e-3..1e5).contains(&size) => {
+            let of_one = libm::exp10(libm::floor(libm::log10(size)));
+            format!("{value:.*e}", places(of_one).max(1))
+        }
+        size if size >= 100.0 => format!("{value:.*}", places(1.0)),
+        size if size >= 1.0 => format!("{value:.*}", places(1.0).max(2)),
+        _ => format!("{value:.*}", places(1.0).max(4)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edges_are_told_apart() {
+        let axis = Axis {
+            quantity: "R".into(),
+            unit: String::new(),
+            scale: Scale::Linear,
+        };
+        let of = |limits| edges(&axis, limits);
+        assert_eq!(of([9.9965, 10.0045]), ["9.9965", "10.0045"]);
+        assert_eq!(of([120_000.0, 120_010.0]), ["1.200000e5", "1.200100e5"]);
+        assert_eq!(of([0.0, 40.0]), ["0", "40.00"]);
+        assert_eq!(of([-3.0, 250.0]), ["-3.00", "250"]);
     }
 }

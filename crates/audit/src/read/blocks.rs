@@ -1,0 +1,59 @@
+//! Budgets in blocks: contributions of type A in a table of their own, those of type B in the next, each with its subtotal.
+
+use crate::sheet::Grid;
+
+use super::Found;
+use super::footer::{self, Whole};
+use super::words::has;
+
+/// Names of the two types of evaluation.
+const TYPES: [&str; 8] = [
+    "type a", "type b", "type-a", "type-b", "a类", "b类", "a 类", "b 类",
+];
+
+/// Tables that are blocks of one budget, as one: with the rows of all, and the figures of the whole below the last.
+pub(super) fn joined(grids: &[Grid], found: Vec<Found>) -> Vec<Found> {
+    found
+        .into_iter()
+        .fold(Vec::new(), |mut all: Vec<Found>, next| {
+            let grid = &grids[next.sheet];
+            let is_block = |last: &Found| last.sheet == next.sheet && are_blocks(grid, last, &next);
+            match all.pop() {
+                Some(last) if is_block(&last) => all.push(next.below(last)),
+                other => {
+                    all.extend(other);
+                    all.push(next);
+                }
+            }
+            all
+        })
+}
+
+/// Whether a row is the sum of a block alone.
+pub(super) fn is_subtotal(grid: &Grid, row: usize) -> bool {
+    let mut texts = grid.filled(row).map(|(_, cell)| cell.text.to_lowercase());
+    texts.any(|text| {
+        let of_type = has(&text, &TYPES) && footer::label(&text, "") == Some(Whole::Combined);
+        of_type || has(&text, &["subtotal", "sub-total", "小计"])
+    })
+}
+
+/// Whether two tables are blocks: nothing of the whole but subtotals stands between them, and these or their titles say
+/// which block each is.
+fn are_blocks(grid: &Grid, first: &Found, next: &Found) -> bool {
+    let between = first.located.head + 1..next.located.head;
+    let of_whole = |row: &usize| {
+        let mut cells = grid.filled(*row).map(|(_, cell)| cell.text.as_str());
+        cells.any(|text| footer::label(text, "").is_some_and(|whole| whole != Whole::Y))
+    };
+    let is_row = |row: &usize| first.located.is_row(*row);
+    let mut whole = between.clone().filter(|row| !is_row(row) && of_whole(row));
+    let is_titled = |found: &Found| {
+        let above = found.located.head.checked_sub(1);
+        let mut cells = above.into_iter().flat_map(|row| grid.filled(row));
+        cells.any(|(_, cell)| has(&cell.text.to_lowercase(), &TYPES))
+    };
+    let told =
+        between.clone().any(|row| is_subtotal(grid, row)) || is_titled(first) && is_titled(next);
+    told && whole.all(|row| is_subtotal(grid, row))
+}

@@ -1,0 +1,150 @@
+//! Layouts of sheets: pages, blocks of types A and B, reports in sentences.
+
+use super::{answer, first};
+use crate::Verdict;
+
+fn is_sound(name: &str, sheet: &str) {
+    assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
+}
+
+/// The head stands again on every page; between the pages is their number, and the title again.
+#[test]
+fn tables_go_on_on_the_next_page() {
+    let sheet = |number: u8, between: &str, u_c: &str| {
+        let head = "序号,不确定度来源,类别,半宽/mm,分布,包含因子k,标准不确定度/mm";
+        format!(
+            "游标卡尺示值误差测量不确定度评定\n{head}\n1,测量重复性,A,0.005,正态,1,0.005\n2,量块,B,0.0008,均匀,√3,0.00046\n\
+             3,线膨胀系数差,B,0.0006,三角,√6,0.00024\n{between}{head}\n{number},温度差,B,0.0018,均匀,√3,0.00104\n\
+             5,数显分辨力 0.01,B,0.005,均匀,√3,0.00289\n合成标准不确定度 uc,,,,,,{u_c}\n扩展不确定度 U (k=2),,,,,,0.012\n第2页 共2页\n"
+        )
+    };
+    for between in [
+        "",
+        "\n",
+        "第1页 共2页\n\n（续表）\n",
+        "第1页 共2页\n\n\n\n游标卡尺示值误差测量不确定度评定\n",
+    ] {
+        is_sound("sheet.csv", &sheet(4, between, "0.0059"));
+    }
+    let linear = first(
+        "sheet.csv",
+        &sheet(4, "\n", "0.0096").replace("0.012\n第", "0.019\n第"),
+    );
+    assert_eq!(linear, "linear-sum");
+}
+
+/// Two budgets under heads that are alike are two.
+#[test]
+fn rows_that_are_counted_from_one_are_another_budget() {
+    let budget = |u: &str| {
+        format!(
+            "No.,Source,Limits / V,Distribution,Divisor,u / V\n1,standard,{u},normal,2,0.010\n2,drift,0.010,rectangular,√3,0.0058\n"
+        )
+    };
+    let text = format!(
+        "{}\n{}U (k = 2),,,,,0.023\n",
+        budget("0.020"),
+        budget("0.020")
+    );
+    let grids = crate::sheet::grids("two.csv", text.as_bytes()).unwrap();
+    assert_eq!(
+        crate::read::budgets(&grids, &crate::read::Mapping::default()).len(),
+        2
+    );
+}
+
+/// Contributions of type A with their subtotal, those of type B with theirs, and the whole.
+#[test]
+fn blocks_of_types_are_one_budget() {
+    let sheet = |total: &str, expanded: &str| {
+        format!(
+            "Type A contributions\nSymbol,Description,s,n,u\nuA1,repeatability,0.042,6,0.0171\nuA2,reproducibility,0.030,4,0.0150\n\
+             ,Combined Type A,,,0.0228\n\nType B contributions\nSymbol,Description,a,Divisor,u\nuB1,standard weight,0.05,2 (k),0.025\n\
+             uB2,display,0.05,√3,0.0289\n,Combined Type B,,,0.0382\n\nTotal uc,,,,{total}\n\"U = k uc, k=2\",,,,{expanded}\nall in mg\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.0445", "0.089"));
+    assert_eq!(first("sheet.csv", &sheet("0.0860", "0.17")), "linear-sum");
+}
+
+/// `6 次, 单次 s`: s is that of single readings, and their mean is what is reported.
+#[test]
+fn s_of_single_readings_is_no_single_reading() {
+    let sheet = |words: &str| {
+        format!(
+            "符号,不确定度来源,输入值,分布,k,不确定度分量\nu1,标准流量计 U=0.2 % k=2,0.2%,正态,2,0.10%\n\
+             u2,{words},0.12%,正态,√6,0.049%\n,合成相对标准不确定度,ucrel＝0.111％\n,扩展相对不确定度,\"Urel＝0.22％，k＝２\"\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("重复性（6次，单次s＝0.12％）"));
+    is_sound("sheet.csv", &sheet("重复性（6次，单次测量 s＝0.12％）"));
+    let single = first("sheet.csv", &sheet("重复性（6次 s＝0.12％，单次测量）"));
+    assert!(single.starts_with("s-wrong-m@"), "{single}");
+}
+
+/// 1.732 for √3 in cells that hold all digits: what nobody prints is no rounding.
+#[test]
+fn digits_that_are_not_printed_are_no_slip() {
+    let row = |name: &str, a: f64, divisor: f64| format!("{name},{a},{divisor},{}\n", a / divisor);
+    let u_c = libm::sqrt(
+        [0.1 / 2.0, 0.05 / 1.732, 0.06 / 1.732]
+            .map(|u| u * u)
+            .iter()
+            .sum(),
+    );
+    let sheet = format!(
+        "Source,± / mg,Divisor,u / mg\n{}{}{}uc,,,{u_c}\nk,,,2\nU,,,{}\n",
+        row("\"Reference weight, certificate k = 2\"", 0.1, 2.0),
+        row("Readability limits", 0.05, 1.732),
+        row("Eccentricity limits", 0.06, 1.732),
+        2.0 * u_c
+    );
+    is_sound("sheet.csv", &sheet);
+}
+
+/// ν_eff that nothing is looked up with is rounded as other figures are.
+#[test]
+fn degrees_of_freedom_that_are_not_used_may_be_rounded() {
+    let sheet = |nu: &str, rule: &str| {
+        format!(
+            "Source,± / mK,Distribution,Divisor,u / mK,νi\n\"s = 7.0711 of 5 readings, mean of 5\",7.0711,normal,√5,3.1623,4\n\
+             \"PRT, certificate U = 10, k = 2\",10,normal,2,5,∞\nbath,12,rectangular,√3,6.9282,∞\nuc,,,,9.1104,\nν_eff,,,,,{nu}\n{rule}\n"
+        )
+    };
+    // ν_eff = 275.6, and 2.01 is the factor for 275 as for 276.
+    is_sound("sheet.csv", &sheet("276", "U (k = 2),,,,18,"));
+    is_sound("sheet.csv", &sheet("276", "U (95 %, k = 1.97),,,,18,"));
+}
+
+/// A report in sentences: every contribution is one, and what is not understood is no reason to doubt the rest.
+#[test]
+fn reports_are_read_as_sentences() {
+    let report = |scatter: &str, u_c: &str, expanded: &str| {
+        format!(
+            "Measurement uncertainty of the torque wrench calibration at 100 N·m\n\n\
+             The expanded uncertainty of the reference transducer is 0.20 N·m (k = 2), giving a standard uncertainty of 0.10 N·m.\n\
+             The resolution of the wrench is 0.5 N·m; half of it, 0.25 N·m, divided by √3 gives 0.144 N·m.\n\
+             The standard deviation of five readings is 0.30 N·m; {scatter}\n\
+             The reproducibility has a half-width of 0.20 N·m, u = 0.115 N·m.\n\n\
+             The combined standard uncertainty is {u_c} N·m.\nThe expanded uncertainty is U = {expanded} N·m with k = 2.\n"
+        )
+    };
+    let mean = "the standard uncertainty of the mean is 0.134 N·m.";
+    is_sound("report.txt", &report(mean, "0.249", "0.50"));
+    // A sentence that is not understood states an uncertainty: nothing is said of the rest.
+    let unread = report(
+        "about as much is the deviation of 0.20 N·m at the other end.",
+        "0.249",
+        "0.50",
+    );
+    let lost = unread.replace(
+        "The standard deviation of five readings is 0.30 N·m; ",
+        "Much is new: ",
+    );
+    let grids = crate::sheet::grids("report.txt", lost.as_bytes()).unwrap();
+    assert!(crate::read::budgets(&grids, &crate::read::Mapping::default()).is_empty());
+    assert_eq!(
+        first("report.txt", &report(mean, "0.494", "0.99")),
+        "linear-sum"
+    );
+}

@@ -18,6 +18,7 @@ mod examples;
 mod instruments;
 mod memory;
 mod noise;
+mod norms;
 mod reading;
 mod recordings;
 mod refusals;

@@ -76,7 +76,9 @@ impl<'f> Candidates<'f> {
     ) -> Result<(f64, Claimed), Refusal> {
         let (design, fit) = (self.fitted.design, self.fitted.fit);
         let with = |spread: &Claimed| {
-            courses.seen(design, fit, &|correlated| spread.noise_with(correlated))
+            courses.seen(design, fit, &|correlated| {
+                spread.with(correlated).noise(design, fit)
+            })
         };
         let seen = spreads.iter().map(with);
         let seen = seen.collect::<Result<Vec<_>, _>>()?.concat();
@@ -182,7 +184,7 @@ pub(super) fn baseline(
     fit: &Fit,
     claimed: &Claimed,
 ) -> Result<Baseline, Refusal> {
-    reduced(design, fit, &claimed.noise())
+    reduced(design, fit, &claimed.noise(design, fit))
 }
 
 /// Candidates, one for each cell, and atoms.

@@ -94,7 +94,8 @@ fn spreads(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Vec<Spread> {
     match baseline(design, fit, &claimed.uncorrelated()) {
         Ok(baseline) => {
             let spread = |law: &Covariance| sized(baseline.spread(law));
-            claimed.noise().laws().iter().map(spread).collect()
+            let noise = claimed.noise(design, fit);
+            noise.laws().iter().map(spread).collect()
         }
         Err(_) => {
             let degrees = degrees(design);
@@ -154,6 +155,15 @@ pub(super) fn over_noise(rows: &DMatrix<f64>, u: &DVector<f64>) -> DMatrix<f64> 
         row /= *u;
     }
     rows
+}
+
+/// What of the observations lies along finite columns, by least squares in units of their noise.
+pub(super) fn along(
+    columns: &DMatrix<f64>,
+    observed: &DVector<f64>,
+    u: &DVector<f64>,
+) -> DVector<f64> {
+    columns * (evidence::inverse(&over_noise(columns, u)) * observed.component_div(u))
 }
 
 /// Covariance matrix of the unknowns with the claimed noise; what the recording does not determine has no part in it.

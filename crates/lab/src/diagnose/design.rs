@@ -311,6 +311,19 @@ impl<'c> Design<'c> {
         }
     }
 
+    /// How much of a constant that it should give, such as a known field, a model gives in each row; `None` where an output is
+    /// recorded. What is added to a constant is a part of this, or the scale of the readings could go to zero and leave all to
+    /// what is added.
+    pub fn over_constant(&self, linear: &Linear, response: usize) -> Option<Vec<f64>> {
+        let Observed::Constant(constant) = self.case.responses[response].observed else {
+            return None;
+        };
+        let ratios = linear.values[response].iter().map(|value| value / constant);
+        let ratios: Vec<f64> = ratios.collect();
+        let is_scale = |ratio: &f64| *ratio > 0.0 && ratio.is_finite();
+        ratios.iter().all(is_scale).then_some(ratios)
+    }
+
     /// Response and block of an observation.
     pub fn place(&self, observation: usize) -> (usize, usize) {
         let blocks = self.blocks.len();

@@ -1,10 +1,10 @@
 //! What of a diagnosis or a plan is worth a reader's attention: lines that change a result, measurements that decide.
 
 use super::case::Case;
+use super::case::Extra;
 use super::confirm::Estimated;
 use super::evidence::{Cell, Located, Worth};
 use super::explanation::Separating;
-use super::extra::Extra;
 use super::omitted::Omitted;
 use super::parts::Confirmation;
 use super::plan::{Outlook, Promise};

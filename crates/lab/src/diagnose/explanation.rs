@@ -2,10 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::case::Extra;
 use super::catalogue::modifiers::known;
 use super::catalogue::{Cell, FittedModel, Pattern, Variation};
 use super::evidence::{self, Baseline, Examination, Separability, Standing, Worth};
-use super::extra::{Extra, extras};
+use super::extra::extras;
 use super::prolonged::{Prolonged, Recorded, examined};
 use gumption_core::special::normal_quantile;
 

@@ -2,46 +2,9 @@
 //! allows: once more, in the other order, at other angles, between the levels, with conditions that vary
 //! otherwise, with specimens exchanged.
 
-use super::case::{Case, Column, Data, Role, Rows, repeated};
+use super::case::{Case, Column, Data, Extra, Measure, Role, Rows, repeated};
 use super::catalogue::modifiers::{largest, levels_of, map, mean};
 use gumption_core::quantity::UnitTable;
-
-/// A measurement that may follow.
-#[derive(Debug, Clone)]
-pub struct Extra {
-    /// What is done.
-    pub measure: Measure,
-    /// Effort: one is that of the recording.
-    pub cost: f64,
-    /// The rows that are recorded.
-    pub rows: Rows,
-}
-
-/// What is done in a further measurement.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Measure {
-    /// What the case says.
-    Own(String),
-    /// The same again.
-    Again,
-    /// The same with the last row first.
-    Reversed,
-    /// The same with a column at another value.
-    Set {
-        /// The column.
-        column: String,
-        /// The value.
-        value: f64,
-        /// Its unit.
-        unit: String,
-    },
-    /// The same at values half way between those of a column.
-    Between(String),
-    /// The same with a condition, a column, that varies twice as much, in the opposite sense.
-    Opposite(String),
-    /// The same with the labels of a column exchanged.
-    Exchanged(String),
-}
 
 /// A column of angles with at most so many values is a mounting.
 const MOUNTS: usize = 4;

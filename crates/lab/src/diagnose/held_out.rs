@@ -4,7 +4,8 @@
 use gumption_core::special::{chi_squared_sf, f_sf};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::adopt::{Adopted, stands_alone};
+use super::adopt::stands_alone;
+use super::adopted::Adopted;
 use super::candidates::Candidates;
 use super::case::Data;
 use super::catalogue::modifiers::{line_through, map, range};

@@ -11,6 +11,7 @@ use super::candidates::{Candidates, baseline, settings};
 use super::case::Case;
 use super::catalogue::{Finer, FittedModel, generics};
 use super::coarse::Coarse;
+use super::confirm::along;
 use super::design::Design;
 use super::evidence::{self, Baseline, Examination, Located, Question, Settings, TRACE, Verdict};
 use super::failure::Failure;
@@ -34,8 +35,8 @@ pub(super) struct Declared<'d> {
     /// Both as the catalogue sees them.
     pub coarse: &'d Coarse<'d>,
     pub seen: &'d Design<'d>,
-    /// The model at the values of its parameters beside what was found, as the catalogue sees it: where slopes are taken anew.
-    pub again: &'d OnceCell<Fit>,
+    /// Room for the model beside what was found, as the catalogue sees it: where slopes are taken anew.
+    pub beside: &'d [OnceCell<Fit>; 2],
     /// The residuals with the noise of that fit.
     pub white: &'d Baseline,
 }
@@ -175,30 +176,52 @@ impl<'i> Inquiry<'i> {
         Ok(answer)
     }
 
-    /// Takes the slopes of the model anew where the parameters are with what was found in it: an effect that bends the fit of a
-    /// nonlinear model is seen there as it is, and beside the declared fit as several.
+    /// Takes the slopes of the model anew beside what was found in it, where that departs from its slopes by more than the noise
+    /// in all: an effect that bends the fit of a nonlinear model is seen there as it is, and beside the declared fit as several.
     fn linearise_again(&mut self) -> Result<(), Failure> {
-        let (claimed, examination) = (&self.answer.claimed, &self.answer.examination);
-        let Ok(Some((extended, refit))) = self.candidates.adopted_fit(examination, claimed) else {
-            return Ok(());
-        };
-        let Declared { design, fit, .. } = self.declared;
-        let values = Design::new(&extended.case).carried(&refit.unknowns, design);
-        let moved = fit::at(design, values);
-        if !is_bent(fit, &moved, claimed) {
-            return Ok(());
-        }
-        let moved = (self.declared.again).get_or_init(|| self.declared.coarse.at(&moved));
-        let fitted = FittedModel::new(self.declared.seen, moved);
-        let mut candidates = Candidates::new(fitted, claimed, self.declared.white);
-        let part = part(self.progress, 0.7, 0.7);
-        let answer = ask(&mut candidates, claimed.clone(), &self.settings, &part)?;
-        // What a bent form leaves is taken for further effects: the slopes that need fewer are the better ones.
-        let effects = |of: &Answer| of.examination.slots.len();
-        if answer.examination.fitted.is_some() && effects(&answer) < effects(&self.answer) {
-            (self.candidates, self.answer, self.fit) = (candidates, answer, moved);
+        let rooms = self.declared.beside.iter();
+        for (room, beside) in rooms.zip(self.beside_found().into_iter().flatten()) {
+            let beside = room.get_or_init(|| beside);
+            let claimed = &self.answer.claimed;
+            let fitted = FittedModel::new(self.declared.seen, beside);
+            let mut candidates = Candidates::new(fitted, claimed, self.declared.white);
+            let part = part(self.progress, 0.7, 0.7);
+            let answer = ask(&mut candidates, claimed.clone(), &self.settings, &part)?;
+            // What a bent form leaves is taken for further effects: the slopes that need fewer are the better ones.
+            let effects = |of: &Answer| of.examination.slots.len();
+            if answer.examination.fitted.is_some() && effects(&answer) < effects(&self.answer) {
+                (self.candidates, self.answer, self.fit) = (candidates, answer, beside);
+                break;
+            }
         }
         Ok(())
+    }
+
+    /// The declared model at the parameters of the fit with what was found, as the catalogue sees it; and the same with what this
+    /// fit leaves and what its effects do along their slopes as residuals, so that the whole is as good there as it is when it
+    /// is fitted. `None` where the slopes so far tell as much.
+    fn beside_found(&self) -> Option<[Fit; 2]> {
+        let (claimed, examination) = (&self.answer.claimed, &self.answer.examination);
+        let (extended, refit) = self.candidates.adopted_fit(examination, claimed).ok()??;
+        let Declared { design, seen, .. } = self.declared;
+        let values = Design::new(&extended.case).carried(&refit.unknowns, design);
+        let moved = self.declared.coarse.at(&fit::at(design, values));
+        let atoms = examination.fitted.as_ref()?.atoms.iter();
+        let beside = FittedModel::new(seen, &moved);
+        let effects = atoms.map(|atom| self.candidates.variation(*atom).columns(&beside));
+        let slopes = evidence::all(std::iter::once(moved.jacobian.clone()).chain(effects));
+        if !slopes.iter().all(|slope| slope.is_finite()) {
+            return None;
+        }
+        let done = &moved.residuals - &refit.residuals;
+        let straight = Fit {
+            residuals: &refit.residuals + along(&slopes, &done, &claimed.u),
+            ..moved.clone()
+        };
+        let told =
+            &self.fit.residuals - &self.fit.jacobian * (&moved.unknowns - &self.fit.unknowns);
+        let bent = (&straight.residuals - told).component_div(&claimed.u);
+        (bent.iter().all(|x| x.is_finite()) && bent.norm() > 1.0).then_some([moved, straight])
     }
 
     /// Shapes that lie between the steps of a grid: closer and closer.
@@ -234,11 +257,12 @@ impl<'i> Inquiry<'i> {
             return Ok(());
         };
         let (design, fit) = (self.declared.seen, self.fit);
-        let with = |correlated| claimed.noise_with(correlated);
+        let with = |correlated| claimed.with(correlated).noise(design, fit);
         let seen = courses.seen(design, fit, &with)?;
         // Two tests, each with half of the probability of a false alarm.
         let alpha = 0.5 * self.settings.alpha;
-        let p = evidence::unsteadiness(&seen, &claimed.noise(), self.settings.seed, alpha)?;
+        let noise = claimed.noise(design, fit);
+        let p = evidence::unsteadiness(&seen, &noise, self.settings.seed, alpha)?;
         if p <= alpha {
             let cells = &mut self.candidates.cells;
             self.answer.examination.unnamed(cells.len(), 2.0 * p);
@@ -303,7 +327,7 @@ fn ask(
             settings: settings.clone(),
         };
         let examination = evidence::examine(&question, progress)?;
-        let missized = possible::missized(candidates, &examination, &claimed, settings.alpha);
+        let missized = possible::missized(candidates, &examination, &claimed);
         if missized.is_empty() {
             return Ok(Answer {
                 claimed,
@@ -313,13 +337,6 @@ fn ask(
         }
         candidates.retain(|atom, _| !missized.contains(&atom.candidate));
     }
-}
-
-/// Whether the model between two values of its parameters departs from its slopes by more than the noise in all.
-fn is_bent(fit: &Fit, moved: &Fit, claimed: &Claimed) -> bool {
-    let straight = &fit.residuals - &fit.jacobian * (&moved.unknowns - &fit.unknowns);
-    let bent = (&moved.residuals - straight).component_div(&claimed.u);
-    bent.iter().all(|x| x.is_finite()) && bent.norm() > 1.0
 }
 
 /// Progress between two shares of the whole.

@@ -51,6 +51,7 @@
 //! | `stand_in` | what can stand in for something whose trace is known |
 
 mod adopt;
+mod adopted;
 mod blocks;
 mod candidates;
 pub mod case;
@@ -89,17 +90,18 @@ mod size;
 mod stand_in;
 mod typical;
 
-pub use adopt::{Addition, Adopted, Extended, Free};
+pub use adopt::{Addition, Extended, Free};
+pub use adopted::Adopted;
+pub use case::{Extra, Measure, Origin};
 pub use conclusion::{Conclusion, Doubt};
 pub use confirm::{Estimated, Quality};
 pub use emphasis::{Agreement, Unseen};
 pub use explanation::Separating;
-pub use extra::{Extra, Measure};
 pub use failure::Failure;
 pub use fit::{ModelVersion, NoFit, Trouble, Unsettled};
 pub use held_out::{HeldOutQuality, Prediction};
 pub use improved::improved;
-pub use noise::{Claimed, Origin};
+pub use noise::Claimed;
 pub use noise_correlation::{Correlated, Memory};
 pub use noise_growth::Growth;
 pub use omitted::Omitted;

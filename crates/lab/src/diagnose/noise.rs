@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::case::{Case, NoiseClaim, RestReadings, Role, hours};
+use super::case::{Case, NoiseClaim, Origin, RestReadings, Role, hours};
 use super::design::Design;
 use super::evidence::{self, Correlation, Covariance, Noise};
 use super::fit::{self, Fit, NoFit};
@@ -35,25 +35,6 @@ pub struct Claimed {
     pub uneven: Option<f64>,
 }
 
-/// Where the noise comes from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Origin {
-    /// Nothing yet: outputs that would show it are not recorded.
-    Unknown,
-    /// The residuals; only the ratios between observations are claimed.
-    Estimated,
-    /// The case.
-    Case,
-    /// A column of the recording.
-    Column(String),
-    /// Replicates.
-    Replicates,
-    /// A recording at rest.
-    AtRest(String),
-    /// A budget.
-    Budget(String),
-}
-
 impl Claimed {
     /// Independent errors that do not grow with the reading.
     fn plain(u: DVector<f64>, dof: f64, origin: Origin) -> Claimed {
@@ -68,17 +49,23 @@ impl Claimed {
         }
     }
 
-    /// For the examination.
-    pub fn noise(&self) -> Noise {
+    /// For the examination of a model. Of a constant that the model should give, such as a norm, it is in units of what the model
+    /// gives: in units of the constant all is noise that wanders where the scale of the readings goes to zero.
+    pub fn noise(&self, design: &Design<'_>, fit: &Fit) -> Noise {
+        let own = design.observed_column(|response| {
+            let ratios = design.over_constant(&fit.linear, response);
+            ratios.unwrap_or_else(|| vec![1.0; design.case.rows])
+        });
+        let in_own = |u: &DVector<f64>| u.component_mul(&own);
         let Some(correlated) = &self.correlated else {
-            let diagonal = |u: &DVector<f64>| Covariance::Diagonal(u.map(|u| u * u));
+            let diagonal = |u: &DVector<f64>| Covariance::Diagonal(in_own(u).map(|u| u * u));
             return Noise {
                 draws: self.draws.iter().map(diagonal).collect(),
                 ..Noise::with_scale_dof(diagonal(&self.u), self.dof)
             };
         };
         let scaled = |correlation: &Arc<Correlation>, u: &DVector<f64>| Covariance::Correlated {
-            u: u.clone(),
+            u: in_own(u),
             correlation: Arc::clone(correlation),
         };
         let draw = |(at, draw): (usize, &Arc<Correlation>)| {
@@ -99,13 +86,12 @@ impl Claimed {
     }
 
     /// The same with another correlation, and no doubt about it.
-    pub fn noise_with(&self, correlated: Option<Correlated>) -> Noise {
-        let claimed = Claimed {
+    pub fn with(&self, correlated: Option<Correlated>) -> Claimed {
+        Claimed {
             correlated,
             draws: Vec::new(),
             ..self.clone()
-        };
-        claimed.noise()
+        }
     }
 
     /// The weights of a fit: no correlation.
@@ -185,7 +171,9 @@ pub fn refined(
         claimed.clone()
     };
     if let Some(courses) = courses {
-        let seen = courses.seen(design, fit, &|correlated| left.noise_with(correlated));
+        let seen = courses.seen(design, fit, &|correlated| {
+            left.with(correlated).noise(design, fit)
+        });
         left.correlated = seen.ok().and_then(|seen| {
             let likely: Vec<f64> = seen.iter().map(evidence::Course::log_posterior).collect();
             courses.likely(&likely)
@@ -200,14 +188,7 @@ pub fn refined(
 /// # Errors
 /// When the model has no finite value there.
 pub fn stated(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
-    let values = design.unknowns.iter().map(|unknown| {
-        let known = unknown.start.or(unknown.prior.map(|(value, _)| value));
-        known.unwrap_or(1.0)
-    });
-    let fit = fit::at(
-        design,
-        DVector::from_iterator(design.unknowns.len(), values),
-    );
+    let fit = fit::at(design, design.stated_or(1.0));
     let mut values = fit.linear.values.iter().flatten();
     if !values.all(|value| value.is_finite()) || !fit.jacobian.iter().all(|x| x.is_finite()) {
         return Err(NoFit::NoStart);

@@ -6,14 +6,14 @@ use std::ops::ControlFlow;
 use nalgebra::{DMatrix, DVector};
 
 use super::candidates::{Candidates, baseline};
-use super::case::Case;
+use super::case::{Case, Extra, Origin};
 use super::catalogue::{Cell, FittedModel, Kind};
 use super::coarse::Coarse;
 use super::confirm::{Estimated, estimates};
 use super::design::Design;
 use super::evidence::{self, Refusal, SEPARATED, Shape, TRACE};
 use super::explanation::Explanation;
-use super::extra::{Extra, extras};
+use super::extra::extras;
 use super::failure::Failure;
 use super::fit::Fit;
 use super::noise::{self, Claimed};
@@ -139,7 +139,7 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
     };
     promises.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
     Ok(Outlook {
-        relative: claimed.origin == noise::Origin::Unknown,
+        relative: claimed.origin == Origin::Unknown,
         noise: claimed,
         assumed,
         observations: design.observations(),

@@ -3,12 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::candidates::{Candidates, baseline};
+use super::case::Extra;
 use super::case::NoiseClaim;
 use super::catalogue::{self, Cell, FittedModel, Variation};
 use super::coarse::Coarse;
 use super::design::Design;
 use super::evidence::Baseline;
-use super::extra::Extra;
 use super::fit::{self, Fit};
 use super::noise::{self, Claimed};
 

@@ -1,9 +1,8 @@
 //! A diagnosis from end to end: fit, candidates, examination, location, adoption, confirmation.
 
-use std::cell::OnceCell;
 use std::ops::ControlFlow;
 
-use super::adopt::{Adopted, adopt_named};
+use super::adopted::{Adopted, adopt_named};
 use super::candidates::{Candidates, baseline};
 use super::case::Case;
 use super::catalogue::{Cell, Pattern};
@@ -94,7 +93,7 @@ pub fn diagnose(
         fit: &fit,
         coarse: &coarse,
         seen: &coarse.design(),
-        again: &OnceCell::new(),
+        beside: &Default::default(),
         white: &white,
     };
     let inquiry = Inquiry::of(declared, claimed, progress)?;

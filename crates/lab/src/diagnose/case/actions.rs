@@ -2,7 +2,6 @@
 
 use super::rows::{Rows, continued, joined};
 use super::{Column, Data};
-use crate::diagnose::extra::{Extra, Measure};
 use crate::diagnose::faults::{MISSING, ROWS, SETTING};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RowsEntry;
@@ -10,6 +9,43 @@ use crate::experiment::tables::{ActionTable, ExperimentTable, OrderWord};
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 use gumption_format::toml::{Cell, Named, OneOrMany};
+
+/// A measurement that may follow.
+#[derive(Debug, Clone)]
+pub struct Extra {
+    /// What is done.
+    pub measure: Measure,
+    /// Effort: one is that of the recording.
+    pub cost: f64,
+    /// The rows that are recorded.
+    pub rows: Rows,
+}
+
+/// What is done in a further measurement.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Measure {
+    /// What the case says.
+    Own(String),
+    /// The same again.
+    Again,
+    /// The same with the last row first.
+    Reversed,
+    /// The same with a column at another value.
+    Set {
+        /// The column.
+        column: String,
+        /// The value.
+        value: f64,
+        /// Its unit.
+        unit: String,
+    },
+    /// The same at values half way between those of a column.
+    Between(String),
+    /// The same with a condition, a column, that varies twice as much, in the opposite sense.
+    Opposite(String),
+    /// The same with the labels of a column exchanged.
+    Exchanged(String),
+}
 
 impl Checker<'_> {
     /// The actions of a case with a recording of so many rows.

@@ -12,8 +12,6 @@ mod settings;
 
 use std::path::{Path, PathBuf};
 
-use super::extra::Extra;
-use super::noise::Origin;
 use crate::recording::Labels;
 use gumption_core::equations::Equations;
 use gumption_core::model::Symbol;
@@ -24,6 +22,8 @@ pub use crate::experiment::RestReadings;
 pub(super) use crate::experiment::at_rest::hours;
 pub use crate::experiment::entries::RoleWord as Role;
 pub(super) use actions::repeated;
+pub use actions::{Extra, Measure};
+pub use noise::Origin;
 pub use rows::Rows;
 pub(super) use rows::interval;
 

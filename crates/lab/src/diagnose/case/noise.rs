@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use super::declared::Declared;
 use super::{Column, NoiseClaim, Observed, Response};
-use crate::diagnose::noise::Origin;
 use crate::experiment::at_rest::{Headed, hours};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
@@ -14,6 +13,25 @@ use crate::experiment::tables::{ExperimentTable, NoiseTable, NoiseWord, StaticTa
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
+
+/// Where the noise comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Origin {
+    /// Nothing yet: outputs that would show it are not recorded.
+    Unknown,
+    /// The residuals; only the ratios between observations are claimed.
+    Estimated,
+    /// The case.
+    Case,
+    /// A column of the recording.
+    Column(String),
+    /// Replicates.
+    Replicates,
+    /// A recording at rest.
+    AtRest(String),
+    /// A budget.
+    Budget(String),
+}
 
 impl Checker<'_> {
     pub(super) fn noise(

@@ -2,8 +2,6 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::Variation;
-use super::fitted::FittedModel;
 use super::modifiers::known;
 use crate::diagnose::evidence;
 use crate::diagnose::fit::Fit;
@@ -50,9 +48,8 @@ impl Absorbed {
         self.basis.ncols()
     }
 
-    /// Whether something is left of each column of a variation.
-    pub(super) fn leaves_of(&self, fitted: &FittedModel<'_>, variation: &Variation) -> Vec<bool> {
-        let columns = variation.columns(fitted);
+    /// Whether something is left of each of these regressors.
+    pub(super) fn leaves_of(&self, columns: &DMatrix<f64>) -> Vec<bool> {
         let each = columns.column_iter();
         each.map(|column| self.leaves(&column.into_owned()))
             .collect()

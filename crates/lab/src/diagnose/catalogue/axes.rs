@@ -28,7 +28,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
         (label, term(*column, fitted.own(*column)))
     });
     let mut scales = cell(EffectId::AxisScale, singles_and_all(own.collect()));
-    let leaves = |variation: &Variation| fitted.absorbed().leaves_of(fitted, variation);
+    let leaves = |variation: &Variation| fitted.absorbed().leaves_of(&variation.columns(fitted));
     (scales.variants).retain(|variation| !leaves(variation).contains(&false));
     cells.push(scales);
     type Law = fn(f64) -> f64;

@@ -98,7 +98,10 @@ impl<'f> FittedModel<'f> {
     /// The slope of a response by a node, row by row.
     pub fn slope(&self, node: Node, response: usize) -> Vec<f64> {
         let symbol = match node {
-            Node::Output => return vec![1.0; self.rows()],
+            Node::Output => {
+                let parts = self.design.over_constant(&self.fit.linear, response);
+                return parts.unwrap_or_else(|| vec![1.0; self.rows()]);
+            }
             Node::Gain => return self.signal[response].clone(),
             Node::Parameter(parameter) => parameter,
             Node::Column(column) => self.case().parameters.len() + column,

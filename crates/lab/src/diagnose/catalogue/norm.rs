@@ -72,7 +72,8 @@ impl Norm {
         &slopes * slopes.transpose()
     }
 
-    /// Lets effects on the offset and the scale act on the readings as well.
+    /// Lets effects on the offset and the scale act on the readings as well. Where the length should be a constant, an offset of
+    /// all of it is what its scale is.
     pub(super) fn spread(&self, fitted: &FittedModel<'_>, cells: &mut [Cell]) {
         // A wrong row is wrong whichever reading it was, and so is what only looks like a wave.
         let is_alike =
@@ -81,6 +82,13 @@ impl Norm {
         for cell in cells.iter_mut().filter(physics) {
             let variants = cell.variants.iter();
             let more: Vec<Variation> = variants.flat_map(|v| self.on_readings(fitted, v)).collect();
+            let is_offset = |term: &Term| {
+                term.node == Node::Output
+                    && fitted.design.over_constant(&fitted.fit.linear, 0).is_some()
+            };
+            if !more.is_empty() {
+                (cell.variants).retain(|variation| !variation.terms.iter().all(is_offset));
+            }
             cell.variants.extend(more);
         }
     }

@@ -27,7 +27,11 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         }
     }
     let absorbed = fitted.absorbed();
-    let shows = |variation: &Variation| absorbed.leaves_of(fitted, variation).contains(&true);
+    let shows = |variation: &Variation| {
+        absorbed
+            .leaves_of(&variation.columns(fitted))
+            .contains(&true)
+    };
     for cell in &mut cells {
         cell.variants.retain(shows);
     }

@@ -154,6 +154,11 @@ fn shrunk(fit: f64, half_log_det: f64, rss: f64, scale: Scale) -> f64 {
     }
 }
 
+/// The largest; −∞ of none.
+pub fn maximum(values: &[f64]) -> f64 {
+    values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+}
+
 /// log Σ exp xᵢ; −∞ for none.
 pub(super) fn log_sum(values: impl Iterator<Item = f64> + Clone) -> f64 {
     let top = values.clone().fold(f64::NEG_INFINITY, f64::max);

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use gumption_lanes::LANES;
 
 use super::baseline::Baseline;
-use super::closed_form::Scale;
+use super::closed_form::{Scale, maximum};
 use super::detection::Panel;
 use super::noise::{Covariance, Factor};
 use super::null::{Simulated, side_by_side};
@@ -214,9 +214,4 @@ impl Baseline {
         };
         self.log_determinant() - squares
     }
-}
-
-/// The largest; −∞ of none.
-pub fn maximum(values: &[f64]) -> f64 {
-    values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
 }

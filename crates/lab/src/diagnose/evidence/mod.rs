@@ -92,7 +92,8 @@ mod unlisted;
 mod unsteady;
 
 pub use baseline::{Baseline, Prior, Spread};
-pub use contest::{Contest, Course, contest, maximum};
+pub use closed_form::maximum;
+pub use contest::{Contest, Course, contest};
 pub use directions::{TRACE, all, determined, inverse, left, left_beside, side_by_side, span};
 pub(super) use directions::{orthonormal, without};
 pub use examine::examine;

@@ -8,8 +8,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::DMatrix;
 
-use super::closed_form::{Scale, named};
-use super::contest::maximum;
+use super::closed_form::{Scale, maximum, named};
 use super::question::{Kind, Question};
 use super::space::Space;
 

@@ -1,11 +1,11 @@
 //! Units that are converted by hand, although they are converted without it: angles to radians, `sin(phi*pi/180)`, and
 //! values to the wanted unit.
 
-use super::Role;
 use super::faults;
 use super::lower::{Lowering, Value};
 use super::printer;
 use super::syntax::{Expr, Infix, Node};
+use super::{Role, Symbol};
 use crate::quantity::{Dimension, Unit};
 use gumption_fault::{Fault, say};
 
@@ -128,15 +128,10 @@ impl Lowering<'_> {
             Node::Number {
                 value, unit: None, ..
             } => (*value, None),
-            Node::Name(name) => {
-                let is_local = (self.locals.iter()).any(|names| names.contains_key(name.as_str()));
-                let symbol = self.symbol(name).filter(|_| !is_local);
-                let plain = symbol.filter(|symbol| symbol.unit.symbol == Unit::one().symbol);
-                match plain.map(|symbol| &symbol.role) {
-                    Some(Role::Constant(value)) => (*value, Some(name.clone())),
-                    _ => return Some(()),
-                }
-            }
+            Node::Name(name) => match self.plain_symbol(name).map(|symbol| &symbol.role) {
+                Some(Role::Constant(value)) => (*value, Some(name.clone())),
+                _ => return Some(()),
+            },
             _ => return Some(()),
         };
         if number.abs() <= std::f64::consts::TAU {
@@ -163,18 +158,19 @@ impl Lowering<'_> {
         None
     }
 
+    /// The symbol of a name, where it has no unit and is none of a definition.
+    fn plain_symbol(&self, name: &str) -> Option<&Symbol> {
+        let is_local = self.locals.iter().any(|names| names.contains_key(name));
+        let symbol = self.symbol(name).filter(|_| !is_local);
+        symbol.filter(|symbol| symbol.unit.symbol == Unit::one().symbol)
+    }
+
     /// Notes an input without a unit that is an angle by its place alone.
     pub fn note_plain_angle(&mut self, argument: &Expr) {
         let Node::Name(name) = &argument.node else {
             return;
         };
-        let is_local = self
-            .locals
-            .iter()
-            .any(|names| names.contains_key(name.as_str()));
-        let symbol = self.symbol(name).filter(|_| !is_local);
-        let plain = symbol.filter(|symbol| symbol.unit.symbol == Unit::one().symbol);
-        if let Some(Role::Input(place)) = plain.map(|symbol| &symbol.role) {
+        if let Some(Role::Input(place)) = self.plain_symbol(name).map(|symbol| &symbol.role) {
             self.plain_angles.push(*place);
         }
     }

@@ -70,3 +70,11 @@ pub fn named_apart(diagnosis: &Value) -> Vec<Vec<String>> {
     let effects = diagnosis["effects"].as_array().into_iter().flatten();
     effects.map(of).collect()
 }
+
+/// The likeliest name of each effect.
+pub fn first_names(diagnosis: &Value) -> Vec<String> {
+    let effects = named_apart(diagnosis).into_iter();
+    effects
+        .filter_map(|names| names.into_iter().next())
+        .collect()
+}

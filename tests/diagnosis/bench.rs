@@ -5,15 +5,7 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::common::Noise;
-use crate::common::cases::{diagnosed_with as diagnosed, named_apart};
-
-/// The likeliest name of each effect.
-fn first_names(diagnosis: &Value) -> Vec<String> {
-    let effects = named_apart(diagnosis).into_iter();
-    effects
-        .filter_map(|names| names.into_iter().next())
-        .collect()
-}
+use crate::common::cases::{diagnosed_with as diagnosed, first_names, named_apart};
 
 /// The likeliest variant of the first effect.
 fn variant(diagnosis: &Value) -> &str {
@@ -240,4 +232,24 @@ fn nothing_found_is_no_mismatch() {
         let is_alarm = found["verdict"] != "none";
         assert_eq!(is_alarm, p < 0.01, "{p} {}", found["statement"]);
     }
+}
+
+/// A decay above a background of a thirteenth of it: along the slopes of the fit, which takes the background for a longer time, a
+/// relaxation with two time constants does as well, and as it is fitted only the background.
+#[test]
+fn a_background_is_told_from_a_slower_decay() {
+    let mut noise = Noise(62);
+    let mut rows = "t [s],A [V]\n".to_owned();
+    for row in 0..60 {
+        let t = f64::from(row);
+        let a = 5.0 * libm::exp(-t / 12.0) + 0.4 + 0.01 * noise.normal();
+        let _ = writeln!(rows, "{t},{a:.4}");
+    }
+    let found = diagnosed(
+        "decay",
+        &rows,
+        "equations = \"A = A0*exp(-t/tau)\"\n[columns]\nt = \"time\"\n[parameter]\nA0 = { start = \"4 V\" }\ntau = { start = \"10 s\" }\n",
+    );
+    assert_eq!(first_names(&found), ["zero"], "{found}");
+    assert!(has_size(&found, 0.4), "{found}");
 }

@@ -7,15 +7,7 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::common::Noise;
-use crate::common::cases::{diagnosed_with as diagnosed, named_apart};
-
-/// The likeliest name of each effect.
-fn first_names(diagnosis: &Value) -> Vec<String> {
-    let effects = named_apart(diagnosis).into_iter();
-    effects
-        .filter_map(|names| names.into_iter().next())
-        .collect()
-}
+use crate::common::cases::{diagnosed_with as diagnosed, first_names, named_apart};
 
 /// The likeliest variant of an effect.
 fn variant(diagnosis: &Value, effect: usize) -> &str {

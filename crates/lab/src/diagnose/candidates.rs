@@ -8,7 +8,7 @@ use super::case::Case;
 use super::catalogue::{self, Cell, Finer, FittedModel, Variation};
 use super::design::Design;
 use super::evidence::{
-    self, Atom, Baseline, Candidate, Examination, Fitted, Refusal, Shape, TRACE,
+    self, Atom, Baseline, Candidate, Examination, Fitted, Question, Refusal, Shape, TRACE,
 };
 use super::fit::{self, Fit, NoFit};
 use super::noise::{self, Claimed};
@@ -115,6 +115,20 @@ impl<'f> Candidates<'f> {
         new
     }
 
+    /// What is asked of residuals.
+    pub(super) fn question<'q>(
+        &'q self,
+        baseline: &'q Baseline,
+        settings: &evidence::Settings,
+    ) -> Question<'q> {
+        Question {
+            baseline,
+            candidates: &self.candidates,
+            atoms: &self.atoms,
+            settings: settings.clone(),
+        }
+    }
+
     /// The cell of an atom.
     pub(super) fn cell(&self, atom: usize) -> &Cell {
         &self.cells[self.atoms[atom].candidate]
@@ -133,8 +147,16 @@ impl<'f> Candidates<'f> {
     ) -> Result<Option<(adopt::Extended, Fit)>, NoFit> {
         let found = examination.fitted.as_ref();
         let found = found.filter(|found| !found.atoms.is_empty());
-        let with_effects = found.and_then(|found| self.with_effects(found, claimed));
-        let Some((mut extended, open)) = with_effects else {
+        found.map_or(Ok(None), |found| self.refitted(found, claimed))
+    }
+
+    /// The refit with effects in the model; nothing where the equations cannot be written.
+    pub(super) fn refitted(
+        &self,
+        found: &Fitted,
+        claimed: &Claimed,
+    ) -> Result<Option<(adopt::Extended, Fit)>, NoFit> {
+        let Some((mut extended, open)) = self.with_effects(found, claimed) else {
             return Ok(None);
         };
         // Levels within those of a parameter, such as runs of one specimen: what they have in common is the
@@ -203,6 +225,7 @@ fn question(
             cause: cause(cells, index),
             repeats: cell.effect.repeats,
             describes: cell.effect.pattern.is_some(),
+            happens: (cell.effect.pattern).is_some_and(|pattern| !pattern.recurs()),
             odds: cell.odds,
         });
         let before = atoms.len();

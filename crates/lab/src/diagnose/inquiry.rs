@@ -3,6 +3,7 @@
 //! nothing is found, whether the noise itself changes.
 
 use std::cell::OnceCell;
+use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector};
@@ -13,7 +14,9 @@ use super::catalogue::{Finer, FittedModel, generics};
 use super::coarse::Coarse;
 use super::confirm::along;
 use super::design::Design;
-use super::evidence::{self, Baseline, Examination, Located, Question, Settings, TRACE, Verdict};
+use super::evidence::{
+    self, Atom, Baseline, Examination, Fitted, Located, Question, Settings, Shape, TRACE, Verdict,
+};
 use super::failure::Failure;
 use super::fit::{self, Fit};
 use super::noise::{self, Claimed};
@@ -50,6 +53,15 @@ pub(super) struct Answer {
     pub baseline: Baseline,
     /// What they show.
     pub examination: Examination,
+}
+
+/// The declared model at the parameters of a fit with effects in it, as the catalogue sees it.
+struct Beside {
+    /// What that fit leaves and what its effects do along their slopes are the residuals: the whole is as good as it is when it is
+    /// fitted.
+    base: Fit,
+    /// The noise that the fit leaves.
+    claimed: Claimed,
 }
 
 /// A recording that has answered.
@@ -176,37 +188,94 @@ impl<'i> Inquiry<'i> {
         Ok(answer)
     }
 
-    /// Takes the slopes of the model anew beside what was found in it, where that departs from its slopes by more than the noise
-    /// in all: an effect that bends the fit of a nonlinear model is seen there as it is, and beside the declared fit as several.
+    /// Takes the slopes of the model anew beside what was found in it, and beside the effect that alone explains most, where the
+    /// model departs from its slopes by more than the noise in all: an effect that bends the fit of a nonlinear model is seen
+    /// there as it is, and beside the declared fit as several.
     fn linearise_again(&mut self) -> Result<(), Failure> {
-        let rooms = self.declared.beside.iter();
-        for (room, beside) in rooms.zip(self.beside_found().into_iter().flatten()) {
-            let beside = room.get_or_init(|| beside);
-            let claimed = &self.answer.claimed;
-            let fitted = FittedModel::new(self.declared.seen, beside);
-            let mut candidates = Candidates::new(fitted, claimed, self.declared.white);
+        let found = self.answer.examination.fitted.as_ref();
+        let found = found.and_then(|found| self.beside(found));
+        let mut besides: Vec<Beside> = found.into_iter().collect();
+        if !self.found_nothing() {
+            besides.extend(self.beside_one());
+        }
+        for (room, Beside { base, claimed }) in self.declared.beside.iter().zip(besides) {
+            let base = room.get_or_init(|| base);
+            let fitted = FittedModel::new(self.declared.seen, base);
+            let mut candidates = Candidates::new(fitted, &claimed, self.declared.white);
             let part = part(self.progress, 0.7, 0.7);
-            let answer = ask(&mut candidates, claimed.clone(), &self.settings, &part)?;
-            // What a bent form leaves is taken for further effects: the slopes that need fewer are the better ones.
-            let effects = |of: &Answer| of.examination.slots.len();
-            if answer.examination.fitted.is_some() && effects(&answer) < effects(&self.answer) {
-                (self.candidates, self.answer, self.fit) = (candidates, answer, beside);
-                break;
+            let answer = ask(&mut candidates, claimed, &self.settings, &part)?;
+            if answer.beats(&self.answer) {
+                self.take(candidates, answer, base)?;
             }
         }
         Ok(())
     }
 
-    /// The declared model at the parameters of the fit with what was found, as the catalogue sees it; and the same with what this
-    /// fit leaves and what its effects do along their slopes as residuals, so that the whole is as good there as it is when it
-    /// is fitted. `None` where the slopes so far tell as much.
-    fn beside_found(&self) -> Option<[Fit; 2]> {
-        let (claimed, examination) = (&self.answer.claimed, &self.answer.examination);
-        let (extended, refit) = self.candidates.adopted_fit(examination, claimed).ok()??;
+    /// Takes what is found with other slopes, if it is better with the noise that is left there as well.
+    fn take(
+        &mut self,
+        candidates: Candidates<'i>,
+        answer: Answer,
+        base: &'i Fit,
+    ) -> Result<(), Failure> {
+        let old = (
+            std::mem::replace(&mut self.candidates, candidates),
+            self.fit,
+        );
+        self.fit = base;
+        let found = match self.is_open() {
+            true => self.in_turn(answer, 0.7, 0.7)?,
+            false => answer,
+        };
+        match found.beats(&self.answer) {
+            true => self.answer = found,
+            false => (self.candidates, self.fit) = old,
+        }
+        Ok(())
+    }
+
+    /// Beside the effect that is the likeliest to be alone, each with the noise that it leaves where it is fitted; of those that are
+    /// the likeliest by the slopes so far.
+    fn beside_one(&self) -> Option<Beside> {
+        /// So many are fitted.
+        const FITTED: usize = 10;
+        let question = self
+            .candidates
+            .question(&self.answer.baseline, &self.settings);
+        let singles = evidence::singles(&question);
+        let fits = singles.iter().take(FITTED).filter_map(|(_, one)| {
+            let beside = self.beside(one)?;
+            Some((self.alone(*one.atoms.first()?, &beside)?, beside))
+        });
+        let best = fits.max_by(|a, b| a.0.total_cmp(&b.0));
+        best.map(|(_, beside)| beside)
+    }
+
+    /// Logarithm of the probability that an effect is all there is, where it is fitted, but for a constant.
+    fn alone(&self, atom: usize, Beside { base, claimed }: &Beside) -> Option<f64> {
+        let fitted = FittedModel::new(self.declared.seen, base);
+        let columns = self.candidates.variation(atom).columns(&fitted);
+        let residuals = baseline(self.declared.seen, base, claimed).ok()?;
+        let question = Question {
+            atoms: &[Atom {
+                shape: Shape::Columns(columns),
+                ..self.candidates.atoms[atom].clone()
+            }],
+            ..self.candidates.question(&residuals, &self.settings)
+        };
+        let (score, _) = *evidence::singles(&question).first()?;
+        Some(score + residuals.log_likelihood() + claimed.log_prior())
+    }
+
+    /// The declared model beside effects as they are fitted. `None` where the slopes so far tell as much.
+    fn beside(&self, found: &Fitted) -> Option<Beside> {
+        let claimed = &self.answer.claimed;
+        let (extended, refit) = self.candidates.refitted(found, claimed).ok()??;
         let Declared { design, seen, .. } = self.declared;
-        let values = Design::new(&extended.case).carried(&refit.unknowns, design);
+        let with_effects = Design::new(&extended.case);
+        let values = with_effects.carried(&refit.unknowns, design);
         let moved = self.declared.coarse.at(&fit::at(design, values));
-        let atoms = examination.fitted.as_ref()?.atoms.iter();
+        let atoms = found.atoms.iter();
         let beside = FittedModel::new(seen, &moved);
         let effects = atoms.map(|atom| self.candidates.variation(*atom).columns(&beside));
         let slopes = evidence::all(std::iter::once(moved.jacobian.clone()).chain(effects));
@@ -214,19 +283,24 @@ impl<'i> Inquiry<'i> {
             return None;
         }
         let done = &moved.residuals - &refit.residuals;
-        let straight = Fit {
+        let base = Fit {
             residuals: &refit.residuals + along(&slopes, &done, &claimed.u),
-            ..moved.clone()
+            ..moved
         };
-        let told =
-            &self.fit.residuals - &self.fit.jacobian * (&moved.unknowns - &self.fit.unknowns);
-        let bent = (&straight.residuals - told).component_div(&claimed.u);
-        (bent.iter().all(|x| x.is_finite()) && bent.norm() > 1.0).then_some([moved, straight])
+        let told = &self.fit.residuals - &self.fit.jacobian * (&base.unknowns - &self.fit.unknowns);
+        let bent = (&base.residuals - told).component_div(&claimed.u);
+        if !(bent.norm() > 1.0 && bent.iter().all(|x| x.is_finite())) {
+            return None;
+        }
+        let claimed = match self.is_open() {
+            true => noise::refined(&with_effects, &refit, claimed, self.courses.as_ref()),
+            false => claimed.clone(),
+        };
+        Some(Beside { base, claimed })
     }
 
     /// Shapes that lie between the steps of a grid: closer and closer.
     fn sharpen(&mut self) -> Result<(), Failure> {
-        let is_open = self.answer.claimed.is_estimated() || self.courses.is_some();
         let mut finer = Finer::default();
         for round in 0..REFINEMENTS {
             if !(self.candidates).refine(&mut finer, &self.answer.examination) {
@@ -237,7 +311,7 @@ impl<'i> Inquiry<'i> {
             self.candidates = Candidates::new(fitted, &claimed, self.declared.white);
             let from = 0.7 + 0.1 * f64::from(round);
             self.answer = self.asked(claimed, from, from + 0.05)?;
-            if is_open {
+            if self.is_open() {
                 let then = self.noise_beside(&self.answer);
                 if !then.weighs_alike(&self.answer.claimed) {
                     self.answer = self.asked(then, from + 0.05, from + 0.1)?;
@@ -288,6 +362,11 @@ impl<'i> Inquiry<'i> {
         found.into_iter().map(with_cell).collect()
     }
 
+    /// Whether the noise is estimated.
+    fn is_open(&self) -> bool {
+        self.answer.claimed.is_estimated() || self.courses.is_some()
+    }
+
     fn found_nothing(&self) -> bool {
         self.answer.examination.verdict == Verdict::None
     }
@@ -305,6 +384,25 @@ impl<'i> Inquiry<'i> {
 }
 
 impl Answer {
+    /// What a bent form leaves is taken for further effects, or for what has no name: the slopes that need fewer are the better
+    /// ones, and where they need as many those with which the answer is likelier.
+    fn beats(&self, other: &Answer) -> bool {
+        let likelier = self.log_posterior() > other.log_posterior();
+        self.examination.fitted.is_some()
+            && match self.unexplained().cmp(&other.unexplained()) {
+                Ordering::Less => true,
+                Ordering::Equal => likelier,
+                Ordering::Greater => false,
+            }
+    }
+
+    /// How many effects have no explanation, and how many there are.
+    fn unexplained(&self) -> (usize, usize) {
+        let slots = &self.examination.slots;
+        let open = slots.iter().filter(|slot| !slot.is_explained());
+        (open.count(), slots.len())
+    }
+
     /// Logarithm of its probability, but for a constant.
     fn log_posterior(&self) -> f64 {
         self.examination.score + self.baseline.log_likelihood() + self.claimed.log_prior()
@@ -320,12 +418,7 @@ fn ask(
 ) -> Result<Answer, Failure> {
     let baseline = baseline(candidates.fitted.design, candidates.fitted.fit, &claimed)?;
     loop {
-        let question = Question {
-            baseline: &baseline,
-            candidates: &candidates.candidates,
-            atoms: &candidates.atoms,
-            settings: settings.clone(),
-        };
+        let question = candidates.question(&baseline, settings);
         let examination = evidence::examine(&question, progress)?;
         let missized = possible::missized(candidates, &examination, &claimed);
         if missized.is_empty() {

@@ -66,6 +66,7 @@ impl Catalogue {
             cause: self.candidates.len(),
             repeats: false,
             describes: false,
+            happens: false,
             odds: 1.0,
         });
         self.candidates.len() - 1

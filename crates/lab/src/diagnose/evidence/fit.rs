@@ -1,5 +1,7 @@
 //! Estimates of adopted effects, their strength and their distance to rivals.
 
+use std::collections::BTreeSet;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::closed_form::Scale;
@@ -122,6 +124,22 @@ pub(super) fn fitted(space: &Space, question: &Question, set: &Frame) -> Fitted 
         coefficients: DVector::from_vec(coefficients),
         chi_squared: space.residual(set).chi_squared,
     }
+}
+
+/// Every candidate alone, in its likeliest variant, with the logarithm of its posterior odds against none; the likeliest
+/// first.
+pub fn singles(question: &Question) -> Vec<(f64, Fitted)> {
+    let space = Space::new(question);
+    let frames = (0..space.blocks.len()).filter(|block| space.blocks[*block].kind() == Kind::Named);
+    let frames = frames.filter_map(|block| space.frame(&[block]));
+    let mut scored: Vec<(f64, Frame)> = frames.map(|one| (space.score(&one), one)).collect();
+    scored.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut seen = BTreeSet::new();
+    scored.retain(|(_, one)| seen.insert(space.blocks[one.blocks[0]].candidate));
+    let sized = scored
+        .iter()
+        .map(|(score, one)| (*score, fitted(&space, question, one)));
+    sized.collect()
 }
 
 /// Standard deviation of the noise in whitened units, with its degrees of freedom.

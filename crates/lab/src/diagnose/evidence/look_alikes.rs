@@ -78,8 +78,9 @@ pub(super) fn listed(
             let same = more > few && question.candidates[candidate].place == *place;
             more > few + 1 || (same && has_as_part(space, &beside, rest, block, own.candidate))
         };
-        let alias = best > ALIAS && near && !general();
-        let mixes = !question.candidates[candidate].repeats && variants.len() > 1;
+        let rival = &question.candidates[candidate];
+        let alias = best > ALIAS && near && !rival.happens && !general();
+        let mixes = !rival.repeats && variants.len() > 1;
         if alias || (mixes && kin(space, rest, &variants, estimate)) {
             found.push(candidate);
         }

@@ -98,6 +98,7 @@ pub use directions::{TRACE, all, determined, inverse, left, left_beside, side_by
 pub(super) use directions::{orthonormal, without};
 pub use examine::examine;
 pub use findings::{Alternative, Examination, Fitted, Level, Rival, Slot, State, Variant, Verdict};
+pub use fit::singles;
 pub use grades::{Likeness, likeness};
 pub use locate::{Cell, Located, locate};
 pub use noise::{Correlation, Covariance, Noise};

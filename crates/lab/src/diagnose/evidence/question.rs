@@ -40,6 +40,9 @@ pub struct Candidate {
     /// It says what the recording looks like (a jump, a wave, a bad row) and not why: whatever is there may
     /// look so.
     pub describes: bool,
+    /// It happens at a row or at a level, and its variants are at all of them: one that is excluded has none that nature may
+    /// have meant instead.
+    pub happens: bool,
     /// Odds beforehand, over those of a usual candidate.
     pub odds: f64,
 }
@@ -55,6 +58,7 @@ impl Candidate {
             cause,
             repeats: false,
             describes: false,
+            happens: false,
             odds: 1.0,
         }
     }

@@ -253,3 +253,22 @@ fn a_background_is_told_from_a_slower_decay() {
     assert_eq!(first_names(&found), ["zero"], "{found}");
     assert!(has_size(&found, 0.4), "{found}");
 }
+
+/// The first gauge reading is zero, where the root of an orifice has no slope.
+#[test]
+fn a_zero_error_is_found_where_the_model_has_no_slope() {
+    let mut noise = Noise(63);
+    let mut rows = "h [m],Q [L/s]\n".to_owned();
+    for row in 0..30 {
+        let h = f64::from(row) / 15.0;
+        let q = 26.6 * libm::sqrt(h + 0.03) + 0.02 * noise.normal();
+        let _ = writeln!(rows, "{h:.4},{q:.4}");
+    }
+    let found = diagnosed(
+        "weir",
+        &rows,
+        "equations = \"Q = C*sqrt(2*g*h)\"\n[columns]\nh = \"stimulus\"\n[constant]\ng = \"9.81 m/s2\"\n[parameter]\nC = { start = \"0.005 m2\" }\n",
+    );
+    assert_eq!(first_names(&found), ["zero-of"], "{found}");
+    assert!(has_size(&found, 0.03), "{found}");
+}

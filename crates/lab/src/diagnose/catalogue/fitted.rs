@@ -95,7 +95,8 @@ impl<'f> FittedModel<'f> {
         self.signal[response][row] + other - there
     }
 
-    /// The slope of a response by a node, row by row.
+    /// The slope of a response by a node, row by row. Where it has none by a column, such as a root at zero, it is that of the
+    /// chord to the nearest other value of the column.
     pub fn slope(&self, node: Node, response: usize) -> Vec<f64> {
         let symbol = match node {
             Node::Output => {
@@ -107,7 +108,26 @@ impl<'f> FittedModel<'f> {
             Node::Column(column) => self.case().parameters.len() + column,
         };
         let slopes = self.fit.linear.slopes[response].column(symbol);
-        slopes.iter().copied().collect()
+        let mut slopes: Vec<f64> = slopes.iter().copied().collect();
+        if let Node::Column(column) = node {
+            for row in 0..slopes.len() {
+                if !slopes[row].is_finite() {
+                    slopes[row] = self.chord(response, row, column);
+                }
+            }
+        }
+        slopes
+    }
+
+    fn chord(&self, response: usize, row: usize, column: usize) -> f64 {
+        let x = self.numbers(column);
+        let others = x.iter().filter(|other| **other != x[row]);
+        let away = |other: &&f64| (**other - x[row]).abs();
+        let nearest = others.min_by(|a, b| away(a).total_cmp(&away(b)));
+        nearest.map_or(f64::NAN, |other| {
+            let there = self.signal_at(response, row, column, *other);
+            (there - self.signal[response][row]) / (other - x[row])
+        })
     }
 
     /// The regressor of a term.

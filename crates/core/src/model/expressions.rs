@@ -7,7 +7,7 @@ use super::syntax::{Expr, Node};
 /// The value of an expression; `None` when it has a fault, which is then reported.
 pub fn lowered(l: &mut Lowering<'_>, e: &Expr) -> Option<Value> {
     match &e.node {
-        Node::Number { value, unit, .. } => l.literal(*value, unit.as_ref()),
+        Node::Number { value, unit, .. } => l.literal(*value, unit.as_deref()),
         Node::Unit(unit) => l.stray_unit(e, unit),
         Node::Name(name) => l.name(name, &e.span),
         Node::Chain { first, rest } => l.chain(e, first, rest),

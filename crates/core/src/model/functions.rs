@@ -285,17 +285,14 @@ fn binary_call(
             b?;
         }
         let joined = l.join(left, right, &say!("arguments of one function"))?;
-        let combined = l.elementwise(&joined.left, &joined.right, e.span.clone(), |b, x, y| {
-            b.binary(row, x, y)
-        })?;
+        let kind = Kind::Quantity(match row.dimension {
+            DimensionRule::Ratio => Unit::one(),
+            _ => joined.unit,
+        });
+        let (left, right, span) = (&joined.left, &joined.right, e.span.clone());
+        let combined = l.elementwise(left, right, kind, span, |b, x, y| b.binary(row, x, y))?;
         l.mark(&combined, &label);
-        let unit = if row.dimension == DimensionRule::Ratio {
-            Unit::one()
-        } else {
-            joined.unit
-        };
         so_far = Value {
-            kind: Kind::Quantity(unit),
             zero: so_far.zero && value.zero,
             ..combined
         };
@@ -323,20 +320,16 @@ fn quantize(l: &mut Lowering<'_>, e: &Expr, argument: &Expr, step: &Expr) -> Opt
         },
         &say!("argument and step"),
     )?;
-    let out = l.elementwise(&joined.left, &joined.right, e.span.clone(), |b, x, y| {
+    let kind = Kind::Quantity(match unit.is_point() {
+        true => unit.clone(),
+        false => joined.unit,
+    });
+    let (left, right, span) = (&joined.left, &joined.right, e.span.clone());
+    let out = l.elementwise(left, right, kind, span, |b, x, y| {
         b.call_binary("quantize", x, y)
     })?;
     l.watch(&out, e, argument);
-    let unit = if unit.is_point() {
-        unit.clone()
-    } else {
-        joined.unit
-    };
-    Some(Value {
-        kind: Kind::Quantity(unit),
-        zero: false,
-        ..out
-    })
+    Some(Value { zero: false, ..out })
 }
 
 // --- reductions and special forms ------------------------------------------------------------

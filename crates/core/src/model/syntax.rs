@@ -104,17 +104,17 @@ pub const MINUS: u8 = 7;
 /// Binding strength of names, numbers, calls and brackets.
 pub const ATOM: u8 = 10;
 
-/// What an expression is.
+/// What an expression is. A sum has thousands, of names most: what else is large is boxed.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Node {
     /// A number as written, with its unit text if it has one.
     Number {
         value: f64,
-        text: String,
-        unit: Option<UnitText>,
+        text: SmolStr,
+        unit: Option<Box<UnitText>>,
     },
     /// A quoted unit by itself, allowed only where a function asks for one.
-    Unit(UnitText),
+    Unit(Box<UnitText>),
     /// A name.
     Name(SmolStr),
     /// Operators of one level, applied from left to right: `a + b - c`.
@@ -132,7 +132,10 @@ pub enum Node {
     /// `not x`
     Not(Box<Expr>),
     /// `name(arguments)`
-    Call { name: Name, arguments: Vec<Expr> },
+    Call {
+        name: Box<Name>,
+        arguments: Vec<Expr>,
+    },
     /// `[a, b, c]`
     Vector(Vec<Expr>),
     /// `x[i]`

@@ -240,7 +240,7 @@ fn product(mut factors: Vec<(Infix, Expr)>, term: &Expr) -> Expr {
         Some(at) => factors.remove(at).1,
         None => part(Node::Number {
             value: 1.0,
-            text: "1".to_owned(),
+            text: "1".into(),
             unit: None,
         }),
     };

@@ -313,13 +313,13 @@ impl Lowering<'_> {
         let (unit, exponents) = (unit?, exponents?);
         if unit.dimension == Dimension::NONE {
             let bases = self.converted(base.value, &Unit::one())?;
-            let mut out =
-                self.elementwise(&bases, &exponents, span, |b, x, y| match b.constant_at(y) {
+            let one = Kind::Quantity(Unit::one());
+            return self.elementwise(&bases, &exponents, one, span, |b, x, y| {
+                match b.constant_at(y) {
                     Some(c) => b.power(x, c),
                     None => b.call_binary("^", x, y),
-                })?;
-            out.kind = Kind::Quantity(Unit::one());
-            return Some(out);
+                }
+            });
         }
         let constant = match exponents.elements[..] {
             [id] if !exponents.vector => self.builder.constant_at(id),

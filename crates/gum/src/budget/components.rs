@@ -67,7 +67,7 @@ pub struct Component {
     /// How u was obtained from what the file states, for the reader: `U/k = 4.0e-5/2`, `a/√3`.
     pub how: SmolStr,
     /// The certificate behind it.
-    pub certificate: Option<Certificate>,
+    pub certificate: Option<Box<Certificate>>,
     /// Where the number comes from.
     pub reference: Option<String>,
 }

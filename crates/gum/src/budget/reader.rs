@@ -168,7 +168,7 @@ pub(super) fn read_under(
     }
     let mut reader = Reader::new(text, &HINTS);
     reader.matrices = matrices;
-    read_variants(table.get_ref(), reader, profile, syntax, name, origin)
+    read_variants(table.into_inner(), reader, profile, syntax, name, origin)
 }
 
 /// Checks variants of a file, in which these faults of syntax were found.
@@ -200,7 +200,7 @@ pub(super) fn checked(
 
 /// Checks the file, or the file with each row of its series in place, one after the other.
 fn read_variants(
-    table: &DeTable<'_>,
+    table: DeTable<'_>,
     mut reader: Reader<'_>,
     profile: Option<&Profile>,
     syntax: Vec<Fault>,
@@ -208,15 +208,15 @@ fn read_variants(
     origin: Origin<'_>,
 ) -> Result<Loaded, Rejection> {
     let place = (name, reader.file);
-    let file = tables(table, profile, &mut reader);
+    let file = tables(&table, profile, &mut reader);
     let stated = file.series.as_ref();
     let named = stated.and_then(|stated| stated.value.file.as_ref());
-    let names_one = |name: &str| series::names_one(table, name);
+    let names_one = |name: &str| series::names_one(&table, name);
     let points = named.map(|named| Points::read(named, origin, names_one, &mut reader.faults));
     let series = match (stated, &points) {
-        (Some(stated), None) => series::series(table, stated, None, &mut reader.faults),
+        (Some(stated), None) => series::series(&table, stated, None, &mut reader.faults),
         (Some(stated), Some(Some(points))) => {
-            series::series(table, stated, Some(points), &mut reader.faults)
+            series::series(&table, stated, Some(points), &mut reader.faults)
         }
         _ => None,
     };
@@ -231,6 +231,8 @@ fn read_variants(
     match series {
         // With a faulty series the file itself is still checked.
         None => {
+            // It is as large as everything that is made of it.
+            drop(table);
             let alone = variant(None, file, &mut reader);
             checked(std::iter::once(alone), syntax, place, origin)
         }

@@ -210,7 +210,7 @@ fn stated(cause: &Cause, doubt: &Doubt, name: &str, places: &[Place<'_>]) -> Inp
     width += type_line(doubt.evaluation, &width);
     width += &doubt
         .certificate
-        .as_ref()
+        .as_deref()
         .map_or_else(String::new, certificate_line);
     let _ = write!(
         input.text,

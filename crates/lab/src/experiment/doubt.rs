@@ -66,7 +66,7 @@ pub struct Doubt {
     /// How `u` follows from what the file states.
     pub how: String,
     /// The certificate behind it.
-    pub certificate: Option<Certificate>,
+    pub certificate: Option<Box<Certificate>>,
 }
 
 /// What an error acts on.

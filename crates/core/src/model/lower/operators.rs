@@ -102,9 +102,8 @@ impl Lowering<'_> {
         let value = match infix {
             Infix::Add | Infix::Sub => {
                 let joined = self.sum(left, infix, right)?;
-                let unit = joined.unit;
-                self.apply(infix.symbol(), &joined.left, &joined.right, span)?
-                    .with_kind(Kind::Quantity(unit))
+                let kind = Kind::Quantity(joined.unit);
+                self.apply(infix, &joined.left, &joined.right, kind, span)?
             }
             Infix::Mul | Infix::Div => {
                 let (a, b) = (self.difference(left), self.difference(right));
@@ -114,8 +113,8 @@ impl Lowering<'_> {
                 } else {
                     a.quotient(b)
                 };
-                self.apply(infix.symbol(), left.value, right.value, span)?
-                    .with_kind(Kind::Quantity(unit))
+                let kind = Kind::Quantity(unit);
+                self.apply(infix, left.value, right.value, kind, span)?
             }
             Infix::And | Infix::Or => {
                 let (a, b) = (
@@ -124,14 +123,12 @@ impl Lowering<'_> {
                 );
                 a?;
                 b?;
-                self.apply(infix.symbol(), left.value, right.value, span)?
-                    .with_kind(Kind::Truth)
+                self.apply(infix, left.value, right.value, Kind::Truth, span)?
             }
             Infix::Power => self.powered(left, right, span)?,
             _ => {
                 let joined = self.join(left, right, &say!("compared"))?;
-                self.apply(infix.symbol(), &joined.left, &joined.right, span)?
-                    .with_kind(Kind::Truth)
+                self.apply(infix, &joined.left, &joined.right, Kind::Truth, span)?
             }
         };
         Some(Value {
@@ -141,8 +138,18 @@ impl Lowering<'_> {
         })
     }
 
-    fn apply(&mut self, name: &'static str, a: &Value, b: &Value, span: Span) -> Option<Value> {
-        self.elementwise(a, b, span, |builder, x, y| builder.call_binary(name, x, y))
+    fn apply(
+        &mut self,
+        infix: Infix,
+        a: &Value,
+        b: &Value,
+        kind: Kind,
+        span: Span,
+    ) -> Option<Value> {
+        let name = infix.symbol();
+        self.elementwise(a, b, kind, span, |builder, x, y| {
+            builder.call_binary(name, x, y)
+        })
     }
 
     /// Reports operands that are vectors of different lengths, by name.
@@ -170,11 +177,12 @@ impl Lowering<'_> {
         None
     }
 
-    /// Element by element, a scalar going with every element of a vector.
+    /// Something of a kind, element by element, a scalar going with every element of a vector.
     pub fn elementwise(
         &mut self,
         a: &Value,
         b: &Value,
+        kind: Kind,
         span: Span,
         mut combine: impl FnMut(&mut Builder, Id, Id) -> Id,
     ) -> Option<Value> {
@@ -187,7 +195,7 @@ impl Lowering<'_> {
         Some(Value {
             elements,
             vector: a.vector || b.vector,
-            kind: a.kind.clone(),
+            kind,
             zero: a.zero,
             literal: a.literal,
         })

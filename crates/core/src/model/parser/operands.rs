@@ -21,10 +21,10 @@ impl Parser<'_> {
                 }
             }
             Kind::Name(text) if self.is_sign(self.at, "(") => {
-                let name = Name {
+                let name = Box::new(Name {
                     text: text.to_string(),
                     span: token.span.clone(),
-                };
+                });
                 let arguments = self.bracketed("(", ")")?;
                 Expr {
                     span: start..self.last_end(),
@@ -125,20 +125,20 @@ impl Parser<'_> {
             span: span.start..self.last_end(),
             node: Node::Number {
                 value,
-                text: text.to_string(),
+                text: text.into(),
                 unit,
             },
         })
     }
 
     /// What is between the quotes at `span`.
-    fn unit_text(&self, span: &Span) -> UnitText {
+    fn unit_text(&self, span: &Span) -> Box<UnitText> {
         let quoted = &self.text[span.clone()];
         let inner = quoted.trim_start_matches('\'').trim_end_matches('\'');
-        UnitText {
+        Box::new(UnitText {
             text: inner.to_string(),
             span: span.start + 1..span.start + 1 + inner.len(),
-        }
+        })
     }
 
     /// `if c then a else b` or `if(c, a, b)`; the word has been read.

@@ -101,7 +101,7 @@ impl Register {
             dof: draft.dof,
             evaluation: draft.evaluation,
             how: draft.how,
-            certificate: draft.certificate.map(|certificate| *certificate),
+            certificate: draft.certificate,
             reference: draft.reference,
         });
         self.components.len() - 1

@@ -125,7 +125,7 @@ pub struct ComponentEntry {
     /// How the standard uncertainty was found.
     pub how: String,
     /// The certificate behind it.
-    pub certificate: Option<Certificate>,
+    pub certificate: Option<Box<Certificate>>,
     /// Where the number comes from.
     pub reference: Option<String>,
 }

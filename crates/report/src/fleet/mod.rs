@@ -28,6 +28,11 @@ pub fn fleet_schema() -> Value {
 /// Groups that a reader takes in; the machine form has all of them.
 const MOST_GROUPS: usize = 60;
 
+/// Whether the items differ from each other by so much that no mean of them is a reference.
+fn differ(one: &Measurand) -> bool {
+    one.reference.is_none() && !one.agreement.is_exception()
+}
+
 /// A fleet in a language.
 #[derive(Clone, Copy)]
 struct Shown<'f> {
@@ -90,7 +95,7 @@ impl Shown<'_> {
             Block::Section(head),
             Block::Paragraph(self.agreement_words(one)),
         ];
-        if !one.agreement.apart.is_empty() {
+        if !one.agreement.apart.is_empty() && !differ(one) {
             blocks.push(Block::Table(self.apart_table(one)));
         }
         blocks

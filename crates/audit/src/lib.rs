@@ -20,5 +20,5 @@ mod tests;
 mod units;
 mod verdict;
 
-pub use file::{budget_files, claims};
+pub use file::{budget_files, claims, nothing_understood};
 pub use verdict::{Audit, Verdict, audit};

@@ -39,6 +39,25 @@ pub struct Grid {
     pub hidden_columns: BTreeSet<usize>,
     /// Rows that are hidden, from 0.
     pub hidden_rows: BTreeSet<usize>,
+    /// The calibration point that it is about, where a sheet holds several.
+    pub point: String,
+    /// Rows that are about other points.
+    pub left_out: BTreeSet<usize>,
+    /// Figures of the whole that stand in columns of its table.
+    pub whole: Vec<WholeCell>,
+}
+
+/// A figure of the whole in a column of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WholeCell {
+    /// The head of the column, which says which figure.
+    pub head: String,
+    /// Row of the sheet.
+    pub row: usize,
+    /// Column of the sheet.
+    pub column: usize,
+    /// The figure.
+    pub cell: Cell,
 }
 
 /// One cell.

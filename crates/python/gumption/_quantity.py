@@ -7,7 +7,7 @@ import math
 import numbers
 import re
 from collections.abc import Callable, Iterable, Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, Union, cast
 
 import numpy as np
@@ -278,9 +278,24 @@ def quantity(
         raise ValueError(f"{name!r} cannot be the name of a quantity: write letters, digits and _")
     if name is not None and _OURS.fullmatch(name):
         raise ValueError(f"{name!r} cannot be the name of a quantity: results are called so, and quantities without a name")
+    # What can be seen at once is told at once, and not where a figure is asked for.
+    for what, number in (("value", value), ("u", u)):
+        if isinstance(number, numbers.Real) and not math.isfinite(number):
+            raise ValueError(f"{what} is {number}: a finite number is needed")
+    if isinstance(u, numbers.Real) and u < 0:
+        raise ValueError(f"u is {u}: write it without sign")
+    if unit is not None:
+        _known(unit)
     stated = {"value": value, "u": None if u == 0 else u, "unit": "1" if unit is None else unit}
     stated = {key: one for key, one in stated.items() if one is not None}
     return Quantity(known={**stated, **known}, unit=units.of(unit), name=name)
+
+
+@lru_cache(maxsize=1024)
+def _known(unit: str) -> None:
+    """Raises ``Refused`` where there is no such unit."""
+    known = {"value": 1, "u": 1, "unit": unit}
+    evaluate({"measurand": {"y": {"model": "x", "unit": unit}}, "input": {"x": known}}, monte_carlo=False)
 
 
 def correlated(

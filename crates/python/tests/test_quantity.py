@@ -39,6 +39,14 @@ def test_what_is_no_quantity():
     assert math.isclose((light * time).u, 299792458e-12) and math.isclose((light * time).to("m").y, 0.299792458)
 
 
+def test_what_is_wrong_is_told_where_it_is_written():
+    for value, u in ((math.nan, 0.1), (1.0, math.inf), (1.0, -0.1)):
+        with pytest.raises(ValueError):
+            quantity(value, u)
+    with pytest.raises(gumption.Refused, match="not a known unit"):
+        quantity(1.0, 0.1, "Vv")
+
+
 def test_a_long_chain_is_no_tree():
     x = quantity(1.0, 1e-3)
     y = x

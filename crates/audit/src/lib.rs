@@ -8,6 +8,7 @@ pub mod calculate;
 pub mod claim;
 mod file;
 pub mod import;
+mod places;
 pub mod printed;
 pub mod programs;
 pub mod read;

@@ -51,9 +51,9 @@ pub struct Agreement {
 }
 
 impl Agreement {
-    /// Whether those that lie apart are the exception. Rows far from the median are left out of the mean that each is held
+    /// Whether agreement is the rule, and lying apart the exception. Rows far from the median are left out of the mean that each is held
     /// against, which means something as long as most of them are near it.
-    pub fn is_exception(&self) -> bool {
+    pub fn is_the_rule(&self) -> bool {
         2 * self.named <= self.tested
     }
 }

@@ -101,7 +101,9 @@ pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
             .iter()
             .filter(|input| input.states_inputs_of(one))
             .collect();
-        budget(grid, one, start..end, &common, &own, mapping)
+        let mut claimed = budget(grid, one, start..end, &common, &own, mapping);
+        claimed.relocate(|at| grids.get(at.sheet).map_or(at, |grid| grid.origin(at)));
+        claimed
     });
     tables.collect()
 }

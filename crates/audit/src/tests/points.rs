@@ -110,11 +110,47 @@ fn inputs_with_the_same_components_are_one_budget() {
     assert_eq!(verdict, Verdict::Sound);
 }
 
-/// A row for each point is not read, and its form is told.
+/// A row for each point: each is a budget, whose cells are those of the file.
 #[test]
-fn a_row_for_each_point_is_told() {
-    let text = "Nominal / °C,u_ref / °C,u_res / °C,u_c / °C,k,U / °C\n0,0.010,0.003,0.0104,2,0.021\n50,0.015,0.003,0.0153,2,0.031\n";
+fn a_row_for_each_point() {
+    let table = |u_c: &str| {
+        format!(
+            "Thermometer\nNominal / °C,u_ref / °C,u_res / °C,u_c / °C,k,U / °C\n0,0.010,0.003,0.0104,2,0.021\n50,0.015,0.003,{u_c},2,0.031\n\
+             100,0.020,0.003,0.0202,2,0.040\n"
+        )
+    };
+    all_sound(
+        &table("0.0153"),
+        &[
+            "Thermometer: 0 °C",
+            "Thermometer: 50 °C",
+            "Thermometer: 100 °C",
+        ],
+    );
+    let text = table("0.0153");
+    let claims = claims("points.csv", text.as_bytes(), &Mapping::default()).expect("a sheet");
+    let u_c = claims[1].footer.u_c.as_ref().expect("u_c");
+    assert_eq!(
+        (u_c.at.a1(), claims[1].rows[1].at.a1()),
+        ("D4".into(), "C2".into())
+    );
+}
+
+/// Where the sums do not show what the columns are, the form is told.
+#[test]
+fn a_row_for_each_point_without_sums_is_told() {
+    let text = "Nominal / °C,u_ref / °C,u_res / °C,u_c / °C,k,U / °C\n0,0.010,0.003,0.0204,2,0.041\n50,0.015,0.003,0.0353,2,0.071\n";
     assert_eq!(verdicts(text), []);
     let grids = sheet::grids("a.csv", text.as_bytes()).expect("a sheet");
     assert!(grids.iter().any(are_several));
+}
+
+/// Figures of the whole that follow a turned table without a gap are none of its heads.
+#[test]
+fn a_turned_table_ends_before_its_sum() {
+    let text = "Budget\nSource,Reference,Readout,Repeatability\n± / N,0.02,0.05,0.02\nDivisor,2,√3,1\nu / N,0.010,0.0289,0.020\nu_c,0.0365\nU (k=2),0.073\n";
+    all_sound(text, &["Budget"]);
+    let claims = claims("turned.csv", text.as_bytes(), &Mapping::default()).expect("a sheet");
+    let u = claims[0].rows[1].u.as_ref().expect("u");
+    assert_eq!(u.at.a1(), "C5");
 }

@@ -102,16 +102,32 @@ fn utf16(bytes: &[u8]) -> Option<(&'static encoding_rs::Encoding, &[u8])> {
     }
 }
 
-/// What bytes are that are a table in no text: what to do with it.
-pub(super) fn no_text(bytes: &[u8]) -> Option<Said> {
-    match bytes {
-        [b'P', b'A', b'R', b'1', ..] => Some(say!(
-            "it is Parquet: at the command line its name ends in .parquet, and the program has it built in; in Python read it with `pandas.read_parquet` or `pyarrow.parquet.read_table`, and give what comes"
-        )),
-        [b'P', b'K', 3, 4, ..] | [0xd0, 0xcf, 0x11, 0xe0, ..] => Some(say!(
-            "it is a workbook or another archive: save the sheet as CSV in UTF-8"
-        )),
-        _ => None,
+/// Files with tables that are no text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum NoText {
+    Parquet,
+    /// A workbook, or another archive.
+    Workbook,
+}
+
+impl NoText {
+    /// By the first bytes.
+    pub(super) fn of(bytes: &[u8]) -> Option<NoText> {
+        match bytes {
+            [b'P', b'A', b'R', b'1', ..] => Some(NoText::Parquet),
+            [b'P', b'K', 3, 4, ..] | [0xd0, 0xcf, 0x11, 0xe0, ..] => Some(NoText::Workbook),
+            _ => None,
+        }
+    }
+
+    /// How to make a table of text of it.
+    pub(super) fn mend(self) -> Said {
+        match self {
+            NoText::Parquet => say!("it is Parquet: save it as CSV in UTF-8"),
+            NoText::Workbook => {
+                say!("it is a workbook or another archive: save the sheet as CSV in UTF-8")
+            }
+        }
     }
 }
 
@@ -189,8 +205,9 @@ mod tests {
         }
         let error = decode(&latin("a,b\n1,2 °C\n")).expect_err("Latin-1");
         assert_eq!((error.byte, error.line), (9, 2));
-        assert!(no_text(b"PAR1\x15\x04").is_some() && no_text(b"PK\x03\x04").is_some());
-        assert_eq!(no_text(b"PARAMETER,1\n"), None);
+        assert_eq!(NoText::of(b"PAR1\x15\x04"), Some(NoText::Parquet));
+        assert_eq!(NoText::of(b"PK\x03\x04"), Some(NoText::Workbook));
+        assert_eq!(NoText::of(b"PARAMETER,1\n"), None);
         // Zeros in both halves of the units.
         assert!(decode(b"a\0,\0b\0\n\0\0\0").is_err());
         assert!(decode(&[0xff, 0xfe, 0x00, 0xd8]).is_err());

@@ -5,7 +5,7 @@ use std::io::Read;
 use ::csv::{ByteRecord, ReaderBuilder};
 use memchr::{memchr, memchr_iter, memrchr};
 
-use super::encoding::{Encoding, decode, gbk, is_utf16, no_text, with_line_feeds};
+use super::encoding::{Encoding, NoText, decode, gbk, is_utf16, with_line_feeds};
 use super::faults::{NOT_UTF8, ROW_LENGTH, UNREADABLE};
 use super::sheet::separator_of;
 use gumption_fault::{Fault, say};
@@ -132,7 +132,13 @@ impl<R: Read> Pieces<R> {
     fn text(&mut self, end: usize) -> Result<String, Box<Fault>> {
         let bytes = &self.rest[..end];
         let refuse = |message, help| Err(Box::new(Fault::new(NOT_UTF8, 0..0, message).help(help)));
-        if let Some(help) = no_text(bytes).filter(|_| self.line == 1) {
+        if let Some(other) = NoText::of(bytes).filter(|_| self.line == 1) {
+            let help = match other {
+                NoText::Parquet => say!(
+                    "it is Parquet: at the command line its name ends in .parquet, and the program has it built in; in Python read it with `pandas.read_parquet` or `pyarrow.parquet.read_table`, and give what comes"
+                ),
+                NoText::Workbook => other.mend(),
+            };
             return refuse(say!("the table is no CSV"), help);
         }
         if self.line == 1 && is_utf16(bytes) {

@@ -7,7 +7,7 @@ use crate::read::columns::{Role, apart, is_unit, role};
 use crate::read::footer::{self, Whole};
 use crate::sheet::{Cell, Grid};
 
-use super::{amount, figures, whole_of_row, without};
+use super::{amount, figures, rows_below, whole_of_row, without};
 
 /// A point with its columns, and what their heads say without it.
 struct Point {
@@ -92,13 +92,6 @@ fn points(grid: &Grid, head: usize) -> Option<Vec<Point>> {
 fn is_bare(columns: &[(usize, String)]) -> bool {
     let is_nothing = |rest: &str| rest.is_empty() || is_unit(rest.trim_start_matches(['/', ' ']));
     columns.len() == 1 && columns.iter().all(|(_, rest)| is_nothing(rest))
-}
-
-/// Rows with a figure below the heads, and where the figures of the whole stand.
-fn rows_below(grid: &Grid, head: usize) -> BTreeSet<usize> {
-    let filled = |row: &usize| grid.filled(*row).next().is_some();
-    let rows = (head + 1..grid.rows.len()).take_while(filled);
-    rows.collect()
 }
 
 /// What the figures of bare columns are, told by the figures of the whole: `u` where u_c is the root of the sum of their squares,

@@ -1,8 +1,10 @@
-//! Sheets with one budget for each calibration point: the points side by side in columns, or below each other in blocks of rows.
+//! Sheets with one budget for each calibration point: the points side by side in columns, below each other in blocks of rows, or each
+//! in a row of its own.
 //!
 //! A sheet is parted only where it says itself that each point has figures of its own: its u_c or U, and the same sources.
 
 mod columns;
+mod lines;
 mod rows;
 
 use std::collections::BTreeSet;
@@ -17,7 +19,8 @@ use super::footer::{self, Whole};
 pub fn parted(grid: &Grid) -> Vec<Grid> {
     let found = (0..grid.rows.len()).find_map(|head| {
         let columns = columns::parted(grid, head);
-        columns.or_else(|| rows::parted(grid, head))
+        let columns = columns.or_else(|| rows::parted(grid, head));
+        columns.or_else(|| lines::parted(grid, head))
     });
     found.unwrap_or_else(|| vec![grid.clone()])
 }
@@ -126,6 +129,13 @@ fn without(grid: &Grid, is_left_out: impl Fn(usize, usize) -> bool) -> Grid {
         rows: rows.collect(),
         ..grid.clone()
     }
+}
+
+/// The rows below a head, up to an empty one.
+fn rows_below(grid: &Grid, head: usize) -> BTreeSet<usize> {
+    let filled = |row: &usize| grid.filled(*row).next().is_some();
+    let rows = (head + 1..grid.rows.len()).take_while(filled);
+    rows.collect()
 }
 
 /// Figures of a column in some rows.

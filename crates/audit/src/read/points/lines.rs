@@ -33,10 +33,6 @@ pub(super) fn parted(grid: &Grid, head: usize) -> Option<Vec<Grid>> {
     if sources.len() < 2 || !one_unit || !are_sums {
         return None;
     }
-    let u = match unit.is_empty() {
-        true => "u_i".to_owned(),
-        false => format!("u_i / {unit}"),
-    };
     let part = |row: &usize| {
         let mut part = Grid {
             name: grid.name.clone(),
@@ -46,17 +42,18 @@ pub(super) fn parted(grid: &Grid, head: usize) -> Option<Vec<Grid>> {
                 .to_owned(),
             ..Grid::default()
         };
-        part.rows.push(vec![Cell::new("Source"), Cell::new(&u)]);
+        part.rows
+            .push(["Source", "Unit", "u_i"].map(Cell::new).to_vec());
         for column in sources.iter().chain(&whole) {
-            let named = match column.whole {
-                Some(_) => grid.cell(head, column.index).clone(),
-                None => Cell::new(&column.name),
+            let (named, unit) = match column.whole {
+                Some(_) => (grid.cell(head, column.index).clone(), Cell::default()),
+                None => (Cell::new(&column.name), Cell::new(&column.unit)),
             };
             let at = part.rows.len();
             part.origins.insert((at, 0), (head, column.index));
-            part.origins.insert((at, 1), (*row, column.index));
-            part.rows
-                .push(vec![named, grid.cell(*row, column.index).clone()]);
+            part.origins.insert((at, 2), (*row, column.index));
+            let figure = grid.cell(*row, column.index).clone();
+            part.rows.push(vec![named, unit, figure]);
         }
         part
     };

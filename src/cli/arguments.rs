@@ -5,7 +5,8 @@ use clap::Parser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use super::language::spoken;
-use super::output;
+use super::{no_command, output};
+use gumption::fault::{Said, say};
 use gumption::language::Language;
 
 /// The arguments; ends the program where there is nothing else to do.
@@ -14,12 +15,37 @@ pub(super) fn parse<T: Parser>() -> T {
 }
 
 fn refuse(error: &clap::Error) -> ! {
+    if let Some(instead) = instead(error) {
+        output::complain(instead);
+        std::process::exit(error.exit_code())
+    }
     match (spoken(), in_chinese(error)) {
         (Language::Chinese, Some(text)) => {
             output::warn(&text);
             std::process::exit(error.exit_code())
         }
         _ => error.exit(),
+    }
+}
+
+/// What to write where the command is missing: a file or an option stands in its place.
+pub(super) fn instead(error: &clap::Error) -> Option<Said> {
+    let word = |kind| match error.get(kind)? {
+        ContextValue::String(word) => Some(word.as_str()),
+        _ => None,
+    };
+    match error.kind() {
+        ErrorKind::InvalidSubcommand => no_command::to_write(word(ContextKind::InvalidSubcommand)?),
+        ErrorKind::UnknownArgument => {
+            let usage = error.get(ContextKind::Usage)?.to_string();
+            let option = word(ContextKind::InvalidArg)?;
+            usage.ends_with("<COMMAND>").then(|| {
+                say!(
+                    "before the option {option} a command is missing: options stand behind it, as in `gumption eval budget.toml {option} …`"
+                )
+            })
+        }
+        _ => None,
     }
 }
 

@@ -6,7 +6,7 @@ use super::form::Form;
 use super::{Outcome, output};
 use gumption::audit::read::Mapping;
 use gumption::audit::sheet::Unreadable;
-use gumption::audit::{Audit, Verdict, audit, claims};
+use gumption::audit::{Audit, Verdict, audit, claims, nothing_understood};
 use gumption::document::Document;
 use gumption::fault::{Said, say};
 use gumption::files::Files;
@@ -46,9 +46,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         };
         let audits: Vec<Audit<'_>> = claims.iter().map(audit).collect();
         if audits.is_empty() {
-            outcome = outcome.max(output::complain(say!(
-                "{name} holds no table that could be understood as an uncertainty budget"
-            )));
+            outcome = outcome.max(output::complain(nothing(path)));
         }
         outcome = outcome.max(audits.iter().map(of).max().unwrap_or(Outcome::Done));
         documents.push(
@@ -106,6 +104,12 @@ pub(super) fn found<T>(
     let bytes = Files::Disk.read(path);
     let bytes = bytes.map_err(|error| say!("cannot read {name}: {error}"))?;
     find(&name, &bytes, mapping).map_err(|Unreadable(why)| say!("cannot read {name}: {why}"))
+}
+
+/// What is said of a file without any budget that is understood.
+pub(super) fn nothing(path: &Path) -> Said {
+    let bytes = Files::Disk.read(path).unwrap_or_default();
+    nothing_understood(&path.display().to_string(), &bytes)
 }
 
 /// A sound claim is 0; one that departs, whether that changes the result or not, is 1.

@@ -79,7 +79,7 @@ pub(super) const CONCEPTS: &[Concept] = &[
     },
     Concept {
         name: "detection-limit",
-        aliases: &["detection", "decision threshold", "characteristic limits", "iso 11929", "探测限", "判断限"],
+        aliases: &["detection", "decision threshold", "characteristic limits", "iso 11929", "探测限", "判断阈", "判断限"],
         title: "decision threshold and detection limit (ISO 11929)",
         text: "A net effect that cannot be negative is recognised where y is above the decision threshold y* = k_{1−α}·u(0), which is exceeded with probability α where there is none. The detection limit y# = y* + k_{1−β}·u(y#) is the smallest value that is recognised with probability 1 − β. Both need u of a measurement that finds another value: the input that `gross` names takes the estimate that gives it, counts follow as their square root, relative uncertainties in proportion. Where u grows as fast as the value there is no detection limit.\n\nBest estimate and coverage interval are those of the normal distribution of the result, cut off at zero. With Monte Carlo, threshold and limit are also found from the quantiles of the simulated results (ISO 11929-2).",
     },

@@ -8,7 +8,7 @@ use gumption::Files;
 use gumption::challenge::budget;
 use gumption::challenge::grade::{self, Refused};
 use gumption::document::Document;
-use gumption::fault::{Said, say};
+use gumption::fault::{Said, of_system, say};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -58,7 +58,7 @@ fn sheets(args: &Args, path: &Path) -> Result<Document, Refused> {
 
 fn read(path: &Path) -> Result<String, Refused> {
     let bytes = Files::Disk.read(path);
-    let bytes = bytes.map_err(|error| Refused::Unreadable(path.into(), error.to_string()))?;
+    let bytes = bytes.map_err(|error| Refused::Unreadable(path.into(), of_system(&error)))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 

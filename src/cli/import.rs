@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::audit::found;
+use super::audit::{found, nothing};
 use super::output::Target;
 use super::{Outcome, output};
 use gumption::audit::budget_files;
@@ -55,9 +55,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     let wanted = args.budget as usize - 1;
     if wanted >= budgets.len() {
         return match budgets.len() {
-            0 => output::complain(say!(
-                "{name} holds no table that could be understood as an uncertainty budget"
-            )),
+            0 => output::complain(nothing(&args.sheet)),
             count => output::complain(say!("{name} holds {count} budgets")),
         };
     }

@@ -20,6 +20,7 @@ mod import;
 mod interrupt;
 mod language;
 mod new;
+mod no_command;
 mod output;
 mod plan;
 mod progress;
@@ -157,6 +158,34 @@ mod tests {
             assert!(!text.contains("error"), "{text}");
         }
         assert_eq!(in_chinese(&["--help"]), "");
+    }
+
+    #[test]
+    fn a_file_or_an_option_without_a_command_is_told_what_to_write() {
+        for (arguments, expected) in [
+            (&["budgets/mass/ea-s2.toml"][..], "`gumption eval"),
+            (&["lost.toml"], "a command is missing: `gumption eval"),
+            (
+                &["experiments/gyro-scale-factor.toml"],
+                "`gumption calibrate",
+            ),
+            (&["sheet.xlsx"], "`gumption audit sheet.xlsx`"),
+            (&["table.csv"], "`gumption fleet table.csv`"),
+            (&["budgets"], "`gumption serve budgets`"),
+            (&["--lang", "zh", "eval", "a.toml"], "the option --lang"),
+        ] {
+            let arguments = ["gumption"].iter().chain(arguments);
+            let error = Cli::try_parse_from(arguments).expect_err("a fault");
+            let said = arguments::instead(&error).expect("what to write");
+            assert!(said.to_string().contains(expected), "{said}");
+        }
+        for arguments in [
+            &["gumption", "evl"][..],
+            &["gumption", "eval", "--foo", "x"],
+        ] {
+            let error = Cli::try_parse_from(arguments).expect_err("a fault");
+            assert_eq!(arguments::instead(&error), None);
+        }
     }
 
     #[test]

@@ -2,13 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use super::language::spoken;
+use super::language::{spoken, system_language};
 use super::{Outcome, output};
 use gumption::experiment::procedure::PROCEDURES;
 use gumption::experiment::{self, procedure::Procedure};
 use gumption::fault::harmless;
 use gumption::fault::{Said, say};
 use gumption::files::write::{self, Output, Replacing, Why};
+use gumption::language::Language;
 use gumption::recording::text_of;
 use gumption::{Files, budget, report};
 
@@ -26,6 +27,9 @@ pub(super) struct Args {
     /// The experiment follows this procedure of the library
     #[arg(long, value_name = "NAME", requires = "recording", value_parser = procedure)]
     procedure: Option<&'static Procedure>,
+    /// Language of the comments of a budget: en or zh [default: that of the system]
+    #[arg(long, value_name = "LANG", default_value = system_language(), hide_default_value = true)]
+    lang: Language,
 }
 
 fn procedure(name: &str) -> Result<&'static Procedure, String> {
@@ -49,7 +53,7 @@ pub(super) fn run(args: &Args) -> Outcome {
             Err(outcome) => return outcome,
         },
         (None, true) => report::certificate_template(),
-        (None, false) => budget::template(),
+        (None, false) => budget::template(args.lang),
     };
     if path.as_os_str() == "-" {
         return output::print(&*text);

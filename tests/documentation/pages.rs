@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use gumption::budget;
+use gumption::language::Language;
 use gumption::propagate::{self, MonteCarloChoice, Options};
 
 /// What the program prints on a page of 100 columns.
@@ -86,8 +87,12 @@ fn every_example_in_the_documentation_evaluates() {
 
 #[test]
 fn the_template_evaluates_and_agrees_with_its_own_schema() {
-    let loaded = budget::read(&budget::template(), "template", &common::root())
-        .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
+    let loaded = budget::read(
+        &budget::template(Language::English),
+        "template",
+        &common::root(),
+    )
+    .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
     assert_eq!(loaded.rows.len(), 1);
     propagate::evaluate(&loaded.rows[0].budget, &Options::default()).expect("a result");
 }

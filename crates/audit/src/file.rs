@@ -1,5 +1,7 @@
 //! Files of all kinds: sheets read by meaning, and those of other programs read by their rules.
 
+use gumption_fault::{Said, say};
+
 use crate::calculate::Case;
 use crate::claim::Claimed;
 use crate::import;
@@ -15,6 +17,18 @@ pub fn claims(name: &str, bytes: &[u8], mapping: &Mapping) -> Result<Vec<Claimed
     match programs::statements(name, bytes) {
         Some(statements) => Ok(statements?.iter().flat_map(programs::claims).collect()),
         None => Ok(read::budgets(&sheet::grids(name, bytes)?, mapping)),
+    }
+}
+
+/// What is said of a file without any budget that is understood.
+pub fn nothing_understood(name: &str, bytes: &[u8]) -> Said {
+    let nothing = say!("{name} holds no table that could be understood as an uncertainty budget");
+    let grids = sheet::grids(name, bytes).unwrap_or_default();
+    match grids.iter().any(read::are_several) {
+        true => say!(
+            "{nothing}; it seems to have one for each of several calibration points: give each point a table of its own with one source in each row, columns of source, ±, distribution, divisor and u, and u_c and U below"
+        ),
+        false => nothing,
     }
 }
 

@@ -8,6 +8,7 @@ pub mod calculate;
 pub mod claim;
 mod file;
 pub mod import;
+mod places;
 pub mod printed;
 pub mod programs;
 pub mod read;
@@ -20,5 +21,5 @@ mod tests;
 mod units;
 mod verdict;
 
-pub use file::{budget_files, claims};
+pub use file::{budget_files, claims, nothing_understood};
 pub use verdict::{Audit, Verdict, audit};

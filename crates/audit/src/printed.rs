@@ -146,6 +146,24 @@ impl Printed {
         }
     }
 
+    /// Whether it is printed with more than two digits, and not with all that a cell holds. What a cell computes, it cannot show
+    /// with fewer than its whole number has.
+    pub fn is_long(&self) -> bool {
+        let read = self.read();
+        let is_whole = self.shown.is_some() && read.half >= 0.5;
+        !is_whole && (3..=8).contains(&read.digits)
+    }
+
+    /// Half a unit in the last digit of an expanded uncertainty that decides: who prints more digits than two shows what a
+    /// certificate never states, and the third decides nothing.
+    pub fn half_that_decides(&self) -> f64 {
+        let third = 0.5 * libm::exp10(libm::floor(libm::log10(self.value.abs())) - 2.0);
+        match self.is_long() || self.digits > 8 {
+            true => self.half_of_digits().max(third),
+            false => self.half_of_digits(),
+        }
+    }
+
     /// What the digits of a coefficient leave open, as a ratio: sheets compute with more than they show. Whole numbers are
     /// exact, and less than three digits are no rounded coefficient.
     pub fn coarseness(&self) -> f64 {

@@ -17,12 +17,14 @@ pub mod said;
 
 mod harmless;
 mod rejection;
+mod system;
 
 use std::ops::Range;
 
 pub use harmless::{harmless, is_obeyed};
 pub use rejection::Rejection;
 pub use said::{Between, Said, say};
+pub use system::of_system;
 
 /// A stable error code with its explanation (`gumption explain CODE`).
 ///

@@ -50,6 +50,14 @@ pub struct Agreement {
     pub apart: Vec<Apart>,
 }
 
+impl Agreement {
+    /// Whether agreement is the rule, and lying apart the exception. Rows far from the median are left out of the mean that each is held
+    /// against, which means something as long as most of them are near it.
+    pub fn is_the_rule(&self) -> bool {
+        2 * self.named <= self.tested
+    }
+}
+
 /// Rows of a group that can be tested.
 pub(crate) fn testable(measurand: &MeasurandValues, members: &Members) -> usize {
     match &measurand.reference {

@@ -88,7 +88,12 @@ pub(crate) fn layout(sheet: &Sheet<'_>, wanted: &Wanted) -> Result<Layout, Vec<F
             Err(fault) => faults.push(*fault),
         }
     }
-    for reference in &wanted.references {
+    // Which measurand is meant cannot be told where none is understood.
+    let told = wanted
+        .references
+        .iter()
+        .filter(|_| !measurands.is_empty() || faults.is_empty());
+    for reference in told.collect::<Vec<_>>() {
         if let Err(fault) = heads.refer(reference, &mut measurands) {
             faults.push(*fault);
         }
@@ -219,7 +224,7 @@ impl<'a> Heads<'a> {
                 Fault::new(NO_MEASURAND, place, message)
                     .label(say!("its estimates"))
                     .help(say!(
-                        "two of u({name}), k({name}) and U({name}) are needed: add a column"
+                        "two of u({name}), k({name}) and U({name}) are needed: add a column; or, if {name} is what others are held against, write `--reference {name}`"
                     )),
             ));
         }

@@ -193,7 +193,9 @@ impl Results {
 
     fn add(&mut self, sheet: &Sheet<'_>, layout: &Layout) -> Result<(), Vec<Fault>> {
         let place = |row: &Row<'_>, at| sheet.place(row, at);
-        self.add_rows(sheet.rows(), sheet, layout, place)
+        let rows = sheet.rows();
+        let rows = rows.map(|row| row.map_err(|bad| Box::new(bad.fault)));
+        self.add_rows(rows, sheet, layout, place)
     }
 
     fn add_rows<'r>(
@@ -270,7 +272,7 @@ impl Results {
         let is_good = error.is_empty();
         for (found, columns) in self.measurands.iter_mut().zip(&layout.measurands) {
             found.values.push(row, &columns.stated, is_good, f64::NAN)?;
-            let k = found.values.k(self.rows - 1);
+            let k = found.values.last_k();
             if let (Some((_, values)), Some(columns)) = (&mut found.reference, &columns.reference) {
                 values.push(row, columns, is_good, k)?;
             }
@@ -373,6 +375,12 @@ impl Values {
     /// The coverage factor of a row.
     pub fn k(&self, row: usize) -> f64 {
         self.expanded[row] / self.u[row]
+    }
+
+    /// That of the row added last: rows with faults are in the count of all and not here.
+    fn last_k(&self) -> f64 {
+        let last = self.expanded.last().zip(self.u.last());
+        last.map_or(f64::NAN, |(expanded, u)| expanded / u)
     }
 
     /// Whether a row has an estimate with an uncertainty that weighs it.

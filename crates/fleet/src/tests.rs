@@ -217,6 +217,28 @@ fn stated_references_are_what_rows_are_held_against() {
         Some("X")
     );
     assert!(refusal("y,u(y),k(y),X\n1,1,2,1\n", &wanted).contains("add a column U(X)"));
+    // Without the argument X is no measurand with half an uncertainty, but a reference.
+    let untold = "y,u(y),k(y),X,U(X)\n1,1,2,1,1\n";
+    assert!(refusal(untold, &Wanted::default()).contains("write `--reference X`"));
+    // Nothing is said of the reference where no measurand is understood.
+    let other = refusal("y [m],u(y),k(y),X,U(X)\n1,1,2,1,1\n", &wanted);
+    assert!(!other.contains("MEASURAND"), "{other}");
+}
+
+/// A row with a fault, and good ones below it: the fault is told, with those of further rows.
+#[test]
+fn rows_with_faults_stand_before_good_ones() {
+    let dated = Wanted {
+        date: Some("date".into()),
+        ..Wanted::default()
+    };
+    let table = "y,u(y),k(y),date\n1,1,2,2023-13-45\n1,1,2,2023-01-01\n1,x,2,2023-01-01\n1,1,2,2023-01-01\n";
+    let said = refusal(table, &dated);
+    assert!(
+        said.contains("line 2: \"2023-13-45\" is not a date"),
+        "{said}"
+    );
+    assert!(said.contains("line 4: \"x\" is not a number"), "{said}");
 }
 
 /// What is said of so many simulated fleets of 25 devices whose u is right: E_n beyond 1, how many chance lets expect, fleets in which a

@@ -169,7 +169,7 @@ impl<'b> Run<'b> {
     fn learn(
         &mut self,
         sheet: &Sheet<'_>,
-        rows: &[Result<csv::Row<'_>, Box<Fault>>],
+        rows: &[Result<csv::Row<'_>, Box<csv::BadRow<'_>>>],
     ) -> Result<(), Rejection> {
         if self.number == 0 {
             hopeless(self.batch, sheet, rows)?;
@@ -222,7 +222,7 @@ impl<'b> Run<'b> {
 fn hopeless(
     batch: &Batch<'_>,
     sheet: &Sheet<'_>,
-    rows: &[Result<csv::Row<'_>, Box<Fault>>],
+    rows: &[Result<csv::Row<'_>, Box<csv::BadRow<'_>>>],
 ) -> Result<(), Rejection> {
     /// Rows that are tried.
     const FEW: usize = 16;
@@ -387,7 +387,7 @@ impl Worker<'_> {
         }
         let read = match place.part.row(lane) {
             Ok(row) => self.read(&row, sheet, plan),
-            Err(fault) => Err(Failed::Row(Box::new(fault.clone()))),
+            Err(bad) => Err(Failed::Row(Box::new(bad.fault.clone()))),
         };
         let found = read.as_ref();
         let found = found.map(|(budget, found)| (budget, Found::Evaluation(found)));

@@ -49,6 +49,8 @@ def batch(
 
     Raises ``Refused`` where the budget has faults that no row mends, or a column is no place of it.
     """
+    if output is not None and Path(output).suffix.lower() in _NO_CSV:
+        raise ValueError(f"output: {os.fspath(output)} would hold CSV; name it .csv, or save the frame that is given without output")
     columns, rows, failed = evaluated(
         budget,
         _table.given(table),
@@ -65,6 +67,10 @@ def batch(
     labels = columns["label"] or [""] * rows
     columns["label"] = [label or str(at) for at, label in enumerate(labels, 1)]
     return _table.like(table, columns, rows)
+
+
+_NO_CSV = {".parquet", ".xlsx", ".xls", ".json", ".feather", ".arrow"}
+"""Endings of files of another kind than what is written."""
 
 
 def arrow_batch(

@@ -58,7 +58,7 @@ def settings(
     threads: int | None,
 ) -> dict[str, Any]:
     """What the engine is asked for in place of what a file says."""
-    if trials is not None and trials != "adaptive" and trials < 1000:
+    if trials is not None and trials != "adaptive" and (isinstance(trials, str) or trials < 1000):
         raise ValueError("trials: 1000 at least, or 'adaptive'")
     return {
         "profile": profile,

@@ -7,13 +7,14 @@ import math
 import numbers
 import re
 from collections.abc import Callable, Iterable, Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, Union, cast
 
 import numpy as np
 
 from . import _units as units
 from ._commands import evaluate
+from ._digits import estimate, figure
 from ._result import Measurand, Result
 from ._units import Units
 
@@ -51,7 +52,13 @@ class Quantity:
     @cached_property
     def result(self) -> Result:
         """The evaluated budget."""
-        return evaluate(_budget([self]))
+        budget = _budget([self])
+        if "input" not in budget:
+            raise ValueError(
+                "nothing here is uncertain: state u, half_width, readings …; "
+                "what is exact stands in formulas beside quantities that are not, and is a plain number otherwise"
+            )
+        return evaluate(budget)
 
     @property
     def _found(self) -> Measurand:
@@ -169,8 +176,29 @@ class Quantity:
         return _formed(ufunc.__name__, *given)
 
     def __repr__(self) -> str:
+        """The estimate to the digits that three digits of u leave it."""
+        y, u = self.y, self.u
+        return self._shown(estimate(y, u), None if u is None else figure(u, 3) if u else "0")
+
+    def __format__(self, spec: str) -> str:
+        """Estimate and u alike: ``f"{x:.3f}"``."""
+        if not spec:
+            return repr(self)
+        return self._shown(f"{self.y:{spec}}", None if self.u is None else f"{self.u:{spec}}")
+
+    def _shown(self, y: str, u: str | None) -> str:
         unit = "" if self.unit == "1" else f" {self.unit}"
-        return f"<{self.y:.10g}{unit}>" if self.u is None else f"<{self.y:.10g}{unit}, u = {self.u:.3g}>"
+        return f"<{y}{unit}>" if u is None else f"<{y}{unit}, u = {u}>"
+
+    def __copy__(self) -> Quantity:
+        return self
+
+    def __deepcopy__(self, _: Any) -> Quantity:
+        # A copy would be another quantity, that had nothing in common with this one.
+        return self
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {key: one for key, one in self.__dict__.items() if key != "result"}
 
 
 class Joint:
@@ -246,11 +274,28 @@ def quantity(
         from ._gtc import from_gtc
 
         return from_gtc(value)
-    if name is not None and (not name.isidentifier() or _OURS.fullmatch(name)):
-        raise ValueError(f"{name!r} cannot be the name of a quantity")
+    if name is not None and not name.isidentifier():
+        raise ValueError(f"{name!r} cannot be the name of a quantity: write letters, digits and _")
+    if name is not None and _OURS.fullmatch(name):
+        raise ValueError(f"{name!r} cannot be the name of a quantity: results are called so, and quantities without a name")
+    # What can be seen at once is told at once, and not where a figure is asked for.
+    for what, number in (("value", value), ("u", u)):
+        if isinstance(number, numbers.Real) and not math.isfinite(number):
+            raise ValueError(f"{what} is {number}: a finite number is needed")
+    if isinstance(u, numbers.Real) and u < 0:
+        raise ValueError(f"u is {u}: write it without sign")
+    if unit is not None:
+        _known(unit)
     stated = {"value": value, "u": None if u == 0 else u, "unit": "1" if unit is None else unit}
     stated = {key: one for key, one in stated.items() if one is not None}
     return Quantity(known={**stated, **known}, unit=units.of(unit), name=name)
+
+
+@lru_cache(maxsize=1024)
+def _known(unit: str) -> None:
+    """Raises ``Refused`` where there is no such unit."""
+    known = {"value": 1, "u": 1, "unit": unit}
+    evaluate({"measurand": {"y": {"model": "x", "unit": unit}}, "input": {"x": known}}, monte_carlo=False)
 
 
 def correlated(

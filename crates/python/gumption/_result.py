@@ -14,6 +14,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from ._digits import estimate, figure
 from ._engine import Made
 from ._faults import typed
 from ._given import Given, source
@@ -105,8 +106,11 @@ class Measurand(Record):
     def __repr__(self) -> str:
         unit = "" if self.unit == "1" else f" {self.unit}"
         figures = {"u": self.u, "k": self.k, "U": self.U}
-        shown = [f", {symbol} = {figure:.5g}" for symbol, figure in figures.items() if figure is not None]
-        return f"<{self.name} = {self.y:.10g}{unit}{''.join(shown)}>"
+        shown = [f", {symbol} = {figure(one, 3)}" for symbol, one in figures.items() if one is not None]
+        interval = self.interval
+        half = None if interval is None else (interval[1] - interval[0]) / 2
+        spread = next((one for one in (self.u, self.U, half) if one), None)
+        return f"<{self.name} = {estimate(self.y, spread)}{unit}{''.join(shown)}>"
 
 
 class Row(Record):

@@ -123,7 +123,15 @@ def _columns(table: Any) -> list[tuple[str, Any]]:
     for name in names:
         if isinstance(table[name], (str, bytes)) or not hasattr(table[name], "__iter__"):
             raise TypeError(f"the column {name} is {table[name]!r}: a list or an array with a value for each row is needed")
-    return [(str(name), cells(table[name])) for name in names]
+    return [*_of_index(table, names), *((str(name), cells(table[name])) for name in names)]
+
+
+def _of_index(table: Any, names: list[Any]) -> list[tuple[str, Any]]:
+    """Where a frame of pandas names its rows by its index, that is their label."""
+    index = getattr(table, "index", None) if _library(table) == "pandas" else None
+    if index is None or "label" in names or index.nlevels != 1 or type(index).__name__ == "RangeIndex":
+        return []
+    return [("label", [_field(one) for one in index])]
 
 
 def cells(column: Any) -> Any:

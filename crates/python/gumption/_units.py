@@ -19,15 +19,18 @@ def of(written: str | None) -> Units:
 
 def written(units: Units) -> str:
     """As a budget file has it."""
-    factors = [_factor(unit, exponent) for unit, exponent in units.items() if exponent != 0]
-    return "·".join(factors) or "1"
+    factors = {unit: exponent for unit, exponent in units.items() if exponent != 0}
+    match list(factors.items()):
+        case [(unit, 1)]:
+            return unit
+        case all:
+            return "·".join(_factor(unit, exponent) for unit, exponent in all) or "1"
 
 
 def _factor(unit: str, exponent: float) -> str:
-    if exponent == 1:
-        return unit
     compound = any(sign in unit for sign in "/*·^²³√ ")
-    return f"({unit})^{exponent:g}" if compound else f"{unit}^{exponent:g}"
+    factor = f"({unit})" if compound else unit
+    return factor if exponent == 1 else f"{factor}^{exponent:g}"
 
 
 def alike(*operands: Operand) -> Units:

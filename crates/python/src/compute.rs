@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use gumption_audit::claims;
 use gumption_audit::read::Mapping;
 use gumption_audit::sheet::Unreadable;
-use gumption_fault::Rejection;
+use gumption_audit::{claims, nothing_understood};
 use gumption_fault::language::Language;
+use gumption_fault::{Rejection, of_system, say};
 use gumption_fleet as fleets;
 use gumption_format::csv;
 use gumption_format::document::Attachment;
@@ -361,10 +361,10 @@ pub(crate) fn audit(py: Python<'_>, source: Source, language: &str) -> PyResult<
     let bytes = read(py, &source)?;
     let none = |why| Err(Unmade::NoResult(why, None));
     let found = py.detach(|| match claims(&name, &bytes, &Mapping::default()) {
-        Err(Unreadable(why)) => none(format!("cannot read {name}: {why}")),
-        Ok(claims) if claims.is_empty() => none(format!(
-            "{name} holds no table that could be understood as an uncertainty budget"
-        )),
+        Err(Unreadable(why)) => none(say!("cannot read {name}: {why}").in_language(language)),
+        Ok(claims) if claims.is_empty() => {
+            none(nothing_understood(&name, &bytes).in_language(language))
+        }
         Ok(claims) => Ok(What::Audit(name, claims)),
     });
     made(py, language, found)
@@ -378,7 +378,7 @@ fn read(py: Python<'_>, source: &Source) -> PyResult<Vec<u8>> {
     py.detach(|| source.with(|files, path| files.read(path)))
         .map_err(|error| {
             let path = source.path().display();
-            PyOSError::new_err(format!("{path} cannot be read: {error}"))
+            PyOSError::new_err(format!("{path} cannot be read: {}", of_system(&error)))
         })
 }
 

@@ -263,7 +263,8 @@ impl Made {
 
 /// The exception of a file that is not written.
 pub(crate) fn unwritten(unwritten: Unwritten, language: Language) -> PyErr {
-    let words = unwritten.words(language);
+    // What the command line calls --force.
+    let words = unwritten.words(language).replace("--force", "replace=True");
     match unwritten.why {
         Why::Exists | Why::NotOurs => PyFileExistsError::new_err(words),
         _ => PyOSError::new_err(words),

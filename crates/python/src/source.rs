@@ -87,7 +87,11 @@ impl Serialize for Entry<'_> {
         } else if let Ok(table) = given.cast::<PyMapping>() {
             let mut map = to.serialize_map(None)?;
             for item in table.items().map_err(raised)? {
-                let (key, value): (String, Bound<'_, PyAny>) = item.extract().map_err(raised)?;
+                let (key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) =
+                    item.extract().map_err(raised)?;
+                let key: String = key.extract().map_err(|_| {
+                    S::Error::custom(format!("the keys of a file are texts, and {key:?} is none"))
+                })?;
                 if !value.is_none() {
                     map.serialize_entry(&key, &Entry(value))?;
                 }

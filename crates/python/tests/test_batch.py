@@ -112,3 +112,20 @@ c = { value = 1.5, u = 0.01 }
         for name in together.keys() - {"label"}:
             one, other = together[name][at], alone[name][0]
             assert one == other or (one != one and other != other), (name, at)
+
+
+def test_the_index_of_a_frame_names_its_rows():
+    budget = {"title": "y", "measurand": {"y": {"model": "x"}}, "input": {"x": {"value": 1, "u": 0.1}}}
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame({"x": [1.0, 2.0]}, index=["S1", "S2"])
+    assert list(gumption.batch(budget, frame)["label"]) == ["S1", "S2"]
+    assert list(gumption.batch(budget, frame.reset_index(drop=True))["label"]) == ["1", "2"]
+
+
+def test_a_file_that_would_hold_something_else_is_refused(tmp_path):
+    budget = {"title": "y", "measurand": {"y": {"model": "x"}}, "input": {"x": {"value": 1, "u": 0.1}}}
+    with pytest.raises(ValueError, match="would hold CSV"):
+        gumption.batch(budget, {"x": [1.0]}, output=tmp_path / "results.parquet")
+    (tmp_path / "devices.csv").write_bytes(b"PAR1\x15\x04")
+    with pytest.raises(gumption.Refused, match="Parquet"):
+        gumption.batch(budget, tmp_path / "devices.csv")

@@ -1,6 +1,8 @@
 """Uncertain numbers against closed forms and the package ``uncertainties``."""
 
+import copy
 import math
+import pickle
 
 import gumption
 import numpy as np
@@ -11,6 +13,38 @@ from gumption import correlated, quantity
 def test_what_is_common_cancels():
     x = quantity(2.0, 0.1)
     assert (x - x).u == 0 and (x / x).y == 1
+
+
+def test_digits_that_are_shown():
+    x = quantity(1.5, 0.1)
+    assert repr(x) == "<1.500, u = 0.100>" and f"{x:.1f}" == "<1.5, u = 0.1>" and f"{x}" == repr(x)
+    assert repr(quantity(123456.0, 1000.0, "Hz")) == "<1.2346e+05 Hz, u = 1.00e+03>"
+    # Where Monte Carlo gives the estimate, its noise is not shown.
+    assert repr(x * quantity(2.0, 0.2)).startswith("<3.000, u = 0.361>")
+    assert repr(x - x) == "<0, u = 0>"
+
+
+def test_copies_are_the_same_quantity():
+    x = quantity(1.5, 0.1)
+    assert (copy.deepcopy(x) - x).u == 0 and copy.copy(x) is x
+    assert pickle.loads(pickle.dumps(x)).u == x.u
+
+
+def test_what_is_no_quantity():
+    with pytest.raises(ValueError, match="nothing here is uncertain"):
+        quantity(1).y
+    with pytest.raises(ValueError, match="results are called so"):
+        quantity(1, 0.1, name="y")
+    light, time = quantity(299792458, unit="m/s"), quantity(1e-9, 1e-12, "s")
+    assert math.isclose((light * time).u, 299792458e-12) and math.isclose((light * time).to("m").y, 0.299792458)
+
+
+def test_what_is_wrong_is_told_where_it_is_written():
+    for value, u in ((math.nan, 0.1), (1.0, math.inf), (1.0, -0.1)):
+        with pytest.raises(ValueError):
+            quantity(value, u)
+    with pytest.raises(gumption.Refused, match="not a known unit"):
+        quantity(1.0, 0.1, "Vv")
 
 
 def test_a_long_chain_is_no_tree():

@@ -109,7 +109,7 @@ impl Routes {
             "form" => form(&about, &contents),
             "propose" => propose(&about, &contents),
             "template" => Reply::json(&json!({
-                "budget": budget::template(), "certificate": certificate_template(),
+                "budget": budget::template(about.language.into()), "certificate": certificate_template(),
             })),
             "save" => self.save(&about, &contents),
             "forget" => {

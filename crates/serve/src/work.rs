@@ -9,11 +9,11 @@ use serde_json::{Value, json};
 
 use gumption_audit::read::Mapping;
 use gumption_audit::sheet::Unreadable;
-use gumption_audit::{audit, claims};
+use gumption_audit::{audit, claims, nothing_understood};
 use gumption_core::quantity::Unit;
 use gumption_export::{Format, Page};
 use gumption_fault::language::Language;
-use gumption_fault::{Fault, Rejection, Said, say};
+use gumption_fault::{Fault, Rejection, Said, of_system, say};
 use gumption_format::document::{Attachment, Document};
 use gumption_format::files::{Files, Folder};
 use gumption_format::toml::Step;
@@ -518,14 +518,12 @@ impl Asked<'_> {
         let name = &self.wish.path;
         let unreadable = |why: Said| self.nothing(&say!("cannot read {name}: {why}"));
         let bytes = self.files.read(self.path);
-        let bytes = bytes.map_err(|error| unreadable(Said::quoted(error.to_string())))?;
+        let bytes = bytes.map_err(|error| unreadable(of_system(&error)))?;
         let claims = claims(name, &bytes, &Mapping::default());
         let claims = claims.map_err(|Unreadable(why)| unreadable(why))?;
         let audits: Vec<_> = claims.iter().map(audit).collect();
         if audits.is_empty() {
-            return Err(self.nothing(&say!(
-                "{name} holds no table that could be understood as an uncertainty budget"
-            )));
+            return Err(self.nothing(&nothing_understood(name, &bytes)));
         }
         let document = report::audit(name, &audits, self.language);
         Ok(Found::Document(Box::new(document), Value::Null))

@@ -15,6 +15,7 @@
 //! | `notes` | what notes say: model, correlations, rules |
 //! | `result_unit` | the unit of a result |
 //! | `mapping` | what a user says of a sheet |
+//! | `points` | sheets with a budget for each calibration point |
 //! | `prose` | budgets without a table |
 //! | `turned` | tables whose rows and columns are exchanged |
 //! | `words` | words and figures in texts |
@@ -30,6 +31,7 @@ mod lines;
 mod mapping;
 mod model;
 mod notes;
+mod points;
 mod prose;
 mod result_unit;
 mod table;
@@ -39,6 +41,7 @@ mod words;
 pub use columns::Role;
 pub(crate) use footer::Whole;
 pub use mapping::Mapping;
+pub use points::are_several;
 pub(crate) use words::{
     count_before, figure_after, figures_with_units, has, has_symbol, symbol_at,
 };
@@ -56,6 +59,7 @@ use table::Located;
 /// Every budget of a file.
 pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
     let parts = grids.iter().flat_map(beside::parted);
+    let parts = parts.flat_map(|part| points::parted(&part));
     let grids: Vec<Grid> = parts.map(|part| turned::upright(&part)).collect();
     let mut found: Vec<Found> = Vec::new();
     for (sheet, grid) in grids.iter().enumerate() {
@@ -97,7 +101,9 @@ pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
             .iter()
             .filter(|input| input.states_inputs_of(one))
             .collect();
-        budget(grid, one, start..end, &common, &own, mapping)
+        let mut claimed = budget(grid, one, start..end, &common, &own, mapping);
+        claimed.relocate(|at| grids.get(at.sheet).map_or(at, |grid| grid.origin(at)));
+        claimed
     });
     tables.collect()
 }
@@ -270,6 +276,11 @@ fn budget(
         .find(|line| line.at.row < found.first_head() && !line.text.contains('='))
         .map(|line| line.text.clone())
         .unwrap_or_default();
+    if !grid.point.is_empty() {
+        let parts = [claimed.title.as_str(), &grid.point];
+        let parts = parts.into_iter().filter(|part| !part.is_empty());
+        claimed.title = parts.collect::<Vec<_>>().join(": ");
+    }
     find_model(
         &first.iter().chain(common).collect::<Vec<_>>(),
         &mut claimed,
@@ -278,6 +289,7 @@ fn budget(
     drop_measurand(grid, &mut raw, &mut claimed);
     symbols_of_model(&mut raw, &mut claimed);
     let below = located.head + 1..bounds.end;
+    table::of_columns(grid, sheet, &mut claimed);
     table::footers(grid, sheet, &mut located, below, elsewhere, &mut claimed);
     claimed.typed = formulas::typed(grid, sheet, &claimed);
     claimed.stale = formulas::stale(grid, sheet, bounds.clone());

@@ -1,8 +1,9 @@
 //! Tables whose rows and columns are exchanged: heads down the first column, one quantity in each column behind it.
 
-use crate::sheet::{Cell, Grid};
+use crate::sheet::Grid;
 
 use super::columns::{self, Role};
+use super::footer;
 
 /// The fewest heads below one another that are no chance.
 const FEWEST: usize = 4;
@@ -17,23 +18,27 @@ pub fn upright(grid: &Grid) -> Grid {
         .map(|row| grid.rows[row].len())
         .max()
         .unwrap_or(0);
-    let turned = (first..width)
-        .map(|column| {
-            (start..end)
-                .map(|row| grid.cell(row, column).clone())
-                .collect::<Vec<Cell>>()
-        })
-        .filter(|row| row.iter().any(|cell| !cell.is_empty()));
-    let rows = grid.rows[..start]
-        .iter()
-        .cloned()
-        .chain(turned)
-        .chain(grid.rows[end..].iter().cloned());
-    Grid {
+    let mut upright = Grid {
         name: grid.name.clone(),
-        rows: rows.collect(),
+        point: grid.point.clone(),
+        rows: grid.rows[..start].to_vec(),
         ..Grid::default()
+    };
+    let is_filled = |column: &usize| (start..end).any(|row| !grid.cell(row, *column).is_empty());
+    for column in (first..width).filter(is_filled) {
+        let at = upright.rows.len();
+        let origin = |(place, row): (usize, usize)| ((at, place), (row, column));
+        upright.origins.extend((start..end).enumerate().map(origin));
+        let cells = (start..end).map(|row| grid.cell(row, column).clone());
+        upright.rows.push(cells.collect());
     }
+    for (row, cells) in grid.rows.iter().enumerate().skip(end) {
+        let at = upright.rows.len();
+        let origin = |column: usize| ((at, column), (row, column));
+        upright.origins.extend((0..cells.len()).map(origin));
+        upright.rows.push(cells.clone());
+    }
+    upright
 }
 
 /// Rows from here on that begin with heads of different columns, one of which names a quantity and one of which is a
@@ -49,7 +54,11 @@ fn heads_below(grid: &Grid, start: usize) -> Option<(usize, usize)> {
             .filled(start)
             .next()
             .is_some_and(|(first, _)| first == column);
-        if !same_column || roles.contains(&role) || grid.filled(end).count() < 2 {
+        // A figure of the whole stands alone behind its label.
+        let is_whole = grid.filled(end).count() == 2
+            && grid.filled(start).count() > 2
+            && footer::label(&cell.text, "").is_some();
+        if !same_column || is_whole || roles.contains(&role) || grid.filled(end).count() < 2 {
             break;
         }
         roles.push(role);
@@ -93,6 +102,7 @@ fn words<'t>(heads: impl Iterator<Item = &'t str>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sheet::Cell;
 
     fn grid(rows: &[&str]) -> Grid {
         let cells = |row: &&str| row.split('|').map(Cell::new).collect();

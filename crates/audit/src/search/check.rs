@@ -209,7 +209,7 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
             case.claimed.rounding
         };
         let rounded = |x: f64| is_rounded(&figure, x, rule, report.down);
-        let long = is_long(&figure);
+        let long = figure.is_long();
         long == report.long
             && ks
                 .iter()
@@ -267,12 +267,7 @@ pub fn is_printed(case: &Case<'_>, right: &Figures, made: &Figures, open: f64) -
         let met = |u_c: &Printed| u_c.is_met_within(right.u_c, u_c.half_of_digits() + open);
         return footer.u_c.as_ref().is_none_or(met);
     };
-    // Who prints more digits than two shows what a certificate never states: the third one decides nothing.
-    let third = 0.5 * libm::exp10(libm::floor(libm::log10(expanded.value.abs())) - 2.0);
-    let half = match is_long(expanded) || expanded.digits > 8 {
-        true => expanded.half_of_digits().max(third),
-        false => expanded.half_of_digits(),
-    };
+    let half = expanded.half_that_decides();
     let open = open * right.expanded / right.u_c;
     let tolerance = 1e-6 * (half + expanded.value.abs());
     let nearest = |x: f64, open: f64| expanded.is_met_within(x, half + open);
@@ -364,14 +359,6 @@ fn freedom(figure: &Printed, nu: f64, calculation: &Calculation, coarse: f64) ->
         } else {
             figure.is_met_by(nu) && calculation.freedom != Freedom::Up || figure.value == cut
         }
-}
-
-/// Whether a figure is printed with more than two digits. What a cell computes, it cannot show with fewer than its whole
-/// number has.
-fn is_long(figure: &Printed) -> bool {
-    let shown = figure.read();
-    let is_whole = figure.shown.is_some() && shown.half >= 0.5;
-    !is_whole && (3..=8).contains(&shown.digits)
 }
 
 /// Whether a factor is printed like this. A whole number has been rounded to two decimals before.

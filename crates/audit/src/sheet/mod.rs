@@ -18,11 +18,11 @@ mod text;
 mod uncached;
 mod workbook;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use gumption_fault::Said;
 
-use crate::printed::Printed;
+use crate::printed::{Place, Printed};
 
 #[cfg(test)]
 pub(crate) use stale::mark as mark_stale;
@@ -39,6 +39,27 @@ pub struct Grid {
     pub hidden_columns: BTreeSet<usize>,
     /// Rows that are hidden, from 0.
     pub hidden_rows: BTreeSet<usize>,
+    /// The calibration point that it is about, where a sheet holds several.
+    pub point: String,
+    /// Where cells stood, row and column, before tables were turned or parted; the others stand where they stood.
+    pub origins: BTreeMap<(usize, usize), (usize, usize)>,
+    /// Rows that are about other points.
+    pub left_out: BTreeSet<usize>,
+    /// Figures of the whole that stand in columns of its table.
+    pub whole: Vec<WholeCell>,
+}
+
+/// A figure of the whole in a column of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WholeCell {
+    /// The head of the column, which says which figure.
+    pub head: String,
+    /// Row of the sheet.
+    pub row: usize,
+    /// Column of the sheet.
+    pub column: usize,
+    /// The figure.
+    pub cell: Cell,
 }
 
 /// One cell.
@@ -97,6 +118,17 @@ impl Grid {
             .get(row)
             .and_then(|cells| cells.get(column))
             .unwrap_or(&NOTHING)
+    }
+
+    /// Where the cell of a place stands in the file.
+    pub fn origin(&self, place: Place) -> Place {
+        let origin = self.origins.get(&(place.row, place.column));
+        let (row, column) = origin.copied().unwrap_or((place.row, place.column));
+        Place {
+            row,
+            column,
+            ..place
+        }
     }
 
     /// The cells of a row that hold something, with their columns.

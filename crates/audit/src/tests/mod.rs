@@ -5,6 +5,7 @@ mod further;
 mod hands;
 mod layouts;
 mod others;
+mod points;
 mod statements;
 mod strangers;
 
@@ -42,10 +43,7 @@ fn is_printed_as_claimed(audited: &Audit<'_>) -> bool {
     };
     let open = found.open * found.right.expanded / found.right.u_c;
     let above = claimed.value - found.right.expanded;
-    // Of more than two digits the third decides nothing.
-    let third = 0.5 * libm::exp10(libm::floor(libm::log10(claimed.value)) - 2.0);
-    let long = claimed.half < 0.5 && claimed.digits > 2;
-    let half = claimed.half_of_digits().max(if long { third } else { 0.0 });
+    let half = claimed.half_that_decides();
     let tolerance = 1e-6 * (half + claimed.value);
     (-half - open - tolerance..2.0 * half + open + tolerance).contains(&above)
 }

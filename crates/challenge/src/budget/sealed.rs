@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use gumption_fault::of_system;
 use gumption_format::files::Files;
 
 use super::case::{Sheet, SheetTruth, sheet};
@@ -120,7 +121,7 @@ The truth is sealed in truth.json, which has the SHA-256
 pub fn sealed_sheets_truth(folder: &Path) -> Result<SheetsTruth, Refused> {
     let read = |path: std::path::PathBuf| {
         let bytes = Files::Disk.read(&path);
-        bytes.map_err(|error| Refused::Unreadable(path, error.to_string()))
+        bytes.map_err(|error| Refused::Unreadable(path, of_system(&error)))
     };
     let (truth_path, handed_out) = (folder.join("truth.json"), folder.join("case"));
     let truth_text = read(truth_path.clone())?;
@@ -129,7 +130,7 @@ pub fn sealed_sheets_truth(folder: &Path) -> Result<SheetsTruth, Refused> {
         return Err(Refused::BrokenSeal);
     }
     let truth: SheetsTruth = serde_json::from_slice(&truth_text)
-        .map_err(|error| Refused::Unreadable(truth_path, error.to_string()))?;
+        .map_err(|error| Refused::Unreadable(truth_path, error.to_string().into()))?;
     for sheet in &truth.sheets {
         if seal(read(handed_out.join(&sheet.file))?) != sheet.sha256 {
             return Err(Refused::Changed(sheet.file.clone()));

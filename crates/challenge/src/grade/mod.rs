@@ -22,6 +22,7 @@ pub use place::located;
 pub use score::{Finding, Graded, GradedEffect, grade};
 pub use vocabulary::accepts;
 
+use gumption_fault::{Said, of_system};
 use gumption_format::files::Files;
 
 use super::files::{CASE, CaseFile};
@@ -31,7 +32,7 @@ use super::truth::{Truth, seal};
 #[derive(Debug, Clone, PartialEq)]
 pub enum Refused {
     /// A file that cannot be read, with the reason.
-    Unreadable(PathBuf, String),
+    Unreadable(PathBuf, Said),
     /// The truth is not the one that the experiment was sealed with.
     BrokenSeal,
     /// A file of the case was changed after it was sealed.
@@ -51,7 +52,7 @@ pub fn sealed_truth(folder: &Path) -> Result<Truth, Refused> {
     let read = |path: PathBuf| {
         let bytes = Files::Disk.read(&path);
         let text = bytes.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-        text.map_err(|error| Refused::Unreadable(path, error.to_string()))
+        text.map_err(|error| Refused::Unreadable(path, of_system(&error)))
     };
     let truth_path = folder.join("truth.json");
     let truth_text = read(truth_path.clone())?;
@@ -60,7 +61,7 @@ pub fn sealed_truth(folder: &Path) -> Result<Truth, Refused> {
         return Err(Refused::BrokenSeal);
     }
     let truth: Truth = serde_json::from_str(&truth_text)
-        .map_err(|error| Refused::Unreadable(truth_path, error.to_string()))?;
+        .map_err(|error| Refused::Unreadable(truth_path, error.to_string().into()))?;
     for (name, hash) in &truth.files {
         if seal(&read(handed_out.join(name))?) != *hash {
             return Err(Refused::Changed(name.clone()));

@@ -322,6 +322,13 @@ impl<'a> Lexer<'a, '_> {
         }
     }
 
+    /// Whether a square bracket is open in the line so far.
+    fn is_in_brackets(&self) -> bool {
+        let before = &self.text[..self.at];
+        let line = before.rsplit('\n').next().unwrap_or_default();
+        line.matches('[').count() > line.matches(']').count()
+    }
+
     fn unknown(&mut self, c: char) {
         let span = self.at..self.at + c.len_utf8();
         let help = match c {
@@ -336,6 +343,9 @@ impl<'a> Lexer<'a, '_> {
             }
             '"' | '`' | '’' | '‘' => {
                 say!("a unit stands between single quotes: `25 'mm'`")
+            }
+            ':' if self.is_in_brackets() => {
+                say!("there are no ranges: name the elements one by one, `[x[1], x[2], x[3]]`")
             }
             ':' => say!("write `=` to define a quantity"),
             '√' => say!("write `sqrt(x)`"),

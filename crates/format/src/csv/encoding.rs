@@ -1,13 +1,14 @@
 //! The bytes of a table as text: UTF-8, UTF-16 as spreadsheets save “Unicode text”, or GBK.
 
 use encoding_rs::{GBK, UTF_16BE, UTF_16LE};
+use gumption_fault::{Said, say};
 
 /// How a table was saved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Encoding {
     /// UTF-8, with or without its mark.
     Utf8,
-    /// UTF-16 with its mark, of either byte order.
+    /// UTF-16 of either byte order, with its mark or plainly so.
     Utf16,
     /// The code of Chinese systems.
     Gbk,
@@ -48,12 +49,7 @@ pub struct Undecodable {
 /// # Errors
 /// The bytes are text in none of the encodings.
 pub fn decode(bytes: &[u8]) -> Result<Decoded, Undecodable> {
-    let marked = match bytes {
-        [0xff, 0xfe, rest @ ..] => Some((UTF_16LE, rest)),
-        [0xfe, 0xff, rest @ ..] => Some((UTF_16BE, rest)),
-        _ => None,
-    };
-    if let Some((encoding, rest)) = marked {
+    if let Some((encoding, rest)) = utf16(bytes) {
         let text = encoding.decode_without_bom_handling_and_without_replacement(rest);
         return decoded(
             text.ok_or(Undecodable { byte: 1, line: 1 })?,
@@ -80,8 +76,73 @@ pub fn decode(bytes: &[u8]) -> Result<Decoded, Undecodable> {
 }
 
 fn decoded(text: std::borrow::Cow<'_, str>, encoding: Encoding) -> Result<Decoded, Undecodable> {
-    let text = text.into_owned();
+    let text = with_line_feeds(text.into_owned());
     Ok(Decoded { text, encoding })
+}
+
+/// The byte order of UTF-16, and the text behind its mark. Without a mark it is plain where letters of ASCII fill a quarter of
+/// the units and no zero stands among the other halves.
+fn utf16(bytes: &[u8]) -> Option<(&'static encoding_rs::Encoding, &[u8])> {
+    /// Bytes that are looked at.
+    const BEGINNING: usize = 4096;
+    match bytes {
+        [0xff, 0xfe, rest @ ..] => return Some((UTF_16LE, rest)),
+        [0xfe, 0xff, rest @ ..] => return Some((UTF_16BE, rest)),
+        _ => {}
+    }
+    let beginning = &bytes[..bytes.len().min(BEGINNING)];
+    let zeros = |parity: usize| {
+        let half = beginning.iter().skip(parity).step_by(2);
+        half.filter(|byte| **byte == 0).count()
+    };
+    match (zeros(0), zeros(1)) {
+        (0, many) if 8 * many >= beginning.len() && many > 0 => Some((UTF_16LE, bytes)),
+        (many, 0) if 8 * many >= beginning.len() && many > 0 => Some((UTF_16BE, bytes)),
+        _ => None,
+    }
+}
+
+/// Files with tables that are no text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum NoText {
+    Parquet,
+    /// A workbook, or another archive.
+    Workbook,
+}
+
+impl NoText {
+    /// By the first bytes.
+    pub(super) fn of(bytes: &[u8]) -> Option<NoText> {
+        match bytes {
+            [b'P', b'A', b'R', b'1', ..] => Some(NoText::Parquet),
+            [b'P', b'K', 3, 4, ..] | [0xd0, 0xcf, 0x11, 0xe0, ..] => Some(NoText::Workbook),
+            _ => None,
+        }
+    }
+
+    /// How to make a table of text of it.
+    pub(super) fn mend(self) -> Said {
+        match self {
+            NoText::Parquet => say!("it is Parquet: save it as CSV in UTF-8"),
+            NoText::Workbook => {
+                say!("it is a workbook or another archive: save the sheet as CSV in UTF-8")
+            }
+        }
+    }
+}
+
+/// Whether bytes are text in UTF-16.
+pub fn is_utf16(bytes: &[u8]) -> bool {
+    utf16(bytes).is_some()
+}
+
+/// A text whose lines end as old Macs ended them, with a carriage return alone, with line feeds: every place stays where it is.
+#[must_use]
+pub fn with_line_feeds(text: String) -> String {
+    match text.contains('\r') && !text.contains('\n') {
+        true => text.replace('\r', "\n"),
+        false => text,
+    }
 }
 
 /// Whether all bytes beyond ASCII are pairs of GB/T 2312, half of them signs (rows 1 to 9) or characters of its
@@ -121,6 +182,10 @@ mod tests {
         let big: Vec<u8> = marked.encode_utf16().flat_map(u16::to_be_bytes).collect();
         assert_eq!(read(&little), known(Encoding::Utf16));
         assert_eq!(read(&big), known(Encoding::Utf16));
+        assert_eq!(read(&little[2..]), known(Encoding::Utf16));
+        assert_eq!(read(&big[2..]), known(Encoding::Utf16));
+        let old_mac = text.replace('\n', "\r");
+        assert_eq!(read(old_mac.as_bytes()), known(Encoding::Utf8));
         let (gbk, _, _) = GBK.encode(text);
         assert_eq!(read(&gbk), known(Encoding::Gbk));
         let (signs, _, _) = GBK.encode("T [℃],R [Ω],±\n");
@@ -140,8 +205,11 @@ mod tests {
         }
         let error = decode(&latin("a,b\n1,2 °C\n")).expect_err("Latin-1");
         assert_eq!((error.byte, error.line), (9, 2));
-        // UTF-16 without its mark.
-        assert!(decode(b"a\0,\0b\0\n\0").is_err());
+        assert_eq!(NoText::of(b"PAR1\x15\x04"), Some(NoText::Parquet));
+        assert_eq!(NoText::of(b"PK\x03\x04"), Some(NoText::Workbook));
+        assert_eq!(NoText::of(b"PARAMETER,1\n"), None);
+        // Zeros in both halves of the units.
+        assert!(decode(b"a\0,\0b\0\n\0\0\0").is_err());
         assert!(decode(&[0xff, 0xfe, 0x00, 0xd8]).is_err());
     }
 }

@@ -48,13 +48,13 @@ mod size;
 
 pub use columns::{Cells, Columns};
 pub use doubts::{overload, same_name, two_decimal_signs};
-pub use encoding::{Decoded, Encoding, Undecodable, decode};
+pub use encoding::{Decoded, Encoding, Undecodable, decode, is_utf16, with_line_feeds};
 pub use field::{OVERLOAD, days, number, time};
 pub use heading::Heading;
 pub use pieces::{Piece, Pieces};
 pub use reader::{headings, open, text_of};
 pub use request::{Content, Request};
-pub use sheet::{Row, RowFields, Sheet};
+pub use sheet::{BadRow, Row, RowFields, Sheet};
 
 use std::collections::BTreeSet;
 

@@ -5,7 +5,7 @@ use std::io::Read;
 use ::csv::{ByteRecord, ReaderBuilder};
 use memchr::{memchr, memchr_iter, memrchr};
 
-use super::encoding::{Encoding, decode, gbk};
+use super::encoding::{Encoding, NoText, decode, gbk, is_utf16, with_line_feeds};
 use super::faults::{NOT_UTF8, ROW_LENGTH, UNREADABLE};
 use super::sheet::separator_of;
 use gumption_fault::{Fault, say};
@@ -80,7 +80,7 @@ impl<R: Read> Pieces<R> {
         }
         let text = self.text(end)?;
         let line = self.line;
-        self.line += memchr_iter(b'\n', &self.rest[..end]).count();
+        self.line += memchr_iter(b'\n', text.as_bytes()).count();
         self.rest.drain(..end);
         Ok(Some(Piece { text, line }))
     }
@@ -131,13 +131,31 @@ impl<R: Read> Pieces<R> {
     /// The bytes up to here as text.
     fn text(&mut self, end: usize) -> Result<String, Box<Fault>> {
         let bytes = &self.rest[..end];
+        let refuse = |message, help| Err(Box::new(Fault::new(NOT_UTF8, 0..0, message).help(help)));
+        if let Some(other) = NoText::of(bytes).filter(|_| self.line == 1) {
+            let help = match other {
+                NoText::Parquet => say!(
+                    "it is Parquet: at the command line its name ends in .parquet, and the program has it built in; in Python read it with `pandas.read_parquet` or `pyarrow.parquet.read_table`, and give what comes"
+                ),
+                NoText::Workbook => other.mend(),
+            };
+            return refuse(say!("the table is no CSV"), help);
+        }
+        if self.line == 1 && is_utf16(bytes) {
+            return refuse(
+                say!("the table is text in UTF-16"),
+                say!("save it as CSV in UTF-8"),
+            );
+        }
         let undecodable = |line: usize| {
             let line = self.line + line - 1;
             let message = say!("the table is neither UTF-8 nor GBK in line {line}");
             Box::new(Fault::new(NOT_UTF8, 0..0, message).help(say!("save it as CSV in UTF-8")))
         };
         if self.encoding == Some(Encoding::Gbk) {
-            return gbk(bytes).ok_or_else(|| undecodable(1));
+            return gbk(bytes)
+                .map(with_line_feeds)
+                .ok_or_else(|| undecodable(1));
         }
         let decoded = decode(bytes).map_err(|error| undecodable(error.line))?;
         match (self.encoding, decoded.encoding) {
@@ -168,7 +186,7 @@ impl<R: Read> Iterator for Pieces<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::csv::Sheet;
+    use crate::csv::{BadRow, Sheet};
 
     /// All rows of a table, with their lines, read in pieces.
     fn rows(bytes: &[u8]) -> Vec<(usize, Vec<String>)> {
@@ -179,7 +197,7 @@ mod tests {
                 1 => first.clone(),
                 line => first.below(&piece.text, line),
             };
-            let row = |row: Result<crate::csv::Row, Box<Fault>>| {
+            let row = |row: Result<crate::csv::Row, Box<BadRow>>| {
                 let row = row.unwrap();
                 (row.line, row.fields().map(str::to_owned).collect())
             };

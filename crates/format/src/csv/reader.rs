@@ -7,7 +7,7 @@ use std::path::Path;
 
 use super::column_unit::unit_of;
 use super::doubts::{Sign, may_mark_thousands, mend_of_overload, not_a, same_name, two_signs};
-use super::encoding::{Undecodable, decode};
+use super::encoding::{NoText, Undecodable, decode};
 use super::faults::{NO_COLUMN, NOT_A_NUMBER, NOT_UTF8, UNIT_CLASH, UNREADABLE};
 use super::field::{Field, Instant, is_like_a_time, is_overload, mend};
 use super::heading::Heading;
@@ -182,6 +182,9 @@ pub fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejectio
         }
         Rejection::new(name, "", vec![fault])
     })?;
+    if let Some(other) = NoText::of(&bytes) {
+        return Err(refuse(NOT_UTF8, say!("{name} is no CSV"), other.mend()));
+    }
     let decoded = decode(&bytes).map_err(|error| {
         let Undecodable { byte, line } = error;
         let message =

@@ -47,6 +47,15 @@ enum Fields<'a> {
 /// Longer lists of faults of one kind are cut, with their number.
 pub(super) const SHOWN: usize = 5;
 
+/// A row that has another length than the first line, or does not end.
+#[derive(Debug, Clone)]
+pub struct BadRow<'a> {
+    /// What is wrong with it.
+    pub fault: Fault,
+    /// Its fields, where it ends.
+    pub row: Option<Row<'a>>,
+}
+
 impl<'a> Sheet<'a> {
     /// Reads the first line.
     ///
@@ -158,10 +167,10 @@ impl<'a> Sheet<'a> {
                     good += 1;
                     visitor(&row);
                 }
-                Err(fault) => {
+                Err(bad_row) => {
                     bad += 1;
                     if faults.len() < SHOWN {
-                        faults.push(*fault);
+                        faults.push(bad_row.fault);
                     }
                 }
             }
@@ -184,17 +193,21 @@ impl<'a> Sheet<'a> {
     }
 
     /// The rows below the first line; a fault in place of one that has another length than the first line.
-    pub fn rows(&self) -> impl Iterator<Item = Result<Row<'a>, Box<Fault>>> + '_ {
+    pub fn rows(&self) -> impl Iterator<Item = Result<Row<'a>, Box<BadRow<'a>>>> + '_ {
         let mut broken = false;
         let rows = Rows::new(self.text, self.separator, self.line).skip(self.skipped);
         rows.map_while(move |row| match row {
             _ if broken => None,
             Ok(row) if row.len() == self.header.len() => Some(Ok(row)),
-            Ok(row) => Some(Err(Box::new(self.wrong_length(&row)))),
+            Ok(row) => Some(Err(Box::new(BadRow {
+                fault: self.wrong_length(&row),
+                row: Some(row),
+            }))),
             Err(message) => {
                 broken = true;
                 let end = self.text.len();
-                Some(Err(Box::new(Fault::new(ROW_LENGTH, end..end, message))))
+                let fault = Fault::new(ROW_LENGTH, end..end, message);
+                Some(Err(Box::new(BadRow { fault, row: None })))
             }
         })
     }

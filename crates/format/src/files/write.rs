@@ -19,6 +19,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use gumption_fault::language::Language;
+use gumption_fault::of_system;
 
 use super::ledger::was_read;
 use super::mark;
@@ -474,7 +475,7 @@ impl Unwritten {
             Why::Folder => format!("{path} is a folder; name a file in it"),
             Why::NoFolder => format!("{path} is a file; name a folder"),
             Why::Twice => format!("{path} is to be written twice; give two names"),
-            Why::System(error) => format!("cannot write {path}: {error}"),
+            Why::System(error) => format!("cannot write {path}: {}", of_system(error)),
         }
     }
 
@@ -489,7 +490,10 @@ impl Unwritten {
             Why::Folder => format!("{path} 是文件夹；请给出其中的文件名"),
             Why::NoFolder => format!("{path} 是文件；请给出文件夹"),
             Why::Twice => format!("{path} 将被写入两次；请给出两个文件名"),
-            Why::System(error) => format!("无法写入 {path}：{error}"),
+            Why::System(error) => {
+                let why = of_system(error).in_language(Language::Chinese);
+                format!("无法写入 {path}：{why}")
+            }
         }
     }
 }

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use gumption_fault::{Code, Fault, Rejection, say};
 
+use crate::csv::{is_utf16, with_line_feeds};
+
 use super::faults::{NOT_UTF8, TOML_SYNTAX};
 use super::syntax::{document, elsewhere, leaves_the_rest, syntax_faults};
 use super::table::{Hints, Reader, Table, read_table};
@@ -53,13 +55,9 @@ pub fn decoded(bytes: Vec<u8>, path: &Path) -> Result<String, Rejection> {
             vec![Fault::new(TOML_SYNTAX, 0..0, message).help(help)],
         ));
     }
-    if let [a, 0, b, 0, ..] | [0, a, 0, b, ..] = bytes.as_slice()
-        && [a, b].iter().all(|c| c.is_ascii_graphic())
-    {
-        // Without the mark in front it may be read as text with a zero between its letters.
-        let message = say!("{name} is not UTF-8 text from byte {} on", 1);
-        let help = say!("the file is UTF-16; save it as UTF-8");
-        let fault = Fault::new(NOT_UTF8, 0..0, message).help(help);
+    if is_utf16(&bytes) {
+        let message = say!("{name} is text in UTF-16, not in UTF-8");
+        let fault = Fault::new(NOT_UTF8, 0..0, message).help(say!("save it as UTF-8"));
         return Err(Rejection::new(&name, "", vec![fault]));
     }
     let text = String::from_utf8(bytes).map_err(|error| {
@@ -73,9 +71,6 @@ pub fn decoded(bytes: Vec<u8>, path: &Path) -> Result<String, Rejection> {
         )
         .label(say!("the readable part ends here"))
         .help(match error.as_bytes() {
-            [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => {
-                say!("the file is UTF-16; save it as UTF-8")
-            }
             [b'P', b'K', 3, 4, ..] => say!(
                 "the file is a workbook or another archive; workbooks of somebody's budget are read by `gumption audit`"
             ),
@@ -83,6 +78,7 @@ pub fn decoded(bytes: Vec<u8>, path: &Path) -> Result<String, Rejection> {
         });
         Rejection::new(&name, shown, vec![fault])
     })?;
+    let text = with_line_feeds(text);
     match text.trim().is_empty() || is_toml(&text) {
         true => Ok(text),
         false => {

@@ -128,7 +128,7 @@ pub enum Failed {
 /// Some rows of a table.
 #[derive(Debug)]
 pub(super) enum Part<'t> {
-    Lines(&'t [Result<csv::Row<'t>, Box<Fault>>]),
+    Lines(&'t [Result<csv::Row<'t>, Box<csv::BadRow<'t>>>]),
     Columns(&'t Columns<'t>, Range<usize>),
 }
 
@@ -140,11 +140,11 @@ impl Part<'_> {
         }
     }
 
-    pub(super) fn row(&self, lane: usize) -> Result<Cow<'_, csv::Row<'_>>, &Fault> {
+    pub(super) fn row(&self, lane: usize) -> Result<Cow<'_, csv::Row<'_>>, &csv::BadRow<'_>> {
         match self {
             Part::Lines(rows) => match &rows[lane] {
                 Ok(row) => Ok(Cow::Borrowed(row)),
-                Err(fault) => Err(fault),
+                Err(bad) => Err(bad),
             },
             Part::Columns(columns, rows) => Ok(Cow::Owned(columns.row(rows.start + lane))),
         }
@@ -155,11 +155,13 @@ impl Part<'_> {
         Some(self.field(lane, column?)).filter(|label| !label.is_empty())
     }
 
-    /// A field of a row; empty where the row cannot be read.
+    /// A field of a row. Of one that has too few fields or too many, only the first is in its place for sure.
     fn field(&self, lane: usize, column: usize) -> Cow<'_, str> {
         match self {
             Part::Lines(rows) => {
-                let row = rows[lane].as_ref().ok();
+                let row = rows[lane]
+                    .as_ref()
+                    .map_or_else(|bad| bad.row.as_ref().filter(|_| column == 0), Some);
                 Cow::Borrowed(row.map_or("", |row| row.field(column)))
             }
             Part::Columns(columns, rows) => columns.cells(column).text(rows.start + lane),

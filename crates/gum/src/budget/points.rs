@@ -89,9 +89,13 @@ impl Columns {
 
     /// The fields of a row.
     pub fn written(&self, row: &Row, sheet: &Sheet<'_>) -> Vec<Written> {
-        let fields = self.units.iter().zip(row.fields());
-        fields
-            .map(|(unit, field)| written(field, unit.as_deref(), sheet))
+        let columns = self.units.iter().zip(&self.names).zip(row.fields());
+        columns
+            .map(|((unit, name), field)| match name.value == LABEL {
+                // `10,5 V` as a name stays as it is.
+                true if field.parse::<f64>().is_err() => Written::Text(field.to_owned()),
+                _ => written(field, unit.as_deref(), sheet),
+            })
             .collect()
     }
 }
@@ -223,8 +227,16 @@ fn written(field: &str, unit: Option<&str>, sheet: &Sheet) -> Written {
         }
         (Some(_), None) => Written::Value(plain),
         (None, _) if field.starts_with('[') => Written::Value(field.to_owned()),
+        // `0,1 %` beside `0,1`.
+        (None, _) if comma && is_amount(&plain) => Written::Text(plain),
         (None, _) => Written::Text(field.to_owned()),
     }
+}
+
+/// Whether a text is a number and a unit behind a blank.
+fn is_amount(text: &str) -> bool {
+    let parts = text.split_once(' ');
+    parts.is_some_and(|(number, unit)| number.parse::<f64>().is_ok() && !unit.trim().contains(' '))
 }
 
 /// The number that a field puts into a budget, where there is no doubt what it is: decimal digits, perhaps with a fraction
@@ -373,6 +385,17 @@ mod tests {
         assert_eq!(refused("label,V\n9.9e37,9.91E+37\nb,1\n"), ["9.91E+37"]);
         assert_eq!(refused("label;V;R\n1.1;1.500;100,5\n"), ["R"]);
         assert_eq!(refused("label;V;R\n1.1;1;100,5\n").len(), 0);
+    }
+
+    #[test]
+    fn amounts_may_have_decimal_commas_as_numbers_have() {
+        let text = "label;V;V.u\n10,5 V;1,5;0,1 %\n";
+        let sheet = Sheet::new(text).expect("names");
+        let columns = Columns::of(&sheet, |_| 0..0, |_| false).expect("columns");
+        let row = sheet.rows().next().expect("a row").expect("fields");
+        let written = columns.written(&row, &sheet);
+        let texts: Vec<&str> = written.iter().map(Written::text).collect();
+        assert_eq!(texts, ["10,5 V", "1.5", "0.1 %"]);
     }
 
     #[test]

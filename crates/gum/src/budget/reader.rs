@@ -15,6 +15,7 @@ use super::open_files::OpenFiles;
 use super::points::Points;
 use super::series;
 use super::tables::FileTable;
+use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::files::Files;
 use gumption_format::toml::faults::UNREADABLE_FILE;
@@ -293,6 +294,10 @@ pub fn keys() -> Vec<KeyRow> {
 }
 
 /// The commented budget that `gumption new` writes.
-pub fn template() -> String {
-    include_str!("template.toml").to_string()
+pub fn template(language: Language) -> String {
+    let text = language.pick(
+        include_str!("template.toml"),
+        include_str!("template.zh.toml"),
+    );
+    text.to_string()
 }

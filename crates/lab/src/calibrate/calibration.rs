@@ -341,10 +341,11 @@ pub(super) fn figures(campaign: &Campaign, parameters: &[f64], causes: Vec<Cause
     }
 }
 
-/// Welch–Satterthwaite (GUM G.2b) over causes.
+/// Welch–Satterthwaite (GUM G.2b) over the causes that act on a coefficient.
 fn effective(causes: &[Cause], coefficient: usize, u: f64) -> f64 {
     let sum: f64 = causes
         .iter()
+        .filter(|cause| !cause.contributes(coefficient, u).is_nothing)
         .map(|cause| cause.contribution(coefficient).powi(4) / cause.contribution_dof(coefficient))
         .filter(|term| term.is_finite())
         .sum();

@@ -232,8 +232,16 @@ fn dwelling(
         Some(amount) => checker.amount(amount, &unit).map(Some),
         None => Some(None),
     };
-    let settle = in_time(&table.settle)?.unwrap_or(0.0);
-    let dwell = in_time(&table.dwell)?;
+    let (settle, dwell) = (in_time(&table.settle), in_time(&table.dwell));
+    if time.is_none() && (settle.is_none() || dwell.is_none()) {
+        let help = say!(
+            "without a column of the role \"time\" this is a number of rows; name that column: [columns] \"t [s]\" = \"time\""
+        );
+        if let Some(fault) = checker.faults.pop() {
+            checker.faults.push(fault.help(help));
+        }
+    }
+    let (settle, dwell) = (settle?.unwrap_or(0.0), dwell?);
     let fewest = table.fewest.as_ref().map_or(2, |stated| stated.value);
     Some(Dwelling {
         by: dwells_by(names, table),

@@ -79,5 +79,5 @@ pub use plan::{Plan, plan};
 pub use points::{PointColumn, PointNames, Points, Reading};
 pub use recordings::{Unusable, is_experiment, label, listed, of_recording};
 pub use residual::Residual;
-pub use scatter::{Misfit, ResponseScatter, ScatterTest};
+pub use scatter::{Misfit, Part, ResponseScatter, ScatterTest};
 pub use trouble::Trouble;

@@ -9,7 +9,7 @@ use super::stack::{Row, Stack};
 use super::trouble::Trouble;
 use crate::experiment::{Observed, Scope, Target};
 use gumption_core::least_squares::Solution;
-use gumption_core::special::chi_squared_sf;
+use gumption_core::special::{chi_squared_sf, student_t_two_sided_quantile};
 use gumption_gum::budget::Evaluation;
 
 /// The scatter of each response.
@@ -33,11 +33,12 @@ pub struct ResponseScatter {
     pub s: f64,
     /// ν: the readings less the parameters that they determine, Σ(1 − h) over the leverages h.
     pub dof: f64,
-    /// Standard deviation of a reading by itself: `s` without what the stated errors explain of the
-    /// residuals, in the same units.
+    /// Standard deviation of a reading by itself, in the same units.
     pub own: f64,
     /// Degrees of freedom of `own`.
     pub own_dof: f64,
+    /// What of the residuals it is.
+    pub part: Part,
     /// The test against what samples and stated errors of each reading say, where they say anything.
     pub test: Option<ScatterTest>,
 }
@@ -56,6 +57,31 @@ pub struct ScatterTest {
     pub p_value: f64,
     /// What that says of the errors.
     pub misfit: Option<Misfit>,
+}
+
+/// What of the residuals is taken for the scatter of the readings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// What the stated errors do not explain.
+    Rest,
+    /// All of them: the rest is known too badly to promise less.
+    Whole,
+}
+
+/// The standard deviation of a reading by itself, with its degrees of freedom: from the sum of squares of residuals without what
+/// stated errors explain of it, or from all of it. The difference has the variance of the whole sum, and where it is small beside it,
+/// hardly any degrees of freedom (Gaylor and Hopper 1969): the whole is never too small, and taken where it promises a narrower interval.
+fn own(total: f64, explained: f64, dof: f64) -> (f64, f64, Part) {
+    /// Of the intervals that are compared.
+    const PROBABILITY: f64 = 0.95;
+    let rest = (total - explained).max(0.0);
+    let rest_dof = dof * (rest / total).powi(2);
+    let width = |sum: f64, dof: f64| sum.sqrt() * student_t_two_sided_quantile(PROBABILITY, dof);
+    let is_known = explained == 0.0 || rest > 0.0 && width(rest, rest_dof) <= width(total, dof);
+    match is_known || dof == 0.0 {
+        true => ((rest / dof).sqrt(), rest_dof, Part::Rest),
+        false => ((total / dof).sqrt(), dof, Part::Whole),
+    }
 }
 
 impl ScatterTest {
@@ -248,7 +274,7 @@ impl Scatters {
                 .map(|row| explained[*row] / (u[*row] * u[*row]))
                 .sum();
             let total = sum(u);
-            let own = (total - by_stated).max(0.0);
+            let (own, own_dof, part) = own(total, by_stated, dof);
             let complete = !rows.is_empty() && rows.iter().all(|row| known[*row] > 0.0);
             // What samples and all stated errors let expect of a residual, as if it were a reading's own.
             let mut expected = known.clone();
@@ -265,9 +291,9 @@ impl Scatters {
                 rms: (sum(&ones) / rows.len() as f64).sqrt(),
                 s: (total / dof).sqrt(),
                 dof,
-                own: (own / dof).sqrt(),
-                // The difference has the variance of the whole sum.
-                own_dof: dof * (own / total).powi(2),
+                own,
+                own_dof,
+                part,
                 test: (complete && dof > 0.0).then_some(()).and_then(|()| {
                     let chi_squared = sum(&expected);
                     let expected: f64 = rows.iter().map(|row| expected[*row].powi(2)).sum();
@@ -399,4 +425,20 @@ fn of_samples(stack: &Stack<'_>, gain: &Gain) -> Vec<Cause> {
         }
     };
     sampled.map(cause).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two degrees of freedom, and residuals that stated errors explain, or nearly.
+    #[test]
+    fn scatter_that_cannot_be_told_from_stated_errors_is_all_of_the_residuals() {
+        assert_eq!(own(2.0, 3.0, 2.0), (1.0, 2.0, Part::Whole));
+        assert_eq!(own(2.0, 1.5, 2.0), (1.0, 2.0, Part::Whole));
+        assert_eq!(own(2.0, 0.0, 2.0), (1.0, 2.0, Part::Rest));
+        let (s, dof, part) = own(50.0, 10.0, 50.0);
+        assert_eq!((s, part), ((40.0_f64 / 50.0).sqrt(), Part::Rest));
+        assert!((dof - 32.0).abs() < 1e-12);
+    }
 }

@@ -105,6 +105,7 @@ fn no_procedure(stated: &Stated<String>) -> Fault {
 
 /// The file's tables over those of the procedure, entry by entry and key by key.
 fn merged(mut own: ExperimentTable, base: ExperimentTable, listed: &Listed) -> ExperimentTable {
+    in_both_languages(&mut own);
     change_places(&mut own, &base);
     let moved = |own: &HashSet<String>, other: &HashSet<String>, name: &str| {
         other.contains(name) && !own.contains(name)
@@ -133,6 +134,21 @@ fn merged(mut own: ExperimentTable, base: ExperimentTable, listed: &Listed) -> E
         constant: named_or(own.constant.clone(), base.constant.clone()),
         unit: named_or(own.unit.clone(), base.unit.clone()),
         ..own.over(base)
+    }
+}
+
+/// What the file says in one language only takes the place of what the procedure says in either.
+fn in_both_languages(own: &mut ExperimentTable) {
+    fill(&mut own.title_zh, &own.title);
+    fill(&mut own.description_zh, &own.description);
+    for (_, entry) in entries_mut(&mut own.parameter) {
+        fill(&mut entry.value.description_zh, &entry.value.description);
+    }
+    for (_, entry) in entries_mut(&mut own.input) {
+        fill(
+            &mut entry.value.description_zh,
+            &entry.value.input.description,
+        );
     }
 }
 

@@ -175,8 +175,9 @@ impl Told<'_> {
                 let times = significant(times, 2);
                 l.pick(format!(" ({times} u)"), format!("（{times} u）"))
             });
+            let by = l.pick("by", "偏移");
             format!(
-                "{name} {sign} {}{unit}{times}",
+                "{name} {by} {sign}{}{unit}{times}",
                 significant(one.by.abs(), 3)
             )
         });

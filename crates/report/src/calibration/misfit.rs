@@ -11,8 +11,8 @@ use gumption_format::document::{
     Table,
 };
 use gumption_lab::calibrate::{
-    Apart, Calibration, Campaign, Limit, Misfit, Pattern, PatternTest, Residual, ResponseScatter,
-    Scatter, ScatterTest,
+    Apart, Calibration, Campaign, Limit, Misfit, Part, Pattern, PatternTest, Residual,
+    ResponseScatter, Scatter, ScatterTest,
 };
 use gumption_lab::experiment::Words;
 
@@ -53,7 +53,7 @@ pub(super) fn residuals(campaign: &Campaign, found: &Calibration, l: Language) -
     let mut blocks = vec![
         section(l, "Residuals", "残差"),
         Block::Table(scatter(campaign, found, l)),
-        Block::Paragraph(way.to_owned()),
+        Block::Paragraph(format!("{way}{}", whole(campaign, found, l))),
     ];
     if found.responses.iter().all(|one| one.dof == 0.0) {
         // What is left is rounding.
@@ -75,6 +75,32 @@ pub(super) fn residuals(campaign: &Campaign, found: &Calibration, l: Language) -
         )));
     }
     blocks
+}
+
+/// Of which responses all of the residuals count as scatter.
+fn whole(campaign: &Campaign, found: &Calibration, l: Language) -> String {
+    let is_whole = |one: &&ResponseScatter| one.part == Part::Whole;
+    let names: Vec<String> = found
+        .responses
+        .iter()
+        .filter(is_whole)
+        .map(|one| one.response.clone())
+        .collect();
+    if names.is_empty() || found.scatter != Scatter::Residuals {
+        return String::new();
+    }
+    let names = l.list(&names);
+    let mut text = l.pick(
+        format!(" Of {names} that part is known too badly, and all of the residuals are taken."),
+        format!("{names} 的这一部分难以可靠分出，故取全部残差。"),
+    );
+    if campaign.points.are_sampled() {
+        text += l.pick(
+            " The samples of the dwells tell the scatter better where nothing else changes between them: [noise] from = \"dwells\".",
+            "若驻留段之间没有其他变化，各段采样能更好地给出分散性：[noise] 中写 from = \"dwells\"。",
+        );
+    }
+    text
 }
 
 fn scatter(campaign: &Campaign, found: &Calibration, l: Language) -> Table {

@@ -2,7 +2,7 @@
 
 use crate::joint::matrix;
 use crate::language::{Language, Word};
-use crate::number::{NONE, aligned, freedom, in_unit, probability, significant};
+use crate::number::{NONE, aligned, effective, in_unit, probability, significant};
 use crate::phrase::{named_row, numbers_beside, paragraph, section, table};
 use crate::symbol;
 use gumption_format::document::{
@@ -29,7 +29,10 @@ pub(super) fn heading(campaign: &Campaign, l: Language) -> Vec<Block> {
     };
     let method = heading.description.as_ref().map(|words| said(words, l));
     let fields = [
-        (l.pick("Procedure", "程序"), heading.procedure.as_deref()),
+        (
+            l.pick("Procedure", "校准程序"),
+            heading.procedure.as_deref(),
+        ),
         (Word::Method.of(l), method),
         (Word::Source.of(l), heading.reference.as_deref()),
         (Word::Object.of(l), heading.object.as_deref()),
@@ -60,7 +63,7 @@ pub(super) fn equations(campaign: &Campaign, l: Language) -> Vec<Block> {
 /// The degrees of freedom of a coefficient that gave its k.
 pub(super) fn entered(campaign: &Campaign, one: &Coefficient) -> String {
     let rule = campaign.experiment.conventions.degrees_of_freedom;
-    freedom(rule.entered(one.dof))
+    effective(rule.entered(one.dof))
 }
 
 pub(super) fn coefficients(campaign: &Campaign, figures: &Figures, l: Language) -> Vec<Block> {

@@ -33,7 +33,6 @@ use crate::symbol;
 pub fn administration(files: Files<'_>, path: &Path) -> Result<Administration, Rejection> {
     let name = path.display().to_string();
     let bytes = files.read(path).map_err(|error| {
-        let error = error.to_string();
         let fault = Fault::new(
             UNREADABLE_FILE,
             0..0,

@@ -41,7 +41,7 @@ impl Limits<'_> {
     /// Decision threshold and detection limit.
     fn limits(&self, rows: &mut Rows) {
         let (l, trials) = (self.l, self.found.from_trials);
-        let label = l.pick("Decision threshold", "判断限");
+        let label = l.pick("Decision threshold", "判断阈");
         let Some(limits) = self.found.limits else {
             return rows.add(label, self.no_threshold());
         };
@@ -175,7 +175,7 @@ impl Limits<'_> {
         let (english, chinese) = match self.found.recognised() {
             Some(true) => ("effect recognised: y > y*", "识别出效应：y > y*"),
             Some(false) => ("no effect recognised: y ≤ y*", "未识别出效应：y ≤ y*"),
-            None => ("no decision threshold", "无判断限"),
+            None => ("no decision threshold", "无判断阈"),
         };
         self.l.pick(english, chinese)
     }
@@ -248,7 +248,7 @@ impl Limits<'_> {
             );
             l.pick(
                 format!(" (decision threshold y* = {threshold}, {limit})"),
-                format!("（判断限 y* = {threshold}，{limit}）"),
+                format!("（判断阈 y* = {threshold}，{limit}）"),
             )
         })
     }

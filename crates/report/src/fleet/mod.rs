@@ -28,6 +28,11 @@ pub fn fleet_schema() -> Value {
 /// Groups that a reader takes in; the machine form has all of them.
 const MOST_GROUPS: usize = 60;
 
+/// Whether the items differ from each other by so much that no mean of them is a reference.
+fn differ(one: &Measurand) -> bool {
+    one.reference.is_none() && !one.agreement.is_the_rule()
+}
+
 /// A fleet in a language.
 #[derive(Clone, Copy)]
 struct Shown<'f> {
@@ -90,7 +95,7 @@ impl Shown<'_> {
             Block::Section(head),
             Block::Paragraph(self.agreement_words(one)),
         ];
-        if !one.agreement.apart.is_empty() {
+        if !one.agreement.apart.is_empty() && !differ(one) {
             blocks.push(Block::Table(self.apart_table(one)));
         }
         blocks
@@ -156,5 +161,43 @@ impl Shown<'_> {
     fn groups(self) -> (std::ops::Range<usize>, usize) {
         let all = self.fleet.groups.len();
         (0..all.min(MOST_GROUPS), all.saturating_sub(MOST_GROUPS))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gumption_fleet::Wanted;
+
+    #[test]
+    fn items_that_differ_are_not_named_one_by_one() {
+        let row = |at: i32, y: f64| format!("D{at},{y},0.01,2\n");
+        let table = |y: &dyn Fn(i32) -> f64| -> String {
+            let rows = (0..41).map(|at| row(at, y(at)));
+            std::iter::once("label,y,u(y),k(y)\n".to_owned())
+                .chain(rows)
+                .collect()
+        };
+        let of = |table: String| {
+            gumption_fleet::fleet((table.as_bytes(), "table"), &Wanted::default()).expect("results")
+        };
+        let differing = of(table(&|at| 0.02 * f64::from(at - 20)));
+        let shown = Shown {
+            fleet: &differing,
+            l: Language::English,
+        };
+        let blocks = shown.agreement(&differing.measurands[0]);
+        assert!(!blocks.iter().any(|block| matches!(block, Block::Table(_))));
+        assert!(
+            shown
+                .agreement_words(&differing.measurands[0])
+                .contains("none is named")
+        );
+        let alike = of(table(&|at| if at == 3 { 1.0 } else { 0.0 }));
+        let shown = Shown {
+            fleet: &alike,
+            l: Language::English,
+        };
+        assert!(shown.agreement_words(&alike.measurands[0]).contains("D3"));
     }
 }

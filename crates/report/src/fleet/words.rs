@@ -98,7 +98,7 @@ impl Shown<'_> {
         let [tested, beyond] = [found.tested, found.beyond].map(|n| grouped(n as u64));
         let by_chance = expected(found.expected);
         let against = match &one.reference {
-            Some(name) => l.pick(format!("the reference {name}"), format!("参考值 {name}")),
+            Some(name) => l.pick(format!("the reference {name}"), format!("参考值 {name} ")),
             None => l.pick(
                 "the weighted mean of the others of their group".to_owned(),
                 "同组其余器件的加权平均值".to_owned(),
@@ -108,6 +108,12 @@ impl Shown<'_> {
             format!("|E_n| > 1: {beyond} of {tested} rows, against {against}; chance lets expect {by_chance}."),
             format!("{tested} 行与{against}比较：{beyond} 行 |E_n| > 1，偶然性期望为 {by_chance} 行。"),
         );
+        if super::differ(one) {
+            return l.pick(
+                format!("|E_n| > 1: {beyond} of {tested} rows, against {against}. The items differ by more than their uncertainties, so that none of them stands out, and none is named. E_n tells something against a reference value (`--reference`), or among items that should be alike (`--by`)."),
+                format!("{tested} 行与{against}比较：{beyond} 行 |E_n| > 1。各器件间的差异大于其不确定度，无从判断哪一个异常，故不点名。请与参考值比较（`--reference`），或按应当一致的器件分组（`--by`）。"),
+            );
+        }
         let named = found.apart.iter().filter(|one| one.is_named());
         let names = self.list(found.named, named.map(|one| one.device.clone()));
         let all_explained = l.pick(

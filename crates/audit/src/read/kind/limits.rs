@@ -140,7 +140,13 @@ pub(super) fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     let by_twice_root3 = e
         .divisor
         .is_some_and(|d| (d - 2.0 * libm::sqrt(3.0)).abs() < 0.02);
-    let whole = !e.full || by_twice_root3;
+    // A summary states what is known: the whole step, unless its head and divisor both say half of it.
+    let by_root3 = e
+        .divisor
+        .is_some_and(|d| (d - libm::sqrt(3.0)).abs() < 0.01);
+    let head = e.used_head.to_lowercase();
+    let half = by_root3 && has(&head, &["±", "+/-", "half", "半宽"]);
+    let whole = by_twice_root3 || !e.full && !half;
     Some(if whole {
         Stated::Step { step: used }
     } else {

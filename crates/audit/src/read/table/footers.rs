@@ -30,6 +30,27 @@ pub fn footers(
     }
 }
 
+/// The claimed figures in columns of the table.
+pub fn of_columns(grid: &Grid, sheet: usize, claimed: &mut Claimed) {
+    for of_whole in &grid.whole {
+        let (head, cell) = (&of_whole.head, &of_whole.cell);
+        let (Some(whole), Some(mut figure)) = (footer::label(head, ""), cell.figure()) else {
+            continue;
+        };
+        if figure.unit.is_empty() {
+            figure.unit = columns::apart(head).1;
+        }
+        let place = Place {
+            sheet,
+            row: of_whole.row,
+            column: of_whole.column,
+        };
+        if footer::set(&mut claimed.footer, whole, positive(figure).at(place)) {
+            understood(claimed, place, &cell.text, Some(whole));
+        }
+    }
+}
+
 fn footer_row(
     grid: &Grid,
     sheet: usize,

@@ -54,7 +54,7 @@ fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
     /// Lines of other kinds that may stand between the rows of one table: a blank one, a subheading.
     const STRANGE: usize = 3;
     let mut strange = 0;
-    for row in located.end..grid.rows.len() {
+    for row in (located.end..grid.rows.len()).filter(|row| !grid.left_out.contains(row)) {
         // A row with the symbol A and a unit may look like a head.
         let repeated = figures(grid, row, located) == 0 && head(grid, row, mapping).is_some();
         if repeated || labels_across(grid, row, "") {
@@ -86,6 +86,12 @@ fn figures(grid: &Grid, row: usize, located: &Located) -> usize {
         column.is_some_and(|c| Printed::parse(&grid.cell(row, c.index).text).is_some())
     };
     Role::ALL.iter().filter(is_figure).count()
+}
+
+/// `U` of `U (k = 2)`.
+fn without_condition(label: &str) -> &str {
+    let condition = label.split_once('(').filter(|(_, rest)| rest.contains('='));
+    condition.map_or(label, |(name, _)| name).trim()
 }
 
 enum What {
@@ -144,7 +150,7 @@ fn what(grid: &Grid, row: usize, located: &Located, joined: bool) -> What {
                 || lower.starts_with("sum u(")
                 || lower.starts_with("扩展不确定度")
                 || matches!(
-                    t.trim(),
+                    without_condition(t),
                     "u_c" | "uc" | "u(c)" | "U" | "k" | "u_c(y)" | "ν_eff" | "νeff"
                 )
         });

@@ -20,7 +20,7 @@ mod located;
 mod pages;
 mod rows;
 
-pub use footers::footers;
+pub use footers::{footers, of_columns};
 pub use interpret::interpret;
 pub use locate::locate;
 pub use located::Located;

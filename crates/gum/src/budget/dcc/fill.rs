@@ -233,7 +233,6 @@ impl Filling<'_> {
         let bytes = match self.files.files.read(&path) {
             Ok(bytes) => bytes,
             Err(error) => {
-                let error = error.to_string();
                 let message = say!("the certificate {name} cannot be read: {error}");
                 let fault = Fault::new(UNREADABLE_FILE, file.span.clone(), message);
                 self.found.faults.push(fault.label(say!("named here")));

@@ -134,6 +134,16 @@ fn times_must_go_forward() {
 }
 
 #[test]
+fn times_need_a_column_of_times() {
+    let toml = RATE.to_owned() + "steps = \"omega\"\nsettle = \"2 s\"\n";
+    says(
+        &toml,
+        "t [s],omega [deg/s],U [mV]\n0,0,1\n1,0,2\n2,1,3\n3,1,3\n",
+        &["this is a number of rows", "\"t [s]\" = \"time\""],
+    );
+}
+
+#[test]
 fn what_cannot_be_found_is_said() {
     let trouble = |toml: &str, csv: &str| calibrate(&campaign(toml, csv)).expect_err("trouble");
     let two = "omega [deg/s],U [mV]\n0,1\n";
@@ -366,7 +376,10 @@ fn inputs_and_parameters_that_change_places_keep_their_units() {
             )
         })
         .collect();
+    let toml = &format!("title = \"Mine\"\n{toml}");
     let campaign = campaign(toml, &format!("theta [deg],E [V]\n{rows}"));
+    // In Chinese too, which the procedure has a title in and the file has not.
+    assert_eq!(campaign.experiment.heading.title.zh, "Mine");
     let theta0 = campaign
         .experiment
         .parameters

@@ -11,6 +11,7 @@ use std::path::Path;
 
 use crate::budget::{Budget, Figure, Law, Rejection, TScale, read};
 use gumption_core::distribution::Distribution;
+use gumption_fault::language::Language;
 
 fn refused(text: &str) -> Rejection {
     read(text, "budget.toml", Path::new("")).expect_err("the file has a fault")
@@ -59,11 +60,16 @@ fn close(a: f64, b: f64) {
 
 #[test]
 fn the_template_loads() {
-    let budget = budget(&crate::budget::template());
-    assert_eq!(budget.inputs.len(), 4);
-    assert_eq!(budget.components.len(), 6);
+    let [english, chinese] = [Language::English, Language::Chinese].map(crate::budget::template);
+    let (english, chinese) = (budget(&english), budget(&chinese));
+    assert_eq!(english.inputs.len(), 4);
+    assert_eq!(english.components.len(), 6);
     // 50 ppm of 10.0021 mA, rectangular.
-    close(budget.components[3].u, 10.0021 * 50e-6 / 3f64.sqrt());
+    close(english.components[3].u, 10.0021 * 50e-6 / 3f64.sqrt());
+    // The same measurement, in the profile of JJF 1059.1.
+    let u = |budget: &Budget| -> Vec<f64> { budget.components.iter().map(|c| c.u).collect() };
+    assert_eq!(u(&english), u(&chinese));
+    assert_eq!(chinese.conventions.profile, "JJF");
 }
 
 #[test]

@@ -1,0 +1,174 @@
+//! Points side by side: heads such as `1 MHz`, or `± at 10 N` and `u at 10 N`, above columns of the same kind.
+
+use std::collections::BTreeSet;
+
+use crate::printed::Printed;
+use crate::read::columns::{Role, apart, is_unit, role};
+use crate::read::footer::{self, Whole};
+use crate::sheet::{Cell, Grid};
+
+use super::{amount, figures, rows_below, whole_of_row, without};
+
+/// A point with its columns, and what their heads say without it.
+struct Point {
+    name: String,
+    columns: Vec<(usize, String)>,
+}
+
+/// The sheet parted by the points in this row of heads, if they stand there.
+pub(super) fn parted(grid: &Grid, head: usize) -> Option<Vec<Grid>> {
+    let points = points(grid, head)?;
+    let rows = rows_below(grid, head);
+    let bare = points.iter().all(|point| is_bare(&point.columns));
+    let kind = match bare {
+        true => Some(kind(grid, head, &rows, &points)?),
+        false => None,
+    };
+    let all: BTreeSet<usize> = of_points(&points).collect();
+    let part = |point: &Point| {
+        let own = |column: usize| point.columns.iter().any(|(own, _)| *own == column);
+        let mut part = without(grid, |row, column| {
+            row >= head && all.contains(&column) && !own(column)
+        });
+        // `Contribution` above names is their head, and no figure.
+        for (column, cell) in grid
+            .filled(head)
+            .filter(|(column, _)| !all.contains(column))
+        {
+            if role(&cell.text).is_some_and(|(role, _)| role == Role::Contribution) {
+                part.rows[head][column] = Cell::new("Source");
+            }
+        }
+        for (column, rest) in &point.columns {
+            let text = match kind {
+                Some(kind) => unit_behind(kind, rest),
+                None => rest.clone(),
+            };
+            part.rows[head][*column] = Cell::new(&text);
+        }
+        part.point.clone_from(&point.name);
+        part
+    };
+    Some(points.iter().map(part).collect())
+}
+
+fn of_points(points: &[Point]) -> impl Iterator<Item = usize> + '_ {
+    points
+        .iter()
+        .flat_map(|point| point.columns.iter().map(|(column, _)| *column))
+}
+
+/// At least two points of the same columns beside a column of sources.
+fn points(grid: &Grid, head: usize) -> Option<Vec<Point>> {
+    let mut points: Vec<Point> = Vec::new();
+    let mut is_named = false;
+    for (column, cell) in grid.filled(head) {
+        match amount(&cell.text) {
+            Some((name, rest)) => match points.iter_mut().find(|point| point.name == name) {
+                Some(point) => point.columns.push((column, rest)),
+                None => points.push(Point {
+                    name,
+                    columns: vec![(column, rest)],
+                }),
+            },
+            None => {
+                let role = role(&cell.text).map(|(role, _)| role);
+                is_named |= matches!(role, Some(Role::Name | Role::Symbol | Role::Contribution));
+            }
+        }
+    }
+    let rests = |point: &Point| -> Vec<String> {
+        let rests = point.columns.iter();
+        rests.map(|(_, rest)| rest.clone()).collect()
+    };
+    let first = rests(points.first()?);
+    let alike = points.iter().all(|point| rests(point) == first);
+    let is_figure = |rest: &String| role(rest).is_some_and(|(role, _)| role.is_figure());
+    let known = is_bare(&points[0].columns) || first.iter().all(is_figure);
+    (points.len() >= 2 && is_named && alike && known).then_some(points)
+}
+
+/// Whether heads have nothing but the point, or a unit behind it.
+fn is_bare(columns: &[(usize, String)]) -> bool {
+    let is_nothing = |rest: &str| rest.is_empty() || is_unit(rest.trim_start_matches(['/', ' ']));
+    columns.len() == 1 && columns.iter().all(|(_, rest)| is_nothing(rest))
+}
+
+/// What the figures of bare columns are, told by the figures of the whole: `u` where u_c is the root of the sum of their squares,
+/// `±` where it is that of the figures over their divisors.
+fn kind(
+    grid: &Grid,
+    head: usize,
+    rows: &BTreeSet<usize>,
+    points: &[Point],
+) -> Option<&'static str> {
+    let of_whole = |row: &usize| {
+        let first = grid.filled(*row).next();
+        first.is_some_and(|(_, cell)| footer::label(&cell.text, "").is_some())
+    };
+    let (whole, sources): (BTreeSet<usize>, BTreeSet<usize>) =
+        rows.iter().partition(|row| of_whole(row));
+    let divisor = grid.filled(head).find_map(|(column, cell)| {
+        let (role, _) = role(&cell.text)?;
+        (role == Role::Divisor).then_some(column)
+    });
+    let divisors: Vec<f64> = match divisor {
+        Some(column) => {
+            let divisors = figures(grid, &sources, column).into_iter();
+            divisors
+                .map(|figure| figure.map_or(1.0, |f| f.value))
+                .collect()
+        }
+        None => vec![1.0; sources.len()],
+    };
+    let votes = |divided: bool| {
+        let fits = |column: &usize| {
+            let u_c = combined(grid, &whole, *column);
+            let own = figures(grid, &sources, *column);
+            let sum = own.iter().zip(&divisors).map(|(figure, divisor)| {
+                let x = figure.as_ref().map_or(0.0, |figure| figure.value);
+                let u = if divided { x / divisor } else { x };
+                u * u
+            });
+            let sum = libm::sqrt(sum.sum());
+            u_c.is_some_and(|(u_c, half)| (sum - u_c).abs() <= half + 0.02 * u_c)
+        };
+        of_points(points).filter(fits).count()
+    };
+    let (plain, divided) = (votes(false), votes(true));
+    match (2 * plain > points.len(), 2 * divided > points.len()) {
+        (true, _) if plain >= divided => Some("u_i"),
+        (_, true) => Some("±"),
+        _ => None,
+    }
+}
+
+/// The u_c of a point as its column has it, also from U and the k in its label, and half a unit of its last digit.
+fn combined(grid: &Grid, rows: &BTreeSet<usize>, column: usize) -> Option<(f64, f64)> {
+    let found = |wanted: Whole| {
+        let row = rows
+            .iter()
+            .find(|row| whole_of_row(grid, **row) == Some(wanted))?;
+        Some((*row, grid.cell(*row, column).figure()?))
+    };
+    let plain = |(_, figure): (usize, Printed)| (figure.value, figure.half);
+    found(Whole::Combined).map(plain).or_else(|| {
+        let (row, figure) = found(Whole::Expanded)?;
+        let k = grid.filled(row).find_map(|(_, cell)| {
+            let (_, behind) = cell.text.split_once("k")?;
+            Printed::parse(behind.trim_start_matches([' ', '=']).trim_end_matches(')'))
+        });
+        let k = k.map_or(2.0, |k| k.value);
+        Some((figure.value / k, figure.half / k))
+    })
+}
+
+/// `u_i / Hz` of `/ Hz`.
+fn unit_behind(kind: &str, rest: &str) -> String {
+    let rest = rest.trim_start_matches(['/', ' ']);
+    let (_, unit) = apart(&format!("{kind} / {rest}"));
+    match unit.is_empty() {
+        true => kind.to_owned(),
+        false => format!("{kind} / {unit}"),
+    }
+}

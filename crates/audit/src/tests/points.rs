@@ -1,0 +1,156 @@
+//! Sheets with a budget for each calibration point.
+
+use super::answer;
+use crate::read::{Mapping, are_several};
+use crate::verdict::{Verdict, audit};
+use crate::{claims, sheet};
+
+/// Titles and verdicts.
+fn verdicts(text: &str) -> Vec<(String, Verdict)> {
+    let claims = claims("points.csv", text.as_bytes(), &Mapping::default()).expect("a sheet");
+    let judged = claims
+        .iter()
+        .map(|claim| (claim.title.clone(), audit(claim).verdict));
+    judged.collect()
+}
+
+fn all_sound(text: &str, titles: &[&str]) {
+    let expected: Vec<_> = titles
+        .iter()
+        .map(|title| ((*title).to_owned(), Verdict::Sound))
+        .collect();
+    assert_eq!(verdicts(text), expected, "{text}");
+}
+
+#[test]
+fn points_in_columns_of_standard_uncertainties() {
+    all_sound(
+        "Frequency counter\nContribution,Distribution,Divisor,1 MHz / Hz,10 MHz / Hz\n\
+         GPSDO,normal,2,0.0005,0.005\nResolution,rectangular,1.7321,0.000289,0.00289\n\
+         Trigger noise,normal,1,0.0002,0.002\nuc,,,0.000611,0.00611\nU (k = 2),,,0.0012,0.012\n",
+        &["Frequency counter: 1 MHz", "Frequency counter: 10 MHz"],
+    );
+    all_sound(
+        "压力表\n不确定度分量,分布,0.1 MPa,0.5 MPa,1.0 MPa\n标准器 / kPa,正态,0.025,0.125,0.25\n分辨力 / kPa,均匀,0.029,0.029,0.029\n\
+         重复性 / kPa,正态,0.05,0.06,0.08\n合成标准不确定度 / kPa,,0.063,0.142,0.264\n扩展不确定度 U (k=2) / kPa,,0.13,0.28,0.53\n",
+        &["压力表: 0.1 MPa", "压力表: 0.5 MPa", "压力表: 1.0 MPa"],
+    );
+}
+
+#[test]
+fn points_in_columns_of_half_widths() {
+    all_sound(
+        "Force\nSource,Distribution,Divisor,10 N / N,50 N / N\nReference,normal,2,0.02,0.06\nResolution,rectangular,√3,0.05,0.05\n\
+         Repeatability,normal,1,0.02,0.03\nu_c,,,0.0365,0.0513\nU (k=2),,,0.073,0.10\n",
+        &["Force: 10 N", "Force: 50 N"],
+    );
+}
+
+#[test]
+fn points_with_two_columns_each() {
+    all_sound(
+        "Force\nSource,Distribution,Divisor,± at 10 N / N,u at 10 N / N,± at 50 N / N,u at 50 N / N\n\
+         Reference,normal,2,0.02,0.010,0.06,0.030\nReadout,rectangular,√3,0.05,0.0289,0.05,0.0289\n\
+         Repeatability,normal,1,0.02,0.020,0.03,0.030\nu_c,,,,0.0365,,0.0513\nU (k=2),,,,0.073,,0.10\n",
+        &["Force: 10 N", "Force: 50 N"],
+    );
+}
+
+#[test]
+fn points_in_blocks_of_rows() {
+    let blocks = |second: &str| {
+        format!(
+            "数字多用表\n校准点,不确定度来源,分布,半宽/V,包含因子,标准不确定度 u_i/V\n1 V,校准器,均匀,0.000012,√3,0.0000069\n\
+             ,零位,均匀,0.000005,√3,0.0000029\n,重复性,正态,,,0.0000030\n,u_c,,,,0.0000081\n,U (k=2),,,,0.000016\n\
+             {second},校准器,均匀,0.00010,√3,0.000058\n,零位,均匀,0.00005,√3,0.000029\n,重复性,正态,,,0.000030\n\
+             ,u_c,,,,0.000071\n,U (k=2),,,,0.00014\n"
+        )
+    };
+    all_sound(&blocks("10 V"), &["数字多用表: 1 V", "数字多用表: 10 V"]);
+    // Figures of the whole in columns, once for each point.
+    all_sound(
+        "Meter\nCalibration point,Source,± (V),Distribution,Divisor,u (V),uc (V),k,U (V)\n\
+         1 V,Calibrator,0.000012,rectangular,1.732,0.0000069,0.0000081,2,0.000016\n1 V,Zero,0.000005,rectangular,1.732,0.0000029,,,\n\
+         1 V,Repeatability,0.000003,normal,1,0.000003,,,\n10 V,Calibrator,0.00010,rectangular,1.732,0.000058,0.000071,2,0.00014\n\
+         10 V,Zero,0.00005,rectangular,1.732,0.000029,,,\n10 V,Repeatability,0.00003,normal,1,0.00003,,,\n",
+        &["Meter: 1 V", "Meter: 10 V"],
+    );
+}
+
+/// A summary without a column of u, whose resolution is half a step by its head and its divisor.
+#[test]
+fn the_row_of_an_expanded_uncertainty_is_no_source() {
+    all_sound(
+        "Force\nSource,Distribution,Divisor,± / N\nReference,normal,2,0.02\nResolution,rectangular,√3,0.05\n\
+         Repeatability,normal,1,0.02\nu_c,,,0.0365\nU (k=2),,,0.073\n",
+        &["Force"],
+    );
+}
+
+/// A wrong point among right ones is found, and it alone.
+#[test]
+fn one_point_is_wrong() {
+    let found = verdicts(
+        "Force\nSource,Distribution,Divisor,10 N / N,50 N / N,100 N / N\nReference,normal,2,0.02,0.06,0.10\n\
+         Readout,rectangular,√3,0.05,0.05,0.05\nRepeatability,normal,1,0.02,0.03,0.04\nu_c,,,0.0365,0.0513,0.1141\nU (k=2),,,0.073,0.10,0.23\n",
+    );
+    let verdicts: Vec<Verdict> = found.into_iter().map(|(_, verdict)| verdict).collect();
+    assert_eq!(verdicts[..2], [Verdict::Sound; 2]);
+    assert_ne!(verdicts[2], Verdict::Sound);
+}
+
+/// Components of two inputs have the same names, and one u_c.
+#[test]
+fn inputs_with_the_same_components_are_one_budget() {
+    let (verdict, _) = answer(
+        "ohm.csv",
+        "Quantity,Source,± (V),Distribution,Divisor,u (V)\nV1,calibration,0.02,normal,2,0.010\n,resolution,0.005,rectangular,1.732,0.0029\n\
+         V2,calibration,0.03,normal,2,0.015\n,resolution,0.005,rectangular,1.732,0.0029\nu_c,,,,,0.0185\nU (k=2),,,,,0.037\n",
+    );
+    assert_eq!(verdict, Verdict::Sound);
+}
+
+/// A row for each point: each is a budget, whose cells are those of the file.
+#[test]
+fn a_row_for_each_point() {
+    let table = |u_c: &str| {
+        format!(
+            "Thermometer\nNominal / °C,u_ref / °C,u_res / °C,u_c / °C,k,U / °C\n0,0.010,0.003,0.0104,2,0.021\n50,0.015,0.003,{u_c},2,0.031\n\
+             100,0.020,0.003,0.0202,2,0.040\n"
+        )
+    };
+    all_sound(
+        &table("0.0153"),
+        &[
+            "Thermometer: 0 °C",
+            "Thermometer: 50 °C",
+            "Thermometer: 100 °C",
+        ],
+    );
+    let text = table("0.0153");
+    let claims = claims("points.csv", text.as_bytes(), &Mapping::default()).expect("a sheet");
+    let u_c = claims[1].footer.u_c.as_ref().expect("u_c");
+    assert_eq!(
+        (u_c.at.a1(), claims[1].rows[1].at.a1()),
+        ("D4".into(), "C2".into())
+    );
+}
+
+/// Where the sums do not show what the columns are, the form is told.
+#[test]
+fn a_row_for_each_point_without_sums_is_told() {
+    let text = "Nominal / °C,u_ref / °C,u_res / °C,u_c / °C,k,U / °C\n0,0.010,0.003,0.0204,2,0.041\n50,0.015,0.003,0.0353,2,0.071\n";
+    assert_eq!(verdicts(text), []);
+    let grids = sheet::grids("a.csv", text.as_bytes()).expect("a sheet");
+    assert!(grids.iter().any(are_several));
+}
+
+/// Figures of the whole that follow a turned table without a gap are none of its heads.
+#[test]
+fn a_turned_table_ends_before_its_sum() {
+    let text = "Budget\nSource,Reference,Readout,Repeatability\n± / N,0.02,0.05,0.02\nDivisor,2,√3,1\nu / N,0.010,0.0289,0.020\nu_c,0.0365\nU (k=2),0.073\n";
+    all_sound(text, &["Budget"]);
+    let claims = claims("turned.csv", text.as_bytes(), &Mapping::default()).expect("a sheet");
+    let u = claims[0].rows[1].u.as_ref().expect("u");
+    assert_eq!(u.at.a1(), "C5");
+}

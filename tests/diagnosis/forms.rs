@@ -126,31 +126,3 @@ fn what_has_no_size_has_no_name() {
         assert!(strength > 2.58, "{found}");
     }
 }
-
-/// The variants of one effect are many, and leave the others no place among the best: a warm-up beside a cube is no heating
-/// beside a bend, which alone is the better one.
-#[test]
-fn the_better_one_alone_is_not_the_better_one_of_two() {
-    let mut noise = Noise(238);
-    let mut rows = "t [s],I [A],U [mV]\n".to_owned();
-    for row in 0..80 {
-        let (t, current) = (
-            45.0 * row as f64,
-            [3.0, 12.0, 6.0, 24.0, 1.0, 18.0][row % 6],
-        );
-        let warming = 0.035 * libm::exp(-t / 700.0);
-        let voltage = 0.004 + 5.002 * current - 2.6e-6 * libm::pow(current, 3.0) + warming;
-        let _ = writeln!(
-            rows,
-            "{t},{current},{:.4}",
-            voltage + 2.5e-3 * noise.normal()
-        );
-    }
-    let case =
-        "equations = \"U = U0 + R*I\"\n[columns]\nt = \"time\"\nI = \"stimulus\"\nU = \"output\"\n";
-    let found = diagnosed("warm-shunt", &rows, case);
-    let first: Vec<String> = (0..2)
-        .map(|effect| names(&found, effect)[0].clone())
-        .collect();
-    assert_eq!(first, ["warm-up", "cubic"], "{found}");
-}

@@ -57,8 +57,9 @@ pub fn examine(
             Some(likenesses) => found = likenesses,
             None => {
                 // What bends the course of something without a name is nothing by itself.
-                explanation.named = needed(&space, space.frame_of(&found.named), 0);
-                if explanation.named.len() < found.named.len() {
+                let kept = needed(&space, space.frame_of(&found.named), 0);
+                if explanation.generic.is_some() && kept.len() < found.named.len() {
+                    explanation.named = kept;
                     found = slots(&space, question, &search, &explanation, &again);
                 }
                 doubt(&space, question, &mut found);

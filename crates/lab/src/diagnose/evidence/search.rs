@@ -143,12 +143,8 @@ fn extend(
 ) -> Vec<Visited> {
     let mut seen = BTreeSet::new();
     let mut next = Vec::new();
-    // Variants of one effect are one set: a good one has so many that they would leave no room for others.
-    let cause = |block: &usize| question.candidates[space.blocks[*block].candidate].cause;
-    let causes = |set: &&Visited| set.named.iter().map(cause).collect::<Vec<usize>>();
-    let mut taken = BTreeSet::new();
-    let best = beam.iter().filter(|set| taken.insert(causes(set)));
-    for frame in best.take(BEAM).filter_map(|set| space.frame(&set.named)) {
+    let best = beam.iter().take(BEAM);
+    for frame in best.filter_map(|set| space.frame(&set.named)) {
         let beside = Remainders::new(space, question, &frame);
         let observed = beside.observed();
         for rest in &beside.rests {

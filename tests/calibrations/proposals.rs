@@ -100,3 +100,24 @@ fn the_command_writes_what_calibrate_reads() {
     ]);
     assert!(String::from_utf8_lossy(&unknown.stderr).contains("gyro-scale-factor"));
 }
+
+/// Humidity and pressure that were recorded as they were are nobody's stimulus, whatever few values their digits leave.
+#[test]
+fn the_air_of_the_laboratory_is_a_condition() {
+    use std::fmt::Write;
+    let mut recording = "t [h],T_lab [°C],rh [%],p [hPa],m [mg]\n".to_owned();
+    for row in 0..40 {
+        let (hour, wave) = (f64::from(row), libm::sin(0.31 * f64::from(row)));
+        let (bath, moisture, air) = (
+            20.0 + 0.3 * wave,
+            (48.0 + 6.0 * wave).round(),
+            1008.3 + 4.1 * wave + 0.13 * hour,
+        );
+        let mass = 1.2034 + 1e-4 * libm::sin(2.7 * hour);
+        let _ = writeln!(recording, "{hour},{bath:.1},{moisture},{air:.1},{mass:.4}");
+    }
+    let text = proposal("check.csv", &recording, None).expect("a table");
+    for line in ["rh = \"covariate\"", "p = \"covariate\"", "m = \"output\""] {
+        assert!(text.contains(line), "{text}");
+    }
+}

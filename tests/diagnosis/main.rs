@@ -15,6 +15,7 @@ mod concealed;
 mod design;
 mod evidence;
 mod examples;
+mod forms;
 mod instruments;
 mod memory;
 mod noise;

@@ -83,9 +83,10 @@ impl Slot {
         share.filter(|_| self.is_explained())
     }
 
-    /// Whether its names say no more than what the effect acts like.
+    /// Whether its names say no more than what the effect acts like. One that leads a list says no more than it would alone.
     pub fn acts_like(&self) -> bool {
-        self.state == State::Like || (self.state == State::Ambiguous && self.doubted().is_some())
+        let says_little = || self.doubted().is_some() || !(self.is_open() || self.is_severe());
+        self.state == State::Like || (self.state == State::Ambiguous && says_little())
     }
 
     /// Whether it has names that hold.

@@ -18,7 +18,9 @@ pub(super) fn spoken(label: &str, language: Language) -> String {
 }
 
 /// Labels that are always the same.
-const FIXED: [(&str, &str); 27] = [
+const FIXED: [(&str, &str); 29] = [
+    ("about zero", "以零点为中心"),
+    ("with its half", "含其半周期"),
     ("anew in each run", "每次运行重新开始"),
     ("not in balance at the start", "起始时未平衡"),
     ("levelling off", "趋于饱和"),

@@ -82,7 +82,10 @@ fn memory(claimed: &Claimed, l: Language) -> String {
     };
     // What is left beside nearly all has a digit as well.
     let digits = |share: f64| if share > 0.99 { 3 } else { 2 };
-    let part = |share: f64| significant(100.0 * share, digits(share));
+    let part = |share: f64| match share >= 0.9995 {
+        true => "100".to_owned(),
+        false => significant(100.0 * share, digits(share)),
+    };
     match correlated.memory {
         Memory::White | Memory::Claimed => String::new(),
         Memory::Fading {

@@ -181,7 +181,7 @@ fn leading(fitted: &FittedModel<'_>, column: usize, own: &Modifier) -> Option<Va
 }
 
 /// Whether a quantity with a true zero varies by so much that its inverse is no line.
-fn spreads(fitted: &FittedModel<'_>, column: usize) -> bool {
+pub(super) fn spreads(fitted: &FittedModel<'_>, column: usize) -> bool {
     const FACTOR: f64 = 2.0;
     let (least, most) = range(fitted.numbers(column));
     let has_zero = fitted.case().columns[column].unit.origin.is_none();

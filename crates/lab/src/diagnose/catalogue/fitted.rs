@@ -268,7 +268,7 @@ impl<'f> FittedModel<'f> {
 
     /// A time as formulas and labels show it.
     pub fn duration(&self, time: f64) -> String {
-        format!("{} {}", figure(time), self.time_unit())
+        amount(figure(time), &self.time_unit())
     }
 
     /// What the time is called: its column, or the row.

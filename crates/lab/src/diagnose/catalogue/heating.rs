@@ -14,14 +14,15 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     if fitted.is_timed() && fitted.has_signal() {
         cells.push(of_signals(fitted));
     }
-    let heats = |column: &usize| {
-        let applied = fitted.case().columns[*column].role == Role::Stimulus;
-        // A supply is what it is; a current through the sensor is chosen.
-        fitted.is_like(*column, "A") || applied && fitted.is_like(*column, "V")
-    };
-    let heating = fitted.numeric().into_iter().filter(heats);
+    let heating = fitted.numeric().into_iter().filter(|c| heats(fitted, *c));
     cells.extend(heating.flat_map(|column| of_column(fitted, column)));
     cells
+}
+
+/// A supply is what it is; a current through the sensor is chosen.
+pub(super) fn heats(fitted: &FittedModel<'_>, column: usize) -> bool {
+    let applied = fitted.case().columns[column].role == Role::Stimulus;
+    fitted.is_like(column, "A") || applied && fitted.is_like(column, "V")
 }
 
 fn of_signals(fitted: &FittedModel<'_>) -> Cell {

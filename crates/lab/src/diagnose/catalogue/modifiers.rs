@@ -176,12 +176,7 @@ pub fn rate(t: &[f64], x: &[f64]) -> Vec<f64> {
     (0..x.len())
         .map(|row| {
             let (from, to) = (row.saturating_sub(1), (row + 1).min(last));
-            let step = t[to] - t[from];
-            if step > 0.0 {
-                (x[to] - x[from]) / step
-            } else {
-                0.0
-            }
+            known((x[to] - x[from]) / (t[to] - t[from]).max(0.0))
         })
         .collect()
 }
@@ -232,11 +227,7 @@ pub fn play_from(start: f64, x: &[f64], came: &[Option<(f64, f64)>], w: f64) -> 
 /// A geometric series from `low` to `high`, by a factor of at least `ratio`, of at most `most` values.
 pub fn grid(low: f64, high: f64, ratio: f64, most: usize) -> Vec<f64> {
     if !(low > 0.0 && high > low) {
-        return if low > 0.0 && high == low {
-            vec![low]
-        } else {
-            Vec::new()
-        };
+        return Vec::from_iter((low > 0.0 && high == low).then_some(low));
     }
     let steps = (libm::log(high / low) / libm::log(ratio)).floor() as usize;
     let steps = steps.max(1).min(most.max(2) - 1);

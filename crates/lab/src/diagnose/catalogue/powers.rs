@@ -3,14 +3,16 @@
 
 use super::building::on_output;
 use super::fitted::{FittedModel, Node, varies};
+use super::heating::heats;
 use super::modifiers::{
     crosses_zero, largest, line_through, map, map2, mean, middle, range, rounded,
 };
-use super::{Modifier, Term};
+use super::{Modifier, Term, Variation};
 
 /// The square and the cube of a column; without those that a model has, beside an offset that it takes as exact, about its own
-/// zero: `R_0*(1 + A*T + B*T^2)` with R_0 known.
-pub(super) fn of(fitted: &FittedModel<'_>, column: usize) -> [Option<Term>; 2] {
+/// zero: `R_0*(1 + A*T + B*T^2)` with R_0 known. The heat of a current bends what it does as its cube about zero, which is
+/// another one than that about the middle by a square.
+pub(super) fn of(fitted: &FittedModel<'_>, column: usize) -> [Vec<Variation>; 2] {
     let lines = absorbs(fitted, column, 1);
     let declared = |exponent| !lines && declares(fitted, column, exponent);
     let [searched, zero] = match lines {
@@ -25,7 +27,12 @@ pub(super) fn of(fitted: &FittedModel<'_>, column: usize) -> [Option<Term>; 2] {
         // What is printed and fitted differs from what is searched by what the parameters absorb.
         let written = if absorbed && near { zero } else { searched };
         let about = |zero: f64| about(fitted, column, zero, exponent);
-        (!declared(exponent)).then(|| on_output(about(searched)).written_as(about(written)))
+        let usual = on_output(about(searched)).written_as(about(written));
+        let usual = (!declared(exponent)).then(|| Variation::one("", usual));
+        let natural = free_zero(fitted, column);
+        let heated = lines && !absorbed && natural != searched && heats(fitted, column);
+        let heated = heated.then(|| Variation::one("about zero", on_output(about(natural))));
+        usual.into_iter().chain(heated).collect()
     })
 }
 

@@ -2,7 +2,7 @@
 //! lag.
 
 use super::building::{cell, course, decay, form, on_node, on_output, pair, time_constants, timed};
-use super::conditions::on_offset;
+use super::conditions::{on_offset, spreads};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{
     Course, creeps, delayed, figure, five_digits, grid, largest, levels_of, map, map2, mean, range,
@@ -62,8 +62,8 @@ fn aside(fitted: &FittedModel<'_>, factors: &[usize]) -> Vec<Cell> {
     vectors.iter().map(of_vector).collect()
 }
 
-/// Another exponent, where the model is a power of a quantity other than the first and has no zero besides:
-/// the flow through an orifice, light at a distance, radiation of a hot body.
+/// Another exponent, where the model is a power of a quantity and has no zero besides: the flow through an orifice, light at a
+/// distance, radiation of a hot body; the first power where the quantity spreads, as the rate of a viscometer does.
 fn exponent(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     /// Exponents so near to one another are the same.
     const SAME: f64 = 1e-3;
@@ -80,7 +80,8 @@ fn exponent(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
         .collect();
     let (least, most) = range(&powers);
     let steady = (most - least).is_finite() && most - least <= SAME;
-    if !steady || (least - 1.0).abs() < SAME || least.abs() < WEAK {
+    let is_line = (least - 1.0).abs() < SAME && !spreads(fitted, column);
+    if !steady || is_line || least.abs() < WEAK {
         return None;
     }
     let label = fitted.label(column);
@@ -125,19 +126,15 @@ fn bends(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
 }
 
 fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
-    let second = if fitted.is_temperature(column) {
-        EffectId::TempcoQuadratic
-    } else {
-        EffectId::Quadratic
+    let second = match fitted.is_temperature(column) {
+        true => EffectId::TempcoQuadratic,
+        false => EffectId::Quadratic,
     };
     let label = fitted.label(column);
     let both = [second, EffectId::Cubic].into_iter();
     let powers = both
         .zip(super::powers::of(fitted, column))
-        .map(|(id, power)| {
-            let form = power.map(|term| Variation::one("", term));
-            on_node(fitted, id, label, Node::Output, form)
-        });
+        .map(|(id, forms)| on_node(fitted, id, label, Node::Output, forms));
     let mut cells: Vec<Cell> = powers.collect();
     if fitted.passes_zero(column) {
         let form = form(
@@ -191,10 +188,9 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let (x, label) = (fitted.numbers(column), fitted.label(column));
     let t = &fitted.clock.values;
     let node = Node::Column(column);
-    let id = if fitted.is_temperature(column) {
-        EffectId::TemperatureLag
-    } else {
-        EffectId::Lag
+    let id = match fitted.is_temperature(column) {
+        true => EffectId::TemperatureLag,
+        false => EffectId::Lag,
     };
     let lacking = |course: Course, tau: f64| {
         let modifier = map2(&course.late(t, x, &[], tau), x, |late, x| late - x);

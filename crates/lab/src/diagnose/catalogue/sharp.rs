@@ -7,6 +7,7 @@ use nalgebra::DVector;
 use super::Term;
 use super::absorbed::Absorbed;
 use super::fitted::FittedModel;
+use super::modifiers::known;
 
 /// Ratio of variances from which on an effect shows.
 const SHOWS: f64 = 16.0;
@@ -24,11 +25,7 @@ impl Absorbed {
         let rest = self.rest(column);
         let shows = rest.norm_squared() > LEAST * column.norm_squared();
         let power = along(&rest, &self.left);
-        if shows && power.is_finite() {
-            power
-        } else {
-            0.0
-        }
+        if shows { known(power) } else { 0.0 }
     }
 
     fn shows(&self, power: f64) -> bool {
@@ -150,13 +147,7 @@ pub(super) fn best_pair(
 }
 
 fn along(column: &DVector<f64>, residuals: &DVector<f64>) -> f64 {
-    let size = column.norm_squared();
-    let along = column.dot(residuals);
-    if size > 0.0 {
-        along * along / size
-    } else {
-        0.0
-    }
+    known(column.dot(residuals).powi(2) / column.norm_squared())
 }
 
 fn largest_at(powers: &[f64]) -> usize {

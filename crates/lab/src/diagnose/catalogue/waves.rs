@@ -79,20 +79,30 @@ fn periods(fitted: &FittedModel<'_>, column: Option<usize>, words: String) -> Op
     let mut frequencies: Vec<f64> = (0..=count)
         .map(|k| (FEWEST_PERIODS + step * k as f64) / span)
         .collect();
-    move_to_peaks(fitted, &blocks, &mut frequencies, step / span);
-    let periods = frequencies.iter().map(|frequency| 1.0 / frequency);
-    let periods = fitted.finer.times(periods.collect());
+    let peaks = to_peaks(fitted, &blocks, &mut frequencies, step / span);
+    let grid: Vec<f64> = (frequencies.iter().map(|frequency| 1.0 / frequency)).collect();
+    let periods = fitted.finer.times(grid.clone());
     let least = rounded(least, 1e-4 * span);
     let began = match column {
         Some(column) => fitted.less(column, least),
         None => fitted.time_less(least),
     };
-    let forms = periods.into_iter().map(|period| {
-        let phase = map(course, |x| TAU * (x - least) / period);
+    // What repeats need not be a sine: screws and gears have a course of their own in each turn. Over the time, where stimuli go
+    // round as well, it would be whatever these do.
+    let is_found = |period: &f64| !grid.contains(period) || peaks.contains(period);
+    let has_half =
+        |period: &&f64| column.is_some() && 2.0 * span <= highest * **period && is_found(period);
+    let bent = periods.iter().filter(has_half);
+    let bent = bent.map(|period| (*period, 2, ", with its half"));
+    let pure = periods.iter().map(|period| (*period, 1, ""));
+    let forms = pure.chain(bent).map(|(period, most, bent)| {
         let shown = amount(figure(period), &unit);
-        let argument = format!("2*pi*{began}/({shown})");
-        let label = format!("period {shown}");
-        form(label, wave(&phase, &argument)).shaped("P", period, &unit)
+        let waves = (1..=most).flat_map(|turns| {
+            let phase = map(course, |x| f64::from(turns) * TAU * (x - least) / period);
+            wave(&phase, &format!("{}*pi*{began}/({shown})", 2 * turns))
+        });
+        let label = format!("period {shown}{bent}");
+        form(label, waves.collect()).shaped("P", period, &unit)
     });
     let mut cell = on_node(fitted, EffectId::Wave, &name, Node::Output, forms);
     cell.words.x = words;
@@ -133,8 +143,8 @@ fn lines(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
 }
 
 /// Moves the frequencies next to the highest peaks of the residuals' spectrum onto them: a line between two
-/// frequencies of the grid would leave a part of itself to further explanations.
-fn move_to_peaks(fitted: &FittedModel<'_>, x: &[f64], frequencies: &mut [f64], step: f64) {
+/// frequencies of the grid would leave a part of itself to further explanations. The periods of these peaks.
+fn to_peaks(fitted: &FittedModel<'_>, x: &[f64], frequencies: &mut [f64], step: f64) -> Vec<f64> {
     const SIDES: [f64; 8] = [-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0];
     let power = |frequency: f64| power(fitted, x, frequency);
     let heights: Vec<f64> = frequencies.iter().map(|f| power(*f)).collect();
@@ -144,10 +154,13 @@ fn move_to_peaks(fitted: &FittedModel<'_>, x: &[f64], frequencies: &mut [f64], s
     };
     let mut peaks: Vec<usize> = (0..heights.len()).filter(is_peak).collect();
     peaks.sort_by(|a, b| heights[*b].total_cmp(&heights[*a]));
-    for peak in peaks.into_iter().take(PEAKS) {
+    let peaks = peaks.into_iter().take(PEAKS);
+    let moved = peaks.map(|peak| {
         let (start, reach) = (frequencies[peak], step / 2.0);
         frequencies[peak] = summit(power, start, (6, reach), &SIDES, |centre, by| centre + by);
-    }
+        1.0 / frequencies[peak]
+    });
+    moved.collect()
 }
 
 /// Power of the residuals at a frequency: the sum of squares that a sine and a cosine take away (Lomb and

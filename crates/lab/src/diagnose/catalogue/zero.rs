@@ -17,10 +17,11 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let shift = || Modifier::number(vec![1.0; rows], "1");
     let mut cells = vec![cell(fitted, EffectId::Zero, Node::Output, shift())];
     for (column, data) in fitted.case().columns.iter().enumerate() {
-        let exact = matches!(data.role, Role::Stimulus | Role::Angle | Role::Time);
+        // The thermometer of a correction may be wrong as a reference may, and so may the coefficient beside it.
+        let taken_in = data.role != Role::Output && fitted.in_model(column);
         // A direction or a switch by which the model multiplies has no scale to be wrong.
         let has_scale = !data.unit.is_one() || fitted.is_direct(column);
-        if exact && has_scale && fitted.in_model(column) && data.numbers().is_some() {
+        if taken_in && has_scale && data.numbers().is_some() {
             let node = Node::Column(column);
             cells.push(cell(fitted, EffectId::ZeroOf, node, shift()));
             cells.push(cell(fitted, EffectId::FactorOf, node, fitted.own(column)));

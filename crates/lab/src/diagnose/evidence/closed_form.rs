@@ -144,10 +144,9 @@ fn shrunk(fit: f64, half_log_det: f64, rss: f64, scale: Scale) -> f64 {
     match scale {
         Scale::Known => 0.5 * fit - half_log_det,
         Scale::Estimated { total } => {
-            let share = if rss > 0.0 {
-                (fit / rss).min(1.0 - f64::EPSILON)
-            } else {
-                0.0
+            let share = match rss > 0.0 {
+                true => (fit / rss).min(1.0 - f64::EPSILON),
+                false => 0.0,
             };
             -half_log_det - 0.5 * total * libm::log1p(-share)
         }

@@ -8,7 +8,7 @@ use super::grades::{alike, graded};
 use super::null::Simulated;
 use super::question::Question;
 use super::refusal::Refusal;
-use super::search::{Search, search};
+use super::search::{Search, needed, search};
 use super::slots::{Explanation, Found, LISTED, slots};
 use super::space::Space;
 use super::unlisted::{Restated, leftover, stands, unlisted};
@@ -43,7 +43,7 @@ pub fn examine(
         .map_or_else(Restated::default, |set| Restated::of(&space, question, set));
     search.discount(&again);
     let generic_probability = search.generic_probability();
-    let explanation = explanation(&search, generic_probability);
+    let mut explanation = explanation(&search, generic_probability);
     let mut found = slots(&space, question, &search, &explanation, &again);
     // Beside nothing there is nothing to doubt: the test of the first level has decided.
     let found_nothing = search.complete.as_ref().is_some_and(Vec::is_empty);
@@ -55,7 +55,15 @@ pub fn examine(
         let named = &explanation.named;
         match alike(&space, question, &search, named, &again, &simulated) {
             Some(likenesses) => found = likenesses,
-            None => doubt(&space, question, &mut found),
+            None => {
+                // What bends the course of something without a name is nothing by itself.
+                let kept = needed(&space, space.frame_of(&found.named), 0);
+                if explanation.generic.is_some() && kept.len() < found.named.len() {
+                    explanation.named = kept;
+                    found = slots(&space, question, &search, &explanation, &again);
+                }
+                doubt(&space, question, &mut found);
+            }
         }
     }
     let Found { named, mut slots } = found;

@@ -70,6 +70,14 @@ pub enum Likeness {
     Form,
 }
 
+impl Slot {
+    /// Whether a departure from the shape of its first name that makes it another effect would have been seen.
+    pub fn is_severe(&self) -> bool {
+        let first = self.named.first();
+        first.is_some_and(|first| first.lambda * LIKENESS >= SEEN)
+    }
+}
+
 /// Why one of some slots says no more than what its effect acts like; `of` gives the place of a candidate, and whether it only
 /// says what the recording looks like.
 pub fn likeness<'p>(
@@ -77,14 +85,13 @@ pub fn likeness<'p>(
     slots: &[Slot],
     of: impl Fn(usize) -> (&'p Place, bool),
 ) -> Likeness {
-    let strength = slot.named.first().map_or(0.0, |first| first.lambda);
     let of = |slot: &Slot| slot.named.first().map(|first| of(first.candidate));
     let describes = |slot: &Slot| of(slot).is_some_and(|(_, describes)| describes);
     let alike = |other: &&Slot| {
         (describes(slot) && describes(other)) || of(other).map(|of| of.0) == of(slot).map(|of| of.0)
     };
     let shared = || slots.iter().filter(alike).count() > 1;
-    match strength * LIKENESS >= SEEN {
+    match slot.is_severe() {
         false => Likeness::Weak,
         true if !slots.iter().all(Slot::is_explained) => Likeness::Open,
         true if shared() => Likeness::Piece,

@@ -92,7 +92,7 @@ pub(super) fn search(
         });
         let masked = |pair: &Visited| level == 1 && pair.score > beam[0].score + DECISIVE;
         if outcome.p > question.settings.alpha && !masking.iter().any(masked) {
-            search.complete = Some(needed(space, best));
+            search.complete = Some(needed(space, best, 1));
             break;
         }
         if level == EFFECTS {
@@ -117,9 +117,9 @@ pub(super) fn search(
 }
 
 /// The blocks of a set that it does not do as well without: what stood for several effects before they were found is one
-/// too many beside them.
-fn needed(space: &Space, mut set: Frame) -> Vec<usize> {
-    while set.blocks.len() > 1 {
+/// too many beside them. So many stay.
+pub(super) fn needed(space: &Space, mut set: Frame, least: usize) -> Vec<usize> {
+    while set.blocks.len() > least {
         let less = (0..set.blocks.len()).filter_map(|at| {
             let mut rest = set.blocks.clone();
             rest.remove(at);
@@ -265,7 +265,7 @@ mod tests {
         let columns = [one.clone(), other.clone(), &one + &other + &none * 0.5];
         let asked = Asked::of(&(one * 5.0 + other * 5.0), &white(ROWS)).with_each(columns);
         let space = Space::new(&asked.question());
-        assert_eq!(needed(&space, space.frame_of(&[0, 1, 2])), [0, 1]);
-        assert_eq!(needed(&space, space.frame_of(&[2])), [2]);
+        assert_eq!(needed(&space, space.frame_of(&[0, 1, 2]), 1), [0, 1]);
+        assert_eq!(needed(&space, space.frame_of(&[2]), 1), [2]);
     }
 }

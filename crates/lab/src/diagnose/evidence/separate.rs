@@ -140,10 +140,9 @@ impl Separability {
         Worth {
             kappa,
             resolved: if whole > 0.0 { resolved / whole } else { 0.0 },
-            repeats: if kappa > NOTHING {
-                (SEPARATED / kappa).powi(2).max(1.0)
-            } else {
-                f64::INFINITY
+            repeats: match kappa > NOTHING {
+                true => (SEPARATED / kappa).powi(2).max(1.0),
+                false => f64::INFINITY,
             },
         }
     }
@@ -154,10 +153,9 @@ impl Separability {
 /// either by what it leaves, or by chance; then at least it was left out.
 pub fn doubt(before: f64, after: f64) -> f64 {
     let by_what_is_left = decided(0.0, after * after);
-    let left_out = if after > before {
-        decided(alone(), after * after - before * before)
-    } else {
-        0.0
+    let left_out = match after > before {
+        true => decided(alone(), after * after - before * before),
+        false => 0.0,
     };
     1.0 - by_what_is_left.max(left_out)
 }

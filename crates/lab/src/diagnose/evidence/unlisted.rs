@@ -220,10 +220,9 @@ fn excess(residual: &Residual) -> f64 {
         Scale::Known => residual.chi_squared,
         Scale::Estimated { .. } => {
             let known = residual.rss - residual.chi_squared;
-            if known > 0.0 {
-                residual.chi_squared / known
-            } else {
-                0.0
+            match known > 0.0 {
+                true => residual.chi_squared / known,
+                false => 0.0,
             }
         }
     }

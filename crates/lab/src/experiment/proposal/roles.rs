@@ -336,18 +336,29 @@ fn is_set(column: &Column) -> bool {
     2 * different.len() <= numbers.len()
 }
 
-/// Whether it is a condition by its unit or name: a temperature, a pressure, a humidity.
+/// Whether it is a condition by its unit, name or numbers: a temperature, a pressure, a humidity; the air of an inhabited place.
 fn is_condition(column: &Column) -> bool {
     const WORDS: [&str; 8] = [
         "temp", "press", "humid", "supply", "温度", "气压", "压力", "湿度",
     ];
+    /// Pressures of the air in Pa, from a town at 4 000 m to the highest at sea level.
+    const AIR: std::ops::RangeInclusive<f64> = 6.0e4..=1.085e5;
     let units = UnitTable::default();
     let name = column.name.to_lowercase();
-    let is_temperature = || {
-        let kelvin = units.parse("K").ok()?;
-        column.unit.as_ref()?.difference().conversion_to(&kelvin)
+    let factor = |unit: &str| {
+        let own = column.unit.as_ref()?.difference();
+        Some(own.conversion_to(&units.parse(unit).ok()?)?.factor)
     };
-    WORDS.iter().any(|word| name.contains(word)) || is_temperature().is_some()
+    let is_air = || match (&column.data, factor("Pa")) {
+        (Data::Numbers(numbers), Some(factor)) => {
+            numbers.iter().all(|p| AIR.contains(&(p * factor)))
+        }
+        _ => false,
+    };
+    let is_named = WORDS.iter().any(|word| name.contains(word));
+    // Relative humidity by its symbol, perhaps with a place: "RH", "rh_lab".
+    let is_humidity = name.split(|c: char| !c.is_alphanumeric()).next() == Some("rh");
+    is_named || is_humidity || factor("K").is_some() || is_air()
 }
 
 /// Whether two columns are the same but for their axis, as `ax` and `ay`.

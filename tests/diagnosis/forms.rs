@@ -1,0 +1,128 @@
+//! Forms that effects have at the bench: about which zero they bend, what repeats without being a sine, what a coarse
+//! recording sees of a quick one; and courses without a name, of which no name may take a part.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+use serde_json::Value;
+
+use crate::common::Noise;
+use crate::common::cases::{diagnosed_with as diagnosed, named_apart};
+
+/// The names of an effect.
+fn names(diagnosis: &Value, effect: usize) -> Vec<String> {
+    named_apart(diagnosis)
+        .into_iter()
+        .nth(effect)
+        .unwrap_or_default()
+}
+
+/// A size of the improved model.
+fn size(diagnosis: &Value, at: usize) -> f64 {
+    diagnosis["improved"]["coefficients"][at]["value"]
+        .as_f64()
+        .expect("a size")
+}
+
+/// Heat in a resistor goes with the square of the current about zero, not about the middle of its range.
+#[test]
+fn a_load_coefficient_is_a_cube_about_zero() {
+    let mut noise = Noise(231);
+    let mut rows = "I [A],U [mV]\n".to_owned();
+    for row in 0..60 {
+        let current = [5.0, 15.0, 30.0, 45.0, 60.0, 75.0][row % 6];
+        let voltage =
+            1.3e-3 + 2.0003 * current + 9e-8 * libm::pow(current, 3.0) + 1.1e-3 * noise.normal();
+        let _ = writeln!(rows, "{current},{voltage:.5}");
+    }
+    let case = "equations = \"U = U0 + R*I\"\n[columns]\nI = \"stimulus\"\nU = \"output\"\n[noise]\nu = \"1.1 µV\"\n";
+    let found = diagnosed("load-coefficient", &rows, case);
+    assert_eq!(names(&found, 0)[0], "cubic", "{found}");
+    let text = &found["improved"]["additions"][0]["modifier"];
+    assert_eq!(text, "I^3", "{found}");
+    let cube = size(&found, 0);
+    assert!((cube / 9e-8 - 1.0).abs() < 0.2, "{cube}");
+}
+
+/// What repeats with a turn and half a turn is one thing.
+#[test]
+fn what_repeats_need_not_be_a_sine() {
+    let mut noise = Noise(232);
+    let mut rows = "V_ref [L],V [L],run\n".to_owned();
+    for row in 0..96 {
+        let volume = f64::from(row % 24);
+        let turn = TAU * volume / 6.0;
+        let error = 0.004 * libm::sin(turn + 0.4) + 0.003 * libm::sin(2.0 * turn + 1.9);
+        let shown = 0.002 + 1.0004 * volume + error + 1e-3 * noise.normal();
+        let _ = writeln!(rows, "{volume},{shown:.4},{}", row / 24);
+    }
+    let case = "equations = \"V = a + b*V_ref\"\n[columns]\nV_ref = \"stimulus\"\nV = \"output\"\nrun = \"run\"\n";
+    let found = diagnosed("wet-meter", &rows, case);
+    assert_eq!(named_apart(&found).len(), 1, "{found}");
+    assert_eq!(names(&found, 0), ["wave"], "{found}");
+    let label = &found["effects"][0]["named"][0]["variants"][0]["label"];
+    let label = label.as_str().expect("a label");
+    assert!(label.ends_with("with its half"), "{label}");
+    assert_eq!(found["verdict"], "identified", "{found}");
+}
+
+/// A thermometer of a correction may be wrong as a reference may.
+#[test]
+fn the_coefficient_of_a_correction_is_another_one() {
+    let mut noise = Noise(234);
+    let mut rows = "kappa [µS/cm],T [°C],G [µS]\n".to_owned();
+    for row in 0..60 {
+        let (kappa, bath) = (
+            [100.0, 400.0, 1400.0][row % 3],
+            20.0 + 1.1 * ((row * 7) % 11) as f64,
+        );
+        let ideal = 1.012 * kappa * (1.0 + 0.0188 * (bath - 25.0));
+        let _ = writeln!(rows, "{kappa},{bath},{:.3}", ideal + 0.5 * noise.normal());
+    }
+    let case = "equations = \"G = K*kappa*(1 + alpha*(T - 25 '°C'))\"\n[columns]\nkappa = \"stimulus\"\nT = \"covariate\"\nG = \"output\"\n[constant]\nalpha = \"0.02 1/K\"\n[parameter]\nK = { start = \"1 cm\" }\n[noise]\nu = \"0.5 µS\"\n";
+    let found = diagnosed("conductivity", &rows, case);
+    let named = names(&found, 0);
+    for one in ["zero-of", "factor-of"] {
+        assert!(named.iter().any(|name| name == one), "{named:?}");
+    }
+}
+
+/// Where a quantity spreads, what is proportional to it is a power as well.
+#[test]
+fn shear_thinning_is_an_exponent() {
+    let mut noise = Noise(235);
+    let mut rows = "rate [1/s],stress [Pa]\n".to_owned();
+    for row in 0..48 {
+        let rate = [1.0, 3.0, 10.0, 30.0, 100.0, 300.0][row % 6];
+        let stress = 0.85 * libm::pow(rate, 0.97) * (1.0 + 0.004 * noise.normal());
+        let _ = writeln!(rows, "{rate},{stress:.5}");
+    }
+    let case =
+        "equations = \"stress = eta*rate\"\n[columns]\nrate = \"stimulus\"\nstress = \"output\"\n";
+    let found = diagnosed("viscometer", &rows, case);
+    assert_eq!(names(&found, 0)[0], "exponent", "{found}");
+    assert!((size(&found, 0) + 0.03).abs() < 3e-3, "{found}");
+}
+
+/// A bump over the depth, as an inhomogeneous wire makes it: nothing that bends the course beside what has no name is a name.
+#[test]
+fn what_has_no_size_has_no_name() {
+    let mut noise = Noise(236);
+    let mut rows = "T [°C],depth [cm],E [µV]\n".to_owned();
+    for row in 0..75 {
+        let (bath, depth) = (
+            [150.0, 250.0, 450.0][row / 25],
+            4.0 + 1.9 * (row % 25) as f64,
+        );
+        let bump = libm::exp(-0.5 * libm::pow((depth - 26.0) / 3.0, 2.0));
+        let emf = 1.2 + 10.3 * bath + 0.011 * bath * bump + 0.6 * noise.normal();
+        let _ = writeln!(rows, "{bath},{depth:.1},{emf:.2}");
+    }
+    let case = "equations = \"E = E0 + S*T\"\n[columns]\nT = \"stimulus\"\ndepth = \"covariate\"\nE = \"output\"\n";
+    let found = diagnosed("wire", &rows, case);
+    let effects = found["effects"].as_array().expect("effects");
+    for effect in effects.iter().filter(|one| one["state"] != "unexplained") {
+        let strength = effect["named"][0]["lambda"].as_f64().expect("a strength");
+        assert!(strength > 2.58, "{found}");
+    }
+}

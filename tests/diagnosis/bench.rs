@@ -272,3 +272,24 @@ fn a_zero_error_is_found_where_the_model_has_no_slope() {
     assert_eq!(first_names(&found), ["zero-of"], "{found}");
     assert!(has_size(&found, 0.03), "{found}");
 }
+
+/// A resonance on a baseline that is neither zero nor level.
+#[test]
+fn a_sloping_baseline_has_a_name() {
+    let mut noise = Noise(64);
+    let mut rows = "f [GHz],S [V]\n".to_owned();
+    for row in 0..80 {
+        let f = f64::from(row) / 8.0 - 5.0;
+        let from_middle = (f - 0.3) / 0.8;
+        let peak = 2.0 / (1.0 + from_middle * from_middle);
+        let _ = writeln!(
+            rows,
+            "{f:.4},{:.4}",
+            peak + 0.1 + 0.06 * f + 0.01 * noise.normal()
+        );
+    }
+    let case = "equations = \"S = A/(1 + ((f - f0)/w)^2)\"\n[columns]\nf = \"stimulus\"\n[parameter]\nA = { start = \"1 V\" }\nf0 = { start = \"0 GHz\" }\nw = { start = \"1 GHz\" }\n";
+    let mut names = first_names(&diagnosed("peak", &rows, case));
+    names.sort();
+    assert_eq!(names, ["background", "zero"]);
+}

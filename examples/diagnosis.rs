@@ -111,7 +111,9 @@ fn save_tables(options: &Options) -> Result<(), String> {
          rival, so that no linear coefficient had a κ), diagnosis-9.md (pieces of one course identified; the readings of a norm without noise \
          of their own), diagnosis-10.md (set points in small steps taken for ramps; other wrong readings counted as noise of one), \
          diagnosis-11.md (the name and the adopted model chosen apart; what other sets have instead of a name left out; slopes never taken \
-         anew; noise that walks over the whole recording not among the laws).",
+         anew; noise that walks over the whole recording not among the laws), diagnosis-12.md (effects that bend the fit never compared as \
+         they are fitted; what bends a course without a name told as a name; straight backgrounds, zeros of conditions and exponents of first \
+         powers not looked for).",
         env!("CARGO_PKG_VERSION")
     );
     std::fs::write(out.join("diagnosis.md"), report(&read(&lines), &made))

@@ -9,21 +9,15 @@ use nalgebra::DVector;
 
 use super::findings::Slot;
 use super::fit::{Estimate, estimate};
-use super::question::Question;
 use super::space::{Frame, Space};
 
 /// Explanations less probable than this make no difference.
 const NEGLIGIBLE: f64 = 1e-3;
 
 /// Completes the first alternative of every slot; each comes with the block of the set that it stands for.
-pub(super) fn complete(
-    space: &Space,
-    question: &Question,
-    named: &[usize],
-    slots: &mut [(Option<usize>, Slot)],
-) {
+pub(super) fn complete(space: &Space, named: &[usize], slots: &mut [(Option<usize>, Slot)]) {
     for at in 0..slots.len() {
-        let variances = variances(space, question, named, slots, at);
+        let variances = variances(space, named, slots, at);
         let (Some(variances), Some(first)) = (variances, slots[at].1.named.first_mut()) else {
             continue;
         };
@@ -34,7 +28,6 @@ pub(super) fn complete(
 /// What comes on top of the variances of the coefficients of a slot's first alternative.
 fn variances(
     space: &Space,
-    question: &Question,
     named: &[usize],
     slots: &[(Option<usize>, Slot)],
     at: usize,
@@ -47,7 +40,7 @@ fn variances(
         let frame: Frame = space.frame(rest)?;
         // Beside an explanation that does the same it has no size.
         space.extended(&frame, own)?;
-        Some(estimate(space, question, &frame, own))
+        Some(estimate(space, &frame, own))
     };
     let usual = beside(&others)?;
     let mut sum = DVector::zeros(usual.coefficients.len());

@@ -77,10 +77,9 @@ impl Course {
 /// One course, with all candidates seen through it.
 struct Seen<'c> {
     course: &'c Course,
-    space: Space,
+    space: Space<'c>,
     /// No effect.
     frame: Frame,
-    question: Question<'c>,
     alone: f64,
     with: f64,
 }
@@ -109,16 +108,15 @@ pub fn contest(
         };
         let space = Space::new(&question);
         let frame = space.empty();
-        let strongest = Panel::new(&space, &question, &frame).observed(&space, 0.0);
+        let strongest = Panel::new(&space, &frame).observed(&space, 0.0);
         let gain = strongest.map_or(0.0, |one| one.statistic);
-        let two = Singles::new(&space, &question).observed(&space);
+        let two = Singles::new(&space).observed(&space);
         Seen {
             course: &courses[at],
             alone: alone[at],
             with: alone[at] + gain.max(two).max(0.0),
             space,
             frame,
-            question,
         }
     };
     let seen: Vec<Seen<'_>> = side_by_side(courses.len(), see);
@@ -166,13 +164,12 @@ struct Bench<'s> {
 
 impl<'s> Bench<'s> {
     fn new(seen: &'s Seen<'s>) -> Bench<'s> {
-        let settings = &seen.question.settings;
-        let draws = settings.draws.min(DRAWS);
+        let draws = seen.space.question.settings.draws.min(DRAWS);
         Bench {
             seen,
-            simulated: Simulated::new(seen.question.baseline, &seen.space, settings.seed, draws),
-            panel: Panel::new(&seen.space, &seen.question, &seen.frame),
-            singles: Singles::new(&seen.space, &seen.question),
+            simulated: Simulated::new(&seen.space, draws),
+            panel: Panel::new(&seen.space, &seen.frame),
+            singles: Singles::new(&seen.space),
         }
     }
 

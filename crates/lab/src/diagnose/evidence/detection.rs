@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use super::departure;
 use super::null::{Recordings, Simulated, side_by_side};
 use super::pairs::Pairs;
-use super::question::{Kind, Question};
+use super::question::Kind;
 use super::remainders::Remainders;
 use super::sequential::probability;
 use super::space::{Frame, Space};
@@ -34,13 +34,12 @@ pub(super) struct Strongest {
 /// may depart from their forms by a share of themselves: what that gives to the statistic is taken from it.
 pub(super) fn test(
     space: &Space,
-    question: &Question,
     frame: &Frame,
     share: f64,
     pairs: Option<&Pairs>,
     simulated: &Simulated,
 ) -> Outcome {
-    let panel = Panel::new(space, question, frame);
+    let panel = Panel::new(space, frame);
     let allowance = departure::left(share, space.strength(frame));
     let Some(strongest) = panel.observed(space, allowance) else {
         return Outcome {
@@ -49,7 +48,7 @@ pub(super) fn test(
             draws: 0,
         };
     };
-    let alpha = question.settings.alpha;
+    let alpha = space.question.settings.alpha;
     let in_turn = |pairs: &Pairs| pairs.singles.observed(space);
     let of_pairs = |of: &dyn Fn(&Pairs) -> f64| pairs.map_or(f64::NEG_INFINITY, of);
     let observed = [
@@ -104,8 +103,8 @@ pub(super) struct Panel<'a> {
 }
 
 impl<'a> Panel<'a> {
-    pub(super) fn new(space: &'a Space, question: &Question, frame: &'a Frame) -> Panel<'a> {
-        let beside = Remainders::new(space, question, frame);
+    pub(super) fn new(space: &'a Space<'a>, frame: &'a Frame) -> Panel<'a> {
+        let beside = Remainders::new(space, frame);
         let mut classes: BTreeMap<(usize, u64), Vec<usize>> = BTreeMap::new();
         let mut generics = Vec::new();
         for (index, rest) in beside.rests.iter().enumerate() {

@@ -34,17 +34,16 @@ pub fn examine(
     progress: &dyn Fn(f64) -> ControlFlow<()>,
 ) -> Result<Examination, Refusal> {
     let space = Space::new(question);
-    let settings = &question.settings;
-    let simulated = Simulated::new(question.baseline, &space, settings.seed, settings.draws);
-    let mut search = search(&space, question, &simulated, progress)?;
+    let simulated = Simulated::new(&space, question.settings.draws);
+    let mut search = search(&space, &simulated, progress)?;
     let again = search
         .complete
         .as_ref()
-        .map_or_else(Restated::default, |set| Restated::of(&space, question, set));
+        .map_or_else(Restated::default, |set| Restated::of(&space, set));
     search.discount(&again);
     let generic_probability = search.generic_probability();
     let mut explanation = explanation(&search, generic_probability);
-    let mut found = slots(&space, question, &search, &explanation, &again);
+    let mut found = slots(&space, &search, &explanation, &again);
     // Beside nothing there is nothing to doubt: the test of the first level has decided.
     let found_nothing = search.complete.as_ref().is_some_and(Vec::is_empty);
     let is_adequate = search.complete.is_some()
@@ -53,16 +52,16 @@ pub fn examine(
         && found.slots.iter().all(Slot::is_explained);
     if !found_nothing && !is_adequate {
         let named = &explanation.named;
-        match alike(&space, question, &search, named, &again, &simulated) {
+        match alike(&space, &search, named, &again, &simulated) {
             Some(likenesses) => found = likenesses,
             None => {
                 // What bends the course of something without a name is nothing by itself.
                 let kept = needed(&space, space.frame_of(&found.named), 0);
                 if explanation.generic.is_some() && kept.len() < found.named.len() {
                     explanation.named = kept;
-                    found = slots(&space, question, &search, &explanation, &again);
+                    found = slots(&space, &search, &explanation, &again);
                 }
-                doubt(&space, question, &mut found);
+                doubt(&space, &mut found);
             }
         }
     }
@@ -78,7 +77,7 @@ pub fn examine(
     let set = space.frame_of(&named);
     Ok(Examination {
         verdict: verdict(&slots),
-        fitted: (!named.is_empty()).then(|| fitted(&space, question, &set)),
+        fitted: (!named.is_empty()).then(|| fitted(&space, &set)),
         slots,
         generic_probability,
         score: search.best().map_or(0.0, |best| best.score),
@@ -116,11 +115,11 @@ impl Examination {
 
 /// Makes names tentative in an explanation that is not adequate: something that no candidate is may be any part of what they
 /// explain. The one that is more than all the rest together stands, if it says what is there and not only what it looks like.
-fn doubt(space: &Space, question: &Question, Found { named, slots }: &mut Found) {
+fn doubt(space: &Space, Found { named, slots }: &mut Found) {
     let (sigma, _) = noise(space, &space.frame_of(named));
     let excess = space.z.norm_squared() / (sigma * sigma) - space.dof as f64;
     let stands = |first: &Alternative| {
-        !question.candidates[first.candidate].describes && 2.0 * first.lambda.powi(2) > excess
+        !space.question.candidates[first.candidate].describes && 2.0 * first.lambda.powi(2) > excess
     };
     for slot in slots.iter_mut() {
         if !slot.named.first().is_some_and(stands) {

@@ -30,7 +30,7 @@ pub(super) struct Estimate {
 }
 
 /// The coefficients of a named block when it joins a set.
-pub(super) fn estimate(space: &Space, question: &Question, rest: &Frame, block: usize) -> Estimate {
+pub(super) fn estimate(space: &Space, rest: &Frame, block: usize) -> Estimate {
     let atom = &space.blocks[block];
     let columns = without(&atom.determined(), &rest.basis);
     let with = space.extended(rest, block);
@@ -40,7 +40,7 @@ pub(super) fn estimate(space: &Space, question: &Question, rest: &Frame, block: 
     let inverse = inverse(&columns);
     let (found, spread) = (&inverse * &space.z, &inverse * inverse.transpose());
     let visible = &columns * &found;
-    let width = question.atoms[atom.atom].shape.width();
+    let width = space.question.atoms[atom.atom].shape.width();
     let mut coefficients = DVector::from_element(width, f64::NAN);
     let mut covariance = DMatrix::from_element(width, width, f64::NAN);
     for (i, a) in atom.kept.iter().enumerate() {
@@ -63,14 +63,13 @@ pub(super) fn estimate(space: &Space, question: &Question, rest: &Frame, block: 
 /// causes other than its own, and not of the set.
 pub(super) fn nearest(
     space: &Space,
-    question: &Question,
     rest: &Frame,
     block: usize,
     estimate: &Estimate,
 ) -> Option<Rival> {
     let own = space.blocks[block].candidate;
     let whole = estimate.visible.norm_squared();
-    let beside = Remainders::new(space, question, rest);
+    let beside = Remainders::new(space, rest);
     // Beside the set already, so that nothing has to be taken out.
     let components = space.directions.tr_mul(&estimate.visible);
     beside
@@ -78,7 +77,7 @@ pub(super) fn nearest(
         .iter()
         .map(|rival| (rival, &space.blocks[rival.block]))
         .filter(|(rival, block)| {
-            rival.kind == Kind::Named && !question.same_cause(block.candidate, own)
+            rival.kind == Kind::Named && !space.question.same_cause(block.candidate, own)
         })
         .map(|(rival, block)| {
             let explained = beside.components(rival, &components).norm_squared();
@@ -106,14 +105,14 @@ pub(super) fn reached(odds: f64, gain: f64, level: f64) -> f64 {
 }
 
 /// All effects of a set together.
-pub(super) fn fitted(space: &Space, question: &Question, set: &Frame) -> Fitted {
+pub(super) fn fitted(space: &Space, set: &Frame) -> Fitted {
     let atoms: Vec<usize> = set.blocks.iter().map(|b| space.blocks[*b].atom).collect();
     let columns = set.blocks.iter().map(|b| space.blocks[*b].determined());
     let found = inverse(&all(columns)) * &space.z;
     let mut found = found.iter();
     let mut coefficients = Vec::new();
     for block in set.blocks.iter().map(|b| &space.blocks[*b]) {
-        let mut own = vec![f64::NAN; question.atoms[block.atom].shape.width()];
+        let mut own = vec![f64::NAN; space.question.atoms[block.atom].shape.width()];
         for (at, size) in block.kept.iter().zip(&mut found) {
             own[*at] = *size;
         }
@@ -138,7 +137,7 @@ pub fn singles(question: &Question) -> Vec<(f64, Fitted)> {
     scored.retain(|(_, one)| seen.insert(space.blocks[one.blocks[0]].candidate));
     let sized = scored
         .iter()
-        .map(|(score, one)| (*score, fitted(&space, question, one)));
+        .map(|(score, one)| (*score, fitted(&space, one)));
     sized.collect()
 }
 

@@ -17,7 +17,6 @@ const SEEN: f64 = 4.0;
 /// nothing finds more than such a departure leaves. More than two are a description.
 pub(super) fn alike(
     space: &Space,
-    question: &Question,
     search: &Search,
     named: &[usize],
     again: &Restated,
@@ -35,8 +34,8 @@ pub(super) fn alike(
     };
     // Whether nothing stands out beside a set by more than a departure of its effects from their forms leaves.
     let departs_little = |set: &Frame| {
-        let beside = detection::test(space, question, set, LIKENESS, None, simulated);
-        beside.p > question.settings.alpha
+        let beside = detection::test(space, set, LIKENESS, None, simulated);
+        beside.p > space.question.settings.alpha
     };
     let mut sets = [2, 1].into_iter().filter_map(best);
     let core = sets.find(departs_little)?.blocks;
@@ -44,7 +43,7 @@ pub(super) fn alike(
         named: core,
         generic: None,
     };
-    let mut found = slots(space, question, search, &explanation, again);
+    let mut found = slots(space, search, &explanation, again);
     for slot in &mut found.slots {
         if slot.state != State::Ambiguous && !slot.named.is_empty() {
             slot.state = match slot.named.len() {

@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::directions::{joined, left, orthonormal, without};
 use super::fit::Estimate;
-use super::question::{Kind, Question};
+use super::question::Kind;
 use super::remainders::Remainders;
 use super::space::{Block, Form, Frame, Space};
 
@@ -41,21 +41,20 @@ const DESCRIBED_APART: f64 = 8.0;
 /// Candidates that have to be on the list of a slot whose most probable block has this estimate.
 pub(super) fn listed(
     space: &Space,
-    question: &Question,
     rest: &Frame,
     winner: usize,
     estimate: &Estimate,
 ) -> Vec<usize> {
-    let beside = Remainders::new(space, question, rest);
+    let beside = Remainders::new(space, rest);
     let along = space.directions.tr_mul(&estimate.visible);
     let whole = estimate.visible.norm_squared();
     let own = &space.blocks[winner];
-    let place = &question.candidates[own.candidate].place;
+    let place = &space.question.candidates[own.candidate].place;
     // The best share that each candidate's variants explain, with those variants.
     let mut shares: std::collections::BTreeMap<usize, Vec<(f64, usize)>> = Default::default();
     for rival in beside.rests.iter().filter(|rest| rest.kind == Kind::Named) {
         let candidate = space.blocks[rival.block].candidate;
-        if !question.same_cause(candidate, own.candidate) {
+        if !space.question.same_cause(candidate, own.candidate) {
             let share = beside.components(rival, &along).norm_squared() / whole;
             if share > PART {
                 shares
@@ -75,10 +74,10 @@ pub(super) fn listed(
         let left = (1.0 - best).max(0.0) * whole;
         let near = left < (TOLD_APART * estimate.sigma).powi(2);
         let general = || {
-            let same = more > few && question.candidates[candidate].place == *place;
+            let same = more > few && space.question.candidates[candidate].place == *place;
             more > few + 1 || (same && has_as_part(space, &beside, rest, block, own.candidate))
         };
-        let rival = &question.candidates[candidate];
+        let rival = &space.question.candidates[candidate];
         let alias = best > ALIAS && near && !rival.happens && !general();
         let mixes = !rival.repeats && variants.len() > 1;
         if alias || (mixes && kin(space, rest, &variants, estimate)) {
@@ -171,14 +170,14 @@ fn mixed(tried: &[DVector<f64>], target: &DVector<f64>, sigma: f64) -> bool {
 
 /// Blocks, the strongest first, that are next to nothing beside those before them and all that these may
 /// be mixed to.
-pub(super) fn shapes(space: &Space, question: &Question, strongest_first: &[usize]) -> Vec<usize> {
+pub(super) fn shapes(space: &Space, strongest_first: &[usize]) -> Vec<usize> {
     // The noise is what all of them leave: the strongest alone would leave the others in it.
     let sigma = space.sigma(&space.frame_of(strongest_first));
     let mut basis = DMatrix::zeros(space.z.len(), 0);
     let mut found = Vec::new();
     for (place, &index) in strongest_first.iter().enumerate() {
         let block = &space.blocks[index];
-        let apart = match question.candidates[block.candidate].describes {
+        let apart = match space.question.candidates[block.candidate].describes {
             true => DESCRIBED_APART,
             false => APART,
         };
@@ -192,7 +191,7 @@ pub(super) fn shapes(space: &Space, question: &Question, strongest_first: &[usiz
             FAINT,
         );
         basis = joined(&basis, &own.0);
-        let mixture = mixture(space, question, block, &basis);
+        let mixture = mixture(space, block, &basis);
         basis = joined(&basis, &mixture);
     }
     found
@@ -210,14 +209,9 @@ fn explained(space: &Space, block: &Block, basis: &DMatrix<f64>) -> f64 {
 }
 
 /// What the variants of a candidate that resemble one of them span beside a basis.
-fn mixture(
-    space: &Space,
-    question: &Question,
-    block: &Block,
-    basis: &DMatrix<f64>,
-) -> DMatrix<f64> {
+fn mixture(space: &Space, block: &Block, basis: &DMatrix<f64>) -> DMatrix<f64> {
     let d = block.basis.ncols();
-    if question.candidates[block.candidate].repeats {
+    if space.question.candidates[block.candidate].repeats {
         return DMatrix::zeros(basis.nrows(), 0);
     }
     let alike = |other: &&Block| {
@@ -340,8 +334,8 @@ mod tests {
                 .unwrap()
         };
         let (first, wave, other) = (block("relaxation"), block("sine"), block("inverse"));
-        assert!(shapes(&space, &question, &[first, wave]).is_empty());
-        assert_eq!(shapes(&space, &question, &[first, wave, other]), [other]);
+        assert!(shapes(&space, &[first, wave]).is_empty());
+        assert_eq!(shapes(&space, &[first, wave, other]), [other]);
     }
 
     /// What is fitted is the first name of every slot, in the variant that is stated with it.

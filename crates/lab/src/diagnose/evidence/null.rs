@@ -94,7 +94,7 @@ impl<'a> Null<'a> {
 /// Simulated recordings with their components along the directions of all blocks; each chunk is computed
 /// when it is first needed, and serves all tests of an examination.
 pub(super) struct Simulated<'a> {
-    space: &'a Space,
+    space: &'a Space<'a>,
     null: Null<'a>,
     chunks: Vec<OnceLock<Recordings>>,
 }
@@ -113,11 +113,11 @@ pub(super) struct Recordings {
 
 impl<'a> Simulated<'a> {
     /// `draws` recordings, rounded up.
-    pub(super) fn new(baseline: &'a Baseline, space: &'a Space, seed: u64, draws: usize) -> Self {
+    pub(super) fn new(space: &'a Space<'a>, draws: usize) -> Self {
         let chunks = draws.div_ceil(LANES).max(1);
         Simulated {
             space,
-            null: Null::new(baseline, seed, 0),
+            null: Null::new(space.question.baseline, space.question.settings.seed, 0),
             chunks: (0..chunks).map(|_| OnceLock::new()).collect(),
         }
     }

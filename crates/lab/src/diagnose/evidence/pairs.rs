@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use nalgebra::DMatrix;
 
 use super::closed_form::{Scale, maximum, named};
-use super::question::{Kind, Question};
+use super::question::Kind;
 use super::space::Space;
 
 /// Pairs nearer than this explain no more together than one of them.
@@ -50,7 +50,7 @@ struct Pair {
 }
 
 impl Singles {
-    pub(super) fn new(space: &Space, question: &Question) -> Singles {
+    pub(super) fn new(space: &Space) -> Singles {
         let blocks = space.blocks.iter().enumerate();
         let named = blocks.filter(|(_, block)| block.kind() == Kind::Named);
         let each = named
@@ -59,7 +59,7 @@ impl Singles {
                 block: index,
                 place: space.places(index).start,
                 candidate: block.candidate,
-                repeats: question.candidates[block.candidate].repeats,
+                repeats: space.question.candidates[block.candidate].repeats,
                 log_odds: block.log_odds,
             })
             .collect();
@@ -147,8 +147,8 @@ impl Singles {
 }
 
 impl Pairs {
-    pub(super) fn new(space: &Space, question: &Question) -> Pairs {
-        let singles = Singles::new(space, question);
+    pub(super) fn new(space: &Space) -> Pairs {
+        let singles = Singles::new(space);
         let basis = singles.of(&space.directions);
         let gram = basis.tr_mul(&basis);
         let both = (0..singles.each.len()).flat_map(|b| (0..b).map(move |a| (a, b)));
@@ -248,7 +248,7 @@ mod tests {
                 .with_each([square.clone()])
                 .with(repeats, (0..ROWS).map(|at| shape(outlier(at))).collect());
             let space = Space::new(&asked.question());
-            let found = Singles::new(&space, &asked.question()).observed(&space);
+            let found = Singles::new(&space).observed(&space);
             (found, asked.examined())
         };
         let (none, nothing) = examined(0.0, 0.0);

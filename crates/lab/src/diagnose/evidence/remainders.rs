@@ -9,12 +9,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::closed_form::{Ladder, named, scatter};
-use super::question::{Kind, Question};
+use super::question::Kind;
 use super::space::{Form, Frame, NEAR, Residual, Space, principal};
 
 /// Every block that may join a set, beside it.
 pub(super) struct Remainders<'s> {
-    pub(super) space: &'s Space,
+    pub(super) space: &'s Space<'s>,
     pub(super) frame: &'s Frame,
     /// A = FᵀU for the directions of all blocks.
     along: DMatrix<f64>,
@@ -36,11 +36,11 @@ pub(super) struct Remainder {
 }
 
 impl<'s> Remainders<'s> {
-    pub(super) fn new(space: &'s Space, question: &Question, frame: &'s Frame) -> Remainders<'s> {
+    pub(super) fn new(space: &'s Space<'s>, frame: &'s Frame) -> Remainders<'s> {
         let along = frame.basis.tr_mul(&space.directions);
         let rest = |index: usize| {
             let block = &space.blocks[index];
-            if !space.may_join(frame, block, question) {
+            if !space.may_join(frame, block) {
                 return None;
             }
             let a = along.columns_range(space.places(index));

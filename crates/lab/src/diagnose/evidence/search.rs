@@ -10,7 +10,7 @@ use super::detection;
 use super::findings::Level;
 use super::null::Simulated;
 use super::pairs::Pairs;
-use super::question::{Kind, Question};
+use super::question::Kind;
 use super::refusal::Refusal;
 use super::remainders::Remainders;
 use super::space::{Frame, Space};
@@ -58,11 +58,10 @@ pub(super) struct Search {
 /// Adds effects until nothing is left that stands out.
 pub(super) fn search(
     space: &Space,
-    question: &Question,
     simulated: &Simulated,
     progress: &dyn Fn(f64) -> ControlFlow<()>,
 ) -> Result<Search, Refusal> {
-    let pairs = Pairs::new(space, question);
+    let pairs = Pairs::new(space);
     let mut beam = vec![Visited::of(space, space.empty())];
     let mut search = Search {
         levels: Vec::new(),
@@ -76,9 +75,9 @@ pub(super) fn search(
             break;
         };
         let with_pairs = (level == 0).then_some(&pairs);
-        let mut outcome = detection::test(space, question, &best, FORM, with_pairs, simulated);
+        let mut outcome = detection::test(space, &best, FORM, with_pairs, simulated);
         if level == 0 {
-            outcome.p = outcome.p.max(question.settings.by_noise);
+            outcome.p = outcome.p.max(space.question.settings.by_noise);
         }
         let Some(strongest) = outcome.strongest else {
             search.complete = Some(best.blocks);
@@ -91,14 +90,14 @@ pub(super) fn search(
             draws: outcome.draws,
         });
         let masked = |pair: &Visited| level == 1 && pair.score > beam[0].score + DECISIVE;
-        if outcome.p > question.settings.alpha && !masking.iter().any(masked) {
+        if outcome.p > space.question.settings.alpha && !masking.iter().any(masked) {
             search.complete = Some(needed(space, best, 1));
             break;
         }
         if level == EFFECTS {
             break;
         }
-        beam = extend(space, question, &beam, &mut search);
+        beam = extend(space, &beam, &mut search);
         match level {
             0 => {
                 let frames = (pairs.seeds(space).into_iter()).filter_map(|pair| space.frame(&pair));
@@ -135,17 +134,12 @@ pub(super) fn needed(space: &Space, mut set: Frame, least: usize) -> Vec<usize> 
 }
 
 /// All sets with one block more than those of the beam, the best first.
-fn extend(
-    space: &Space,
-    question: &Question,
-    beam: &[Visited],
-    search: &mut Search,
-) -> Vec<Visited> {
+fn extend(space: &Space, beam: &[Visited], search: &mut Search) -> Vec<Visited> {
     let mut seen = BTreeSet::new();
     let mut next = Vec::new();
     let best = beam.iter().take(BEAM);
     for frame in best.filter_map(|set| space.frame(&set.named)) {
-        let beside = Remainders::new(space, question, &frame);
+        let beside = Remainders::new(space, &frame);
         let observed = beside.observed();
         for rest in &beside.rests {
             let Some(score) = beside.score(rest, &observed) else {
@@ -201,19 +195,18 @@ impl Search {
     }
 
     /// Named sets that do without a cause: their probability among all named sets, and the best of them.
-    pub(super) fn without(
-        &self,
-        space: &Space,
-        question: &Question,
-        candidate: usize,
-    ) -> Option<(f64, &Visited)> {
+    pub(super) fn without(&self, space: &Space, candidate: usize) -> Option<(f64, &Visited)> {
         let named = || {
             let sets = self.visited.iter().filter(|set| set.generic.is_none());
             sets.filter(|set| !set.named.is_empty())
         };
         let lacks = |set: &&Visited| {
             let mut blocks = set.named.iter();
-            blocks.all(|block| !question.same_cause(space.blocks[*block].candidate, candidate))
+            blocks.all(|block| {
+                !space
+                    .question
+                    .same_cause(space.blocks[*block].candidate, candidate)
+            })
         };
         let best = named().filter(lacks).max_by(by_score)?;
         let sum = log_sum(named().filter(lacks).map(|set| set.score));

@@ -46,7 +46,6 @@ pub(super) struct Found {
 /// The slots of an explanation.
 pub(super) fn slots(
     space: &Space,
-    question: &Question,
     search: &Search,
     explanation: &Explanation,
     again: &Restated,
@@ -62,15 +61,15 @@ pub(super) fn slots(
                 Member::Named(block) => Some(block),
                 Member::Generic(_) => None,
             };
-            let mut slot = slot(space, question, named, generic, member, again);
+            let mut slot = slot(space, named, generic, member, again);
             if block.is_some() {
-                contest(space, question, search, named, &mut slot);
+                contest(space, search, named, &mut slot);
             }
             (block, slot)
         })
         .collect();
-    let named = adopted(space, question, &mut slots);
-    choice::complete(space, question, &named, &mut slots);
+    let named = adopted(space, &mut slots);
+    choice::complete(space, &named, &mut slots);
     // The strongest effect first, what has no name last.
     let strength = |slot: &Slot| match (slot.state, slot.named.first()) {
         (State::Unexplained, _) | (_, None) => f64::NEG_INFINITY,
@@ -81,7 +80,7 @@ pub(super) fn slots(
     let order: Vec<usize> = (slots.iter().filter(has_name))
         .filter_map(|(block, _)| *block)
         .collect();
-    let shapes = look_alikes::shapes(space, question, &order);
+    let shapes = look_alikes::shapes(space, &order);
     for (block, slot) in &mut slots {
         if block.is_some_and(|block| shapes.contains(&block)) {
             slot.state = State::Unexplained;
@@ -93,7 +92,7 @@ pub(super) fn slots(
 
 /// The blocks of the adopted model: of every slot its first name, in the most probable variant. A name that cannot stand beside
 /// the others gives way to the one that does, which is then the first.
-fn adopted(space: &Space, question: &Question, slots: &mut [(Option<usize>, Slot)]) -> Vec<usize> {
+fn adopted(space: &Space, slots: &mut [(Option<usize>, Slot)]) -> Vec<usize> {
     let mut named: Vec<usize> = slots.iter().filter_map(|(block, _)| *block).collect();
     let members = (slots.iter_mut()).filter_map(|(block, slot)| Some((block.as_mut()?, slot)));
     for (at, (block, slot)) in members.enumerate() {
@@ -102,8 +101,12 @@ fn adopted(space: &Space, question: &Question, slots: &mut [(Option<usize>, Slot
             continue;
         };
         let candidate = space.blocks[first].candidate;
-        let repeats = question.candidates[candidate].repeats;
-        let is_it = |other: &usize| question.same_cause(space.blocks[*other].candidate, candidate);
+        let repeats = space.question.candidates[candidate].repeats;
+        let is_it = |other: &usize| {
+            space
+                .question
+                .same_cause(space.blocks[*other].candidate, candidate)
+        };
         let others: Vec<usize> = named
             .iter()
             .copied()
@@ -115,14 +118,14 @@ fn adopted(space: &Space, question: &Question, slots: &mut [(Option<usize>, Slot
             *block = first;
         } else {
             named[at] = *block;
-            first_is(space, question, &space.frame_of(&others), slot, *block);
+            first_is(space, &space.frame_of(&others), slot, *block);
         }
     }
     named
 }
 
 /// Puts the name and the variant of a block first in a slot.
-fn first_is(space: &Space, question: &Question, rest: &Frame, slot: &mut Slot, block: usize) {
+fn first_is(space: &Space, rest: &Frame, slot: &mut Slot, block: usize) {
     let atom = space.blocks[block].atom;
     let has = |one: &Alternative| one.variants.iter().position(|own| own.atom == atom);
     let mut names = slot.named.iter().enumerate();
@@ -130,7 +133,7 @@ fn first_is(space: &Space, question: &Question, rest: &Frame, slot: &mut Slot, b
         slot.named[..=name].rotate_right(1);
         let first = &mut slot.named[0];
         first.variants[..=variant].rotate_right(1);
-        first.stated(space, question, rest, block);
+        first.stated(space, rest, block);
     }
 }
 
@@ -139,7 +142,6 @@ fn first_is(space: &Space, question: &Question, rest: &Frame, slot: &mut Slot, b
 /// Generics that only say again what the set says have their odds discounted.
 fn slot(
     space: &Space,
-    question: &Question,
     named: &[usize],
     generic: Option<usize>,
     member: Member,
@@ -152,7 +154,7 @@ fn slot(
         }
         Member::Generic(_) => (space.frame_of(named), None),
     };
-    let mut scores = replacements(space, question, &rest, fixed);
+    let mut scores = replacements(space, &rest, fixed);
     for (block, score) in &mut scores {
         *score -= again.discount(*block);
     }
@@ -168,9 +170,9 @@ fn slot(
     let (by_name, by_generic) = (total(Kind::Named), total(Kind::Generic));
     let all = log_sum([by_name, by_generic].into_iter());
     let generic_share = libm::exp(by_generic - all);
-    let ranked = ranking(space, question, &scores, Kind::Named, by_name);
-    let family = family(question, &ranked);
-    let list = listed(space, question, &rest, ranked);
+    let ranked = ranking(space, &scores, Kind::Named, by_name);
+    let family = family(&space.question, &ranked);
+    let list = listed(space, &rest, ranked);
     let state = match member {
         Member::Generic(_) => State::Unexplained,
         Member::Named(_) if generic_share >= NAMELESS => State::Unexplained,
@@ -182,9 +184,9 @@ fn slot(
         state,
         named: list
             .into_iter()
-            .map(|ranked| alternative(space, question, &rest, ranked, 1.0 - generic_share))
+            .map(|ranked| alternative(space, &rest, ranked, 1.0 - generic_share))
             .collect(),
-        generic: ranking(space, question, &scores, Kind::Generic, all)
+        generic: ranking(space, &scores, Kind::Generic, all)
             .into_iter()
             .take(LISTED)
             .map(unnamed)
@@ -197,11 +199,10 @@ fn slot(
 /// Logarithmic odds of every block in place of the member, the rest fixed.
 pub(super) fn replacements(
     space: &Space,
-    question: &Question,
     rest: &Frame,
     generic: Option<usize>,
 ) -> Vec<(usize, f64)> {
-    let beside = Remainders::new(space, question, rest);
+    let beside = Remainders::new(space, rest);
     if let Some(generic) = generic {
         return beside.scores_with(generic);
     }
@@ -220,17 +221,11 @@ struct Ranked {
 }
 
 /// Causes of a kind, most probable first; `whole` is the logarithm that probabilities refer to.
-fn ranking(
-    space: &Space,
-    question: &Question,
-    scores: &[(usize, f64)],
-    kind: Kind,
-    whole: f64,
-) -> Vec<Ranked> {
+fn ranking(space: &Space, scores: &[(usize, f64)], kind: Kind, whole: f64) -> Vec<Ranked> {
     let mut groups: BTreeMap<usize, Vec<(usize, f64)>> = BTreeMap::new();
     for (block, score) in scores {
         if space.blocks[*block].kind() == kind {
-            let candidate = &question.candidates[space.blocks[*block].candidate];
+            let candidate = &space.question.candidates[space.blocks[*block].candidate];
             let of_cause = groups.entry(candidate.cause).or_default();
             of_cause.push((*block, *score));
         }
@@ -262,19 +257,13 @@ fn ranking(
 
 /// The shortest list that holds the truth with the credible probability, and what cannot be told from
 /// its first.
-fn listed(space: &Space, question: &Question, rest: &Frame, ranked: Vec<Ranked>) -> Vec<Ranked> {
+fn listed(space: &Space, rest: &Frame, ranked: Vec<Ranked>) -> Vec<Ranked> {
     let Some(winner) = ranked.first().map(|first| first.blocks[0].0) else {
         return ranked;
     };
-    let kin = look_alikes::listed(
-        space,
-        question,
-        rest,
-        winner,
-        &estimate(space, question, rest, winner),
-    );
+    let kin = look_alikes::listed(space, rest, winner, &estimate(space, rest, winner));
     let alone = ranked[0].probability >= ALONE;
-    let describes = |ranked: &Ranked| question.candidates[ranked.candidate].describes;
+    let describes = |ranked: &Ranked| space.question.candidates[ranked.candidate].describes;
     let mut sum = 0.0;
     ranked
         .into_iter()
@@ -283,7 +272,7 @@ fn listed(space: &Space, question: &Question, rest: &Frame, ranked: Vec<Ranked>)
             let wanted = sum < CREDIBLE || (*place == 1 && !alone && !describes(candidate));
             sum += candidate.probability;
             // An alias may be another order of its cause than the one that fits best.
-            let is_kin = |one: &usize| question.same_cause(*one, candidate.candidate);
+            let is_kin = |one: &usize| space.question.same_cause(*one, candidate.candidate);
             wanted || kin.iter().any(is_kin)
         })
         .map(|(_, candidate)| candidate)
@@ -291,7 +280,7 @@ fn listed(space: &Space, question: &Question, rest: &Frame, ranked: Vec<Ranked>)
 }
 
 /// Puts beside a unique name what other sets have instead of it: two effects together may do what one does.
-fn contest(space: &Space, question: &Question, search: &Search, named: &[usize], slot: &mut Slot) {
+fn contest(space: &Space, search: &Search, named: &[usize], slot: &mut Slot) {
     let unique = slot
         .named
         .first()
@@ -299,7 +288,7 @@ fn contest(space: &Space, question: &Question, search: &Search, named: &[usize],
     let Some(own) = unique.map(|unique| unique.candidate) else {
         return;
     };
-    let Some((probability, set)) = search.without(space, question, own) else {
+    let Some((probability, set)) = search.without(space, own) else {
         return;
     };
     if probability < 1.0 - ALONE {
@@ -307,7 +296,11 @@ fn contest(space: &Space, question: &Question, search: &Search, named: &[usize],
     }
     let other = |block: &usize| {
         let candidate = space.blocks[*block].candidate;
-        (named.iter()).all(|b| !question.same_cause(space.blocks[*b].candidate, candidate))
+        (named.iter()).all(|b| {
+            !space
+                .question
+                .same_cause(space.blocks[*b].candidate, candidate)
+        })
     };
     for block in set.named.iter().copied().filter(other) {
         let rest: Vec<usize> = set.named.iter().copied().filter(|b| *b != block).collect();
@@ -322,8 +315,7 @@ fn contest(space: &Space, question: &Question, search: &Search, named: &[usize],
         };
         let rest = space.frame_of(&rest);
         let shared = 1.0 - slot.generic_share;
-        slot.named
-            .push(alternative(space, question, &rest, ranked, shared));
+        slot.named.push(alternative(space, &rest, ranked, shared));
         slot.state = State::Ambiguous;
     }
     if slot.state == State::Ambiguous {
@@ -345,13 +337,7 @@ fn family(question: &Question, ranked: &[Ranked]) -> Option<(String, f64)> {
 }
 
 /// `named` is the probability that the effect has a name at all.
-fn alternative(
-    space: &Space,
-    question: &Question,
-    rest: &Frame,
-    ranked: Ranked,
-    named: f64,
-) -> Alternative {
+fn alternative(space: &Space, rest: &Frame, ranked: Ranked, named: f64) -> Alternative {
     let block = ranked.blocks[0].0;
     let variants = ranked.blocks.into_iter().map(|(_, variant)| variant);
     let mut alternative = Alternative {
@@ -359,15 +345,15 @@ fn alternative(
         variants: variants.collect(),
         ..Alternative::unnamed(ranked.candidate)
     };
-    alternative.stated(space, question, rest, block);
+    alternative.stated(space, rest, block);
     alternative
 }
 
 impl Alternative {
     /// With the sizes of one of its blocks beside a set.
-    fn stated(&mut self, space: &Space, question: &Question, rest: &Frame, block: usize) {
-        let estimate = estimate(space, question, rest, block);
-        self.nearest = nearest(space, question, rest, block, &estimate);
+    fn stated(&mut self, space: &Space, rest: &Frame, block: usize) {
+        let estimate = estimate(space, rest, block);
+        self.nearest = nearest(space, rest, block, &estimate);
         self.choice = DVector::zeros(estimate.coefficients.len());
         (self.estimate, self.covariance) = (estimate.coefficients, estimate.covariance);
         (self.dof, self.lambda) = (estimate.dof, estimate.lambda);

@@ -70,7 +70,9 @@ pub(super) struct Block {
 
 /// All visible atoms, and the residuals that they are to explain.
 #[derive(Debug, Clone)]
-pub(super) struct Space {
+pub(super) struct Space<'q> {
+    /// What is asked.
+    pub(super) question: Question<'q>,
     pub(super) z: DVector<f64>,
     pub(super) blocks: Vec<Block>,
     pub(super) scale: Scale,
@@ -97,11 +99,12 @@ pub(super) struct Frame {
     pub(super) fit: f64,
 }
 
-impl Space {
-    pub(super) fn new(question: &Question) -> Space {
+impl<'q> Space<'q> {
+    pub(super) fn new(question: &Question<'q>) -> Space<'q> {
         let baseline = question.baseline;
         let log_odds = log_odds(question);
         let mut space = Space {
+            question: question.clone(),
             z: baseline.residuals().clone(),
             blocks: Vec::new(),
             scale: Scale::new(baseline.dof(), baseline.scale_dof()),
@@ -220,12 +223,12 @@ impl Space {
     }
 
     /// A candidate is in a set once, unless it is of a kind that repeats.
-    pub(super) fn may_join(&self, frame: &Frame, block: &Block, question: &Question) -> bool {
+    pub(super) fn may_join(&self, frame: &Frame, block: &Block) -> bool {
         frame.blocks.iter().all(|other| {
             let other = &self.blocks[*other];
             other.atom != block.atom
                 && (other.candidate != block.candidate
-                    || question.candidates[block.candidate].repeats)
+                    || self.question.candidates[block.candidate].repeats)
         })
     }
 

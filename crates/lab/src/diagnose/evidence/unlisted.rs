@@ -15,7 +15,7 @@ use super::detection::combined;
 use super::directions::{joined, without};
 use super::fit::estimate;
 use super::null::{Simulated, side_by_side};
-use super::question::{Kind, Question};
+use super::question::Kind;
 use super::remainders::Remainders;
 use super::space::{Frame, Residual, Space, smooth};
 
@@ -171,7 +171,7 @@ pub(super) struct Restated(BTreeMap<usize, f64>);
 
 impl Restated {
     /// Beside a set that explains the recording.
-    pub(super) fn of(space: &Space, question: &Question, named: &[usize]) -> Restated {
+    pub(super) fn of(space: &Space, named: &[usize]) -> Restated {
         let Some(frame) = space.frame(named) else {
             return Restated::default();
         };
@@ -180,10 +180,10 @@ impl Restated {
             .map(|block| {
                 let others: Vec<usize> = named.iter().copied().filter(|b| b != block).collect();
                 let rest = space.frame_of(&others);
-                estimate(space, question, &rest, *block).visible
+                estimate(space, &rest, *block).visible
             })
             .collect();
-        let beside = Remainders::new(space, question, &frame);
+        let beside = Remainders::new(space, &frame);
         let observed = beside.observed();
         let says_more = |generic: usize| {
             let rest = beside.rests.iter().find(|rest| rest.block == generic);

@@ -260,11 +260,11 @@ fn a_faulty_row_stops_nothing() {
         errors[3].contains("where a number is expected"),
         "{errors:?}"
     );
-    // A faulty row keeps its name; one that cannot be read has its number.
+    // A faulty row keeps its name, also where fields are missing behind it.
     let named = "label,x,x.u\nfirst,1,0.1\nsecond,2,-0.1\nthird,3\n007,four,0.1\n";
     let (named, _) = run(budget, named, &plan(None, 1)).expect("a batch");
     let labels: Vec<String> = cells(&named).1.iter().map(|row| row[0].clone()).collect();
-    assert_eq!(labels, ["first", "second", "3", "007"]);
+    assert_eq!(labels, ["first", "second", "third", "007"]);
     // Rows without a result at the beginning wait until one tells what the columns are.
     let (late, _) = run(budget, "x,x.u\nfour,0.1\n5,0.5\n", &plan(None, 1)).expect("a batch");
     assert_eq!(cells(&late).0, found.0);

@@ -195,7 +195,7 @@ impl<'i> Inquiry<'i> {
         let found = self.answer.examination.fitted.as_ref();
         let found = found.and_then(|found| self.beside(found));
         let mut besides: Vec<Beside> = found.into_iter().collect();
-        if !self.found_nothing() {
+        if !self.found_nothing() && !self.is_linear() {
             besides.extend(self.beside_one());
         }
         for (room, Beside { base, claimed }) in self.declared.beside.iter().zip(besides) {
@@ -209,6 +209,20 @@ impl<'i> Inquiry<'i> {
             }
         }
         Ok(())
+    }
+
+    /// Whether the slopes of the model by its parameters and by its columns are the same everywhere.
+    fn is_linear(&self) -> bool {
+        /// Change of a slope over its largest: rounding.
+        const NOTHING: f64 = 1e-9;
+        let Declared {
+            design, fit, white, ..
+        } = self.declared;
+        let u = white.covariance().diagonal().map(f64::sqrt);
+        let there = fit::at(design, &fit.unknowns + u).jacobian;
+        let slopes = fit.jacobian.column_iter().zip(there.column_iter());
+        let mut slopes = slopes.map(|(here, there)| (there - here).amax() <= NOTHING * here.amax());
+        slopes.all(|same| same) && self.candidates.fitted.is_straight()
     }
 
     /// Takes what is found with other slopes, if it is better with the noise that is left there as well.

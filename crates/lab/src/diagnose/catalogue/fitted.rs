@@ -95,6 +95,29 @@ impl<'f> FittedModel<'f> {
         self.signal[response][row] + other - there
     }
 
+    /// Whether the model is a line along every column that it takes in.
+    pub fn is_straight(&self) -> bool {
+        let mut columns = self.numeric().into_iter();
+        columns.all(|column| !self.in_model(column) || self.is_line(column))
+    }
+
+    /// Whether the model is a line along a column in every row.
+    pub fn is_line(&self, column: usize) -> bool {
+        /// Bend over the values at the ends: rounding.
+        const NOTHING: f64 = 1e-9;
+        let (least, most) = range(self.numbers(column));
+        let places = [least, 0.5 * (least + most), most];
+        let is_bent = |(response, row): (usize, usize)| {
+            let [first, middle, last] = places.map(|x| self.signal_at(response, row, column, x));
+            let size = first.abs().max(last.abs());
+            (first + last - 2.0 * middle).abs() > NOTHING * size
+        };
+        let responses = 0..self.case().responses.len();
+        let mut rows =
+            responses.flat_map(|response| (0..self.rows()).map(move |row| (response, row)));
+        !rows.any(is_bent)
+    }
+
     /// The slope of a response by a node, row by row. Where it has none by a column, such as a root at zero, it is that of the
     /// chord to the nearest other value of the column.
     pub fn slope(&self, node: Node, response: usize) -> Vec<f64> {
@@ -110,10 +133,9 @@ impl<'f> FittedModel<'f> {
         let slopes = self.fit.linear.slopes[response].column(symbol);
         let mut slopes: Vec<f64> = slopes.iter().copied().collect();
         if let Node::Column(column) = node {
-            for row in 0..slopes.len() {
-                if !slopes[row].is_finite() {
-                    slopes[row] = self.chord(response, row, column);
-                }
+            let missing = slopes.iter_mut().enumerate();
+            for (row, slope) in missing.filter(|(_, slope)| !slope.is_finite()) {
+                *slope = self.chord(response, row, column);
             }
         }
         slopes

@@ -66,29 +66,13 @@ fn aside(fitted: &FittedModel<'_>, factors: &[usize]) -> Vec<Cell> {
 /// A line along a column along which the model is none. Of a product it would be the zero of the other factor.
 fn background(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let is_timed = fitted.clock.column == Some(column);
-    if is_timed || fitted.is_angle(column) || is_line(fitted, column) {
+    if is_timed || fitted.is_angle(column) || fitted.is_line(column) {
         return None;
     }
     let form = form("", vec![fitted.own(column)]);
     let (label, node) = (fitted.label(column), Node::Output);
     let shows = fitted.absorbed().leaves(&fitted.column(&form.terms[0]));
     shows.then(|| on_node(fitted, EffectId::Background, label, node, [form]))
-}
-
-/// Whether the model is a line along a column in every row.
-fn is_line(fitted: &FittedModel<'_>, column: usize) -> bool {
-    /// Bend over the values at the ends: rounding.
-    const NOTHING: f64 = 1e-9;
-    let (least, most) = range(fitted.numbers(column));
-    let places = [least, 0.5 * (least + most), most];
-    let is_bent = |(response, row): (usize, usize)| {
-        let [first, middle, last] = places.map(|x| fitted.signal_at(response, row, column, x));
-        let size = first.abs().max(last.abs());
-        (first + last - 2.0 * middle).abs() > NOTHING * size
-    };
-    let responses = 0..fitted.case().responses.len();
-    let rows = responses.flat_map(|response| (0..fitted.rows()).map(move |row| (response, row)));
-    !rows.into_iter().any(is_bent)
 }
 
 /// Another exponent, where the model is a power of a quantity and has no zero besides: the flow through an orifice, light at a

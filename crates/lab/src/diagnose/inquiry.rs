@@ -249,7 +249,7 @@ impl<'i> Inquiry<'i> {
     }
 
     /// Beside the effect that is the likeliest to be alone, each with the noise that it leaves where it is fitted; of those that are
-    /// the likeliest by the slopes so far.
+    /// the likeliest by the slopes so far. `None` where that is what was found.
     fn beside_one(&self) -> Option<Beside> {
         /// So many are fitted.
         const FITTED: usize = 10;
@@ -259,10 +259,12 @@ impl<'i> Inquiry<'i> {
         let singles = evidence::singles(&question);
         let fits = singles.iter().take(FITTED).filter_map(|(_, one)| {
             let beside = self.beside(one)?;
-            Some((self.alone(*one.atoms.first()?, &beside)?, beside))
+            Some((self.alone(*one.atoms.first()?, &beside)?, one, beside))
         });
-        let best = fits.max_by(|a, b| a.0.total_cmp(&b.0));
-        best.map(|(_, beside)| beside)
+        let (_, one, beside) = fits.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let found = self.answer.examination.fitted.as_ref();
+        let is_new = found.is_none_or(|found| found.atoms != one.atoms);
+        is_new.then_some(beside)
     }
 
     /// Logarithm of the probability that an effect is all there is, where it is fitted, but for a constant.

@@ -289,7 +289,12 @@ fn a_sloping_baseline_has_a_name() {
         );
     }
     let case = "equations = \"S = A/(1 + ((f - f0)/w)^2)\"\n[columns]\nf = \"stimulus\"\n[parameter]\nA = { start = \"1 V\" }\nf0 = { start = \"0 GHz\" }\nw = { start = \"1 GHz\" }\n";
-    let mut names = first_names(&diagnosed("peak", &rows, case));
-    names.sort();
-    assert_eq!(names, ["background", "zero"]);
+    let found = diagnosed("peak", &rows, case);
+    assert_eq!(first_names(&found), ["background"], "{found}");
+    assert_eq!(variant(&found), "with a constant");
+    let sizes = found["improved"]["coefficients"].as_array().unwrap();
+    for (size, truth) in sizes.iter().zip([0.06, 0.1]) {
+        let [value, u] = ["value", "u"].map(|key| size[key].as_f64().unwrap());
+        assert!((value - truth).abs() < 4.0 * u, "{truth} {found}");
+    }
 }

@@ -18,7 +18,8 @@ pub(super) fn spoken(label: &str, language: Language) -> String {
 }
 
 /// Labels that are always the same.
-const FIXED: [(&str, &str); 29] = [
+const FIXED: [(&str, &str); 30] = [
+    ("with a constant", "含常数项"),
     ("about zero", "以零点为中心"),
     ("with its half", "含其半周期"),
     ("anew in each run", "每次运行重新开始"),

@@ -181,9 +181,11 @@ fn kink(fitted: &FittedModel<'_>, column: usize) -> Cell {
     let unit = fitted.unit(column);
     let (least, most) = range(x);
     let parts = (1..PARTS).map(|part| least + part as f64 / PARTS as f64 * (most - least));
-    // Beyond the last value but one there is one reading: wrong, or the only one on another slope.
+    // Beyond the last value but one there is one reading: wrong, or the only one on another slope. Beside a model that is no line
+    // it is a straight background.
     let values = levels_of(x);
     let ends = [values[1], values[values.len() - 2]];
+    let ends = ends.into_iter().filter(|_| fitted.is_line(column));
     let knees = fitted.finer.levels(parts.chain(ends).collect());
     let variants = knees.into_iter().map(|at| {
         let shown = figure_to(at, LABEL * (most - least));

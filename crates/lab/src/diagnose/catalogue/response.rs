@@ -63,16 +63,21 @@ fn aside(fitted: &FittedModel<'_>, factors: &[usize]) -> Vec<Cell> {
     vectors.iter().map(of_vector).collect()
 }
 
-/// A line along a column along which the model is none. Of a product it would be the zero of the other factor.
+/// A line along a column along which the model is none, through zero or not. Of a product it would be the zero of the other factor.
 fn background(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let is_timed = fitted.clock.column == Some(column);
     if is_timed || fitted.is_angle(column) || fitted.is_line(column) {
         return None;
     }
-    let form = form("", vec![fitted.own(column)]);
+    let line = || fitted.own(column);
+    let level = Modifier::number(vec![1.0; fitted.rows()], "1");
+    let forms = [
+        form("", vec![line()]),
+        form("with a constant", vec![line(), level]),
+    ];
     let (label, node) = (fitted.label(column), Node::Output);
-    let shows = fitted.absorbed().leaves(&fitted.column(&form.terms[0]));
-    shows.then(|| on_node(fitted, EffectId::Background, label, node, [form]))
+    let shows = fitted.absorbed().leaves(&fitted.column(&on_output(line())));
+    shows.then(|| on_node(fitted, EffectId::Background, label, node, forms))
 }
 
 /// Another exponent, where the model is a power of a quantity and has no zero besides: the flow through an orifice, light at a

@@ -253,6 +253,35 @@ fn a_held_out_recording_is_predicted_better_with_the_physics() {
     assert!(rms < 1.3 * 5e-4, "{rms}");
 }
 
+/// A load cell that a supply disturbs, in first and second order about 10 V; the supply is `offset` higher.
+fn supplied_load_cell(offset: f64, seed: u64) -> String {
+    let mut noise = Noise(seed);
+    let mut text = "load [kN],deflection [mV],supply [V],hour [h]\n".to_owned();
+    for step in 0..60 {
+        let load = f64::from(step * 7 % 11) * 10.0;
+        let supply = 10.0 + offset + 0.02 * noise.normal();
+        let from = supply - 10.0;
+        let disturbed = 0.2 * from + 3.0 * from * from;
+        let output = 0.01 + 0.02 * load + disturbed + 5e-4 * noise.normal();
+        let hour = 0.1 * f64::from(step);
+        let _ = writeln!(text, "{load},{output:.6},{supply:.5},{hour:.1}");
+    }
+    text
+}
+
+#[test]
+fn the_square_of_a_condition_goes_on_about_its_own_origin() {
+    let folder = folder("origin");
+    let written = |file: &str, text: String| std::fs::write(folder.join(file), text);
+    written("load-cell.csv", supplied_load_cell(0.0, 4)).expect("written");
+    written("next.csv", supplied_load_cell(0.01, 5)).expect("written");
+    let case = LOAD_CELL.replace("humidity", "supply");
+    let found = diagnosed(&folder, &case);
+    assert_eq!(named(&found), ["sensitivity-quadratic"]);
+    let rms = found["held_out"]["after"]["rms"][0].as_f64();
+    assert!(rms.is_some_and(|rms| rms < 1.2 * 5e-4), "{rms:?}");
+}
+
 #[test]
 fn decoys_are_not_blamed() {
     let folder = folder("decoys");

@@ -8,8 +8,8 @@ use super::adopt::stands_alone;
 use super::adopted::Adopted;
 use super::candidates::Candidates;
 use super::case::Data;
-use super::catalogue::modifiers::{line_through, map, range};
-use super::catalogue::{self, Cell, FittedModel, Pattern, Term};
+use super::catalogue::modifiers::{line_through, map, map2, range};
+use super::catalogue::{self, Cell, FittedModel, Pattern, Term, Variation};
 use super::coarse::Coarse;
 use super::confirm;
 use super::design::{Design, Unknown};
@@ -167,6 +167,9 @@ fn improved(
     }
     let wide = FittedModel::new(&seen, &coarse.fit).refined(finer);
     let others = catalogue::cells(&wide);
+    let numeric = wide.numeric();
+    let columns = (numeric.iter()).map(|column| seen.spread(wide.numbers(*column)));
+    let columns: Vec<Vec<f64>> = columns.collect();
     let mut rows = held.rows.clone();
     for (atom, free) in adopted.atoms.iter().zip(&adopted.extended.effects) {
         let cell = candidates.cell(*atom);
@@ -181,7 +184,8 @@ fn improved(
         let designs = [candidates.fitted.design, &seen];
         let terms = free.variation.terms.iter();
         for term in terms.filter(|term| !stands_alone(term)) {
-            let modifier = continued(term, &alike, designs, LIKE)
+            let modifier = moved(term, &alike, &columns, designs)
+                .or_else(|| continued(term, &alike, designs, LIKE))
                 .or_else(|| continued(term, &all, designs, SAME))?;
             rows.data.push(Data::Numbers(modifier));
         }
@@ -220,25 +224,99 @@ fn continued(
     [own, both]: [&Design<'_>; 2],
     most: f64,
 ) -> Option<Vec<f64>> {
-    let variants = cells.iter().flat_map(|cell| &cell.variants);
-    let terms = variants.flat_map(|variation| &variation.terms);
-    let like = terms.filter(|other| other.node == term.node && other.response == term.response);
     let sought = own.spread(&term.written().values);
-    let fits = like.filter_map(|other| {
-        let course = both.spread(&other.written().values);
-        let (own, rest) = course.split_at_checked(sought.len())?;
-        let (factor, offset, left) = line_through(own, &sought);
-        Some((left, map(rest, |x| factor * x + offset)))
-    });
-    let (left, rest) = fits.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let variants = cells.iter().flat_map(|cell| &cell.variants);
+    let like = variants.flat_map(|variation| courses_of(variation, term, both));
+    let found = like.filter_map(|course| combined(&sought, [course]));
+    let (left, rest) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
     (left < most).then_some(rest)
+}
+
+/// The same where the origin of what is squared or multiplied is another, of which the first powers tell: what follows from
+/// all terms of a variant and from the columns.
+fn moved(
+    term: &Term,
+    cells: &[&Cell],
+    columns: &[Vec<f64>],
+    [own, both]: [&Design<'_>; 2],
+) -> Option<Vec<f64>> {
+    let sought = own.spread(&term.written().values);
+    let mut variants = cells.iter().flat_map(|cell| &cell.variants);
+    variants.find_map(|variation| {
+        let courses = courses_of(variation, term, both).chain(columns.iter().cloned());
+        let (left, rest) = combined(&sought, courses)?;
+        (left < SAME).then_some(rest)
+    })
+}
+
+/// The courses of those terms of a variant that act where another acts.
+fn courses_of<'v>(
+    variation: &'v Variation,
+    term: &'v Term,
+    both: &'v Design<'_>,
+) -> impl Iterator<Item = Vec<f64>> + 'v {
+    let like = |other: &&Term| other.node == term.node && other.response == term.response;
+    (variation.terms.iter().filter(like)).map(|other| both.spread(&other.written().values))
+}
+
+/// The combination of courses that comes nearest to what is sought in the first rows, in the rows behind them; and what
+/// it leaves of the variance. Each course counts with what the ones before it leave of it.
+fn combined(
+    sought: &[f64],
+    courses: impl IntoIterator<Item = Vec<f64>>,
+) -> Option<(f64, Vec<f64>)> {
+    let own = sought.len();
+    let beside = |course: &[f64], other: &[f64]| {
+        let (factor, offset, left) = line_through(other.get(..own)?, course.get(..own)?);
+        let rest = map2(course, other, |x, z| x - (factor * z + offset));
+        Some((left, rest))
+    };
+    let mut others: Vec<Vec<f64>> = Vec::new();
+    let mut rest: Vec<f64> = Vec::new();
+    let mut share = 1.0;
+    for mut course in courses {
+        let mut own_share = 1.0;
+        for other in &others {
+            let (left, new) = beside(&course, other)?;
+            (course, own_share) = (new, own_share * left);
+        }
+        if own_share < SAME {
+            continue;
+        }
+        if others.is_empty() {
+            rest = sought.to_vec();
+            rest.resize(course.len(), 0.0);
+        }
+        let (left, new) = beside(&rest, &course)?;
+        (rest, share) = (new, share * left);
+        others.push(course);
+    }
+    let behind = rest.get(own..)?;
+    Some((share, map(behind, |x| -x)))
 }
 
 #[cfg(test)]
 mod tests {
     use nalgebra::{DMatrix, DVector};
 
-    use super::chi_squared;
+    use super::{chi_squared, combined};
+
+    #[test]
+    fn a_square_goes_on_about_the_origin_that_it_had() {
+        let x = |row: i32| f64::from(row * row % 11);
+        let sought: Vec<f64> = (0..12).map(|row| (x(row) - 4.0) * (x(row) - 4.0)).collect();
+        let both = |of: &dyn Fn(f64) -> f64| (0..20).map(|row| of(x(row))).collect::<Vec<_>>();
+        let square = both(&|x| 3.0 * (x - 5.5) * (x - 5.5));
+        let (alone, _) = combined(&sought, [square.clone()]).unwrap();
+        assert!(alone > 1e-3, "{alone}");
+        // The line, said twice.
+        let courses = [square, both(&|x| x), both(&|x| 7.0 - 2.0 * x)];
+        let (left, rest) = combined(&sought, courses).unwrap();
+        assert!(left < 1e-12 && rest.len() == 8, "{left}");
+        for (row, value) in (12..20).zip(rest) {
+            assert!((value - (x(row) - 4.0) * (x(row) - 4.0)).abs() < 1e-9);
+        }
+    }
 
     #[test]
     fn rows_share_the_errors_of_parameters() {

@@ -35,7 +35,7 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Blo
             .as_ref()
             .and_then(|adopted| confirmation(adopted, l)),
     );
-    blocks.extend(badly_predicted(case, diagnosis, l));
+    blocks.extend(not_predicted(diagnosis, l).or_else(|| badly_predicted(case, diagnosis, l)));
     blocks
 }
 
@@ -180,6 +180,18 @@ fn held_out(table: &mut Table, case: &Case, held: &HeldOutQuality, l: Language) 
     table
         .rows
         .push(compared(label, Some(reduced(before.chi_squared)), after));
+}
+
+/// A remark where the recording that was held out is predicted by the declared model alone.
+fn not_predicted(diagnosis: &Diagnosis, l: Language) -> Option<Block> {
+    let held = diagnosis.held_out.as_ref()?;
+    let is_open = diagnosis.adopted.is_some() && held.after.is_none();
+    let file = &held.file;
+    let told = l.pick(
+        format!("With the physics {file} is not predicted: what it did there does not follow from the columns."),
+        format!("加入该物理效应后不对 {file} 作预测：它在其中的作用不能由各列得出。"),
+    );
+    is_open.then_some(Block::Paragraph(told))
 }
 
 /// A remark where the recording that was held out is predicted worse than the noise allows.

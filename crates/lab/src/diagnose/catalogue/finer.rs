@@ -23,6 +23,8 @@ struct Around {
     is_time: bool,
     values: Vec<f64>,
     span: f64,
+    /// Wherever they lie: the grid of another recording may end before them.
+    is_kept: bool,
 }
 
 impl Finer {
@@ -55,7 +57,10 @@ impl Finer {
 
     /// Keeps the parameter of a variation for another recording, whose grid has others.
     pub fn keep(&mut self, cell: &Cell, found: &Variation) {
-        let around = |shape| Around::of(cell, is_time(shape), vec![shape.value], f64::INFINITY);
+        let around = |shape| Around {
+            is_kept: true,
+            ..Around::of(cell, is_time(shape), vec![shape.value], f64::INFINITY)
+        };
         self.0.extend(found.shape.as_ref().map(around));
     }
 
@@ -73,8 +78,10 @@ impl Finer {
         let (low, high) = range(&grid);
         let span = span(&grid, is_time);
         let around = self.0.iter().filter(|around| around.is_time == is_time);
-        let values = around.flat_map(|around| &around.values);
-        grid.extend(values.filter(|x| (low..=high).contains(*x)));
+        grid.extend(around.flat_map(|around| {
+            let inside = |x: &f64| around.is_kept || (low..=high).contains(x);
+            around.values.iter().copied().filter(inside)
+        }));
         grid.sort_by(f64::total_cmp);
         grid.dedup_by(|a, b| same(*a, *b, span));
         grid
@@ -102,6 +109,7 @@ impl Around {
             is_time,
             values,
             span,
+            is_kept: false,
         }
     }
 
@@ -158,6 +166,16 @@ mod tests {
         assert!(finer.add(&lag, &lag.variants[1]));
         assert_eq!(finer.times(vec![1.0, 1.5])[1..4], [1.0625, 1.125, 1.1875]);
         assert_eq!(finer.levels(vec![1.0, 2.0]), [1.0, 2.0]);
+    }
+
+    #[test]
+    fn what_is_kept_may_lie_beyond_the_grid_of_another_recording() {
+        let lag = cell(EffectId::Lag, &[1.0, 2.0, 4.0]);
+        let (mut added, mut kept) = (Finer::default(), Finer::default());
+        added.add(&lag, &lag.variants[2]);
+        kept.keep(&lag, &lag.variants[2]);
+        assert_eq!(added.times(vec![0.5, 1.0, 2.0]), [0.5, 1.0, 2.0]);
+        assert_eq!(kept.times(vec![0.5, 1.0, 2.0]), [0.5, 1.0, 2.0, 4.0]);
     }
 
     #[test]

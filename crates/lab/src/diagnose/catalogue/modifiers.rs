@@ -170,8 +170,12 @@ fn delayed_in_one(t: &[f64], x: &[f64], delay: f64) -> Vec<f64> {
     t.iter().map(|t| at(t - delay)).collect()
 }
 
-/// Rate of change, by differences over the neighbouring rows.
+/// Rate of change, by differences over the neighbouring rows of the same recording.
 pub fn rate(t: &[f64], x: &[f64]) -> Vec<f64> {
+    in_each(t, |rows| rate_in_one(&t[rows.clone()], &x[rows]))
+}
+
+fn rate_in_one(t: &[f64], x: &[f64]) -> Vec<f64> {
     let last = x.len().saturating_sub(1);
     (0..x.len())
         .map(|row| {
@@ -419,7 +423,8 @@ mod tests {
     fn another_recording_has_a_history_of_its_own() {
         let t = [0.0, 1.0, 2.0, 0.5, 1.5, 2.5];
         let x = [0.0, 2.0, 0.0, 0.0, 2.0, 0.0];
-        for course in [play(&t, &x, 1.0), direction(&t, &x), delayed(&t, &x, 0.5)] {
+        let late = delayed(&t, &x, 0.5);
+        for course in [play(&t, &x, 1.0), direction(&t, &x), late, rate(&t, &x)] {
             assert_eq!(course[..3], course[3..]);
         }
     }

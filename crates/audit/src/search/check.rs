@@ -87,6 +87,12 @@ impl Act {
         )
     }
 
+    /// Whether a printed figure shows it by itself.
+    pub fn is_read(&self) -> bool {
+        use crate::slips::Reporting;
+        matches!(self.change, Change::Report(Reporting::Long))
+    }
+
     /// Whether it changes what is stated, and no uncertainty: the result itself, or the unit of U.
     pub fn changes_statement(&self) -> bool {
         use crate::slips::Reporting;

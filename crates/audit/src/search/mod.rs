@@ -122,11 +122,12 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
         .map(|i| row::options(&case, i, &acts))
         .collect();
     let printed: Vec<Option<f64>> = options.iter().map(|o| o.contribution).collect();
-    let bases = bases(&case, &options);
-    let free: Vec<Act> = acts
-        .iter()
+    // The figure of U itself shows its length: nothing is left to ask.
+    let (read, open): (Vec<Act>, Vec<Act>) = acts.iter().partition(|act| act.is_read());
+    let bases = bases(&case, &options, &read);
+    let free: Vec<Act> = open
+        .into_iter()
         .filter(|act| act.row.is_none_or(|row| options[row].leaves_room_for(act)))
-        .copied()
         .collect();
     let right = reported(&case, &case.right, &printed);
     let open = check::check(&case, &case.right, &printed).open;
@@ -156,7 +157,7 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
         }
         for (set, start) in &bases {
             // Slips come alone and in pairs; what the rows show is beyond doubt, whatever its number.
-            if extra < 2 || set.is_empty() {
+            if extra < 2 || set.len() == read.len() {
                 search.with(set, start, extra);
             }
         }
@@ -246,8 +247,9 @@ const MOST_FOR_PAIRS: usize = 700;
 /// Choices of slips that explain the rows, at most this many.
 const MOST_BASES: usize = 24;
 
-fn bases(case: &Case<'_>, options: &[Options]) -> Vec<(Vec<Act>, Calculation)> {
-    let mut bases = vec![Vec::new()];
+/// Sets of slips that the rows show, each with those that are `read` off the statement, and the calculation with them.
+fn bases(case: &Case<'_>, options: &[Options], read: &[Act]) -> Vec<(Vec<Act>, Calculation)> {
+    let mut bases = vec![read.to_vec()];
     for one in options
         .iter()
         .filter(|o| !o.sets.is_empty() && !o.sets[0].is_empty())

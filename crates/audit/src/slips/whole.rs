@@ -180,7 +180,7 @@ pub(super) const SLIPS: &[Slip] = &[
     Slip { id: "too-many-digits", rule: "63", weight: Error,
         en: "U is printed with more than two significant digits",
         zh: "U 的有效数字多于两位",
-        acts: |_| report(Reporting::Long) },
+        acts: |case| if case.claimed.footer.expanded.as_ref().is_some_and(Printed::is_long) { report(Reporting::Long) } else { Vec::new() } },
     Slip { id: "digits-transposed", rule: "2", weight: Error,
         en: "two digits of the final figure are exchanged",
         zh: "最终数值中有两个数字颠倒",

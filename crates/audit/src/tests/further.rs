@@ -222,3 +222,20 @@ fn contributions_in_degrees_are_imported_as_differences() {
         .collect();
     assert_eq!(units, ["unit = \"K\""; 3]);
 }
+
+/// That U has three digits is read off it: it makes no pair of the slip beside it, which its figures show.
+#[test]
+fn the_length_of_u_is_no_second_slip_to_ask_for() {
+    let sheet = |expanded: &str| {
+        format!(
+            "Source,u / bar\nReference,0.00700\nResolution,0.00290\nRepeatability,0.00200\nHysteresis,0.00400\nTemperature,0.00250\n\
+             u_c,0.00823\nU (k = 2),{expanded}\n"
+        )
+    };
+    assert_eq!(
+        first("sheet.csv", &sheet("0.016")),
+        "row-dropped@Hysteresis"
+    );
+    let both = first("sheet.csv", &sheet("0.0165"));
+    assert_eq!(both, "too-many-digits+row-dropped@Hysteresis");
+}

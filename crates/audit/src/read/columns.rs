@@ -102,6 +102,18 @@ enum How {
     Ends,
 }
 
+/// What a coverage factor is called in a head.
+const FACTOR: &[&str] = &["置信因子", "包含因子", "coveragefactor", "kfactor"];
+
+/// The same, as the whole head.
+const FACTOR_ALONE: &[&str] = &["k", "ki", "k值", "ki值"];
+
+/// Whether the head of a column of divisors calls them coverage factors: of a certificate they then state its k.
+pub fn names_factor(head: &str) -> bool {
+    let head = compact(head);
+    FACTOR.iter().any(|word| head.contains(word)) || FACTOR_ALONE.contains(&head.as_str())
+}
+
 /// In this order: the first that fits decides. Words are compact ones.
 #[rustfmt::skip]
 const WORDS: &[(Role, How, &[&str])] = &[
@@ -122,8 +134,10 @@ const WORDS: &[(Role, How, &[&str])] = &[
     // `分布因子` and `分布及包含因子` are divisors.
     (Role::Distribution, How::Ends, &["分布"]),
     (Role::Distribution, How::Is, &["distr", "distr.", "dist", "dist.", "prob.", "probability", "loi"]),
-    (Role::Divisor, How::Has, &["divisor", "teiler", "diviseur", "divideby", "dividedby", "除数", "分布因子", "置信因子", "包含因子", "coveragefactor", "kfactor"]),
-    (Role::Divisor, How::Is, &["k", "ki", "k值", "ki值", "div", "div.", "因子", "b", "factor"]),
+    (Role::Divisor, How::Has, &["divisor", "teiler", "diviseur", "divideby", "dividedby", "除数", "分布因子"]),
+    (Role::Divisor, How::Has, FACTOR),
+    (Role::Divisor, How::Is, FACTOR_ALONE),
+    (Role::Divisor, How::Is, &["div", "div.", "因子", "b", "factor"]),
     (Role::U, How::Has, &["standarduncertainty", "standardunsicherheit", "standardmessunsicherheit", "incertitude-type", "incertitudetype", "标准不确定度", "stdunc", "std.unc", "stduncertainty", "u(x", "u(", "standardunc", "std.uncertainty", "标准不确定"]),
     (Role::U, How::Is, &["u", "ui", "ux", "stdu", "u_i", "u(xi)", "w", "wi", "w(xi)", "urel", "ui,rel", "urel(xi)", "unsicherheitu", "unsicherheitui", "uncertaintyu", "uncertaintyui", "incertitudeu"]),
     (Role::Readings, How::Has, &["numberofreadings", "测量次数", "readings(n)"]),

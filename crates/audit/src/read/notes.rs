@@ -6,7 +6,8 @@ use crate::printed::{Place, Printed, leading};
 use super::footer;
 use super::kind::{self, Evidence};
 use super::words::{
-    count_after, count_before, figure_after, has, has_symbol, sole_figure, symbol_at,
+    count_after, count_before, figure_after, has, has_symbol, named_probability, sole_figure,
+    symbol_at,
 };
 
 /// What a line says of the whole; `None` for what it says nothing of.
@@ -231,6 +232,15 @@ fn rule(lower: &str, claimed: &mut Claimed) -> bool {
     }
 }
 
+/// The rule that the label of a coverage factor states: `k (t, 95 %)`.
+pub fn rule_of_label(text: &str, claimed: &mut Claimed) {
+    let lower = text.to_lowercase();
+    let by_t = has(&lower, &["t", "student", "t分布", "t95", "t_95"]);
+    if by_t && claimed.coverage == Coverage::Unstated {
+        claimed.coverage = Coverage::StudentT(probability(&lower).unwrap_or(0.95));
+    }
+}
+
 /// The coverage probability of a line: 0.9545 for `95.45 %`, for `t_95.45(ν_eff)` and for `p = 0.9545`.
 fn probability(lower: &str) -> Option<f64> {
     index_of_t(lower).or_else(|| named_probability(lower))
@@ -251,29 +261,6 @@ fn index_of_t(lower: &str) -> Option<f64> {
             .find(|p| (0.5..1.0).contains(p))
     };
     factors.filter_map(of).next()
-}
-
-fn named_probability(lower: &str) -> Option<f64> {
-    let mut at = 0;
-    while let Some(found) = lower
-        .get(at..)
-        .and_then(|rest| rest.find(|c: char| c.is_ascii_digit()))
-    {
-        let start = at + found;
-        let (figure, rest) = leading(&lower[start..])?;
-        let percent = rest.trim_start().starts_with('%') && (50.0..100.0).contains(&figure.value);
-        if percent {
-            return Some(figure.value / 100.0);
-        }
-        let bare =
-            (0.9..1.0).contains(&figure.value) && has(lower, &["p =", "p=", "probability", "概率"]);
-        if bare {
-            return Some(figure.value);
-        }
-        at = lower.len() - rest.len();
-        at = at.max(start + 1);
-    }
-    None
 }
 
 /// Correlations of a line; none in it where it says that there is none.

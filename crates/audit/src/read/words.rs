@@ -55,6 +55,30 @@ fn is_letter(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_' || ('α'..='ω').contains(&c)
 }
 
+/// A coverage probability in a text in small letters: 0.95 for `95 %` and for `p = 0.95`.
+pub fn named_probability(lower: &str) -> Option<f64> {
+    let mut at = 0;
+    while let Some(found) = lower
+        .get(at..)
+        .and_then(|rest| rest.find(|c: char| c.is_ascii_digit()))
+    {
+        let start = at + found;
+        let (figure, rest) = leading(&lower[start..])?;
+        let percent = rest.trim_start().starts_with('%') && (50.0..100.0).contains(&figure.value);
+        if percent {
+            return Some(figure.value / 100.0);
+        }
+        let bare =
+            (0.9..1.0).contains(&figure.value) && has(lower, &["p =", "p=", "probability", "概率"]);
+        if bare {
+            return Some(figure.value);
+        }
+        at = lower.len() - rest.len();
+        at = at.max(start + 1);
+    }
+    None
+}
+
 /// The figure behind one of the keys, across words that only lead to it. A figure that counts readings, is a level of
 /// confidence or a year is none.
 pub fn figure_after(text: &str, keys: &[&str]) -> Option<Printed> {

@@ -466,10 +466,12 @@ pub(super) fn below_reference(seen: &Seen<'_>) -> Vec<Hit> {
         return Vec::new();
     };
     let right = &seen.case.right;
+    // A reference that is stated with a larger k is held against U with that of U.
+    let own = right.figures(&[], None).k;
     let rows = seen.claimed.rows.iter().zip(&right.lines).enumerate();
     rows.filter_map(|(i, (row, line))| match &row.stated {
         Stated::Certificate { k, .. } => {
-            let reference = line.contribution().abs() * k;
+            let reference = line.contribution().abs() * k.min(own);
             (claimed.value < reference * (1.0 - 1e-9)).then(|| {
                 Hit::of(
                     Some(i),

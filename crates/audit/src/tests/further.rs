@@ -239,3 +239,39 @@ fn the_length_of_u_is_no_second_slip_to_ask_for() {
     let both = first("sheet.csv", &sheet("0.0165"));
     assert_eq!(both, "too-many-digits+row-dropped@Hysteresis");
 }
+
+/// `k (t, 95 %)` says how k is found, and has no unit.
+#[test]
+fn the_label_of_k_may_state_its_rule() {
+    let sheet = |label: &str, k: &str, expanded: &str| {
+        format!(
+            "Source,u_i (HRC),c_i,u_i(y) (HRC),ν_i\nRepeatability,0.25,1,0.25,4\nReference block,0.15,1,0.15,∞\nResolution,0.029,1,0.029,∞\n\
+             u_c,,,0.293,\nν_eff,,,7,\n\"{label}\",,,{k},\nU,,,{expanded},\n"
+        )
+    };
+    for label in ["k (95 %, t)", "k (t)", "包含因子 k（t分布）"] {
+        is_sound("sheet.csv", &sheet(label, "2.36", "0.69"));
+        assert_eq!(
+            first("sheet.csv", &sheet(label, "2.00", "0.59")),
+            "k2-low-dof"
+        );
+    }
+    is_sound("sheet.csv", &sheet("k", "2.00", "0.59"));
+}
+
+/// A percentage is of the amount that the sheet names, where its own figures show it; else what was used of it is all there is.
+#[test]
+fn a_percentage_is_of_the_named_amount() {
+    let sheet = |title: &str, u: &str, u_c: &str, expanded: &str| {
+        format!(
+            "{title}\nContribution,Uncertainty,Divisor,Std uncertainty (mV)\n\"Standard DMM, certificate U (k=2)\",20 ppm,2,{u}\n\
+             Resolution of DUT 1 mV,0.5 mV,√3,0.289\n\"Repeatability, mean\",0.12 mV,1,0.12\nTemperature effect,5 ppm,√3,0.0289\n\
+             Combined u_c (mV),,,{u_c}\n\"Expanded uncertainty U, k=2 (mV)\",,,{expanded}\n"
+        )
+    };
+    let calibrator = "Calibration of a process calibrator at 10 V DC";
+    is_sound("sheet.csv", &sheet(calibrator, "0.100", "0.330", "0.66"));
+    is_sound("sheet.csv", &sheet("Calibrator", "0.100", "0.330", "0.66"));
+    let (verdict, _) = answer("sheet.csv", &sheet(calibrator, "0.200", "0.373", "0.75"));
+    assert_eq!(verdict, Verdict::WithEffect);
+}

@@ -19,6 +19,8 @@ pub struct Evidence<'a> {
     pub u: Option<&'a Printed>,
     /// The divisor.
     pub divisor: Option<f64>,
+    /// Whether the head of its column calls it a coverage factor.
+    pub divisor_is_factor: bool,
     /// The number of readings in a column of its own.
     pub readings: Option<f64>,
     /// Whether the ± column is what was used, and not what is stated.

@@ -1,7 +1,7 @@
 //! What is known as limits, steps and certificates.
 
 use crate::claim::{Shape, Stated};
-use crate::read::words::{figure_after, has, signed_pair};
+use crate::read::words::{figure_after, has, named_probability, signed_pair};
 
 use super::evidence::Evidence;
 use super::family::*;
@@ -170,7 +170,7 @@ pub(super) fn certificate(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     ];
     let expanded = e.figure_or_used(KEYS)?;
     // The number of a certificate may begin with a K, too.
-    let stated = ["k =", "k=", "coverage factor", "包含因子", "k"]
+    let in_words = ["k =", "k=", "coverage factor", "包含因子", "k"]
         .iter()
         .find_map(|key| {
             let k = figure_after(text, &[key])?.value;
@@ -182,11 +182,14 @@ pub(super) fn certificate(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     let by_divisor = e
         .divisor
         .filter(|d| (1.6..3.5).contains(d) && (d - libm::sqrt(3.0)).abs() > 0.01);
-    let k = stated.or(head).unwrap_or_else(|| by_divisor.unwrap_or(2.0));
+    let in_column = by_divisor.filter(|_| e.divisor_is_factor);
+    let stated = in_words.or(head).or(in_column);
+    let k = stated.or(by_divisor).unwrap_or(2.0);
+    // A coverage probability says as much (JCGM 100, 7.2.3).
     Some(Stated::Certificate {
         expanded,
         k,
-        k_stated: stated.or(head).is_some(),
+        k_stated: stated.is_some() || named_probability(text).is_some(),
     })
 }
 

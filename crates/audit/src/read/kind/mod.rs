@@ -122,7 +122,7 @@ fn by_columns(e: &Evidence<'_>, columns: &str) -> Option<Stated> {
     }
     if has(columns, NORMAL) {
         let k = figure_after(columns, &["k"]).map(|k| k.value);
-        let k_stated = k.is_some();
+        let k_stated = k.is_some() || e.divisor_is_factor;
         // What is not divided, or by 1, under a normal distribution is a standard uncertainty.
         let undivided = e.u_is_used().then_some(1.0);
         let k = k.or(e.divisor).or(undivided).unwrap_or(2.0);
@@ -153,7 +153,7 @@ fn by_columns(e: &Evidence<'_>, columns: &str) -> Option<Stated> {
         () => Some(Stated::Certificate {
             expanded: used,
             k: divisor,
-            k_stated: false,
+            k_stated: e.divisor_is_factor,
         }),
     }
 }

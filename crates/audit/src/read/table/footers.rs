@@ -6,6 +6,7 @@ use crate::claim::{Claimed, Understood};
 use crate::printed::{Place, Printed};
 use crate::read::columns::{self, Role};
 use crate::read::footer::{self, Whole};
+use crate::read::notes;
 use crate::read::words::has;
 use crate::sheet::Grid;
 use crate::units;
@@ -117,7 +118,14 @@ fn footer_row(
             if let Some(whole) = footer::label(text, &measurand).or_else(relative) {
                 // `U | Expanded uncertainty`: symbol and words of the same figure.
                 open = Some(whole);
-                open_unit = columns::apart(text).1;
+                open_unit = match whole {
+                    Whole::Factor => {
+                        notes::rule_of_label(text, claimed);
+                        String::new()
+                    }
+                    Whole::Freedom => String::new(),
+                    _ => columns::apart(text).1,
+                };
             }
             continue;
         }

@@ -24,12 +24,19 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
             used_head: &raw.used_head,
             u: row.u.as_ref(),
             divisor: row.divisor.as_ref().map(|d| d.value),
+            divisor_is_factor: raw.divisor_is_factor,
             readings: raw.readings,
             full: full && !raw.stated_apart,
             mean_of,
         };
         (row.stated, row.relative) = kind::stated(&evidence);
         row.not_counted = row.not_counted.take().or_else(|| not_counted(&row.words));
+    }
+    let nominal = nominal(claimed);
+    for row in &mut claimed.rows {
+        if let Some(nominal) = &nominal {
+            row.take_part_of(nominal);
+        }
         row.convert_to_one_unit(&y_unit);
     }
     add_absent(claimed);
@@ -47,6 +54,24 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
             *figure = figure.clone().scaled(factor);
         }
     }
+}
+
+/// What percentages without an estimate are of: the result, or an amount that the title or a line names, of which the laboratory's
+/// own u shows in one row at least that it took it.
+fn nominal(claimed: &Claimed) -> Option<Printed> {
+    let texts = [&claimed.title, &claimed.words];
+    let named = texts
+        .into_iter()
+        .flat_map(|text| words::figures_with_units(text));
+    let mut amounts = claimed.footer.y.iter().cloned().chain(named);
+    amounts.find(|amount| {
+        let shows = |row: &Row| {
+            let (u, part) = row.u.as_ref().zip(row.part_of(amount))?;
+            let (stated, _) = row.stated.standard()?;
+            Some(u.is_met_within(stated * part, u.half_of_digits() + 0.01 * u.value))
+        };
+        claimed.rows.iter().any(|row| shows(row) == Some(true))
+    })
 }
 
 /// What a note knows of a quantity that no row has, unless a row has its figure.
@@ -122,6 +147,26 @@ fn not_counted(words: &str) -> Option<String> {
 }
 
 impl Row {
+    /// What a unit of a percentage without an estimate is in the unit of u, where it is of this amount.
+    fn part_of(&self, amount: &Printed) -> Option<f64> {
+        let of_unit = |u: &&Printed| units::fraction(&u.unit).is_none();
+        let u = self.u.as_ref().filter(of_unit)?;
+        match self.relative {
+            Relative::OfValue(fraction) if self.value.is_none() => {
+                let factor = units::factor(&amount.unit, &u.unit)?;
+                Some(fraction * factor * amount.value.abs())
+            }
+            _ => None,
+        }
+    }
+
+    fn take_part_of(&mut self, amount: &Printed) {
+        let part = self.part_of(amount);
+        if let (Relative::OfValue(fraction), Some(part)) = (self.relative, part) {
+            self.relative = Relative::OfFullScale(fraction, part / fraction);
+        }
+    }
+
     /// Figures of ± and of what is stated in the unit of u, where all units are known.
     fn convert_to_one_unit(&mut self, y_unit: &str) {
         let stated_unit = self
@@ -158,7 +203,9 @@ impl Row {
         } else if of_value && self.value.is_none() {
             // A percentage of a value that the sheet does not state: what was used of it is all there is.
             self.relative = Relative::No;
-            if let Some(used) = self.used.clone().or_else(|| {
+            let used = self.used.clone();
+            let used = used.filter(|used| units::fraction(&used.unit).is_none());
+            if let Some(used) = used.or_else(|| {
                 self.u
                     .clone()
                     .zip(self.divisor.as_ref())

@@ -2,7 +2,7 @@
 
 use crate::claim::{Figure, Row};
 use crate::printed::{Place, Printed};
-use crate::read::columns::Role;
+use crate::read::columns::{Role, names_factor};
 use crate::read::footer::Whole;
 use crate::read::words::has;
 use crate::sheet::Grid;
@@ -17,6 +17,7 @@ pub struct Raw {
     pub row: Row,
     pub(super) columns_text: String,
     pub(super) used_head: String,
+    pub(super) divisor_is_factor: bool,
     pub(super) readings: Option<f64>,
     /// Its number in the list, as the sheet has it.
     number: String,
@@ -194,6 +195,9 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
             .column(Role::Used)
             .map(|c| c.head.clone())
             .unwrap_or_default(),
+        divisor_is_factor: located
+            .column(Role::Divisor)
+            .is_some_and(|c| names_factor(&c.head)),
         readings: figure(Role::Readings).map(|n| n.value),
         number: text(Role::Number),
         stated_apart: false,
@@ -276,6 +280,7 @@ impl Raw {
             row,
             columns_text: String::new(),
             used_head: String::new(),
+            divisor_is_factor: false,
             readings: None,
             number: String::new(),
             stated_apart: true,
@@ -313,7 +318,10 @@ impl Raw {
     pub fn absorb(&mut self, input: &Raw) {
         let (row, known) = (&mut self.row, &input.row);
         row.value = row.value.take().or_else(|| known.value.clone());
-        row.divisor = row.divisor.take().or_else(|| known.divisor.clone());
+        if row.divisor.is_none() {
+            row.divisor.clone_from(&known.divisor);
+            self.divisor_is_factor = input.divisor_is_factor;
+        }
         if row.used.is_none() && known.used.is_some() {
             row.used.clone_from(&known.used);
             self.used_head.clone_from(&input.used_head);

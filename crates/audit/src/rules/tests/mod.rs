@@ -161,3 +161,32 @@ fn rows_that_repeat_one_cause_are_asked_about() {
     );
     assert!(common.contains(&56), "{common:?}");
 }
+
+/// A column of coverage factors states k of a certificate, and so does a coverage probability; a column of divisors does not. A
+/// reference that is stated with a larger k than U is not more uncertain for that.
+#[test]
+fn the_k_of_a_certificate_may_stand_in_its_column() {
+    let fired = |words: &str, head: &str, k: &str, u: &str| -> Vec<u8> {
+        let text = format!(
+            "Source,Expanded uncertainty (mV),Distribution,{head},Standard uncertainty (mV)\nReference{words},0.0500,normal,{k},{u}\n\
+             Thermal voltages,0.0020,rectangular,√3,0.00115\nu_c,,,,0.0194\n\"U (k = 2)\",,,,0.039\n"
+        );
+        let grids = grid::grids("sheet.csv", text.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        let all = findings(&audit(&claims[0]).found);
+        all.iter().map(|finding| finding.rule).collect()
+    };
+    for (words, head, asked) in [
+        ("", "Divisor", true),
+        ("", "k", false),
+        ("", "Coverage factor", false),
+        ("", "包含因子", false),
+        (" certificate at 99 %", "Divisor", false),
+    ] {
+        let rules = fired(words, head, "2.58", "0.0194");
+        assert_eq!(rules.contains(&16), asked, "{words} {head}: {rules:?}");
+        assert!(!rules.contains(&77), "{rules:?}");
+    }
+    let undivided = fired("", "k", "2.00", "0.0194");
+    assert!(undivided.contains(&77), "{undivided:?}");
+}

@@ -86,7 +86,8 @@ pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>,
         .flatten();
     let is_converted = with_units.is_some();
     let by_units = is_converted || bare_sheet;
-    let mut model = with_units.map_or_else(|| bare(&formula), Ok)?;
+    let model = with_units.map_or_else(|| bare(&formula), Ok);
+    let mut model = model.map_err(|message| as_written(message, claimed))?;
     // Without a unit, an angle may be in degrees: the claimed coefficients and y tell.
     let any_number = rows
         .iter()
@@ -236,7 +237,7 @@ fn compiled(formula: &str, units: &[Unit], target: Unit, used: &[bool]) -> Resul
         .enumerate()
         .filter(|(i, _)| used[*i])
         .map(|(i, unit)| Symbol {
-            name: format!("x_{i}_").into(),
+            name: numbered(i).into(),
             unit: unit.clone(),
             role: Role::Input(i),
         })
@@ -260,10 +261,23 @@ fn compiled(formula: &str, units: &[Unit], target: Unit, used: &[bool]) -> Resul
     })
 }
 
-/// The formula in the model language, its symbols by number: what a sheet writes is no identifier.
+/// The name of a symbol by its number: what a sheet writes is no identifier.
+fn numbered(i: usize) -> String {
+    format!("x_{i}_")
+}
+
+/// The formula in the model language, its symbols by number.
 fn renamed(text: &str, claimed: &Claimed) -> String {
-    let names: Vec<String> = (0..claimed.rows.len()).map(|i| format!("x_{i}_")).collect();
+    let names: Vec<String> = (0..claimed.rows.len()).map(numbered).collect();
     formula(text, claimed, &names)
+}
+
+/// A message about such a formula, with the symbols of the sheet.
+fn as_written(message: String, claimed: &Claimed) -> String {
+    let rows = claimed.rows.iter().enumerate();
+    rows.fold(message, |message, (i, row)| {
+        message.replace(&numbered(i), &row.symbol)
+    })
 }
 
 /// The formula in the model language, its symbols by these names.
@@ -285,11 +299,65 @@ pub(crate) fn formula(text: &str, claimed: &Claimed, names: &[String]) -> String
             from = at + name.len();
         }
     }
-    out.replace(['·', '×', '⋅'], "*")
+    let out = out
+        .replace(['·', '×', '⋅'], "*")
         .replace('÷', "/")
         .replace("**", "^")
         .replace('√', "sqrt")
         .replace(['[', '{'], "(")
         .replace([']', '}'], ")")
-        .replace('π', "pi")
+        .replace('π', "pi");
+    with_products(&out, names)
+}
+
+/// The formula with a sign where two factors stand beside each other with a blank between: `m/(ρ t)`, `2 π r`.
+fn with_products(formula: &str, names: &[String]) -> String {
+    let is_word = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.');
+    let is_factor = |word: &str| {
+        word == "pi" || word.parse::<f64>().is_ok() || names.iter().any(|name| name == word)
+    };
+    let word_at = |from: usize| {
+        let rest = &formula[from..];
+        &rest[..rest.find(|c| !is_word(c)).unwrap_or(rest.len())]
+    };
+    let mut out = String::new();
+    let (mut at, mut is_behind_factor) = (0, false);
+    while let Some(c) = formula[at..].chars().next() {
+        let word = word_at(at);
+        let token = if word.is_empty() {
+            &formula[at..at + c.len_utf8()]
+        } else {
+            word
+        };
+        let is_call = !word.is_empty() && formula[at + word.len()..].starts_with('(');
+        let begins = token == "(" || is_factor(word) || is_call;
+        if is_behind_factor && begins && out.ends_with(' ') {
+            out.push_str("* ");
+        }
+        out.push_str(token);
+        if token != " " {
+            is_behind_factor = token == ")" || is_factor(word);
+        }
+        at += token.len();
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_products;
+
+    #[test]
+    fn factors_beside_each_other_are_multiplied() {
+        let names = ["a", "b", "c"].map(String::from);
+        for (text, formula) in [
+            ("a/(b c)", "a/(b * c)"),
+            ("2 pi a", "2 * pi * a"),
+            ("2 sin(a) (b + c)", "2 * sin(a) * (b + c)"),
+            ("sin (a) + b - c", "sin (a) + b - c"),
+            ("a d", "a d"),
+        ] {
+            assert_eq!(with_products(text, &names), formula);
+        }
+    }
 }

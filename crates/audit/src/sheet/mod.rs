@@ -43,6 +43,8 @@ pub struct Grid {
     pub point: String,
     /// Where cells stood, row and column, before tables were turned or parted; the others stand where they stood.
     pub origins: BTreeMap<(usize, usize), (usize, usize)>,
+    /// What the sheet itself has for a row of heads that was made, by the number of that row.
+    pub heads: BTreeMap<usize, Vec<Head>>,
     /// Rows that are about other points.
     pub left_out: BTreeSet<usize>,
     /// Figures of the whole that stand in columns of its table.
@@ -60,6 +62,19 @@ pub struct WholeCell {
     pub column: usize,
     /// The figure.
     pub cell: Cell,
+}
+
+/// A head of the sheet, where a table was made of others.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Head {
+    /// Row of the sheet.
+    pub row: usize,
+    /// Column of the sheet.
+    pub column: usize,
+    /// What stands there.
+    pub text: String,
+    /// As what it was taken.
+    pub role: &'static str,
 }
 
 /// One cell.

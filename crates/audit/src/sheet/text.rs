@@ -1,17 +1,21 @@
 //! Texts: separated values, Markdown tables, plain text.
 
 use gumption_fault::say;
+use gumption_format::csv::western;
 
 use super::{Cell, Grid, Unreadable};
 
-/// UTF-8, UTF-16 with its mark, or GBK.
+/// UTF-8, UTF-16 with its mark, GBK, or the code page of Western Europe.
 pub(crate) fn decoded(bytes: &[u8]) -> Result<String, Unreadable> {
-    let decoded = gumption_format::csv::decode(bytes);
-    let trouble = |at: gumption_format::csv::Undecodable| {
-        let line = at.line;
-        Unreadable(say!("line {line}: text in none of UTF-8, UTF-16 and GBK"))
-    };
-    decoded.map(|decoded| decoded.text).map_err(trouble)
+    match gumption_format::csv::decode(bytes) {
+        Ok(decoded) => Ok(decoded.text),
+        Err(at) => western(bytes).ok_or_else(|| {
+            let line = at.line;
+            Unreadable(say!(
+                "line {line}: text in none of UTF-8, UTF-16, GBK and Windows-1252; save it as UTF-8"
+            ))
+        }),
+    }
 }
 
 /// The separator is the one that most lines have in equal number; a text without any is one column.
@@ -53,10 +57,26 @@ pub(super) fn guessed(text: &str) -> Grid {
     if let Some(table) = full_width(text, best.0) {
         return table;
     }
-    match best.1 {
+    match best.1.or_else(|| of_pairs(text)) {
         Some(separator) => separated(text, separator),
         None => aligned(text),
     }
+}
+
+/// What parts the lines of a list of names with their figures: two fields in most lines, and figures in most of the second.
+fn of_pairs(text: &str) -> Option<char> {
+    const FEWEST: usize = 3;
+    let lines = || text.lines().filter(|line| !line.trim().is_empty());
+    let parts = |separator: &char| {
+        let pairs = lines().filter_map(|line| match fields(line, *separator).as_slice() {
+            [_, figure] => Some(Cell::new(figure).figure().is_some()),
+            _ => None,
+        });
+        let pairs: Vec<bool> = pairs.collect();
+        let figures = pairs.iter().filter(|is_figure| **is_figure).count();
+        figures >= FEWEST && 2 * figures > pairs.len() && 2 * pairs.len() > lines().count()
+    };
+    ['\t', ';', ','].into_iter().find(parts)
 }
 
 /// Separated values as an input method for Chinese writes them, with `，` or `；` between the fields and `“”` about them:

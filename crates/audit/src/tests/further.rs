@@ -240,6 +240,24 @@ fn the_length_of_u_is_no_second_slip_to_ask_for() {
     assert_eq!(both, "too-many-digits+row-dropped@Hysteresis");
 }
 
+/// A list of sources with their standard uncertainties is a table.
+#[test]
+fn two_columns_are_a_table() {
+    for head in [
+        "Source,u / bar",
+        "Component,Standard uncertainty u_i (bar)",
+        "来源,标准不确定度/bar",
+    ] {
+        let sheet = |u_c: &str, expanded: &str| {
+            format!(
+                "{head}\nReference,0.00700\nResolution,0.00290\nRepeatability,0.00200\nu_c,{u_c}\nU (k = 2),{expanded}\n"
+            )
+        };
+        is_sound("sheet.csv", &sheet("0.00784", "0.016"));
+        assert_eq!(first("sheet.csv", &sheet("0.0119", "0.024")), "linear-sum");
+    }
+}
+
 /// `k (t, 95 %)` says how k is found, and has no unit.
 #[test]
 fn the_label_of_k_may_state_its_rule() {
@@ -274,4 +292,20 @@ fn a_percentage_is_of_the_named_amount() {
     is_sound("sheet.csv", &sheet("Calibrator", "0.100", "0.330", "0.66"));
     let (verdict, _) = answer("sheet.csv", &sheet(calibrator, "0.200", "0.373", "0.75"));
     assert_eq!(verdict, Verdict::WithEffect);
+}
+
+/// A sheet from a German spreadsheet, in the code page of its system.
+#[test]
+fn sheets_in_the_code_page_of_western_europe_are_read() {
+    let text = "Messunsicherheitsbilanz Bügelmessschraube\n\nEinflussgröße;Wert ± (mm);Verteilung;Divisor;Standardunsicherheit (mm);Sensitivitätskoeffizient;Beitrag (mm)\n\
+        Referenznormal;0,010;normal;2;0,005;1;0,005\nAuflösung;0,01;Rechteck;1,732;0,00577;1;0,00577\nWiederholbarkeit;0,003;normal;1;0,003;1;0,003\n\
+        Kombinierte Standardunsicherheit;;;;;;0,0082\nErweiterte Messunsicherheit (k=2);;;;;;0,016\n";
+    let bytes: Vec<u8> = text
+        .chars()
+        .map(|c| u8::try_from(u32::from(c)).unwrap())
+        .collect();
+    let grids = sheet::grids("sheet.csv", &bytes).unwrap();
+    let claims = read::budgets(&grids, &read::Mapping::default());
+    assert_eq!(audit(&claims[0]).verdict, Verdict::Sound);
+    assert_eq!(claims[0].rows[1].label(), "Auflösung");
 }

@@ -56,6 +56,17 @@ fn points_with_two_columns_each() {
     );
 }
 
+/// A point that spans its columns stands above them.
+#[test]
+fn points_above_two_columns_each() {
+    all_sound(
+        "Force\nSource,Distribution,Divisor,10 N,,50 N,\n,,,± (N),u (N),± (N),u (N)\n\
+         Reference,normal,2,0.02,0.010,0.06,0.030\nReadout,rectangular,√3,0.05,0.0289,0.05,0.0289\n\
+         Repeatability,normal,1,0.02,0.020,0.03,0.030\nu_c,,,,0.0365,,0.0513\nU (k=2),,,,0.073,,0.10\n",
+        &["Force: 10 N", "Force: 50 N"],
+    );
+}
+
 #[test]
 fn points_in_blocks_of_rows() {
     let blocks = |second: &str| {
@@ -133,6 +144,27 @@ fn a_row_for_each_point() {
     assert_eq!(
         (u_c.at.a1(), claims[1].rows[1].at.a1()),
         ("D4".into(), "C2".into())
+    );
+}
+
+/// The heads of such a table are called as they stand in the file, and one point is a table as well.
+#[test]
+fn heads_of_points_are_those_of_the_file() {
+    let text =
+        "Point / bar,u_ref / bar,u_res / bar,u_c / bar,U / bar\np1,0.010,0.003,0.0104,0.021\n";
+    all_sound(text, &["p1 bar"]);
+    let claims = claims("points.csv", text.as_bytes(), &Mapping::default()).expect("a sheet");
+    let heads = claims[0]
+        .understood
+        .iter()
+        .map(|head| (head.at.a1(), head.text.as_str(), head.role));
+    let heads: Vec<_> = heads.take(2).collect();
+    assert_eq!(
+        heads,
+        [
+            ("B1".into(), "u_ref / bar", "u"),
+            ("C1".into(), "u_res / bar", "u")
+        ]
     );
 }
 

@@ -1,6 +1,6 @@
 //! The bytes of a table as text: UTF-8, UTF-16 as spreadsheets save “Unicode text”, or GBK.
 
-use encoding_rs::{GBK, UTF_16BE, UTF_16LE};
+use encoding_rs::{GBK, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use gumption_fault::{Said, say};
 
 /// How a table was saved.
@@ -73,6 +73,20 @@ pub fn decode(bytes: &[u8]) -> Result<Decoded, Undecodable> {
             line: 1 + bytes[..error].iter().filter(|byte| **byte == b'\n').count(),
         }),
     }
+}
+
+/// Text in the code page of Western Europe, for readers that take sheets as they come: no byte contradicts it, since nearly every
+/// one is a character there, but its letters beyond ASCII stand alone or in pairs, and none is followed by what would make it the
+/// beginning of UTF-8. Words in Cyrillic or Greek letters and damaged UTF-8 are nothing of the kind.
+pub fn western(bytes: &[u8]) -> Option<String> {
+    let is_letter = |byte: &u8| *byte >= 0xc0 && !matches!(byte, 0xd7 | 0xf7);
+    let is_run = bytes.windows(3).any(|three| three.iter().all(is_letter));
+    let is_utf8 = |two: &[u8]| is_letter(&two[0]) && (0x80..=0xbf).contains(&two[1]);
+    if bytes.contains(&0) || is_run || bytes.windows(2).any(is_utf8) {
+        return None;
+    }
+    let text = WINDOWS_1252.decode_without_bom_handling_and_without_replacement(bytes)?;
+    Some(with_line_feeds(text.into_owned()))
 }
 
 fn decoded(text: std::borrow::Cow<'_, str>, encoding: Encoding) -> Result<Decoded, Undecodable> {
@@ -190,6 +204,20 @@ mod tests {
         assert_eq!(read(&gbk), known(Encoding::Gbk));
         let (signs, _, _) = GBK.encode("T [℃],R [Ω],±\n");
         assert_eq!(read(&signs).map(|read| read.1), Some(Encoding::Gbk));
+    }
+
+    #[test]
+    fn western_text_is_told_from_others() {
+        for text in ["Größe [µm]; ±0,5 °C\n", "Tension à vide\n", "plain\n"] {
+            let (bytes, _, _) = WINDOWS_1252.encode(text);
+            assert_eq!(western(&bytes).as_deref(), Some(text));
+        }
+        let (cyrillic, _, _) = encoding_rs::WINDOWS_1251.encode("Величина;1\n");
+        assert_eq!(western(&cyrillic), None);
+        let mut damaged = "T [°C];µ\n".as_bytes().to_vec();
+        damaged.push(0xb5);
+        assert_eq!(western(&damaged), None);
+        assert_eq!(western(b"a\0b"), None);
     }
 
     #[test]

@@ -2,9 +2,9 @@
 
 use crate::read::columns::{Role, apart, role};
 use crate::read::footer::{self, Whole};
-use crate::sheet::{Cell, Grid};
+use crate::sheet::{Cell, Grid, Head};
 
-use super::rows_below;
+use super::{names_points, rows_below};
 
 /// A column of the table.
 struct Column {
@@ -29,7 +29,9 @@ pub(super) fn parted(grid: &Grid, head: usize) -> Option<Vec<Grid>> {
     let one_unit = sources.iter().all(|source| source.unit == *unit);
     let rows = rows_below(grid, head);
     let fits = |row: &&usize| is_sum(grid, **row, &sources, &whole);
-    let are_sums = rows.len() >= 2 && 2 * rows.iter().filter(fits).count() > rows.len();
+    // That one row alone is a sum may be chance where its first head does not say that it is of a point.
+    let fewest = if names_points(&cell.text) { 1 } else { 2 };
+    let are_sums = rows.len() >= fewest && 2 * rows.iter().filter(fits).count() > rows.len();
     if sources.len() < 2 || !one_unit || !are_sums {
         return None;
     }
@@ -42,6 +44,13 @@ pub(super) fn parted(grid: &Grid, head: usize) -> Option<Vec<Grid>> {
                 .to_owned(),
             ..Grid::default()
         };
+        let own = sources.iter().map(|column| Head {
+            row: head,
+            column: column.index,
+            text: grid.cell(head, column.index).text.clone(),
+            role: Role::U.name(),
+        });
+        part.heads.insert(head, own.collect());
         part.rows
             .push(["Source", "Unit", "u_i"].map(Cell::new).to_vec());
         for column in sources.iter().chain(&whole) {

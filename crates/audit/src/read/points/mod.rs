@@ -6,6 +6,7 @@
 mod columns;
 mod lines;
 mod rows;
+mod spans;
 
 use std::collections::BTreeSet;
 
@@ -18,7 +19,9 @@ use super::footer::{self, Whole};
 /// The sheet as one for each of its points; the sheet itself where it has no more than one.
 pub fn parted(grid: &Grid) -> Vec<Grid> {
     let found = (0..grid.rows.len()).find_map(|head| {
-        let columns = columns::parted(grid, head);
+        let spanned = spans::joined(grid, head);
+        let columns = spanned.and_then(|grid| columns::parted(&grid, head + 1));
+        let columns = columns.or_else(|| columns::parted(grid, head));
         let columns = columns.or_else(|| rows::parted(grid, head));
         columns.or_else(|| lines::parted(grid, head))
     });

@@ -24,7 +24,7 @@ pub(super) fn head(grid: &Grid, row: usize, mapping: &Mapping) -> Option<Vec<Col
         .map(|(_, text)| text.chars().count())
         .max()
         .unwrap_or(0);
-    if filled.len() < 3 || figures * 3 > filled.len() || longest > 90 {
+    if filled.len() < 2 || figures * 3 > filled.len() || longest > 90 {
         return None;
     }
     let names = |index: usize| names_below(grid, row, index);
@@ -37,8 +37,24 @@ pub(super) fn head(grid: &Grid, row: usize, mapping: &Mapping) -> Option<Vec<Col
     let identity = has(&[Role::Symbol, Role::Name]);
     let figure = has(&[Role::Used, Role::U, Role::Contribution])
         || has(&[Role::Remark]) && has(&[Role::Value, Role::C]);
-    let enough = columns.len() >= 3 && columns.len() * 2 >= filled.len();
+    let enough = match filled.len() {
+        2 => is_list(grid, row, &columns),
+        count => columns.len() >= 3 && columns.len() * 2 >= count,
+    };
     (identity && figure && enough).then_some(columns)
+}
+
+/// Whether two heads stand above a list of sources with their standard uncertainties, and nothing else.
+fn is_list(grid: &Grid, head: usize, columns: &[Column]) -> bool {
+    let is_computed = |c: &&Column| matches!(c.role, Role::U | Role::Contribution);
+    let Some(figures) = columns.iter().find(is_computed) else {
+        return false;
+    };
+    let is_entry = |row: usize| {
+        let figure = grid.cell(row, figures.index).figure();
+        figure.is_some() && grid.filled(row).count() == 2
+    };
+    columns.len() == 2 && (head + 1..=head + 2).all(is_entry)
 }
 
 /// `Contribution %` is the share in the variance where the figures total 100, else the contribution to a relative result.

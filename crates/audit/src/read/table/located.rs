@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::claim::Understood;
 use crate::printed::Place;
 use crate::read::columns::{self, Role};
-use crate::sheet::Grid;
+use crate::sheet::{Grid, Head};
 
 /// A table that was found.
 #[derive(Debug, Clone)]
@@ -55,6 +55,18 @@ impl Located {
 
     /// How its columns were understood.
     pub fn understood(&self, grid: &Grid, sheet: usize) -> Vec<Understood> {
+        if let Some(heads) = grid.heads.get(&self.head) {
+            let understood = |head: &Head| Understood {
+                at: Place {
+                    sheet,
+                    row: head.row,
+                    column: head.column,
+                },
+                text: head.text.clone(),
+                role: head.role,
+            };
+            return heads.iter().map(understood).collect();
+        }
         let place = |column: usize| Place {
             sheet,
             row: self.head,

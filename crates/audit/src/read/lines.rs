@@ -41,8 +41,11 @@ pub(super) fn lines(
 /// Lines beside a table: each to the whole, or to the row that it is about.
 pub(super) fn place_lines(all: &[&Line], claimed: &mut Claimed) {
     let mut of_row = vec![String::new(); claimed.rows.len()];
-    let texts: Vec<&str> = all.iter().map(|line| line.text.as_str()).collect();
-    claimed.words = texts.join("\n");
+    // Behind what labels have said of the whole.
+    for line in all {
+        claimed.words.push_str(&line.text);
+        claimed.words.push('\n');
+    }
     let title = claimed.title.clone();
     for line in all.iter().filter(|line| line.text != title) {
         place_line(line, claimed, &mut of_row);

@@ -232,9 +232,13 @@ fn rule(lower: &str, claimed: &mut Claimed) -> bool {
     }
 }
 
-/// The rule that the label of a coverage factor states: `k (t, 95 %)`.
+/// The rule that the label of a coverage factor states: `k (t, 95 %)`. What it says of a probability is said of the whole.
 pub fn rule_of_label(text: &str, claimed: &mut Claimed) {
     let lower = text.to_lowercase();
+    if named_probability(&lower).is_some() {
+        claimed.words.push_str(text);
+        claimed.words.push('\n');
+    }
     let by_t = has(&lower, &["t", "student", "t分布", "t95", "t_95"]);
     if by_t && claimed.coverage == Coverage::Unstated {
         claimed.coverage = Coverage::StudentT(probability(&lower).unwrap_or(0.95));

@@ -3,6 +3,7 @@
 //! | chapter | holds |
 //! |---|---|
 //! | `workbook` | `.xlsx`, `.xls`, `.ods`, with formulas beside their cached values |
+//! | `functions` | the functions of spreadsheets that budgets are computed with |
 //! | `hidden` | which rows and columns of a workbook in Open XML are hidden |
 //! | `open_document` | the same of a sheet in OpenDocument, and what its numbers show |
 //! | `shown` | numbers by what their cells show |
@@ -10,6 +11,7 @@
 //! | `uncached` | formulas of which the file keeps no value |
 //! | `text` | separated values, Markdown tables, plain text |
 
+mod functions;
 mod hidden;
 mod open_document;
 mod shown;

@@ -3,7 +3,7 @@
 
 use crate::printed::Printed;
 
-use super::{Cell, Grid};
+use super::{Cell, Grid, functions};
 
 /// Notes in every cell that its formula gives another figure than it holds.
 pub(crate) fn mark(grid: &mut Grid) {
@@ -49,9 +49,11 @@ impl Value {
     }
 }
 
-/// The value of a formula of numbers, cells of its own sheet, `+ - * / ^`, roots, sums and sums of squares; of others none.
+/// The value of a formula of numbers, cells of its own sheet, `+ - * / ^` and the functions of budgets; of others none.
 fn value(grid: &Grid, formula: &str) -> Option<Value> {
+    // Functions that came later have this in front of them in the file.
     let text: String = formula
+        .replace("_xlfn.", "")
         .chars()
         .filter(|c| !c.is_whitespace() && *c != '$')
         .collect();
@@ -147,7 +149,8 @@ impl<'t> Reader<'t> {
             let end = self.rest.find(|c: char| !(c.is_ascii_digit() || c == '.'));
             return Some(Value::exact(self.word(end).parse().ok()?));
         }
-        let end = self.rest.find(|c: char| !c.is_ascii_alphanumeric());
+        let is_part = |c: char| c.is_ascii_alphanumeric() || c == '.';
+        let end = self.rest.find(|c: char| !is_part(c));
         let name = self.word(end).to_ascii_uppercase();
         if self.takes('(') {
             return self.function(&name);
@@ -163,38 +166,31 @@ impl<'t> Reader<'t> {
     }
 
     fn function(&mut self, name: &str) -> Option<Value> {
-        let of_list: Option<fn(f64) -> f64> = match name {
-            "SUM" => Some(|x| x),
-            "SUMSQ" => Some(|x| x * x),
-            _ => None,
+        let all = match self.takes(')') {
+            true => Vec::new(),
+            false => self.list()?,
         };
-        if let Some(of) = of_list {
-            let all = self.list()?;
-            let x = all.iter().map(|value| of(value.x)).sum();
-            // The widest of the parts is more than the sum can be off by.
-            let open = all.iter().map(|value| 2.0 * value.open).fold(0.0, f64::max);
-            return Some(Value { x, open });
-        }
-        if name == "PI" {
-            return self
-                .takes(')')
-                .then_some(Value::exact(std::f64::consts::PI));
-        }
-        let inner = self.sum().filter(|_| self.takes(')'))?;
-        match name {
-            "SQRT" => Some(Value {
-                x: libm::sqrt(inner.x),
-                open: 0.5 * inner.open,
-            }),
-            "ABS" => Some(Value {
-                x: inner.x.abs(),
-                ..inner
-            }),
-            _ => None,
-        }
+        let arguments: Vec<f64> = all.iter().map(|value| value.x).collect();
+        let x = functions::value(name, &arguments)?;
+        let widest = |of: fn(&Value) -> f64| all.iter().map(of).fold(0.0, f64::max);
+        let relative = widest(|value| value.open);
+        let open = match name {
+            "SQRT" => 0.5 * relative,
+            "ABS" => relative,
+            // A difference of readings has their digits.
+            "STDEV" | "STDEV.S" => 2.0 * widest(|value| value.open * value.x.abs()) / x,
+            // What is open may be rounded to the next figure.
+            _ if name.starts_with("ROUND") && relative > 0.0 => {
+                let places = arguments.last().map_or(0.0, |places| libm::exp10(-places));
+                relative + places / x.abs()
+            }
+            // The widest of the parts is more than a sum can be off by.
+            _ => 2.0 * relative,
+        };
+        Some(Value { x, open })
     }
 
-    /// The arguments of a sum: single ones, and ranges of cells.
+    /// The arguments of a function: single ones, and ranges of cells.
     fn list(&mut self) -> Option<Vec<Value>> {
         let mut all = Vec::new();
         loop {
@@ -276,6 +272,9 @@ mod tests {
         assert_eq!(of("SQRT($B$1^2+B2^2)*C1"), Some(100.0));
         assert_eq!(of("SUM(B1,B2,C1:C2)-1"), Some(72.0));
         assert_eq!(of("-2^2"), Some(4.0));
+        assert_eq!(of("ROUND(2*SQRT(SUMSQ(B1:B2))/3,1)"), Some(33.3));
+        assert_eq!(of("_xlfn.STDEV.S(B1,B2,B1+5)"), Some(5.0));
+        assert_eq!(of("MAX(B1:B2)/COUNT(B1:B2)+PI()-PI()"), Some(20.0));
         assert!((of("B1/SQRT(3)").unwrap() - 17.320508).abs() < 1e-6);
         for strange in ["A1", "Other!B1", "IF(B1>1,2,3)", "B1+", "\"a\"", "((((B1"] {
             assert_eq!(of(strange), None, "{strange}");

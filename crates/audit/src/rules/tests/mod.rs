@@ -162,6 +162,22 @@ fn rows_that_repeat_one_cause_are_asked_about() {
     assert!(common.contains(&56), "{common:?}");
 }
 
+/// The label of k may state its probability.
+#[test]
+fn the_probability_may_stand_in_the_label_of_k() {
+    let fired = |label: &str| -> Vec<u8> {
+        let text = format!(
+            "Source,u_i (mm),c_i,u_i(y) (mm)\nReference,0.25,1,0.25\nDrift,0.15,1,0.15\nu_c,,,0.292\n{label},,,2.00\nU,,,0.58\n"
+        );
+        let grids = grid::grids("sheet.csv", text.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        let all = findings(&audit(&claims[0]).found);
+        all.iter().map(|finding| finding.rule).collect()
+    };
+    assert!(fired("k").contains(&45));
+    assert!(!fired("k (95.45 %)").contains(&45));
+}
+
 /// A column of coverage factors states k of a certificate, and so does a coverage probability; a column of divisors does not. A
 /// reference that is stated with a larger k than U is not more uncertain for that.
 #[test]

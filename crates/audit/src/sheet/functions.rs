@@ -1,0 +1,67 @@
+//! The functions of spreadsheets that budgets are computed with.
+
+use crate::calculate::t;
+
+/// The value of a function; nothing for one that is not known, or of other arguments than it takes.
+pub(super) fn value(name: &str, x: &[f64]) -> Option<f64> {
+    let sum = |of: fn(f64) -> f64| x.iter().copied().map(of).sum::<f64>();
+    let count = x.len() as f64;
+    match (name, x) {
+        ("PI", []) => Some(std::f64::consts::PI),
+        ("SQRT", [x]) => Some(libm::sqrt(*x)),
+        ("ABS", [x]) => Some(x.abs()),
+        ("POWER", [x, exponent]) => Some(libm::pow(*x, *exponent)),
+        ("ROUND", [x, places]) => Some(rounded(*x, *places, libm::round)),
+        ("ROUNDUP", [x, places]) => Some(rounded(*x, *places, |x| libm::ceil(x.abs()).copysign(x))),
+        ("ROUNDDOWN", [x, places]) => Some(rounded(*x, *places, libm::trunc)),
+        // Of both sides, with whole degrees of freedom.
+        ("TINV" | "T.INV.2T", [outside, nu]) => Some(t(1.0 - outside, libm::floor(*nu))),
+        ("SUM", _) => Some(sum(|x| x)),
+        ("SUMSQ", _) => Some(sum(|x| x * x)),
+        ("COUNT", _) => Some(count),
+        ("AVERAGE", [_, ..]) => Some(sum(|x| x) / count),
+        ("MAX", [first, rest @ ..]) => Some(rest.iter().copied().fold(*first, f64::max)),
+        ("MIN", [first, rest @ ..]) => Some(rest.iter().copied().fold(*first, f64::min)),
+        ("STDEV" | "STDEV.S", [_, _, ..]) => {
+            let mean = sum(|x| x) / count;
+            let squares: f64 = x.iter().map(|x| (x - mean) * (x - mean)).sum();
+            Some(libm::sqrt(squares / (count - 1.0)))
+        }
+        _ => None,
+    }
+}
+
+/// To so many places, halves by what `to_whole` does with the figure that is shown: 2.675 is 2.68.
+fn rounded(x: f64, places: f64, to_whole: impl Fn(f64) -> f64) -> f64 {
+    /// A double has this part of a figure beyond its fifteen digits.
+    const BEYOND: f64 = 1e-14;
+    let scale = libm::exp10(libm::trunc(places));
+    let shown = x * scale;
+    let nearest = libm::round(2.0 * shown) / 2.0;
+    let is_whole = (shown - nearest).abs() <= BEYOND * shown.abs();
+    to_whole(if is_whole { nearest } else { shown }) / scale
+}
+
+#[cfg(test)]
+mod tests {
+    use super::value;
+
+    #[test]
+    fn functions_are_those_of_spreadsheets() {
+        let of = |name: &str, x: &[f64]| value(name, x).unwrap_or(f64::NAN);
+        assert_eq!(of("ROUND", &[0.012_345, 4.0]), 0.0123);
+        assert_eq!(of("ROUND", &[2.675, 2.0]), 2.68);
+        assert_eq!(of("ROUND", &[-2.5, 0.0]), -3.0);
+        assert_eq!(of("ROUND", &[1234.0, -2.0]), 1200.0);
+        assert_eq!(of("ROUNDUP", &[0.0121, 3.0]), 0.013);
+        assert_eq!(of("ROUNDUP", &[-1.1, 0.0]), -2.0);
+        assert_eq!(of("ROUNDUP", &[1.1, 1.0]), 1.1);
+        assert_eq!(of("ROUNDDOWN", &[0.0129, 3.0]), 0.012);
+        assert_eq!(of("AVERAGE", &[1.0, 2.0, 6.0]), 3.0);
+        assert_eq!(of("MAX", &[1.0, 3.0]) - of("MIN", &[1.0, 3.0]), 2.0);
+        // JCGM 100, table G.2: t₉₅(10) = 2.23.
+        assert!((of("T.INV.2T", &[0.05, 10.9]) - 2.228_139).abs() < 1e-6);
+        assert!((of("STDEV.S", &[1.0, 2.0, 3.0]) - 1.0).abs() < 1e-15);
+        assert!(value("STDEV", &[1.0]).is_none() && value("LOOKUP", &[1.0]).is_none());
+    }
+}

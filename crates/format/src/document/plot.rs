@@ -173,6 +173,11 @@ impl Marks {
         Marks::Points(drawn.collect())
     }
 
+    /// Whether it is a band of columns that begin at 0.
+    fn stands_on_zero(&self) -> bool {
+        matches!(self, Marks::Band(band) if !band.is_empty() && band.iter().all(|[_, low, _]| *low == 0.0))
+    }
+
     /// Every point x, y that must be inside the panel; x is absent or y is absent where the marks have none of their own.
     pub fn extent(&self) -> Vec<(Option<f64>, Option<f64>)> {
         match self {
@@ -213,12 +218,20 @@ impl Panel {
         groups
     }
 
-    /// Ends of both axes in places (logarithms on a logarithmic axis), a little more than the data take up.
+    /// Ends of both axes in places (logarithms on a logarithmic axis), a little more than the data take up; columns stand on
+    /// the axis, with nothing below.
     pub fn limits(&self) -> [[f64; 2]; 2] {
         let extent = || self.layers.iter().flat_map(|layer| layer.marks.extent());
+        let [low, high] = limits(extent().filter_map(|(_, y)| self.y.place(y?)));
+        let is_below = extent().any(|(_, y)| y.is_some_and(|y| y < 0.0));
+        let mut marks = self.layers.iter().map(|layer| &layer.marks);
+        let zero = self.y.place(0.0).filter(|_| !is_below);
+        let low = zero
+            .filter(|_| marks.any(Marks::stands_on_zero))
+            .unwrap_or(low);
         [
             limits(extent().filter_map(|(x, _)| self.x.place(x?))),
-            limits(extent().filter_map(|(_, y)| self.y.place(y?))),
+            [low, high],
         ]
     }
 }
@@ -254,5 +267,26 @@ mod tests {
         assert_eq!(drawn[0][0].min(drawn[1][0]) as usize / 100, 0);
         let few = vec![[1.0, 2.0], [f64::NAN, 0.0]];
         assert!(matches!(Marks::data(few), Marks::Points(all) if all.len() == 2));
+    }
+
+    #[test]
+    fn columns_stand_on_the_axis() {
+        let layer = |marks| Layer {
+            name: String::new(),
+            tone: Tone::Main,
+            marks,
+        };
+        let panel = |low: f64, line: f64| Panel {
+            title: "p".into(),
+            x: Axis::linear("x", ""),
+            y: Axis::linear("y", ""),
+            layers: vec![
+                layer(Marks::Band(vec![[0.0, low, 0.4], [1.0, low, 0.5]])),
+                layer(Marks::Line(vec![[0.0, line], [1.0, 0.4]])),
+            ],
+        };
+        let lowest = |low, line| panel(low, line).limits()[1][0];
+        assert_eq!(lowest(0.0, 0.1), 0.0);
+        assert!(lowest(0.0, -0.1) < -0.1 && lowest(0.1, 0.2) < 0.1);
     }
 }

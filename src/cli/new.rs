@@ -27,7 +27,7 @@ pub(super) struct Args {
     /// The experiment follows this procedure of the library
     #[arg(long, value_name = "NAME", requires = "recording", value_parser = procedure)]
     procedure: Option<&'static Procedure>,
-    /// Language of the comments of a budget: en or zh [default: that of the system]
+    /// Language of the comments: en or zh [default: that of the system]
     #[arg(long, value_name = "LANG", default_value = system_language(), hide_default_value = true)]
     lang: Language,
 }
@@ -48,11 +48,11 @@ pub(super) fn run(args: &Args) -> Outcome {
     };
     let path = args.path.clone().unwrap_or_else(|| default.into());
     let text = match (&args.recording, args.certificate) {
-        (Some(recording), _) => match proposed(recording, &path, args.procedure) {
+        (Some(recording), _) => match proposed(recording, &path, args) {
             Ok(text) => text,
             Err(outcome) => return outcome,
         },
-        (None, true) => report::certificate_template(),
+        (None, true) => report::certificate_template(args.lang),
         (None, false) => budget::template(args.lang),
     };
     if path.as_os_str() == "-" {
@@ -88,14 +88,11 @@ pub(super) fn run(args: &Args) -> Outcome {
 }
 
 /// The experiment of a recording, for a file at `path`.
-fn proposed(
-    recording: &Path,
-    path: &Path,
-    procedure: Option<&Procedure>,
-) -> Result<String, Outcome> {
+fn proposed(recording: &Path, path: &Path, args: &Args) -> Result<String, Outcome> {
     let shown = recording.display().to_string();
+    let named = named_from(path, recording);
     text_of(Files::Disk, recording, &shown)
-        .and_then(|text| experiment::proposal(&named_from(path, recording), &text, procedure))
+        .and_then(|text| experiment::proposal(&named, &text, args.procedure, args.lang))
         .map_err(|rejection| output::refused(&rejection, spoken()))
 }
 

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use gumption::experiment::procedure::procedure_named;
 use gumption::experiment::{Purpose, proposal};
+use gumption::language::Language;
 use gumption::{Files, calibrate};
 
 use crate::common::{program, root};
@@ -35,7 +36,7 @@ fn every_proposal_is_calibrated_as_it_is() {
     let recordings = recordings();
     assert!(recordings.len() > 10);
     for (name, recording) in &recordings {
-        let text = proposal(name, recording, None)
+        let text = proposal(name, recording, None, Language::English)
             .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
         let files: &[(&str, &[u8])] =
             &[(name, recording.as_bytes()), ("run.toml", text.as_bytes())];
@@ -56,7 +57,7 @@ fn a_procedure_finds_its_columns() {
     let recording = std::fs::read_to_string(root().join("experiments/gyro-scale-factor.csv"));
     let recording = recording.expect("a text");
     let procedure = procedure_named("gyro-scale-factor");
-    let text = proposal("run.csv", &recording, procedure).expect("a table");
+    let text = proposal("run.csv", &recording, procedure, Language::English).expect("a table");
     let files: &[(&str, &[u8])] = &[
         ("run.csv", recording.as_bytes()),
         ("run.toml", text.as_bytes()),
@@ -116,7 +117,7 @@ fn the_air_of_the_laboratory_is_a_condition() {
         let mass = 1.2034 + 1e-4 * libm::sin(2.7 * hour);
         let _ = writeln!(recording, "{hour},{bath:.1},{moisture},{air:.1},{mass:.4}");
     }
-    let text = proposal("check.csv", &recording, None).expect("a table");
+    let text = proposal("check.csv", &recording, None, Language::English).expect("a table");
     for line in ["rh = \"covariate\"", "p = \"covariate\"", "m = \"output\""] {
         assert!(text.contains(line), "{text}");
     }

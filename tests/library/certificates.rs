@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use gumption::language::Language;
 use gumption::report;
 
 use super::common::{assert_fresh, program, root, stale};
@@ -222,7 +223,7 @@ fn certificates_of_others_come_in() {
 #[test]
 fn the_next_calibration_is_written_and_read() {
     let folder = folder("due");
-    let template = gumption::report::certificate_template();
+    let template = gumption::report::certificate_template(Language::English);
     let data = template.replace("# due = 2027-01-15  ", "due = 2027-01-15");
     assert_ne!(data, template);
     std::fs::write(folder.join("laboratory.toml"), data).expect("a file");
@@ -354,7 +355,6 @@ fn what_is_missing_in_the_data_of_a_certificate_is_told() {
 fn names_of_the_template_do_not_go_out_unnoticed() {
     let folder = folder("template");
     let template = folder.join("template.toml");
-    std::fs::write(&template, report::certificate_template()).expect("a file");
     let filled = root().join("reports/certificates/laboratory.toml");
     let budget = root().join("budgets/mass/weight-10kg-ea402-s2.toml");
     let note = |data: &Path| {
@@ -367,9 +367,30 @@ fn names_of_the_template_do_not_go_out_unnoticed() {
         String::from_utf8_lossy(&run.stderr).into_owned()
     };
     assert_eq!(note(&filled), "");
-    let said = note(&template);
-    assert!(
-        said.contains("`customer`, `laboratory`, `person`"),
-        "{said}"
-    );
+    for language in [Language::English, Language::Chinese] {
+        let text = report::certificate_template(language);
+        std::fs::write(&template, text).expect("a file");
+        let said = note(&template);
+        assert!(
+            said.contains("`customer`, `laboratory`, `person`"),
+            "{said}"
+        );
+    }
+}
+
+/// Under Chinese the comments are Chinese, and the data the same.
+#[test]
+fn templates_hold_the_same_data() {
+    let [english, chinese] =
+        [Language::English, Language::Chinese].map(report::certificate_template);
+    assert_ne!(english, chinese);
+    let data = |text: &str| text.parse::<toml::Table>().expect("a file");
+    assert_eq!(data(&english), data(&chinese));
+    let commented = |text: &str| -> String {
+        text.lines()
+            .filter_map(|line| line.split_once('#'))
+            .map(|(_, comment)| comment)
+            .collect()
+    };
+    assert!(!commented(&chinese).contains("certificate. ") && commented(&chinese).contains("证书"));
 }

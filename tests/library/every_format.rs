@@ -130,7 +130,7 @@ fn certificate(path: &Path, laboratory: &gumption::document::Administration) -> 
 /// The data of a certificate, as they are to be filled in.
 fn laboratory(folder: &Path) -> gumption::document::Administration {
     let data = folder.join("laboratory.toml");
-    std::fs::write(&data, report::certificate_template()).expect("written");
+    std::fs::write(&data, report::certificate_template(Language::English)).expect("written");
     report::administration(Files::Disk, &data).expect("the template is good")
 }
 

@@ -109,7 +109,7 @@ impl Routes {
             "form" => form(&about, &contents),
             "propose" => propose(&about, &contents),
             "template" => Reply::json(&json!({
-                "budget": budget::template(about.language.into()), "certificate": certificate_template(),
+                "budget": budget::template(about.language.into()), "certificate": certificate_template(about.language.into()),
             })),
             "save" => self.save(&about, &contents),
             "forget" => {
@@ -266,7 +266,7 @@ fn propose(about: &About, contents: &Contents) -> Reply {
     let files: &[(&str, &[u8])] = &[(name, bytes)];
     let procedure = about.procedure.as_deref().and_then(procedure_named);
     let proposed = text_of(Files::Library(files), Path::new(name), name)
-        .and_then(|text| proposal(name, &text, procedure));
+        .and_then(|text| proposal(name, &text, procedure, language));
     match proposed {
         Ok(text) => Reply::json(&json!({ "text": text })),
         Err(rejection) => {

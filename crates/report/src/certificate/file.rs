@@ -46,7 +46,7 @@ pub fn administration(files: Files<'_>, path: &Path) -> Result<Administration, R
 
 /// Which names of [`certificate_template`] nobody has replaced.
 pub fn template_names(given: &Administration) -> Option<Said> {
-    let template = checked("template.toml", &certificate_template()).ok()?;
+    let template = checked("template.toml", &certificate_template(Language::English)).ok()?;
     let own = names(given);
     let kept = names(&template)
         .into_iter()
@@ -111,9 +111,13 @@ pub fn certificate_keys() -> Vec<KeyRow> {
     rows
 }
 
-/// The data of a certificate to fill in.
-pub fn certificate_template() -> String {
-    include_str!("template.toml").to_string()
+/// The data of a certificate to fill in, with comments in this language; the data are the same.
+pub fn certificate_template(language: Language) -> String {
+    let text = language.pick(
+        include_str!("template.toml"),
+        include_str!("template.zh.toml"),
+    );
+    text.to_string()
 }
 
 /// Collects faults while the tables are checked.

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 
 use gumption_core::quantity::UnitTable;
+use gumption_fault::language::Language;
+use gumption_fault::say;
 use gumption_format::csv::Data;
 use gumption_format::toml::writing::{key, quoted};
 
@@ -11,7 +13,12 @@ use crate::experiment::entries::RoleWord;
 use crate::experiment::procedure::Procedure;
 
 /// The columns that a procedure needs, with those of the recording that may be meant, and what it must be told.
-pub(super) fn by_procedure(procedure: &Procedure, columns: &[Guess<'_>]) -> String {
+pub(super) fn by_procedure(
+    procedure: &Procedure,
+    columns: &[Guess<'_>],
+    language: Language,
+) -> String {
+    let description = language.pick("description", "description_zh");
     let base: toml::Table = procedure.text.parse().unwrap_or_default();
     let entries = |table: &str| {
         let entries = base
@@ -32,7 +39,7 @@ pub(super) fn by_procedure(procedure: &Procedure, columns: &[Guess<'_>]) -> Stri
     };
     let mut text = format!("procedure = {}\n\n[columns]\n", quoted(procedure.name));
     for (name, entry) in entries("columns") {
-        let what = said(&entry, "description");
+        let what = said(&entry, description);
         let same = columns
             .iter()
             .find(|guess| guess.column.name.to_lowercase() == name.to_lowercase());
@@ -46,19 +53,18 @@ pub(super) fn by_procedure(procedure: &Procedure, columns: &[Guess<'_>]) -> Stri
                     quoted(&guess.column.header)
                 )
             }
-            None => format!(
-                "# {} = {{ column = \"…\" }}   # which column is it? {what}\n",
-                key(&name)
-            ),
+            None => {
+                let asked = say!("which column is it? {what}").in_language(language);
+                format!("# {} = {{ column = \"…\" }}   # {asked}\n", key(&name))
+            }
         };
     }
     for (name, entry) in entries("input") {
         if entry.get("required").and_then(toml::Value::as_bool) == Some(true) {
-            text += &format!(
-                "\n# [input.{name}]   # has to be stated: {}\n# value = …\n# unit = {}\n",
-                said(&entry, "description"),
-                quoted(&said(&entry, "unit")),
-            );
+            let what = said(&entry, description);
+            let asked = say!("has to be stated: {what}").in_language(language);
+            let unit = quoted(&said(&entry, "unit"));
+            text += &format!("\n# [input.{name}]   # {asked}\n# value = …\n# unit = {unit}\n");
         }
     }
     text

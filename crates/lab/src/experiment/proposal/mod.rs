@@ -14,7 +14,8 @@ use std::path::Path;
 
 use gumption_core::model::{is_reserved, names};
 use gumption_core::quantity::{UnitTable, show};
-use gumption_fault::Rejection;
+use gumption_fault::language::Language;
+use gumption_fault::{Rejection, Said, say};
 use gumption_format::csv::{Column, Data, Recording};
 use gumption_format::toml::writing::{key, quoted};
 
@@ -39,34 +40,43 @@ pub fn proposal(
     file: &str,
     recording: &str,
     procedure: Option<&Procedure>,
+    language: Language,
 ) -> Result<String, Rejection> {
     let table = Recording::read_all(file, recording, &UnitTable::default())?;
     let columns = guessed(&table);
     let body = match procedure {
-        Some(procedure) => by_procedure(procedure, &columns),
-        None => by_line(&columns),
+        Some(procedure) => by_procedure(procedure, &columns, language),
+        None => by_line(&columns, language),
     };
+    let rows = table.rows();
+    let proposed = say!(
+        "Proposed from {rows} rows. Roles and equations are guesses: look them over, then run `gumption calibrate` or `gumption diagnose`."
+    );
     let title = Path::new(file).file_stem().map_or_else(
         || "Experiment".into(),
         |stem| stem.to_string_lossy().into_owned(),
     );
     Ok(format!(
-        "# Proposed from {} rows. Roles and equations are guesses: look them over, then run `gumption calibrate` or `gumption diagnose`.\n\
-         title = {}\nrecording = {}\n{body}\n{KNOWN}",
-        table.rows(),
+        "# {}\ntitle = {}\nrecording = {}\n{body}\n{}",
+        proposed.in_language(language),
         quoted(&title),
-        source(file, &columns, table.rows()),
+        source(file, &columns, rows),
+        unknown(language),
     ))
 }
 
 /// What nobody can guess.
-const KNOWN: &str = "\
-# What is known of the readings and of the references, stated as in a budget:
-# [noise]
-# u = 0.01                     # standard uncertainty of one reading, if it is known; else the residuals tell it
-# [input.e]                    # an error that all rows share; write it into an equation
-# half_width = 0.001
-";
+fn unknown(language: Language) -> String {
+    let [all, u, error] = [
+        say!("What is known of the readings and of the references, stated as in a budget:"),
+        say!("standard uncertainty of one reading, if it is known; else the residuals tell it"),
+        say!("an error that all rows share; write it into an equation"),
+    ]
+    .map(|said| said.in_language(language));
+    format!(
+        "# {all}\n# [noise]\n# u = 0.01                     # {u}\n# [input.e]                    # {error}\n# half_width = 0.001\n"
+    )
+}
 
 fn guessed(table: &Recording) -> Vec<Guess<'_>> {
     let mut taken = BTreeSet::new();
@@ -149,7 +159,7 @@ fn is_set(role: RoleWord) -> bool {
 }
 
 /// For each output a straight line along what is set; along its other axes, too. Around with an angle it is a wave.
-fn by_line(columns: &[Guess<'_>]) -> String {
+fn by_line(columns: &[Guess<'_>], language: Language) -> String {
     let of = |role| columns.iter().filter(move |guess| guess.role == role);
     let outputs: Vec<&Guess<'_>> = of(RoleWord::Output).collect();
     let mut set: Vec<&Guess<'_>> = columns.iter().filter(|guess| is_set(guess.role)).collect();
@@ -213,34 +223,44 @@ fn by_line(columns: &[Guess<'_>]) -> String {
     });
     let equations: Vec<String> = equations.map(|equation| quoted(&equation)).collect();
     let equations = match equations.as_slice() {
-        [] => "# equations = \"y = a + b*x\"   # no column looks like an output".to_owned(),
+        [] => {
+            let why = say!("no column looks like an output").in_language(language);
+            format!("# equations = \"y = a + b*x\"   # {why}")
+        }
         [one] => format!("equations = {one}"),
         several => format!("equations = [\n    {},\n]", several.join(",\n    ")),
     };
     let field = match (outputs.as_slice(), along.is_empty()) {
-        ([x, y, z], true) => in_a_field(x, y, z),
+        ([x, y, z], true) => in_a_field(x, y, z, language),
         _ => String::new(),
     };
-    let columns: String = columns.iter().map(declared).collect();
+    let columns: String = columns
+        .iter()
+        .map(|guess| declared(guess, language))
+        .collect();
     format!("{equations}\n{field}\n[columns]\n{columns}{positions}")
 }
 
 /// Three axes and nothing that was set: they may have been turned in a field that stays.
-fn in_a_field(x: &Guess<'_>, y: &Guess<'_>, z: &Guess<'_>) -> String {
+fn in_a_field(x: &Guess<'_>, y: &Guess<'_>, z: &Guess<'_>, language: Language) -> String {
     let unit = x
         .column
         .unit
         .as_ref()
         .map_or_else(String::new, |unit| format!(" {}", unit.typeset()));
+    let asked = say!("Turned in a field of constant strength F? Then the axes are stimuli, and");
     format!(
-        "# Turned in a field of constant strength F? Then the axes are stimuli, and\n\
+        "# {}\n\
          # equations = \"F = sqrt(({} - b1)^2 + ({} - b2)^2 + ({} - b3)^2)\"\n\
          # constant.F = \"…{unit}\"\n",
-        x.name, y.name, z.name
+        asked.in_language(language),
+        x.name,
+        y.name,
+        z.name
     )
 }
 
-fn declared(guess: &Guess<'_>) -> String {
+fn declared(guess: &Guess<'_>, language: Language) -> String {
     let (role, name) = (quoted(guess.role.word()), key(&guess.name));
     let value = match guess.name == guess.column.name {
         true => role,
@@ -249,42 +269,49 @@ fn declared(guess: &Guess<'_>) -> String {
             quoted(&guess.column.header)
         ),
     };
-    format!("{name} = {value}   # {}\n", within(guess))
+    format!(
+        "{name} = {value}   # {}\n",
+        within(guess).in_language(language)
+    )
 }
 
 /// What is in a column, in one line.
-fn within(Guess { column, role, .. }: &Guess<'_>) -> String {
+fn within(Guess { column, role, .. }: &Guess<'_>) -> Said {
     match &column.data {
         Data::Labels(labels) if *role == RoleWord::Time => {
             let rows = [labels.of_row.first(), labels.of_row.last()]
                 .into_iter()
                 .flatten();
-            let texts = rows.filter_map(|level| labels.levels.get(*level as usize));
-            let texts: Vec<&str> = texts.map(String::as_str).collect();
-            texts.join(" to ")
+            let mut texts = rows.filter_map(|level| labels.levels.get(*level as usize));
+            match (texts.next(), texts.next()) {
+                (Some(first), Some(last)) => say!("{first} to {last}"),
+                _ => say!("no number"),
+            }
         }
         Data::Labels(labels) => {
-            let shown: Vec<String> = labels
-                .levels
-                .iter()
-                .take(3)
-                .map(|label| quoted(label))
-                .collect();
-            let more = if labels.levels.len() > 3 { ", …" } else { "" };
-            format!("{} labels: {}{more}", labels.levels.len(), shown.join(", "))
+            let count = labels.levels.len();
+            let shown = labels.levels.iter().take(3).map(|label| quoted(label));
+            let more = (count > 3).then(|| "…".to_owned());
+            let shown: Vec<String> = shown.chain(more).collect();
+            let shown = shown.join(", ");
+            say!("{count} labels: {shown}")
         }
         Data::Numbers(numbers) => {
             let known = || numbers.iter().filter(|x| x.is_finite());
             let low = known().copied().fold(f64::INFINITY, f64::min);
             let high = known().copied().fold(f64::NEG_INFINITY, f64::max);
-            let unit = column.unit.as_ref().map_or_else(
-                || "; no unit in the first line".to_owned(),
-                |unit| format!(" {}", unit.typeset()),
-            );
-            match known().next() {
-                Some(_) if low < high => format!("{} to {}{unit}", show(low), show(high)),
-                Some(_) => format!("{}{unit} throughout", show(low)),
-                None => "no number".to_owned(),
+            let (first, last) = (show(low), show(high));
+            let range = match known().next() {
+                None => return say!("no number"),
+                Some(_) if low < high => say!("{first} to {last}"),
+                Some(_) => say!("{first} throughout"),
+            };
+            match &column.unit {
+                Some(unit) => {
+                    let unit = unit.typeset();
+                    say!("{range} {unit}")
+                }
+                None => say!("{range}; no unit in the first line"),
             }
         }
     }
@@ -296,7 +323,7 @@ mod tests {
     use crate::experiment::procedure::procedure_named;
 
     fn of(recording: &str) -> toml::Table {
-        let text = proposal("run.csv", recording, None).expect("a table");
+        let text = proposal("run.csv", recording, None, Language::English).expect("a table");
         text.parse()
             .unwrap_or_else(|error| panic!("{error}\n{text}"))
     }
@@ -462,6 +489,7 @@ mod tests {
             "run.csv",
             "angle [deg],reading [V]\n0,0.1\n90,5\n180,0.2\n270,-5\n",
             procedure,
+            Language::English,
         )
         .expect("a table");
         assert!(text.contains("E = { column = \"reading [V]\" }"), "{text}");
@@ -514,6 +542,7 @@ mod tests {
             "run.csv",
             "mx [uT],my [uT],mz [uT]\n48,1,2\n3,47,1\n0,2,49\n",
             None,
+            Language::English,
         );
         let text = text.expect("a table");
         let line = "# equations = \"F = sqrt((mx - b1)^2 + (my - b2)^2 + (mz - b3)^2)\"";
@@ -543,7 +572,36 @@ mod tests {
 
     #[test]
     fn what_is_no_table_is_refused() {
-        assert!(proposal("run.csv", "", None).is_err());
-        assert!(proposal("run.csv", "a,b\n1\n", None).is_err());
+        assert!(proposal("run.csv", "", None, Language::English).is_err());
+        assert!(proposal("run.csv", "a,b\n1\n", None, Language::English).is_err());
+    }
+
+    /// In Chinese the comments are, and everything else of the file is the same.
+    #[test]
+    fn comments_are_in_the_language() {
+        let recording =
+            "t [s],load,day,out [mm]\n0,0,mon,0.01\n1,10,mon,1.02\n2,20,tue,2.01\n3,0,tue,0.02\n";
+        let procedure = procedure_named("accelerometer-tumble");
+        assert!(procedure.is_some());
+        for procedure in [None, procedure] {
+            let of =
+                |language| proposal("run.csv", recording, procedure, language).expect("a table");
+            let (english, chinese) = (of(Language::English), of(Language::Chinese));
+            let parts = |text: &str| -> Vec<(String, String)> {
+                let lines = text
+                    .lines()
+                    .map(|line| line.split_once('#').unwrap_or((line, "")));
+                lines
+                    .map(|(stated, comment)| (stated.into(), comment.into()))
+                    .collect()
+            };
+            let (english, chinese) = (parts(&english), parts(&chinese));
+            assert_eq!(english.len(), chinese.len());
+            for (one, other) in english.iter().zip(&chinese) {
+                assert_eq!(one.0, other.0);
+                let is_said = one.1.contains("   # ") || one.1.contains(" to ");
+                assert!(!is_said || one.1 != other.1, "{}", one.1);
+            }
+        }
     }
 }

@@ -14,6 +14,9 @@ use gumption::files::write::{self, Output, Replacing};
 use gumption::files::{self, FileId, Growing};
 use gumption::report::Language;
 
+/// The option by which files are replaced that others wrote.
+const FORCE: &str = "--force";
+
 /// Where the output of a command goes, and what it may replace: the same for all of them.
 #[derive(Debug, clap::Args)]
 pub(super) struct Target {
@@ -68,7 +71,7 @@ impl Target {
         });
         write::allowed(files.chain(self.file()), replacing)
             .and_then(|()| folders.collect())
-            .map_err(|why| complain(Said::quoted(why.words(language))))
+            .map_err(|why| complain(Said::quoted(why.words(language, Some(FORCE)))))
     }
 
     /// Writes files, and the output among them if it is one, all of them or none; prints the output otherwise.
@@ -116,7 +119,7 @@ impl Sink {
         };
         match Growing::begin(path, target.replacing()) {
             Ok(file) => Ok(Sink::File(Box::new(file), language)),
-            Err(why) => Err(complain(Said::quoted(why.words(language)))),
+            Err(why) => Err(complain(Said::quoted(why.words(language, Some(FORCE))))),
         }
     }
 
@@ -124,7 +127,7 @@ impl Sink {
         match self {
             Sink::File(file, language) => file
                 .add(bytes)
-                .map_err(|why| Said::quoted(why.words(*language))),
+                .map_err(|why| Said::quoted(why.words(*language, Some(FORCE)))),
             Sink::Printed => match print(bytes) {
                 Outcome::Done => Ok(()),
                 _ => Err(say!("the table is not whole")),
@@ -136,7 +139,7 @@ impl Sink {
         match self {
             Sink::File(file, language) => file
                 .finish()
-                .map_err(|why| Said::quoted(why.words(language))),
+                .map_err(|why| Said::quoted(why.words(language, Some(FORCE)))),
             Sink::Printed => {
                 PRINTING.store(false, Ordering::Relaxed);
                 Ok(())
@@ -149,7 +152,7 @@ impl Sink {
 pub(super) fn written(files: &[Output], replacing: Replacing, language: Language) -> Outcome {
     match write::write(files, replacing) {
         Ok(()) => Outcome::Done,
-        Err(why) => complain(Said::quoted(why.words(language))),
+        Err(why) => complain(Said::quoted(why.words(language, Some(FORCE)))),
     }
 }
 

@@ -263,8 +263,7 @@ impl Made {
 
 /// The exception of a file that is not written.
 pub(crate) fn unwritten(unwritten: Unwritten, language: Language) -> PyErr {
-    // What the command line calls --force.
-    let words = unwritten.words(language).replace("--force", "replace=True");
+    let words = unwritten.words(language, Some("replace=True"));
     match unwritten.why {
         Why::Exists | Why::NotOurs => PyFileExistsError::new_err(words),
         _ => PyOSError::new_err(words),

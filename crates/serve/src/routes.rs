@@ -191,7 +191,7 @@ impl Routes {
                 Reply::because(StatusCode::FORBIDDEN, &why, language)
             }
             Err(Unsaved::Unwritten(unwritten)) => {
-                let why = Said::quoted(unwritten.words(language));
+                let why = Said::quoted(unwritten.words(language, None));
                 Reply::because(StatusCode::INTERNAL_SERVER_ERROR, &why, language)
             }
         }

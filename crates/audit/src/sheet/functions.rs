@@ -1,6 +1,6 @@
 //! The functions of spreadsheets that budgets are computed with.
 
-use crate::calculate::t;
+use gumption_core::special::student_t_two_sided_quantile;
 
 /// The value of a function; nothing for one that is not known, or of other arguments than it takes.
 pub(super) fn value(name: &str, x: &[f64]) -> Option<f64> {
@@ -15,7 +15,10 @@ pub(super) fn value(name: &str, x: &[f64]) -> Option<f64> {
         ("ROUNDUP", [x, places]) => Some(rounded(*x, *places, |x| libm::ceil(x.abs()).copysign(x))),
         ("ROUNDDOWN", [x, places]) => Some(rounded(*x, *places, libm::trunc)),
         // Of both sides, with whole degrees of freedom.
-        ("TINV" | "T.INV.2T", [outside, nu]) => Some(t(1.0 - outside, libm::floor(*nu))),
+        ("TINV" | "T.INV.2T", [outside, nu]) => {
+            let is_known = *outside > 0.0 && *outside < 1.0 && *nu >= 1.0;
+            is_known.then(|| student_t_two_sided_quantile(1.0 - outside, libm::floor(*nu)))
+        }
         ("SUM", _) => Some(sum(|x| x)),
         ("SUMSQ", _) => Some(sum(|x| x * x)),
         ("COUNT", _) => Some(count),
@@ -62,6 +65,9 @@ mod tests {
         // JCGM 100, table G.2: t₉₅(10) = 2.23.
         assert!((of("T.INV.2T", &[0.05, 10.9]) - 2.228_139).abs() < 1e-6);
         assert!((of("STDEV.S", &[1.0, 2.0, 3.0]) - 1.0).abs() < 1e-15);
+        for strange in [[0.05, 0.5], [2.0, 10.0], [f64::NAN, f64::NAN]] {
+            assert!(value("TINV", &strange).is_none());
+        }
         assert!(value("STDEV", &[1.0]).is_none() && value("LOOKUP", &[1.0]).is_none());
     }
 }

@@ -39,10 +39,15 @@ pub(super) fn instead(error: &clap::Error) -> Option<Said> {
         ErrorKind::UnknownArgument => {
             let usage = error.get(ContextKind::Usage)?.to_string();
             let option = word(ContextKind::InvalidArg)?;
-            usage.ends_with("<COMMAND>").then(|| {
-                say!(
+            if usage.ends_with("<COMMAND>") {
+                return Some(say!(
                     "before the option {option} a command is missing: options stand behind it, as in `gumption eval budget.toml {option} …`"
-                )
+                ));
+            }
+            // `Usage: gumption diagnose [OPTIONS] <EXPERIMENT>`
+            let (_, command) = usage.split_once(": ")?.1.split_once(' ')?;
+            (!option.starts_with('-')).then(|| {
+                say!("{option} is one too many for `gumption {command}`: run it once for each")
             })
         }
         _ => None,

@@ -173,6 +173,10 @@ mod tests {
             (&["table.csv"], "`gumption fleet table.csv`"),
             (&["budgets"], "`gumption serve budgets`"),
             (&["--lang", "zh", "eval", "a.toml"], "the option --lang"),
+            (
+                &["diagnose", "a.toml", "b.toml"],
+                "b.toml is one too many for `gumption diagnose",
+            ),
         ] {
             let arguments = ["gumption"].iter().chain(arguments);
             let error = Cli::try_parse_from(arguments).expect_err("a fault");

@@ -476,6 +476,17 @@ mod tests {
         }
     }
 
+    /// The guide of a profile has its Chinese, where it is told in words.
+    #[test]
+    fn guides_of_profiles_are_told_in_chinese() {
+        let english = ["clause", "section", "appendix", "annex", "edition"];
+        for profile in budget::PROFILES {
+            let chinese = told(profile.source, Language::Chinese).to_string();
+            let is_told = english.iter().all(|word| !chinese.contains(word));
+            assert!(is_told, "{chinese}");
+        }
+    }
+
     /// Titles in Chinese are headlines, and find their code; two codes of one title would be one fault to the reader.
     #[test]
     fn every_code_has_a_chinese_title_of_its_own() {

@@ -7,7 +7,9 @@ use crate::printed::Printed;
 use crate::units;
 
 use super::calculation::{Calculation, Combined, Factor, Freedom, Line, Report};
-use super::model::{differentiate, unit_of_estimate, unit_of_y};
+use super::model::{
+    Differentiated, differentiate, relative_to_estimate, unit_of_estimate, unit_of_y,
+};
 
 /// What is known, computed once.
 #[derive(Debug, Clone)]
@@ -38,15 +40,15 @@ impl<'a> Case<'a> {
         let mut second_order = None;
         let (derivatives, y, trouble) = match differentiate(claimed) {
             Ok(Some(known)) => {
+                let slopes = in_unit_of_result(claimed, &known);
                 unknown_slopes = known.unknown;
                 by_units = known.by_units;
                 second_order = known.second_order;
-                (Some(known.slopes), known.y, None)
+                (Some(slopes), known.y, None)
             }
             Ok(None) => (None, None, None),
             Err(trouble) => (None, None, Some(trouble)),
         };
-        let derivatives = derivatives.map(|slopes| in_unit_of_result(claimed, slopes));
         let lines = claimed
             .rows
             .iter()
@@ -73,21 +75,50 @@ impl<'a> Case<'a> {
     }
 }
 
-/// Derivatives of a ratio whose contributions are in percent: with the hundred in them where most coefficients of the
-/// sheet have it.
-fn in_unit_of_result(claimed: &Claimed, slopes: Vec<f64>) -> Vec<f64> {
+/// Derivatives in the unit of the contributions, where that is percent: those of a ratio, with the hundred in them where most
+/// coefficients of the sheet have it, or those of a relative result, where more of them are.
+fn in_unit_of_result(claimed: &Claimed, known: &Differentiated) -> Vec<f64> {
+    let slopes = &known.slopes;
     let Some(fraction) = units::fraction(&claimed.unit) else {
-        return slopes;
+        return slopes.clone();
     };
-    let rows = claimed.rows.iter().zip(&slopes);
-    let stated: Vec<(f64, f64)> = rows
-        .filter_map(|(row, slope)| Some((row.c.as_ref()?.value, *slope)))
-        .filter(|(c, slope)| *c != 0.0 && *slope != 0.0)
+    let of_model = |made: &dyn Fn(&Row, f64) -> f64| -> Vec<f64> {
+        let rows = claimed.rows.iter().zip(slopes).zip(&known.of_model);
+        rows.map(|((row, slope), of_model)| match of_model {
+            true => made(row, *slope),
+            // What the laboratory states is in its unit.
+            false => *slope,
+        })
+        .collect()
+    };
+    let hundred = of_model(&|_, slope| slope / fraction);
+    let stated = |i: usize| {
+        let c = claimed.rows[i].c.as_ref()?.value;
+        (known.of_model[i] && c != 0.0 && slopes[i] != 0.0).then_some(c)
+    };
+    let stated: Vec<(usize, f64)> = (0..slopes.len())
+        .filter_map(|i| Some((i, stated(i)?)))
         .collect();
-    let scaled = |(c, slope): &&(f64, f64)| far(*c, slope / fraction) < far(*c, *slope);
-    match 2 * stated.iter().filter(scaled).count() > stated.len() {
-        true => slopes.into_iter().map(|slope| slope / fraction).collect(),
-        false => slopes,
+    let scaled = |(i, c): &&(usize, f64)| far(*c, hundred[*i]) < far(*c, slopes[*i]);
+    let ratio = match 2 * stated.iter().filter(scaled).count() > stated.len() {
+        true => hundred,
+        false => slopes.clone(),
+    };
+    let relative = known.y.filter(|y| *y != 0.0).map(|y| {
+        of_model(&|row, slope| match relative_to_estimate(row) {
+            Some((_, value)) => slope * value / y,
+            None => slope / (y * fraction),
+        })
+    });
+    let met = |all: &[f64]| {
+        stated
+            .iter()
+            .filter(|(i, c)| far(*c, all[*i]) < 0.05)
+            .count()
+    };
+    match relative {
+        Some(relative) if met(&relative) > met(&ratio) => relative,
+        _ => ratio,
     }
 }
 

@@ -26,6 +26,8 @@ pub(super) struct Differentiated {
     pub(super) slopes: Vec<f64>,
     /// Which slopes depend on estimates that are not stated; the claimed coefficients stand in their places.
     pub(super) unknown: Vec<bool>,
+    /// Which slopes are those of the model.
+    pub(super) of_model: Vec<bool>,
     pub(super) y: Option<f64>,
     /// Whether the model holds with the units of its estimates.
     pub(super) by_units: bool,
@@ -135,6 +137,7 @@ pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>,
         second_order,
         slopes: (0..rows.len()).map(derivative).collect(),
         y: (!any_missing).then(|| model.values(&values)[0]),
+        of_model: (0..rows.len()).map(|i| used[i] && !unknown[i]).collect(),
         unknown,
         by_units,
     }))
@@ -146,11 +149,22 @@ fn doubt_of_estimate(row: &Row) -> f64 {
         .stated
         .standard()
         .map_or(0.0, |(u, _)| u * row.relative_factor());
-    let to_estimate = units::factor(&row.unit, unit_of_estimate(row));
+    let to_estimate = match relative_to_estimate(row) {
+        Some((fraction, value)) => Some(fraction * value.abs()),
+        None => units::factor(&row.unit, unit_of_estimate(row)),
+    };
     match row.not_counted {
         None => u * to_estimate.unwrap_or(1.0),
         Some(_) => 0.0,
     }
+}
+
+/// The estimate that the uncertainty of a row is relative to, and as what fraction: in percent beside an estimate in kg.
+pub(super) fn relative_to_estimate(row: &Row) -> Option<(f64, f64)> {
+    let fraction = units::fraction(&row.unit)?;
+    let value = row.value.as_ref()?;
+    let is_other = !value.unit.is_empty() && units::fraction(&value.unit).is_none();
+    is_other.then_some((fraction, value.value))
 }
 
 /// Σ (½ f_ij² + f_i f_ijj) u_i² u_j² by Σ f_i² u_i² (JCGM 100, 5.1.2, note). Derivatives of gradients are taken over a

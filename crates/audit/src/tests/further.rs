@@ -309,3 +309,18 @@ fn sheets_in_the_code_page_of_western_europe_are_read() {
     assert_eq!(audit(&claims[0]).verdict, Verdict::Sound);
     assert_eq!(claims[0].rows[1].label(), "Auflösung");
 }
+
+/// A budget in percent of a product: its coefficients are the exponents, and rows that the model does not name keep theirs.
+#[test]
+fn relative_budgets_have_exponents_for_coefficients() {
+    let sheet = |c: &str, u_rho: &str, u_c: &str, expanded: &str| {
+        format!(
+            "\"Flow, gravimetric: q = m/(rho*t^2)\"\nQuantity,Estimate,Unit,Rel. expanded uncertainty (%),k,Rel. std uncertainty (%),Sens. coeff.,Contribution (%)\n\
+             mass m,100.02,kg,0.02,2,0.01,1,0.01\ndensity rho,998.2,kg/m3,0.03,2,{u_rho},-1,{u_rho}\ntime t,60.0,s,0.02,2,0.01,{c},0.02\n\
+             repeatability,,,,,0.015,1,0.015\nCombined standard uncertainty,,,,,,,{u_c}\n\"Expanded uncertainty, k = 2\",,,,,,,{expanded}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("-2", "0.015", "0.0308", "0.062"));
+    let undivided = first("sheet.csv", &sheet("-2", "0.030", "0.0403", "0.081"));
+    assert_eq!(undivided, "cert-undivided@rho");
+}

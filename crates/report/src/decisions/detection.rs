@@ -189,7 +189,8 @@ impl Limits<'_> {
         let verdict = self.verdict();
         let limits = self.limits_in_brackets();
         let p = probability(best.coverage_probability);
-        let estimate = self.beside(best.value, best.u);
+        // The value has the last place of its u (JCGM 100, 7.2.6).
+        let estimate = figures.of_value(&aligned(best.value, best.u, 2));
         let u = figures.amount(&significant(best.u, 2));
         let ends = figures.interval().unwrap_or_default();
         let [low, high] = ends.map(|end| figures.of_value(&end));

@@ -165,7 +165,7 @@ fn truth_line(name: &str, case: &Sheet) -> String {
 
 fn save(path: PathBuf, content: Vec<u8>) -> Result<(), String> {
     write(&[Output { path, content }], Replacing::Anything)
-        .map_err(|why| why.words(Language::English, None))
+        .map_err(|why| why.said(None).to_string())
 }
 
 /// What the program answers, and whether it says that matches are not named because they are likely to be chance.

@@ -58,11 +58,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     if let Some(path) = wanted {
         let content = Mapping::template(&understood).into_bytes();
         let map = [Output { path, content }];
-        outcome = outcome.max(output::written(
-            &map,
-            Replacing::Nothing,
-            args.form.language(),
-        ));
+        outcome = outcome.max(output::written(&map, Replacing::Nothing));
     }
     match Document::together(documents) {
         Some(document) => outcome.max(args.form.write(&document)),

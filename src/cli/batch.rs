@@ -84,7 +84,7 @@ pub(super) fn run(args: &Args) -> Outcome {
 }
 
 fn evaluated(args: &Args) -> Result<Count, Outcome> {
-    args.target.is_allowed(&[], args.lang)?;
+    args.target.is_allowed(&[])?;
     let is_parquet = is_parquet(&args.table);
     let to_parquet = args.target.ending().is_some_and(|ending| ending == PARQUET);
     if (is_parquet || to_parquet) && !cfg!(feature = "parquet") {
@@ -102,8 +102,8 @@ fn evaluated(args: &Args) -> Result<Count, Outcome> {
     };
     let source = source.map_err(refused)?;
     // Now it is known what is read, too.
-    args.target.is_allowed(&[], args.lang)?;
-    let sink = Sink::begin(&args.target, args.lang)?;
+    args.target.is_allowed(&[])?;
+    let sink = Sink::begin(&args.target)?;
     let work = Work {
         file: &file,
         source,

@@ -10,7 +10,6 @@ use gumption::challenge::{
 use gumption::fault::harmless;
 use gumption::fault::say;
 use gumption::files::write::{Output, Replacing};
-use gumption::report::Language;
 
 use super::output::Complaint;
 use super::{Outcome, output};
@@ -146,7 +145,7 @@ fn write(
         path: truth_path.clone(),
         content: truth_text.as_bytes().to_vec(),
     });
-    let written = output::written(&files, Replacing::Nothing, Language::English);
+    let written = output::written(&files, Replacing::Nothing);
     if written != Outcome::Done {
         return written;
     }

@@ -198,7 +198,7 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
             Err(error) => {
                 let row = label.map(|l| format!(", {l}")).unwrap_or_default();
                 let place = format!("{}{row}", file.display());
-                let why = report::failure(&error, args.form.language());
+                let why = error.said().in_language(args.form.language());
                 output::no_result(place, None, &why, args.form.language());
                 *worst = (*worst).max(Outcome::Negative);
             }

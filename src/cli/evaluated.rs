@@ -92,10 +92,8 @@ pub(super) fn machine(
     let mut rows = Vec::with_capacity(loaded.rows.len());
     for budget::Row { label, budget } in loaded.rows {
         let options = options(settings, None, &budget, &propagate::Progress::default());
-        let evaluation = propagate::evaluate(&budget, &options).map_err(|error| {
-            let why = report::failure(&error, Language::English);
-            say!("{name} gives no result: {why}")
-        })?;
+        let evaluation = propagate::evaluate(&budget, &options)
+            .map_err(|error| say!("{name} gives no result: {}", error.said()))?;
         rows.push(Row {
             label,
             budget,

@@ -104,7 +104,7 @@ impl Form {
                 ),
             )));
         }
-        self.target.is_allowed(beside, self.language())
+        self.target.is_allowed(beside)
     }
 
     /// Where the output goes that is no document, in a form of its own.
@@ -129,7 +129,7 @@ impl Form {
     pub fn write_with(&self, document: &Document, beside: Vec<Output>) -> Outcome {
         match self.format() {
             Ok(format) => match (format.render)(document, &self.page()) {
-                Ok(bytes) => self.target.write(bytes, beside, self.language()),
+                Ok(bytes) => self.target.write(bytes, beside),
                 Err(unfit) => output::complain(unfit.0),
             },
             Err(complaint) => output::complain(complaint),

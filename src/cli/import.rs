@@ -60,5 +60,5 @@ pub(super) fn run(args: &Args) -> Outcome {
         };
     }
     let file = budgets.swap_remove(wanted);
-    args.target.write(file.into_bytes(), Vec::new(), args.lang)
+    args.target.write(file.into_bytes(), Vec::new())
 }

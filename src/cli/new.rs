@@ -82,7 +82,7 @@ pub(super) fn run(args: &Args) -> Outcome {
                 Why::Exists => say!(", or `-` to print the template"),
                 _ => Said::default(),
             };
-            output::complain(say!("{}{print}", unwritten.words(spoken(), None)))
+            output::complain(say!("{}{print}", unwritten.said(None)))
         }
     }
 }

@@ -59,7 +59,7 @@ impl Target {
 
     /// Makes sure, before any work is done, that the output and what is written beside it may be written as far as is
     /// known.
-    pub fn is_allowed(&self, beside: &[Beside], language: Language) -> Result<(), Outcome> {
+    pub fn is_allowed(&self, beside: &[Beside]) -> Result<(), Outcome> {
         let replacing = self.replacing();
         let files = beside.iter().filter_map(|one| match one {
             Beside::File(path) => Some(path.as_path()),
@@ -71,11 +71,11 @@ impl Target {
         });
         write::allowed(files.chain(self.file()), replacing)
             .and_then(|()| folders.collect())
-            .map_err(|why| complain(Said::quoted(why.words(language, Some(FORCE)))))
+            .map_err(|why| complain(why.said(Some(FORCE))))
     }
 
     /// Writes files, and the output among them if it is one, all of them or none; prints the output otherwise.
-    pub fn write(&self, content: Vec<u8>, mut beside: Vec<Output>, language: Language) -> Outcome {
+    pub fn write(&self, content: Vec<u8>, mut beside: Vec<Output>) -> Outcome {
         let printed = match self.file() {
             Some(path) => {
                 let path = path.to_path_buf();
@@ -84,7 +84,7 @@ impl Target {
             }
             None => print(content),
         };
-        printed.max(written(&beside, self.replacing(), language))
+        printed.max(written(&beside, self.replacing()))
     }
 
     /// What may be replaced.
@@ -98,7 +98,7 @@ impl Target {
 
 /// Where a table goes whose lines come one after another: a file takes its place when it is whole, what is printed is printed.
 pub(super) enum Sink {
-    File(Box<Growing>, Language),
+    File(Box<Growing>),
     Printed,
 }
 
@@ -112,22 +112,20 @@ pub(super) fn is_printing() -> bool {
 
 impl Sink {
     /// Begins a table where a command is to write.
-    pub fn begin(target: &Target, language: Language) -> Result<Sink, Outcome> {
+    pub fn begin(target: &Target) -> Result<Sink, Outcome> {
         let Some(path) = target.file() else {
             PRINTING.store(true, Ordering::Relaxed);
             return Ok(Sink::Printed);
         };
         match Growing::begin(path, target.replacing()) {
-            Ok(file) => Ok(Sink::File(Box::new(file), language)),
-            Err(why) => Err(complain(Said::quoted(why.words(language, Some(FORCE))))),
+            Ok(file) => Ok(Sink::File(Box::new(file))),
+            Err(why) => Err(complain(why.said(Some(FORCE)))),
         }
     }
 
     pub fn add(&mut self, bytes: &[u8]) -> Result<(), Said> {
         match self {
-            Sink::File(file, language) => file
-                .add(bytes)
-                .map_err(|why| Said::quoted(why.words(*language, Some(FORCE)))),
+            Sink::File(file) => file.add(bytes).map_err(|why| why.said(Some(FORCE))),
             Sink::Printed => match print(bytes) {
                 Outcome::Done => Ok(()),
                 _ => Err(say!("the table is not whole")),
@@ -137,9 +135,7 @@ impl Sink {
 
     pub fn finish(self) -> Result<(), Said> {
         match self {
-            Sink::File(file, language) => file
-                .finish()
-                .map_err(|why| Said::quoted(why.words(language, Some(FORCE)))),
+            Sink::File(file) => file.finish().map_err(|why| why.said(Some(FORCE))),
             Sink::Printed => {
                 PRINTING.store(false, Ordering::Relaxed);
                 Ok(())
@@ -149,10 +145,10 @@ impl Sink {
 }
 
 /// Writes files, all of them or none.
-pub(super) fn written(files: &[Output], replacing: Replacing, language: Language) -> Outcome {
+pub(super) fn written(files: &[Output], replacing: Replacing) -> Outcome {
     match write::write(files, replacing) {
         Ok(()) => Outcome::Done,
-        Err(why) => complain(Said::quoted(why.words(language, Some(FORCE)))),
+        Err(why) => complain(why.said(Some(FORCE))),
     }
 }
 

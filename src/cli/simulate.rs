@@ -32,7 +32,7 @@ pub(super) fn run(args: &Args) -> Outcome {
             "a recording is written as CSV; let the name of the output end in .csv"
         ));
     }
-    if let Err(outcome) = args.target.is_allowed(&[], lang) {
+    if let Err(outcome) = args.target.is_allowed(&[]) {
         return outcome;
     }
     let case = match Case::load(&args.case, Purpose::Plan) {
@@ -46,7 +46,7 @@ pub(super) fn run(args: &Args) -> Outcome {
             let told = say!("the noise is {noise}");
             output::note(&told.in_language(lang), lang);
             let text = simulation.sheet.csv();
-            args.target.write(text.into_bytes(), Vec::new(), lang)
+            args.target.write(text.into_bytes(), Vec::new())
         }
         Err(why) => failed(&args.case, &case, &Failure::Fit(why), lang),
     }

@@ -141,7 +141,7 @@ pub(crate) fn evaluate(
                     }),
                     Err(error) => {
                         let row = label.map(|label| format!("{label}: ")).unwrap_or_default();
-                        let why = format!("{row}{}", report::failure(&error, language));
+                        let why = format!("{row}{}", error.said().in_language(language));
                         Err(Unmade::NoResult(why, None))
                     }
                 }

@@ -263,7 +263,7 @@ impl Made {
 
 /// The exception of a file that is not written.
 pub(crate) fn unwritten(unwritten: Unwritten, language: Language) -> PyErr {
-    let words = unwritten.words(language, Some("replace=True"));
+    let words = unwritten.said(Some("replace=True")).in_language(language);
     match unwritten.why {
         Why::Exists | Why::NotOurs => PyFileExistsError::new_err(words),
         _ => PyOSError::new_err(words),

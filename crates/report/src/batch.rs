@@ -4,7 +4,7 @@ mod shape;
 mod values;
 
 use super::rows::{Cell, Head};
-use super::{Report, failure, remarks, rows};
+use super::{Report, remarks, rows};
 use gumption_core::model::Output;
 use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection};
@@ -311,7 +311,7 @@ fn why(failed: &Failed, language: Language) -> String {
     match failed {
         Failed::Row(fault) => described(fault, language),
         Failed::Refused(rejection) => refused(rejection, language),
-        Failed::NoResult(error) => failure(error, language),
+        Failed::NoResult(error) => error.said().in_language(language),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Least-squares fits: formula, parameters, how well the curve describes the data.
 
 use gumption_core::quantity::Decimal;
+use gumption_fault::{Between, Said, say};
 use gumption_gum::budget::{Fit, FitColumn, FitDoubt, FitVerdict, LackOfFit, LackOfFitTest};
 
 use super::figures::with_unit;
@@ -26,10 +27,7 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
 }
 
 fn section(l: Language, fit: &Fit) -> Vec<Block> {
-    let head = l.pick(
-        format!("Least-squares fit {}", fit.name),
-        format!("最小二乘拟合 {}", fit.name),
-    );
+    let head = say!("Least-squares fit {}", fit.name).in_language(l);
     let mut blocks = vec![Block::Section(match &fit.description {
         Some(description) => l.pick(
             format!("{head}: {description}"),
@@ -95,20 +93,20 @@ fn data(l: Language, fit: &Fit) -> String {
     };
     if !common.is_empty() {
         let names = l.list(&common);
-        text.push_str(&l.pick(
-            format!(
+        text.push_str(
+            &say!(
                 " {names} act{} on all points together.",
                 if common.len() == 1 { "s" } else { "" }
-            ),
-            format!("{names} 对所有数据点共同起作用。"),
-        ));
+            )
+            .in_language(l),
+        );
     }
     if !fit.linear {
         let steps = fit.iterations;
-        text.push_str(&l.pick(
-            format!(" The formula is not linear in its parameters; the search took {steps} steps."),
-            format!("公式对参数为非线性，迭代 {steps} 次。"),
-        ));
+        text.push_str(
+            &say!(" The formula is not linear in its parameters; the search took {steps} steps.")
+                .in_language(l),
+        );
     }
     text
 }
@@ -219,62 +217,40 @@ fn shown(p: f64) -> String {
 /// The test and its outcome, in words.
 fn verdict(l: Language, fit: &Fit) -> Option<String> {
     let test = fit.lack_of_fit.as_ref()?;
-    let figures = test_figures(l, test);
-    Some(match (test.verdict(), l) {
-        (FitVerdict::Accepted, Language::English) => {
-            format!(
-                "The curve describes the data: {figures}, p {}.",
-                shown(test.p)
-            )
-        }
-        (FitVerdict::Accepted, Language::Chinese) => {
-            format!("曲线与数据相符：{figures}，p {}。", shown(test.p))
-        }
-        (FitVerdict::Rejected, Language::English) => format!(
-            "The curve does not describe the data: {figures}, p {}.",
-            shown(test.p)
-        ),
-        (FitVerdict::Rejected, Language::Chinese) => {
-            format!("曲线与数据不符：{figures}，p {}。", shown(test.p))
-        }
-        (FitVerdict::TooSmall, Language::English) => format!(
+    let (figures, p) = (test_figures(test), shown(test.p));
+    let said = match test.verdict() {
+        FitVerdict::Accepted => say!("The curve describes the data: {figures}, p {p}."),
+        FitVerdict::Rejected => say!("The curve does not describe the data: {figures}, p {p}."),
+        FitVerdict::TooSmall => say!(
             "The residuals are smaller than the stated uncertainties let expect: {figures}, 1 − p {}.",
             shown(1.0 - test.p)
         ),
-        (FitVerdict::TooSmall, Language::Chinese) => format!(
-            "残差小于所给不确定度的预期：{figures}，1 − p {}。",
-            shown(1.0 - test.p)
-        ),
-    })
+    };
+    Some(said.in_language(l))
 }
 
 /// `χ² = 2.74 for ν = 4`, `F = 0.8 for ν = 3 and 7 (…)`.
-pub(super) fn test_figures(l: Language, test: &LackOfFit) -> String {
+pub(super) fn test_figures(test: &LackOfFit) -> Said {
     let statistic = significant(test.statistic, TABLE_DIGITS);
     let dof = freedom(test.dof);
     match test.test {
-        LackOfFitTest::ChiSquared => l.pick(
-            format!("χ² = {statistic} for ν = {dof}"),
-            format!("χ² = {statistic}，ν = {dof}"),
-        ),
+        LackOfFitTest::ChiSquared => say!("χ² = {statistic} for ν = {dof}"),
         LackOfFitTest::Replicates => {
             let below = freedom(test.denominator.unwrap_or_default());
-            l.pick(
-                format!("F = {statistic} for ν = {dof} and {below}, against the scatter of repeated points"),
-                format!("F = {statistic}，ν = {dof}、{below}（以重复点的分散性检验）"),
+            say!(
+                "F = {statistic} for ν = {dof} and {below}, against the scatter of repeated points"
             )
         }
     }
 }
 
 /// What speaks against a fit, with its number.
-pub(super) fn doubtful_fit(l: Language, fit: &str, doubt: &FitDoubt) -> String {
+pub(super) fn doubtful_fit(fit: &str, doubt: &FitDoubt) -> Said {
     match doubt {
         FitDoubt::Pattern { runs, points, p } => {
             let p = probability_of(*p);
-            l.pick(
-                format!("The residuals of the fit {fit} follow a pattern: along the predictor their signs make only {runs} runs in {points} points, which comes about by chance with a probability of {p}. The curve is not the one that the points follow, or their errors are not independent; the uncertainties of its parameters are then too small. Try another formula; a drift or a common cause stands in the data as a component with common = true."),
-                format!("拟合 {fit} 的残差有规律：沿自变量方向 {points} 个点的残差符号仅构成 {runs} 个游程，偶然出现的概率为 {p}。曲线形式不符，或各点误差不独立，参数的不确定度因而偏小。请改用其他公式；漂移或共同因素应写成数据中 common = true 的分量。"),
+            say!(
+                "The residuals of the fit {fit} follow a pattern: along the predictor their signs make only {runs} runs in {points} points, which comes about by chance with a probability of {p}. The curve is not the one that the points follow, or their errors are not independent; the uncertainties of its parameters are then too small. Try another formula; a drift or a common cause stands in the data as a component with common = true."
             )
         }
         FitDoubt::Pole {
@@ -285,9 +261,8 @@ pub(super) fn doubtful_fit(l: Language, fit: &str, doubt: &FitDoubt) -> String {
         } => {
             let high = with_unit(&exact(*high), &symbol(unit));
             let low = exact(*low);
-            l.pick(
-                format!("The curve of the fit {fit} breaks off between two points: `{argument}` reaches the end of its range, or nearly so, between {predictor} = {low} and {high}. There the curve says nothing of the quantity, however well it meets the points. Begin at other start values, or take a formula with fewer parameters or without that divisor."),
-                format!("拟合 {fit} 的曲线在两个数据点之间中断：在 {predictor} = {low} 与 {high} 之间，`{argument}` 达到或几乎达到其定义域的端点。无论曲线与各点多么吻合，此处都不能代表该量。请改用其他初值，或采用参数较少、不含该除数的公式。"),
+            say!(
+                "The curve of the fit {fit} breaks off between two points: `{argument}` reaches the end of its range, or nearly so, between {predictor} = {low} and {high}. There the curve says nothing of the quantity, however well it meets the points. Begin at other start values, or take a formula with fewer parameters or without that divisor."
             )
         }
         FitDoubt::BetterMinimum {
@@ -297,11 +272,10 @@ pub(super) fn doubtful_fit(l: Language, fit: &str, doubt: &FitDoubt) -> String {
             let values = parameters
                 .iter()
                 .map(|(name, value)| format!("{name} = {}", significant(*value, 4)));
-            let values = l.list(&values.collect::<Vec<_>>());
+            let values = Said::row(Between::And, values);
             let percent = significant(100.0 * residuals, 2);
-            l.pick(
-                format!("The search of the fit {fit} ended in a minimum that is not the best: from other start values it ends at {values}, where the residuals are {percent} % as large. Write these values as `start`, and see which of the two curves is the one that is meant."),
-                format!("拟合 {fit} 找到的不是最优极小：由其他初值可达 {values}，其残差为现有残差的 {percent} %。请将这些值写为 `start`，并判断哪条曲线才是所要的。"),
+            say!(
+                "The search of the fit {fit} ended in a minimum that is not the best: from other start values it ends at {values}, where the residuals are {percent} % as large. Write these values as `start`, and see which of the two curves is the one that is meant."
             )
         }
     }
@@ -386,8 +360,7 @@ fn heads(l: Language, fit: &Fit, adjusted: &[usize]) -> Vec<Column> {
         .chain([y])
         .map(|c| in_unit(&c.name, &symbol(&c.unit)))
         .collect();
-    let on_the_curve =
-        |name: &str| l.pick(format!("{name} on the curve"), format!("{name} 曲线值"));
+    let on_the_curve = |name: &str| say!("{name} on the curve").in_language(l);
     heads.extend(adjusted.iter().map(|k| on_the_curve(&predictors[*k].name)));
     if adjusted.is_empty() {
         heads.push(l.pick("on the curve", "曲线值").into());
@@ -450,8 +423,8 @@ fn farthest(l: Language, fit: &Fit) -> Option<String> {
     } else {
         l.pick("residual standard deviations", "倍残差标准差")
     };
-    Some(l.pick(
-        format!("Point {number}{place} lies farthest from the curve: {distance} {what}."),
-        format!("第 {number} 点{place}离曲线最远：{distance} {what}。"),
-    ))
+    Some(
+        say!("Point {number}{place} lies farthest from the curve: {distance} {what}.")
+            .in_language(l),
+    )
 }

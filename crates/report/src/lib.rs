@@ -64,7 +64,6 @@ pub use evaluation::{evaluation, evaluation_schema, evaluations};
 pub use fleet::{fleet, fleet_schema};
 pub use language::Language;
 pub use number::{grouped, significant};
-pub use remarks::failure;
 pub use requirements::requirements;
 pub use rows::rows;
 pub use save::{Unsaved, saved};

@@ -1,5 +1,6 @@
 //! Whether quasi-random points took the place of random trials, in words.
 
+use gumption_fault::{Between, Said, say};
 use gumption_gum::propagate::{Quasi, QuasiRun, Run, WhyRandom};
 
 use super::language::Language;
@@ -9,126 +10,72 @@ use super::remarks::tolerance;
 /// `4096 quasi-random points, seed 1, stable to δ = 0.05: yes`.
 pub(super) fn points(run: &Run, quasi: &QuasiRun, language: Language) -> String {
     let (count, seed, delta) = (grouped(run.trials), run.seed, tolerance(quasi.delta));
-    match language {
-        Language::English => format!(
-            "{count} quasi-random points, seed {seed}, stable to δ = {delta}: {}",
-            if quasi.reached { "yes" } else { "no" }
-        ),
-        Language::Chinese => format!(
-            "{count} 个拟随机点，种子 {seed}，数值容差 δ = {delta}：{}",
-            if quasi.reached { "达到" } else { "未达到" }
-        ),
-    }
+    let said = match quasi.reached {
+        true => say!("{count} quasi-random points, seed {seed}, stable to δ = {delta}: yes"),
+        false => say!("{count} quasi-random points, seed {seed}, stable to δ = {delta}: no"),
+    };
+    said.in_language(language)
 }
 
 /// What the points gained, or why there are none.
 pub(super) fn sentence(quasi: &Quasi, language: Language) -> String {
-    match (quasi, language) {
-        (Quasi::Used(run), _) => gained(run, language),
-        (Quasi::Refused(why), Language::English) => format!(
+    let said = match quasi {
+        Quasi::Used(run) => gained(run),
+        Quasi::Refused(why) => say!(
             "Quasi-random points were asked for, but random trials were run (JCGM 101): {}.",
-            english(why)
+            reason(why)
         ),
-        (Quasi::Refused(why), Language::Chinese) => {
-            format!(
-                "虽指定使用拟随机点，但实际运行的是随机试验（JCGM 101）：{}。",
-                chinese(why)
-            )
-        }
-    }
-}
-
-fn gained(run: &QuasiRun, language: Language) -> String {
-    let trials = run.equivalent_trials;
-    let scrambles = run.replicates;
-    let known = trials.is_finite();
-    let trials = significant(trials, 2);
-    match language {
-        Language::English => {
-            let points = format!(
-                "Quasi-random points: {scrambles} independent scrambles of a Sobol' sequence"
-            );
-            let gain = if known {
-                format!(
-                    "; their scatter tells the errors, which {trials} random trials would have, too"
-                )
-            } else {
-                "; they agree to the last digit".to_string()
-            };
-            let averaged = match listed(&run.averaged, language) {
-                Some(names) => format!(". Not drawn, but averaged over: {names}"),
-                None => String::new(),
-            };
-            format!("{points}{gain}{averaged}.")
-        }
-        Language::Chinese => {
-            let points = format!("拟随机点：Sobol' 序列的 {scrambles} 次独立置乱");
-            let gain = if known {
-                format!("，由其离散程度得出的误差相当于 {trials} 次随机试验")
-            } else {
-                "，各次结果完全一致".to_string()
-            };
-            let averaged = match listed(&run.averaged, language) {
-                Some(names) => format!("。不抽样而直接求平均的分量：{names}"),
-                None => String::new(),
-            };
-            format!("{points}{gain}{averaged}。")
-        }
-    }
-}
-
-/// The first names of components; `None` if there are none.
-fn listed(names: &[String], language: Language) -> Option<String> {
-    const MOST: usize = 6;
-    let shown = names.iter().take(MOST).map(String::as_str);
-    let rest = names.len().saturating_sub(MOST);
-    let (comma, more) = match language {
-        Language::English => (", ", format!(" and {rest} more")),
-        Language::Chinese => ("、", format!("等 {} 个", names.len())),
     };
-    let list = shown.collect::<Vec<_>>().join(comma);
-    let more = if rest > 0 { more } else { String::new() };
-    (!names.is_empty()).then(|| list + &more)
+    said.in_language(language)
 }
 
-fn english(why: &WhyRandom) -> String {
+fn gained(run: &QuasiRun) -> Said {
+    let (trials, scrambles) = (run.equivalent_trials, run.replicates);
+    let gain = match trials.is_finite() {
+        true => say!(
+            "; their scatter tells the errors, which {} random trials would have, too",
+            significant(trials, 2)
+        ),
+        false => say!("; they agree to the last digit"),
+    };
+    let averaged = match run.averaged.is_empty() {
+        true => Said::default(),
+        false => say!(". Not drawn, but averaged over: {}", listed(&run.averaged)),
+    };
+    say!(
+        "Quasi-random points: {scrambles} independent scrambles of a Sobol' sequence{gain}{averaged}."
+    )
+}
+
+/// The first names of components.
+fn listed(names: &[String]) -> Said {
+    const MOST: usize = 6;
+    let shown = Said::row(Between::Comma, names.iter().take(MOST).cloned());
+    match names.len().saturating_sub(MOST) {
+        0 => shown,
+        rest => say!("{shown} and {rest} more"),
+    }
+}
+
+fn reason(why: &WhyRandom) -> Said {
     match why {
-        WhyRandom::SeveralMeasurands => "the budget has several measurands".into(),
+        WhyRandom::SeveralMeasurands => say!("the budget has several measurands"),
         WhyRandom::TrialsAreCounted => {
-            "the conformity assessment or the characteristic limits count trials".into()
+            say!("the conformity assessment or the characteristic limits count trials")
         }
         WhyRandom::Discrete { component } => {
-            format!("{component} has single values, not an interval of them")
+            say!("{component} has single values, not an interval of them")
         }
-        WhyRandom::HeavyTail { component } => format!("{component} has no standard deviation"),
-        WhyRandom::NearSingular => {
+        WhyRandom::HeavyTail { component } => say!("{component} has no standard deviation"),
+        WhyRandom::NearSingular => say!(
             "a divisor or the argument of a function may come near a pole or the end of its domain"
-                .into()
-        }
-        WhyRandom::NotFinite => "the model has no finite value at some points".into(),
-        WhyRandom::OutputTail => "the tails of the output are too heavy".into(),
-        WhyRandom::NoGain { gain } => format!(
+        ),
+        WhyRandom::NotFinite => say!("the model has no finite value at some points"),
+        WhyRandom::OutputTail => say!("the tails of the output are too heavy"),
+        WhyRandom::NoGain { gain } => say!(
             "a point would replace only {} random trials, for more than their time",
             significant(*gain, 2)
         ),
-    }
-}
-
-fn chinese(why: &WhyRandom) -> String {
-    match why {
-        WhyRandom::SeveralMeasurands => "有多个被测量".into(),
-        WhyRandom::TrialsAreCounted => "合格评定或特征限需要对试验计数".into(),
-        WhyRandom::Discrete { component } => format!("{component} 只取离散值"),
-        WhyRandom::HeavyTail { component } => format!("{component} 的标准差不存在"),
-        WhyRandom::NearSingular => "除数或函数的自变量可能接近极点或定义域的边界".into(),
-        WhyRandom::NotFinite => "模型在某些点上没有有限值".into(),
-        WhyRandom::OutputTail => "输出量分布的尾部过重".into(),
-        WhyRandom::NoGain { gain } => {
-            format!(
-                "每个点仅相当于 {} 次随机试验，而耗时更多",
-                significant(*gain, 2)
-            )
-        }
     }
 }
 

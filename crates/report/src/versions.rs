@@ -6,7 +6,6 @@ use gumption_gum::versions::{Changed, Figures, Incomparable, Shares, Versions};
 
 use crate::language::Language;
 use crate::number::{TABLE_DIGITS, significant};
-use crate::remarks::failure;
 
 /// The document of what edits change.
 pub fn versions(found: &Versions, language: Language) -> Document {
@@ -16,7 +15,7 @@ pub fn versions(found: &Versions, language: Language) -> Document {
 /// Why versions cannot be compared.
 pub fn incomparable(why: &Incomparable, language: Language) -> String {
     match why {
-        Incomparable::Failed(error) => failure(error, language),
+        Incomparable::Failed(error) => error.said().in_language(language),
         Incomparable::Refused(_) | Incomparable::Unreadable => language
             .pick(
                 "one of the versions has faults, or no rows: both have to be evaluated to be compared",

@@ -12,7 +12,7 @@ use serde_json::json;
 
 use gumption_export::{FORMATS, Page};
 use gumption_fault::language::Language;
-use gumption_fault::{Said, say};
+use gumption_fault::say;
 use gumption_format::files::Files;
 use gumption_gum::budget;
 use gumption_lab::experiment::procedure::{PROCEDURES, procedure_named};
@@ -191,7 +191,7 @@ impl Routes {
                 Reply::because(StatusCode::FORBIDDEN, &why, language)
             }
             Err(Unsaved::Unwritten(unwritten)) => {
-                let why = Said::quoted(unwritten.words(language, None));
+                let why = unwritten.said(None);
                 Reply::because(StatusCode::INTERNAL_SERVER_ERROR, &why, language)
             }
         }

@@ -18,7 +18,7 @@ use gumption_format::document::{Attachment, Document};
 use gumption_format::files::{Files, Folder};
 use gumption_format::toml::Step;
 use gumption_gum::budget::{self, Budget, Row};
-use gumption_gum::propagate::{self, Evaluation, MonteCarloChoice, Options};
+use gumption_gum::propagate::{self, Evaluation, EvaluationError, MonteCarloChoice, Options};
 use gumption_gum::versions::versions;
 use gumption_lab::calibrate::{self, Calibration, Campaign, PointNames, Reading, Residual};
 use gumption_lab::diagnose::{self, case};
@@ -384,7 +384,7 @@ impl Asked<'_> {
             ..Options::default()
         };
         propagate::evaluate(budget, &options)
-            .map_err(|error| Found::Nothing(report::failure(&error, self.language)))
+            .map_err(|error| Found::Nothing(error.said().in_language(self.language)))
     }
 
     fn require(&self) -> Result<Found, Found> {
@@ -405,7 +405,8 @@ impl Asked<'_> {
             .collect();
         let alone = propagate::requirements(&row.budget, measurand, target.expanded);
         let together = propagate::cheapest(&row.budget, measurand, target.expanded, &costs);
-        let failed = |error| Found::Nothing(report::failure(&error, self.language));
+        let failed =
+            |error: EvaluationError| Found::Nothing(error.said().in_language(self.language));
         let found = alone.map_err(failed)?.zip(together.map_err(failed)?);
         let (alone, together) = found.ok_or_else(|| self.no_target())?;
         let document = report::requirements(&self.report(row), &alone, &together);

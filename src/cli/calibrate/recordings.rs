@@ -18,7 +18,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         Ok(target) => target,
         Err(complaint) => return output::complain(complaint),
     };
-    if let Err(outcome) = target.is_allowed(&[], language) {
+    if let Err(outcome) = target.is_allowed(&[]) {
         return outcome;
     }
     let recordings = match calibrate::listed(&args.recordings) {
@@ -28,7 +28,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     if let Err(rejection) = calibrate::is_experiment(Files::Disk, &args.file) {
         return output::refused(&rejection, language);
     }
-    let mut sink = match Sink::begin(target, language) {
+    let mut sink = match Sink::begin(target) {
         Ok(sink) => sink,
         Err(outcome) => return outcome,
     };
@@ -50,7 +50,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     }
     drop(steps);
     // Now it is known what was read, too.
-    if let Err(outcome) = target.is_allowed(&[], language) {
+    if let Err(outcome) = target.is_allowed(&[]) {
         return outcome;
     }
     let (left, count) = table.end();

@@ -1,4 +1,6 @@
-//! What a reader must know about a model at its estimates, in both languages of the report.
+//! What a reader must know about a model at its estimates.
+
+use gumption_fault::{Said, say};
 
 /// An operation that is not smooth at the estimates, or comes near a point where it is not.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
@@ -103,113 +105,58 @@ pub enum Office {
 }
 
 impl Notice {
-    /// A clause, in English.
-    pub fn english(&self) -> String {
+    /// A clause.
+    pub fn said(&self) -> Said {
         match self {
             Notice::Steps { call } => {
-                format!("{call} is a step function: its derivative is 0 although it jumps")
+                say!("{call} is a step function: its derivative is 0 although it jumps")
             }
             Notice::Kink { call, argument } => {
-                format!("{call} has a kink where {argument} is 0, which is just here")
+                say!("{call} has a kink where {argument} is 0, which is just here")
             }
             Notice::Tie { call } => {
-                format!("{call} has a kink where two arguments are equal, which is just here")
+                say!("{call} has a kink where two arguments are equal, which is just here")
             }
-            Notice::Condition { call } => format!("the condition {call} changes just here"),
-            Notice::Jump { call } => format!("{call} jumps from -π to π just here"),
-            Notice::Knot { call, argument, at } => {
-                format!(
-                    "{call} has a kink at the point {argument} = {at} of its table, which is just here"
-                )
-            }
+            Notice::Condition { call } => say!("the condition {call} changes just here"),
+            Notice::Jump { call } => say!("{call} jumps from -π to π just here"),
+            Notice::Knot { call, argument, at } => say!(
+                "{call} has a kink at the point {argument} = {at} of its table, which is just here"
+            ),
             Notice::BeyondTable {
                 call,
                 argument,
                 at,
                 ends: [low, high],
-            } => {
-                format!(
-                    "{argument} = {at} lies outside the table of {call}, which goes from {low} to {high}"
-                )
-            }
+            } => say!(
+                "{argument} = {at} lies outside the table of {call}, which goes from {low} to {high}"
+            ),
             Notice::Near {
                 argument,
                 role,
                 distance,
                 edge,
             } => {
-                let role = match role {
-                    Office::Argument(function) => format!("argument of {function}"),
-                    Office::Divisor => "divisor".to_string(),
-                    Office::Base => "base of a power".to_string(),
-                };
-                format!(
-                    "{argument} ({role}) is {distance:.1} u from {}",
-                    shown(*edge)
-                )
+                let (role, edge) = (role.said(), shown(*edge));
+                say!("{argument} ({role}) is {distance:.1} u from {edge}")
             }
-            Notice::Wrap { call, distance } => {
-                format!("{call} is {distance:.1} u from ±π")
-            }
-            Notice::Filled { call, u } => {
-                format!("{call} has a standard uncertainty of {u:.2} rad")
-            }
+            Notice::Wrap { call, distance } => say!("{call} is {distance:.1} u from ±π"),
+            Notice::Filled { call, u } => say!("{call} has a standard uncertainty of {u:.2} rad"),
             Notice::Corner { call, distance } => {
-                format!("{call} has a kink or jump {distance:.1} u from the estimates")
+                say!("{call} has a kink or jump {distance:.1} u from the estimates")
             }
-            Notice::CoarseStep { call, ratio } => {
-                format!(
-                    "the step of {call} is {ratio:.1} times the standard uncertainty of what it rounds"
-                )
-            }
+            Notice::CoarseStep { call, ratio } => say!(
+                "the step of {call} is {ratio:.1} times the standard uncertainty of what it rounds"
+            ),
         }
     }
+}
 
-    /// The same in Chinese.
-    pub fn chinese(&self) -> String {
+impl Office {
+    fn said(self) -> Said {
         match self {
-            Notice::Steps { call } => format!("{call} 是阶梯函数，其导数为 0，函数值却有跳变"),
-            Notice::Kink { call, argument } => {
-                format!("{call} 在 {argument} 为 0 处有折点，估计值恰在该处")
-            }
-            Notice::Tie { call } => format!("{call} 在两个自变量相等处有折点，估计值恰在该处"),
-            Notice::Condition { call } => format!("条件 {call} 恰在估计值处改变"),
-            Notice::Jump { call } => format!("{call} 恰在估计值处由 -π 跳变到 π"),
-            Notice::Knot { call, argument, at } => {
-                format!("{call} 在表中的点 {argument} = {at} 处有折点，估计值恰在该处")
-            }
-            Notice::BeyondTable {
-                call,
-                argument,
-                at,
-                ends: [low, high],
-            } => {
-                format!("{argument} = {at} 超出 {call} 的表的范围（{low} 至 {high}）")
-            }
-            Notice::Near {
-                argument,
-                role,
-                distance,
-                edge,
-            } => {
-                let role = match role {
-                    Office::Argument(function) => format!("{function} 的自变量"),
-                    Office::Divisor => "除数".to_string(),
-                    Office::Base => "幂的底数".to_string(),
-                };
-                format!(
-                    "{argument}（{role}）与 {} 相距 {distance:.1} u",
-                    shown(*edge)
-                )
-            }
-            Notice::Wrap { call, distance } => format!("{call} 与 ±π 相距 {distance:.1} u"),
-            Notice::Filled { call, u } => format!("{call} 的标准不确定度为 {u:.2} rad"),
-            Notice::Corner { call, distance } => {
-                format!("{call} 在距估计值 {distance:.1} u 处有折点或跳变")
-            }
-            Notice::CoarseStep { call, ratio } => {
-                format!("{call} 的步长是被修约量的标准不确定度的 {ratio:.1} 倍")
-            }
+            Office::Argument(function) => say!("argument of {function}"),
+            Office::Divisor => say!("divisor"),
+            Office::Base => say!("base of a power"),
         }
     }
 }

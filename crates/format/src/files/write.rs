@@ -12,14 +12,12 @@
 //! half a file, and the whole new content beside it, as `.NAME.gumption-new`. The drafts of killed programs are removed
 //! by the next one that writes into their folder.
 
-use std::fmt::Display;
 use std::fs::Metadata;
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use gumption_fault::language::Language;
-use gumption_fault::of_system;
+use gumption_fault::{Said, of_system, say};
 
 use super::ledger::was_read;
 use super::mark;
@@ -452,50 +450,22 @@ fn names(_: &Metadata) -> u64 {
 
 impl Unwritten {
     /// What the user is told; `force` is how files are replaced all the same where this is said, if they can be.
-    pub fn words(&self, language: Language, force: Option<&str>) -> String {
+    pub fn said(&self, force: Option<&str>) -> Said {
         let path = self.path.display();
-        match language {
-            Language::English => {
-                let or = force.map(|force| format!(", or {force} to replace it"));
-                self.english(&path, &or.unwrap_or_default())
-            }
-            Language::Chinese => {
-                let or = force.map(|force| format!("，或用 {force} 替换"));
-                self.chinese(&path, &or.unwrap_or_default())
-            }
-        }
-    }
-
-    fn english(&self, path: &dyn Display, or: &str) -> String {
+        let or = force.map_or_else(Said::default, |force| say!(", or {force} to replace it"));
         match &self.why {
-            Why::Read => format!(
+            Why::Read => say!(
                 "{path} is read by this command and is never overwritten; give another name for what is written"
             ),
-            Why::Exists => format!("{path} exists already and is left as it is; give another name"),
+            Why::Exists => say!("{path} exists already and is left as it is; give another name"),
             Why::NotOurs => {
-                format!("{path} exists, and is not as gumption wrote it; give another name{or}")
+                say!("{path} exists, and is not as gumption wrote it; give another name{or}")
             }
-            Why::Protected => format!("{path} is protected against writing; give another name{or}"),
-            Why::Folder => format!("{path} is a folder; name a file in it"),
-            Why::NoFolder => format!("{path} is a file; name a folder"),
-            Why::Twice => format!("{path} is to be written twice; give two names"),
-            Why::System(error) => format!("cannot write {path}: {}", of_system(error)),
-        }
-    }
-
-    fn chinese(&self, path: &dyn Display, or: &str) -> String {
-        match &self.why {
-            Why::Read => format!("{path} 是本命令读取的文件，绝不覆盖；请为输出另取文件名"),
-            Why::Exists => format!("{path} 已存在，保持不变；请另取文件名"),
-            Why::NotOurs => format!("{path} 已存在，且不是 gumption 写出的原样；请另取文件名{or}"),
-            Why::Protected => format!("{path} 是只读文件；请另取文件名{or}"),
-            Why::Folder => format!("{path} 是文件夹；请给出其中的文件名"),
-            Why::NoFolder => format!("{path} 是文件；请给出文件夹"),
-            Why::Twice => format!("{path} 将被写入两次；请给出两个文件名"),
-            Why::System(error) => {
-                let why = of_system(error).in_language(Language::Chinese);
-                format!("无法写入 {path}：{why}")
-            }
+            Why::Protected => say!("{path} is protected against writing; give another name{or}"),
+            Why::Folder => say!("{path} is a folder; name a file in it"),
+            Why::NoFolder => say!("{path} is a file; name a folder"),
+            Why::Twice => say!("{path} is to be written twice; give two names"),
+            Why::System(error) => say!("cannot write {path}: {}", of_system(error)),
         }
     }
 }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use gumption_fault::{Said, say};
+
 /// Why a budget cannot be evaluated at all.
 #[derive(Debug, Clone, PartialEq)]
 pub enum EvaluationError {
@@ -33,27 +35,30 @@ pub enum EvaluationError {
     Stopped,
 }
 
-impl fmt::Display for EvaluationError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl EvaluationError {
+    /// Why, and what to do.
+    pub fn said(&self) -> Said {
         match self {
-            EvaluationError::NoValue { measurand } => write!(
-                f,
+            EvaluationError::NoValue { measurand } => say!(
                 "The model of {measurand} has no finite value at the estimates of its inputs (for example a division by zero or the root of a negative number). Check the estimates and the formula."
             ),
-            EvaluationError::NoDerivative { measurand, input } => write!(
-                f,
+            EvaluationError::NoDerivative { measurand, input } => say!(
                 "The model of {measurand} has no finite derivative with respect to {input} at the estimates, so the GUM method cannot be used, and Monte Carlo was switched off. Run the evaluation with Monte Carlo."
             ),
-            EvaluationError::Unresolved { measurand, error } => write!(
-                f,
+            EvaluationError::Unresolved { measurand, error } => say!(
                 "The estimate of {measurand} is known to {error:.1e} only, which is more than its uncertainty allows: the model takes large numbers, or values of functions, from one another, and few digits are left. Take the common part out of the formula, and write it as a difference: state the small difference itself as an input, or use an identity such as a^2 - b^2 = (a - b)*(a + b)."
             ),
-            EvaluationError::AllTrialsFailed { measurand } => write!(
-                f,
+            EvaluationError::AllTrialsFailed { measurand } => say!(
                 "Not one Monte Carlo trial gave a finite value of {measurand}. Check the distributions of the inputs and the formula."
             ),
-            EvaluationError::Stopped => write!(f, "The evaluation was stopped before its end."),
+            EvaluationError::Stopped => say!("The evaluation was stopped before its end."),
         }
+    }
+}
+
+impl fmt::Display for EvaluationError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.said().fmt(f)
     }
 }
 

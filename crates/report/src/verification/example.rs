@@ -1,6 +1,7 @@
 //! One example: where its figures come from, each published figure beside the one obtained, the verdict.
 
 use gumption_core::quantity::{Decimal, Rounding, Unit};
+use gumption_fault::say;
 use gumption_gum::budget::{Figure, Part};
 use gumption_gum::propagate::Comparison;
 use gumption_verify::{Example, Problem, Row};
@@ -9,7 +10,7 @@ use super::words;
 use crate::claim::{self, last_place};
 use crate::language::{Language, Word};
 use crate::number::{NONE, at_place, exact, grouped, print, significant};
-use crate::{Report, remarks, symbol};
+use crate::{Report, symbol};
 use gumption_format::document::Block;
 use gumption_format::document::{Cell, ColumnKind, Table};
 
@@ -44,7 +45,7 @@ pub(super) fn words_of(problem: &Problem, l: Language) -> String {
                 .as_ref()
                 .map(|label| format!("{label}: "))
                 .unwrap_or_default();
-            format!("{row}{}", remarks::failure(error, l))
+            format!("{row}{}", error.said().in_language(l))
         }
     }
 }
@@ -77,10 +78,7 @@ fn runs(example: &Example, l: Language) -> String {
         .find_map(|row| row.evaluation.run.as_ref());
     run.map_or(String::new(), |run| {
         let trials = grouped(run.trials);
-        l.pick(
-            format!("{trials} trials, seed {}", run.seed),
-            format!("{trials} 次试验，种子 {}", run.seed),
-        )
+        say!("{trials} trials, seed {}", run.seed).in_language(l)
     })
 }
 
@@ -270,7 +268,7 @@ pub(super) fn is_by_digits(comparison: &Comparison, digits: u8) -> bool {
 
 fn tolerance(comparison: &Comparison, asked: Option<u8>, l: Language) -> String {
     if let Some(digits) = asked {
-        return l.pick(format!("{digits} digits"), format!("{digits} 位"));
+        return say!("{digits} digits").in_language(l);
     }
     if matches!(comparison.claimed.what, Figure::Validated(_)) {
         return String::new();
@@ -293,9 +291,6 @@ fn verdict(row: &Row, comparison: &Comparison, l: Language) -> String {
     if row.gates(comparison) {
         verdict.to_string()
     } else {
-        l.pick(
-            format!("{verdict} (not gating)"),
-            format!("{verdict}（不作判据）"),
-        )
+        say!("{verdict} (not gating)").in_language(l)
     }
 }

@@ -295,7 +295,7 @@ fn hints_name_kinks_steps_and_poles() {
         "abs(x - a) + min(x, a) + round(x) + if(x > a, x, a)",
         "",
     );
-    let words = |notices: Vec<Notice>| notices.iter().map(Notice::english).collect::<Vec<_>>();
+    let words = |notices: Vec<Notice>| notices.iter().map(Notice::said).collect::<Vec<_>>();
     assert_eq!(
         words(m.irregularities(&[2.0, 2.0])),
         [

@@ -1,5 +1,6 @@
 //! The Allan deviation of a recording at rest, and the noises that it shows.
 
+use gumption_fault::say;
 use serde_json::Value;
 
 use crate::language::Language;
@@ -156,10 +157,7 @@ fn form<'a>(report: &AllanReport<'a>) -> AllanJson<'a> {
 fn blocks(report: &AllanReport<'_>) -> Vec<Block> {
     let l = report.language;
     let mut blocks = vec![
-        Block::Title(l.pick(
-            format!("Allan deviation of {}", report.title),
-            format!("{} 的 阿伦偏差", report.title),
-        )),
+        Block::Title(say!("Allan deviation of {}", report.title).in_language(l)),
         Block::Paragraph(data(report)),
         Block::Section(l.pick("Noises", "噪声").into()),
     ];
@@ -258,10 +256,7 @@ fn data(report: &AllanReport<'_>) -> String {
     let allan = report.allan;
     let n = grouped(allan.readings as u64);
     let interval = format!("{} {}", significant(allan.interval, 6), symbol(report.time));
-    report.language.pick(
-        format!("{n} readings, one every {interval}; overlapping estimates at averaging times of 1, 2, 4 … intervals."),
-        format!("{n} 个读数，间隔 {interval}；重叠估计，平均时间为 1、2、4……个间隔。"),
-    )
+    say!("{n} readings, one every {interval}; overlapping estimates at averaging times of 1, 2, 4 … intervals.").in_language(report.language)
 }
 
 fn coefficients(report: &AllanReport<'_>, noises: &Noises) -> Table {
@@ -341,14 +336,8 @@ fn quality(l: Language, noises: &Noises) -> String {
     );
     let p = significant(noises.p_value, 2);
     match noises.explain() {
-        false => l.pick(
-            format!("{limits} These noises do not explain the deviations (p = {p}): something else is in the recording, such as a drift, a period or quantisation."),
-            format!("{limits} 上述噪声不足以解释各偏差（p = {p}）：记录中可能还有漂移、周期成分或量化。"),
-        ),
-        true => l.pick(
-            format!("{limits} They explain the deviations (p = {p})."),
-            format!("{limits} 上述噪声可以解释各偏差（p = {p}）。"),
-        ),
+        false => say!("{limits} These noises do not explain the deviations (p = {p}): something else is in the recording, such as a drift, a period or quantisation.").in_language(l),
+        true => say!("{limits} They explain the deviations (p = {p}).").in_language(l),
     }
 }
 

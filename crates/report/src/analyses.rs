@@ -1,6 +1,7 @@
 //! What the readings say of themselves: statistics, analyses of variance, tests for outliers.
 
 use gumption_core::statistics::{Line, OutlierTest, Policy, Ratio, Verdict};
+use gumption_fault::say;
 use gumption_gum::budget::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
 
 use super::language::{Language, Word};
@@ -57,10 +58,9 @@ fn series(report: &Report<'_>) -> Vec<Block> {
     }
     if count > MOST {
         let more = count - MOST;
-        table.rows.push(Row::Across(l.pick(
-            format!("… and {more} more; all are in the JSON output"),
-            format!("…… 其余 {more} 组见 JSON 输出"),
-        )));
+        table.rows.push(Row::Across(
+            say!("… and {more} more; all are in the JSON output").in_language(l),
+        ));
     }
     let mut blocks = vec![
         Block::Section(l.pick("Readings", "重复观测").to_string()),
@@ -122,12 +122,7 @@ fn tested(analysis: &Analysis, outlier: &Outlier, l: Language) -> String {
     let level = outlier
         .significance
         .map(|level| exact(100.0 * level))
-        .map_or(String::new(), |level| {
-            l.pick(
-                format!(" at {level} %"),
-                format!("（显著性水平 {level} %）"),
-            )
-        });
+        .map_or(String::new(), |level| say!(" at {level} %").in_language(l));
     match (outlier.suspect.is_outlier(), l) {
         (true, Language::English) => format!(
             "{test}: reading {place} of {name}, {value}, is an outlier (statistic {statistic}, critical value {critical}{level}). It is kept; find out what happened when it was taken."
@@ -146,10 +141,7 @@ fn tested(analysis: &Analysis, outlier: &Outlier, l: Language) -> String {
 
 fn head(analysis: &Analysis, l: Language) -> Block {
     let name = &analysis.name;
-    Block::Section(l.pick(
-        format!("Analysis of variance of {name}"),
-        format!("{name} 的方差分析"),
-    ))
+    Block::Section(say!("Analysis of variance of {name}").in_language(l))
 }
 
 fn empty(analysis: &Analysis, significance: f64, l: Language) -> Table {
@@ -171,11 +163,7 @@ fn empty(analysis: &Analysis, significance: f64, l: Language) -> Table {
         ("F", ColumnKind::Numbers),
         ("p", ColumnKind::Numbers),
         (
-            l.pick(
-                format!("critical F, {level} %"),
-                format!("F 临界值（{level} %）"),
-            )
-            .as_str(),
+            say!("critical F, {level} %").in_language(l).as_str(),
             ColumnKind::Numbers,
         ),
     ])
@@ -262,10 +250,7 @@ fn nested(analysis: &Analysis, found: &NestedAnova, l: Language) -> Vec<Block> {
     let [s_top, s_middle, s_within] = found.standard_deviations();
     let fields = [(groups, s_top), (subgroups, s_middle), (within, s_within)]
         .map(|(name, s)| {
-            let label = l.pick(
-                format!("standard deviation {name}"),
-                format!("{name}标准差"),
-            );
+            let label = say!("standard deviation {name}").in_language(l);
             (label, amount(s, &unit))
         })
         .to_vec();

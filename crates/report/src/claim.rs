@@ -1,6 +1,7 @@
 //! What a certificate claims beside what the evaluation gives.
 
 use gumption_core::quantity::Decimal;
+use gumption_fault::say;
 use gumption_gum::budget::{Claim, Figure, Part};
 use gumption_gum::propagate::{Comparison, Method, compare_claims};
 
@@ -174,10 +175,7 @@ fn verdict(comparison: &Comparison, claim: Option<&Claim>, language: Language) -
             true => language.pick("agrees", "一致"),
             false => language.pick("differs", "不一致"),
         };
-        return language.pick(
-            format!("{verdict}, {digits:.1} digits"),
-            format!("{verdict}，{digits:.1} 位"),
-        );
+        return say!("{verdict}, {digits:.1} digits").in_language(language);
     }
     if comparison.agrees() {
         let tolerance = comparison.claimed.tolerance;
@@ -186,10 +184,7 @@ fn verdict(comparison: &Comparison, claim: Option<&Claim>, language: Language) -
             // Three digits: what the subtraction of decimals leaves behind them is not the file's.
             let within = format!("{tolerance:.2e}").parse().unwrap_or(tolerance);
             let within = exact(within);
-            language.pick(
-                format!("agrees within {within}"),
-                format!("在 {within} 内一致"),
-            )
+            say!("agrees within {within}").in_language(language)
         } else if comparison.is_near() {
             language.pick("agrees", "一致").to_string()
         } else {
@@ -201,17 +196,11 @@ fn verdict(comparison: &Comparison, claim: Option<&Claim>, language: Language) -
     match comparison.ratio() {
         Some(ratio) if (0.5..2.0).contains(&ratio) => {
             let percent = significant(100.0 * (ratio - 1.0), 2);
-            language.pick(
-                format!("differs by {percent} % of the claim"),
-                format!("相差声称值的 {percent} %"),
-            )
+            say!("differs by {percent} % of the claim").in_language(language)
         }
         Some(ratio) => {
             let times = significant(ratio, 3);
-            language.pick(
-                format!("is {times} times the claim"),
-                format!("为声称值的 {times} 倍"),
-            )
+            say!("is {times} times the claim").in_language(language)
         }
         None => language.pick("differs", "不一致").to_string(),
     }

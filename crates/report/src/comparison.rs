@@ -1,6 +1,7 @@
 //! GUM and Monte Carlo side by side, with the verdict of JCGM 101 clause 8.
 
 use gumption_core::quantity::Unit;
+use gumption_fault::say;
 use gumption_gum::propagate::{
     Clause8, Coverage, CoverageBasis, FindingKind, MeasurandResult, Quasi, Run, Validation,
 };
@@ -173,19 +174,13 @@ impl SideBySide<'_> {
         let p = probability(self.report.coverage_probability());
         let half = gum.coverage.half_width_for_p;
         self.row(
-            l.pick(
-                format!("{p} interval, symmetric"),
-                format!("{p} 包含区间，概率对称"),
-            ),
+            say!("{p} interval, symmetric").in_language(l),
             self.interval([gum.estimate - half, gum.estimate + half]),
             mc.map(|mc| self.interval(mc.symmetric)),
         );
         if let Some(mc) = mc {
             self.row(
-                l.pick(
-                    format!("{p} interval, shortest"),
-                    format!("{p} 包含区间，最短"),
-                ),
+                say!("{p} interval, shortest").in_language(l),
                 String::new(),
                 Some(self.interval(mc.shortest)),
             );
@@ -233,10 +228,7 @@ fn optional(x: Option<f64>, form: impl Fn(f64) -> String) -> String {
 fn trials(run: &Run, measurand: usize, language: Language) -> String {
     let count = grouped(run.trials);
     let seed = run.seed;
-    let base = language.pick(
-        format!("{count}, seed {seed}"),
-        format!("{count}，种子 {seed}"),
-    );
+    let base = say!("{count}, seed {seed}").in_language(language);
     let Some(adaptive) = &run.adaptive else {
         return base;
     };

@@ -1,5 +1,6 @@
 //! The joint result of several measurands (JCGM 102).
 
+use gumption_fault::say;
 use nalgebra::DMatrix;
 
 use super::language::{Language, Word};
@@ -70,10 +71,7 @@ fn methods(report: &Report<'_>) -> Option<String> {
         Coefficients::MonteCarlo => Word::MonteCarlo.of(l),
         Coefficients::Gum | Coefficients::GumForWantOfMoments => Word::Gum.of(l),
     };
-    Some(l.pick(
-        format!("Reported is the GUM result of {gum} and the Monte Carlo result of {trials}. The statement gives the correlation coefficients of one method for all pairs, {of}; with the u of that method they are a covariance matrix."),
-        format!("{gum} 报告 GUM 法的结果，{trials} 报告蒙特卡洛法的结果。证书用语中各对的相关系数均取同一方法（{of}），与该方法的标准不确定度一起构成协方差矩阵。"),
-    ))
+    Some(say!("Reported is the GUM result of {gum} and the Monte Carlo result of {trials}. The statement gives the correlation coefficients of one method for all pairs, {of}; with the u of that method they are a covariance matrix.").in_language(l))
 }
 
 /// A correlation matrix; `of` says of what or by which method.
@@ -146,10 +144,7 @@ fn regions(report: &Report<'_>) -> Table {
         );
         if let Some(smallest) = regions.smallest_volume {
             row(
-                l.pick(
-                    format!("{size}, smallest region"),
-                    format!("{size}，最小区域"),
-                ),
+                say!("{size}, smallest region").in_language(l),
                 None,
                 Some(smallest),
             );

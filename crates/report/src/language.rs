@@ -1,5 +1,5 @@
-//! The words of a report in its languages. Every message has one arm per language, so that the compiler asks for
-//! the translation of a new one. Chinese terms are those of JJF 1059.1.
+//! Words of headings, table heads and labels, which are short enough to stand in both languages side by side; sentences
+//! are templates of `say!`. Chinese terms are those of JJF 1059.1.
 
 pub use gumption_fault::language::Language;
 

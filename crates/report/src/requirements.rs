@@ -1,5 +1,6 @@
 //! What U would need: the uncertainty that each input would have to have, alone, and of all together at the least cost.
 
+use gumption_fault::say;
 use gumption_format::document::{Block, Cell, ColumnKind, Document, Table};
 use gumption_format::machine::{Machine, Number, record};
 use gumption_gum::propagate::{
@@ -138,10 +139,7 @@ fn at_least_cost(report: &Report<'_>, together: &Together) -> Vec<Block> {
             let floor = significant(*floor, TABLE_DIGITS);
             return vec![
                 title,
-                Block::Paragraph(l.pick(
-                    format!("Impossible: U = {floor} is left where everything that may become better is known exactly."),
-                    format!("不可能：即使所有可改进的输入量都准确已知，U 仍为 {floor}。"),
-                )),
+                Block::Paragraph(say!("Impossible: U = {floor} is left where everything that may become better is known exactly.").in_language(l)),
             ];
         }
         Together::Improved(improved) => improved,
@@ -166,10 +164,7 @@ fn at_least_cost(report: &Report<'_>, together: &Together) -> Vec<Block> {
     let cost = significant(improved.iter().map(|one| one.cost).sum(), TABLE_DIGITS);
     vec![
         title,
-        Block::Paragraph(l.pick(
-            format!("Every u may become smaller; to halve it costs what is written beside it (1 where nothing else is), to halve it again twice as much. Altogether this costs {cost}; what is not listed stays as it is."),
-            format!("各 u 都可减小；减半的代价按其旁所写（未写时为 1），再减半为其两倍。总代价为 {cost}；未列出的保持不变。"),
-        )),
+        Block::Paragraph(say!("Every u may become smaller; to halve it costs what is written beside it (1 where nothing else is), to halve it again twice as much. Altogether this costs {cost}; what is not listed stays as it is.").in_language(l)),
         Block::Table(table),
     ]
 }
@@ -199,21 +194,15 @@ fn alone(report: &Report<'_>, found: &Requirements) -> Vec<Block> {
         .iter()
         .any(|one| !matches!(one.needed, Needed::Floor(_)));
     let mut blocks = vec![
-        Block::Title(l.pick(
-            format!("What U({name}) = {wished} would need"),
-            format!("U({name}) = {wished} 的条件"),
-        )),
-        Block::Paragraph(l.pick(
-            format!("By the law of propagation of uncertainty U is {now} now. Each line changes one input and keeps all others; k follows the degrees of freedom."),
-            format!("按不确定度传播律，目前 U = {now}。每行只改变一个输入量，其余不变；k 随自由度而变。"),
-        )),
+        Block::Title(say!("What U({name}) = {wished} would need").in_language(l)),
+        Block::Paragraph(say!("By the law of propagation of uncertainty U is {now} now. Each line changes one input and keeps all others; k follows the degrees of freedom.").in_language(l)),
         Block::Table(table),
     ];
     if !reached {
-        blocks.push(Block::Closing(vec![l.pick(
-            "No input alone can do it: several have to become better together.".to_owned(),
-            "改变任何单个输入量都达不到：须同时改进多个输入量。".to_owned(),
-        )]));
+        blocks.push(Block::Closing(vec![
+            say!("No input alone can do it: several have to become better together.")
+                .in_language(l),
+        ]));
     }
     blocks
 }
@@ -224,10 +213,7 @@ fn row(report: &Report<'_>, one: &Requirement, with_unit: &dyn Fn(f64) -> String
     let (needed, words) = match one.needed {
         Needed::Below(u) => {
             let times = significant(u / one.u, TABLE_DIGITS);
-            let words = l.pick(
-                format!("{times} times what it is"),
-                format!("为现值的 {times} 倍"),
-            );
+            let words = say!("{times} times what it is").in_language(l);
             (significant(u, TABLE_DIGITS), words)
         }
         Needed::Floor(floor) => {

@@ -4,6 +4,7 @@
 //! result that rests on Monte Carlo states half the width of its coverage interval as U where that
 //! interval is symmetric about y, and the interval itself where it is not.
 
+use gumption_fault::say;
 use gumption_gum::budget::{Conventions, StatementForm, profile_named};
 use gumption_gum::propagate::{
     Basis, CoverageBasis, Freedom, Gum, IntervalKind, Reason, ReportedUncertainty,
@@ -98,10 +99,8 @@ impl Subject<'_> {
         let failed = grouped(self.failed);
         let counts = self.failed > 0 && self.figures.reported.basis == Basis::MonteCarlo;
         counts.then(|| {
-            self.language.pick(
-                format!("In {failed} of these trials the model has no value; they are left out."),
-                format!("其中 {failed} 次试验模型无有限值，未计入。"),
-            )
+            say!("In {failed} of these trials the model has no value; they are left out.")
+                .in_language(self.language)
         })
     }
 
@@ -479,10 +478,7 @@ fn correlations(report: &Report<'_>) -> Option<String> {
     let l = report.language;
     let method = which.method(l);
     Some(match pairs.len() > MOST {
-        true => l.pick(
-            format!("The estimates are correlated; the table of the joint result gives the correlation coefficients{method}."),
-            format!("各估计值相关，相关系数{method}见联合结果表。"),
-        ),
+        true => say!("The estimates are correlated; the table of the joint result gives the correlation coefficients{method}.").in_language(l),
         false => l.pick(
             format!("Correlation of the estimates{method}: {}.", pairs.join(", ")),
             format!("各估计值之间的相关系数{method}：{}。", pairs.join("，")),

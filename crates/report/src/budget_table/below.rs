@@ -6,6 +6,7 @@ use crate::comparison;
 use crate::figures::Figures;
 use crate::language::{Language, Word};
 use crate::number::{NONE, TABLE_DIGITS, effective, percent, probability, significant};
+use gumption_fault::say;
 use gumption_format::document::{Cell, ColumnKind, Table};
 use gumption_gum::propagate::{
     Basis, Coverage, Freedom, Gum, ReportedUncertainty, StatedProbability,
@@ -65,10 +66,7 @@ pub(super) fn footer(report: &Report<'_>, measurand: usize) -> Vec<(String, Stri
                 _ => comparison::basis_of_k(&gum.coverage, l),
             },
         };
-        rows.push((
-            Word::Factor,
-            l.pick(format!("k = {k} ({why})"), format!("k = {k}（{why}）")),
-        ));
+        rows.push((Word::Factor, say!("k = {k} ({why})").in_language(l)));
     }
     if let Some(expanded) = figures.expanded() {
         rows.push((Word::Expanded, format!("U = {}", figures.amount(&expanded))));
@@ -97,10 +95,9 @@ fn freedom(gum: &Gum, figures: &Figures<'_>, l: Language) -> String {
         .filter(|used| used.is_finite())
         .map(effective)
     {
-        Some(used) if used != found => l.pick(
-            format!("ν_eff {relation} {used} (cut from {found})"),
-            format!("ν_eff {relation} {used}（由 {found} 截尾）"),
-        ),
+        Some(used) if used != found => {
+            say!("ν_eff {relation} {used} (cut from {found})").in_language(l)
+        }
         _ => format!("ν_eff {relation} {found}"),
     }
 }

@@ -6,6 +6,7 @@ use crate::language::{Language, Word};
 use crate::number::exact;
 use crate::statement::coefficient;
 use crate::{Report, symbol};
+use gumption_fault::say;
 use gumption_format::document::Block;
 use gumption_format::document::{ColumnKind, Row, Table};
 use gumption_gum::budget::Component;
@@ -66,7 +67,7 @@ fn provenance(component: &Component, language: Language) -> String {
             let due = c
                 .due
                 .as_ref()
-                .map(|due| language.pick(format!("due {due}"), format!("有效期至 {due}")));
+                .map(|due| say!("due {due}").in_language(language));
             [c.number.clone(), c.laboratory.clone(), c.date.clone(), due]
         })
         .flatten()
@@ -97,10 +98,7 @@ pub(crate) fn correlated(report: &Report<'_>) -> Vec<Block> {
     }
     let left_out = correlated.count();
     if left_out > 0 {
-        pairs.push(l.pick(
-            format!("… and {left_out} more"),
-            format!("…… 其余 {left_out} 对"),
-        ));
+        pairs.push(say!("… and {left_out} more").in_language(l));
     }
     vec![
         Block::Section(Word::CorrelatedComponents.of(l).to_string()),

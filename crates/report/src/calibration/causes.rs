@@ -4,6 +4,7 @@ use crate::language::{Language, Word};
 use crate::number::{freedom, in_unit, percent, significant};
 use crate::phrase::{named_row, numbers_beside, section, table};
 use crate::symbol;
+use gumption_fault::say;
 use gumption_format::document::{
     Block, Cell,
     ColumnKind::{Bar, Names, Numbers, Words},
@@ -25,16 +26,9 @@ pub(super) fn cause_name(cause: &Cause, l: Language) -> String {
 pub(super) fn origin_name(origin: &Origin, l: Language) -> String {
     match origin {
         Origin::Stated { name, .. } => name.clone(),
-        Origin::Residuals { response: of } => {
-            l.pick(format!("scatter of {of}"), format!("{of} 的分散性"))
-        }
-        Origin::Samples { column: of } => {
-            l.pick(format!("samples of {of}"), format!("{of} 的采样"))
-        }
-        Origin::Prior { parameter: of } => l.pick(
-            format!("what was known of {of}"),
-            format!("{of} 的已知信息"),
-        ),
+        Origin::Residuals { response: of } => say!("scatter of {of}").in_language(l),
+        Origin::Samples { column: of } => say!("samples of {of}").in_language(l),
+        Origin::Prior { parameter: of } => say!("what was known of {of}").in_language(l),
     }
 }
 
@@ -49,7 +43,7 @@ fn cause_scope(cause: &Cause, l: Language) -> String {
         Origin::Stated {
             scope: Scope::By(column),
             ..
-        } => l.pick(format!("by {column}"), format!("按 {column}")),
+        } => say!("by {column}").in_language(l),
         _ => l.pick("each point", "各点独立").into(),
     }
 }

@@ -5,6 +5,7 @@ use crate::number::{percent, significant};
 use crate::phrase::section;
 use crate::symbol;
 use gumption_core::quantity::Unit;
+use gumption_fault::say;
 use gumption_format::document::Block;
 use gumption_lab::calibrate::{Alias, Campaign, Figures, Identifiability, Omitted, Plan};
 
@@ -13,10 +14,9 @@ use super::trouble::{changes, in_words};
 
 pub(super) fn schedule(plan: &Plan, l: Language) -> Vec<Block> {
     let (readings, count) = (plan.readings, plan.identifiability.parameters);
-    vec![Block::Paragraph(l.pick(
-        format!("The schedule gives {readings} readings for {count} parameters."),
-        format!("该测量安排给出 {readings} 个读数，待求参数 {count} 个。"),
-    ))]
+    vec![Block::Paragraph(
+        say!("The schedule gives {readings} readings for {count} parameters.").in_language(l),
+    )]
 }
 
 /// What the experiment tells apart.
@@ -25,30 +25,18 @@ pub(super) fn identifiability(found: &Identifiability, l: Language) -> Vec<Block
     let (rank, count) = (found.rank, found.parameters);
     if rank == count {
         let condition = significant(found.condition, 3);
-        items.push(l.pick(
-            format!("The readings determine all {count} parameters (rank {rank}; condition number of the scaled equations {condition})."),
-            format!("读数确定全部 {count} 个参数（秩 {rank}；归一化方程条件数 {condition}）。"),
-        ));
+        items.push(say!("The readings determine all {count} parameters (rank {rank}; condition number of the scaled equations {condition}).").in_language(l));
     } else {
-        items.push(l.pick(
-            format!("The readings determine {rank} combinations of {count} parameters: not all can be found."),
-            format!("读数只确定 {count} 个参数的 {rank} 个组合，不能求出全部参数。"),
-        ));
+        items.push(say!("The readings determine {rank} combinations of {count} parameters: not all can be found.").in_language(l));
     }
     items.extend(found.undetermined.iter().map(|combination| {
         let what = in_words(combination, l);
-        l.pick(
-            format!("Not determined: {what}."),
-            format!("不可确定：{what}。"),
-        )
+        say!("Not determined: {what}.").in_language(l)
     }));
     for near in &found.near {
         let times = significant(near.inflation, 3);
         let together = changes(&near.combination);
-        items.push(l.pick(
-            format!("{} is nearly hidden: {together} together change the readings by little, and its standard uncertainty is {times} times what it would be if the others were known.", near.parameter),
-            format!("{} 几乎被掩盖：{together} 同时变化时读数变化很小，其标准不确定度为其余参数已知时的 {times} 倍。", near.parameter),
-        ));
+        items.push(say!("{} is nearly hidden: {together} together change the readings by little, and its standard uncertainty is {times} times what it would be if the others were known.", near.parameter).in_language(l));
     }
     let heading = section(l, "What the experiment tells apart", "可辨识性");
     vec![heading, Block::List(items)]
@@ -127,19 +115,13 @@ impl Told<'_> {
             ),
         };
         if !alias.acts {
-            return l.pick(
-                format!("{name}{physics}: acts on no reading of this schedule."),
-                format!("{name}{physics}：在本安排中不影响任何读数。"),
-            );
+            return say!("{name}{physics}: acts on no reading of this schedule.").in_language(l);
         }
         let visible = match alias.visible {
             0.0 => l
                 .pick("the residuals show nothing of it", "残差完全不显示")
                 .to_owned(),
-            share => l.pick(
-                format!("the residuals show {} % of it", percent(share)),
-                format!("残差显示其 {} %", percent(share)),
-            ),
+            share => say!("the residuals show {} % of it", percent(share)).in_language(l),
         };
         let unit = behind(&omitted.unit);
         match omitted.typical {
@@ -153,10 +135,7 @@ impl Told<'_> {
             }
             None => {
                 let shifts = self.shifts(alias, 1.0, &[]);
-                l.pick(
-                    format!("{name}{physics}: each 1{unit} {shifts}; {visible}. Its usual size is not stated; [omitted.{name}] typical = … tells the shifts in multiples of u."),
-                    format!("{name}{physics}：每 1{unit} {shifts}；{visible}。未给出其典型值；写 [omitted.{name}] typical = … 可得以 u 为单位的偏移。"),
-                )
+                say!("{name}{physics}: each 1{unit} {shifts}; {visible}. Its usual size is not stated; [omitted.{name}] typical = … tells the shifts in multiples of u.").in_language(l)
             }
         }
     }
@@ -173,7 +152,7 @@ impl Told<'_> {
             let sign = if one.by < 0.0 { '−' } else { '+' };
             let times = one.times.map_or(String::new(), |times| {
                 let times = significant(times, 2);
-                l.pick(format!(" ({times} u)"), format!("（{times} u）"))
+                say!(" ({times} u)").in_language(l)
             });
             let by = l.pick("by", "偏移");
             format!(
@@ -184,10 +163,7 @@ impl Told<'_> {
         let listed: Vec<String> = listed.collect();
         let rest = shifts.bound.map_or(String::new(), |bound| {
             let bound = significant(bound, 1);
-            l.pick(
-                format!(", and the others by less than {bound} u"),
-                format!("，其余系数偏移小于 {bound} u"),
-            )
+            say!(", and the others by less than {bound} u").in_language(l)
         });
         l.pick(
             format!("shifts {}{rest}", listed.join(", ")),

@@ -5,6 +5,7 @@ use crate::language::{Language, Word};
 use crate::number::{NONE, aligned, freedom, significant};
 use crate::phrase::{section, table};
 use crate::symbol;
+use gumption_fault::say;
 use gumption_format::document::{
     Block,
     ColumnKind::{Names, Numbers},
@@ -62,17 +63,14 @@ pub(super) fn residuals(campaign: &Campaign, found: &Calibration, l: Language) -
     blocks.push(Block::Table(largest(campaign, found, l)));
     let count = found.residuals.len();
     if count > LISTED {
-        blocks.push(Block::Paragraph(l.pick(
-            format!("The {RESIDUALS} largest of {count}; --json has the {LISTED} largest."),
-            format!(
-                "共 {count} 个残差，列出最大的 {RESIDUALS} 个；--json 列出最大的 {LISTED} 个。"
-            ),
-        )));
+        blocks.push(Block::Paragraph(
+            say!("The {RESIDUALS} largest of {count}; --json has the {LISTED} largest.")
+                .in_language(l),
+        ));
     } else if count > RESIDUALS {
-        blocks.push(Block::Paragraph(l.pick(
-            format!("The {RESIDUALS} largest of {count}; --json has all."),
-            format!("共 {count} 个残差，列出最大的 {RESIDUALS} 个；全部见 --json。"),
-        )));
+        blocks.push(Block::Paragraph(
+            say!("The {RESIDUALS} largest of {count}; --json has all.").in_language(l),
+        ));
     }
     blocks
 }
@@ -90,10 +88,9 @@ fn whole(campaign: &Campaign, found: &Calibration, l: Language) -> String {
         return String::new();
     }
     let names = l.list(&names);
-    let mut text = l.pick(
-        format!(" Of {names} that part is known too badly, and all of the residuals are taken."),
-        format!("{names} 的这一部分难以可靠分出，故取全部残差。"),
-    );
+    let mut text =
+        say!(" Of {names} that part is known too badly, and all of the residuals are taken.")
+            .in_language(l);
     if campaign.points.are_sampled() {
         text += l.pick(
             " The samples of the dwells tell the scatter better where nothing else changes between them: [noise] from = \"dwells\".",
@@ -180,22 +177,13 @@ fn misfit(one: &ResponseScatter, l: Language) -> Option<String> {
     Some(match test.misfit? {
         Misfit::BetweenDwells => {
             let times = significant(test.reduced().sqrt(), 2);
-            l.pick(
-                format!("The residuals of {response} are {times} times as large as the samples of the dwells let expect: something changes from dwell to dwell that is still within each, labels or reference values are wrong, or the equations leave something out."),
-                format!("{response} 的残差为驻留段采样预期的 {times} 倍：可能有在驻留段内稳定、段间变化的因素，标签或参考值有误，或方程有遗漏。"),
-            )
+            say!("The residuals of {response} are {times} times as large as the samples of the dwells let expect: something changes from dwell to dwell that is still within each, labels or reference values are wrong, or the equations leave something out.").in_language(l)
         }
         Misfit::Larger => {
             let p = significant(test.p_value, 2);
-            l.pick(
-                format!("The residuals of {response} are larger than the errors of its readings let expect (χ²/ν = {ratio}, p = {p}): the equations leave something out, or the errors are larger than stated. The uncertainties above do not contain this."),
-                format!("{response} 的残差大于其读数误差的预期（χ²/ν = {ratio}，p = {p}）：方程有遗漏，或误差大于所给出的值。上列不确定度未包含这一差异。"),
-            )
+            say!("The residuals of {response} are larger than the errors of its readings let expect (χ²/ν = {ratio}, p = {p}): the equations leave something out, or the errors are larger than stated. The uncertainties above do not contain this.").in_language(l)
         }
-        Misfit::Smaller => l.pick(
-            format!("The residuals of {response} are smaller than the errors of its readings let expect (χ²/ν = {ratio}): these errors may be stated too large, or be common to the readings."),
-            format!("{response} 的残差小于其读数误差的预期（χ²/ν = {ratio}）：误差可能给得过大，或为各读数共有。"),
-        ),
+        Misfit::Smaller => say!("The residuals of {response} are smaller than the errors of its readings let expect (χ²/ν = {ratio}): these errors may be stated too large, or be common to the readings.").in_language(l),
     })
 }
 
@@ -207,20 +195,14 @@ fn in_list(points: &[Words], l: Language) -> String {
 fn at_limit(limit: &Limit, l: Language) -> String {
     let (response, points) = (&limit.response, in_list(&limit.points, l));
     let value = significant(limit.value, 6);
-    l.pick(
-        format!("{response} is {value} in {points}, although its equation differs there: the instrument looks saturated, and these points bend the coefficients. Leave them out, or measure in a larger range."),
-        format!("{response} 在 {points} 均为 {value}，而方程值不同：仪器疑似饱和，这些点会使系数失真。请剔除这些点或换大量程测量。"),
-    )
+    say!("{response} is {value} in {points}, although its equation differs there: the instrument looks saturated, and these points bend the coefficients. Leave them out, or measure in a larger range.").in_language(l)
 }
 
 /// Readings that look exchanged, and which others instead.
 fn exchanged(pairs: &[[Words; 2]], l: Language) -> Option<String> {
     let both = |pair: &[Words; 2]| {
         let [first, second] = pair.each_ref().map(|point| said(point, l));
-        l.pick(
-            format!("{first} and {second}"),
-            format!("{first} 与 {second}"),
-        )
+        say!("{first} and {second}").in_language(l)
     };
     let (first, others) = pairs.split_first()?;
     let mut which = both(first);
@@ -231,19 +213,13 @@ fn exchanged(pairs: &[[Words; 2]], l: Language) -> Option<String> {
             format!("（或 {}）", others.join("、或 ")),
         );
     }
-    Some(l.pick(
-        format!("The readings of {which} look exchanged: with each in the other's place the residuals would be less than a tenth of what they are. Check the labels before using these figures."),
-        format!("{which} 的读数疑似互换：交换后残差不到现在的十分之一。使用结果前请核对标签。"),
-    ))
+    Some(say!("The readings of {which} look exchanged: with each in the other's place the residuals would be less than a tenth of what they are. Check the labels before using these figures.").in_language(l))
 }
 
 /// Coefficients with another sign than those like them.
 fn reversed(names: &[String], l: Language) -> Option<String> {
     let listed = names.join(l.pick(", ", "、"));
-    (!names.is_empty()).then(|| l.pick(
-        format!("The sign of {listed} is another than that of the other axes: the two ways of this axis may be exchanged in the labels, or the sensor is mounted or read reversed. Check the labels before using these figures."),
-        format!("{listed} 的符号与其他轴相反：该轴正、反两个方向的标签可能互换，或传感器安装、读出极性相反。使用结果前请核对标签。"),
-    ))
+    (!names.is_empty()).then(|| say!("The sign of {listed} is another than that of the other axes: the two ways of this axis may be exchanged in the labels, or the sensor is mounted or read reversed. Check the labels before using these figures.").in_language(l))
 }
 
 fn stands_apart(one: &Apart, l: Language) -> String {
@@ -253,10 +229,7 @@ fn stands_apart(one: &Apart, l: Language) -> String {
     } else {
         "∞".to_owned()
     };
-    l.pick(
-        format!("{response} in {point} stands apart: its residual is {times} times the standard deviation that the others give it. Find out why before using these figures: a wrong reading, a wrong label, or something that the equations leave out."),
-        format!("{point} 的 {response} 明显离群：其残差为其余各点所给标准偏差的 {times} 倍。使用结果前请查明原因：读数或标签有误，或方程有遗漏。"),
-    )
+    say!("{response} in {point} stands apart: its residual is {times} times the standard deviation that the others give it. Find out why before using these figures: a wrong reading, a wrong label, or something that the equations leave out.").in_language(l)
 }
 
 /// Residuals that are no scatter.
@@ -274,20 +247,11 @@ fn no_scatter(campaign: &Campaign, one: &Pattern, l: Language) -> String {
             let f = significant(f, 2);
             let [within, between] =
                 [within, between].map(|s| with_unit(&significant(s, 2), &unit));
-            l.pick(
-                format!("readings of {response} where all stimuli are equal have the standard deviation {within}, and by the distance of their means from the equation it would be {between} (F = {f}, {p})"),
-                format!("激励相同时 {response} 各读数的标准差为 {within}，而由其平均值与方程之差所得为 {between}（F = {f}，{p}）"),
-            )
+            say!("readings of {response} where all stimuli are equal have the standard deviation {within}, and by the distance of their means from the equation it would be {between} (F = {f}, {p})").in_language(l)
         }
-        PatternTest::Runs { runs, readings } => l.pick(
-            format!("those of {response} keep their sign in the order of the readings for longer than by chance ({runs} runs of {readings} residuals, {p})"),
-            format!("按读数顺序，{response} 的残差同号延续过久，并非偶然（{readings} 个残差 {runs} 个游程，{p}）"),
-        ),
+        PatternTest::Runs { runs, readings } => say!("those of {response} keep their sign in the order of the readings for longer than by chance ({runs} runs of {readings} residuals, {p})").in_language(l),
     };
-    l.pick(
-        format!("The residuals are no scatter: {seen}. The equations leave something out (curvature, hysteresis, drift), or reference values are wrong. The uncertainties above take it for scatter that averages away. `gumption diagnose` looks for what it is."),
-        format!("残差不是随机分散：{seen}。方程有遗漏（非线性、滞后、漂移等），或参考值有误；上列不确定度将其当作可以平均掉的分散性。可用 `gumption diagnose` 查找原因。"),
-    )
+    say!("The residuals are no scatter: {seen}. The equations leave something out (curvature, hysteresis, drift), or reference values are wrong. The uncertainties above take it for scatter that averages away. `gumption diagnose` looks for what it is.").in_language(l)
 }
 
 /// What a reader must know.
@@ -336,10 +300,7 @@ pub(super) fn remarks(
     }
     if !assumed.is_empty() {
         let names = assumed.join(", ");
-        items.push(l.pick(
-            format!("No values of {names} are stated, and zero was assumed: effects that are proportional to them are not seen. State roughly what is expected: [parameter.{}] start = ….", assumed[0]),
-            format!("{names} 未给出数值，按零计算：与之成比例的效应未体现。请给出预期值：[parameter.{}] start = …。", assumed[0]),
-        ));
+        items.push(say!("No values of {names} are stated, and zero was assumed: effects that are proportional to them are not seen. State roughly what is expected: [parameter.{}] start = ….", assumed[0]).in_language(l));
     }
     let remarks = campaign.experiment.remarks.iter();
     items.extend(remarks.map(|remark| l.pick(&remark.en, &remark.zh).clone()));

@@ -1,5 +1,6 @@
 //! Pictures of calibrations and plans: what is left of the readings, and what makes coefficients uncertain.
 
+use gumption_fault::say;
 use gumption_format::document::{Axis, Bar, Layer, Marks, Panel, Plot, Tone};
 use gumption_lab::calibrate::{Calibration, Campaign, Figures};
 
@@ -52,10 +53,7 @@ pub(super) fn residuals(campaign: &Campaign, found: &Calibration, l: Language) -
         Plot {
             id: id("residuals", &one.response),
             panels: vec![Panel {
-                title: l.pick(
-                    format!("Residuals of {}", one.response),
-                    format!("{} 的残差", one.response),
-                ),
+                title: say!("Residuals of {}", one.response).in_language(l),
                 x: Axis::linear(l.pick("reading", "读数序号"), ""),
                 y: Axis::linear(one.response.as_str(), symbol(&quantity.unit)),
                 layers,
@@ -88,10 +86,7 @@ pub(super) fn contributions(figures: &Figures, l: Language) -> Vec<Plot> {
             Some(Plot {
                 id: id("causes", &one.name),
                 panels: vec![Panel {
-                    title: l.pick(
-                        format!("What makes {} uncertain", one.name),
-                        format!("{} 的不确定度来源", one.name),
-                    ),
+                    title: say!("What makes {} uncertain", one.name).in_language(l),
                     x: Axis::linear("u", symbol(&one.unit.difference())),
                     y: Axis::linear("", ""),
                     layers: vec![layer("", Tone::Main, Marks::Bars(bars))],

@@ -5,6 +5,7 @@ use crate::language::{Language, Word};
 use crate::number::{NONE, aligned, effective, in_unit, probability, significant};
 use crate::phrase::{named_row, numbers_beside, paragraph, section, table};
 use crate::symbol;
+use gumption_fault::say;
 use gumption_format::document::{
     Block,
     ColumnKind::{Names, Numbers, Wrapped},
@@ -111,10 +112,7 @@ pub(super) fn coefficients(campaign: &Campaign, figures: &Figures, l: Language) 
             "significant: a coefficient that is zero would come out as far from it with the probability p (two-sided t test).",
             "显著性：系数真值为零时得到如此偏离的概率 p（双侧 t 检验）。",
         ),
-        Block::Paragraph(l.pick(
-            format!("U = k·u by the profile {profile}."),
-            format!("U = k·u，按规范 {profile}。"),
-        )),
+        Block::Paragraph(say!("U = k·u by the profile {profile}.").in_language(l)),
     ]
 }
 
@@ -168,8 +166,8 @@ fn significance(one: &Coefficient, l: Language) -> String {
     let p = p_of(one.p_value);
     match one.is_significant() {
         None => NONE.to_owned(),
-        Some(true) => l.pick(format!("yes, {p}"), format!("显著，{p}")),
-        Some(false) => l.pick(format!("no, {p}"), format!("不显著，{p}")),
+        Some(true) => say!("yes, {p}").in_language(l),
+        Some(false) => say!("no, {p}").in_language(l),
     }
 }
 

@@ -11,6 +11,7 @@ pub use file::{
 pub use head::certified;
 
 use gumption_core::quantity::{Decimal, Unit};
+use gumption_fault::say;
 use gumption_format::document::{
     Certificate, Certified, CertifiedConformity, CertifiedPoint, CertifiedUncertainty,
     CertifiedVerdict, Region, Told,
@@ -68,10 +69,7 @@ fn of_measurand(rows: &[Report<'_>], measurand: usize) -> Option<Certified> {
         .map(|row| decisions::decided(row, measurand))
         .collect();
     let conformity = decided[0].iter().enumerate().map(|(at, one)| {
-        let rule = l.pick(
-            format!("Tolerance {}. Decision rule: {}.", one.tolerance, one.rule),
-            format!("容许区间 {}。判定规则：{}。", one.tolerance, one.rule),
-        );
+        let rule = say!("Tolerance {}. Decision rule: {}.", one.tolerance, one.rule).in_language(l);
         let verdicts = decided.iter().filter_map(|row| verdict(row.get(at)?));
         CertifiedConformity {
             name: one.name.to_owned(),

@@ -4,6 +4,7 @@
 
 use crate::language::Language;
 use crate::number::TABLE_DIGITS;
+use gumption_fault::say;
 use gumption_gum::budget::Interval;
 
 /// More digits than doubles have are no help.
@@ -49,10 +50,7 @@ impl Compared<'_> {
 pub(super) fn with_unrounded(rounded: &str, in_full: Option<&str>, l: Language) -> String {
     match in_full {
         None => rounded.to_owned(),
-        Some(full) => l.pick(
-            format!("{rounded} (unrounded {full})"),
-            format!("{rounded}（修约前 {full}）"),
-        ),
+        Some(full) => say!("{rounded} (unrounded {full})").in_language(l),
     }
 }
 

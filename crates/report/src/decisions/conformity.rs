@@ -7,6 +7,7 @@ use crate::language::Language;
 use crate::number::{NONE, aligned, exact, significant};
 use crate::{Report, symbol};
 use gumption_core::quantity::Unit;
+use gumption_fault::say;
 use gumption_format::document::Block;
 use gumption_gum::budget::{Conformity, DecisionRule, Interval};
 use gumption_gum::propagate::{ConformityResult, Verdict};
@@ -42,10 +43,7 @@ impl Assessment<'_> {
         self.specific(&mut rows);
         self.capability(&mut rows);
         self.global(&mut rows);
-        rows.under(l.pick(
-            format!("Conformity of {name}"),
-            format!("{name} 的符合性评定"),
-        ))
+        rows.under(say!("Conformity of {name}").in_language(l))
     }
 
     /// The sentence for the certificate; none in planning.
@@ -189,16 +187,10 @@ impl Assessment<'_> {
                 parts.push(format!("u = {}", figures.amount(&u)));
             }
             let ends = figures.of_value(&format!("[{}, {}]", ends[0], ends[1]));
-            parts.push(l.pick(
-                format!("coverage interval {ends}"),
-                format!("包含区间 {ends}"),
-            ));
+            parts.push(say!("coverage interval {ends}").in_language(l));
             if self.stated.rule.takes_expanded() {
                 let half = figures.amount(&significant(self.found.expanded, 2));
-                parts.push(l.pick(
-                    format!("half of its width {half} taken for U"),
-                    format!("以其半宽 {half} 作为 U"),
-                ));
+                parts.push(say!("half of its width {half} taken for U").in_language(l));
             }
         }
         parts.join(comma)

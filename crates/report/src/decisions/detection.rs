@@ -7,6 +7,7 @@ use crate::language::Language;
 use crate::number::{TABLE_DIGITS, aligned, at_place, exact, print, probability, significant};
 use crate::{Report, symbol};
 use gumption_core::quantity::Unit;
+use gumption_fault::say;
 use gumption_format::document::Block;
 use gumption_gum::budget::{Detection, Interval};
 use gumption_gum::propagate::{DetectionLimit, DetectionResult};
@@ -32,10 +33,7 @@ impl Limits<'_> {
         let verdict = with_unrounded(self.verdict(), in_full.as_deref(), l);
         rows.add(l.pick("Verdict", "结论"), verdict);
         self.best(&mut rows);
-        rows.under(l.pick(
-            format!("Characteristic limits of {}", self.name),
-            format!("{} 的特征限", self.name),
-        ))
+        rows.under(say!("Characteristic limits of {}", self.name).in_language(l))
     }
 
     /// Decision threshold and detection limit.
@@ -71,10 +69,7 @@ impl Limits<'_> {
     fn of_trials(&self, limit: Option<f64>) -> String {
         limit.map_or_else(String::new, |limit| {
             let text = self.value(limit);
-            self.l.pick(
-                format!(" (Monte Carlo {text})"),
-                format!("（蒙特卡洛法 {text}）"),
-            )
+            say!(" (Monte Carlo {text})").in_language(self.l)
         })
     }
 
@@ -94,10 +89,7 @@ impl Limits<'_> {
         };
         rows.add(
             l.pick("Procedure", "测量程序"),
-            l.pick(
-                format!("{word} for the guideline value {guideline}"),
-                format!("对参考值 {guideline} {word}"),
-            ),
+            say!("{word} for the guideline value {guideline}").in_language(l),
         );
     }
 
@@ -130,17 +122,11 @@ impl Limits<'_> {
             .best_from_trials
             .map_or_else(String::new, |best| {
                 let found = interval(best.symmetric);
-                l.pick(
-                    format!(" (Monte Carlo {found})"),
-                    format!("（蒙特卡洛法 {found}）"),
-                )
+                say!(" (Monte Carlo {found})").in_language(l)
             });
         rows.add(
             l.pick("Coverage interval", "包含区间"),
-            l.pick(
-                format!("{reported}{trials}, shortest {shortest}, p = {p}"),
-                format!("{reported}{trials}，最短 {shortest}，p = {p}"),
-            ),
+            say!("{reported}{trials}, shortest {shortest}, p = {p}").in_language(l),
         );
     }
 
@@ -151,24 +137,16 @@ impl Limits<'_> {
 
     fn no_threshold(&self) -> String {
         let gross = &self.report.budget.inputs[self.stated.gross].name;
-        self.l.pick(
-            format!(
-                "none: no value of {gross} gives {} = 0 with a u that is finite",
-                self.name
-            ),
-            format!(
-                "不存在：{gross} 取任何值都不能使 {} = 0 且 u 有限",
-                self.name
-            ),
+        say!(
+            "none: no value of {gross} gives {} = 0 with a u that is finite",
+            self.name
         )
+        .in_language(self.l)
     }
 
     fn no_limit(&self, relative: f64) -> String {
         let percent = print(&at_place(100.0 * relative, 0));
-        self.l.pick(
-            format!("none: for large values u is {percent} % of the value, so that none is recognised with certainty enough"),
-            format!("不存在：数值较大时 u 达到其 {percent} %，任何值都不能以足够的概率被识别"),
-        )
+        say!("none: for large values u is {percent} % of the value, so that none is recognised with certainty enough").in_language(self.l)
     }
 
     fn verdict(&self) -> &'static str {
@@ -241,16 +219,10 @@ impl Limits<'_> {
                 || l.pick("no detection limit", "探测限不存在").to_string(),
                 |y| {
                     let y = self.value(y);
-                    l.pick(
-                        format!("detection limit y# = {y}"),
-                        format!("探测限 y# = {y}"),
-                    )
+                    say!("detection limit y# = {y}").in_language(l)
                 },
             );
-            l.pick(
-                format!(" (decision threshold y* = {threshold}, {limit})"),
-                format!("（判断阈 y* = {threshold}，{limit}）"),
-            )
+            say!(" (decision threshold y* = {threshold}, {limit})").in_language(l)
         })
     }
 

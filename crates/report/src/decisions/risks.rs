@@ -4,6 +4,7 @@ use super::conformity::Assessment;
 use super::words::{Rows, chance, related};
 use crate::language::Language;
 use crate::number::{NONE, significant};
+use gumption_fault::say;
 use gumption_gum::propagate::Verdict;
 
 impl Assessment<'_> {
@@ -15,9 +16,7 @@ impl Assessment<'_> {
         let alone = l.pick("from the result alone", "仅由测量结果");
         let by_gum = chance(known.from_measurement);
         let trials = known.from_trials.map(chance);
-        let trials = trials.map_or_else(String::new, |p| {
-            l.pick(format!(", Monte Carlo {p}"), format!("，蒙特卡洛法 {p}"))
-        });
+        let trials = trials.map_or_else(String::new, |p| say!(", Monte Carlo {p}").in_language(l));
         let label = l.pick("Conformance probability", "符合概率");
         if self.stated.process.is_some() {
             let both = known.probability.map_or_else(
@@ -30,10 +29,7 @@ impl Assessment<'_> {
                 },
                 |p| {
                     let p = related("p_c", &chance(p));
-                    l.pick(
-                        format!("{p}, with the knowledge of the process"),
-                        format!("{p}（计入过程信息）"),
-                    )
+                    say!("{p}, with the knowledge of the process").in_language(l)
                 },
             );
             rows.add(
@@ -45,10 +41,7 @@ impl Assessment<'_> {
             let decided = known.probability.map_or_else(|| by_gum.clone(), chance);
             let beside = match known.probability == known.from_trials {
                 true if by_gum == decided => String::new(),
-                true => l.pick(
-                    format!(", from y and u {by_gum}"),
-                    format!("，由 y 和 u：{by_gum}"),
-                ),
+                true => say!(", from y and u {by_gum}").in_language(l),
                 false => trials,
             };
             rows.add(label, format!("{}{beside}", related("p_c", &decided)));
@@ -89,10 +82,7 @@ impl Assessment<'_> {
         };
         rows.add(
             l.pick("Capability", "测量能力"),
-            l.pick(
-                format!("C_m = T/(4u) = {c}, TUR = T/(2U) = {ratio_text}: {met}"),
-                format!("C_m = T/(4u) = {c}，TUR = T/(2U) = {ratio_text}：{met}"),
-            ),
+            say!("C_m = T/(4u) = {c}, TUR = T/(2U) = {ratio_text}: {met}").in_language(l),
         );
     }
 
@@ -126,17 +116,11 @@ impl Assessment<'_> {
         let (wrong, lost) = (given(risk.false_acceptance), given(risk.false_rejection));
         rows.add(
             l.pick("Global consumer's risk", "总体使用方风险"),
-            l.pick(
-                format!("R_C = {consumer}; of the accepted items {wrong} do not conform"),
-                format!("R_C = {consumer}；被接受者中不合格的占 {wrong}"),
-            ),
+            say!("R_C = {consumer}; of the accepted items {wrong} do not conform").in_language(l),
         );
         rows.add(
             l.pick("Global producer's risk", "总体生产方风险"),
-            l.pick(
-                format!("R_P = {producer}; of the rejected items {lost} conform"),
-                format!("R_P = {producer}；被拒绝者中合格的占 {lost}"),
-            ),
+            say!("R_P = {producer}; of the rejected items {lost} conform").in_language(l),
         );
     }
 }

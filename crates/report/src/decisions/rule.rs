@@ -3,6 +3,7 @@
 use super::conformity::Assessment;
 use crate::figures::with_unit;
 use crate::number::{exact, probability, significant};
+use gumption_fault::say;
 use gumption_gum::budget::{DecisionRule, GlobalRisks, Guard, ISO_14253_PROBABILITY};
 
 impl Assessment<'_> {
@@ -16,24 +17,15 @@ impl Assessment<'_> {
                 .to_string(),
             DecisionRule::GuardedAcceptance(guard @ Guard::Expanded(1.0)) => {
                 let guard = self.guard(guard, "");
-                l.pick(
-                    format!("guarded acceptance, {guard} (ILAC-G8)"),
-                    format!("保护带接受，{guard}（ILAC-G8）"),
-                )
+                say!("guarded acceptance, {guard} (ILAC-G8)").in_language(l)
             }
             DecisionRule::GuardedAcceptance(guard) => {
                 let guard = self.guard(guard, l.pick("conforms", "合格"));
-                l.pick(
-                    format!("guarded acceptance, {guard}"),
-                    format!("保护带接受，{guard}"),
-                )
+                say!("guarded acceptance, {guard}").in_language(l)
             }
             DecisionRule::GuardedRejection(guard) => {
                 let guard = self.guard(guard, l.pick("does not conform", "不合格"));
-                l.pick(
-                    format!("guarded rejection, {guard}"),
-                    format!("保护带拒绝，{guard}"),
-                )
+                say!("guarded rejection, {guard}").in_language(l)
             }
             DecisionRule::NonBinary {
                 inner: Guard::Probability(inner),
@@ -58,10 +50,7 @@ impl Assessment<'_> {
                 } else {
                     [accepted, rejected].join(l.pick(" or ", "或"))
                 };
-                l.pick(
-                    format!("non-binary (undecided near the limits), {both}"),
-                    format!("非二元判定（限附近待定），{both}"),
-                )
+                say!("non-binary (undecided near the limits), {both}").in_language(l)
             }
             DecisionRule::GlobalRisks(permitted) => self.permitted(permitted),
             DecisionRule::Jjf1094 => l
@@ -101,21 +90,12 @@ impl Assessment<'_> {
                 };
                 let w = with_unit(&significant(inwards.abs(), 3), &self.deviations());
                 match inwards > 0.0 {
-                    true => l.pick(
-                        format!(": guarded acceptance, w = {w}"),
-                        format!("：保护带接受，w = {w}"),
-                    ),
-                    false => l.pick(
-                        format!(": guarded rejection, w = {w}"),
-                        format!("：保护带拒绝，w = {w}"),
-                    ),
+                    true => say!(": guarded acceptance, w = {w}").in_language(l),
+                    false => say!(": guarded rejection, w = {w}").in_language(l),
                 }
             }
         };
-        l.pick(
-            format!("global risk {risks} (JCGM 106, 9.5){band}"),
-            format!("总体风险 {risks}（JCGM 106，9.5）{band}"),
-        )
+        say!("global risk {risks} (JCGM 106, 9.5){band}").in_language(l)
     }
 
     fn guard(&self, guard: Guard, what: &str) -> String {
@@ -125,10 +105,8 @@ impl Assessment<'_> {
             Guard::Expanded(r) => format!("w = {}·U", exact(r)),
             Guard::Probability(p) => {
                 let p = probability(p);
-                self.l.pick(
-                    format!("decided where the item {what} with a probability of at least {p}"),
-                    format!("{what}的概率不小于 {p} 时判定"),
-                )
+                say!("decided where the item {what} with a probability of at least {p}")
+                    .in_language(self.l)
             }
         }
     }

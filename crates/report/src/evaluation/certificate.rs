@@ -1,5 +1,6 @@
 //! What a series puts on the certificate: a table of its points for each measurand, and what is to be said of it.
 
+use gumption_fault::say;
 use gumption_format::document::{Block, Cell, Column, ColumnKind, Table};
 use gumption_gum::propagate::{Basis, ReportedUncertainty, StatedProbability};
 
@@ -170,10 +171,7 @@ impl<'a> Points<'a> {
             ),
             (
                 Found::MultipleOfTrials,
-                l.pick(
-                    "U is the standard uncertainty found by the Monte Carlo method (JCGM 101) multiplied by the coverage factor k.".to_string(),
-                    "U 由蒙特卡洛法（JJF 1059.2）所得的标准不确定度乘以包含因子 k 得到。".to_string(),
-                ),
+                say!("U is the standard uncertainty found by the Monte Carlo method (JCGM 101) multiplied by the coverage factor k.").in_language(l),
             ),
             (
                 Found::HalfWidth,
@@ -191,10 +189,7 @@ impl<'a> Points<'a> {
             ),
             (
                 Found::Nothing,
-                l.pick(
-                    "No uncertainty can be stated.".to_string(),
-                    "无法给出不确定度。".to_string(),
-                ),
+                say!("No uncertainty can be stated.").in_language(l),
             ),
         ];
         let mut sentences: Vec<String> = kinds
@@ -215,10 +210,7 @@ impl<'a> Points<'a> {
             }
         }
         let sentences = rules.into_iter().filter_map(|rule| {
-            let sentence = l.pick(
-                format!("Decision rule: {rule}."),
-                format!("判定规则：{rule}。"),
-            );
+            let sentence = say!("Decision rule: {rule}.").in_language(l);
             self.said(sentence, |point| {
                 point.decided.iter().any(|decided| decided.rule == rule)
             })
@@ -244,10 +236,7 @@ impl<'a> Points<'a> {
             false => l.list(&so),
             true => {
                 let (first, n) = (so[..MOST].join(l.pick(", ", "、")), so.len());
-                l.pick(
-                    format!("{first} … ({n} rows)"),
-                    format!("{first} 等 {n} 行"),
-                )
+                say!("{first} … ({n} rows)").in_language(l)
             }
         };
         Some(l.pick(

@@ -1,6 +1,7 @@
 //! The report as a sequence of blocks, in the order in which it is read.
 
 use gumption_core::quantity::Rounding;
+use gumption_fault::say;
 use gumption_gum::budget::{CoverageRule, TScale};
 use gumption_gum::propagate::CoverageBasis;
 
@@ -23,10 +24,9 @@ pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
     let several = report.evaluation.results.len() > 1;
     for m in 0..report.evaluation.results.len() {
         let name = report.measurand(m).0;
-        blocks.push(Block::Section(l.pick(
-            format!("Uncertainty budget of {name}"),
-            format!("{name} 的不确定度评定"),
-        )));
+        blocks.push(Block::Section(
+            say!("Uncertainty budget of {name}").in_language(l),
+        ));
         blocks.extend(budget_table::blocks(report, m));
         let head = Word::SideBySide.of(l);
         blocks.push(Block::Section(if several {
@@ -135,7 +135,7 @@ fn taken(report: &Report<'_>) -> Vec<Block> {
         let row = taken.row.iter().map(|row| format!("[{row}]"));
         let what = format!("{}{}", taken.measurand, row.collect::<String>());
         let file = &taken.file;
-        let mut words = l.pick(format!("{what} of {file}"), format!("{file} 的 {what}"));
+        let mut words = say!("{what} of {file}").in_language(l);
         if !taken.title.is_empty() {
             words.push_str(stop);
             words.push_str(&taken.title);
@@ -173,34 +173,16 @@ fn coverage(report: &Report<'_>) -> String {
         CoverageRule::Fixed(k) => {
             let k = exact(k);
             match conventions.state_probability {
-                true => l.pick(format!("p = {p}, k = {k}"), format!("p = {p}，k = {k}")),
-                false => l.pick(
-                    format!("k = {k}, no probability stated (intervals in this report are for {p})"),
-                    format!("k = {k}，不注明包含概率（本报告中的区间取 p = {p}）"),
-                ),
+                true => say!("p = {p}, k = {k}").in_language(l),
+                false => say!("k = {k}, no probability stated (intervals in this report are for {p})").in_language(l),
             }
         }
-        CoverageRule::Normal => l.pick(
-            format!("p = {p}, k from the normal distribution"),
-            format!("p = {p}，k 取自正态分布"),
-        ),
-        CoverageRule::StudentT => l.pick(
-            format!("p = {p}, k from the t-distribution"),
-            format!("p = {p}，k 取自 t 分布"),
-        ),
+        CoverageRule::Normal => say!("p = {p}, k from the normal distribution").in_language(l),
+        CoverageRule::StudentT => say!("p = {p}, k from the t-distribution").in_language(l),
         // A probability of its own, for all that is reported here.
-        CoverageRule::Output if of_output != p && from_output == results().count() => l.pick(
-            format!("p = {of_output}, k from the distribution of the result, in which a few components dominate (intervals in this report are for {p})"),
-            format!("p = {of_output}，少数分量占优势，k 取自输出量的分布（本报告中的区间取 p = {p}）"),
-        ),
-        CoverageRule::Output if of_output != p && from_output > 0 => l.pick(
-            format!("p = {p}, k from t, or for {of_output} from the distribution of the result where a few components dominate"),
-            format!("p = {p}，k 取自 t 分布；少数分量占优势时取自输出量的分布，包含概率 {of_output}"),
-        ),
-        CoverageRule::Output => l.pick(
-            format!("p = {p}, k from t, or from the distribution of the result where a few components dominate"),
-            format!("p = {p}，k 取自 t 分布，少数分量占优势时取自输出量的分布"),
-        ),
+        CoverageRule::Output if of_output != p && from_output == results().count() => say!("p = {of_output}, k from the distribution of the result, in which a few components dominate (intervals in this report are for {p})").in_language(l),
+        CoverageRule::Output if of_output != p && from_output > 0 => say!("p = {p}, k from t, or for {of_output} from the distribution of the result where a few components dominate").in_language(l),
+        CoverageRule::Output => say!("p = {p}, k from t, or from the distribution of the result where a few components dominate").in_language(l),
     }
 }
 
@@ -242,10 +224,7 @@ fn footer(report: &Report<'_>) -> Vec<String> {
     }];
     if !conventions.overrides.is_empty() {
         let changes = conventions.overrides.join(", ");
-        lines.push(l.pick(
-            format!("Changed by the file: {changes}."),
-            format!("文件中另行规定：{changes}。"),
-        ));
+        lines.push(say!("Changed by the file: {changes}.").in_language(l));
     }
     lines.push(format!("gumption {}", env!("CARGO_PKG_VERSION")));
     lines

@@ -1,6 +1,7 @@
 //! The pictures of an evaluation, as data: what makes u large, the distribution of the result, curves, series.
 
 use gumption_core::special::student_t_pdf;
+use gumption_fault::say;
 use gumption_format::document::{Axis, Bar, Layer, Marks, Panel, Plot, Tone};
 use gumption_gum::budget::Fit;
 use gumption_gum::propagate::{Gum, MonteCarlo};
@@ -94,10 +95,7 @@ fn contributions(report: &Report<'_>, m: usize) -> Panel {
         .collect();
     bars.push(bar(&format!("u({name})"), gum.u));
     Panel {
-        title: l.pick(
-            format!("Contributions to u({name})"),
-            format!("各输入量对 u({name}) 的贡献"),
-        ),
+        title: say!("Contributions to u({name})").in_language(l),
         x: Axis::linear("|c·u|", symbol(unit)),
         y: Axis::linear("", ""),
         layers: vec![layer("|c·u|", Tone::Main, Marks::Bars(bars))],
@@ -142,10 +140,7 @@ fn waterfall(report: &Report<'_>, m: usize) -> Panel {
             step(l.pick("second order", "二阶项").to_string(), more);
         }
     }
-    let title = l.pick(
-        format!("Why u({name}) is this large: the squares add up"),
-        format!("u({name}) 的构成：方差逐项累加"),
-    );
+    let title = say!("Why u({name}) is this large: the squares add up").in_language(l);
     Panel {
         title,
         x: Axis::linear(l.pick("part of u²", "占 u² 之比"), "%"),
@@ -210,10 +205,7 @@ fn distribution(report: &Report<'_>, m: usize, found: &MonteCarlo) -> Panel {
         simple => format!("1/{simple}"),
     };
     Panel {
-        title: l.pick(
-            format!("Distribution of {name}, with the ends of the intervals"),
-            format!("{name} 的分布及包含区间端点"),
-        ),
+        title: say!("Distribution of {name}, with the ends of the intervals").in_language(l),
         x: Axis::linear(name, symbol(unit)),
         y: Axis::linear(l.pick("density", "概率密度"), per),
         layers,
@@ -262,7 +254,7 @@ fn curve(report: &Report<'_>, fit: &Fit) -> Vec<Panel> {
     ));
     vec![
         Panel {
-            title: l.pick(format!("Fit {}", fit.name), format!("拟合 {}", fit.name)),
+            title: say!("Fit {}", fit.name).in_language(l),
             x: axis(predictor),
             y: axis(response),
             layers: above,
@@ -315,7 +307,7 @@ pub(super) fn series(rows: &[Report<'_>]) -> Vec<Plot> {
         Plot {
             id: format!("series_{}", name.chars().map(plain).collect::<String>()),
             panels: vec![Panel {
-                title: l.pick(format!("{name} with U"), format!("{name} 及其 U")),
+                title: say!("{name} with U").in_language(l),
                 x: Axis::linear(l.pick("row", "行"), ""),
                 y: Axis::linear(name, symbol(unit)),
                 layers,

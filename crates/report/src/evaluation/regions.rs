@@ -1,5 +1,6 @@
 //! Pictures of joint coverage regions (JCGM 102): ellipses of both methods, and the intervals that hold together.
 
+use gumption_fault::say;
 use gumption_format::document::{Axis, Layer, Marks, Panel, Plot, Tone};
 use nalgebra::{DMatrix, Matrix2, Vector2};
 
@@ -71,14 +72,9 @@ fn panel(report: &Report<'_>, [a, b]: [usize; 2]) -> Option<Panel> {
     let [(x, x_unit), (y, y_unit)] = [a, b].map(|m| report.measurand(m));
     let p = probability(report.coverage_probability());
     let title = match report.evaluation.results.len() {
-        2 => l.pick(
-            format!("Joint coverage region of {x} and {y}, {p}"),
-            format!("{x} 与 {y} 的联合包含区域，{p}"),
-        ),
-        n => l.pick(
-            format!("Joint coverage region of all {n} measurands, {p}, seen along {x} and {y}"),
-            format!("全部 {n} 个输出量的联合包含区域（{p}）在 {x} 与 {y} 上的投影"),
-        ),
+        2 => say!("Joint coverage region of {x} and {y}, {p}").in_language(l),
+        n => say!("Joint coverage region of all {n} measurands, {p}, seen along {x} and {y}")
+            .in_language(l),
     };
     Some(Panel {
         title,

@@ -1,5 +1,6 @@
 //! A series: the same budget once per row, as compact tables: results, claims, repetitions.
 
+use gumption_fault::say;
 use gumption_gum::budget::{Conformity, Figure};
 use gumption_gum::propagate::{Clause8, Comparison};
 
@@ -30,10 +31,7 @@ pub(super) fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
             Block::Section(if unit.is_empty() {
                 format!("{name}{words}")
             } else {
-                l.pick(
-                    format!("{name}{words}, in {unit}"),
-                    format!("{name}{words}，单位 {unit}"),
-                )
+                say!("{name}{words}, in {unit}").in_language(l)
             })
         };
         let series = Series {
@@ -96,11 +94,8 @@ impl Series<'_> {
         let first = &self.rows[0];
         let l = first.language;
         let p = probability(first.coverage_probability());
-        let reported = l.pick(format!("{p} interval"), format!("{p} 区间"));
-        let interval = l.pick(
-            format!("{p} interval, Monte Carlo"),
-            format!("蒙特卡洛法 {p} 区间"),
-        );
+        let reported = say!("{p} interval").in_language(l);
+        let interval = say!("{p} interval, Monte Carlo").in_language(l);
         let mut table = Table::new([
             (Word::Row.of(l), ColumnKind::Names),
             ("y", ColumnKind::Numbers),
@@ -120,10 +115,7 @@ impl Series<'_> {
             .extend(assessed.iter().map(|(_, stated)| Column {
                 head: match stated.name == name {
                     true => l.pick("verdict", "结论").to_string(),
-                    false => l.pick(
-                        format!("verdict, {}", stated.name),
-                        format!("结论，{}", stated.name),
-                    ),
+                    false => say!("verdict, {}", stated.name).in_language(l),
                 },
                 kind: ColumnKind::Words,
             }));
@@ -172,20 +164,15 @@ impl Series<'_> {
         let digits = first.budget.conventions.digits;
         let mut sentences = Vec::new();
         if let Some(k) = self.one_factor() {
-            sentences.push(l.pick(
-                format!("U = k·u with k = {k} in every row."),
-                format!("各行 U = k·u，k = {k}。"),
-            ));
+            sentences.push(say!("U = k·u with k = {k} in every row.").in_language(l));
         }
         let result = |r: &Report<'_>| r.evaluation.results[self.measurand].validation.is_some();
         if self.rows.iter().any(result) {
             let plural = if digits == 1 { "" } else { "s" };
-            sentences.push(l.pick(
-                format!(
-                    "Validated: JCGM 101 clause 8 at {digits} significant digit{plural} of u_c."
-                ),
-                format!("“通过验证”按 u_c 的 {digits} 位有效数字判定（JCGM 101 第 8 章）。"),
-            ));
+            sentences.push(
+                say!("Validated: JCGM 101 clause 8 at {digits} significant digit{plural} of u_c.")
+                    .in_language(l),
+            );
         }
         (!sentences.is_empty()).then(|| sentences.join(l.pick(" ", "")))
     }
@@ -414,10 +401,7 @@ fn common_remarks(rows: &[Report<'_>]) -> Vec<Finding> {
         } = common;
         if varies {
             let first = &labels[0];
-            remark.text += &l.pick(
-                format!(" (The figures are those of {first}.)"),
-                format!("（数值取自 {first}。）"),
-            );
+            remark.text += &say!(" (The figures are those of {first}.)").in_language(l);
         }
         if labels.len() != rows.len() {
             let (labels, text) = (l.list(&labels), &remark.text);

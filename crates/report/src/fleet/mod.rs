@@ -5,6 +5,7 @@ mod plots;
 mod tables;
 mod words;
 
+use gumption_fault::say;
 use gumption_fleet::{Fleet, Measurand};
 use gumption_format::document::{Block, Document};
 use gumption_format::machine as forms;
@@ -44,10 +45,7 @@ impl Shown<'_> {
     fn blocks(self, table: &str) -> Vec<Block> {
         let l = self.l;
         let mut blocks = vec![
-            Block::Title(l.pick(
-                format!("What the results say together: {table}"),
-                format!("各结果的汇总统计：{table}"),
-            )),
+            Block::Title(say!("What the results say together: {table}").in_language(l)),
             Block::Fields(self.fields()),
         ];
         for one in &self.fleet.measurands {
@@ -69,10 +67,7 @@ impl Shown<'_> {
     /// Where the estimates lie, and whether they scatter as u says.
     fn estimates(self, one: &Measurand) -> Vec<Block> {
         let l = self.l;
-        let head = l.pick(
-            format!("Estimates of {}, and their scatter", one.name),
-            format!("{} 的估计值及其分散性", one.name),
-        );
+        let head = say!("Estimates of {}, and their scatter", one.name).in_language(l);
         let mut blocks = vec![
             Block::Section(head),
             Block::Table(self.estimates_table(one)),
@@ -87,10 +82,7 @@ impl Shown<'_> {
         if one.agreement.tested == 0 {
             return Vec::new();
         }
-        let head = self.l.pick(
-            format!("E_n of {}", one.name),
-            format!("{} 的 E_n", one.name),
-        );
+        let head = say!("E_n of {}", one.name).in_language(self.l);
         let mut blocks = vec![
             Block::Section(head),
             Block::Paragraph(self.agreement_words(one)),
@@ -105,10 +97,7 @@ impl Shown<'_> {
         let Some(drift) = &one.drift else {
             return Vec::new();
         };
-        let head = self.l.pick(
-            format!("Drift of {}", one.name),
-            format!("{} 的漂移", one.name),
-        );
+        let head = say!("Drift of {}", one.name).in_language(self.l);
         let mut blocks = vec![
             Block::Section(head),
             Block::Paragraph(self.drift_words(drift)),
@@ -127,10 +116,7 @@ impl Shown<'_> {
         if one.groups.iter().all(|group| group.components.is_empty()) {
             return Vec::new();
         }
-        let head = self.l.pick(
-            format!("What dominates u({})", one.name),
-            format!("u({}) 的主要来源", one.name),
-        );
+        let head = say!("What dominates u({})", one.name).in_language(self.l);
         let mut blocks = vec![
             Block::Section(head),
             Block::Table(self.components_table(one)),

@@ -1,6 +1,7 @@
 //! The pictures of a fleet, as data.
 
 use gumption_core::special::normal_pdf;
+use gumption_fault::say;
 use gumption_fleet::{DAYS_OF_A_YEAR, Deviations, Drift, Measurand};
 use gumption_format::document::{Axis, Bar, Layer, Marks, Panel, Plot, Tone};
 
@@ -55,10 +56,7 @@ impl Shown<'_> {
             layers.push(layer(name, Tone::Contrast, Marks::Line(line.to_vec())));
         }
         Panel {
-            title: l.pick(
-                format!("Estimates of {}, group by group", one.name),
-                format!("各组 {} 的估计值", one.name),
-            ),
+            title: say!("Estimates of {}, group by group", one.name).in_language(l),
             x: Axis::linear(
                 l.pick("row, in the order of the groups", "行（按组排列）"),
                 "",
@@ -89,10 +87,7 @@ impl Shown<'_> {
         let observed = bars(&|group| group.range);
         let claimed = bars(&|group| [group.mean - group.expanded, group.mean + group.expanded]);
         Some(Panel {
-            title: l.pick(
-                format!("Estimates of {} by group", one.name),
-                format!("各组 {} 的估计值", one.name),
-            ),
+            title: say!("Estimates of {} by group", one.name).in_language(l),
             x: Axis::linear(one.name.as_str(), symbol(&one.unit)),
             y: Axis::linear("", ""),
             layers: vec![
@@ -132,10 +127,8 @@ impl Shown<'_> {
             [x, normal_pdf(x)]
         });
         let panel = Panel {
-            title: l.pick(
-                "Deviation from the others of the group, in its standard uncertainty".to_owned(),
-                "与同组其余器件的偏差，以其标准不确定度为单位".to_owned(),
-            ),
+            title: say!("Deviation from the others of the group, in its standard uncertainty")
+                .in_language(l),
             x: Axis::linear("(x − X)/u(x − X)", ""),
             y: Axis::linear(l.pick("density", "概率密度"), ""),
             layers: vec![
@@ -182,10 +175,7 @@ impl Shown<'_> {
         let layers: Vec<Layer> = layers.collect();
         (!layers.is_empty()).then(|| {
             let panel = Panel {
-                title: l.pick(
-                    format!("Largest share of u²({})", one.name),
-                    format!("u²({}) 中份额最大者", one.name),
-                ),
+                title: say!("Largest share of u²({})", one.name).in_language(l),
                 x: Axis::linear(l.pick("rows", "行数"), "%"),
                 y: Axis::linear("", ""),
                 layers,
@@ -227,18 +217,12 @@ impl Shown<'_> {
             layers.push(layer(name, tone, Marks::Line(line.collect())));
         }
         let panel = Panel {
-            title: l.pick(
-                format!(
-                    "{} of a device, less its weighted mean: the {} least probable courses",
-                    one.name,
-                    drift.courses.len()
-                ),
-                format!(
-                    "器件的 {} 减去其加权平均值：概率最小的 {} 条",
-                    one.name,
-                    drift.courses.len()
-                ),
-            ),
+            title: say!(
+                "{} of a device, less its weighted mean: the {} least probable courses",
+                one.name,
+                drift.courses.len()
+            )
+            .in_language(l),
             x: Axis::linear(l.pick("date", "日期"), "a"),
             y: Axis::linear(format!("Δ{}", one.name), symbol(&one.unit)),
             layers,

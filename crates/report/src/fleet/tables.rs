@@ -1,5 +1,6 @@
 //! The tables of a fleet.
 
+use gumption_fault::say;
 use gumption_fleet::{Drift, Measurand};
 use gumption_format::document::ColumnKind::{Marks, Names, Numbers, Words};
 use gumption_format::document::{Cell, Column, ColumnKind, Row, Table};
@@ -24,7 +25,7 @@ impl Shown<'_> {
         if !self.fleet.by.is_empty() {
             let groups = grouped(self.fleet.groups.len() as u64);
             let by = self.fleet.by.join(", ");
-            let groups = l.pick(format!("{groups}, by {by}"), format!("{groups}（按 {by}）"));
+            let groups = say!("{groups}, by {by}").in_language(l);
             fields.push(field(l.pick("Groups", "分组"), groups));
         }
         fields
@@ -235,7 +236,7 @@ impl Shown<'_> {
                 .iter()
                 .map(|one| row(l.pick("finding", "提示"), one));
             let verdicts = group.verdicts.iter().flat_map(|(name, all)| {
-                let what = l.pick(format!("verdict {name}"), format!("判定 {name}"));
+                let what = say!("verdict {name}").in_language(l);
                 all.iter().map(move |one| row(&what, one))
             });
             faulty.chain(findings).chain(verdicts).collect()
@@ -259,10 +260,9 @@ impl Shown<'_> {
     fn more(self, table: &mut Table, more: usize) {
         if more > 0 {
             let more = grouped(more as u64);
-            table.rows.push(Row::Across(self.l.pick(
-                format!("{more} more: see --json"),
-                format!("另有 {more} 项，见 --json"),
-            )));
+            table.rows.push(Row::Across(
+                say!("{more} more: see --json").in_language(self.l),
+            ));
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What is said of a fleet in sentences.
 
+use gumption_fault::say;
 use gumption_fleet::{Drift, Measurand, SIGNIFICANCE, Scatter};
 
 use super::Shown;
@@ -40,17 +41,11 @@ impl Shown<'_> {
         }
         if !more.is_empty() {
             let groups = self.ratios(&more);
-            sentences.push(l.pick(
-                format!("More scatter than u claims ({groups} times as much): the items differ from each other, or u leaves something out. Which of the two, the scatter alone does not tell; real differences between items are no fault of u."),
-                format!("分散性大于 u 所声明的（倍数：{groups}）：或各器件本身有差异，或 u 漏掉了某些来源。仅凭分散性无法区分两者；器件间的真实差异并非 u 之误。"),
-            ));
+            sentences.push(say!("More scatter than u claims ({groups} times as much): the items differ from each other, or u leaves something out. Which of the two, the scatter alone does not tell; real differences between items are no fault of u.").in_language(l));
         }
         if !less.is_empty() {
             let groups = self.ratios(&less);
-            sentences.push(l.pick(
-                format!("Less scatter than u claims ({groups} times as much): what all of them share, such as the error of one reference, is part of u and does not scatter; or u is too large."),
-                format!("分散性小于 u 所声明的（倍数：{groups}）：共同来源（如同一标准器的误差）计入 u，但不引起分散；或 u 偏大。"),
-            ));
+            sentences.push(say!("Less scatter than u claims ({groups} times as much): what all of them share, such as the error of one reference, is part of u and does not scatter; or u is too large.").in_language(l));
         }
         if more.is_empty() && less.is_empty() {
             sentences.push(l.pick(
@@ -98,21 +93,12 @@ impl Shown<'_> {
         let [tested, beyond] = [found.tested, found.beyond].map(|n| grouped(n as u64));
         let by_chance = expected(found.expected);
         let against = match &one.reference {
-            Some(name) => l.pick(format!("the reference {name}"), format!("参考值 {name} ")),
-            None => l.pick(
-                "the weighted mean of the others of their group".to_owned(),
-                "同组其余器件的加权平均值".to_owned(),
-            ),
+            Some(name) => say!("the reference {name}").in_language(l),
+            None => say!("the weighted mean of the others of their group").in_language(l),
         };
-        let all = l.pick(
-            format!("|E_n| > 1: {beyond} of {tested} rows, against {against}; chance lets expect {by_chance}."),
-            format!("{tested} 行与{against}比较：{beyond} 行 |E_n| > 1，偶然性期望为 {by_chance} 行。"),
-        );
+        let all = say!("|E_n| > 1: {beyond} of {tested} rows, against {against}; chance lets expect {by_chance}.").in_language(l);
         if super::differ(one) {
-            return l.pick(
-                format!("|E_n| > 1: {beyond} of {tested} rows, against {against}. The items differ by more than their uncertainties, so that none of them stands out, and none is named. E_n tells something against a reference value (`--reference`), or among items that should be alike (`--by`)."),
-                format!("{tested} 行与{against}比较：{beyond} 行 |E_n| > 1。各器件间的差异大于其不确定度，无从判断哪一个异常，故不点名。请与参考值比较（`--reference`），或按应当一致的器件分组（`--by`）。"),
-            );
+            return say!("|E_n| > 1: {beyond} of {tested} rows, against {against}. The items differ by more than their uncertainties, so that none of them stands out, and none is named. E_n tells something against a reference value (`--reference`), or among items that should be alike (`--by`).").in_language(l);
         }
         let named = found.apart.iter().filter(|one| one.is_named());
         let names = self.list(found.named, named.map(|one| one.device.clone()));
@@ -157,10 +143,7 @@ impl Shown<'_> {
         }
         let [devices, beyond] = [drift.devices, drift.beyond].map(|n| grouped(n as u64));
         let by_chance = expected(drift.expected);
-        let all = l.pick(
-            format!("Rate beyond its U: {beyond} of {devices} devices with calibrations at several dates; chance lets expect {by_chance}."),
-            format!("{devices} 个器件有多个日期的校准：{beyond} 个的漂移速率超出其 U，偶然性期望为 {by_chance} 个。"),
-        );
+        let all = say!("Rate beyond its U: {beyond} of {devices} devices with calibrations at several dates; chance lets expect {by_chance}.").in_language(l);
         let named = drift.apart.iter().filter(|one| one.is_named());
         let names = self.list(drift.named, named.map(|one| one.device.clone()));
         let all_explained = l.pick(
@@ -184,14 +167,8 @@ impl Shown<'_> {
         let l = self.l;
         let p = self.limit();
         [
-            l.pick(
-                "s: standard deviation of the estimates; u: claimed standard uncertainty, root mean square. Birge = √(χ²/(n − 1)) with χ² = Σ (x − x̄)²/u² and the mean x̄ with weights 1/u² (Birge 1932); p(χ²): probability of a larger χ².".to_owned(),
-                "s：估计值的标准偏差；u：声明的标准不确定度（方均根）。Birge 比 = √(χ²/(n − 1))，χ² = Σ (x − x̄)²/u²，x̄ 以 1/u² 加权（Birge 1932）；p(χ²)：χ² 更大的概率。".to_owned(),
-            ),
-            l.pick(
-                format!("E_n = (x − X)/√(U_x² + U_X²) (ISO/IEC 17043, ISO 13528). Without a reference, X is the weighted mean of the others of the group, with the k of the row; rows far from the median are left out of it. p over all: probability of such a difference, times the number of tests (Bonferroni); below {p} a device is named."),
-                format!("E_n = (x − X)/√(U_x² + U_X²)（ISO/IEC 17043、ISO 13528）。无参考值时，X 为同组其余器件的加权平均值，取该行的 k；远离中位数的行不计入。总体 p：出现该偏差的概率乘以检验次数（Bonferroni）；小于 {p} 才点名。"),
-            ),
+            say!("s: standard deviation of the estimates; u: claimed standard uncertainty, root mean square. Birge = √(χ²/(n − 1)) with χ² = Σ (x − x̄)²/u² and the mean x̄ with weights 1/u² (Birge 1932); p(χ²): probability of a larger χ².").in_language(l),
+            say!("E_n = (x − X)/√(U_x² + U_X²) (ISO/IEC 17043, ISO 13528). Without a reference, X is the weighted mean of the others of the group, with the k of the row; rows far from the median are left out of it. p over all: probability of such a difference, times the number of tests (Bonferroni); below {p} a device is named.").in_language(l),
         ]
         .to_vec()
     }

@@ -1,6 +1,7 @@
 //! The dossier: what was verified, with what, how, the result; then every example.
 
 use crate::language::Language;
+use gumption_fault::say;
 use gumption_format::document::Block;
 use gumption_format::document::{Cell, ColumnKind, Table};
 use gumption_verify::{Verdict, Verification};
@@ -10,10 +11,7 @@ use super::{example, words};
 pub(super) fn blocks(verification: &Verification, l: Language) -> Vec<Block> {
     let environment = &verification.environment;
     let mut blocks = vec![
-        Block::Title(l.pick(
-            format!("Verification of gumption {}", environment.version),
-            format!("gumption {} 验证报告", environment.version),
-        )),
+        Block::Title(say!("Verification of gumption {}", environment.version).in_language(l)),
         Block::Fields(identification(verification, l)),
         section("Result", "结果", l),
         Block::List(words::closing(verification, l)),
@@ -154,10 +152,7 @@ fn not_gating(verification: &Verification, l: Language) -> Vec<Block> {
         }
     }
     for file in &verification.without_claims {
-        items.push(l.pick(
-            format!("{file}: states no claim"),
-            format!("{file}：没有声称值"),
-        ));
+        items.push(say!("{file}: states no claim").in_language(l));
     }
     if items.is_empty() {
         items.push(

@@ -1,11 +1,12 @@
 //! Headings, counts and verdicts in words.
 
 use crate::language::Language;
+use gumption_fault::say;
 use gumption_verify::{Example, Verdict, Verification};
 
 /// The heading of an example, which the table of contents refers to.
 pub(super) fn heading(number: usize, l: Language) -> String {
-    l.pick(format!("Example {number}"), format!("示例 {number}"))
+    say!("Example {number}").in_language(l)
 }
 
 /// The verdict of an example.
@@ -21,10 +22,7 @@ pub(super) fn verdict(verdict: Verdict, l: Language) -> &'static str {
 pub(super) fn verdict_with_counts(example: &Example, l: Language) -> String {
     let word = verdict(example.verdict(), l);
     if example.rows.is_err() {
-        return l.pick(
-            format!("{word}: no figures"),
-            format!("{word}：没有计算结果"),
-        );
+        return say!("{word}: no figures").in_language(l);
     }
     let all = example.figures().count();
     let gating = example.figures().filter(|(row, c)| row.gates(c)).count();
@@ -32,21 +30,12 @@ pub(super) fn verdict_with_counts(example: &Example, l: Language) -> String {
         .figures()
         .filter(|(row, c)| row.gates(c) && !c.agrees())
         .count();
-    let mut parts = vec![l.pick(
-        format!("{gating} figure{}", plural(gating)),
-        format!("{gating} 个数值"),
-    )];
+    let mut parts = vec![say!("{gating} figure{}", plural(gating)).in_language(l)];
     if differing > 0 {
-        parts.push(l.pick(
-            format!("{differing} of them differ{}", third_person(differing)),
-            format!("其中 {differing} 个不一致"),
-        ));
+        parts.push(say!("{differing} of them differ{}", third_person(differing)).in_language(l));
     }
     if all > gating {
-        parts.push(l.pick(
-            format!("{} more not gating", all - gating),
-            format!("另有 {} 个不作判据", all - gating),
-        ));
+        parts.push(say!("{} more not gating", all - gating).in_language(l));
     }
     match l {
         Language::English => format!("{word}: {}", parts.join(", ")),
@@ -60,29 +49,17 @@ pub(super) fn closing(verification: &Verification, l: Language) -> Vec<String> {
     let mut lines = Vec::new();
     if counts.not_gating > 0 {
         let n = counts.not_gating;
-        lines.push(l.pick(
-            format!("{n} example{} shown only: not gating", plural(n)),
-            format!("另有 {n} 个示例仅列出，不作判据"),
-        ));
+        lines.push(say!("{n} example{} shown only: not gating", plural(n)).in_language(l));
     }
     let n = counts.figures;
-    let mut figures = l.pick(
-        format!("{n} figure{} compared", plural(n)),
-        format!("比较了 {n} 个数值"),
-    );
+    let mut figures = say!("{n} figure{} compared", plural(n)).in_language(l);
     if counts.differing > 0 {
         let n = counts.differing;
-        figures += &l.pick(
-            format!(", {n} of them differ{}", third_person(n)),
-            format!("，其中 {n} 个不一致"),
-        );
+        figures += &say!(", {n} of them differ{}", third_person(n)).in_language(l);
     }
     if counts.figures_not_gating > 0 {
         let n = counts.figures_not_gating;
-        figures += &l.pick(
-            format!(", {n} more shown and not gating"),
-            format!("，另有 {n} 个仅列出、不作判据"),
-        );
+        figures += &say!(", {n} more shown and not gating").in_language(l);
     }
     lines.push(figures);
     lines.push(tally(verification, l));
@@ -93,10 +70,7 @@ pub(super) fn closing(verification: &Verification, l: Language) -> Vec<String> {
 pub(super) fn tally(verification: &Verification, l: Language) -> String {
     let counts = verification.counts();
     let (passed, failed) = (counts.passed, counts.failed);
-    l.pick(
-        format!("{passed} passed, {failed} failed"),
-        format!("{passed} 个通过，{failed} 个未通过"),
-    )
+    say!("{passed} passed, {failed} failed").in_language(l)
 }
 
 fn plural(n: usize) -> &'static str {

@@ -77,7 +77,7 @@ pub(super) fn run(args: &Args) -> Outcome {
 /// Says what the file states and the command does not use.
 pub(super) fn remarks(case: &Case, lang: Language) {
     for remark in &case.remarks {
-        output::note(lang.pick(&remark.en, &remark.zh), lang);
+        output::note(&remark.in_language(lang), lang);
     }
 }
 

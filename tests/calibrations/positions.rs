@@ -67,7 +67,7 @@ fn a_stimulus_that_no_equation_has_is_remarked_on() {
         let of_ay = |en: &String| en.contains("the stimulus ay");
         remarks
             .into_iter()
-            .map(|remark| remark.en)
+            .map(|remark| remark.to_string())
             .any(|en| of_ay(&en))
     };
     assert!(told("U = a + b1*ax"));

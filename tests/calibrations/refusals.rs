@@ -42,7 +42,7 @@ fn outcome(campaign: &str, folder: &Path) -> String {
     match read(campaign, "rate.toml", folder, Purpose::Calibrate) {
         Ok(campaign) => {
             let remarks = campaign.experiment.remarks.iter();
-            remarks.map(|remark| remark.en.as_str()).collect()
+            remarks.map(ToString::to_string).collect()
         }
         Err(rejection) => rejection.to_string(),
     }

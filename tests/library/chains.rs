@@ -438,7 +438,7 @@ fn a_saved_result_that_is_not_validated_says_so() {
         budget
             .remarks
             .iter()
-            .any(|r| r.en.contains("without validation by Monte Carlo")),
+            .any(|r| r.to_string().contains("without validation by Monte Carlo")),
         "{:?}",
         budget.remarks
     );

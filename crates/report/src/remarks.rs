@@ -40,7 +40,7 @@ pub(super) fn remarks(report: &Report<'_>) -> Vec<Remark> {
     let of_budget = report.budget.remarks.iter().map(|remark| Remark {
         id: REMARK.to_string(),
         severity: Severity::Note,
-        text: l.pick(&remark.en, &remark.zh).clone(),
+        text: remark.in_language(l),
     });
     findings.chain(of_budget).collect()
 }

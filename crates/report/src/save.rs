@@ -5,6 +5,7 @@ use std::path::{Component as Step, Path};
 use std::sync::Arc;
 
 use super::Report;
+use super::language::Language;
 use gumption_gum::budget::chain::{Identity, Part};
 use gumption_gum::budget::saved::{
     ComponentEntry, Document, FileEntry, GroupEntry, LawEntry, RemarkEntry, ResultEntry, TermEntry,
@@ -116,8 +117,8 @@ impl Writer<'_> {
             let entry = RemarkEntry {
                 file: self.file(report, &part.file),
                 row: part.row.as_deref().map(str::to_string),
-                en: remark.en.clone(),
-                zh: remark.zh.clone(),
+                en: remark.to_string(),
+                zh: remark.in_language(Language::Chinese),
             };
             if !self.document.remarks.contains(&entry) {
                 self.document.remarks.push(entry);

@@ -12,7 +12,8 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 use smol_str::SmolStr;
 
-use super::{Component, Group, Law, Remark};
+use super::{Component, Group, Law};
+use gumption_fault::Said;
 
 /// A file, or one row of its series.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -133,7 +134,7 @@ pub struct Chain {
     /// Inputs that take over a result.
     pub taken: Vec<TakenResult>,
     /// What must be known of each file concerned.
-    pub remarks: Vec<(Part, Remark)>,
+    pub remarks: Vec<(Part, Said)>,
     /// Units that the files define for themselves.
     pub units: BTreeMap<Arc<Path>, Vec<(String, String)>>,
 }

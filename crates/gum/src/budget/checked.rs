@@ -7,9 +7,9 @@ use super::components::{Component, Group, Input};
 use super::conventions::{Conventions, MonteCarloSettings};
 use super::decision::{Conformity, Detection, Following, Follows};
 use super::fit::Fit;
-use super::remark::Remark;
 use gumption_core::model::Model;
 use gumption_core::quantity::Unit;
+use gumption_fault::Said;
 
 /// A file that was accepted.
 #[derive(Debug, Clone)]
@@ -66,7 +66,7 @@ pub struct Quantities {
     /// Correlated components; a component is in at most one group.
     pub groups: Vec<Group>,
     /// What the reader should know.
-    pub remarks: Vec<Remark>,
+    pub remarks: Vec<Said>,
 }
 
 /// A checked budget.
@@ -106,7 +106,7 @@ pub struct Budget {
     pub figures: Vec<NamedFigure>,
     /// What a reader must know that is not an error (certificate past due, estimate moved to the
     /// expectation of an asymmetric distribution, resolution absorbed by repeatability …).
-    pub remarks: Vec<Remark>,
+    pub remarks: Vec<Said>,
     /// What comes from other files, and who inputs and components are across files; empty for a budget
     /// that was not read from a file.
     pub chain: Chain,

@@ -29,7 +29,6 @@ mod points;
 mod profile;
 pub mod quantities;
 mod reader;
-mod remark;
 mod rows;
 pub mod saved;
 mod series;
@@ -56,7 +55,6 @@ pub use gumption_format::toml::KeyRow;
 pub(crate) use pattern::{Numbers, Pattern};
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{keys, load, load_from, load_under, read, schema, template};
-pub use remark::Remark;
 pub use rows::Rows;
 pub use saved::{RESULT_FORMAT, result_schema};
 

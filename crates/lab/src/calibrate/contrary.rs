@@ -7,8 +7,7 @@ use crate::experiment::names::{Kind, Names};
 use crate::experiment::source::entries;
 use crate::experiment::tables::{ExperimentTable, NoiseTable};
 use crate::experiment::{Experiment, Observed};
-use gumption_fault::{Fault, say};
-use gumption_gum::budget::Remark;
+use gumption_fault::{Fault, Said, say};
 
 /// Faults of keys that would change the result of a calibration, and cannot.
 pub(super) fn check(checker: &mut Checker<'_>) {
@@ -31,7 +30,7 @@ pub(super) fn check(checker: &mut Checker<'_>) {
 }
 
 /// A plan of readings that nothing lets scatter expects less than there will be.
-pub(super) fn without_scatter(experiment: &Experiment) -> Option<Remark> {
+pub(super) fn without_scatter(experiment: &Experiment) -> Option<Said> {
     let observed = experiment
         .observed
         .iter()
@@ -48,18 +47,13 @@ pub(super) fn without_scatter(experiment: &Experiment) -> Option<Remark> {
     let silent: Vec<&str> = observed.filter(|name| !scatters(name)).collect();
     let first = silent.first()?;
     let names = silent.join(", ");
-    Some(Remark {
-        en: format!(
-            "Nothing states how the readings of {names} will scatter, and what is expected leaves it out. State it: [noise] u = …, or [reading.{first}] u = …."
-        ),
-        zh: format!(
-            "未给出 {names} 的读数将如何分散，预期值中不含这一项。请给出：[noise] u = …，或 [reading.{first}] u = …。"
-        ),
-    })
+    Some(say!(
+        "Nothing states how the readings of {names} will scatter, and what is expected leaves it out. State it: [noise] u = …, or [reading.{first}] u = …."
+    ))
 }
 
 /// Remarks on what is stated and not used by a calibration: of the noise, and stimuli that no equation has.
-pub(super) fn remarks(table: &ExperimentTable, names: &Names) -> Vec<Remark> {
+pub(super) fn remarks(table: &ExperimentTable, names: &Names) -> Vec<Said> {
     let noise = table.noise.as_ref().map(|noise| &noise.value);
     let of_noise = |is_there: fn(&NoiseTable) -> bool| noise.is_some_and(is_there);
     let columns = entries(&table.columns);
@@ -69,10 +63,7 @@ pub(super) fn remarks(table: &ExperimentTable, names: &Names) -> Vec<Remark> {
         ("walk", of_noise(|noise| noise.walk.is_some())),
         ("resolution", of_noise(|noise| noise.resolution.is_some())),
     ];
-    let of_noise = keys.iter().filter(|(_, is_there)| *is_there).map(|(key, _)| Remark {
-        en: format!("`{key}` of [noise] is used by `diagnose` only; state such an error of the readings below [reading.NAME]."),
-        zh: format!("[noise] 的 `{key}` 仅用于 `diagnose`；此类读数误差请在 [reading.NAME] 中给出。"),
-    });
+    let of_noise = keys.iter().filter(|(_, is_there)| *is_there).map(|(key, _)| say!("`{key}` of [noise] is used by `diagnose` only; state such an error of the readings below [reading.NAME]."));
     let of_columns = columns.iter().filter_map(|(name, entry)| {
         let column = &entry.value.0;
         let role = column.role.as_ref().map(|role| role.value);
@@ -83,18 +74,12 @@ pub(super) fn remarks(table: &ExperimentTable, names: &Names) -> Vec<Remark> {
             (column.u_common.is_some(), "u_common"),
         ];
         let (_, key) = used.iter().find(|(is_there, _)| *is_there)?;
-        Some(Remark {
-            en: format!("`{key}` of the column {name} is used by `diagnose` and `simulate` only; state the error of its readings below [reading.NAME]."),
-            zh: format!("列 {name} 的 `{key}` 仅用于 `diagnose` 和 `simulate`；其读数误差请在 [reading.NAME] 中给出。"),
-        })
+        Some(say!("`{key}` of the column {name} is used by `diagnose` and `simulate` only; state the error of its readings below [reading.NAME]."))
     });
     let unused = columns.iter().filter_map(|(name, entry)| {
         let role = entry.value.0.role.as_ref()?.value;
         let is_used = names.kind(name) == Some(Kind::Column);
-        (role == RoleWord::Stimulus && !is_used).then(|| Remark {
-            en: format!("No equation has the stimulus {name}: what it does to the readings is taken for scatter. `gumption diagnose` tests whether it acts."),
-            zh: format!("没有方程含激励量 {name}：它对读数的影响被当作离散。可用 `gumption diagnose` 检验其作用。"),
-        })
+        (role == RoleWord::Stimulus && !is_used).then(|| say!("No equation has the stimulus {name}: what it does to the readings is taken for scatter. `gumption diagnose` tests whether it acts."))
     });
     of_noise.chain(of_columns).chain(unused).collect()
 }

@@ -5,7 +5,8 @@ use super::words::Words;
 use gumption_core::equations::{Equations, Quantity};
 use gumption_core::model::Symbol;
 use gumption_core::quantity::{Unit, UnitTable};
-use gumption_gum::budget::{Conventions, Remark};
+use gumption_fault::Said;
+use gumption_gum::budget::Conventions;
 
 /// What the file of an experiment says, with the units of its recording: what every command starts from.
 ///
@@ -36,7 +37,7 @@ pub struct Experiment {
     /// Probability of coverage, for coverage factors and written budgets.
     pub conventions: Conventions,
     /// What a reader should know.
-    pub remarks: Vec<Remark>,
+    pub remarks: Vec<Said>,
 }
 
 /// What is said of an experiment besides numbers.

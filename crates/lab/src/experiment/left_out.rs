@@ -8,9 +8,8 @@ use super::checker::Checker;
 use super::faults::LEFT_OUT;
 use super::tables::{ExperimentTable, LeftOutTable};
 use crate::recording::{Recording, Request};
-use gumption_fault::{Fault, Rejection, say};
+use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::toml::{Cell, Stated};
-use gumption_gum::budget::Remark;
 
 impl Checker<'_> {
     /// The recording without the rows that the file leaves out.
@@ -88,7 +87,7 @@ fn no_rows(stated: &Stated<Cell>, there: &BTreeSet<usize>, name: &str) -> Fault 
 }
 
 /// What is left out, and why, for the reader of a report.
-pub(super) fn remarks(table: &ExperimentTable) -> Vec<Remark> {
+pub(super) fn remarks(table: &ExperimentTable) -> Vec<Said> {
     let remark = |entry: &Stated<LeftOutTable>| {
         let lines = stated_lines(&entry.value).iter();
         let lines: Vec<String> = lines
@@ -99,10 +98,7 @@ pub(super) fn remarks(table: &ExperimentTable) -> Vec<Remark> {
             .collect();
         let (lines, reason) = (lines.join(", "), entry.value.reason.as_ref());
         let reason = reason.map_or("", |reason| reason.value.as_str());
-        Remark {
-            en: format!("Left out of the recording, by line: {lines}. Reason: {reason}"),
-            zh: format!("记录中未采用的行（行号）：{lines}。理由：{reason}"),
-        }
+        say!("Left out of the recording, by line: {lines}. Reason: {reason}")
     };
     entries(table).iter().map(remark).collect()
 }

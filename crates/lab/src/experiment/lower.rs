@@ -19,7 +19,6 @@ use gumption_core::model::{Role, Symbol, outline};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::{Slot, Stated};
-use gumption_gum::budget::Remark;
 use smol_str::SmolStr;
 
 impl Checker<'_> {
@@ -207,23 +206,18 @@ impl Checker<'_> {
     }
 
     /// The outputs of a procedure of the library are alike; a remark where their units are not.
-    fn unlike(&self, responses: &[Quantity]) -> Option<Remark> {
+    fn unlike(&self, responses: &[Quantity]) -> Option<Said> {
         self.source.procedure.as_ref()?;
         let first = responses.first()?;
         let other = responses
             .iter()
             .find(|other| other.unit.dimension != first.unit.dimension)?;
         let (a, b) = (&first.unit.symbol, &other.unit.symbol);
-        Some(Remark {
-            en: format!(
-                "{} is in {a}, {} in {b}: outputs of one triad in units of different dimensions. Check the heads of the columns.",
-                first.name, other.name
-            ),
-            zh: format!(
-                "{} 的单位是 {a}，{} 的单位是 {b}：同一组合各轴输出的单位量纲不同，请核对列标题。",
-                first.name, other.name
-            ),
-        })
+        Some(say!(
+            "{} is in {a}, {} in {b}: outputs of one triad in units of different dimensions. Check the heads of the columns.",
+            first.name,
+            other.name
+        ))
     }
 
     /// Parameters and inputs that no equation uses.

@@ -15,14 +15,14 @@ use super::words::words;
 use gumption_core::equations::Quantity;
 use gumption_core::model::{Role, Symbol};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, say};
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::{Amount, Named, OneOrMany, Slot, Stated};
+use gumption_gum::budget::Conventions;
 use gumption_gum::budget::quantities::{Quantities, quantities};
 use gumption_gum::budget::tables::{ConstantEntry, Sources};
 use gumption_gum::budget::tables::{
     ConstantTable, CorrelationTable, FileTable, InputTable, SourceTable,
 };
-use gumption_gum::budget::{Conventions, Remark};
 use smol_str::SmolStr;
 
 /// What the file says of inputs, readings and constants.
@@ -33,7 +33,7 @@ pub(crate) struct Doubts {
     pub priors: Vec<(String, Unit, Prior)>,
     pub constants: Vec<(String, Unit, Vec<f64>)>,
     pub conventions: Conventions,
-    pub remarks: Vec<Remark>,
+    pub remarks: Vec<Said>,
 }
 
 /// Checks `[input]`, `[reading]` and `[constant]`.

@@ -303,7 +303,7 @@ pub(super) fn remarks(
         items.push(say!("No values of {names} are stated, and zero was assumed: effects that are proportional to them are not seen. State roughly what is expected: [parameter.{}] start = ….", assumed[0]).in_language(l));
     }
     let remarks = campaign.experiment.remarks.iter();
-    items.extend(remarks.map(|remark| l.pick(&remark.en, &remark.zh).clone()));
+    items.extend(remarks.map(|remark| remark.in_language(l)));
     if items.is_empty() {
         return Vec::new();
     }

@@ -11,8 +11,9 @@ use super::understood::{
 };
 use crate::indices::names;
 use crate::{Report, language::Language, remarks, statement};
+use gumption_fault::Said;
 use gumption_format::machine::record;
-use gumption_gum::budget::{Adaptive, NamedFigure, Remark};
+use gumption_gum::budget::{Adaptive, NamedFigure};
 use gumption_gum::propagate::{Finding, Quasi, Run, SobolIndex};
 
 use super::{claims, decisions, fits, joint, result, understood};
@@ -60,7 +61,7 @@ record! {
         /// What must be known before the figures are used.
         findings: Vec<FindingJson>,
         /// Remarks on the budget.
-        remarks: Vec<RemarkJson<'a>>,
+        remarks: Vec<RemarkJson>,
         /// The sentences for the certificate.
         statement: StatementJson,
     }
@@ -156,11 +157,11 @@ record! {
     }
 
     /// A remark in both languages.
-    RemarkJson<'a> {
+    RemarkJson {
         /// English.
-        en: &'a str,
+        en: String,
         /// Chinese.
-        zh: &'a str,
+        zh: String,
     }
 
     /// Sentences for the certificate.
@@ -243,10 +244,10 @@ fn finding(report: &Report<'_>, found: &Finding) -> FindingJson {
     }
 }
 
-fn remark(remark: &Remark) -> RemarkJson<'_> {
+fn remark(remark: &Said) -> RemarkJson {
     RemarkJson {
-        en: &remark.en,
-        zh: &remark.zh,
+        en: remark.to_string(),
+        zh: remark.in_language(Language::Chinese),
     }
 }
 

@@ -97,7 +97,7 @@ impl Checker<'_> {
         }
         let (verdict, uncertainty) =
             OneWay::uncertainty(groups, request.policy, request.significance, request.of);
-        let words = ["between groups", "组间"];
+        let words = say!("between groups");
         self.verdict_remark(verdict, words, &table.ratio(), request);
         let how = format!(
             "analysis of variance of {} readings in {} groups, which {}",
@@ -131,9 +131,9 @@ impl Checker<'_> {
         }
         let (verdicts, uncertainty) =
             Nested::uncertainty(groups, request.policy, request.significance, request.of);
-        let middle = ["between subgroups", "子组间"];
+        let middle = say!("between subgroups");
         self.verdict_remark(verdicts.middle, middle, &table.middle_ratio(), request);
-        let top = ["between groups", "组间"];
+        let top = say!("between groups");
         self.verdict_remark(verdicts.top, top, &table.top_ratio(), request);
         let how = format!(
             "nested analysis of variance of {} readings in {} subgroups of {} groups; groups {}, subgroups {}",
@@ -182,7 +182,7 @@ impl Checker<'_> {
     fn verdict_remark(
         &mut self,
         verdict: Verdict,
-        [en, zh]: [&str; 2],
+        between: Said,
         ratio: &gumption_core::statistics::Ratio,
         request: &Request<'_>,
     ) {
@@ -191,14 +191,8 @@ impl Checker<'_> {
         let critical = format!("{:.2}", ratio.critical(1.0 - request.significance));
         let level = show(100.0 * request.significance);
         match verdict {
-            Verdict::Negative => self.remark(
-                format!("{owner}: the variance {en} comes out negative and is taken as zero: their means scatter less than the readings within them make expect. The readings are pooled."),
-                format!("{owner}：{zh}方差的估计为负，取为零，并将读数合并评定。"),
-            ),
-            Verdict::Ignored if ratio.f > ratio.critical(1.0 - request.significance) => self.remark(
-                format!("{owner}: between = \"none\", but there is a difference {en} (F = {f}, critical value {critical} at {level} %). u leaves it out."),
-                format!("{owner}：文件规定 between = \"none\"，但{zh}差异显著（F = {f}，显著性水平 {level} % 的临界值为 {critical}），u 未包含该差异。"),
-            ),
+            Verdict::Negative => self.remark(say!("{owner}: the variance {between} comes out negative and is taken as zero: their means scatter less than the readings within them make expect. The readings are pooled.")),
+            Verdict::Ignored if ratio.f > ratio.critical(1.0 - request.significance) => self.remark(say!("{owner}: between = \"none\", but there is a difference {between} (F = {f}, critical value {critical} at {level} %). u leaves it out.")),
             Verdict::Included | Verdict::NotSignificant | Verdict::Ignored => {}
         }
     }

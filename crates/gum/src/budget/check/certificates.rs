@@ -67,21 +67,17 @@ impl Checker<'_> {
         /// √3 and √6 are written with three digits at least.
         const ROUNDED: f64 = 0.003;
         let shapes = [
-            (3f64.sqrt(), "√3", "rectangle", "矩形", ""),
+            (3f64.sqrt(), "√3", say!("rectangle"), ""),
             (
                 6f64.sqrt(),
                 "√6",
-                "triangle",
-                "三角",
+                say!("triangle"),
                 ", distribution = \"triangular\"",
             ),
         ];
-        for (divisor, root, en, zh, more) in shapes {
+        for (divisor, root, shape, more) in shapes {
             if (k - divisor).abs() < ROUNDED && !with_p {
-                self.remark(
-                    format!("{owner}: k = {k} is {root}, the divisor of a {en}, and no coverage factor of a certificate. The U was taken as that of a normal distribution; if it is a limit, write half_width = U{more}."),
-                    format!("{owner}：k = {k} 即 {root}，是{zh}分布的除数，而不是证书的包含因子。此处 U 按正态分布处理；若它是极限值，请写 half_width = U{more}。"),
-                );
+                self.remark(say!("{owner}: k = {k} is {root}, the divisor of a {shape}, and no coverage factor of a certificate. The U was taken as that of a normal distribution; if it is a limit, write half_width = U{more}."));
             }
         }
     }
@@ -120,10 +116,7 @@ impl Checker<'_> {
             const MOST: usize = 4;
             let more = if owners.len() > MOST { " …" } else { "" };
             let names = owners[..owners.len().min(MOST)].join(", ");
-            self.remark(
-                format!("{names}{more} have the certificate {number}, and are taken as uncorrelated. What they owe to one calibration is common to them: state it as a [source.NAME], or their correlation as [[correlation]] (r = 0 if there is none)."),
-                format!("{names}{more} 出自同一证书 {number}，而按不相关处理。同一次校准的影响是共有的：请写成 [source.NAME]，或用 [[correlation]] 给出相关系数（不相关时写 r = 0）。"),
-            );
+            self.remark(say!("{names}{more} have the certificate {number}, and are taken as uncorrelated. What they owe to one calibration is common to them: state it as a [source.NAME], or their correlation as [[correlation]] (r = 0 if there is none)."));
         }
     }
 

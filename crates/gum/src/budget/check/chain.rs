@@ -14,8 +14,9 @@ use crate::budget::chain::{Chain, Ensemble, Identity, Member, Part, TakenResult,
 use crate::budget::faults::SAVED_STALE;
 use crate::budget::saved::SavedResults;
 use crate::budget::tables::FileTable;
-use crate::budget::{Budget, Component, Group, Input, Loaded, Owner, Remark, TScale, Term};
+use crate::budget::{Budget, Component, Group, Input, Loaded, Owner, TScale, Term};
 use gumption_core::distribution::Distribution;
+use gumption_fault::language::Language;
 use gumption_fault::{Fault, Said, say};
 use smol_str::{SmolStr, format_smolstr};
 
@@ -80,15 +81,9 @@ impl Checker<'_> {
                     let saved = &saved.results[*result];
                     let y = &saved.measurand;
                     if !saved.trusted && saved.judged {
-                        self.remark(
-                            format!("{name}: the model of {y} in {file} is not linear, and Monte Carlo did not validate its GUM result; the saved result is that GUM result in linear form. `from = {{ budget = … }}` takes over the model itself."),
-                            format!("{name}：{file} 中 {y} 的模型是非线性的，其 GUM 结果未通过蒙特卡洛法验证；所保存的是该 GUM 结果的线性形式。用 `from = {{ budget = … }}` 可引用模型本身。"),
-                        );
+                        self.remark(say!("{name}: the model of {y} in {file} is not linear, and Monte Carlo did not validate its GUM result; the saved result is that GUM result in linear form. `from = {{ budget = … }}` takes over the model itself."));
                     } else if !saved.trusted {
-                        self.remark(
-                            format!("{name}: the model of {y} in {file} is not linear, and its GUM result was saved without validation by Monte Carlo."),
-                            format!("{name}：{file} 中 {y} 的模型是非线性的，其 GUM 结果保存时未经蒙特卡洛法验证。"),
-                        );
+                        self.remark(say!("{name}: the model of {y} in {file} is not linear, and its GUM result was saved without validation by Monte Carlo."));
                     }
                 }
                 OtherResult::Budget { loaded, row, .. } => {
@@ -102,10 +97,10 @@ impl Checker<'_> {
         let own = self.messages.remarks.iter().cloned();
         chain.remarks = own.map(|remark| (part.clone(), remark)).collect();
         for ((from, remark), prefix) in others.into_iter().zip(prefixes(&parts)) {
-            self.remark(
-                format!("{prefix}: {}", remark.en),
-                format!("{prefix}：{}", remark.zh),
-            );
+            self.remark(Said::pair(
+                format!("{prefix}: {remark}"),
+                format!("{prefix}：{}", remark.in_language(Language::Chinese)),
+            ));
             chain.remarks.push((from, remark));
         }
     }
@@ -118,14 +113,10 @@ impl Checker<'_> {
         {
             return;
         }
-        let (en, zh) = match budget.conventions.t_scale {
-            TScale::Scale => ("the scale", "尺度参数"),
-            TScale::StandardDeviation => ("the standard deviation", "标准差"),
-        };
-        self.remark(
-            format!("{file}: for its own components with a t distribution u is {en} of t, as that file says."),
-            format!("{file}：按该文件的约定，其 t 分布分量的 u 为 t 分布的{zh}。"),
-        );
+        self.remark(match budget.conventions.t_scale {
+            TScale::Scale => say!("{file}: for its own components with a t distribution u is the scale of t, as that file says."),
+            TScale::StandardDeviation => say!("{file}: for its own components with a t distribution u is the standard deviation of t, as that file says."),
+        });
     }
 }
 
@@ -272,7 +263,7 @@ impl<'a> Merge<'a> {
         &mut self,
         taken: &Taken,
         ensembles: &[Arc<Ensemble>],
-        remarks: &[(Part, Remark)],
+        remarks: &[(Part, Said)],
         units: impl Iterator<Item = (&'u Arc<Path>, &'u Vec<(String, String)>)>,
     ) -> std::result::Result<(), Box<Fault>> {
         for ensemble in ensembles {

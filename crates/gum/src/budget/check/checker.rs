@@ -7,7 +7,7 @@ use super::entries::names_hidden;
 use super::fits::Scatter;
 use crate::budget::open_files::OpenFiles;
 use crate::budget::tables::FileTable;
-use crate::budget::{Conventions, NamedFigure, Remark, TScale};
+use crate::budget::{Conventions, NamedFigure, TScale};
 use gumption_core::quantity::{Unit, UnitTable};
 use gumption_fault::{Fault, Said, say};
 
@@ -82,7 +82,7 @@ pub(super) struct Figures {
 #[derive(Debug, Default)]
 pub(super) struct Messages {
     pub faults: Vec<Fault>,
-    pub remarks: Vec<Remark>,
+    pub remarks: Vec<Said>,
 }
 
 impl<'a> Checker<'a> {
@@ -113,8 +113,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Tells the reader of the report, once.
-    pub(super) fn remark(&mut self, en: String, zh: String) {
-        let remark = Remark { en, zh };
+    pub(super) fn remark(&mut self, remark: Said) {
         if !self.messages.remarks.contains(&remark) {
             self.messages.remarks.push(remark);
         }

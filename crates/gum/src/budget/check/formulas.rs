@@ -250,10 +250,7 @@ impl Checker<'_> {
         let inputs = angles.into_iter().filter_map(|i| register.inputs.get(i));
         for input in inputs.filter(|input| input.estimate.abs() > std::f64::consts::TAU) {
             let (name, number) = (&input.name, show(input.estimate));
-            self.remark(
-                format!("{name} = {number} has no unit, and sin, cos and tan take plain numbers as radians: {number} rad is more than a turn. If these are degrees, write unit = \"°\"."),
-                format!("{name} = {number} 没有单位，而 sin、cos 和 tan 把无单位的数当作弧度：{number} rad 超过一周。如果是度，请写 unit = \"°\"。"),
-            );
+            self.remark(say!("{name} = {number} has no unit, and sin, cos and tan take plain numbers as radians: {number} rad is more than a turn. If these are degrees, write unit = \"°\"."));
         }
     }
 

@@ -45,10 +45,7 @@ impl Checker<'_> {
         let fewest = 2.0 / (1.0 - self.conventions.coverage_probability);
         if (sample.len() as f64) < fewest {
             let (owner, n) = (context.owner, sample.len());
-            self.remark(
-                format!("{owner}: {n} values of `sample` are taken for the whole distribution: u is their standard deviation (divisor n), without degrees of freedom. Repeated measurements are `readings`: u = s/√n, ν = n − 1."),
-                format!("{owner}：`sample` 的 {n} 个值被当作整个分布：u 为其标准差（除以 n），没有自由度。重复测量值应写作 `readings`：u = s/√n，ν = n − 1。"),
-            );
+            self.remark(say!("{owner}: {n} values of `sample` are taken for the whole distribution: u is their standard deviation (divisor n), without degrees of freedom. Repeated measurements are `readings`: u = s/√n, ν = n − 1."));
         }
         sample.sort_by(f64::total_cmp);
         let how = format!("sample of {}", sample.len());
@@ -106,10 +103,7 @@ impl Checker<'_> {
         };
         if table.prior.is_none() {
             let (owner, estimate) = (context.owner, expected.shape);
-            self.remark(
-                format!("{owner}: of {n} counted events the estimate is {estimate} and u² = {estimate}, by the uniform prior (JCGM 101, 6.4.11). ISO 11929 and n ± √n are prior = \"reciprocal\": estimate {n}. Write the prior that is meant. The number of repeated readings is no `count`: it follows from `readings`, or is `of` beside `pooled`."),
-                format!("{owner}：计数为 {n}，按均匀先验（JCGM 101 的 6.4.11）估计值为 {estimate}，u² = {estimate}。ISO 11929 及 n ± √n 对应 prior = \"reciprocal\"，估计值为 {n}。请写明所用的先验 prior。重复测量的次数不是 `count`：它由 `readings` 得出，或写作 `pooled` 旁的 `of`。"),
-            );
+            self.remark(say!("{owner}: of {n} counted events the estimate is {estimate} and u² = {estimate}, by the uniform prior (JCGM 101, 6.4.11). ISO 11929 and n ± √n are prior = \"reciprocal\": estimate {n}. Write the prior that is meant. The number of repeated readings is no `count`: it follows from `readings`, or is `of` beside `pooled`."));
         }
         let how = format!("n = {n}, G({}, 1)", expected.shape);
         self.centred(expected.into(), how, &stated.key)
@@ -154,10 +148,7 @@ impl Checker<'_> {
                 proportion.alpha,
                 proportion.alpha + proportion.beta
             );
-            self.remark(
-                format!("{owner}: of {s} successes in {n} trials the estimate is (s + 1)/(n + 2) = {estimate}, by the uniform prior. s/n is prior = \"reciprocal\". Write the prior that is meant."),
-                format!("{owner}：{n} 次试验成功 {s} 次，按均匀先验估计值为 (s + 1)/(n + 2) = {estimate}。s/n 对应 prior = \"reciprocal\"。请写明所用的先验 prior。"),
-            );
+            self.remark(say!("{owner}: of {s} successes in {n} trials the estimate is (s + 1)/(n + 2) = {estimate}, by the uniform prior. s/n is prior = \"reciprocal\". Write the prior that is meant."));
         }
         let how = format!(
             "{} of {}, B({}, {})",

@@ -90,10 +90,7 @@ impl Checker<'_> {
         nearest: &DMatrix<f64>,
     ) {
         let (smallest, moved) = (show(smallest), format!("{:.1e}", (nearest - stated).amax()));
-        self.remark(
-            format!("The stated correlation coefficients are rounded, and by that alone their matrix has the negative eigenvalue {smallest}, which no quantities have. The nearest possible matrix is used (Higham 2002); it differs from the stated one by at most {moved}, within the last digits that are stated."),
-            format!("所给相关系数经过修约，仅由修约就使其矩阵出现负特征值 {smallest}，而实际量的矩阵不会如此。计算采用最接近的可能矩阵（Higham 2002），与所给值最多相差 {moved}，在所给末位数字的修约范围之内。"),
-        );
+        self.remark(say!("The stated correlation coefficients are rounded, and by that alone their matrix has the negative eigenvalue {smallest}, which no quantities have. The nearest possible matrix is used (Higham 2002); it differs from the stated one by at most {moved}, within the last digits that are stated."));
     }
 
     /// The joint distribution of correlated components.

@@ -340,10 +340,7 @@ impl Checker<'_> {
         }
         if let Some(value) = self.constant_readings(entry, context.unit, list) {
             let owner = context.owner;
-            self.remark(
-                format!("{owner}: all readings are {value}; their scatter is below the resolution and left to it."),
-                format!("{owner}：各次读数均为 {value}，分散性小于分辨力，由分辨力分量包含。"),
-            );
+            self.remark(say!("{owner}: all readings are {value}; their scatter is below the resolution and left to it."));
             return Some(Pieces::new());
         }
         let mut draft = self.draft_following(entry.table, entry.way, context)?;
@@ -373,18 +370,11 @@ impl Checker<'_> {
                 (old, old + shift)
             }
             (Location::Mean(mean), Some(value)) if (mean - value).abs() > 1e-9 * draft.u => {
-                self.remark(
-                    format!(
-                        "{name}: the stated value {} is used; the mean of its readings is {}.",
-                        show(value),
-                        show(mean)
-                    ),
-                    format!(
-                        "{name}：采用给出的值 {}；读数的平均值为 {}。",
-                        show(value),
-                        show(mean)
-                    ),
-                );
+                self.remark(say!(
+                    "{name}: the stated value {} is used; the mean of its readings is {}.",
+                    show(value),
+                    show(mean)
+                ));
                 return Some(0.0);
             }
             (Location::Between { lower, upper, .. }, Some(value))
@@ -412,10 +402,7 @@ impl Checker<'_> {
             }
             _ => return Some(0.0),
         };
-        self.remark(
-            format!("{name}: the estimate moves from {} to {}, the expectation between asymmetric limits (GUM 4.3.8).", show(old), show(new)),
-            format!("{name}：区间不对称，估计值由 {} 移至期望 {}（GUM 4.3.8）。", show(old), show(new)),
-        );
+        self.remark(say!("{name}: the estimate moves from {} to {}, the expectation between asymmetric limits (GUM 4.3.8).", show(old), show(new)));
         Some(new - old)
     }
 

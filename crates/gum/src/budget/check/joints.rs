@@ -447,10 +447,7 @@ impl Checker<'_> {
         }
         if n <= series.len() {
             let many = series.len();
-            self.remark(
-                format!("{n} joint readings of {many} quantities do not determine a multivariate t-distribution of ν = n − N (JCGM 102, 5.3.2): the covariance matrix of the means has the rank {}. The GUM result with ν = n − 1 = {} holds (GUM 5.2.3); Monte Carlo takes that ν, too. Take at least {} readings for a check by JCGM 102.", n.saturating_sub(1).min(many), n.saturating_sub(1), many + 1),
-                format!("{many} 个量的 {n} 次同时重复测量不能确定自由度为 ν = n − N 的多元 t 分布（JCGM 102 的 5.3.2），均值的协方差矩阵的秩为 {}。GUM 法的结果（ν = n − 1 = {}，GUM 5.2.3）成立，蒙特卡洛法也取该自由度。按 JCGM 102 验证至少需要 {} 次测量。", n.saturating_sub(1).min(many), n.saturating_sub(1), many + 1),
-            );
+            self.remark(say!("{n} joint readings of {many} quantities do not determine a multivariate t-distribution of ν = n − N (JCGM 102, 5.3.2): the covariance matrix of the means has the rank {}. The GUM result with ν = n − 1 = {} holds (GUM 5.2.3); Monte Carlo takes that ν, too. Take at least {} readings for a check by JCGM 102.", n.saturating_sub(1).min(many), n.saturating_sub(1), many + 1));
         }
         self.simultaneous(stated, members, &series, inputs, register)
     }

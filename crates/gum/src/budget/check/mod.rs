@@ -47,14 +47,12 @@ use std::path::Path;
 use super::checked::Quantities;
 use super::dcc;
 use super::tables::FileTable;
-use super::{
-    Budget, Component, Heading, MonteCarloSettings, NamedFigure, Owner, Remark, Row, Trials,
-};
+use super::{Budget, Component, Heading, MonteCarloSettings, NamedFigure, Owner, Row, Trials};
 pub(super) use checker::Origin;
 use checker::{Checker, Source};
 use entries::{entries, shared};
 use gumption_core::quantity::UnitTable;
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said};
 use gumption_format::toml::Slot;
 pub(super) use plain::Plain;
 
@@ -212,7 +210,7 @@ fn budget(
     origin: Origin<'_>,
     heading: &Heading,
     row: Option<&str>,
-    remarks: Vec<Remark>,
+    remarks: Vec<Said>,
 ) -> Result<Budget, Vec<Fault>> {
     let (conventions, resolution, faults) = conventions::conventions(file);
     let source = Source {

@@ -3,6 +3,7 @@
 use super::checker::Checker;
 use super::draft::{Drafts, Kind, show};
 use crate::budget::tables::ResolutionWord;
+use gumption_fault::say;
 
 impl Checker<'_> {
     /// With the convention "largest", the smaller of resolution and repeatability is left out, because
@@ -27,16 +28,13 @@ impl Checker<'_> {
         else {
             return drafts;
         };
-        let (dropped, en, zh) = if scatter >= resolution {
-            (Kind::Resolution, "resolution", "分辨力")
+        let (dropped, what) = if scatter >= resolution {
+            (Kind::Resolution, say!("resolution"))
         } else {
-            (Kind::Repeatability, "repeatability", "重复性")
+            (Kind::Repeatability, say!("repeatability"))
         };
         let (smaller, larger) = (show(scatter.min(resolution)), show(scatter.max(resolution)));
-        self.remark(
-            format!("{owner}: the {en} (u = {smaller}) is left out beside the larger u = {larger}, by the convention resolution = \"largest\"."),
-            format!("{owner}：按约定取较大者（u = {larger}），{zh}引入的分量（u = {smaller}）不再计入。"),
-        );
+        self.remark(say!("{owner}: the {what} (u = {smaller}) is left out beside the larger u = {larger}, by the convention resolution = \"largest\"."));
         drafts
             .into_iter()
             .filter(|draft| draft.kind != dropped)

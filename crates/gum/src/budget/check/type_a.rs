@@ -217,20 +217,10 @@ impl Checker<'_> {
         }
         let owner = context.owner;
         let (rho, limit) = (coefficient(rho), coefficient(limit));
-        let (en, zh) = match rho.starts_with('-') {
-            false => (
-                "s/√n is then too small. Write autocorrelated = true, or model the drift",
-                "此时 s/√n 偏小；可写 autocorrelated = true，或在模型中修正漂移",
-            ),
-            true => (
-                "They alternate; look for a periodic disturbance",
-                "读数交替变化，请检查是否存在周期性干扰",
-            ),
-        };
-        self.remark(
-            format!("{owner}: successive readings are correlated (lag-1 coefficient {rho}, beyond ±{limit}; GUM 4.2.7). {en}."),
-            format!("{owner}：相邻读数相关（一阶自相关系数 {rho}，超出 ±{limit}；GUM 4.2.7）。{zh}。"),
-        );
+        self.remark(match rho.starts_with('-') {
+            false => say!("{owner}: successive readings are correlated (lag-1 coefficient {rho}, beyond ±{limit}; GUM 4.2.7). s/√n is then too small. Write autocorrelated = true, or model the drift."),
+            true => say!("{owner}: successive readings are correlated (lag-1 coefficient {rho}, beyond ±{limit}; GUM 4.2.7). They alternate; look for a periodic disturbance."),
+        });
     }
 
     /// The component with its t distribution.

@@ -92,10 +92,7 @@ impl Checker<'_> {
         if let Some([first, other, beside]) = two_turns(values, unit) {
             let (first, other, beside) = (show(first), show(other), show(beside));
             let unit = &unit.symbol;
-            self.remark(
-                format!("{name}: {first} {unit} and {other} {unit} lie beside each other on the circle, but a sum, a mean or a line takes the way around. If the model has one, write {beside} in place of {other}."),
-                format!("{name}：{first} {unit} 与 {other} {unit} 在圆周上相邻，而求和、求平均或拟合直线时并不相邻。模型中若有此类运算，请把 {other} 写作 {beside}。"),
-            );
+            self.remark(say!("{name}: {first} {unit} and {other} {unit} lie beside each other on the circle, but a sum, a mean or a line takes the way around. If the model has one, write {beside} in place of {other}."));
         }
         let list = self.entries_of(name, stated, unit, register)?;
         for (place, value) in (start..).zip(values) {
@@ -259,10 +256,7 @@ impl Checker<'_> {
         match family.len() {
             0 | 1 => {}
             2..=LARGEST_FAMILY => register.families.push(family),
-            count => self.remark(
-                format!("{name}: ν is taken for each of the {count} elements by itself, although they share one u; more than {LARGEST_FAMILY} are not evaluated together."),
-                format!("{name}：{count} 个元素虽共用一个 u，但自由度按各元素独立处理；超过 {LARGEST_FAMILY} 个元素时不作联合评定。"),
-            ),
+            count => self.remark(say!("{name}: ν is taken for each of the {count} elements by itself, although they share one u; more than {LARGEST_FAMILY} are not evaluated together.")),
         }
     }
 
@@ -285,12 +279,9 @@ impl Checker<'_> {
         }
         let name = element_name(name, element);
         let (value, mean) = (show(value), show(mean));
-        self.remark(
-            format!(
-                "{name}: the stated value {value} is used; the mean of its readings is {mean}."
-            ),
-            format!("{name}：采用给出的值 {value}；读数的平均值为 {mean}。"),
-        );
+        self.remark(say!(
+            "{name}: the stated value {value} is used; the mean of its readings is {mean}."
+        ));
     }
 
     /// The means of an input that has no `values` but a list of readings for each element.

@@ -383,10 +383,7 @@ impl Checker<'_> {
             return;
         }
         let (owner, dof) = (context.owner, show(core.dof));
-        self.remark(
-            format!("{owner}: ν = {dof} enters the effective degrees of freedom of the GUM method only. Monte Carlo draws the stated shape as exactly known, and its interval does not widen for the doubt about u."),
-            format!("{owner}：自由度 ν = {dof} 仅用于 GUM 法的有效自由度；蒙特卡洛法按给定的分布抽样，其包含区间不因 u 的不可靠性而加宽。"),
-        );
+        self.remark(say!("{owner}: ν = {dof} enters the effective degrees of freedom of the GUM method only. Monte Carlo draws the stated shape as exactly known, and its interval does not widen for the doubt about u."));
     }
 
     fn certificate(&mut self, table: &CertificateTable, context: &Context<'_>) -> Certificate {
@@ -406,10 +403,7 @@ impl Checker<'_> {
                 certificate.number.clone().unwrap_or_default(),
                 context.owner,
             );
-            self.remark(
-                format!("The certificate {number} of {owner} was due on {due}, before the measurement on {date}."),
-                format!("{owner} 所用证书 {number} 的有效期至 {due}，早于测量日期 {date}。"),
-            );
+            self.remark(say!("The certificate {number} of {owner} was due on {due}, before the measurement on {date}."));
         }
         certificate
     }

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, Rejection, say};
+use gumption_fault::{Fault, Rejection, Said, say};
 use gumption_format::toml::faults::UNREADABLE_FILE;
 use gumption_format::toml::{Amount, Date, Dof, Stated};
 
@@ -12,14 +12,13 @@ use super::certificate::{DigitalCertificate, read};
 use super::choice::{Chosen, choose};
 use crate::budget::faults::{DIGITAL_CERTIFICATE, FROM_REFUSED, TWO_WAYS};
 use crate::budget::open_files::OpenFiles;
-use crate::budget::remark::Remark;
 use crate::budget::tables::{CertificateTable, ComponentTable, FileTable, InputTable};
 
 /// What was found in the certificates that a file names.
 #[derive(Debug, Default)]
 pub(in crate::budget) struct Found {
     pub faults: Vec<Fault>,
-    pub remarks: Vec<Remark>,
+    pub remarks: Vec<Said>,
 }
 
 /// Fills in what the certificates say.
@@ -162,20 +161,16 @@ impl Filling<'_> {
     ) {
         let name = &file.value;
         let keys = [
-            ("number", "编号", &mut table.number, &certificate.number),
+            (say!("number"), &mut table.number, &certificate.number),
             (
-                "laboratory",
-                "实验室",
+                say!("laboratory"),
                 &mut table.laboratory,
                 &certificate.laboratory,
             ),
         ];
-        for (key, zh, stated, found) in keys {
+        for (key, stated, found) in keys {
             match (stated.as_ref().map(|stated| stated.value.clone()), found) {
-                (Some(stated), Some(found)) if stated != *found => self.found.remarks.push(Remark {
-                    en: format!("The certificate of {owner} in {name} has the {key} {found}, where the budget states {stated}: it was exchanged, or is another one."),
-                    zh: format!("{owner} 的证书文件 {name} 中{zh}为 {found}，与评定文件所写的 {stated} 不一致：证书已更换，或不是同一份证书。"),
-                }),
+                (Some(stated), Some(found)) if stated != *found => self.found.remarks.push(say!("The certificate of {owner} in {name} has the {key} {found}, where the budget states {stated}: it was exchanged, or is another one.")),
                 (None, Some(found)) => *stated = Some(Box::new(file.map(|_| found.clone()))),
                 _ => {}
             }
@@ -185,10 +180,7 @@ impl Filling<'_> {
             &certificate.date,
         ) {
             (Some(stated), Some(found)) if stated.get(..10) != found.get(..10) => {
-                self.found.remarks.push(Remark {
-                    en: format!("The certificate of {owner} in {name} is of {found}, where the budget states {stated}: it was exchanged, or is another one."),
-                    zh: format!("{owner} 的证书文件 {name} 的日期为 {found}，与评定文件所写的 {stated} 不一致：证书已更换，或不是同一份证书。"),
-                });
+                self.found.remarks.push(say!("The certificate of {owner} in {name} is of {found}, where the budget states {stated}: it was exchanged, or is another one."));
             }
             (None, Some(found)) => table.date = Some(Box::new(file.map(|_| Date(found.clone())))),
             _ => {}
@@ -198,18 +190,14 @@ impl Filling<'_> {
             table.due = Some(Box::new(file.map(|_| Date(until.to_string()))));
         }
         for statement in &certificate.validity.refused {
-            self.found.remarks.push(Remark {
-                en: format!("The certificate of {owner} in {name} marks a statement as not valid: {statement}."),
-                zh: format!("{owner} 的证书文件 {name} 中有一项声明标为无效：{statement}。"),
-            });
+            self.found.remarks.push(say!(
+                "The certificate of {owner} in {name} marks a statement as not valid: {statement}."
+            ));
         }
         if let (Some(measured), Some(certified)) = (&self.date, &certificate.date)
             && measured.get(..10) < certified.get(..10)
         {
-            self.found.remarks.push(Remark {
-                en: format!("The certificate of {owner} in {name} is of {certified}, after the measurement on {measured}."),
-                zh: format!("{owner} 的证书文件 {name} 的日期 {certified} 晚于测量日期 {measured}。"),
-            });
+            self.found.remarks.push(say!("The certificate of {owner} in {name} is of {certified}, after the measurement on {measured}."));
         }
         if let Some(replaced) = &certificate.replaces
             && table
@@ -217,12 +205,9 @@ impl Filling<'_> {
                 .as_ref()
                 .is_some_and(|number| number.value == *replaced)
         {
-            self.found.remarks.push(Remark {
-                en: format!(
-                    "The certificate {replaced} of {owner} was replaced by the one in {name}."
-                ),
-                zh: format!("{owner} 的证书 {replaced} 已被 {name} 中的证书取代。"),
-            });
+            self.found.remarks.push(say!(
+                "The certificate {replaced} of {owner} was replaced by the one in {name}."
+            ));
         }
     }
 

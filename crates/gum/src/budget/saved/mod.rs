@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::budget::chain::{Ensemble, Identity, Member, Part};
-use crate::budget::{Certificate, Component, Evaluation, Law, Owner, Remark};
+use crate::budget::{Certificate, Component, Evaluation, Law, Owner};
 use gumption_core::distribution::Distribution;
 use gumption_core::quantity::{Unit, UnitTable};
 use gumption_fault::libraries::of_json;
@@ -198,7 +198,7 @@ pub(super) struct SavedResults {
     pub results: Vec<SavedResult>,
     pub members: Vec<Member>,
     pub ensembles: Vec<Arc<Ensemble>>,
-    pub remarks: Vec<(Part, Remark)>,
+    pub remarks: Vec<(Part, Said)>,
     pub units: Vec<(Arc<Path>, Definitions)>,
 }
 
@@ -294,8 +294,7 @@ impl Document {
         }
         let mut remarks = Vec::new();
         for RemarkEntry { file, row, en, zh } in &self.remarks {
-            let (en, zh) = (en.clone(), zh.clone());
-            remarks.push((part(*file, row)?, Remark { en, zh }));
+            remarks.push((part(*file, row)?, Said::pair(en.clone(), zh.clone())));
         }
         let own = |entry: &FileEntry| {
             let pairs = entry.units.iter().cloned();

@@ -262,7 +262,11 @@ omega = [-100, -50, 0, 50, 100]
     near(b.u, 1e-3 / 5.0_f64.sqrt(), 1e-9);
 
     let silent = planned(&toml.replace("[noise]\nu = \"1 mV\"\n", ""));
-    assert!(silent.experiment.remarks[0].en.contains("readings of U"));
+    assert!(
+        silent.experiment.remarks[0]
+            .to_string()
+            .contains("readings of U")
+    );
     assert!(plan(&silent).expect("a plan").figures.is_none());
 }
 

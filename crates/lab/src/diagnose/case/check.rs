@@ -13,11 +13,11 @@ use crate::experiment::tables::{ExperimentTable, RecordingTable};
 use crate::experiment::{Purpose as Use, inferred, positions};
 use crate::recording::{Recording, Request};
 use gumption_core::equations::Quantity;
-use gumption_fault::{Fault, say};
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::faults::TOML_SYNTAX;
 use gumption_format::toml::{OneOrMany, Slot, Stated};
 use gumption_gum::budget::quantities::text_of;
-use gumption_gum::budget::{Files, Rejection, Remark};
+use gumption_gum::budget::{Files, Rejection};
 
 impl Case {
     /// As [`load`](Self::load), with files that may be in memory.
@@ -198,7 +198,7 @@ fn models(file: &ExperimentTable) -> Option<Stated<OneOrMany<String>>> {
 }
 
 /// Remarks on keys of the file itself that only calibrations use.
-fn disused(source: &Source, file: &ExperimentTable) -> Vec<Remark> {
+fn disused(source: &Source, file: &ExperimentTable) -> Vec<Said> {
     let default = RecordingTable::default();
     let recording = file.recording.as_ref().map_or(&default, |r| &r.value.0);
     let keys = [
@@ -212,10 +212,7 @@ fn disused(source: &Source, file: &ExperimentTable) -> Vec<Remark> {
     ];
     keys.into_iter()
         .filter(|(_, place)| place.as_ref().is_some_and(|place| !source.is_base(place)))
-        .map(|(key, _)| Remark {
-            en: format!("{key} is used by `calibrate` only"),
-            zh: format!("{key} 仅用于 `calibrate`"),
-        })
+        .map(|(key, _)| say!("{key} is used by `calibrate` only"))
         .collect()
 }
 

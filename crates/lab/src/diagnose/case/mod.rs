@@ -16,7 +16,8 @@ use crate::recording::Labels;
 use gumption_core::equations::Equations;
 use gumption_core::model::Symbol;
 use gumption_core::quantity::{Unit, UnitTable};
-use gumption_gum::budget::{Files, Rejection, Remark};
+use gumption_fault::Said;
+use gumption_gum::budget::{Files, Rejection};
 
 pub use crate::experiment::RestReadings;
 pub(super) use crate::experiment::at_rest::hours;
@@ -37,7 +38,7 @@ pub struct Case {
     /// Anything the reader should know.
     pub note: Option<String>,
     /// What the file states and a diagnosis does not use.
-    pub remarks: Vec<Remark>,
+    pub remarks: Vec<Said>,
     /// The text of the case file.
     pub text: String,
     /// The case file's path.

@@ -82,8 +82,8 @@ fn tests_for_outliers_report_and_keep() {
 fn successive_readings_that_are_correlated_are_remarked_on() {
     let drift = "readings = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]";
     let remarks = budget(&one(drift)).remarks;
-    assert!(remarks[0].en.contains("lag-1"), "{remarks:?}");
-    assert_eq!(budget(&one("readings = [1, 3, 2, 4]")).remarks, []);
+    assert!(remarks[0].to_string().contains("lag-1"), "{remarks:?}");
+    assert!(budget(&one("readings = [1, 3, 2, 4]")).remarks.is_empty());
 }
 
 #[test]
@@ -128,8 +128,12 @@ fn elements_that_share_one_u_share_its_doubt() {
 #[test]
 fn limits_with_degrees_of_freedom_are_remarked_on() {
     let remarks = budget(&one("value = 1\nhalf_width = 0.1\ndof = 8")).remarks;
-    assert!(remarks[0].en.contains("ν = 8"), "{remarks:?}");
-    assert_eq!(budget(&one("value = 1\nu = 0.1\ndof = 8")).remarks, []);
+    assert!(remarks[0].to_string().contains("ν = 8"), "{remarks:?}");
+    assert!(
+        budget(&one("value = 1\nu = 0.1\ndof = 8"))
+            .remarks
+            .is_empty()
+    );
 }
 
 #[test]

@@ -26,7 +26,7 @@
 //! | `coarse` | the same for the catalogue: a few means in every block of a long recording |
 //! | `fit` | the declared model fitted to the recording |
 //! | `noise` | what is claimed about the noise, or estimated |
-//! | `replicates`, `noise_growth`, `noise_correlation` | noise from rows that agree; noise that grows with the reading, or is correlated in time |
+//! | `replicates`, `noise_growth`, `noise_labels`, `noise_correlation` | noise from rows that agree; noise that grows with the reading, differs from label to label, or is correlated in time |
 //! | [`catalogue`] | the effects, and what they do to the rows of a case |
 //! | `candidates` | cells and recording as matrices, asked of `evidence` |
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
@@ -75,6 +75,7 @@ mod inquiry;
 mod noise;
 mod noise_correlation;
 mod noise_growth;
+mod noise_labels;
 mod omitted;
 mod parts;
 mod plan;
@@ -104,6 +105,7 @@ pub use improved::improved;
 pub use noise::Claimed;
 pub use noise_correlation::{Correlated, Memory};
 pub use noise_growth::Growth;
+pub use noise_labels::ByLabel;
 pub use omitted::Omitted;
 pub use parts::Confirmation;
 pub use plan::{Outlook, Promise, Prospect, plan};

@@ -9,7 +9,8 @@ use super::design::Design;
 use super::evidence::{self, Correlation, Covariance, Noise};
 use super::fit::{self, Fit, NoFit};
 use super::noise_correlation::{Correlated, Courses, Memory};
-use super::noise_growth::{self, Growth, Spread};
+use super::noise_growth::{self, DRAWS, Growth, Spread};
+use super::noise_labels::{self, ByLabel};
 use super::replicates::{self, Scatter};
 use crate::recording::at_rest;
 
@@ -27,8 +28,10 @@ pub struct Claimed {
     /// How noise that was estimated, or that replicates show, grows with the reading, for each response;
     /// empty where it is claimed.
     pub growth: Vec<Option<Growth>>,
+    /// How estimated noise differs from label to label, for each response; empty where it is claimed.
+    pub by_label: Vec<Option<ByLabel>>,
     /// Standard uncertainties as they may be beside `u`, drawn from what the recording leaves open about how
-    /// they grow; empty where they do not.
+    /// they grow and differ; empty where they do not.
     pub draws: Vec<DVector<f64>>,
     /// Probability that replicates scatter as unevenly from group to group by chance, where it is so small
     /// that the claim does not describe them.
@@ -44,6 +47,7 @@ impl Claimed {
             origin,
             correlated: None,
             growth: Vec::new(),
+            by_label: Vec::new(),
             draws: Vec::new(),
             uneven: None,
         }
@@ -127,6 +131,11 @@ impl Claimed {
     pub fn may_be_correlated(&self) -> bool {
         let correlated = self.correlated.as_ref();
         correlated.is_some_and(|one| matches!(one.memory, Memory::White) && !one.draws.is_empty())
+    }
+
+    /// Whether it grows with the reading, or differs from label to label.
+    fn is_spread_out(&self) -> bool {
+        self.growth.iter().any(Option::is_some) || self.by_label.iter().any(Option::is_some)
     }
 
     /// Whether the size of the noise follows from the residuals alone.
@@ -309,6 +318,7 @@ fn replicated(design: &Design<'_>, fit: Option<&Fit>, scatters: &[Scatter]) -> O
             .iter()
             .map(|scatter| scatter.growth.clone())
             .collect(),
+        by_label: Vec::new(),
         draws: (0..draws.unwrap_or(0)).filter_map(draw).collect(),
         uneven: uneven.reduce(f64::min),
     })
@@ -455,7 +465,7 @@ fn counts(case: &Case) -> Vec<f64> {
     )
 }
 
-/// As [`settle`]; noise that is estimated and grows with the reading weights the fit.
+/// As [`settle`]; noise that is estimated, and grows with the reading or differs from label to label, weights the fit.
 ///
 /// # Errors
 /// When the model cannot be fitted.
@@ -465,7 +475,7 @@ pub fn settle_spread_out(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
         return Ok((fit, claimed));
     }
     let seen = spread_out(design, &fit);
-    if seen.growth.iter().all(Option::is_none) {
+    if !seen.is_spread_out() {
         return Ok((fit, claimed));
     }
     let Ok(weighted) = fit::from(design, &seen.u, fit.unknowns.clone()) else {
@@ -475,46 +485,60 @@ pub fn settle_spread_out(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
     Ok((weighted, claimed))
 }
 
-/// The noise that a model leaves, where it grows with the reading.
+/// The noise that a model leaves, where it grows with the reading or differs from label to label.
 pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
     let mut claimed = estimated(design, fit);
     let blocks = design.blocks.len();
-    let found = noise_growth::estimate(design, fit);
-    let draws = found.iter().flatten().map(|likely| likely.draws.len());
-    claimed.draws = vec![claimed.u.clone(); draws.min().unwrap_or(0)];
-    for (response, likely) in found.into_iter().enumerate() {
-        let Some(likely) = likely else {
-            claimed.growth.push(None);
-            continue;
-        };
+    let mut draws = vec![claimed.u.clone(); DRAWS];
+    for response in 0..design.case.responses.len() {
         let rows = response * blocks;
         let values = design.reduced(&fit.linear.values[response]);
         let own = fit.residuals.rows(rows, blocks).into_owned();
         let plain = claimed.u.rows(rows, blocks).into_owned();
-        let grown = |spread: &Spread| {
+        let by_label = noise_labels::estimate(design, &values, &own);
+        let even = DVector::from_element(blocks, 1.0);
+        let scales = by_label.as_ref().map_or(&even, |labels| &labels.best);
+        let likely = noise_growth::estimate(design, response, &values, &own.component_div(scales));
+        let spread = |scales: &DVector<f64>, spread: &Spread| {
             let factors = values.iter().map(|value| spread.at(*value));
-            let u = plain.component_mul(&DVector::from_iterator(blocks, factors));
+            let factors = DVector::from_iterator(blocks, factors).component_mul(scales);
+            let u = plain.component_mul(&factors);
             let scale = scale(design, &own.component_div(&u));
             u * scale
         };
-        for (draw, spread) in claimed.draws.iter_mut().zip(&likely.draws) {
-            draw.rows_mut(rows, blocks).copy_from(&grown(spread));
+        for (at, draw) in draws.iter_mut().enumerate() {
+            let scales = by_label.as_ref().map_or(&even, |labels| &labels.draws[at]);
+            let grown = likely.as_ref().and_then(|likely| likely.draws.get(at));
+            let u = spread(scales, grown.unwrap_or(&Spread::CONSTANT));
+            draw.rows_mut(rows, blocks).copy_from(&u);
         }
-        let u = grown(&likely.best);
-        let at_level = u[0] / likely.best.at(values[0]);
-        let unit = design.case.responses[response].unit.typeset();
+        let best = likely
+            .as_ref()
+            .map_or(Spread::CONSTANT, |likely| likely.best);
+        let u = spread(scales, &best);
         claimed.u.rows_mut(rows, blocks).copy_from(&u);
+        let at_level = u[0] / best.at(values[0]) / scales[0];
+        let unit = || design.case.responses[response].unit.typeset();
+        let level = at_level * scales.mean();
         claimed
             .growth
-            .push(Some(likely.best.growth(at_level, unit)));
+            .push(likely.map(|_| best.growth(level, unit())));
+        claimed.by_label.push(by_label.map(|labels| ByLabel {
+            column: design.case.columns[labels.column].name.clone(),
+            unit: unit(),
+            range: [labels.best.min(), labels.best.max()].map(|scale| at_level * scale),
+        }));
+    }
+    if claimed.is_spread_out() {
+        claimed.draws = draws;
     }
     claimed
 }
 
-/// Estimated noise that does not grow with the reading, where it seems to: what grows may be something else.
+/// Estimated noise that is the same everywhere, where it seems not to be: what is uneven may be something else.
 pub fn plain(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Option<Claimed> {
-    let grows = claimed.is_estimated() && claimed.growth.iter().any(Option::is_some);
-    grows.then(|| estimated(design, fit))
+    let uneven = claimed.is_estimated() && claimed.is_spread_out();
+    uneven.then(|| estimated(design, fit))
 }
 
 /// Root mean square of the residuals of one response, which share the degrees of freedom of all.

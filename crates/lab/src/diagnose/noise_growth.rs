@@ -10,10 +10,14 @@ use nalgebra::DVector;
 use super::case::{Observed, Role};
 use super::chance::in_proportion;
 use super::design::Design;
-use super::fit::Fit;
 
 /// Degrees of freedom of the distribution of the differences.
 const TAILS: f64 = 4.0;
+/// What one difference tells of their scale, over what a normal one does: 2ν/(ν + 3) of 2.
+pub(super) const INFORMATION: f64 = TAILS / (TAILS + 3.0);
+/// Differences for each that is independent. Neighbours share residuals: with the weights ½, 1, ½ squares correlate by 4/9, and with
+/// those of the next but one by 1/36.
+pub(super) const SHARED: f64 = 1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0);
 /// Gain in −2 ln L from which noise counts as growing. For independent differences 5.4 is reached in 1 % of
 /// recordings with constant noise; neighbouring ones share residuals.
 const GAIN: f64 = 8.0;
@@ -26,7 +30,7 @@ const RATIOS: usize = 32;
 const LEAST_RATIO: f64 = 1e-4;
 const LARGEST_RATIO: f64 = 5.0;
 /// Draws of a/b from what the recording leaves open.
-const DRAWS: usize = 24;
+pub(super) const DRAWS: usize = 24;
 
 /// Noise of one response that grows with the reading: u² = a² + (b·y)².
 #[derive(Debug, Clone, PartialEq)]
@@ -115,57 +119,54 @@ pub(super) fn likely(values: &[f64], gain: f64, misfit: impl Fn(&Spread) -> f64)
     })
 }
 
-/// How the noise of each response grows; `None` where it does not, as far as can be seen.
-pub(super) fn estimate(design: &Design<'_>, fit: &Fit) -> Vec<Option<Likely>> {
-    (0..design.case.responses.len())
-        .map(|response| of_response(design, fit, response))
-        .collect()
-}
-
 /// A residual that its neighbours do not explain, at a modelled value.
-struct Difference {
+pub(super) struct Difference {
     value: f64,
-    size: f64,
+    pub(super) size: f64,
 }
 
-fn of_response(design: &Design<'_>, fit: &Fit, response: usize) -> Option<Likely> {
+/// How the noise of a response grows with its modelled values; `None` where it does not, as far as can be seen.
+pub(super) fn estimate(
+    design: &Design<'_>,
+    response: usize,
+    values: &[f64],
+    residuals: &DVector<f64>,
+) -> Option<Likely> {
     if matches!(
         design.case.responses[response].observed,
         Observed::Constant(_)
     ) {
         return None;
     }
-    let values = design.reduced(&fit.linear.values[response]);
-    let first = response * design.blocks.len();
-    let residuals = fit.residuals.rows(first, design.blocks.len()).into_owned();
-    let differences = differences(design, &values, &residuals);
+    let differences = differences(groups(design), values, residuals);
     if differences.len() < LEAST {
         return None;
     }
-    likely(&values, GAIN, |spread| misfit(&differences, spread))
+    likely(values, GAIN, |spread| grown(&differences, spread))
 }
 
 /// −2 ln L of the differences, with the scale that fits best.
-fn misfit(differences: &[Difference], spread: &Spread) -> f64 {
+fn grown(differences: &[Difference], spread: &Spread) -> f64 {
     let squares = differences.iter().map(|difference| {
         let relative = difference.size / spread.at(difference.value);
         relative * relative
     });
     let squares: Vec<f64> = squares.collect();
-    let scale = scale(&squares);
-    let each = differences
+    let widths = differences
         .iter()
-        .zip(&squares)
-        .map(|(difference, square)| {
-            2.0 * libm::log(spread.at(difference.value))
-                + libm::log(scale)
-                + (TAILS + 1.0) * libm::log1p(square / (TAILS * scale))
-        });
+        .map(|one| libm::log(spread.at(one.value)));
+    2.0 * widths.sum::<f64>() + misfit(&squares, scale(&squares))
+}
+
+/// −2 ln L of differences with these squares, for such a squared scale.
+pub(super) fn misfit(squares: &[f64], scale: f64) -> f64 {
+    let each = (squares.iter())
+        .map(|square| libm::log(scale) + (TAILS + 1.0) * libm::log1p(square / (TAILS * scale)));
     each.sum()
 }
 
 /// Squared scale of Student's distribution by maximum likelihood; each step adds to the likelihood.
-fn scale(squares: &[f64]) -> f64 {
+pub(super) fn scale(squares: &[f64]) -> f64 {
     const STEPS: u8 = 30;
     let count = squares.len() as f64;
     let mut scale = squares.iter().sum::<f64>() / count;
@@ -178,9 +179,14 @@ fn scale(squares: &[f64]) -> f64 {
     scale
 }
 
-fn differences(design: &Design<'_>, values: &[f64], residuals: &DVector<f64>) -> Vec<Difference> {
+/// What neighbours within groups of blocks leave of each other.
+pub(super) fn differences(
+    groups: Vec<Vec<usize>>,
+    values: &[f64],
+    residuals: &DVector<f64>,
+) -> Vec<Difference> {
     let mut all = Vec::new();
-    for mut group in groups(design) {
+    for mut group in groups {
         group.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
         for three in group.windows(3) {
             let [low, middle, high] = [three[0], three[1], three[2]];

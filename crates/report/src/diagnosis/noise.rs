@@ -1,5 +1,6 @@
 //! Where the noise of a recording comes from, in words.
 
+use crate::figures::with_unit;
 use crate::language::Language;
 use crate::number::{freedom, significant};
 use gumption_lab::diagnose::case::{Case, NoiseClaim};
@@ -41,6 +42,7 @@ pub(super) fn noise(claimed: &Claimed, l: Language) -> String {
             l.pick("estimated from the residuals", "由残差估计")
                 .to_owned()
                 + &growth(claimed, l)
+                + &by_label(claimed, l)
         }
         Origin::Case => l.pick(
             "as stated in the case".to_owned(),
@@ -142,4 +144,17 @@ fn growth(claimed: &Claimed, l: Language) -> String {
     l.pick(", growing with the reading: ", "，随示值增大：")
         .to_owned()
         + &grows.join("; ")
+}
+
+/// How noise that was estimated differs from label to label, if it does for any response.
+fn by_label(claimed: &Claimed, l: Language) -> String {
+    let each = claimed.by_label.iter().flatten().map(|by| {
+        let [least, most] = by.range.map(|u| with_unit(&significant(u, 2), &by.unit));
+        let name = &by.column;
+        l.pick(
+            format!(", differing from {name} to {name}: u from {least} to {most}"),
+            format!("，因 {name} 而异：u 为 {least} 至 {most}"),
+        )
+    });
+    each.collect()
 }

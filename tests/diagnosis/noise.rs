@@ -207,6 +207,41 @@ fn three_wrong_readings_beside_a_drift_are_all_told() {
     assert!(!statement.contains("smoothly"), "{statement}");
 }
 
+/// Four operators of whom the last scatters eight times as much as the first.
+fn operators(seed: u64) -> String {
+    let mut noise = Noise(seed);
+    let mut rows = "operator,load [N],reading [mV]\n".to_owned();
+    for row in 0..100_usize {
+        let (operator, load) = (row % 4, (row * 7 % 20) as f64);
+        let u = 0.02 * [1.0, 2.0, 4.0, 8.0][operator];
+        let reading = 0.3 + 1.7 * load + u * noise.normal();
+        let _ = writeln!(
+            rows,
+            "{},{load},{reading:.4}",
+            ["A", "B", "C", "D"][operator]
+        );
+    }
+    rows
+}
+
+#[test]
+fn operators_that_scatter_unlike_one_another_have_a_u_of_their_own() {
+    let case = "equations = \"reading = a + b*load\"\n[columns]\noperator = \"factor\"\nload = \"stimulus\"\nreading = \"output\"\n";
+    let mut alarms = 0;
+    for seed in 90..100 {
+        let found = diagnosed_with("operators", &operators(seed), case);
+        alarms += usize::from(found["verdict"] != "none");
+    }
+    // With one u for all of them about three of ten are.
+    assert!(alarms < 2, "{alarms} alarms of 10");
+    let folder = folder("operators");
+    let (_, text) = gumption(&folder, &["diagnose", "case.toml"]);
+    assert!(
+        text.contains("differing from operator to operator"),
+        "{text}"
+    );
+}
+
 /// One column of standard uncertainties serves outputs in V and in mV: by Σu²/n of ten rows at places about zero, u(a) = 2 mV/√10.
 #[test]
 fn standard_uncertainties_of_rows_are_in_the_unit_of_each_output() {

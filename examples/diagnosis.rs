@@ -113,7 +113,8 @@ fn save_tables(options: &Options) -> Result<(), String> {
          diagnosis-11.md (the name and the adopted model chosen apart; what other sets have instead of a name left out; slopes never taken \
          anew; noise that walks over the whole recording not among the laws), diagnosis-12.md (effects that bend the fit never compared as \
          they are fitted; what bends a course without a name told as a name; straight backgrounds, zeros of conditions and exponents of first \
-         powers not looked for).",
+         powers not looked for), diagnosis-13.md (squares, products and rates of change not carried over to a recording held out; noise the \
+         same for all labels).",
         env!("CARGO_PKG_VERSION")
     );
     std::fs::write(out.join("diagnosis.md"), report(&read(&lines), &made))

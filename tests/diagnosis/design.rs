@@ -282,6 +282,39 @@ fn the_square_of_a_condition_goes_on_about_its_own_origin() {
     assert!(rms.is_some_and(|rms| rms < 1.2 * 5e-4), "{rms:?}");
 }
 
+/// A load cell whose output is higher by 5 µV from a row on.
+fn knocked_load_cell(from: u32, seed: u64) -> String {
+    let mut noise = Noise(seed);
+    let mut text = "load [kN],deflection [mV],humidity [%],hour [h]\n".to_owned();
+    for row in 0..60 {
+        let load = f64::from(row * 7 % 11) * 10.0;
+        let step = if row < from { 0.0 } else { 5e-3 };
+        let output = 0.01 + 0.02 * load + step + 5e-4 * noise.normal();
+        let humidity = 50.0 + noise.normal();
+        let hour = 0.1 * f64::from(row);
+        let _ = writeln!(text, "{load},{output:.6},{humidity:.2},{hour:.1}");
+    }
+    text
+}
+
+#[test]
+fn nobody_predicts_whether_a_jump_had_happened() {
+    let folder = folder("knocked");
+    let written = |file: &str, text: String| std::fs::write(folder.join(file), text);
+    written("load-cell.csv", knocked_load_cell(30, 6)).expect("written");
+    written("next.csv", knocked_load_cell(0, 7)).expect("written");
+    let case = LOAD_CELL.replace("[noise]", "hour = \"time\"\n\n[noise]");
+    let found = diagnosed(&folder, &case);
+    assert_eq!(named(&found), ["step"]);
+    assert!(
+        found["held_out"]["after"].is_null(),
+        "{}",
+        found["held_out"]
+    );
+    let (_, text) = gumption(&folder, &["diagnose", "case.toml"]);
+    assert!(text.contains("next.csv is not predicted"), "{text}");
+}
+
 #[test]
 fn decoys_are_not_blamed() {
     let folder = folder("decoys");

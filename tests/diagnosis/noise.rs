@@ -231,8 +231,11 @@ fn operators_that_scatter_unlike_one_another_have_a_u_of_their_own() {
     for seed in 90..100 {
         let found = diagnosed_with("operators", &operators(seed), case);
         alarms += usize::from(found["verdict"] != "none");
+        let labels = &found["noise"]["by_label"][0]["labels"];
+        let factor = |at: usize| labels[at]["factor"].as_f64().unwrap_or(f64::NAN);
+        assert!((4.0..16.0).contains(&(factor(3) / factor(0))), "{labels}");
     }
-    // With one u for all of them about three of ten are.
+    // One u for all of them would take the last one for wrong readings and effects.
     assert!(alarms < 2, "{alarms} alarms of 10");
     let folder = folder("operators");
     let (_, text) = gumption(&folder, &["diagnose", "case.toml"]);

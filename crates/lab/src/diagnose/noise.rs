@@ -517,16 +517,19 @@ pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
             .map_or(Spread::CONSTANT, |likely| likely.best);
         let u = spread(scales, &best);
         claimed.u.rows_mut(rows, blocks).copy_from(&u);
-        let at_level = u[0] / best.at(values[0]) / scales[0];
         let unit = || design.case.responses[response].unit.typeset();
-        let level = at_level * scales.mean();
-        claimed
-            .growth
-            .push(likely.map(|_| best.growth(level, unit())));
-        claimed.by_label.push(by_label.map(|labels| ByLabel {
-            column: design.case.columns[labels.column].name.clone(),
-            unit: unit(),
-            range: [labels.best.min(), labels.best.max()].map(|scale| at_level * scale),
+        // Of the mean label, where growth is 1.
+        let mean = u[0] / best.at(values[0]) / scales[0] * scales.mean();
+        (claimed.growth).push(likely.map(|_| best.growth(mean, unit())));
+        claimed.by_label.push(by_label.as_ref().map(|labels| {
+            ByLabel {
+                column: design.case.columns[labels.column].name.clone(),
+                unit: unit(),
+                mean,
+                factors: (labels.labels.iter())
+                    .map(|(label, u)| (label.clone(), u / scales.mean()))
+                    .collect(),
+            }
         }));
     }
     if claimed.is_spread_out() {

@@ -8,10 +8,11 @@ use gumption_core::special::chi_squared_sf;
 use gumption_lanes::{level, sampler::gamma_block};
 use nalgebra::DVector;
 
-use super::case::{Data, Role};
+use super::case::Role;
+use super::catalogue::modifiers::range;
 use super::chance::numbers;
 use super::design::Design;
-use super::noise_growth::{DRAWS, Difference, INFORMATION, SHARED, differences, misfit, scale};
+use super::noise_growth::{DRAWS, INFORMATION, SHARED, differences, misfit, scale};
 
 /// Level of the test of all columns together. Scatter that is missed costs false alarms, scatter in vain next to nothing.
 const LEVEL: f64 = 0.01;
@@ -25,15 +26,27 @@ const STREAM: u64 = 0x1abe1;
 pub struct ByLabel {
     /// The column.
     pub column: String,
-    /// Its unit, that of the response.
+    /// The unit of the response.
     pub unit: String,
-    /// The least and the largest standard uncertainty of one row.
-    pub range: [f64; 2],
+    /// Standard uncertainty of one row, as the mean over the rows; where it grows too, at the root mean square of the modelled values.
+    pub mean: f64,
+    /// The labels that occur, each with its standard uncertainty over that mean.
+    pub factors: Vec<(String, f64)>,
+}
+
+impl ByLabel {
+    /// The least and the largest factor.
+    pub fn range(&self) -> [f64; 2] {
+        let factors: Vec<f64> = self.factors.iter().map(|(_, factor)| *factor).collect();
+        range(&factors).into()
+    }
 }
 
 /// Standard uncertainties of the blocks by label, up to a factor.
 pub(super) struct Scales {
     pub column: usize,
+    /// Of each label that occurs.
+    pub labels: Vec<(String, f64)>,
     pub best: DVector<f64>,
     pub draws: Vec<DVector<f64>>,
 }
@@ -48,96 +61,144 @@ pub(super) fn estimate(
     let labelled = columns.filter(|(_, column)| column.role == Role::Factor);
     let labelled: Vec<usize> = labelled.map(|(at, _)| at).collect();
     let tried = labelled.iter().filter_map(|column| {
-        let column = *column;
-        let Data::Labels(labels) = &design.case.columns[column].data else {
-            return None;
-        };
-        let of_block = |block: usize| labels.of_row[design.blocks[block][0]] as usize;
-        let mut groups = vec![Vec::new(); labels.levels.len()];
-        (0..values.len()).for_each(|block| groups[of_block(block)].push(block));
-        groups.retain(|group| !group.is_empty());
-        let (p, scales) = of_groups(&groups, values, residuals, design.case.settings.seed)?;
-        Some((p, Scales { column, ..scales }))
+        let groups = groups(design, *column)?;
+        let blocks: Vec<&[usize]> = groups.iter().map(|(_, blocks)| &blocks[..]).collect();
+        let apart = Apart::of(&blocks, values, residuals, design.case.settings.seed)?;
+        Some((*column, groups, apart))
     });
-    let (p, scales) = tried.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    (p * labelled.len() as f64 <= LEVEL).then_some(scales)
-}
-
-/// The probability that groups with one scale are as unlike one another, and the scale of each.
-fn of_groups(
-    groups: &[Vec<usize>],
-    values: &[f64],
-    residuals: &DVector<f64>,
-    seed: u64,
-) -> Option<(f64, Scales)> {
-    let squares = |differences: &[Difference]| -> Vec<f64> {
-        differences.iter().map(|one| one.size * one.size).collect()
-    };
-    let all = squares(&differences(groups.to_vec(), values, residuals));
-    let each = groups.iter().map(|group| {
-        let own = squares(&differences(vec![group.clone()], values, residuals));
-        (own.len() >= LEAST).then_some(own)
-    });
-    let each: Vec<Vec<f64>> = each.collect::<Option<_>>()?;
-    let scales: Vec<f64> = each.iter().map(|own| scale(own)).collect();
-    let apart = each
-        .iter()
-        .zip(&scales)
-        .map(|(own, scale)| misfit(own, *scale));
-    let gain = misfit(&all, scale(&all)) - apart.sum::<f64>();
-    let p = chi_squared_sf(gain.max(0.0) / SHARED, (groups.len() as f64 - 1.0).max(1.0));
-    let spread = |of: &dyn Fn(usize) -> f64| {
-        let mut out = DVector::from_element(values.len(), 1.0);
-        for (at, group) in groups.iter().enumerate() {
-            group.iter().for_each(|block| out[*block] = of(at).sqrt());
+    let (column, groups, apart) = tried.min_by(|a, b| a.2.p.total_cmp(&b.2.p))?;
+    let spread = |of: &[f64]| {
+        let mut out = DVector::zeros(values.len());
+        for ((_, blocks), u) in groups.iter().zip(of) {
+            blocks.iter().for_each(|block| out[*block] = *u);
         }
         out
     };
-    // With ν degrees of freedom a scale may be ν/χ² times as large.
-    let doubt = |at: usize| {
-        let half = 0.5 * INFORMATION * each[at].len() as f64 / SHARED;
-        let fill = |generator: &mut _, block: &mut _| gamma_block(level(), generator, half, block);
-        let drawn = numbers(seed, STREAM + at as u64, DRAWS, fill);
-        drawn
-            .into_iter()
-            .map(|gamma| half / gamma)
-            .collect::<Vec<f64>>()
-    };
-    let doubts: Vec<Vec<f64>> = (0..each.len()).map(doubt).collect();
-    let draw = |draw: usize| spread(&|at| scales[at] * doubts[at][draw]);
-    let scales = Scales {
-        column: 0,
-        best: spread(&|at| scales[at]),
-        draws: (0..DRAWS).map(draw).collect(),
-    };
-    Some((p, scales))
+    (apart.p * labelled.len() as f64 <= LEVEL).then(|| Scales {
+        column,
+        best: spread(&apart.u),
+        draws: apart.draws.iter().map(|draw| spread(draw)).collect(),
+        labels: (groups.iter().zip(&apart.u))
+            .map(|((label, _), u)| (label.clone(), *u))
+            .collect(),
+    })
+}
+
+/// The labels of a column that occur, each with its blocks.
+fn groups(design: &Design<'_>, column: usize) -> Option<Vec<(String, Vec<usize>)>> {
+    let labels = design.case.columns[column].labels()?;
+    let named = labels
+        .levels
+        .iter()
+        .map(|label| (label.to_string(), Vec::new()));
+    let mut groups: Vec<(String, Vec<usize>)> = named.collect();
+    for (block, rows) in design.blocks.iter().enumerate() {
+        groups[labels.of_row[rows[0]] as usize].1.push(block);
+    }
+    groups.retain(|(_, blocks)| !blocks.is_empty());
+    Some(groups)
+}
+
+/// What groups of blocks scatter, each by itself.
+struct Apart {
+    /// The probability that groups of one scale are as unlike one another.
+    p: f64,
+    /// The standard uncertainty of each, up to a factor.
+    u: Vec<f64>,
+    /// What it may be as well.
+    draws: Vec<Vec<f64>>,
+}
+
+impl Apart {
+    /// `None` where one of them is too small.
+    fn of(
+        groups: &[&[usize]],
+        values: &[f64],
+        residuals: &DVector<f64>,
+        seed: u64,
+    ) -> Option<Apart> {
+        let squares = |groups: &[&[usize]]| -> Vec<f64> {
+            let groups = groups.iter().map(|group| group.to_vec()).collect();
+            let found = differences(groups, values, residuals).into_iter();
+            found.map(|one| one.size * one.size).collect()
+        };
+        let each = groups.iter().map(|group| squares(&[*group]));
+        let each = each.map(|own| (own.len() >= LEAST).then_some(own));
+        let each: Vec<Vec<f64>> = each.collect::<Option<_>>()?;
+        let scales: Vec<f64> = each.iter().map(|own| scale(own)).collect();
+        let apart = each
+            .iter()
+            .zip(&scales)
+            .map(|(own, scale)| misfit(own, *scale));
+        let all = squares(groups);
+        let gain = misfit(&all, scale(&all)) - apart.sum::<f64>();
+        // With ν degrees of freedom a scale may be ν/χ² times as large.
+        let doubt = |at: usize| {
+            let half = 0.5 * INFORMATION * each[at].len() as f64 / SHARED;
+            let fill =
+                |generator: &mut _, block: &mut _| gamma_block(level(), generator, half, block);
+            let drawn = numbers(seed, STREAM + at as u64, DRAWS, fill).into_iter();
+            drawn.map(|gamma| half / gamma).collect()
+        };
+        let doubts: Vec<Vec<f64>> = (0..each.len()).map(doubt).collect();
+        let draw = |draw: usize| {
+            let scales = scales.iter().zip(&doubts);
+            scales
+                .map(|(scale, doubt)| (scale * doubt[draw]).sqrt())
+                .collect()
+        };
+        Some(Apart {
+            p: chi_squared_sf(gain.max(0.0) / SHARED, (groups.len() as f64 - 1.0).max(1.0)),
+            u: scales.iter().map(|scale| scale.sqrt()).collect(),
+            draws: (0..DRAWS).map(draw).collect(),
+        })
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use gumption_core::special::normal_quantile;
+    use gumption_lanes::Generator;
 
     use super::*;
 
     /// Three groups of twenty, the last of which scatters so many times as much.
-    fn p(times: f64) -> (f64, Scales) {
+    fn apart(times: f64) -> Apart {
         let groups: Vec<Vec<usize>> = (0..3).map(|g| (20 * g..20 * (g + 1)).collect()).collect();
+        let groups: Vec<&[usize]> = groups.iter().map(|group| &group[..]).collect();
         let error = |k: usize| normal_quantile((0.5 + ((k * 37) % 60) as f64) / 60.0);
         let of = |k: usize| error(k) * if k < 40 { 1.0 } else { times };
         let residuals = DVector::from_fn(60, |k, _| of(k));
         let values: Vec<f64> = (0..60).map(|k| (k % 20) as f64).collect();
-        of_groups(&groups, &values, &residuals, 1).unwrap()
+        Apart::of(&groups, &values, &residuals, 1).unwrap()
     }
 
     #[test]
     fn an_instrument_that_scatters_more_is_seen() {
-        assert!(p(1.0).0 > 0.05);
-        let (p, scales) = p(5.0);
-        assert!(p < 1e-4);
-        let ratio = scales.best[40] / scales.best[0];
-        assert!((3.0..8.0).contains(&ratio), "{ratio}");
-        let of = |draw: &DVector<f64>| draw[40] / draw[0];
-        assert!(scales.draws.iter().any(|draw| of(draw) > ratio));
-        assert!(scales.draws.iter().any(|draw| of(draw) < ratio));
+        assert!(apart(1.0).p > 0.05);
+        let found = apart(5.0);
+        assert!(found.p < 1e-4);
+        let ratio = |u: &[f64]| u[2] / u[0];
+        let own = ratio(&found.u);
+        assert!((3.0..8.0).contains(&own), "{own}");
+        assert!(found.draws.iter().any(|draw| ratio(draw) > own));
+        assert!(found.draws.iter().any(|draw| ratio(draw) < own));
+    }
+
+    #[test]
+    fn what_all_scatter_alike_is_seldom_told_apart() {
+        let groups: Vec<Vec<usize>> = (0..3).map(|g| (20 * g..20 * (g + 1)).collect()).collect();
+        let groups: Vec<&[usize]> = groups.iter().map(|group| &group[..]).collect();
+        let values: Vec<f64> = (0..60).map(|k| (k % 20) as f64).collect();
+        let told = (0..200_u64).filter(|seed| {
+            let fill =
+                |generator: &mut Generator, block: &mut _| generator.uniforms(level(), block);
+            let uniform = numbers(*seed, 1, 60, fill);
+            let residuals = DVector::from_fn(60, |k, _| normal_quantile(uniform[k]));
+            Apart::of(&groups, &values, &residuals, 1).unwrap().p < 0.05
+        });
+        let told = told.count();
+        // 10 of 200 are expected; 20 and more come about with a probability of 0.2 %.
+        assert!(told < 20, "{told}");
     }
 }

@@ -10,8 +10,8 @@ use gumption_lab::diagnose::evidence::{
     self, Alternative, Level, Located, Rival, Slot, State, Variant, Verdict, Worth,
 };
 use gumption_lab::diagnose::{
-    Addition, Adopted, Claimed, Diagnosis, Extra, HeldOutQuality, ModelVersion, Prediction,
-    Quality, Separating, Trouble, Unsettled,
+    Addition, Adopted, ByLabel, Claimed, Diagnosis, Extra, Growth, HeldOutQuality, ModelVersion,
+    Prediction, Quality, Separating, Trouble, Unsettled,
 };
 
 use super::names::Names;
@@ -44,7 +44,7 @@ form! {
         /// Equations of the declared model.
         model: &'a [String] = &case.model,
         /// The noise that was used.
-        noise: NoiseForm = NoiseForm::of(&d.noise, names.l),
+        noise: NoiseForm<'a> = NoiseForm::of(&d.noise, names.l),
         /// Rows of the recording.
         rows: usize = case.rows,
         /// Rows, or means of rows, of all outputs.
@@ -84,11 +84,45 @@ form! {
     }
 
     /// The noise that was used.
-    NoiseForm of (claimed: &Claimed, l: Language) {
+    NoiseForm<'a> of (claimed: &'a Claimed, l: Language) {
         /// Where it comes from.
         origin: String = noise(claimed, l),
         /// Degrees of freedom of its scale; 0 where the residuals tell it.
         dof: Number = Number(claimed.dof),
+        /// For each output how it grows with the reading; none where it does not.
+        growth: Vec<Option<GrowthForm<'a>>> = all(&claimed.growth, |one| one.as_ref().map(GrowthForm::of)),
+        /// For each output how it differs from label to label; none where it does not.
+        by_label: Vec<Option<ByLabelForm<'a>>> = all(&claimed.by_label, |one| one.as_ref().map(ByLabelForm::of)),
+    }
+
+    /// Noise that grows with the reading y: u² = a² + (b·y)².
+    GrowthForm<'a> of (growth: &'a Growth) {
+        /// a.
+        constant: Number = Number(growth.constant),
+        /// b.
+        proportional: Number = Number(growth.proportional),
+        /// The unit of a.
+        unit: &'a str = &growth.unit,
+    }
+
+    /// Noise that differs from label to label.
+    ByLabelForm<'a> of (by: &'a ByLabel) {
+        /// The column of the labels.
+        column: &'a str = &by.column,
+        /// Standard uncertainty of one row, as the mean over the rows; where it grows too, at the root mean square of the modelled values.
+        mean: Number = Number(by.mean),
+        /// Its unit.
+        unit: &'a str = &by.unit,
+        /// The labels.
+        labels: Vec<FactorForm<'a>> = all(&by.factors, FactorForm::of),
+    }
+
+    /// The noise of one label.
+    FactorForm<'a> of (one: &'a (String, f64)) {
+        /// The label.
+        label: &'a str = &one.0,
+        /// Its standard uncertainty over the mean.
+        factor: Number = Number(one.1),
     }
 
     /// The test for a further effect.

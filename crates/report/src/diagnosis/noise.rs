@@ -3,6 +3,7 @@
 use crate::figures::with_unit;
 use crate::language::Language;
 use crate::number::{freedom, significant};
+use gumption_fault::say;
 use gumption_lab::diagnose::case::{Case, NoiseClaim};
 use gumption_lab::diagnose::{Claimed, Memory, Origin};
 
@@ -146,15 +147,25 @@ fn growth(claimed: &Claimed, l: Language) -> String {
         + &grows.join("; ")
 }
 
-/// How noise that was estimated differs from label to label, if it does for any response.
+/// How noise that was estimated differs from label to label, if it does for any response: by its u, or where that grows too, by what
+/// it is of the one that is said to grow.
 fn by_label(claimed: &Claimed, l: Language) -> String {
-    let each = claimed.by_label.iter().flatten().map(|by| {
-        let [least, most] = by.range.map(|u| with_unit(&significant(u, 2), &by.unit));
+    let each = claimed.by_label.iter().zip(&claimed.growth);
+    let each = each.filter_map(|(by, growth)| {
+        let by = by.as_ref()?;
         let name = &by.column;
-        l.pick(
-            format!(", differing from {name} to {name}: u from {least} to {most}"),
-            format!("，因 {name} 而异：u 为 {least} 至 {most}"),
-        )
+        let shown = |shown: &dyn Fn(f64) -> String| by.range().map(shown);
+        Some(match growth {
+            None => {
+                let [least, most] =
+                    shown(&|factor| with_unit(&significant(factor * by.mean, 2), &by.unit));
+                say!(", differing from {name} to {name}: u from {least} to {most}")
+            }
+            Some(_) => {
+                let [least, most] = shown(&|factor| significant(factor, 2));
+                say!(", from {least} to {most} times as large from {name} to {name}")
+            }
+        })
     });
-    each.collect()
+    each.map(|said| said.in_language(l)).collect()
 }

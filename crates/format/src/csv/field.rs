@@ -75,6 +75,11 @@ impl Field {
         instant(text).map(Field::Clock)
     }
 
+    /// Whether it says that there is no number.
+    pub fn is_missing(self) -> bool {
+        matches!(self, Field::Whole(value) if value.is_nan())
+    }
+
     /// The number; NaN for one that is missing, nothing for a time.
     pub fn number(self) -> Option<f64> {
         match self {

@@ -49,10 +49,9 @@ impl Recording {
         units: &UnitTable,
     ) -> Result<Recording, Rejection> {
         let reject = |faults| Rejection::new(name, text, faults);
-        let sheet = Sheet::new(text).map_err(|fault| reject(vec![*fault]))?;
+        let (sheet, headings) = headed(text, units).map_err(|fault| reject(vec![*fault]))?;
         fits_as_columns(name, text, requests.len())
             .map_err(|fault| Rejection::new(name, "", vec![*fault]))?;
-        let headings = headings_of(&sheet, units);
         let mut faults = Vec::new();
         let mut drafts: Vec<Draft> = requests
             .iter()
@@ -121,8 +120,8 @@ impl Recording {
     /// # Errors
     /// As [`read`](Self::read).
     pub fn read_all(name: &str, text: &str, units: &UnitTable) -> Result<Recording, Rejection> {
-        let sheet = Sheet::new(text).map_err(|fault| Rejection::new(name, text, vec![*fault]))?;
-        let headings = headings_of(&sheet, units);
+        let headings =
+            headings(text, units).map_err(|fault| Rejection::new(name, text, vec![*fault]))?;
         let alone = |heading: &Heading| {
             headings
                 .iter()
@@ -154,12 +153,48 @@ impl Recording {
 /// # Errors
 /// When the text has no line of names.
 pub fn headings(text: &str, units: &UnitTable) -> Result<Vec<Heading>, Box<Fault>> {
-    Ok(headings_of(&Sheet::new(text)?, units))
+    headed(text, units).map(|(_, headings)| headings)
 }
 
-fn headings_of(sheet: &Sheet, units: &UnitTable) -> Vec<Heading> {
+/// The rows of a CSV text below its headings.
+fn headed<'t>(text: &'t str, units: &UnitTable) -> Result<(Sheet<'t>, Vec<Heading>), Box<Fault>> {
+    let sheet = Sheet::new(text)?;
+    if let Some(headings) = above_units(&sheet, units) {
+        return Ok((sheet.without_first_row(), headings));
+    }
     let fields = sheet.header().fields();
-    fields.map(|field| Heading::read(field, units)).collect()
+    let headings = fields.map(|field| Heading::read(field, units)).collect();
+    Ok((sheet, headings))
+}
+
+/// The headings of a table with a line of units below that of the names, as loggers write them: it holds a unit or nothing in
+/// each column, and below each unit stands a number.
+fn above_units(sheet: &Sheet, units: &UnitTable) -> Option<Vec<Heading>> {
+    let mut rows = sheet.rows().map_while(Result::ok);
+    let (line, next) = (rows.next()?, rows.next()?);
+    let mut headings = Vec::with_capacity(line.len());
+    let fields = line.fields().zip(next.fields());
+    for (name, (unit, below)) in sheet.header().fields().zip(fields) {
+        let unit = match Field::read(unit, sheet) {
+            None => Some(Heading::unit_alone(unit, units)?),
+            Some(nothing) if nothing.is_missing() => None,
+            Some(_) => return None,
+        };
+        if unit.is_some() {
+            Field::read(below, sheet)?;
+        }
+        headings.push(match unit {
+            None => Heading::read(name, units),
+            unit => Heading {
+                unit: Ok(unit),
+                ..Heading::plain(name)
+            },
+        });
+    }
+    headings
+        .iter()
+        .any(|heading| matches!(heading.unit, Ok(Some(_))))
+        .then_some(headings)
 }
 
 /// The text of a table that another file names, in whichever encoding it was saved.

@@ -109,6 +109,13 @@ impl<'a> Sheet<'a> {
         }
     }
 
+    /// The same table, of which the first row is no data either.
+    #[must_use]
+    pub(super) fn without_first_row(mut self) -> Sheet<'a> {
+        self.skipped += 1;
+        self
+    }
+
     /// The text.
     pub fn text(&self) -> &'a str {
         self.text

@@ -239,8 +239,10 @@ fn by_name(column: &Column) -> Option<RoleWord> {
         }
         "direction" | "dir" | "方向" | "行程" => RoleWord::Direction,
         "axis" | "轴" => RoleWord::Axis,
-        "run" | "series" | "mount" | "cycle" | "repeat" | "rep" | "运行" | "序列" | "循环"
-        | "循环次数" | "次数" | "测量次数" | "组" | "组号" | "轮次" => RoleWord::Run,
+        "run" | "series" | "mount" | "cycle" | "repeat" | "rep" | "replicate" | "运行" | "序列"
+        | "循环" | "循环次数" | "次数" | "测量次数" | "组" | "组号" | "轮次" => {
+            RoleWord::Run
+        }
         "unit" | "instrument" | "operator" | "device" | "lot" | "lab" | "probe" | "serial"
         | "serial no" | "s/n" | "sn" | "仪器" | "人员" | "操作者" | "出厂编号" => {
             RoleWord::Factor

@@ -38,6 +38,25 @@ fn unit(symbol: &str) -> gumption_core::quantity::Unit {
 }
 
 #[test]
+fn units_may_stand_in_a_line_of_their_own() {
+    for text in [
+        "t90,R,run\n°C,Ω,\n-40,84.3,a\n0,100.0,b\n",
+        "t90;R;run\n[degC];[ohm];-\n-40;84,3;a\n0;100,0;b\n",
+    ] {
+        let recording = all(text);
+        assert_eq!(recording.rows(), 2, "{text}");
+        assert_eq!(recording.line(0), 3);
+        let resistance = recording.column("R").expect("R");
+        assert_eq!(resistance.values_in(&unit("mΩ")), Some(vec![84.3e3, 100e3]));
+        let temperature = recording.column("t90").expect("t90");
+        assert_eq!(temperature.values_in(&unit("K")).unwrap()[1], 273.15);
+    }
+    // Labels that look like units, above others; and a number among units.
+    assert_eq!(all("part,U\nA,\nB,1\n").rows(), 2);
+    assert_eq!(all("part,U\nA,2\nB,1\n").rows(), 2);
+}
+
+#[test]
 fn columns_by_role_in_their_units() {
     let text = "time [ms];U_mV;pos\n0;1.5;a\n10;;a\n20;-2e1;b\n";
     let requests = [

@@ -230,3 +230,14 @@ fn a_measured_noise_is_an_error_of_the_readings() {
     let (u, dof) = noise("at_rest = { file = \"rest.csv\" }");
     assert!((u - 0.1).abs() < 1e-12 && dof == 4.0, "{u} {dof}");
 }
+
+#[test]
+fn an_equation_that_cannot_be_read_is_told_before_its_parameters_are_asked_for() {
+    let unlisted = EXPERIMENT
+        .replace("[parameter.K]", "")
+        .replace("[parameter.b]", "");
+    assert_eq!(said(&unlisted), "");
+    let said = said(&unlisted.replace("K*omega", "K*ln(omega/(1 deg/s))"));
+    assert!(said.contains("M0104"), "{said}");
+    assert!(!said.contains("[parameter]"), "{said}");
+}

@@ -146,8 +146,10 @@ impl Checker<'_> {
             return Ok(None);
         }
         contrary::check(self);
-        if entries(&table.parameter).is_empty() {
-            // Parameters that are not listed follow from the recording: without it, that is what is wrong.
+        // Parameters that are not listed follow from the equations and the recording: where these cannot be read, that is what is
+        // wrong.
+        let is_read = inferred::outlines(&self.source, &self.units).is_some();
+        if entries(&table.parameter).is_empty() && is_read {
             if !data::readable(self)? {
                 return Ok(None);
             }

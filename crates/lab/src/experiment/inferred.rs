@@ -1,5 +1,6 @@
 //! Parameters of a file that lists none: what the equations name and nothing else is.
 
+use std::ops::Range;
 use std::path::Path;
 
 use gumption_format::toml::{Named, Stated};
@@ -7,7 +8,7 @@ use gumption_format::toml::{Named, Stated};
 use super::source::{Source, entries};
 use super::tables::ParameterTable;
 use crate::recording::{Heading, headings, text_of};
-use gumption_core::model::outline;
+use gumption_core::model::{Outline, outline};
 use gumption_core::quantity::UnitTable;
 use gumption_fault::nearest;
 use gumption_format::files::Files;
@@ -25,16 +26,15 @@ pub(crate) fn complete(source: &mut Source, units: &UnitTable, files: Files<'_>,
     let Some(known) = known(source, units, files, folder) else {
         return;
     };
-    let shared = source.table.model.as_ref().map_or("", |text| &text.value);
+    let Some(outlines) = outlines(source, units) else {
+        return;
+    };
     let listed = entries(&source.table.parameter).iter();
     let listed: Vec<&str> = listed.map(|(name, _)| name.as_str()).collect();
     let mut found: Vec<(SmolStr, Stated<ParameterTable>)> = Vec::new();
     let mut place = 0..0;
-    for text in source.table.equations.iter().flat_map(|list| &list.value.0) {
-        let Ok(outline) = outline(&format!("{shared}\n{}", text.value), units) else {
-            return;
-        };
-        place = text.span.clone();
+    for (equation, outline) in outlines {
+        place = equation;
         let given = outline.gives.as_ref().map(|(name, _)| name);
         for (name, _) in &outline.needs {
             let is_listed =
@@ -64,6 +64,17 @@ pub(crate) fn complete(source: &mut Source, units: &UnitTable, files: Files<'_>,
     };
     let table = source.table.parameter.get_or_insert_with(|| Box::new(none));
     table.value.entries.extend(found);
+}
+
+/// Where each equation stands, and its names; `None` where one of them cannot be read.
+pub(crate) fn outlines(source: &Source, units: &UnitTable) -> Option<Vec<(Range<usize>, Outline)>> {
+    let shared = source.table.model.as_ref().map_or("", |text| &text.value);
+    let equations = source.table.equations.iter().flat_map(|list| &list.value.0);
+    let read = equations.map(|text| {
+        let outline = outline(&format!("{shared}\n{}", text.value), units).ok()?;
+        Some((text.span.clone(), outline))
+    });
+    read.collect()
 }
 
 /// Whether a name of some length is nearly a known one, by a slip of the pen, or is it but for capitals: `temp0` beside `temp` is

@@ -63,6 +63,7 @@ pub struct Equations {
     equations: Vec<Equation>,
     responses: Vec<Quantity>,
     symbols: usize,
+    shared: String,
 }
 
 /// One compiled equation.
@@ -108,6 +109,7 @@ impl Equations {
             equations: Vec::new(),
             responses: Vec::new(),
             symbols: symbols.len(),
+            shared: shared.map_or_else(String::new, |text| printed(text, units)),
         };
         let mut places: Vec<Range<usize>> = Vec::new();
         for text in texts {
@@ -192,6 +194,11 @@ impl Equations {
     pub fn are_affine_in(&self, symbols: &[usize]) -> bool {
         let affine = |equation: &Equation| equation.model.is_affine_in(symbols);
         self.equations.iter().all(affine)
+    }
+
+    /// Printed form of the statements that all equations see; empty where there are none.
+    pub fn shared(&self) -> &str {
+        &self.shared
     }
 
     /// Printed form of an equation.
@@ -284,9 +291,13 @@ fn equation(
     let used = model.inputs_of(0);
     Ok(Equation {
         uses: (0..used.len()).filter(|place| used[*place]).collect(),
-        text: outline(text.text, units).map_or_else(|_| text.text.to_owned(), |o| o.printed),
+        text: printed(text, units),
         model,
     })
+}
+
+fn printed(text: &EquationText<'_>, units: &UnitTable) -> String {
+    outline(text.text, units).map_or_else(|_| text.text.to_owned(), |outline| outline.printed)
 }
 
 /// The input vector keeps its length when the response, which its own equation may not use, stands last

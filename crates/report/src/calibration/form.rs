@@ -100,6 +100,8 @@ form! {
         author: Option<&'a str> = campaign.experiment.heading.author.as_deref(),
         /// When.
         date: Option<&'a str> = campaign.experiment.heading.date.as_deref(),
+        /// Statements that all equations see.
+        statements: Vec<&'a str> = campaign.experiment.equations.shared().lines().collect(),
         /// Measurement equations.
         equations: Vec<&'a str> = {
             let equations = &campaign.experiment.equations;

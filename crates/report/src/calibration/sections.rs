@@ -1,10 +1,12 @@
 //! The sections of the report of a calibration.
 
+use crate::figures::with_unit;
 use crate::joint::matrix;
 use crate::language::{Language, Word};
-use crate::number::{NONE, aligned, effective, in_unit, probability, significant};
+use crate::number::{NONE, aligned, effective, exact, in_unit, probability, significant};
 use crate::phrase::{named_row, numbers_beside, paragraph, section, table};
 use crate::symbol;
+use gumption_core::model::{Role, Symbol};
 use gumption_fault::say;
 use gumption_format::document::{
     Block,
@@ -54,11 +56,31 @@ pub(super) fn heading(campaign: &Campaign, l: Language) -> Vec<Block> {
 
 pub(super) fn equations(campaign: &Campaign, l: Language) -> Vec<Block> {
     let all = 0..campaign.experiment.equations.responses().len();
-    let lines = all.flat_map(|response| campaign.experiment.equations.text(response).lines());
+    let equations = &campaign.experiment.equations;
+    let lines = all.flat_map(|response| equations.text(response).lines());
+    let lines = equations.shared().lines().chain(lines).map(str::to_owned);
+    let constants = campaign.experiment.constants.iter().filter_map(constant);
     vec![
         section(l, "Measurement equations", "测量方程"),
-        Block::Formula(lines.map(str::to_owned).collect()),
+        Block::Formula(lines.chain(constants).collect()),
     ]
+}
+
+/// What an equation takes as exactly known: `Rn = 100 Ω`.
+fn constant(symbol: &Symbol) -> Option<String> {
+    let value = match &symbol.role {
+        Role::Constant(value) => exact(*value),
+        Role::ConstantVector(values) => {
+            let values: Vec<String> = values.iter().map(|value| exact(*value)).collect();
+            format!("[{}]", values.join(", "))
+        }
+        _ => return None,
+    };
+    let name = &symbol.name;
+    Some(with_unit(
+        &format!("{name} = {value}"),
+        &symbol.unit.typeset(),
+    ))
 }
 
 /// The degrees of freedom of a coefficient that gave its k.

@@ -22,6 +22,8 @@ pub struct Campaign {
     pub scatter: Option<Scatter>,
     /// How points are weighted.
     pub weights: Weights,
+    /// Columns of the points that no equation has and that may act on the readings: covariates and the time.
+    pub conditions: Vec<String>,
     /// The column of labels that are evaluated one by one.
     pub separately: Option<String>,
     /// Parameters of which one that has another sign than the others is doubtful, by their names.

@@ -111,6 +111,12 @@ fn time<'t>(checker: &Checker<'t>) -> Option<&'t str> {
     of_role(&checker.source.table.columns, RoleWord::Time).next()
 }
 
+/// The columns that may act on the readings whether an equation has them or not.
+pub(super) fn conditions<'t>(checker: &Checker<'t>) -> impl Iterator<Item = &'t str> + use<'t> {
+    let columns = &checker.source.table.columns;
+    of_role(columns, RoleWord::Covariate).chain(time(checker))
+}
+
 /// The columns that a calibration asks the recording for, each once.
 fn requests(
     checker: &Checker<'_>,
@@ -130,7 +136,10 @@ fn requests(
     let rows = checker.purpose != Purpose::Calibrate || !table.holds_samples();
     let of_rows = of_role(&checker.source.table.columns, RoleWord::Uncertainty);
     let of_rows = of_rows.filter(|_| rows);
-    let wanted = named.map(String::as_str).chain(time(checker)).chain(steps);
+    let wanted = named
+        .map(String::as_str)
+        .chain(conditions(checker))
+        .chain(steps);
     let wanted = wanted.chain(replicates).chain(of_rows);
     let mut requests: Vec<Request> = Vec::new();
     for name in wanted {

@@ -203,6 +203,10 @@ impl Checker<'_> {
         let is_stated = noise::add(self, &points, &mut experiment)?;
         let omitted = self.omitted(&experiment);
         let results = self.results(&experiment);
+        let conditions = data::conditions(self);
+        let conditions =
+            conditions.filter(|name| !is_column(name) && points.column(name).is_some());
+        let conditions = conditions.map(str::to_owned).collect();
         experiment.remarks.extend(contrary::remarks(table, names));
         if self.purpose == Purpose::Plan {
             let silent = contrary::without_scatter(&experiment);
@@ -218,6 +222,7 @@ impl Checker<'_> {
                 Some(WeightsWord::Readings) => Weights::Readings,
                 _ => Weights::Equal,
             },
+            conditions,
             separately: table.separately.as_ref().map(|stated| stated.value.clone()),
             same_sign: self.same_sign(),
         })

@@ -4,11 +4,14 @@
 use super::scatter::{RARE, ResponseScatter, explained_by};
 use super::stack::{Row, Stack};
 use crate::experiment::Scope;
-use gumption_core::least_squares::{Solution, runs};
+use gumption_core::least_squares::{Solution, runs, span, without};
 use gumption_core::special::{f_sf, normal_two_sided_quantile};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::gain::Gain;
+
+/// What rounding leaves of columns that are the same, over their length.
+const ROUNDING: f64 = 1e-7;
 
 /// What says that the residuals of a response are no scatter.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +26,7 @@ pub struct Pattern {
 }
 
 /// A test of residuals.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum PatternTest {
     /// Readings where all stimuli are equal agree better than their means with the equation.
     Repeats {
@@ -42,9 +45,15 @@ pub enum PatternTest {
         /// Of so many residuals.
         readings: usize,
     },
+    /// A line in a column that no equation has takes more of the residuals than scatter does (F test of one more coefficient; the
+    /// probability is that of the largest of all such columns, by Bonferroni).
+    Follows {
+        /// The column.
+        column: String,
+    },
 }
 
-/// What is found of each response: by repeated readings, or else by the signs.
+/// What is found of each response: by repeated readings, or else by the signs, or else by what the equations do not have.
 pub(super) fn patterns(
     stack: &Stack<'_>,
     solution: &Solution,
@@ -62,11 +71,12 @@ pub(super) fn patterns(
             response,
             rows: &rows,
             of: &solution.residuals,
+            jacobian: &jacobian,
             u,
             allowed: &explained,
             dof: own.dof,
         };
-        let (by, p_value) = residuals.by_repeats().or_else(|| residuals.by_runs())?;
+        let (by, p_value) = residuals.seen()?;
         (own.test.is_none_or(|test| test.misfit.is_none())).then(|| Pattern {
             response: own.response.clone(),
             by,
@@ -83,6 +93,8 @@ struct Residuals<'a> {
     rows: &'a [usize],
     /// Of all rows.
     of: &'a [f64],
+    /// Of all rows.
+    jacobian: &'a DMatrix<f64>,
     u: &'a [f64],
     /// The mean square that all stated errors let expect of each row.
     allowed: &'a [f64],
@@ -90,6 +102,12 @@ struct Residuals<'a> {
 }
 
 impl Residuals<'_> {
+    fn seen(&self) -> Option<(PatternTest, f64)> {
+        self.by_repeats()
+            .or_else(|| self.by_runs())
+            .or_else(|| self.by_conditions())
+    }
+
     fn scaled(&self, row: usize) -> f64 {
         self.of[row] / self.u[row]
     }
@@ -159,6 +177,48 @@ impl Residuals<'_> {
         };
         let rare = found.probability < RARE && total > self.harmless();
         rare.then_some((by, found.probability))
+    }
+
+    fn by_conditions(&self) -> Option<(PatternTest, f64)> {
+        let conditions = &self.stack.campaign.conditions;
+        let found = conditions.iter().filter_map(|name| {
+            let column = self.stack.campaign.points.column(name)?;
+            Some((name, self.by_chance(&column.values)?))
+        });
+        let (column, p) = found.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let p_value = (p * conditions.len() as f64).min(1.0);
+        let by = PatternTest::Follows {
+            column: column.clone(),
+        };
+        (p_value < RARE).then_some((by, p_value))
+    }
+
+    /// The probability that scatter follows a column as the residuals do; `None` where nothing of the column is left that the
+    /// parameters do not take, or a value is missing.
+    fn by_chance(&self, values: &[f64]) -> Option<f64> {
+        let value = |row: &usize| match self.stack.rows[*row] {
+            Row::Reading { point, .. } => values[point],
+            Row::Prior { .. } => f64::NAN,
+        };
+        let count = self.rows.len();
+        let column = DVector::from_iterator(count, self.rows.iter().map(value));
+        let u = DVector::from_iterator(count, self.rows.iter().map(|row| self.u[*row]));
+        let column = column.add_scalar(-column.mean()).component_div(&u);
+        let mut taken = self.jacobian.select_rows(self.rows);
+        let parameters = taken.column_iter_mut();
+        parameters.for_each(|mut one| one.component_div_assign(&u));
+        let column = DMatrix::from_columns(&[column]);
+        let left = without(&column, &span(taken, ROUNDING));
+        if !left.norm().is_normal() || left.norm() <= ROUNDING * column.norm() {
+            return None;
+        }
+        let residuals =
+            DVector::from_iterator(count, self.rows.iter().map(|row| self.scaled(*row)));
+        let follows = left.column(0).dot(&residuals).powi(2) / left.norm_squared();
+        let (others, dof) = (residuals.norm_squared() - follows, self.dof - 1.0);
+        let beyond = follows - self.harmless();
+        (dof >= 1.0 && others > 0.0 && beyond > 0.0)
+            .then(|| f_sf(beyond / (others / dof), 1.0, dof))
     }
 }
 

@@ -297,10 +297,11 @@ form! {
     PatternForm<'a> of (one: &'a Pattern) {
         /// The response.
         response: &'a str = &one.response,
-        /// What tells: `repeats` or `runs`.
-        by: &'static str = match one.by {
+        /// What tells: `repeats`, `runs` or `follows`.
+        by: &'static str = match &one.by {
             PatternTest::Repeats { .. } => "repeats",
             PatternTest::Runs { .. } => "runs",
+            PatternTest::Follows { .. } => "follows",
         },
         /// Of repeated readings: standard deviation among themselves, in the unit of the response (of unit weight where they have weights); null for runs.
         within: Option<Number> = repeats(one).map(|[within, ..]| Number(within)),
@@ -312,6 +313,11 @@ form! {
         runs: Option<usize> = signs(one).map(|[runs, _]| runs),
         /// Of so many residuals.
         residuals: Option<usize> = signs(one).map(|[_, residuals]| residuals),
+        /// The column that the residuals follow; null where it is none.
+        column: Option<&'a str> = match &one.by {
+            PatternTest::Follows { column } => Some(column),
+            _ => None,
+        },
         /// Probability of residuals like that, were they scatter.
         p_value: Number = Number(one.p_value),
     }
@@ -414,14 +420,14 @@ pub fn plan_schema() -> Value {
 fn repeats(one: &Pattern) -> Option<[f64; 3]> {
     match one.by {
         PatternTest::Repeats { within, between, f } => Some([within, between, f]),
-        PatternTest::Runs { .. } => None,
+        PatternTest::Runs { .. } | PatternTest::Follows { .. } => None,
     }
 }
 
 /// What signs tell: how many runs, of how many residuals.
 fn signs(one: &Pattern) -> Option<[usize; 2]> {
     match one.by {
-        PatternTest::Repeats { .. } => None,
+        PatternTest::Repeats { .. } | PatternTest::Follows { .. } => None,
         PatternTest::Runs { runs, readings } => Some([runs, readings]),
     }
 }

@@ -238,15 +238,16 @@ fn no_scatter(campaign: &Campaign, one: &Pattern, l: Language) -> String {
     let mut responses = campaign.experiment.equations.responses().iter();
     let own = responses.find(|other| other.name == *response);
     let unit = own.map_or(String::new(), |own| symbol(&own.unit));
-    let seen = match one.by {
+    let seen = match &one.by {
         PatternTest::Repeats {
             within,
             between,
             f,
         } => {
-            let f = significant(f, 2);
+            let f = significant(*f, 2);
             let [within, between] =
-                [within, between].map(|s| with_unit(&significant(s, 2), &unit));
+        PatternTest::Follows { column } => say!("those of {response} follow {column}, which no equation has ({p})").in_language(l),
+                [within, between].map(|s| with_unit(&significant(*s, 2), &unit));
             say!("readings of {response} where all stimuli are equal have the standard deviation {within}, and by the distance of their means from the equation it would be {between} (F = {f}, {p})").in_language(l)
         }
         PatternTest::Runs { runs, readings } => say!("those of {response} keep their sign in the order of the readings for longer than by chance ({runs} runs of {readings} residuals, {p})").in_language(l),

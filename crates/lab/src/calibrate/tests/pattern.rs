@@ -100,3 +100,37 @@ fn scatter_is_scatter() {
     // Two tests at 0.5 %: four are expected at most, and eleven come about in fewer than one of a thousand cases.
     assert!(alarms < 11, "{alarms}");
 }
+
+/// Twenty readings on a line, with a temperature that wanders by a tenth as much as it acts.
+fn in_the_cold(effect: f64) -> Vec<Pattern> {
+    let mut generator = StdRng::seed_from_u64(11);
+    let scatter = Normal::new(0.0, 0.1).expect("a distribution");
+    let lines = (0..20).map(|i| {
+        let (rate, t) = (f64::from(i % 5), f64::from((i * 7) % 20) / 10.0);
+        let u = 2.0 * rate + effect * t + scatter.sample(&mut generator);
+        format!("{rate},{t},{u}\n")
+    });
+    let csv = format!("omega [deg/s],T [°C],U [mV]\n{}", lines.collect::<String>());
+    let file = format!("{RATE}{EXACT}[columns]\nT = \"covariate\"\n");
+    calibrate(&campaign(&file, &csv))
+        .expect("coefficients")
+        .patterns
+}
+
+#[test]
+fn residuals_that_follow_what_no_equation_has_tell() {
+    assert_eq!(in_the_cold(0.0), []);
+    let all = in_the_cold(0.5);
+    let [
+        Pattern {
+            by: PatternTest::Follows { column },
+            p_value,
+            ..
+        },
+    ] = all.as_slice()
+    else {
+        panic!("{all:?}")
+    };
+    assert_eq!(column, "T");
+    assert!(*p_value < 1e-3, "{p_value}");
+}

@@ -4,6 +4,8 @@ use nalgebra::DMatrix;
 
 use super::baseline::{Baseline, shares};
 
+pub use gumption_core::least_squares::{span, without};
+
 /// A column with less than this share of its whitened length (squared) left, by the parameters or by
 /// other columns of its atom, is invisible.
 pub(super) const INVISIBLE: f64 = 1e-6;
@@ -94,29 +96,6 @@ pub fn left(effects: &DMatrix<f64>, variants: impl IntoIterator<Item = DMatrix<f
         }
     }
     least.into_iter().map(f64::sqrt).collect()
-}
-
-/// Orthonormal columns of the same span, without directions that columns of unit length reach no further than `flat`.
-pub fn span(mut columns: DMatrix<f64>, flat: f64) -> DMatrix<f64> {
-    for mut column in columns.column_iter_mut() {
-        let length = column.norm();
-        if length > 0.0 {
-            column /= length;
-        }
-    }
-    let svd = columns.svd(true, false);
-    let kept: Vec<usize> = (0..svd.singular_values.len())
-        .filter(|k| svd.singular_values[*k] > flat)
-        .collect();
-    svd.u.unwrap_or_default().select_columns(&kept)
-}
-
-/// Columns with what lies along an orthonormal basis taken out.
-pub(in crate::diagnose) fn without(columns: &DMatrix<f64>, basis: &DMatrix<f64>) -> DMatrix<f64> {
-    if basis.ncols() == 0 {
-        return columns.clone();
-    }
-    columns - basis * basis.tr_mul(columns)
 }
 
 /// Matrices side by side; nothing of none.

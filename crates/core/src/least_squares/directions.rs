@@ -1,0 +1,26 @@
+//! Directions in the space of the readings: what columns span, and what is left of others beside them.
+
+use nalgebra::DMatrix;
+
+/// Orthonormal columns of the same span, without directions that columns of unit length reach no further than `flat`.
+pub fn span(mut columns: DMatrix<f64>, flat: f64) -> DMatrix<f64> {
+    for mut column in columns.column_iter_mut() {
+        let length = column.norm();
+        if length > 0.0 {
+            column /= length;
+        }
+    }
+    let svd = columns.svd(true, false);
+    let kept: Vec<usize> = (0..svd.singular_values.len())
+        .filter(|k| svd.singular_values[*k] > flat)
+        .collect();
+    svd.u.unwrap_or_default().select_columns(&kept)
+}
+
+/// Columns with what lies along an orthonormal basis taken out.
+pub fn without(columns: &DMatrix<f64>, basis: &DMatrix<f64>) -> DMatrix<f64> {
+    if basis.ncols() == 0 {
+        return columns.clone();
+    }
+    columns - basis * basis.tr_mul(columns)
+}

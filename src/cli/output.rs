@@ -247,10 +247,7 @@ pub(super) fn warn(text: &str) {
 
 /// Says on standard error what is to be known beside the output.
 pub(super) fn note(text: &str, lang: Language) {
-    warn(&match lang {
-        Language::English => format!("note: {text}\n"),
-        Language::Chinese => format!("注：{text}\n"),
-    });
+    warn(&say!("note: {text}\n").in_language(lang));
 }
 
 /// What long work will take, before it does.

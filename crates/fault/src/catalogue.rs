@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use crate::language::Language;
 
 /// The catalogues: one for each crate that speaks, and one of the explanations, which have no values.
-const CATALOGUES: [&str; 12] = [
+const CATALOGUES: [&str; 13] = [
     include_str!("../zh/fault.po"),
     include_str!("../zh/core.po"),
     include_str!("../zh/format.po"),
@@ -16,6 +16,7 @@ const CATALOGUES: [&str; 12] = [
     include_str!("../zh/lab.po"),
     include_str!("../zh/audit.po"),
     include_str!("../zh/report.po"),
+    include_str!("../zh/challenge.po"),
     include_str!("../zh/serve.po"),
     include_str!("../zh/gumption.po"),
     include_str!("../zh/explain.po"),

@@ -24,6 +24,31 @@ impl Language {
         self.pick(Language::Chinese, Language::English)
     }
 
+    /// What stands between the parts of a sentence.
+    pub fn comma(self) -> &'static str {
+        self.pick(", ", "，")
+    }
+
+    /// What stands between the members of a list.
+    pub fn list_comma(self) -> &'static str {
+        self.pick(", ", "、")
+    }
+
+    /// What stands between sentences that belong together.
+    pub fn semicolon(self) -> &'static str {
+        self.pick("; ", "；")
+    }
+
+    /// A name and what is said of it: `name: text`.
+    pub fn with_head(self, head: &str, text: &str) -> String {
+        [head, text].join(self.pick(": ", "："))
+    }
+
+    /// A word that something else is put beside: `text (aside)`.
+    pub fn with_aside(self, text: &str, aside: &str) -> String {
+        self.pick(format!("{text} ({aside})"), format!("{text}（{aside}）"))
+    }
+
     /// Joins names: `a, b and c`.
     pub fn list(self, names: &[String]) -> String {
         match (self, names) {

@@ -158,10 +158,10 @@ impl Said {
 impl Between {
     fn join(self, language: Language, members: &[String]) -> String {
         match self {
-            Between::Comma => members.join(language.pick(", ", "、")),
+            Between::Comma => members.join(language.list_comma()),
             Between::And => language.list(members),
             Between::Or => language.either(members),
-            Between::Semicolon => members.join(language.pick("; ", "；")),
+            Between::Semicolon => members.join(language.semicolon()),
         }
     }
 }

@@ -253,7 +253,7 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
     if let ([claim], false) = (report.budget.claims.as_slice(), several) {
         let words: Vec<&str> = words(claim).collect();
         if !words.is_empty() {
-            blocks.push(Block::Paragraph(words.join(l.pick("; ", "；"))));
+            blocks.push(Block::Paragraph(words.join(l.semicolon())));
         }
     }
     blocks.push(Block::Table(table));
@@ -277,7 +277,7 @@ fn title(report: &Report<'_>, claim: &Claim) -> String {
     let own = !(claim.figures.iter()).all(|figure| analysis(&figure.what));
     let name = own.then_some(name);
     let all: Vec<&str> = name.into_iter().chain(words(claim)).collect();
-    all.join(report.language.pick("; ", "；"))
+    all.join(report.language.semicolon())
 }
 
 fn push(report: &Report<'_>, table: &mut Table, comparison: &Comparison, before: Option<&Figure>) {

@@ -15,6 +15,7 @@ use super::number::{
 use super::quasi;
 use super::remarks::tolerance;
 use super::{Report, symbol};
+use crate::phrase::plural;
 use gumption_format::document::Block;
 use gumption_format::document::{Cell, ColumnKind, Table};
 
@@ -200,7 +201,7 @@ impl SideBySide<'_> {
             print(&at_place(skewness, -2)),
             print(&at_place(kurtosis, -2))
         );
-        let label = [Word::Skewness.of(l), Word::Kurtosis.of(l)].join(l.pick(", ", "、"));
+        let label = [Word::Skewness.of(l), Word::Kurtosis.of(l)].join(l.list_comma());
         self.row(label, String::new(), Some(text));
     }
 
@@ -236,20 +237,11 @@ fn trials(run: &Run, measurand: usize, language: Language) -> String {
         .delta
         .get(measurand)
         .map_or_else(|| NONE.to_string(), |d| tolerance(*d));
-    match language {
-        Language::English => format!(
-            "{base}, stable to δ = {delta}: {}",
-            if adaptive.reached { "yes" } else { "no" }
-        ),
-        Language::Chinese => format!(
-            "{base}，数值容差 δ = {delta}：{}",
-            if adaptive.reached {
-                "达到"
-            } else {
-                "未达到"
-            }
-        ),
-    }
+    let reached = match adaptive.reached {
+        true => language.pick("yes", "达到"),
+        false => language.pick("no", "未达到"),
+    };
+    say!("{base}, stable to δ = {delta}: {reached}").in_language(language)
 }
 
 /// One line of JCGM 101 clause 8.
@@ -266,34 +258,15 @@ fn verdict(report: &Report<'_>, measurand: usize, v: &Validation) -> String {
         significant(v.d_high, 2),
         exact(v.delta),
     );
-    match report.language {
-        Language::English => format!(
-            "Clause 8, {} of u: d_low = {low}, d_high = {high}, δ = {delta}{unit}: GUM is {}",
-            if v.digits == 1 {
-                "1 digit".to_string()
-            } else {
-                format!("{} digits", v.digits)
-            },
-            match v.verdict {
-                Clause8::Validated => "validated".to_string(),
-                Clause8::NotValidated => "not validated".to_string(),
-                Clause8::Undecided => format!(
-                    "neither validated nor refuted, as the Monte Carlo ends have a standard error of {error}{unit}"
-                ),
-            },
+    let found = match v.verdict {
+        Clause8::Validated => say!("GUM is validated"),
+        Clause8::NotValidated => say!("GUM is not validated"),
+        Clause8::Undecided => say!(
+            "GUM is neither validated nor refuted, as the Monte Carlo ends have a standard error of {error}{unit}"
         ),
-        Language::Chinese => format!(
-            "按 u 的 {} 位有效数字验证：d_low = {low}，d_high = {high}，δ = {delta}{unit}：GUM 法{}",
-            v.digits,
-            match v.verdict {
-                Clause8::Validated => "通过验证".to_string(),
-                Clause8::NotValidated => "未通过验证".to_string(),
-                Clause8::Undecided => {
-                    format!("是否通过验证未定（蒙特卡洛区间端点的标准误差为 {error}{unit}）")
-                }
-            },
-        ),
-    }
+    };
+    let (digits, plural) = (v.digits, plural(v.digits as usize));
+    say!("Clause 8, {digits} digit{plural} of u: d_low = {low}, d_high = {high}, δ = {delta}{unit}: {found}").in_language(report.language)
 }
 
 /// Where k came from, in a few words.

@@ -29,10 +29,7 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
 fn section(l: Language, fit: &Fit) -> Vec<Block> {
     let head = say!("Least-squares fit {}", fit.name).in_language(l);
     let mut blocks = vec![Block::Section(match &fit.description {
-        Some(description) => l.pick(
-            format!("{head}: {description}"),
-            format!("{head}：{description}"),
-        ),
+        Some(description) => l.with_head(&head, description),
         None => head,
     })];
     blocks.push(Block::Formula(
@@ -411,10 +408,7 @@ fn farthest(l: Language, fit: &Fit) -> Option<String> {
         .collect();
     let place = match place.is_empty() {
         true => String::new(),
-        false => l.pick(
-            format!(" ({})", place.join(", ")),
-            format!("（{}）", place.join(", ")),
-        ),
+        false => l.with_aside("", &place.join(", ")),
     };
     let number = point + 1;
     let distance = significant(distance.abs(), 2);

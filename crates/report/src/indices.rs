@@ -1,9 +1,9 @@
 //! Sobol' sensitivity indices as a table.
 
+use gumption_fault::say;
 use gumption_gum::propagate::{SensitivityIndices, SobolIndex};
 
 use super::Report;
-use super::language::Language;
 use super::number::{at_place, grouped, print};
 use gumption_format::document::Block;
 use gumption_format::document::{Cell, ColumnKind, Table};
@@ -72,35 +72,22 @@ fn sentences(report: &Report<'_>, indices: &SensitivityIndices, of: &[SobolIndex
     let l = report.language;
     let trials = grouped(indices.trials);
     let sum = print(&at_place(of.iter().map(|index| index.first).sum(), PLACE));
-    let mut lines = vec![match l {
-        Language::English => format!(
-            "S is the part of the variance that the input makes alone, S_T the part that it takes part in. The first-order indices sum to {sum}; what is missing to 1 comes from inputs acting together. Errors are standard errors, from two times {trials} trials."
-        ),
-        Language::Chinese => format!(
-            "S 为该输入量单独引起的方差份额，S_T 还包括其与其他输入量的交互作用。一阶指数之和为 {sum}，与 1 之差来自交互作用。误差为标准误差，来自两组各 {trials} 次试验。"
-        ),
-    }];
+    let mut lines = vec![say!("S is the part of the variance that the input makes alone, S_T the part that it takes part in. The first-order indices sum to {sum}; what is missing to 1 comes from inputs acting together. Errors are standard errors, from two times {trials} trials.").in_language(l)];
     for factor in indices.factors.iter().filter(|factor| factor.len() > 1) {
         let names: Vec<String> = names(report, factor)
             .into_iter()
             .map(String::from)
             .collect();
         let names = l.list(&names);
-        lines.push(match l {
-            Language::English => format!(
-                "{names} are correlated or share a source: they have indices together only, because the variance cannot be divided among inputs that are not independent."
-            ),
-            Language::Chinese => format!(
-                "{names} 相关或有共同的不确定度来源：方差无法在不独立的输入量之间分配，故仅给出其整体指数。"
-            ),
-        });
+        lines.push(say!("{names} are correlated or share a source: they have indices together only, because the variance cannot be divided among inputs that are not independent.").in_language(l));
     }
     lines
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Language, evaluation, fixtures};
+    use super::super::language::Language;
+    use super::super::{evaluation, fixtures};
     use super::*;
     use gumption_format::render::{Page, markdown::markdown, text::text};
 

@@ -43,12 +43,7 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
     blocks.push(Block::Table(regions(report)));
     let p = probability(report.coverage_probability());
     let dof = freedom(joint.dof.value());
-    blocks.push(Block::Paragraph(match l {
-        Language::English => format!(
-            "k_q·u(y_j) are the half-widths of intervals that hold all measurands at once with probability {p}; k_p scales the ellipsoid given by the covariance matrix (ν = {dof})."
-        ),
-        Language::Chinese => format!("k_q·u(y_j) 为各输出量同时落入的区间半宽，联合包含概率为 {p}；k_p 为由协方差矩阵确定的椭球的包含因子（ν = {dof}）。"),
-    }));
+    blocks.push(Block::Paragraph(say!("k_q·u(y_j) are the half-widths of intervals that hold all measurands at once with probability {p}; k_p scales the ellipsoid given by the covariance matrix (ν = {dof}).").in_language(l)));
     blocks
 }
 
@@ -76,7 +71,7 @@ fn methods(report: &Report<'_>) -> Option<String> {
 
 /// A correlation matrix; `of` says of what or by which method.
 pub(super) fn matrix(l: Language, names: &[&str], correlation: &DMatrix<f64>, of: &str) -> Table {
-    let label = [Word::Correlation.of(l), of].join(l.pick(", ", "，"));
+    let label = [Word::Correlation.of(l), of].join(l.comma());
     let column = |head: &str, kind| Column {
         head: head.to_string(),
         kind,
@@ -117,7 +112,7 @@ fn regions(report: &Report<'_>) -> Table {
     };
     let regions = joint.regions.as_ref();
     let show = |x: Option<f64>| x.map_or(Cell::Empty, |x| significant(x, TABLE_DIGITS).into());
-    let comma = l.pick(", ", "，");
+    let comma = l.comma();
     let mut row = |label: String, gum: Option<f64>, trials: Option<f64>| {
         table.push(vec![label.into(), show(gum), show(trials)])
     };

@@ -33,3 +33,13 @@ pub(super) fn named_row(name: impl Into<Cell>, texts: impl IntoIterator<Item = S
     let texts = texts.into_iter().map(Cell::Text);
     Row::Cells([name.into()].into_iter().chain(texts).collect())
 }
+
+/// The ending of a noun that is counted.
+pub(super) fn plural(n: usize) -> &'static str {
+    if n == 1 { "" } else { "s" }
+}
+
+/// The ending of a verb whose subject is counted.
+pub(super) fn third_person(n: usize) -> &'static str {
+    if n == 1 { "s" } else { "" }
+}

@@ -33,7 +33,7 @@ pub(super) fn remarks(report: &Report<'_>) -> Vec<Remark> {
     let findings = found.into_iter().map(|(mut remark, names)| {
         if !names.is_empty() {
             let (names, text) = (l.list(&names), &remark.text);
-            remark.text = l.pick(format!("{names}: {text}"), format!("{names}：{text}"));
+            remark.text = l.with_head(&names, text);
         }
         remark
     });

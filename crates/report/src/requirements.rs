@@ -7,7 +7,7 @@ use gumption_gum::propagate::{
     Improvement, MOST_MULTIPLE, Needed, Requirement, Requirements, Together,
 };
 
-use crate::language::{Language, Word};
+use crate::language::Word;
 use crate::number::{NONE, TABLE_DIGITS, significant};
 use crate::{Report, symbol};
 
@@ -218,19 +218,12 @@ fn row(report: &Report<'_>, one: &Requirement, with_unit: &dyn Fn(f64) -> String
         }
         Needed::Floor(floor) => {
             let floor = with_unit(floor);
-            let words = match l {
-                Language::English => {
-                    format!("impossible: {floor} is left where it is known exactly")
-                }
-                Language::Chinese => format!("不可能：即使准确已知，U 仍为 {floor}"),
-            };
+            let words =
+                say!("impossible: {floor} is left where it is known exactly").in_language(l);
             (NONE.to_owned(), words)
         }
         Needed::Any => {
-            let words = match l {
-                Language::English => format!("more than {MOST_MULTIPLE} times what it is would do"),
-                Language::Chinese => format!("放大到现值的 {MOST_MULTIPLE} 倍以上仍可"),
-            };
+            let words = say!("more than {MOST_MULTIPLE} times what it is would do").in_language(l);
             (NONE.to_owned(), words)
         }
     };

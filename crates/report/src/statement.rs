@@ -86,10 +86,7 @@ impl Subject<'_> {
     fn sentence(&self) -> String {
         let sentence = self.with_uncertainty();
         match self.left_out() {
-            Some(left_out) => self.language.pick(
-                format!("{sentence} {left_out}"),
-                format!("{sentence}{left_out}"),
-            ),
+            Some(left_out) => [sentence, left_out].join(self.language.pick(" ", "")),
             None => sentence,
         }
     }
@@ -160,14 +157,7 @@ impl Subject<'_> {
 
     fn explained(&self) -> String {
         let (expanded, u, k, reason) = (self.expanded(), self.u(), self.k(), self.reason());
-        match self.language {
-            Language::English => format!(
-                "The number after ± is the expanded uncertainty U = {expanded}, the combined standard uncertainty u_c = {u} times the coverage factor k = {k}{reason}."
-            ),
-            Language::Chinese => format!(
-                "其中 ± 号后的数为扩展不确定度 U = {expanded}，由合成标准不确定度 u_c = {u} 乘以包含因子 k = {k} 得到{reason}。"
-            ),
-        }
+        say!("The number after ± is the expanded uncertainty U = {expanded}, the combined standard uncertainty u_c = {u} times the coverage factor k = {k}{reason}.").in_language(self.language)
     }
 
     /// `= 9`; a lower bound where ν_eff is not defined.
@@ -239,7 +229,9 @@ impl Subject<'_> {
             _ => String::new(),
         };
         let nu = match self.gum.coverage.named_basis() {
-            CoverageBasis::StudentT { .. } => format!(", ν_eff {}", self.freedom()),
+            CoverageBasis::StudentT { .. } => {
+                format!("{}ν_eff {}", self.language.comma(), self.freedom())
+            }
             _ => String::new(),
         };
         let shape = match (&self.gum.coverage.basis, self.language) {
@@ -260,15 +252,7 @@ impl Subject<'_> {
             }
             _ => String::new(),
         };
-        match self.language {
-            Language::English => format!(
-                "{name} = {y}; U{index} = {expanded}, k{index} = {k}{nu}. The expanded uncertainty is the combined standard uncertainty u_c = {u} multiplied by the coverage factor.{shape}"
-            ),
-            Language::Chinese => format!(
-                "{name} = {y}；U{index} = {expanded}，k{index} = {k}{}。扩展不确定度由合成标准不确定度 u_c = {u} 乘以包含因子得到。{shape}",
-                nu.replace(", ", "，"),
-            ),
-        }
+        say!("{name} = {y}; U{index} = {expanded}, k{index} = {k}{nu}. The expanded uncertainty is the combined standard uncertainty u_c = {u} multiplied by the coverage factor.{shape}").in_language(self.language)
     }
 
     /// The probability of an interval; `95 %`.
@@ -306,14 +290,7 @@ impl Subject<'_> {
                 format!("{name} = {y}；U_{index} = {expanded}。扩展不确定度为")
             }
         };
-        match self.language {
-            Language::English => format!(
-                "{head} half the width of the {p} coverage interval found by the Monte Carlo method (JCGM 101, {trials} trials).{which} No standard uncertainty and no coverage factor are stated, because the distribution of the result has no standard deviation."
-            ),
-            Language::Chinese => format!(
-                "{head}蒙特卡洛法（JJF 1059.2，{trials} 次试验）所得 {p} 包含区间的半宽。{which}该分布的标准差不存在，故不给出标准不确定度和包含因子。"
-            ),
-        }
+        say!("{head} half the width of the {p} coverage interval found by the Monte Carlo method (JCGM 101, {trials} trials).{which} No standard uncertainty and no coverage factor are stated, because the distribution of the result has no standard deviation.").in_language(self.language)
     }
 
     /// y and U = k·u with the u of Monte Carlo, where k is that of the profile.
@@ -321,28 +298,13 @@ impl Subject<'_> {
         let (name, y, expanded) = (self.figures.name, self.figures.value(), self.expanded());
         let (u, k, trials) = (self.u(), self.k(), &self.trials);
         let few = self.figures.reported.reason == Reason::NotValidatedFewReadings;
-        match self.language {
-            Language::English => {
-                let found = match few {
-                    true => "found by the Monte Carlo method (JCGM 101) with the standard uncertainties of the inputs as their standard deviations".to_string(),
-                    false => format!("found by the Monte Carlo method (JCGM 101, {trials} trials)"),
-                };
-                format!(
-                    "{name} = {y}; U = {expanded}, k = {k}. The expanded uncertainty is the standard uncertainty u = {u}, {found}, multiplied by the coverage factor. The result of the GUM method was not validated against it."
-                )
-            }
-            Language::Chinese => {
-                let found = match few {
-                    true => {
-                        "蒙特卡洛法（JJF 1059.2，各输入量以其标准不确定度为标准差）".to_string()
-                    }
-                    false => format!("蒙特卡洛法（JJF 1059.2，{trials} 次试验）"),
-                };
-                format!(
-                    "{name} = {y}；U = {expanded}，k = {k}。扩展不确定度由{found}所得的标准不确定度 u = {u} 乘以包含因子得到。GUM 法的结果未通过其验证。"
-                )
-            }
-        }
+        let found = match few {
+            true => say!(
+                "found by the Monte Carlo method (JCGM 101) with the standard uncertainties of the inputs as their standard deviations"
+            ),
+            false => say!("found by the Monte Carlo method (JCGM 101, {trials} trials)"),
+        };
+        say!("{name} = {y}; U = {expanded}, k = {k}. The expanded uncertainty is the standard uncertainty u = {u}, {found}, multiplied by the coverage factor. The result of the GUM method was not validated against it.").in_language(self.language)
     }
 
     /// y and U = half the width of the Monte Carlo interval, with the k that this implies.
@@ -361,14 +323,7 @@ impl Subject<'_> {
             (StatementForm::Apart, language) => {
                 let (name, y) = (self.figures.name, self.figures.value());
                 let index = p.trim_end_matches(" %");
-                match language {
-                    Language::English => format!(
-                        "{name} = {y}; U_{index} = {expanded}, k_{index} = {k}. The expanded uncertainty is half the width of the {p} coverage interval found by the Monte Carlo method (JCGM 101, {trials} trials), with the standard uncertainty u = {u}. The result of the GUM method was not validated against it."
-                    ),
-                    Language::Chinese => format!(
-                        "{name} = {y}；U_{index} = {expanded}，k_{index} = {k}。扩展不确定度为蒙特卡洛法（JJF 1059.2，{trials} 次试验）所得 {p} 包含区间的半宽，标准不确定度 u = {u}。GUM 法的结果未通过其验证。"
-                    ),
-                }
+                say!("{name} = {y}; U_{index} = {expanded}, k_{index} = {k}. The expanded uncertainty is half the width of the {p} coverage interval found by the Monte Carlo method (JCGM 101, {trials} trials), with the standard uncertainty u = {u}. The result of the GUM method was not validated against it.").in_language(language)
             }
         }
     }
@@ -407,14 +362,8 @@ impl Subject<'_> {
 
     fn without_uncertainty(&self) -> String {
         let (name, value) = (self.figures.name, self.figures.value());
-        match self.language {
-            Language::English => format!(
-                "{name} = {value}. No uncertainty can be stated: the evaluation gives none."
-            ),
-            Language::Chinese => {
-                format!("{name} = {value}。本评定未得到不确定度，无法给出扩展不确定度。")
-            }
-        }
+        say!("{name} = {value}. No uncertainty can be stated: the evaluation gives none.")
+            .in_language(self.language)
     }
 }
 
@@ -479,10 +428,10 @@ fn correlations(report: &Report<'_>) -> Option<String> {
     let method = which.method(l);
     Some(match pairs.len() > MOST {
         true => say!("The estimates are correlated; the table of the joint result gives the correlation coefficients{method}.").in_language(l),
-        false => l.pick(
-            format!("Correlation of the estimates{method}: {}.", pairs.join(", ")),
-            format!("各估计值之间的相关系数{method}：{}。", pairs.join("，")),
-        ),
+        false => {
+            let pairs = pairs.join(l.comma());
+            say!("Correlation of the estimates{method}: {pairs}.").in_language(l)
+        }
     })
 }
 

@@ -1,5 +1,6 @@
 //! Graded answers as a document.
 
+use gumption_fault::say;
 use gumption_format::document::{Block, ColumnKind, Document, Table};
 use gumption_format::machine::{self, Machine, record};
 use gumption_report::{Language, significant};
@@ -112,10 +113,7 @@ fn blocks(graded: &[GradedSheet], language: Language) -> Vec<Block> {
     }
     let of = graded.len();
     let (exact, listed) = (exact(graded), graded.iter().filter(is_listed).count());
-    let closing = language.pick(
-        format!("{exact} of {of} named first, {listed} in the list"),
-        format!("{of} 份中，首选正确 {exact} 份，列表中含正确答案 {listed} 份"),
-    );
+    let closing = say!("{exact} of {of} named first, {listed} in the list").in_language(language);
     vec![Block::Table(table), Block::Closing(vec![closing])]
 }
 
@@ -154,10 +152,7 @@ fn words(one: &GradedSheet, language: Language) -> String {
     };
     let alike = match (one.grade, one.sheet.truth.rivals) {
         (SheetGrade::Exact, _) | (_, 0) => String::new(),
-        (_, n) => language.pick(
-            format!("; {n} other sets give the same sheet"),
-            format!("；另有 {n} 组差错给出同样的表"),
-        ),
+        (_, n) => say!("; {n} other sets give the same sheet").in_language(language),
     };
     word.to_string() + &alike
 }

@@ -1,5 +1,6 @@
 //! A graded diagnosis as a document.
 
+use gumption_fault::say;
 use gumption_format::document::{Block, Cell, ColumnKind, Document, Table};
 use gumption_format::machine::{self, Machine, Number, record};
 use serde_json::Value;
@@ -143,23 +144,15 @@ fn blocks(graded: &Graded, language: Language) -> Vec<Block> {
     }
     let mut sentences = Vec::new();
     for name in &graded.wrong_names {
-        sentences.push(language.pick(
-            format!("wrong name {name}: −1"),
-            format!("错误名称 {name}：−1"),
-        ));
+        sentences.push(say!("wrong name {name}: −1").in_language(language));
     }
     for name in &graded.wrong_likes {
-        sentences.push(language.pick(
-            format!("said to act like {name}, which is not there: −0.5"),
-            format!("称其表现如同 {name}，但并不存在：−0.5"),
-        ));
+        sentences
+            .push(say!("said to act like {name}, which is not there: −0.5").in_language(language));
     }
     for list in &graded.wrong_lists {
         let list = list.join(" | ");
-        sentences.push(language.pick(
-            format!("list without anything that is there: {list}"),
-            format!("列表中无真实效应：{list}"),
-        ));
+        sentences.push(say!("list without anything that is there: {list}").in_language(language));
     }
     if graded.false_alarm {
         sentences.push(pick(
@@ -169,10 +162,7 @@ fn blocks(graded: &Graded, language: Language) -> Vec<Block> {
     }
     if graded.prediction_points > 0.0 {
         let points = graded.prediction_points;
-        sentences.push(language.pick(
-            format!("prediction improved: +{points}"),
-            format!("预测得到改进：+{points}"),
-        ));
+        sentences.push(say!("prediction improved: +{points}").in_language(language));
     }
     for effect in &graded.effects {
         sentences.extend(size(effect, language));
@@ -188,14 +178,9 @@ fn blocks(graded: &Graded, language: Language) -> Vec<Block> {
     }
     let (points, attainable) = (graded.points, graded.attainable);
     blocks.push(Block::Closing(vec![match attainable > 0.0 {
-        true => language.pick(
-            format!("points: {points:.2} of {attainable:.2}"),
-            format!("得分：{points:.2}，满分 {attainable:.2}"),
-        ),
-        false => language.pick(
-            format!("points: {points:.2}; where nothing is concealed there are none to be won"),
-            format!("得分：{points:.2}；没有隐藏效应时无分可得"),
-        ),
+        true => say!("points: {points:.2} of {attainable:.2}").in_language(language),
+        false => say!("points: {points:.2}; where nothing is concealed there are none to be won")
+            .in_language(language),
     }]));
     blocks
 }
@@ -238,10 +223,7 @@ fn size(effect: &GradedEffect, language: Language) -> Option<String> {
     let (name, right) = (&truth.physics, truth.in_residuals);
     let [answered, right] = [answered, right].map(|size| significant(size, 4));
     let half_width = significant(half_width, 2);
-    Some(language.pick(
-        format!("size of {name} in the residuals: {answered} answered, {right} in truth; the recording tells it to ± {half_width} (95 %)"),
-        format!("{name} 在残差中的大小：回答 {answered}，真值 {right}；该记录可将其确定到 ± {half_width}（95 %）"),
-    ))
+    Some(say!("size of {name} in the residuals: {answered} answered, {right} in truth; the recording tells it to ± {half_width} (95 %)").in_language(language))
 }
 
 fn finding(effect: &GradedEffect, language: Language) -> String {
@@ -250,17 +232,13 @@ fn finding(effect: &GradedEffect, language: Language) -> String {
         Finding::ActsLike => language
             .pick("said to act like it", "称其表现如同此效应")
             .to_owned(),
-        Finding::Listed(count) => language.pick(
-            format!("in a list of {count}"),
-            format!("在 {count} 个名称的列表中"),
-        ),
+        Finding::Listed(count) => say!("in a list of {count}").in_language(language),
         Finding::Unexplained => language
             .pick("reported without a name", "报告为未解释")
             .to_owned(),
-        Finding::Missed if effect.truth.lambda_beside < FAINT => language.pick(
-            format!("not found, and too weak to be required (λ < {FAINT})"),
-            format!("未发现；强度不足，不作要求（λ < {FAINT}）"),
-        ),
+        Finding::Missed if effect.truth.lambda_beside < FAINT => {
+            say!("not found, and too weak to be required (λ < {FAINT})").in_language(language)
+        }
         Finding::Missed => language.pick("not found", "未发现").to_owned(),
     };
     if !effect.overclaimed {

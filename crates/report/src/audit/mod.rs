@@ -10,6 +10,7 @@ use gumption_audit::rules::{self, Bearing, Finding};
 use gumption_audit::search::{Explanation, Gap};
 use gumption_audit::slips::Act;
 use gumption_audit::{Audit, Verdict};
+use gumption_fault::say;
 use gumption_format::document::{Block, Cell, ColumnKind, Document, KeyFigure, Table};
 use gumption_format::machine;
 use serde_json::Value;
@@ -345,17 +346,10 @@ fn question(audit: &Audit<'_>, finding: &Finding, language: Language) -> String 
     details.retain(|text| !text.is_empty());
     let number = rule.number;
     let clause = rule.clause;
-    let source = match language {
-        Language::English => format!(" (rule {number}; {clause})"),
-        Language::Chinese => format!("（规则 {number}；{clause}）"),
-    };
+    let source = say!(" (rule {number}; {clause})").in_language(language);
     match details.is_empty() {
         true => format!("{asked}{source}"),
-        false => format!(
-            "{asked}{}{}{source}",
-            language.pick(": ", "："),
-            details.join(language.pick(", ", "，"))
-        ),
+        false => language.with_head(&asked, &details.join(language.comma())) + &source,
     }
 }
 

@@ -6,9 +6,11 @@ use gumption_audit::search::{Broken, Gap};
 use gumption_audit::slips::Change;
 use gumption_audit::{Audit, Verdict};
 use gumption_core::distribution::Entry;
+use gumption_fault::say;
 
 use crate::language::Language;
 use crate::number::significant;
+use crate::phrase::{plural, third_person};
 
 /// A row's name, kept short.
 pub(super) fn short(row: &Row) -> String {
@@ -24,10 +26,7 @@ pub(super) fn short(row: &Row) -> String {
 /// Where a row stands.
 pub(super) fn place(row: &Row, i: usize, language: Language) -> String {
     let name = short(row);
-    match language {
-        Language::English => format!("row {} ({name}), line {}", i + 1, row.at.row + 1),
-        Language::Chinese => format!("第 {} 项（{name}），表中第 {} 行", i + 1, row.at.row + 1),
-    }
+    say!("row {} ({name}), line {}", i + 1, row.at.row + 1).in_language(language)
 }
 
 /// A probability in percent with two digits; one that is next to nothing is below what is worth a digit.
@@ -101,7 +100,7 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
                 }
             })
             .collect();
-        texts.join(language.pick("; ", "；"))
+        texts.join(language.semicolon())
     };
     let named = || match (language, count) {
         (Language::English, 1) => format!("One slip gives every claimed figure: {}.", slips()),
@@ -120,48 +119,27 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
         }
         Verdict::WithEffect => vec![
             named(),
-            corrected(audit, language).unwrap_or_else(|| match language {
-                Language::English => format!("Corrected, U is {right_u}{claimed_u}."),
-                Language::Chinese => format!("改正后 U = {right_u}{claimed_u}。"),
-            }),
+            corrected(audit, language).unwrap_or_else(|| say!("Corrected, U is {right_u}{claimed_u}.").in_language(language)),
             chance(),
         ],
         Verdict::WithoutEffect => vec![
             named(),
-            match language {
-                Language::English => format!("The result as printed does not change: U = {right_u}."),
-                Language::Chinese => format!("不影响所报告的结果：U = {right_u}。"),
-            },
+            say!("The result as printed does not change: U = {right_u}.").in_language(language),
             chance(),
         ],
         Verdict::Unexplained => {
-            let recomputed = recomputed(audit, language).unwrap_or_else(|| match language {
-                Language::English => format!("Recomputed, U is {right_u}{claimed_u}."),
-                Language::Chinese => format!("重新计算 U = {right_u}{claimed_u}。"),
-            });
-            let mut sentences = vec![match language {
-                Language::English => format!("Unexplained: the claimed figures do not follow from what is stated, and no slip that is known gives them. {recomputed}"),
-                Language::Chinese => format!("无法解释：声称值不能由所述信息得出，已知的差错也都不能给出这些数值。{recomputed}"),
-            }];
+            let recomputed = recomputed(audit, language).unwrap_or_else(|| say!("Recomputed, U is {right_u}{claimed_u}.").in_language(language));
+            let mut sentences = vec![say!("Unexplained: the claimed figures do not follow from what is stated, and no slip that is known gives them. {recomputed}").in_language(language)];
             let accidental = found.withheld > 0 && found.gaps.iter().all(|gap| !matches!(gap, Gap::Row(..)));
             if accidental {
-                let matches = match found.withheld {
-                    1 => "1 combination of slips matches".to_string(),
-                    n => format!("{n} combinations of slips match"),
-                };
-                sentences.push(match language {
-                    Language::English => format!("{matches}, but figures as coarse as these would be matched by accident with a probability of {} %: none is named.", percent(found.accident)),
-                    Language::Chinese => format!("有 {} 种差错组合相符，但位数如此之少的数值偶然相符的概率为 {} %，故不作判定。", found.withheld, percent(found.accident)),
-                });
+                let (n, p) = (found.withheld, percent(found.accident));
+                sentences.push(say!("{n} combination{} of slips match{}, but figures as coarse as these would be matched by accident with a probability of {p} %: none is named.", plural(n), third_person(n)).in_language(language));
             }
             sentences
         }
         Verdict::NotRecomputed if found.right.u_c > 0.0 => {
             let k = significant(found.right.k, 3);
-            vec![match language {
-                Language::English => format!("Nothing is claimed that could be held against a calculation. From what is stated, U is {right_u} with k = {k}."),
-                Language::Chinese => format!("文件没有可供核对的声称值。由所给信息得 U = {right_u}，k = {k}。"),
-            }]
+            vec![say!("Nothing is claimed that could be held against a calculation. From what is stated, U is {right_u} with k = {k}.").in_language(language)]
         }
         Verdict::NotRecomputed => vec![language.pick(
             "Cannot be recomputed: the sheet holds no budget with figures and a claim that could be understood.",
@@ -185,16 +163,8 @@ fn recomputed(audit: &Audit<'_>, language: Language) -> Option<String> {
             // So many digits that it is seen which way it is rounded.
             let exact = in_unit(audit, right.u_c, u8::try_from(u_c.digits).unwrap_or(8) + 2);
             let claimed = as_claimed(audit, u_c);
-            match language {
-                Language::English => {
-                    format!(
-                        "Recomputed, u_c is {exact} where {claimed} is claimed; U is {u}, as claimed."
-                    )
-                }
-                Language::Chinese => {
-                    format!("重新计算 u_c = {exact}，声称值为 {claimed}；U = {u}，与声称值一致。")
-                }
-            }
+            say!("Recomputed, u_c is {exact} where {claimed} is claimed; U is {u}, as claimed.")
+                .in_language(language)
         }
         (None, Language::English) => format!("Recomputed, U is {u}, as claimed."),
         (None, Language::Chinese) => format!("重新计算 U = {u}，与声称值一致。"),
@@ -294,12 +264,10 @@ fn corrected(audit: &Audit<'_>, language: Language) -> Option<String> {
         significant(right, 9),
         in_unit(audit, audit.found.right.expanded, 2),
     );
-    Some(match language {
-        Language::English => {
-            format!("Corrected, the result is {right} where {y} is claimed; U is {u}.")
-        }
-        Language::Chinese => format!("改正后测量结果为 {right}，声称值为 {y}；U = {u}。"),
-    })
+    Some(
+        say!("Corrected, the result is {right} where {y} is claimed; U is {u}.")
+            .in_language(language),
+    )
 }
 
 /// Rows in which an error would give the same printed figures.
@@ -317,11 +285,8 @@ fn untold(audit: &Audit<'_>, language: Language) -> Option<String> {
         .iter()
         .map(|row| place(&rows[*row], *row, language))
         .collect();
-    let names = names.join(language.pick("; ", "；"));
-    (!places.is_empty()).then(|| match language {
-        Language::English => format!("Cannot be told within the printed digits: an error in {names} would give the same figures."),
-        Language::Chinese => format!("所印位数不足以判断：{names}若有差错，也会得到相同的数值。"),
-    })
+    let names = names.join(language.semicolon());
+    (!places.is_empty()).then(|| say!("Cannot be told within the printed digits: an error in {names} would give the same figures.").in_language(language))
 }
 
 /// What the laboratory should be asked where several explanations are equally good.
@@ -364,12 +329,7 @@ pub(super) fn gap(audit: &Audit<'_>, gap: &Gap, language: Language) -> String {
                     "自由度不能由所述信息得出",
                 ),
             };
-            format!(
-                "{}{}{}",
-                place(&rows[*i], *i, language),
-                language.pick(": ", "："),
-                language.pick(en, zh)
-            )
+            language.with_head(&place(&rows[*i], *i, language), language.pick(en, zh))
         }
         Gap::Sum => language
             .pick(

@@ -110,7 +110,7 @@ fn basis(figures: &Figures<'_>, coverage: &Coverage, l: Language) -> String {
             .pick("no probability stated", "不注明包含概率")
             .to_string(),
     };
-    [comparison::basis_of_k(coverage, l), p].join(l.pick(", ", "，"))
+    [comparison::basis_of_k(coverage, l), p].join(l.comma())
 }
 
 pub(super) fn subtotals(report: &Report<'_>, measurand: usize) -> Option<Table> {

@@ -47,12 +47,9 @@ pub(crate) fn origins(report: &Report<'_>) -> Vec<Block> {
     }
     let left_out = components.len() - order.len();
     if left_out > 0 {
-        table.rows.push(Row::Across(match l {
-            Language::English => {
-                format!("… and {left_out} smaller ones; all are in the JSON output")
-            }
-            Language::Chinese => format!("…… 其余 {left_out} 个较小的分量见 JSON 输出"),
-        }));
+        table.rows.push(Row::Across(
+            say!("… and {left_out} smaller ones; all are in the JSON output").in_language(l),
+        ));
     }
     vec![
         Block::Section(Word::Origin.of(l).to_string()),
@@ -73,7 +70,7 @@ fn provenance(component: &Component, language: Language) -> String {
         .flatten()
         .collect();
     parts.extend(component.reference.clone());
-    parts.join(language.pick(", ", "，"))
+    parts.join(language.comma())
 }
 
 /// Correlated components, as pairs or in short.

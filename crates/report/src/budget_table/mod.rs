@@ -1,6 +1,7 @@
 //! The budget table: one row per input, its components below it, shared sources, the result; then
 //! where each standard uncertainty comes from.
 
+use gumption_fault::say;
 mod below;
 mod beside;
 mod common;
@@ -41,16 +42,13 @@ pub(super) fn blocks(report: &Report<'_>, measurand: usize) -> Vec<Block> {
             .map(|i| report.budget.inputs[*i].name.to_string())
             .collect();
         let shown = shortened(&names, report.language);
-        blocks.push(Block::Paragraph(match report.language {
-            Language::English => format!(
+        blocks.push(Block::Paragraph(
+            say!(
                 "Without a contribution to {}: {shown}.",
                 report.measurand(measurand).0
-            ),
-            Language::Chinese => format!(
-                "对 {} 没有贡献的输入量：{shown}。",
-                report.measurand(measurand).0
-            ),
-        }));
+            )
+            .in_language(report.language),
+        ));
     }
     blocks.push(Block::Fields(footer(report, measurand)));
     if let Some(groups) = subtotals(report, measurand) {
@@ -66,11 +64,11 @@ fn shortened(names: &[String], language: Language) -> String {
     if names.len() <= MOST {
         return language.list(names);
     }
-    let more = names.len() - MOST;
-    match language {
-        Language::English => format!("{} and {more} more", names[..MOST].join(", ")),
-        Language::Chinese => format!("{}等 {} 个", names[..MOST].join("、"), more + MOST),
-    }
+    let (first, more) = (
+        names[..MOST].join(language.list_comma()),
+        names.len() - MOST,
+    );
+    say!("{first} and {more} more").in_language(language)
 }
 
 fn select(report: &Report<'_>, measurand: usize) -> Selection {

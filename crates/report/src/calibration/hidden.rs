@@ -109,10 +109,7 @@ impl Told<'_> {
             .map_or("", |words| said(words, l));
         let physics = match physics {
             "" => format!(" [{}]", omitted.term),
-            _ => l.pick(
-                format!(" ({physics}) [{}]", omitted.term),
-                format!("（{physics}）[{}]", omitted.term),
-            ),
+            _ => format!("{} [{}]", l.with_aside("", physics), omitted.term),
         };
         if !alias.acts {
             return say!("{name}{physics}: acts on no reading of this schedule.").in_language(l);
@@ -128,10 +125,8 @@ impl Told<'_> {
             Some(size) => {
                 let amount = format!("{name} = {}{unit}", significant(size, 3));
                 let shifts = self.shifts(alias, size, &self.u);
-                l.pick(
-                    format!("{amount}{physics} {shifts}; {visible}."),
-                    format!("{amount}{physics} {shifts}；{visible}。"),
-                )
+                [format!("{amount}{physics} {shifts}"), visible].join(l.semicolon())
+                    + l.pick(".", "。")
             }
             None => {
                 let shifts = self.shifts(alias, 1.0, &[]);
@@ -165,9 +160,7 @@ impl Told<'_> {
             let bound = significant(bound, 1);
             say!(", and the others by less than {bound} u").in_language(l)
         });
-        l.pick(
-            format!("shifts {}{rest}", listed.join(", ")),
-            format!("使 {}{rest}", listed.join("，")),
-        )
+        let listed = listed.join(l.comma());
+        say!("shifts {listed}{rest}").in_language(l)
     }
 }

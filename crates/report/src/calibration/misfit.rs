@@ -3,7 +3,7 @@
 use crate::figures::with_unit;
 use crate::language::{Language, Word};
 use crate::number::{NONE, aligned, freedom, significant};
-use crate::phrase::{section, table};
+use crate::phrase::{plural, section, table};
 use crate::symbol;
 use gumption_fault::say;
 use gumption_format::document::{
@@ -18,7 +18,6 @@ use gumption_lab::calibrate::{
 use gumption_lab::experiment::Words;
 
 use super::sections::{DIGITS, p_of, said, shown_u};
-use super::trouble::counted;
 
 /// More residuals than these are not listed.
 const RESIDUALS: usize = 12;
@@ -189,7 +188,7 @@ fn misfit(one: &ResponseScatter, l: Language) -> Option<String> {
 
 fn in_list(points: &[Words], l: Language) -> String {
     let points: Vec<&str> = points.iter().map(|point| said(point, l)).collect();
-    points.join(l.pick(", ", "、"))
+    points.join(l.list_comma())
 }
 
 fn at_limit(limit: &Limit, l: Language) -> String {
@@ -208,17 +207,15 @@ fn exchanged(pairs: &[[Words; 2]], l: Language) -> Option<String> {
     let mut which = both(first);
     if !others.is_empty() {
         let others: Vec<String> = others.iter().map(both).collect();
-        which += &l.pick(
-            format!(" (or those of {})", others.join(", or of ")),
-            format!("（或 {}）", others.join("、或 ")),
-        );
+        let others = others.join(l.pick(", or of ", "、或 "));
+        which += &say!(" (or those of {others})").in_language(l);
     }
     Some(say!("The readings of {which} look exchanged: with each in the other's place the residuals would be less than a tenth of what they are. Check the labels before using these figures.").in_language(l))
 }
 
 /// Coefficients with another sign than those like them.
 fn reversed(names: &[String], l: Language) -> Option<String> {
-    let listed = names.join(l.pick(", ", "、"));
+    let listed = names.join(l.list_comma());
     (!names.is_empty()).then(|| say!("The sign of {listed} is another than that of the other axes: the two ways of this axis may be exchanged in the labels, or the sensor is mounted or read reversed. Check the labels before using these figures.").in_language(l))
 }
 
@@ -246,10 +243,10 @@ fn no_scatter(campaign: &Campaign, one: &Pattern, l: Language) -> String {
         } => {
             let f = significant(*f, 2);
             let [within, between] =
-        PatternTest::Follows { column } => say!("those of {response} follow {column}, which no equation has ({p})").in_language(l),
                 [within, between].map(|s| with_unit(&significant(*s, 2), &unit));
             say!("readings of {response} where all stimuli are equal have the standard deviation {within}, and by the distance of their means from the equation it would be {between} (F = {f}, {p})").in_language(l)
         }
+        PatternTest::Follows { column } => say!("those of {response} follow {column}, which no equation has ({p})").in_language(l),
         PatternTest::Runs { runs, readings } => say!("those of {response} keep their sign in the order of the readings for longer than by chance ({runs} runs of {readings} residuals, {p})").in_language(l),
     };
     say!("The residuals are no scatter: {seen}. The equations leave something out (curvature, hysteresis, drift), or reference values are wrong. The uncertainties above take it for scatter that averages away. `gumption diagnose` looks for what it is.").in_language(l)
@@ -272,14 +269,13 @@ pub(super) fn remarks(
     if let Some(found) = found {
         if found.left_out > 0 {
             let count = found.left_out;
-            let verb = if count == 1 { "was" } else { "were" };
-            items.push(l.pick(
-                format!(
-                    "{} {verb} left out, because a value is missing.",
-                    counted(count)
-                ),
-                format!("有 {count} 个读数因缺值而未使用。"),
-            ));
+            items.push(
+                say!(
+                    "{count} reading{} left out, because a value is missing.",
+                    plural(count)
+                )
+                .in_language(l),
+            );
         }
         items.extend(exchanged(&found.swapped, l));
         items.extend(reversed(&found.reversed, l));

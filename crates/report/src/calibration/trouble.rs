@@ -5,18 +5,13 @@ use gumption_lab::calibrate::{Combination, Trouble};
 
 use crate::language::Language;
 use crate::number::significant;
+use crate::phrase::plural;
 
 /// What is wrong and what to do about it.
 pub(super) fn sentences(trouble: &Trouble, l: Language) -> String {
     match trouble {
-        Trouble::TooFew { readings, parameters } => l.pick(
-            format!("{} cannot determine {parameters} parameters; measure at more points, or list fewer parameters.", counted(*readings)),
-            format!("{readings} 个读数不能确定 {parameters} 个参数；请增加测量点或减少参数。"),
-        ),
-        Trouble::NoScatter { response, readings, parameters } => l.pick(
-            format!("The scatter of {response} is not known: {} and {parameters} parameters leave no residuals. Measure at more points, or state the errors of the readings in [reading.{response}] and write noise.from = \"stated\".", counted(*readings)),
-            format!("{response} 的分散性未知：{readings} 个读数、{parameters} 个参数，没有残差。请增加测量点，或在 [reading.{response}] 中给出读数误差并写 noise.from = \"stated\"。"),
-        ),
+        Trouble::TooFew { readings, parameters } => say!("{readings} reading{} cannot determine {parameters} parameters; measure at more points, or list fewer parameters.", plural(*readings)).in_language(l),
+        Trouble::NoScatter { response, readings, parameters } => say!("The scatter of {response} is not known: {readings} reading{} and {parameters} parameters leave no residuals. Measure at more points, or state the errors of the readings in [reading.{response}] and write noise.from = \"stated\".", plural(*readings)).in_language(l),
         Trouble::NoSamples => l.pick(
             "noise.from = \"dwells\" needs the samples of each dwell, and every row of this recording is one point. Name the columns that tell dwells apart, dwells = […], or write noise.from = \"residuals\".".into(),
             "noise.from = \"dwells\" 需要每个驻留段的采样，而本记录每行即一个点。请用 dwells = […] 指明区分驻留段的列，或写 noise.from = \"residuals\"。".into(),
@@ -53,13 +48,6 @@ pub(super) fn sentences(trouble: &Trouble, l: Language) -> String {
             let inner = sentences(trouble, l);
             say!("In \"{label}\": {inner}").in_language(l)
         }
-    }
-}
-
-pub(super) fn counted(readings: usize) -> String {
-    match readings {
-        1 => "1 reading".to_owned(),
-        _ => format!("{readings} readings"),
     }
 }
 

@@ -58,25 +58,15 @@ impl Assessment<'_> {
             .and_then(|known| known.probability)
             .map(chance);
         let probability = probability.map_or_else(String::new, |p| {
-            let (en, zh) = match p.split_once(' ') {
-                Some((">", p)) => (format!("is above {p}"), format!("大于 {p}")),
-                Some(("<", p)) => (format!("is below {p}"), format!("小于 {p}")),
-                _ => (format!("is {p}"), format!("为 {p}")),
+            let told = match p.split_once(' ') {
+                Some((">", p)) => say!(" The conformance probability is above {p}."),
+                Some(("<", p)) => say!(" The conformance probability is below {p}."),
+                _ => say!(" The conformance probability is {p}."),
             };
-            l.pick(
-                format!(" The conformance probability {en}."),
-                format!("符合概率{zh}。"),
-            )
+            told.in_language(l)
         });
         let acceptance = self.acceptance();
-        Some(match l {
-            Language::English => format!(
-                "{name}, tolerance {tolerance}: {word}. Decision rule: {rule}; measured values accepted: {acceptance}; measured: {measured}.{probability}"
-            ),
-            Language::Chinese => format!(
-                "{name}：{word}（容许区间 {tolerance}）。判定规则：{rule}，接受条件：{acceptance}；测得值 {measured}。{probability}"
-            ),
-        })
+        Some(say!("{name}, tolerance {tolerance}: {word}. Decision rule: {rule}; measured values accepted: {acceptance}; measured: {measured}.{probability}").in_language(l))
     }
 
     /// The verdict in words. That a guard band decided against the tolerance limit itself is said.
@@ -175,7 +165,7 @@ impl Assessment<'_> {
     fn measured(&self) -> String {
         let figures = Figures::new(self.report, self.stated.measurand);
         let l = self.l;
-        let comma = l.pick(", ", "，");
+        let comma = l.comma();
         let in_full = self.compared(|compared| compared.in_full(&figures.estimate()));
         let in_full = in_full.map(|number| figures.of_value(&number));
         let mut parts = vec![with_unrounded(&figures.value(), in_full.as_deref(), l)];

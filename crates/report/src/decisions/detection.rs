@@ -48,7 +48,7 @@ impl Limits<'_> {
             error(self.stated.alpha, k_alpha),
             error(self.stated.beta, k_beta),
         );
-        let comma = l.pick(", ", "，");
+        let comma = l.comma();
         let threshold = self.threshold(limits.decision_threshold);
         let by_trials = self.of_trials(trials.map(|t| t.decision_threshold));
         rows.add(
@@ -102,7 +102,7 @@ impl Limits<'_> {
             format!(
                 "ŷ = {}{}u(ŷ) = {}",
                 self.beside(best.value, best.u),
-                l.pick(", ", "，"),
+                l.comma(),
                 with_unit(&u, &symbol(self.unit))
             ),
         );
@@ -172,14 +172,7 @@ impl Limits<'_> {
         let u = figures.amount(&significant(best.u, 2));
         let ends = figures.interval().unwrap_or_default();
         let [low, high] = ends.map(|end| figures.of_value(&end));
-        match l {
-            Language::English => format!(
-                "{name} = {y}, u = {u_of_y}; {verdict}{limits}. Best estimate of the non-negative measurand {estimate}, with the standard uncertainty {u}; {p} coverage interval from {low} to {high} (ISO 11929)."
-            ),
-            Language::Chinese => format!(
-                "{name} = {y}，u = {u_of_y}；{verdict}{limits}。非负被测量的最佳估计值 {estimate}，标准不确定度 {u}，{p} 包含区间为 {low} 至 {high}（ISO 11929）。"
-            ),
-        }
+        say!("{name} = {y}, u = {u_of_y}; {verdict}{limits}. Best estimate of the non-negative measurand {estimate}, with the standard uncertainty {u}; {p} coverage interval from {low} to {high} (ISO 11929).").in_language(l)
     }
 
     /// The estimate beside the decision threshold.

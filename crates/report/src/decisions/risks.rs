@@ -34,7 +34,7 @@ impl Assessment<'_> {
             );
             rows.add(
                 label,
-                [both, format!("{alone} {by_gum}{trials}")].join(l.pick("; ", "；")),
+                [both, format!("{alone} {by_gum}{trials}")].join(l.semicolon()),
             );
         } else {
             // The probability of the statement, with the other beside it.

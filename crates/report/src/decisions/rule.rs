@@ -32,15 +32,11 @@ impl Assessment<'_> {
                 outer: Guard::Probability(outer),
             } if inner == outer => {
                 let p = probability(inner);
-                let (source, zh) = if inner == ISO_14253_PROBABILITY {
-                    (", as ISO 14253-1", "，同 ISO 14253-1")
-                } else {
-                    ("", "")
+                let source = match inner == ISO_14253_PROBABILITY {
+                    true => l.pick(", as ISO 14253-1", "，同 ISO 14253-1"),
+                    false => "",
                 };
-                l.pick(
-                    format!("non-binary: decided where conformance, or non-conformance, has a probability of at least {p}{source}"),
-                    format!("非二元判定：合格或不合格的概率不小于 {p} 时判定，否则待定{zh}"),
-                )
+                say!("non-binary: decided where conformance, or non-conformance, has a probability of at least {p}{source}").in_language(l)
             }
             DecisionRule::NonBinary { inner, outer } => {
                 let accepted = self.guard(inner, l.pick("conforms", "合格"));

@@ -3,6 +3,7 @@
 use crate::language::Language;
 use crate::number::{NONE, aligned, significant};
 use crate::phrase::{section, table};
+use gumption_fault::say;
 use gumption_format::document::{
     Block,
     ColumnKind::{Names as NamesColumn, Numbers},
@@ -40,33 +41,22 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Blo
 fn fields(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<(String, String)> {
     let rows = diagnosis.blocks.iter().map(Vec::len).sum::<usize>();
     let taken = match case.rows {
-        all if all == rows => l.pick(format!("{rows} rows"), format!("{rows} 行")),
-        all => l.pick(
-            format!("{rows} of {all} rows"),
-            format!("{all} 行中的 {rows} 行"),
-        ),
+        all if all == rows => say!("{rows} rows").in_language(l),
+        all => say!("{rows} of {all} rows").in_language(l),
     };
     let recorded = match diagnosis.blocks.len() {
         means if means == rows => taken,
-        means => l.pick(
-            format!("{taken}, in {means} means"),
-            format!("{taken}，取 {means} 个平均值"),
-        ),
+        means => say!("{taken}, in {means} means").in_language(l),
     };
     let left_out = match case.left_out {
         0 => String::new(),
-        n => l.pick(
-            format!("; {n} rows without a value are left out"),
-            format!("；略去 {n} 行缺值"),
-        ),
+        n => say!("; {n} rows without a value are left out").in_language(l),
     };
     let alarm = diagnosis.examination.levels.first();
     let p = alarm.map_or(NONE.to_owned(), |level| p_found(level.p, level.draws));
     let (count, alpha) = (diagnosis.cells.len(), significant(case.settings.alpha, 2));
-    let test = l.pick(
-        format!("{p} over all {count} explanations together (alarm below {alpha})"),
-        format!("{p}（同时考虑全部 {count} 种解释；低于 {alpha} 报警）"),
-    );
+    let test =
+        say!("{p} over all {count} explanations together (alarm below {alpha})").in_language(l);
     vec![
         (
             l.pick("Declared model", "声明的模型").into(),
@@ -88,11 +78,8 @@ fn as_differences(case: &Case, l: Language) -> String {
     if names.is_empty() {
         return String::new();
     }
-    let names = names.join(l.pick(", ", "、"));
-    l.pick(
-        format!("; {names} count from 0 of their scale"),
-        format!("；{names} 以其温标零点为起点"),
-    )
+    let names = names.join(l.list_comma());
+    say!("; {names} count from 0 of their scale").in_language(l)
 }
 
 fn located(diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
@@ -171,17 +158,14 @@ fn introduction(doubt: &Doubt<'_>, names: Names<'_>) -> String {
     };
     let places = places.iter().map(|one| {
         let (name, p) = (names.plain(one.candidate), chance(one.probability));
-        l.pick(format!("{name} ({p} %)"), format!("{name}（{p} %）"))
+        l.with_aside(&name, &format!("{p} %"))
     });
-    let places = places.collect::<Vec<_>>().join(l.pick("; ", "；"));
+    let places = places.collect::<Vec<_>>().join(l.semicolon());
     let tentative = match resembles {
         true => l.pick(" Tentative names:", "仅供参考的名称："),
         false => "",
     };
-    l.pick(
-        format!("Unexplained: {places}.{tentative}"),
-        format!("未能解释：{places}。{tentative}"),
-    )
+    say!("Unexplained: {places}.{tentative}").in_language(l)
 }
 
 fn named(case: &Case, diagnosis: &Diagnosis, slot: &Slot, names: Names<'_>) -> Vec<Block> {
@@ -220,14 +204,10 @@ fn unlisted(slot: &Slot, names: Names<'_>) -> Option<String> {
     let share = slot.doubted()?;
     let (p, place) = (chance(share), names.plain(slot.generic.first()?.candidate));
     Some(match share > 0.5 {
-        true => names.l.pick(
-            format!("A form that no catalogue lists is likelier ({p} %): {place}."),
-            format!("目录之外的某种形式可能性更大（{p} %）：{place}。"),
-        ),
-        false => names.l.pick(
-            format!("A form that no catalogue lists is not excluded either ({p} %): {place}."),
-            format!("目录之外的某种形式也不能排除（{p} %）：{place}。"),
-        ),
+        true => say!("A form that no catalogue lists is likelier ({p} %): {place}.")
+            .in_language(names.l),
+        false => say!("A form that no catalogue lists is not excluded either ({p} %): {place}.")
+            .in_language(names.l),
     })
 }
 
@@ -263,8 +243,7 @@ fn multiplied(diagnosis: &Diagnosis, alternative: &Alternative, l: Language) -> 
     texts.dedup();
     let readable = texts.len() <= MOST && texts.iter().all(|text| !text.is_empty() && *text != "1");
     let terms = texts.join("; ");
-    (readable && !texts.is_empty())
-        .then(|| l.pick(format!("β multiplies {terms}"), format!("β 乘以 {terms}")))
+    (readable && !texts.is_empty()).then(|| say!("β multiplies {terms}").in_language(l))
 }
 
 fn amplitude(
@@ -277,7 +256,7 @@ fn amplitude(
     let (value, u) = (aligned(size.value, size.u, 2), significant(size.u, 2));
     let text = format!("{value} ± {u} {}", size.unit);
     let text = text.trim_end();
-    Some(l.pick(format!("amplitude {text}"), format!("幅值 {text}")))
+    Some(say!("amplitude {text}").in_language(l))
 }
 
 /// Name, probability, size, strength of one alternative.
@@ -294,32 +273,19 @@ fn headline(
     } + &names.open(diagnosis, alternative);
     let rival = alternative.nearest.as_ref().map_or(String::new(), |rival| {
         let (other, kappa) = (names.plain(rival.candidate), significant(rival.kappa, 2));
-        l.pick(
-            format!("; nearest rival {other}, κ = {kappa}"),
-            format!("；最接近的竞争解释：{other}，κ = {kappa}"),
-        )
+        say!("; nearest rival {other}, κ = {kappa}").in_language(l)
     });
     let lambda = significant(alternative.lambda, 2);
     let probability = match slot.named.as_slice() {
         [only] if only.is_sure() => String::new(),
-        _ => format!(
-            "{} %{}",
-            chance(alternative.probability),
-            l.pick(", ", "，")
-        ),
+        _ => format!("{} %{}", chance(alternative.probability), l.comma()),
     };
-    l.pick(
-        format!("▸ {title}: {probability}strength λ = {lambda}{rival}"),
-        format!("▸ {title}：{probability}强度 λ = {lambda}{rival}"),
-    )
+    say!("▸ {title}: {probability}strength λ = {lambda}{rival}").in_language(l)
 }
 
 fn footer(case: &Case, diagnosis: &Diagnosis, l: Language) -> String {
     let alarm = diagnosis.examination.levels.first();
     let draws = alarm.map_or(0, |level| level.draws);
     let (version, seed) = (env!("CARGO_PKG_VERSION"), case.settings.seed);
-    l.pick(
-        format!("gumption {version}, seed {seed}, {draws} simulated recordings."),
-        format!("gumption {version}，随机种子 {seed}，模拟记录 {draws} 次。"),
-    )
+    say!("gumption {version}, seed {seed}, {draws} simulated recordings.").in_language(l)
 }

@@ -5,6 +5,7 @@ use crate::language::Language;
 use crate::number::{aligned, freedom, in_unit, significant};
 use crate::phrase::{named_row, paragraph, section, table};
 use crate::symbol;
+use gumption_fault::say;
 use gumption_format::document::{
     Block,
     ColumnKind::{Names, Numbers, Wrapped},
@@ -116,7 +117,7 @@ fn qualities(case: &Case, diagnosis: &Diagnosis, l: Language) -> Table {
     let known = !diagnosis.noise.is_estimated();
     for (index, response) in case.responses.iter().enumerate() {
         let label = |what: &str| {
-            let of = format!("{what}{}{}", l.pick(", ", "，"), response.name);
+            let of = format!("{what}{}{}", l.comma(), response.name);
             in_unit(&of, &symbol(&response.unit))
         };
         let mut row = |what: &str, of: fn(&Quality) -> &Vec<f64>| {
@@ -160,10 +161,7 @@ fn held_out(table: &mut Table, case: &Case, held: &HeldOutQuality, l: Language) 
     let (before, after, file) = (&held.before, held.after.as_ref(), &held.file);
     for (index, response) in case.responses.iter().enumerate() {
         let (expected, name) = (significant(held.expected[index], 3), &response.name);
-        let label = l.pick(
-            format!("error predicting {file} (noise {expected}), {name}"),
-            format!("对 {file} 的预测误差（噪声 {expected}），{name}"),
-        );
+        let label = say!("error predicting {file} (noise {expected}), {name}").in_language(l);
         let label = in_unit(&label, &symbol(&response.unit));
         let after = after.map(|after| after.rms[index]);
         table
@@ -171,10 +169,7 @@ fn held_out(table: &mut Table, case: &Case, held: &HeldOutQuality, l: Language) 
             .push(compared(label, Some(before.rms[index]), after));
     }
     let n = held.observations;
-    let label = l.pick(
-        format!("χ²/n of that prediction, n = {n}"),
-        format!("该预测的 χ²/n，n = {n}"),
-    );
+    let label = say!("χ²/n of that prediction, n = {n}").in_language(l);
     let reduced = |chi_squared: f64| chi_squared / n as f64;
     let after = after.map(|after| reduced(after.chi_squared));
     table
@@ -187,10 +182,7 @@ fn not_predicted(diagnosis: &Diagnosis, l: Language) -> Option<Block> {
     let held = diagnosis.held_out.as_ref()?;
     let is_open = diagnosis.adopted.is_some() && held.after.is_none();
     let file = &held.file;
-    let told = l.pick(
-        format!("With the physics {file} is not predicted: what it did there does not follow from the columns."),
-        format!("加入该物理效应后不对 {file} 作预测：它在其中的作用不能由各列得出。"),
-    );
+    let told = say!("With the physics {file} is not predicted: what it did there does not follow from the columns.").in_language(l);
     is_open.then_some(Block::Paragraph(told))
 }
 
@@ -198,10 +190,7 @@ fn not_predicted(diagnosis: &Diagnosis, l: Language) -> Option<Block> {
 fn badly_predicted(case: &Case, diagnosis: &Diagnosis, l: Language) -> Option<Block> {
     let p = p_is(diagnosis.badly_predicted(case)?);
     let file = &diagnosis.held_out.as_ref()?.file;
-    Some(Block::Paragraph(l.pick(
-        format!("{file} is predicted worse than the noise allows ({p}): its conditions show something that those of the recording do not. Diagnose it too."),
-        format!("对 {file} 的预测误差超出噪声（{p}）：其条件显示出本记录未显示的影响，请对其也进行诊断。"),
-    )))
+    Some(Block::Paragraph(say!("{file} is predicted worse than the noise allows ({p}): its conditions show something that those of the recording do not. Diagnose it too.").in_language(l)))
 }
 
 fn confirmation(adopted: &Adopted, l: Language) -> Option<Block> {
@@ -209,7 +198,7 @@ fn confirmation(adopted: &Adopted, l: Language) -> Option<Block> {
     let parts = adopted.confirmation.parts.iter().map(|(part, value, u)| {
         let part = spoken(part, l);
         let size = format!("{} ± {}", aligned(*value, *u, 2), significant(*u, 2));
-        l.pick(format!("{part}: {size}"), format!("{part}：{size}"))
+        l.with_head(&part, &size)
     });
     let parts: Vec<String> = parts.collect();
     let agreed = adopted
@@ -218,28 +207,20 @@ fn confirmation(adopted: &Adopted, l: Language) -> Option<Block> {
         .map_or(String::new(), |(agreement, p)| {
             let p = p_is(p);
             match agreement {
-                Agreement::Agree => l.pick(
-                    format!("; they agree ({p})"),
-                    format!("；各部分一致（{p}）"),
-                ),
-                Agreement::Doubtful => l.pick(
-                    format!("; it is doubtful whether they agree ({p})"),
-                    format!("；各部分是否一致存疑（{p}）"),
-                ),
-                Agreement::Differ => l.pick(
-                    format!("; they do not agree ({p})"),
-                    format!("；各部分不一致（{p}）"),
-                ),
+                Agreement::Agree => say!("; they agree ({p})").in_language(l),
+                Agreement::Doubtful => {
+                    say!("; it is doubtful whether they agree ({p})").in_language(l)
+                }
+                Agreement::Differ => say!("; they do not agree ({p})").in_language(l),
             }
         });
-    let told = l.pick(
-        format!(
-            "{name} from parts of the recording: {}{agreed}.",
-            parts.join(", ")
-        ),
-        format!("由记录各部分得到的 {name}：{}{agreed}。", parts.join("，")),
-    );
-    (!parts.is_empty()).then_some(Block::Paragraph(told))
+    let is_any = !parts.is_empty();
+    let parts = parts.join(l.comma());
+    is_any.then(|| {
+        Block::Paragraph(
+            say!("{name} from parts of the recording: {parts}{agreed}.").in_language(l),
+        )
+    })
 }
 
 /// The parameters before and after, and with what may be there unseen.

@@ -2,6 +2,7 @@
 
 use crate::language::Language;
 use crate::number::percent;
+use gumption_fault::say;
 use gumption_lab::diagnose::catalogue::{Cell, Words};
 use gumption_lab::diagnose::evidence::{Alternative, Slot};
 use gumption_lab::diagnose::{Diagnosis, Outlook};
@@ -73,9 +74,7 @@ impl<'a> Names<'a> {
         let (name, label) = (self.plain(cell), spoken(label, self.l));
         match label.is_empty() {
             true => name,
-            false => self
-                .l
-                .pick(format!("{name} ({label})"), format!("{name}（{label}）")),
+            false => self.l.with_aside(&name, &label),
         }
     }
 
@@ -95,7 +94,7 @@ impl<'a> Names<'a> {
             words.x = self.l.pick("row", "行号").to_owned();
         }
         if let Some(of) = words.x.strip_prefix("signal(") {
-            words.x = self.l.pick(format!("signal({of}"), format!("信号({of}"));
+            words.x = say!("signal({of}").in_language(self.l);
         }
         words
     }
@@ -136,11 +135,8 @@ impl<'a> Names<'a> {
         if others.is_empty() {
             return String::new();
         }
-        let others = others.join(self.l.pick(", ", "，"));
-        self.l.pick(
-            format!(" (its order is open: {others})"),
-            format!("（阶次未定：{others}）"),
-        )
+        let others = others.join(self.l.comma());
+        say!(" (its order is open: {others})").in_language(self.l)
     }
 
     /// The formula of an explanation, without the lag where its best variant has none.
@@ -164,7 +160,7 @@ impl<'a> Names<'a> {
 pub(super) fn quantity(node: &str, l: Language) -> String {
     if let Some((part, output)) = node.split_once(" of ") {
         let part = quantity(part, l);
-        return l.pick(format!("{part} of {output}"), format!("{output} 的{part}"));
+        return say!("{part} of {output}").in_language(l);
     }
     match node {
         "offset" => l.pick("offset", "零位"),

@@ -24,10 +24,7 @@ pub fn assumed_noise(case: &Case, claimed: &Claimed, l: Language) -> String {
             "未声明，且输出尚未记录",
         ),
     };
-    l.pick(
-        format!("not known ({why}): taken as 1 for one row, in the unit of the output; `[noise] u` states it"),
-        format!("未知（{why}）：单行标准不确定度以 1 计（输出的单位）；可用 `[noise] u` 声明"),
-    )
+    say!("not known ({why}): taken as 1 for one row, in the unit of the output; `[noise] u` states it").in_language(l)
 }
 
 /// Where the noise comes from.
@@ -49,20 +46,14 @@ pub(super) fn noise(claimed: &Claimed, l: Language) -> String {
             "as stated in the case".to_owned(),
             "由实验文件给出".to_owned(),
         ),
-        Origin::Column(name) => {
-            l.pick(format!("from the column {name}"), format!("取自 {name} 列"))
-        }
+        Origin::Column(name) => say!("from the column {name}").in_language(l),
         Origin::Replicates => {
             l.pick("from replicates", "由重复测量得到").to_owned() + &growth(claimed, l)
         }
-        Origin::AtRest(file) => l.pick(
-            format!("from the recording at rest {file}{}", white(claimed, l)),
-            format!("取自静态记录 {file}{}", white(claimed, l)),
-        ),
-        Origin::Budget(file) => l.pick(
-            format!("from the budget {file}"),
-            format!("取自不确定度评定文件 {file}"),
-        ),
+        Origin::AtRest(file) => {
+            say!("from the recording at rest {file}{}", white(claimed, l)).in_language(l)
+        }
+        Origin::Budget(file) => say!("from the budget {file}").in_language(l),
     };
     text + &dof + &memory(claimed, l) + &uneven(claimed, l)
 }
@@ -97,17 +88,12 @@ fn memory(claimed: &Claimed, l: Language) -> String {
         } => {
             let (share, time) = (part(share), significant(time_constant, 2));
             let unit = &correlated.unit;
-            l.pick(
-                format!("; successive rows are correlated: about {share} % of the variance fades with τ ≈ {time} {unit}"),
-                format!("；相邻各行相关：约 {share} % 的方差以 τ ≈ {time} {unit} 衰减"),
-            )
+            say!("; successive rows are correlated: about {share} % of the variance fades with τ ≈ {time} {unit}").in_language(l)
         }
         Memory::Flicker { share } => {
             let share = part(share);
-            l.pick(
-                format!("; successive rows are correlated: about {share} % of the variance flickers (1/f)"),
-                format!("；相邻各行相关：约 {share} % 的方差为闪烁（1/f）噪声"),
-            )
+            say!("; successive rows are correlated: about {share} % of the variance flickers (1/f)")
+                .in_language(l)
         }
     }
 }
@@ -118,10 +104,7 @@ fn uneven(claimed: &Claimed, l: Language) -> String {
         return String::new();
     };
     let p = p_is(p);
-    l.pick(
-        format!("; replicates scatter unevenly from group to group (Bartlett's test, {p}): this noise does not describe them, state u for each row"),
-        format!("；各组重复测量的分散性不一致（Bartlett 检验，{p}）：上述模型不能描述，请逐行给出 u"),
-    )
+    say!("; replicates scatter unevenly from group to group (Bartlett's test, {p}): this noise does not describe them, state u for each row").in_language(l)
 }
 
 /// How noise that was estimated, or that replicates show, grows with the reading, if it does for any response.

@@ -4,6 +4,7 @@
 use crate::language::Language;
 use crate::number::{percent, significant};
 use crate::phrase::{paragraph, section, table};
+use gumption_fault::say;
 use gumption_format::document::{
     Block,
     ColumnKind::{Names as NamesColumn, Numbers, Wrapped},
@@ -41,13 +42,8 @@ fn choices(diagnosis: &Diagnosis, names: Names<'_>) -> Option<Block> {
         let costs: Vec<String> = costs.collect();
         let slot = &diagnosis.examination.slots[slot];
         let either = l.either(&names.slot(diagnosis, slot));
-        l.pick(
-            format!(
-                "Not to know whether it is {either} costs u: {}.",
-                costs.join(", ")
-            ),
-            format!("不能判定是 {either} 所带来的 u：{}。", costs.join("，")),
-        )
+        let costs = costs.join(l.comma());
+        say!("Not to know whether it is {either} costs u: {costs}.").in_language(l)
     });
     let choices: Vec<String> = choices.collect();
     (!choices.is_empty()).then_some(Block::List(choices))
@@ -61,10 +57,9 @@ pub(super) fn unseen(unseen: &Unseen<'_>, estimates: &[Estimated], names: Names<
         blocks.push(Block::Table(dear(unseen, estimates, names)));
         let rest = unseen.dear.len().saturating_sub(MOST);
         if rest > 0 {
-            blocks.push(Block::Paragraph(l.pick(
-                format!("{rest} more are in the JSON."),
-                format!("其余 {rest} 项见 JSON。"),
-            )));
+            blocks.push(Block::Paragraph(
+                say!("{rest} more are in the JSON.").in_language(l),
+            ));
         }
         blocks.push(paragraph(
             l,
@@ -75,10 +70,7 @@ pub(super) fn unseen(unseen: &Unseen<'_>, estimates: &[Estimated], names: Names<
     let hidden = unseen.hidden.iter().take(MOST).map(|(line, at)| {
         let (what, parameter) = (names.full(line.cell), &estimates[*at].name);
         let gain = significant(line.after.gain[*at], 2);
-        l.pick(
-            format!("{what}: hides in {parameter}, {gain} per unit of the largest shift of the output; no size is usual"),
-            format!("{what}：隐藏在 {parameter} 中，输出最大偏移每单位引起 {gain}；无通常大小"),
-        )
+        say!("{what}: hides in {parameter}, {gain} per unit of the largest shift of the output; no size is usual").in_language(l)
     });
     let hidden: Vec<String> = hidden.collect();
     if !hidden.is_empty() {
@@ -158,11 +150,9 @@ fn separating(diagnosis: &Diagnosis, of: &Separating, names: Names<'_>) -> Vec<B
     let same = inseparable(of, &rivals, l);
     let rivals = match rivals.as_slice() {
         [first, others @ ..] if diagnosis.stands_alone(of) => {
-            let others = others.join(l.pick(", ", "、"));
-            l.pick(
-                format!("{first}, named alone; {others} could look the same, but is less likely"),
-                format!("{first}（唯一列出）；{others} 也可能表现相同，但可能性较小"),
-            )
+            let others = others.join(l.list_comma());
+            say!("{first}, named alone; {others} could look the same, but is less likely")
+                .in_language(l)
         }
         _ => l.either(&rivals),
     };
@@ -187,15 +177,10 @@ fn separating(diagnosis: &Diagnosis, of: &Separating, names: Names<'_>) -> Vec<B
         ]);
     }
     if table.rows.is_empty() {
-        return vec![Block::Paragraph(l.pick(
-            format!("{rivals}: κ = {kappa}, and no measurement that is known here is likely to decide. Name others as [[action]]."),
-            format!("{rivals}：κ = {kappa}，已知的补充测量都难以判定；请用 [[action]] 给出其他测量。"),
-        ))];
+        return vec![Block::Paragraph(say!("{rivals}: κ = {kappa}, and no measurement that is known here is likely to decide. Name others as [[action]].").in_language(l))];
     }
-    let head = l.pick(
-        format!("{rivals}: κ = {kappa} as it is.{same} With a further measurement:"),
-        format!("{rivals}：目前 κ = {kappa}。{same}加上补充测量后："),
-    );
+    let head =
+        say!("{rivals}: κ = {kappa} as it is.{same} With a further measurement:").in_language(l);
     vec![Block::Paragraph(head), Block::Table(table)]
 }
 
@@ -204,10 +189,7 @@ fn inseparable(of: &Separating, rivals: &[String], l: Language) -> String {
     let sentence = |class: Vec<usize>| {
         let own: Vec<String> = class.into_iter().map(|at| rivals[at].clone()).collect();
         let own = l.pick(own.join(" and "), l.list(&own));
-        l.pick(
-            format!(" What says the same in all of these, and stays undecided: {own}."),
-            format!("在所有这些测量中表现相同、仍无法区分的是：{own}。"),
-        )
+        say!(" What says the same in all of these, and stays undecided: {own}.").in_language(l)
     };
     of.inseparable().into_iter().map(sentence).collect()
 }

@@ -3,6 +3,7 @@
 use crate::language::Language;
 use crate::number::{NONE, percent, significant};
 use crate::phrase::{paragraph, section, table};
+use gumption_fault::say;
 use gumption_format::document::{
     Block,
     ColumnKind::{Names as NamesColumn, Numbers, Wrapped},
@@ -49,23 +50,14 @@ pub(super) fn statement(outlook: &Outlook, l: Language) -> String {
     let close = outlook.pairs.len();
     let advice = outlook.best().map_or(String::new(), |promise| {
         let what = measure(&promise.extra.measure, l);
-        l.pick(
-            format!(" Most useful beside it: {what}."),
-            format!("最有用的补充测量：{what}。"),
-        )
+        say!(" Most useful beside it: {what}.").in_language(l)
     });
-    l.pick(
-        format!("This experiment shows {seen} of the effects in the catalogue and cannot show {hidden}; {close} pairs are hard or impossible to tell apart.{advice}"),
-        format!("此试验可显示目录中的 {seen} 种影响，{hidden} 种无法显示；{close} 对难以或不能区分。{advice}"),
-    )
+    say!("This experiment shows {seen} of the effects in the catalogue and cannot show {hidden}; {close} pairs are hard or impossible to tell apart.{advice}").in_language(l)
 }
 
 fn fields(case: &Case, outlook: &Outlook, l: Language) -> Vec<(String, String)> {
     let (rows, observations) = (case.rows, outlook.observations);
-    let design = l.pick(
-        format!("{rows} rows, {observations} observations"),
-        format!("{rows} 行，{observations} 个观测值"),
-    );
+    let design = say!("{rows} rows, {observations} observations").in_language(l);
     let mut fields = vec![
         (
             l.pick("Declared model", "声明的模型").into(),
@@ -79,10 +71,8 @@ fn fields(case: &Case, outlook: &Outlook, l: Language) -> Vec<(String, String)> 
     ];
     if !outlook.assumed.is_empty() {
         let names = outlook.assumed.join(", ");
-        let assumed = l.pick(
-            format!("{names}; state `start` below [parameter] where slopes depend on them"),
-            format!("{names}；若斜率与其有关，请在 [parameter] 中给出 start"),
-        );
+        let assumed = say!("{names}; state `start` below [parameter] where slopes depend on them")
+            .in_language(l);
         fields.push((l.pick("Taken as 1", "取为 1").into(), assumed));
     }
     fields
@@ -188,10 +178,7 @@ fn told_apart(outlook: &Outlook, promise: &Promise, names: Names<'_>) -> String 
     let pairs = shortened(pairs.map(|at| pair(outlook, at, names)).collect(), names.l);
     match count {
         0 => NONE.to_owned(),
-        _ => names.l.pick(
-            format!("{count} of {all}: {pairs}"),
-            format!("{all} 对中的 {count} 对：{pairs}"),
-        ),
+        _ => say!("{count} of {all}: {pairs}").in_language(names.l),
     }
 }
 
@@ -210,9 +197,6 @@ fn shortened(list: Vec<String>, l: Language) -> String {
     let shown = list[..list.len().min(SHOWN)].join("; ");
     match list.len().saturating_sub(SHOWN) {
         0 => shown,
-        rest => l.pick(
-            format!("{shown}; {rest} more"),
-            format!("{shown}；另 {rest} 项"),
-        ),
+        rest => say!("{shown}; {rest} more").in_language(l),
     }
 }

@@ -1,6 +1,7 @@
 //! The verdict of a diagnosis in one sentence.
 
 use crate::language::Language;
+use gumption_fault::say;
 use gumption_lab::diagnose::evidence::{Alternative, Slot};
 use gumption_lab::diagnose::{Conclusion, Diagnosis};
 
@@ -12,7 +13,7 @@ pub(super) fn verdict(diagnosis: &Diagnosis, l: Language) -> String {
     let names = Names::of_diagnosis(diagnosis, l);
     let list = |slots: &[&Slot]| {
         let names = slots.iter().map(|slot| slot_name(diagnosis, slot, names));
-        names.collect::<Vec<_>>().join(l.pick("; ", "；"))
+        names.collect::<Vec<_>>().join(l.semicolon())
     };
     let told = |list: &[&Alternative]| joined(list.iter().map(|one| names.told(diagnosis, one)), l);
     let at =
@@ -42,63 +43,40 @@ pub(super) fn verdict(diagnosis: &Diagnosis, l: Language) -> String {
             let names = told(&names);
             let besides = match at(&places) {
                 none if none.is_empty() => none,
-                places => l.pick(
-                    format!(" Unexplained besides: {places}."),
-                    format!("此外未能解释：{places}。"),
-                ),
+                places => say!(" Unexplained besides: {places}.").in_language(l),
             };
-            l.pick(
-                format!("Model and recording disagree. Tentatively, the model leaves out: {names}.{besides}"),
-                format!("模型与记录不一致。模型可能（未确定）遗漏了：{names}。{besides}"),
-            )
+            say!("Model and recording disagree. Tentatively, the model leaves out: {names}.{besides}").in_language(l)
         }
         Conclusion::Undecided { name, places } => {
             let (places, p) = (at(&places), chance(name.probability));
             let name = names.told(diagnosis, name);
-            l.pick(
-                format!("Model and recording disagree, and it is not decided why: {places}, or {name} ({p} %)."),
-                format!("模型与记录不一致，原因未能判定：{places}，或 {name}（{p} %）。"),
-            )
+            say!("Model and recording disagree, and it is not decided why: {places}, or {name} ({p} %).").in_language(l)
         }
         Conclusion::Unexplained { places } => {
             let places = match at(&places) {
                 none if none.is_empty() => none,
-                places => l.pick(": ", "：").to_owned() + &places,
+                places => l.with_head("", &places),
             };
-            l.pick(
-                format!("Model and recording disagree, and nothing in the catalogue explains it{places}."),
-                format!("模型与记录不一致，且目录中没有可解释的原因{places}。"),
-            )
+            say!("Model and recording disagree, and nothing in the catalogue explains it{places}.").in_language(l)
         }
     }
 }
 
 fn left_out(told: &str, open: &str, l: Language) -> String {
     match (told.is_empty(), open.is_empty()) {
-        (_, true) => l.pick(format!("The model leaves out: {told}."), format!("模型遗漏了：{told}。")),
-        (true, false) => l.pick(
-            format!("The model leaves out something that this recording cannot tell apart: {open}."),
-            format!("模型有遗漏，但本记录无法区分：{open}。"),
-        ),
-        (false, false) => l.pick(
-            format!("The model leaves out: {told}; and something that this recording cannot tell apart: {open}."),
-            format!("模型遗漏了：{told}；另有遗漏，但本记录无法区分：{open}。"),
-        ),
+        (_, true) => say!("The model leaves out: {told}.").in_language(l),
+        (true, false) => say!("The model leaves out something that this recording cannot tell apart: {open}.").in_language(l),
+        (false, false) => say!("The model leaves out: {told}; and something that this recording cannot tell apart: {open}.").in_language(l),
     }
 }
 
 /// The verdict where something has no name.
 fn and_more(list: &str, tentative: &str, l: Language) -> String {
-    let sentence = l.pick(
-        format!("The model leaves out: {list}. Something without a name remains."),
-        format!("模型遗漏了：{list}。此外还有无法命名的部分。"),
-    );
+    let sentence =
+        say!("The model leaves out: {list}. Something without a name remains.").in_language(l);
     match tentative {
         "" => sentence,
-        _ => l.pick(
-            format!("{sentence} Tentatively also: {tentative}."),
-            format!("{sentence}可能（未确定）还有：{tentative}。"),
-        ),
+        _ => say!("{sentence} Tentatively also: {tentative}.").in_language(l),
     }
 }
 
@@ -110,7 +88,7 @@ fn joined(texts: impl Iterator<Item = String>, l: Language) -> String {
             kept.push(text);
         }
     }
-    kept.join(l.pick("; ", "；"))
+    kept.join(l.semicolon())
 }
 
 /// The names of a slot: joined by "or", unless one of them leads.
@@ -118,19 +96,13 @@ fn slot_name(diagnosis: &Diagnosis, slot: &Slot, names: Names<'_>) -> String {
     let list = names.slot(diagnosis, slot);
     if slot.acts_like() {
         let name = names.l.either(&shortened(list, names.l));
-        return names.l.pick(
-            format!("something that acts like {name}"),
-            format!("表现如同“{name}”的影响"),
-        );
+        return say!("something that acts like {name}").in_language(names.l);
     }
     match (list.as_slice(), slot.named.first()) {
         ([first, others @ ..], Some(leading)) if !others.is_empty() && !slot.is_open() => {
             let p = chance(leading.probability);
-            let others = others.join(names.l.pick(", ", "、"));
-            names.l.pick(
-                format!("{first} ({p} %; not excluded: {others})"),
-                format!("{first}（{p} %；不能排除：{others}）"),
-            )
+            let others = others.join(names.l.list_comma());
+            say!("{first} ({p} %; not excluded: {others})").in_language(names.l)
         }
         _ => names.l.either(&shortened(list, names.l)),
     }
@@ -142,10 +114,7 @@ fn shortened(mut list: Vec<String>, l: Language) -> Vec<String> {
     const MOST: usize = 5;
     if list.len() > MOST {
         let others = list.split_off(MOST - 1).len();
-        list.push(l.pick(
-            format!("one of {others} others, listed below"),
-            format!("下列其余 {others} 种之一"),
-        ));
+        list.push(say!("one of {others} others, listed below").in_language(l));
     }
     list
 }

@@ -110,7 +110,7 @@ impl<'a> Points<'a> {
         for decided in &first.decided {
             let of = match decided.name == name {
                 true => String::new(),
-                false => l.pick(format!(", {}", decided.name), format!("，{}", decided.name)),
+                false => format!("{}{}", l.comma(), decided.name),
             };
             let head = |word: &str, kind| Column {
                 head: format!("{word}{of}"),
@@ -155,19 +155,13 @@ impl<'a> Points<'a> {
     fn sentences(&self) -> Vec<String> {
         let l = self.l;
         let p = self.one(|point| point.probability());
-        let english = p.as_ref().map_or(String::new(), |p| {
-            format!(", for a coverage probability of about {p}")
+        let covers = p.map_or(String::new(), |p| {
+            say!(", for a coverage probability of about {p}").in_language(l)
         });
-        let chinese = p
-            .as_ref()
-            .map_or(String::new(), |p| format!("，包含概率约为 {p}"));
         let kinds = [
             (
                 Found::Multiple,
-                l.pick(
-                    format!("U is the expanded uncertainty: the combined standard uncertainty multiplied by the coverage factor k{english}."),
-                    format!("U 为扩展不确定度，由合成标准不确定度乘以包含因子 k 得到{chinese}。"),
-                ),
+                say!("U is the expanded uncertainty: the combined standard uncertainty multiplied by the coverage factor k{covers}.").in_language(l),
             ),
             (
                 Found::MultipleOfTrials,
@@ -175,17 +169,11 @@ impl<'a> Points<'a> {
             ),
             (
                 Found::HalfWidth,
-                l.pick(
-                    format!("U is half the width of the coverage interval found by the Monte Carlo method (JCGM 101){english}; k = U/u."),
-                    format!("U 为蒙特卡洛法（JJF 1059.2）所得包含区间的半宽{chinese}，k = U/u。"),
-                ),
+                say!("U is half the width of the coverage interval found by the Monte Carlo method (JCGM 101){covers}; k = U/u.").in_language(l),
             ),
             (
                 Found::Interval,
-                l.pick(
-                    format!("The coverage interval stands in the place of y ± U, because the result does not lie in its middle{english}."),
-                    format!("结果不在包含区间的中点，故给出包含区间代替 y ± U{chinese}。"),
-                ),
+                say!("The coverage interval stands in the place of y ± U, because the result does not lie in its middle{covers}.").in_language(l),
             ),
             (
                 Found::Nothing,
@@ -235,14 +223,11 @@ impl<'a> Points<'a> {
         let names = match so.len() > MOST {
             false => l.list(&so),
             true => {
-                let (first, n) = (so[..MOST].join(l.pick(", ", "、")), so.len());
+                let (first, n) = (so[..MOST].join(l.list_comma()), so.len());
                 say!("{first} … ({n} rows)").in_language(l)
             }
         };
-        Some(l.pick(
-            format!("{names}: {sentence}"),
-            format!("{names}：{sentence}"),
-        ))
+        Some(l.with_head(&names, &sentence))
     }
 
     /// What is the same at all points.

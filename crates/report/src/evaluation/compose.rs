@@ -7,6 +7,7 @@ use gumption_gum::propagate::CoverageBasis;
 
 use crate::language::{Language, Word};
 use crate::number::{exact, probability};
+use crate::phrase::plural;
 use crate::{
     Report, analyses, budget_table, claim, comparison, decisions, fits, indices, joint, remarks,
     statement,
@@ -30,7 +31,7 @@ pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
         blocks.extend(budget_table::blocks(report, m));
         let head = Word::SideBySide.of(l);
         blocks.push(Block::Section(if several {
-            l.pick(format!("{name}: {head}"), format!("{name}：{head}"))
+            l.with_head(name, head)
         } else {
             head.to_string()
         }));
@@ -130,7 +131,7 @@ fn taken(report: &Report<'_>) -> Vec<Block> {
     if results.is_empty() {
         return Vec::new();
     }
-    let stop = l.pick("; ", "；");
+    let stop = l.semicolon();
     let fields = results.iter().map(|taken| {
         let row = taken.row.iter().map(|row| format!("[{row}]"));
         let what = format!("{}{}", taken.measurand, row.collect::<String>());
@@ -211,17 +212,13 @@ fn footer(report: &Report<'_>) -> Vec<String> {
     };
     let profile = &conventions.profile;
     let k = coverage(report);
-    let mut lines = vec![match l {
-        Language::English => {
-            let plural = if digits == 1 { "digit" } else { "digits" };
-            format!(
-                "Profile {profile}: {k}, {digits} {plural} of U, {rounding}, Monte Carlo: {scale}."
-            )
-        }
-        Language::Chinese => format!(
-            "规范 {profile}：{k}，U 取 {digits} 位有效数字，{rounding}，蒙特卡洛法：{scale}。"
-        ),
-    }];
+    let plural = plural(digits.into());
+    let mut lines = vec![
+        say!(
+            "Profile {profile}: {k}, {digits} digit{plural} of U, {rounding}, Monte Carlo: {scale}."
+        )
+        .in_language(l),
+    ];
     if !conventions.overrides.is_empty() {
         let changes = conventions.overrides.join(", ");
         lines.push(say!("Changed by the file: {changes}.").in_language(l));

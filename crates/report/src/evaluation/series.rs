@@ -26,7 +26,7 @@ pub(super) fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
             let words = if words.is_empty() {
                 String::new()
             } else {
-                l.pick(format!(": {words}"), format!("：{words}"))
+                l.with_head("", &words)
             };
             Block::Section(if unit.is_empty() {
                 format!("{name}{words}")
@@ -45,12 +45,8 @@ pub(super) fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
         if series.judged.iter().any(|claims| !claims.is_empty()) {
             let title = Word::Claim.of(l);
             blocks.push(match series.one_figure() {
-                Some(figure) => {
-                    titled(&l.pick(format!("{title}, {figure}"), format!("{title}，{figure}")))
-                }
-                None => {
-                    Block::Section(l.pick(format!("{name}: {title}"), format!("{name}：{title}")))
-                }
+                Some(figure) => titled(&[title, &figure].join(l.comma())),
+                None => Block::Section(l.with_head(name, title)),
             });
             blocks.push(Block::Table(series.claims().without_empty_columns()));
         }
@@ -405,7 +401,7 @@ fn common_remarks(rows: &[Report<'_>]) -> Vec<Finding> {
         }
         if labels.len() != rows.len() {
             let (labels, text) = (l.list(&labels), &remark.text);
-            remark.text = l.pick(format!("{labels}: {text}"), format!("{labels}：{text}"));
+            remark.text = l.with_head(&labels, text);
         }
         remark
     };

@@ -80,7 +80,7 @@ impl Shown<'_> {
         let count = count.min(all.len());
         all.truncate(LISTED);
         let names = all;
-        let names = names.join(self.l.pick(", ", "、"));
+        let names = names.join(self.l.list_comma());
         match count > LISTED {
             true => format!("{names} …"),
             false => names,

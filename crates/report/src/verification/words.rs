@@ -1,6 +1,7 @@
 //! Headings, counts and verdicts in words.
 
 use crate::language::Language;
+use crate::phrase::{plural, third_person};
 use gumption_fault::say;
 use gumption_verify::{Example, Verdict, Verification};
 
@@ -37,10 +38,7 @@ pub(super) fn verdict_with_counts(example: &Example, l: Language) -> String {
     if all > gating {
         parts.push(say!("{} more not gating", all - gating).in_language(l));
     }
-    match l {
-        Language::English => format!("{word}: {}", parts.join(", ")),
-        Language::Chinese => format!("{word}：{}", parts.join("，")),
-    }
+    l.with_head(word, &parts.join(l.comma()))
 }
 
 /// How many figures, then exactly `N passed, M failed` in English.
@@ -71,12 +69,4 @@ pub(super) fn tally(verification: &Verification, l: Language) -> String {
     let counts = verification.counts();
     let (passed, failed) = (counts.passed, counts.failed);
     say!("{passed} passed, {failed} failed").in_language(l)
-}
-
-fn plural(n: usize) -> &'static str {
-    if n == 1 { "" } else { "s" }
-}
-
-fn third_person(n: usize) -> &'static str {
-    if n == 1 { "s" } else { "" }
 }

@@ -1,6 +1,7 @@
 //! Models: where the trials lead, where worst case and first order part from them.
 
 use gumption_core::special::{normal_pdf, normal_two_sided_quantile};
+use gumption_fault::say;
 use gumption_format::document::{Axis, ColumnKind, Marks, Panel, Table, Tone};
 use gumption_format::machine::Number;
 use gumption_report::grouped;
@@ -53,10 +54,7 @@ pub(super) fn histogram(class: &Class<'_>) -> Drawn {
     let rug = drawn.iter().take(10 * SEEN).map(|x| [*x, 0.0]);
     let [centre, s] = moments(drawn);
     Drawn {
-        words: class.language.pick(
-            format!("Monte Carlo does what a laboratory cannot: it repeats the measurement. Each trial draws a value of a (normal, u = 0.2) and one of b (anywhere within ±0.2), and multiplies them. The slider adds trials to those that are there, from 2 to 10 000; now there are {trials}. A few say little, hundreds show the shape, and only thousands the ends of an interval: u is known to one part in √(2 M) after M trials."),
-            format!("蒙特卡洛法能做实验室做不到的事：重复整个测量。每次试验抽取一个 a（正态，u = 0.2）和一个 b（在 ±0.2 内均匀），并求其积。滑块在已有试验上继续增加，从 2 次到 10 000 次；现在是 {trials} 次。几次说明不了什么，几百次可看出形状，几千次才能确定区间端点：M 次试验后，u 约准至 √(2 M) 分之一。"),
-        ),
+        words: say!("Monte Carlo does what a laboratory cannot: it repeats the measurement. Each trial draws a value of a (normal, u = 0.2) and one of b (anywhere within ±0.2), and multiplies them. The slider adds trials to those that are there, from 2 to 10 000; now there are {trials}. A few say little, hundreds show the shape, and only thousands the ends of an interval: u is known to one part in √(2 M) after M trials.").in_language(class.language),
         table,
         panel: Panel {
             title: class.pick("Trials so far", "已作的试验"),
@@ -196,10 +194,7 @@ pub(super) fn square(class: &Class<'_>) -> Drawn {
         ));
     }
     Drawn {
-        words: class.language.pick(
-            format!("y = a² with u(a) = 1 at a = {a:.1} (the slider moves a; 5 is zero). At zero the slope is zero, and the law of propagation gives u(y) = 0: it looks at the slope alone. But a is not exactly zero, and its square is never below: y is 1 on average, and lies between 0 and 5. The second order finds mean and u, and not that the interval cannot begin below zero. From a about three times u(a) on, the first order is good enough."),
-            format!("y = a²，u(a) = 1，a = {a:.1}（滑块改变 a，5 处为零）。零点处斜率为零，不确定度传播律给出 u(y) = 0：它只看斜率。但 a 并非恰好为零，而平方不会小于零：y 平均为 1，在 0 与 5 之间。二阶项能给出平均值和 u，却不知道区间不可能低于零。a 约为 u(a) 的三倍以上时，一阶就足够了。"),
-        ),
+        words: say!("y = a² with u(a) = 1 at a = {a:.1} (the slider moves a; 5 is zero). At zero the slope is zero, and the law of propagation gives u(y) = 0: it looks at the slope alone. But a is not exactly zero, and its square is never below: y is 1 on average, and lies between 0 and 5. The second order finds mean and u, and not that the interval cannot begin below zero. From a about three times u(a) on, the first order is good enough.").in_language(class.language),
         table,
         panel: Panel {
             title: class.pick("Distribution of a²", "a² 的分布"),
@@ -279,10 +274,7 @@ pub(super) fn tumble(class: &Class<'_>) -> Drawn {
         .map(|(eps, error)| [1e3 * eps, 1e6 * error])
         .collect();
     Drawn {
-        words: class.language.pick(
-            format!("An accelerometer is turned to 0°, 90°, 180° and 270° on a support whose level is known to u = {level:.0} mrad (the slider). In one horizontal reading the level error is in the bias to its full size; in the mean of all four it cancels. In the scale factor, (E₀ − E₁₈₀)/2, it acts by its cosine: always too small, by ε²/2 on average. A first-order budget has nothing of that, since the slope of the cosine at zero is zero: it is a correction, not a scatter."),
-            format!("加速度计在水平误差为 u = {level:.0} mrad（滑块）的支座上转到 0°、90°、180° 和 270°。单个水平位置的读数中，水平误差全部进入零偏；四位置平均时则抵消。对标度因数 (E₀ − E₁₈₀)/2 它以余弦起作用：总是偏小，平均为 ε²/2。余弦在零点处斜率为零，一阶评定中看不到它：这是应作的修正，而不是分散性。"),
-        ),
+        words: say!("An accelerometer is turned to 0°, 90°, 180° and 270° on a support whose level is known to u = {level:.0} mrad (the slider). In one horizontal reading the level error is in the bias to its full size; in the mean of all four it cancels. In the scale factor, (E₀ − E₁₈₀)/2, it acts by its cosine: always too small, by ε²/2 on average. A first-order budget has nothing of that, since the slope of the cosine at zero is zero: it is a correction, not a scatter.").in_language(class.language),
         table,
         panel: Panel {
             title: class.pick("Error of the scale factor against the level error", "标度因数的误差随水平误差的变化"),

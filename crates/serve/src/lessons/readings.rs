@@ -1,6 +1,7 @@
 //! Readings and their sums: what a class draws first.
 
 use gumption_core::special::{normal_pdf, normal_two_sided_quantile, student_t_upper_quantile};
+use gumption_fault::say;
 use gumption_format::document::{Axis, ColumnKind, Marks, Panel, Table, Tone};
 use gumption_format::machine::Number;
 
@@ -112,10 +113,7 @@ pub(super) fn coverage(class: &Class<'_>) -> Drawn {
     }
     let n = class.n;
     Drawn {
-        words: class.language.pick(
-            format!("A hundred times n = {n} readings are taken of a quantity whose value is 0, and the interval x̄ ± k s/√n is drawn. The promise of 95 % is about the procedure: about five in a hundred miss. With few readings s is itself uncertain, and only the k of t keeps the promise."),
-            format!("对真值为 0 的量取 n = {n} 个读数，重复一百次，画出区间 x̄ ± k s/√n。95 % 是对这一做法的承诺：一百个中约有五个未包含真值。读数少时 s 本身也不确定，只有 t 分布的 k 才能兑现承诺。"),
-        ),
+        words: say!("A hundred times n = {n} readings are taken of a quantity whose value is 0, and the interval x̄ ± k s/√n is drawn. The promise of 95 % is about the procedure: about five in a hundred miss. With few readings s is itself uncertain, and only the k of t keeps the promise.").in_language(class.language),
         table,
         panel: Panel {
             title: class.pick("Intervals x̄ ± t s/√n", "区间 x̄ ± t s/√n"),
@@ -161,10 +159,7 @@ pub(super) fn rectangles(class: &Class<'_>) -> Drawn {
         format!("{:.2}", normal_two_sided_quantile(P)).into(),
     ]);
     Drawn {
-        words: class.language.pick(
-            format!("The sum of n = {n} quantities, each anywhere between −1 and 1, drawn 10 000 times. Two make a triangle; a few look normal already (central limit theorem), and k for 95 % comes near 1.96. Where one rectangle outweighs all others it does not: k is 1.65 for it alone."),
-            format!("n = {n} 个量之和，每个量在 −1 与 1 之间均匀分布，抽样 10 000 次。两个之和为三角分布；几个之和已近似正态（中心极限定理），95 % 的 k 接近 1.96。若其中一个远大于其余，则不成立：单个均匀分布的 k 为 1.65。"),
-        ),
+        words: say!("The sum of n = {n} quantities, each anywhere between −1 and 1, drawn 10 000 times. Two make a triangle; a few look normal already (central limit theorem), and k for 95 % comes near 1.96. Where one rectangle outweighs all others it does not: k is 1.65 for it alone.").in_language(class.language),
         table,
         panel: Panel {
             title: class.pick("Distribution of the sum", "和的分布"),
@@ -222,10 +217,7 @@ pub(super) fn shared(class: &Class<'_>) -> Drawn {
     }
     let seen = points.iter().take(10 * SEEN).copied().collect();
     Drawn {
-        words: class.language.pick(
-            format!("Two weights are compared with the same standard (u = 2 mg), each by a comparison of its own (u = 1 mg). What the standard is wrong by is in both: r = {r:.2}. Their sum is less certain than squares say, their difference far more."),
-            format!("两个砝码与同一标准（u = 2 mg）比较，每次比较各有 u = 1 mg。标准的误差同时进入两者：r = {r:.2}。两者之和比平方和所示更不确定，两者之差则确定得多。"),
-        ),
+        words: say!("Two weights are compared with the same standard (u = 2 mg), each by a comparison of its own (u = 1 mg). What the standard is wrong by is in both: r = {r:.2}. Their sum is less certain than squares say, their difference far more.").in_language(class.language),
         table,
         panel: Panel {
             title: class.pick("Errors of both weights", "两个砝码的误差"),

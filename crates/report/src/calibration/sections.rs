@@ -59,11 +59,17 @@ pub(super) fn equations(campaign: &Campaign, l: Language) -> Vec<Block> {
     let equations = &campaign.experiment.equations;
     let lines = all.flat_map(|response| equations.text(response).lines());
     let lines = equations.shared().lines().chain(lines).map(str::to_owned);
-    let constants = campaign.experiment.constants.iter().filter_map(constant);
-    vec![
+    let mut blocks = vec![
         section(l, "Measurement equations", "测量方程"),
-        Block::Formula(lines.chain(constants).collect()),
-    ]
+        Block::Formula(lines.collect()),
+    ];
+    let constants = campaign.experiment.constants.iter().filter_map(constant);
+    let constants: Vec<String> = constants.collect();
+    if !constants.is_empty() {
+        let constants = constants.join(l.comma());
+        blocks.push(Block::Paragraph(say!("with {constants}").in_language(l)));
+    }
+    blocks
 }
 
 /// What an equation takes as exactly known: `Rn = 100 Ω`.

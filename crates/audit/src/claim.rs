@@ -345,7 +345,8 @@ impl Claimed {
             && self
                 .rows
                 .iter()
-                .all(|row| row.c.is_none() && row.dof.is_none())
+                // Without a model a coefficient is stated, and not computed.
+                .all(|row| (row.c.is_none() || self.model.is_none()) && row.dof.is_none())
     }
 
     /// Whether the sheet is a summary, which states no standard uncertainty of a row.

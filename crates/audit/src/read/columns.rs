@@ -226,6 +226,19 @@ pub fn is_bare_u(head: &str) -> bool {
     )
 }
 
+/// Whether a head says that its figures are uncertainties, and not which.
+pub fn is_bare_uncertainty(head: &str) -> bool {
+    const WORDS: [&str; 6] = [
+        "uncertainty",
+        "unc",
+        "unc.",
+        "unsicherheit",
+        "incertitude",
+        "不确定度",
+    ];
+    WORDS.contains(&compact(&apart(head).0).as_str())
+}
+
 /// A head without the unit in it: `u(x_i) / mm`, `Estimate [mm]`, `contribution (mm)`.
 pub fn apart(head: &str) -> (String, String) {
     let head = head.trim();

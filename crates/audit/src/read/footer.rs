@@ -154,6 +154,9 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
             }
         }
     }
+    if let Some(factor) = multiple_of_u(text) {
+        take(Whole::Factor, factor);
+    }
     if !measurand.is_empty()
         && let Some(figure) = assigned(text, measurand)
     {
@@ -204,6 +207,19 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
         }
     }
     found
+}
+
+/// The factor of `U = 2·u_c`.
+fn multiple_of_u(text: &str) -> Option<Printed> {
+    let mut right = text.split('=').skip(1);
+    right.find_map(|right| {
+        let (factor, behind) = leading(right)?;
+        let behind = behind.trim_start_matches([' ', '·', '⋅', '×', '*', 'x']);
+        let is_u = ["u_c", "uc", "u("]
+            .iter()
+            .any(|name| behind.starts_with(name));
+        ((1.0..5.0).contains(&factor.value) && is_u).then_some(factor)
+    })
 }
 
 /// Whether a line, in small letters, says what u_c, ν_eff or U are.
@@ -376,6 +392,16 @@ mod tests {
         let text = "Expanded uncertainty: U = k x u(e) = 2 x 0.00121 MPa = 0.0024 MPa";
         sentence(text, "", Place::default(), &mut footer);
         assert_eq!(value(&footer.expanded), 0.0024);
+        for (text, k) in [
+            ("U = 2·u_c", Some(2.0)),
+            ("U95=1.96 uc", Some(1.96)),
+            ("扩展不确定度 U = 2 × u(y)", Some(2.0)),
+            ("U = 2 × 0.027 mm", None),
+        ] {
+            let mut footer = Footer::default();
+            sentence(text, "", Place::default(), &mut footer);
+            assert_eq!(footer.k.map(|k| k.value), k, "{text}");
+        }
         let text = "Relative combined standard uncertainty w = 0.35 %";
         sentence(text, "", Place::default(), &mut footer);
         assert_eq!(value(&footer.u_c), 0.35);

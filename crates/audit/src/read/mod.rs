@@ -10,6 +10,7 @@
 //! | `converter` | the step of a converter, from its bits and range |
 //! | `footer` | claimed figures of the whole |
 //! | `formulas` | what the formulas of a workbook give away |
+//! | `meant` | what figures are of which the head leaves it open: the sums of the sheet tell |
 //! | `lines` | lines beside a table, each to the whole or to a row |
 //! | `model` | where the model stands, and what its names say of the rows |
 //! | `notes` | what notes say: model, correlations, rules |
@@ -29,6 +30,7 @@ mod formulas;
 mod kind;
 mod lines;
 mod mapping;
+mod meant;
 mod model;
 mod notes;
 mod points;
@@ -294,7 +296,7 @@ fn budget(
     claimed.typed = formulas::typed(grid, sheet, &claimed);
     claimed.stale = formulas::stale(grid, sheet, bounds.clone());
     if located.has_bare_u_behind_c() {
-        u_by_sum(&mut claimed);
+        meant::u_by_sum(&mut claimed);
     }
     let own = own(&located);
     let all: Vec<&Line> = own.iter().chain(common).collect();
@@ -309,35 +311,16 @@ fn budget(
         }
     }
     let full = located.is_evaluated();
+    let other = located
+        .open_uncertainty()
+        .map(|head| meant::with_standard(&claimed, head));
     table::interpret(&raw, full, &mut claimed);
+    if let Some(mut other) = other {
+        table::interpret(&raw, full, &mut other);
+        claimed = meant::better(claimed, other);
+    }
     claimed.rows.extend(missing);
     claimed
-}
-
-/// Figures behind the coefficients, of which the head says no more than `u_i`, are u where u_c is the sum of their squares
-/// with the coefficients, and not without.
-fn u_by_sum(claimed: &mut Claimed) {
-    let footer = &claimed.footer;
-    let half = footer.expanded.as_ref().zip(footer.k.as_ref());
-    let of_expanded = half.map(|(expanded, k)| (expanded.value / k.value, expanded.half / k.value));
-    let stated = footer.u_c.as_ref().map(|u_c| (u_c.value, u_c.half));
-    let Some((u_c, half)) = stated.or(of_expanded) else {
-        return;
-    };
-    let sum = |with_c: bool| {
-        let square = |row: &Row| {
-            let c = row.c.as_ref().filter(|_| with_c).map_or(1.0, |c| c.value);
-            let part = row.contribution.as_ref().map_or(0.0, |u| c * u.value);
-            part * part
-        };
-        libm::sqrt(claimed.rows.iter().map(square).sum())
-    };
-    let near = |sum: f64| (sum - u_c).abs() <= half + 0.01 * u_c;
-    if near(sum(true)) && !near(sum(false)) {
-        for row in &mut claimed.rows {
-            row.u = row.contribution.take();
-        }
-    }
 }
 
 /// The last row of a table in the form of EA-4/02 is that of the result.

@@ -3,6 +3,7 @@
 use crate::claim::{Row, Shape, Stated};
 use crate::printed::Printed;
 use crate::read::has;
+use crate::units;
 
 use super::{Hit, Seen};
 use crate::calculate::Line;
@@ -78,7 +79,13 @@ fn undivided(seen: &Seen<'_>) -> Vec<Hit> {
 fn of_divisors(seen: &Seen<'_>) -> Vec<Hit> {
     each(seen, |row, _| {
         let (u, used, divisor) = (row.u.as_ref()?, row.used.as_ref()?, row.divisor.as_ref()?);
-        let quotient = used.value / divisor.value;
+        // In per cent, and u is not: a part of the estimate.
+        let is_share = |figure: &Printed| units::fraction(&figure.unit).is_some();
+        let part = match is_share(used) && !is_share(u) {
+            true => row.relative_factor(),
+            false => 1.0,
+        };
+        let quotient = used.value / divisor.value * part;
         let differs = far(u, quotient, open(&[used, divisor]));
         differs.then(|| {
             format!(

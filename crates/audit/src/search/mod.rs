@@ -405,6 +405,12 @@ impl Found<'_> {
         slips::other_result(&self.case)
     }
 
+    /// Whether all that is to be said of the claim is that its U has many digits.
+    pub fn is_long_alone(&self) -> bool {
+        let best = self.explanations.first();
+        best.is_some_and(|best| !best.acts.is_empty() && best.acts.iter().all(Act::is_read))
+    }
+
     /// Whether a result is claimed that nothing on the sheet gives: it is taken as it stands.
     pub fn takes_result(&self) -> bool {
         slips::is_open(&self.case)

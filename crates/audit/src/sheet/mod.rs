@@ -84,6 +84,8 @@ pub struct Head {
 pub struct Cell {
     /// What stands in it, with blanks, dashes and digits of all kinds made plain.
     pub text: String,
+    /// The number that it holds, where it is one of a workbook: with it formulas go on, whatever the cell shows.
+    pub number: Option<f64>,
     /// The formula behind it, without the equals sign.
     pub formula: Option<String>,
     /// What the cell shows, where it holds a number with more digits than that.
@@ -127,6 +129,7 @@ impl Grid {
     pub fn cell(&self, row: usize, column: usize) -> &Cell {
         static NOTHING: Cell = Cell {
             text: String::new(),
+            number: None,
             formula: None,
             shown: None,
             gives: None,

@@ -11,6 +11,13 @@ use crate::printed::{PLAIN, clean, leading};
 
 /// The cell of a number, by what it shows.
 pub(super) fn cell(value: f64, shown: Option<&str>) -> Cell {
+    Cell {
+        number: Some(value),
+        ..called(value, shown)
+    }
+}
+
+fn called(value: f64, shown: Option<&str>) -> Cell {
     let held = Decimal::from_f64(value);
     let plain = Cell::new(&held.print_plain(PLAIN));
     let Some(shown) = shown else {

@@ -10,10 +10,20 @@ pub(crate) fn mark(grid: &mut Grid) {
     let stale = |row: usize, column: usize| {
         let cell = grid.cell(row, column);
         let formula = cell.formula.as_ref()?;
-        let held = cell.figure().filter(|held| held.unit.is_empty())?;
+        let held = held(cell)?;
         let Value { x, open } = value(grid, formula)?;
-        let is_met = held.is_met_within(x, held.half + open * x.abs());
-        (!is_met).then_some((row, column, x))
+        // A figure in per cent is a hundred times its number.
+        let figure = cell.figure()?;
+        let scale = match figure.value == 0.0 {
+            true => 1.0,
+            false => held.x / figure.value,
+        };
+        let half = figure.half * scale.abs();
+        let number = Printed {
+            value: held.x,
+            ..figure
+        };
+        (!number.is_met_within(x, half + open * x.abs())).then_some((row, column, x))
     };
     let rows = 0..grid.rows.len();
     let places = rows.flat_map(|row| (0..grid.rows[row].len()).map(move |column| (row, column)));
@@ -207,7 +217,7 @@ impl<'t> Reader<'t> {
                         if cells.clone().any(Cell::lacks_value) {
                             return None;
                         }
-                        all.extend(cells.filter_map(|cell| Some(known(&cell.figure()?))));
+                        all.extend(cells.filter_map(held));
                     }
                     self.rest = &self.rest[end..];
                 }
@@ -224,8 +234,17 @@ impl<'t> Reader<'t> {
 
     fn cell(&self, name: &str) -> Option<Value> {
         let (row, column) = place(name)?;
-        let figure = self.grid.cell(row, column).figure()?;
-        figure.unit.is_empty().then(|| known(&figure))
+        held(self.grid.cell(row, column))
+    }
+}
+
+/// The number with which formulas go on that name a cell: a text with a unit is none.
+fn held(cell: &Cell) -> Option<Value> {
+    let figure = cell.figure()?;
+    let known = known(&figure);
+    match cell.number {
+        Some(x) => Some(Value { x, ..known }),
+        None => figure.unit.is_empty().then_some(known),
     }
 }
 
@@ -257,6 +276,7 @@ fn place(name: &str) -> Option<(usize, usize)> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::shown;
     use super::*;
 
     #[test]
@@ -276,6 +296,19 @@ mod tests {
         assert_eq!(of("_xlfn.STDEV.S(B1,B2,B1+5)"), Some(5.0));
         assert_eq!(of("MAX(B1:B2)/COUNT(B1:B2)+PI()-PI()"), Some(20.0));
         assert!((of("B1/SQRT(3)").unwrap() - 17.320508).abs() < 1e-6);
+        // A format in per cent, or with a unit, changes nothing of the number.
+        let formats = Grid {
+            rows: vec![vec![
+                shown::cell(0.002, Some("0.200%")),
+                shown::cell(0.056, Some("0.056 mm")),
+                Cell::new("0.3 mm"),
+            ]],
+            ..Grid::default()
+        };
+        let of_formats = |formula: &str| value(&formats, formula).map(|value| value.x);
+        assert_eq!(of_formats("A1/2"), Some(0.001));
+        assert_eq!(of_formats("SUM(A1:C1)"), Some(0.058));
+        assert_eq!(of_formats("C1*2"), None);
         for strange in ["A1", "Other!B1", "IF(B1>1,2,3)", "B1+", "\"a\"", "((((B1"] {
             assert_eq!(of(strange), None, "{strange}");
         }

@@ -18,7 +18,7 @@ pub(super) fn compute(grid: &mut Grid, shows: impl Fn(usize, usize, f64) -> Opti
             };
             let of_value = shown::cell(x, shows(*row, *column, x).as_deref());
             let cell = &mut grid.rows[*row][*column];
-            (cell.text, cell.shown) = (of_value.text, of_value.shown);
+            (cell.text, cell.shown, cell.number) = (of_value.text, of_value.shown, of_value.number);
             false
         });
         if open.len() == before {

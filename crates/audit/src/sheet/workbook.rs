@@ -129,7 +129,7 @@ fn cell(grid: &mut Grid, row: usize, column: usize) -> &mut Cell {
 fn of_value(value: &Data, shows: impl Fn(f64) -> Option<String>) -> Cell {
     match value {
         Data::Float(x) => shown::cell(*x, shows(*x).as_deref()),
-        Data::Int(n) => Cell::new(&n.to_string()),
+        Data::Int(n) => shown::cell(*n as f64, None),
         Data::String(text) | Data::DateTimeIso(text) | Data::DurationIso(text) => Cell::new(text),
         Data::Bool(b) => Cell::new(&b.to_string()),
         Data::DateTime(date) => Cell::new(&date.to_string()),

@@ -1,7 +1,7 @@
 //! Sheets in the words and columns of laboratories that had not been read before, and what they had in common.
 
 use super::{answer, first};
-use crate::Verdict;
+use crate::{Verdict, audit, read, rules, sheet};
 
 fn is_sound(name: &str, sheet: &str) {
     assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
@@ -228,4 +228,86 @@ fn heads_end_in_the_distribution() {
          u1,\"力标准机 (Urel=0.02%, k=2)\",正态,0.010,%,1\nu2,\"重复性(3次, 极差法 R=0.03%, C=1.69)\",正态,0.010,%,1\n\
          u3,方位误差 ±0.03%,反正弦,0.021,%,1\nu4,分辨力 0.01%,均匀,0.0029,%,1\nuc,,,0.026,%,\nU,k=2,,0.052,%,\n",
     );
+}
+
+/// A column that is called no more than `Uncertainty`, beside no other: its figures are what makes u_c come true.
+#[test]
+fn a_column_of_uncertainties_is_what_its_sum_says() {
+    let sheet = |[source, head, c, u_c, expanded]: [&str; 5], figures: [&str; 2]| {
+        let [combined, stated] = figures;
+        format!(
+            "Length of a gauge (mm)\n{source},{head},{c}\nrepeatability,0.012,1\nreference standard,0.030,1\n\
+             resolution,0.0058,-1\ntemperature,0.010,2.5\n{u_c},{combined}\n{expanded},{stated}\n"
+        )
+    };
+    let english = [
+        "Source",
+        "Uncertainty",
+        "Sensitivity",
+        "Combined standard uncertainty",
+        "Expanded uncertainty (k=2)",
+    ];
+    let chinese = [
+        "不确定度来源",
+        "不确定度",
+        "灵敏系数",
+        "合成标准不确定度",
+        "扩展不确定度 (k=2)",
+    ];
+    for words in [english, chinese] {
+        is_sound("sheet.csv", &sheet(words, ["0.0413", "0.083"]));
+        let dropped = sheet(words, ["0.0328", "0.066"]);
+        assert_eq!(first("sheet.csv", &dropped), "row-dropped@temperature");
+    }
+    for head in ["Source,Uncertainty", "来源,不确定度/kPa"] {
+        let list = |u_c: &str, expanded: &str| {
+            format!(
+                "{head}\nreference,0.30\nbath,0.20\nresolution,0.02\nu_c,{u_c}\nU (k=2),{expanded}\n"
+            )
+        };
+        is_sound("sheet.csv", &list("0.361", "0.72"));
+        assert_eq!(first("sheet.csv", &list("0.52", "1.0")), "linear-sum");
+    }
+    // Limits of which the sum has the standard uncertainties stay limits.
+    let limits = "Source,Uncertainty\ntemperature limits ±0.30 K,0.30\nbath limits ±0.20 K,0.20\nu_c,0.208\nU (k=2),0.42\n";
+    is_sound("sheet.csv", limits);
+    // A figure that its row says is expanded was not divided.
+    let certificate = "Source,Uncertainty\n\"certificate, k = 2\",0.30\nrepeatability of the mean,0.20\nu_c,0.361\nU (k=2),0.72\n";
+    assert_eq!(
+        first("sheet.csv", certificate),
+        "cert-undivided@certificate, k = 2"
+    );
+}
+
+/// `Repeatability of 5 (mean)`: five readings, and no s of 5 nm.
+#[test]
+fn how_many_readings_there_were_is_no_deviation() {
+    is_sound(
+        "sheet.csv",
+        "Gauge block 100 mm\nComponent,x_i ±,unit,PDF,divisor,u(x_i),c_i,u_i(y) / nm\n\
+         \"Reference block certificate, U, k=2\",40,nm,normal,2,20,1,20\nComparator,15,nm,rectangular,1.732,8.66,1,8.66\n\
+         Repeatability of 5 (mean),9,nm,normal,1,9,1,9\nCombined standard uncertainty,,,,,,,23.6\nU = 2·u_c,,,,,,,47\n",
+    );
+}
+
+/// A row in ppm of a figure in µV follows its divisor, and `99 %` says as much as k.
+#[test]
+fn questions_that_rows_answer_are_not_asked() {
+    let of = |source: &str| {
+        format!(
+            "DC voltage 10 V\nComponent,Value ±,Unit,Distribution,Divisor,u (µV)\n{source},4.5,ppm,normal,2.58,17.44\n\
+             Drift,3,ppm,rectangular,1.732,17.32\nResolution,0.5,µV,rectangular,1.732,0.2887\nu_c,,,,,24.58\nU (k=2),,,,,49\n"
+        )
+    };
+    let asked = |source: &str| -> Vec<u8> {
+        let grids = sheet::grids("sheet.csv", of(source).as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &read::Mapping::default());
+        let found = audit(&claims[0]).found;
+        let all = rules::findings(&found).into_iter();
+        all.map(|one| one.rule)
+            .filter(|rule| [4, 16].contains(rule))
+            .collect()
+    };
+    assert_eq!(asked("Calibrator"), [16]);
+    assert!(asked("Calibrator, 99 %").is_empty());
 }

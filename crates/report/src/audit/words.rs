@@ -122,6 +122,10 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
             corrected(audit, language).unwrap_or_else(|| say!("Corrected, U is {right_u}{claimed_u}.").in_language(language)),
             chance(),
         ],
+        Verdict::WithoutEffect if found.is_long_alone() => vec![match language {
+            Language::English => format!("Every claimed figure follows from what the sheet states; U has more digits than the two that are reported: U = {right_u}{claimed_u}."),
+            Language::Chinese => format!("全部声称值均可由所述信息得出；只是 U 的有效数字多于应报告的两位：U = {right_u}{claimed_u}。"),
+        }],
         Verdict::WithoutEffect => vec![
             named(),
             say!("The result as printed does not change: U = {right_u}.").in_language(language),
@@ -459,6 +463,7 @@ pub(super) fn role(role: &str, language: Language) -> String {
         "note to a row" => "某行的说明",
         "known, but not in the table" => "已知，但表中没有此项",
         "?" => "未识别",
+        "u, since u_c follows from it" => "标准不确定度（由此可得表中的 u_c）",
         other => other,
     };
     let english = match role {

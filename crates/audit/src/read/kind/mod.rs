@@ -19,7 +19,7 @@ use crate::printed::Printed;
 use crate::units;
 
 use super::converter;
-use super::words::{figure_after, has};
+use super::words::{figure_after, has, named_probability};
 
 pub use evidence::Evidence;
 use family::*;
@@ -102,6 +102,7 @@ fn standard(e: &Evidence<'_>) -> Option<Stated> {
 /// Where words say nothing, the laboratory's own columns are what there is.
 fn by_columns(e: &Evidence<'_>, columns: &str) -> Option<Stated> {
     let used = e.used?.clone();
+    let says_probability = named_probability(&e.words.to_lowercase()).is_some();
     if let Some(shape) = shape(columns) {
         // A divisor of twice the root belongs to a full width.
         let twice = |divisor: f64| (divisor / (2.0 * shape.divisor()) - 1.0).abs() < 0.01;
@@ -122,7 +123,7 @@ fn by_columns(e: &Evidence<'_>, columns: &str) -> Option<Stated> {
     }
     if has(columns, NORMAL) {
         let k = figure_after(columns, &["k"]).map(|k| k.value);
-        let k_stated = k.is_some() || e.divisor_is_factor;
+        let k_stated = k.is_some() || e.divisor_is_factor || says_probability;
         // What is not divided, or by 1, under a normal distribution is a standard uncertainty.
         let undivided = e.u_is_used().then_some(1.0);
         let k = k.or(e.divisor).or(undivided).unwrap_or(2.0);
@@ -153,7 +154,7 @@ fn by_columns(e: &Evidence<'_>, columns: &str) -> Option<Stated> {
         () => Some(Stated::Certificate {
             expanded: used,
             k: divisor,
-            k_stated: e.divisor_is_factor,
+            k_stated: e.divisor_is_factor || says_probability,
         }),
     }
 }

@@ -78,11 +78,16 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         "重复性",
         "repeatability",
     ];
-    let s = e.figure_or_used(KEYS);
-    let s = s.or_else(|| {
+    let n = count(text, e);
+    // `repeatability of 5`: how many they were, beside another figure that was used.
+    let is_count = |s: &Printed| {
+        let used = e.used.filter(|used| used.value != s.value);
+        s.unit.is_empty() && Some(s.value) == n && used.is_some()
+    };
+    let named = e.figure(KEYS).filter(|s| !is_count(s));
+    let s = named.or_else(|| e.used.cloned()).or_else(|| {
         has(text, &["equal", "all alike", "相同", "一致"]).then(|| Printed::exact(0.0, "0"))
     })?;
-    let n = count(text, e);
     let pooled = has(text, POOLED).then(|| pooled_freedom(text, n)).flatten();
     // `repeatability, mean of 5`, with u as it stands: it is not said that the figure is that of single readings.
     let m = behind(text, e, n);

@@ -44,10 +44,14 @@ pub(super) fn head(grid: &Grid, row: usize, mapping: &Mapping) -> Option<Vec<Col
     (identity && figure && enough).then_some(columns)
 }
 
-/// Whether two heads stand above a list of sources with their standard uncertainties, and nothing else.
+/// Whether two heads stand above a list of sources with their uncertainties, and nothing else.
 fn is_list(grid: &Grid, head: usize, columns: &[Column]) -> bool {
-    let is_computed = |c: &&Column| matches!(c.role, Role::U | Role::Contribution);
-    let Some(figures) = columns.iter().find(is_computed) else {
+    let is_uncertainty = |c: &&Column| match c.role {
+        Role::U | Role::Contribution => true,
+        Role::Used => columns::is_bare_uncertainty(&c.head),
+        _ => false,
+    };
+    let Some(figures) = columns.iter().find(is_uncertainty) else {
         return false;
     };
     let is_entry = |row: usize| {

@@ -43,6 +43,20 @@ impl Located {
         is_bare && self.has(Role::C) && !self.has(Role::U) && !self.has(Role::Divisor)
     }
 
+    /// The head of the column of figures where it says no more than `Uncertainty`, and no other column says what they are
+    /// or were divided by.
+    pub fn open_uncertainty(&self) -> Option<&str> {
+        let used = self.column(Role::Used)?;
+        let told = [
+            Role::U,
+            Role::Contribution,
+            Role::Divisor,
+            Role::Distribution,
+        ];
+        let is_told = told.into_iter().any(|role| self.has(role));
+        (!is_told && columns::is_bare_uncertainty(&used.head)).then_some(&used.head)
+    }
+
     /// Rows that are no text beside the table.
     pub fn is_used(&self, row: usize) -> bool {
         self.used.contains(&row)

@@ -77,6 +77,20 @@ fn clash_with(other: &Unit, suspect: &Unit) -> Option<Said> {
     None
 }
 
+/// What to say of a unit that is the reciprocal of a charge where its writer had degrees Celsius in mind: beside values in
+/// `C` no units clash.
+pub fn per_coulomb(unit: &Unit) -> Option<Said> {
+    let per_charge = Dimension::of([0, 0, -1, -1, 0, 0, 0, 0]);
+    let symbol = &unit.symbol;
+    let is_bare = names_in(symbol).iter().any(|name| name == "C");
+    (is_bare && unit.dimension == per_charge).then(|| {
+        say!(
+            "`{symbol}` is read as per coulomb (charge); a temperature in degrees Celsius is in `°C`, its differences are in `K`, \
+             and what goes with them is per `K`"
+        )
+    })
+}
+
 /// What to write where a conversion would silently hold 2π: revolutions are an angle, 2π each, but `Hz` and
 /// a period in seconds count them. `None` where the conversion is harmless; `text` is what is converted.
 ///
@@ -184,6 +198,9 @@ mod tests {
         assert!(hint("1", "pH").contains("picohenry"));
         assert!(hint("s", "S").contains("siemens"));
         assert!(hint("K", "C").contains("coulomb"));
+        let told = |symbol: &str| per_coulomb(&unit(symbol)).is_some();
+        assert!(told("1/C") && told("ppm/C") && told("C^-1"));
+        assert!(!told("C") && !told("Gy/C") && !told("1/K") && !told("1/nC"));
         assert!(hint("1", "dB").contains("amplitudes"));
         assert_eq!(hint("m", "s"), "");
         assert_eq!(hint("g", "kg"), "");

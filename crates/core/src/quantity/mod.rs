@@ -21,7 +21,7 @@ mod token;
 mod unit;
 
 pub use builtin::{BuiltinUnit, Definition, Prefixes, UnitKind, units};
-pub use clash::{hint_for_clash, revolutions_as_angle, unit_of_angle};
+pub use clash::{hint_for_clash, per_coulomb, revolutions_as_angle, unit_of_angle};
 pub use decimal::{Decimal, Rounding};
 pub use dimension::Dimension;
 pub use docs::unit_documentation;

@@ -7,8 +7,8 @@ use super::draft::{Context, show};
 use super::entries::entries;
 use super::units;
 use crate::budget::faults::{NOT_POSITIVE, RELATIVE_TO_ZERO, RELATIVE_UNCLEAR, UNIT_CLASH};
-use crate::budget::tables::FileTable;
-use gumption_core::quantity::{Unit, revolutions_as_angle};
+use crate::budget::tables::{ComponentTable, FileTable};
+use gumption_core::quantity::{Unit, per_coulomb, revolutions_as_angle};
 use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Amount;
 use gumption_format::toml::{Slot, Stated};
@@ -50,6 +50,28 @@ pub(super) fn is_bare_ratio(unit: &Unit) -> bool {
     unit.dimension.is_none() && is_ratio(&unit.symbol) && !unit.symbol.contains('/')
 }
 
+/// What `relative` says of the figures beside it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Share {
+    /// Nothing: their units tell.
+    Unsaid,
+    /// They are fractions of the value.
+    OfValue,
+    /// They are amounts in the unit of the quantity, also those in per cent.
+    AsItStands,
+}
+
+impl ComponentTable {
+    /// What its figures are said to be a part of.
+    pub(super) fn share(&self) -> Share {
+        match self.relative.as_ref().map(|stated| stated.value) {
+            None => Share::Unsaid,
+            Some(true) => Share::OfValue,
+            Some(false) => Share::AsItStands,
+        }
+    }
+}
+
 impl Checker<'_> {
     /// Reads the `[unit]` table.
     pub(super) fn define_units(&mut self, file: &FileTable) {
@@ -65,7 +87,12 @@ impl Checker<'_> {
         };
         let files = self.source.origin.files;
         match files.unit(&self.names.units, &stated.value) {
-            Ok(unit) => Some(unit),
+            Ok(unit) => {
+                if let Some(remark) = per_coulomb(&unit) {
+                    self.remark(remark);
+                }
+                Some(unit)
+            }
             Err(error) => {
                 let fault = units::placed(Fault::from(error), stated, self.source.text);
                 self.refuse(match share_of(&stated.value) {
@@ -179,14 +206,15 @@ impl Checker<'_> {
     }
 
     /// A deviation of a quantity, in the unit of its differences. Amounts such as `50 ppm`, and all
-    /// numbers when `relative` is set, are fractions of the value.
+    /// numbers where the file says so, are fractions of the value.
     pub(super) fn deviation(
         &mut self,
         amount: &Stated<Amount>,
         context: &Context<'_>,
-        relative: bool,
+        share: Share,
     ) -> Option<f64> {
         let number = amount.value.number;
+        let relative = share == Share::OfValue;
         let unit = context.unit.difference();
         let Some(own) = self.amount_unit(&amount.value)? else {
             return match relative {
@@ -197,7 +225,7 @@ impl Checker<'_> {
         };
         let own = own.difference();
         let one = Unit::one();
-        if own.dimension == one.dimension {
+        if own.dimension == one.dimension && share != Share::AsItStands {
             let fraction = own
                 .conversion_to(&one)
                 .map_or(number, |conversion| conversion.apply(number));
@@ -215,6 +243,14 @@ impl Checker<'_> {
                 unit.symbol.contains('/') || value != 0.0 && !(value == 1.0 && unit.is_one())
             };
             if is_ratio(&own.symbol) && context.value().is_some_and(unclear) {
+                let absolute = one
+                    .conversion_to(&unit)
+                    .map_or(number, |conversion| conversion.apply(fraction));
+                if self.is_content(&unit)
+                    && context.value().is_some_and(|value| absolute > value.abs())
+                {
+                    return self.fraction(amount, fraction, context);
+                }
                 return self.refuse(
                     Fault::new(
                         RELATIVE_UNCLEAR,
@@ -246,16 +282,36 @@ impl Checker<'_> {
         self.difference_in(amount, &own, &unit, context.owner)
     }
 
+    /// Whether a unit is that of a content, mg/kg or mmol/mol: an uncertainty larger than the content itself is not what
+    /// anybody means by a percentage of it.
+    fn is_content(&self, unit: &Unit) -> bool {
+        let is_amount = |symbol: &str| {
+            let own = self.names.units.parse(symbol.trim()).ok();
+            let of_amounts = ["kg", "mol", "L"]
+                .into_iter()
+                .filter_map(|amount| self.names.units.parse(amount).ok());
+            let of_amounts: Vec<Unit> = of_amounts.collect();
+            own.is_some_and(|own| {
+                of_amounts
+                    .iter()
+                    .any(|amount| amount.dimension == own.dimension)
+            })
+        };
+        unit.symbol
+            .split_once('/')
+            .is_some_and(|(part, whole)| is_amount(part) && is_amount(whole))
+    }
+
     /// A deviation that must be greater than zero.
     pub(super) fn positive_deviation(
         &mut self,
         amount: &Stated<Amount>,
         key: &str,
         context: &Context<'_>,
-        relative: bool,
+        share: Share,
     ) -> Option<f64> {
         if amount.value.number > 0.0 {
-            return self.deviation(amount, context, relative);
+            return self.deviation(amount, context, share);
         }
         let fault = Fault::new(
             NOT_POSITIVE,

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::amounts::Share;
 use super::checker::Checker;
 use super::csv::{decimals, lacks};
 use super::draft::{Context, Core, show};
@@ -318,7 +319,7 @@ impl Checker<'_> {
         for (index, (mean, s)) in means.value.iter().zip(&s.value).enumerate() {
             let count = counts.get(index).or(counts.first())?;
             let mean = self.quantity(mean, context.unit, context.owner)?;
-            let s = self.deviation(s, context, false)?;
+            let s = self.deviation(s, context, Share::Unsaid)?;
             if count.value < 2 || s < 0.0 {
                 let (span, what) = match count.value < 2 {
                     true => (&count.span, say!("two readings or more in every group")),

@@ -18,7 +18,6 @@ impl Checker<'_> {
     pub(super) fn expanded(
         &mut self,
         table: &ComponentTable,
-        relative: bool,
         context: &Context<'_>,
     ) -> Option<Core> {
         let certificate = table.certificate.as_ref()?;
@@ -26,7 +25,7 @@ impl Checker<'_> {
         if certificate.value.refused {
             return None;
         }
-        let u_capital = self.positive_deviation(expanded, "U", context, relative)?;
+        let u_capital = self.positive_deviation(expanded, "U", context, table.share())?;
         if let (Some(inner), Some(outer)) = (&certificate.value.dof, &table.dof) {
             return self.refuse(
                 Fault::new(

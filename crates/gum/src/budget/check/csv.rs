@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::amounts::Share;
 use super::checker::Checker;
 use crate::budget::faults::{CSV, MISSING_KEY, VECTOR};
 use crate::budget::tables::{ColumnTable, ComponentTable};
@@ -57,11 +58,9 @@ impl Checker<'_> {
         if !named(&table.u) && !named(&table.half_width) {
             return None;
         }
-        let relative = table.relative.as_ref().is_some_and(|stated| stated.value);
-        let unit = if relative {
-            Unit::one()
-        } else {
-            unit.difference()
+        let unit = match table.share() {
+            Share::OfValue => Unit::one(),
+            Share::Unsaid | Share::AsItStands => unit.difference(),
         };
         let mut listed = table.clone();
         for stated in [&mut listed.u, &mut listed.half_width]

@@ -432,7 +432,7 @@ impl Checker<'_> {
             }
         }
         self.label_uniquely(name, &mut drafts);
-        for mut draft in self.absorb(name, drafts, resolution) {
+        for mut draft in self.absorb(name, unit, drafts, resolution) {
             let (follows, readings) = (draft.follows, draft.readings.take());
             let component = register.add(Owner::Input(place), name, unit, draft, alone);
             register.follow(place, component, 1.0, follows);

@@ -1,8 +1,9 @@
 //! Resolution beside repeatability: double counting, and readings that do not scatter at all.
 
 use super::checker::Checker;
-use super::draft::{Drafts, Kind, show};
+use super::draft::{Drafts, Kind};
 use crate::budget::tables::ResolutionWord;
+use gumption_core::quantity::{Decimal, Rounding, Unit, space_before};
 use gumption_fault::say;
 
 impl Checker<'_> {
@@ -11,6 +12,7 @@ impl Checker<'_> {
     pub(super) fn absorb(
         &mut self,
         owner: &str,
+        unit: &Unit,
         drafts: Drafts,
         convention: ResolutionWord,
     ) -> Drafts {
@@ -33,7 +35,15 @@ impl Checker<'_> {
         } else {
             (Kind::Repeatability, say!("repeatability"))
         };
-        let (smaller, larger) = (show(scatter.min(resolution)), show(scatter.max(resolution)));
+        let unit = unit.difference();
+        let told = |u: f64| {
+            let u = Decimal::from_f64(u).round_to_significant(3, Rounding::HalfEven);
+            match unit.is_one() {
+                true => u.to_string(),
+                false => format!("{u}{}{}", space_before(&unit.symbol), unit.symbol),
+            }
+        };
+        let (smaller, larger) = (told(scatter.min(resolution)), told(scatter.max(resolution)));
         self.remark(say!("{owner}: the {what} (u = {smaller}) is left out beside the larger u = {larger}, by the convention resolution = \"largest\"."));
         drafts
             .into_iter()

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::amounts::Share;
 use super::checker::Checker;
 use super::draft::{Context, Core, show};
 use crate::budget::distributions::DistributionEntry;
@@ -103,7 +104,7 @@ impl Checker<'_> {
         let table = unshaped.table;
         match rule.key {
             "d" if table.d.is_some() => {
-                self.positive_deviation(table.d.as_ref()?, "d", unshaped.context, false)
+                self.positive_deviation(table.d.as_ref()?, "d", unshaped.context, Share::Unsaid)
             }
             "beta" if table.beta.is_some() => table.beta.as_ref().map(|beta| beta.value),
             key => self.refuse(unshaped.lacks(key, rule.meaning)),

@@ -1,5 +1,6 @@
 //! Shared sources: one cause of error that acts on several inputs.
 
+use super::amounts::Share;
 use super::checker::Checker;
 use super::draft::{Context, Drafts, Location, show};
 use super::inputs::{Entry, Piece, Pieces};
@@ -168,7 +169,7 @@ impl Checker<'_> {
         source.used = true;
         let (unit, components) = (source.unit.clone()?, source.components.clone());
         let coefficient = self.coefficient(entry, context, &unit)?;
-        let relative = entry.table.relative.as_ref().is_some_and(|r| r.value);
+        let relative = entry.table.share() == Share::OfValue;
         let follows = relative.then_some(Follows::Proportion { share: 1.0 });
         Some(
             components
@@ -189,11 +190,7 @@ impl Checker<'_> {
         context: &Context<'_>,
         source: &Unit,
     ) -> Option<f64> {
-        let relative = entry
-            .table
-            .relative
-            .as_ref()
-            .is_some_and(|stated| stated.value);
+        let relative = entry.table.share() == Share::OfValue;
         let whole = if relative {
             context.value().unwrap_or(0.0)
         } else {

@@ -1,5 +1,6 @@
 //! Accuracy specifications of instruments.
 
+use super::amounts::Share;
 use super::checker::Checker;
 use super::draft::Context;
 use crate::budget::faults::{MISSING_KEY, NOT_POSITIVE, UNIT};
@@ -57,7 +58,7 @@ impl Checker<'_> {
         };
         let range = match (&table.range, &table.span) {
             (Some(part), Some(span)) => {
-                let span = self.positive_deviation(span, "span", context, false)?;
+                let span = self.positive_deviation(span, "span", context, Share::Unsaid)?;
                 self.part(part, "range", Some(span), context)?
             }
             _ => 0.0,
@@ -65,12 +66,12 @@ impl Checker<'_> {
         let counts = match (&table.counts, &table.step) {
             (Some(counts), Some(step)) => {
                 self.positive(counts, "counts")?
-                    * self.positive_deviation(step, "step", context, false)?
+                    * self.positive_deviation(step, "step", context, Share::Unsaid)?
             }
             _ => 0.0,
         };
         let fixed = match &table.fixed {
-            Some(fixed) => self.positive_deviation(fixed, "fixed", context, false)?,
+            Some(fixed) => self.positive_deviation(fixed, "fixed", context, Share::Unsaid)?,
             None => 0.0,
         };
         let a = reading + range + counts + fixed;
@@ -115,6 +116,6 @@ impl Checker<'_> {
         if amount.value.number == 0.0 || whole == Some(0.0) {
             return Some(0.0);
         }
-        self.positive_deviation(amount, key, &of_whole, true)
+        self.positive_deviation(amount, key, &of_whole, Share::OfValue)
     }
 }

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::amounts::Share;
 use super::checker::Checker;
 use super::draft::{Context, Core, Location, show};
 use crate::budget::faults::{
@@ -331,7 +332,7 @@ impl Checker<'_> {
                     .help(say!("write pooled = {{ s = …, dof = … }}; dof is the sum of n - 1 over the earlier series")),
             );
         };
-        let s = self.positive_deviation(s, "s", context, false);
+        let s = self.positive_deviation(s, "s", context, Share::Unsaid);
         let dof = self.positive_dof(&dof.map(|dof| dof.0));
         Some((s?, dof?))
     }

@@ -1,5 +1,6 @@
 //! Type B evaluation: uncertainty from limits, certificates, specifications (GUM 4.3).
 
+use super::amounts::Share;
 use super::checker::Checker;
 use super::draft::{Context, Core, Location, show};
 use super::shapes::{default_shape, stated_shape};
@@ -23,11 +24,10 @@ impl Checker<'_> {
         way: Way,
         context: &Context<'_>,
     ) -> Option<Core> {
-        let relative = table.relative.as_ref().is_some_and(|stated| stated.value);
         match way {
             Way::U => {
                 let u = self.single(table.u.as_ref()?, "u", context)?;
-                let u = self.positive_deviation(&u, "u", context, relative)?;
+                let u = self.positive_deviation(&u, "u", context, table.share())?;
                 self.shaped(
                     table,
                     Width::U(u),
@@ -38,7 +38,7 @@ impl Checker<'_> {
             }
             Way::HalfWidth => {
                 let a = self.single(table.half_width.as_ref()?, "half_width", context)?;
-                let a = self.positive_deviation(&a, "half_width", context, relative)?;
+                let a = self.positive_deviation(&a, "half_width", context, table.share())?;
                 self.shaped(
                     table,
                     Width::Half(a),
@@ -48,8 +48,8 @@ impl Checker<'_> {
                 )
             }
             Way::Limits => self.limits(table, context),
-            Way::PlusMinus => self.plus_minus(table, relative, context),
-            Way::Certificate => self.expanded(table, relative, context),
+            Way::PlusMinus => self.plus_minus(table, context),
+            Way::Certificate => self.expanded(table, context),
             Way::Specification => {
                 let stated = table.specification.as_ref()?;
                 let a = self.specification(stated, context)?;
@@ -62,7 +62,8 @@ impl Checker<'_> {
                 )
             }
             Way::Step => {
-                let q = self.positive_deviation(table.step.as_ref()?, "step", context, false)?;
+                let q =
+                    self.positive_deviation(table.step.as_ref()?, "step", context, Share::Unsaid)?;
                 self.shaped(
                     table,
                     Width::Half(q / 2.0),
@@ -163,12 +164,7 @@ impl Checker<'_> {
 
     /// Limits at different distances from the value: the estimate moves to their expectation
     /// (GUM 4.3.8).
-    fn plus_minus(
-        &mut self,
-        table: &ComponentTable,
-        relative: bool,
-        context: &Context<'_>,
-    ) -> Option<Core> {
+    fn plus_minus(&mut self, table: &ComponentTable, context: &Context<'_>) -> Option<Core> {
         let (Some(plus), Some(minus)) = (&table.plus, &table.minus) else {
             let missing = if table.plus.is_none() {
                 "plus"
@@ -194,7 +190,7 @@ impl Checker<'_> {
         let (no_plus, no_minus) = (none(plus), none(minus));
         let mut side = |amount, key, left_out| match left_out {
             true => Some(0.0),
-            false => self.positive_deviation(amount, key, context, relative),
+            false => self.positive_deviation(amount, key, context, table.share()),
         };
         let plus = side(plus, "plus", no_plus && !no_minus);
         let minus = side(minus, "minus", no_minus && !no_plus);

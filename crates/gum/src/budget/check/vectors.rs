@@ -1,5 +1,6 @@
 //! Vector inputs: one error for each element, or one that all share.
 
+use super::amounts::Share;
 use super::checker::Checker;
 use super::draft::{Context, Draft, Location, show};
 use super::inputs::{Entry, Piece, single};
@@ -353,7 +354,7 @@ impl Checker<'_> {
     /// Whether the component is a fraction of the value alone.
     pub(super) fn acts_in_proportion(&mut self, entry: &Entry<'_>, unit: &Unit) -> bool {
         let table = entry.table;
-        let stated = table.relative.as_ref().is_some_and(|stated| stated.value);
+        let stated = table.share() == Share::OfValue;
         let certificate = table
             .certificate
             .as_ref()

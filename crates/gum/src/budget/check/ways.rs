@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::amounts::Share;
 use super::checker::Checker;
 use super::draft::{Context, Core, Draft, Kind, Location, show};
 use crate::budget::distributions::DistributionEntry;
@@ -185,6 +186,27 @@ pub(super) fn stated_ways(
     present.filter_map(move |(key, span)| way(key).map(|way| (way, *key, span)))
 }
 
+/// An entry of `components` for each way, with the stated keys that go with it: of several ways the one behind which the
+/// key stands.
+fn entries(table: &ComponentTable, ways: &[(Way, &str, &Range<usize>)]) -> Vec<String> {
+    let goes = |way: Way, key: &str| way.goes_with(key) || way == PlusMinus && key == "minus";
+    let owner = |key: &str, place: &Range<usize>| {
+        let taking = || ways.iter().filter(|(way, ..)| goes(*way, key));
+        let in_front = taking().filter(|(.., way)| way.start < place.start);
+        let nearest = in_front.max_by_key(|(.., way)| way.start);
+        nearest.or_else(|| taking().next()).map(|(_, own, _)| *own)
+    };
+    let entry = |(_, own, _): &(Way, &str, &Range<usize>)| {
+        let is_way = |key: &str| ways.iter().any(|(_, way, _)| *way == key);
+        let present = table.present.iter();
+        let with = present.filter(|(key, place)| !is_way(key) && owner(key, place) == Some(*own));
+        let keys = [*own].into_iter().chain(with.map(|(key, _)| *key));
+        let keys: Vec<String> = keys.map(|key| format!("{key} = …")).collect();
+        format!("{{ {} }}", keys.join(", "))
+    };
+    ways.iter().map(entry).collect()
+}
+
 impl Checker<'_> {
     /// The one way in which a component states its uncertainty; nothing if it was refused already.
     pub(super) fn way(&mut self, table: &ComponentTable, context: &Context<'_>) -> Option<Way> {
@@ -224,10 +246,7 @@ impl Checker<'_> {
             ),
             [(_, _, first), (_, _, second), ref more @ ..] => {
                 let keys: Vec<String> = ways.iter().map(|(_, key, _)| format!("`{key}`")).collect();
-                let entries: Vec<String> = ways
-                    .iter()
-                    .map(|(_, key, _)| format!("{{ {key} = … }}"))
-                    .collect();
+                let entries = entries(table, &ways);
                 let message = say!(
                     "the uncertainty of {} is stated in {} ways, {}",
                     context.owner,
@@ -334,7 +353,7 @@ impl Checker<'_> {
     ) -> Option<Box<Draft>> {
         let mut core = core;
         if let Some(gum_u) = &table.gum_u {
-            core.u = self.positive_deviation(gum_u, "gum_u", context, false)?;
+            core.u = self.positive_deviation(gum_u, "gum_u", context, Share::Unsaid)?;
             core.how = format_smolstr!("{} (GUM: u as stated)", core.how);
         }
         let certificate = table

@@ -5,7 +5,7 @@ mod rule;
 
 use std::ops::Range;
 
-use crate::budget::check::amounts::{is_in_ratios, is_ratio};
+use crate::budget::check::amounts::{Share, is_in_ratios, is_ratio};
 use crate::budget::check::draft::{Context, show};
 use crate::budget::check::register::{Register, no_such_input};
 use crate::budget::check::{Checker, entries};
@@ -201,6 +201,9 @@ impl Checker<'_> {
             );
         }
         let of = match &table.mpe_of {
+            Some(of) if is_in_ratios(subject.unit) && self.has_dimension(of)? => {
+                return self.refuse(of_a_part(of, mpe, subject));
+            }
             Some(of) => Some(self.quantity(of, subject.unit, subject.name)?),
             None => nominal,
         };
@@ -225,7 +228,7 @@ impl Checker<'_> {
         {
             return self.refuse(part_or_points(mpe, &own, nominal, subject));
         }
-        let width = self.deviation(mpe, &context, false)?;
+        let width = self.deviation(mpe, &context, Share::Unsaid)?;
         let compared = match nominal.filter(|nominal| *nominal != 0.0) {
             Some(nominal) => StatedTolerance::Nominal(nominal),
             None => StatedTolerance::Error { of },
@@ -236,6 +239,12 @@ impl Checker<'_> {
             upper: nominal + width,
         };
         Some((interval, compared))
+    }
+
+    /// Whether an amount has a unit other than one.
+    fn has_dimension(&mut self, amount: &Stated<Amount>) -> Option<bool> {
+        let own = self.amount_unit(&amount.value)?;
+        Some(own.is_some_and(|own| !own.dimension.is_none()))
     }
 
     /// An input by name that moves with the measurand.
@@ -280,6 +289,22 @@ impl Checker<'_> {
         }
         self.claimed(stated, place)
     }
+}
+
+/// The value of which a maximum permissible error is a part, where the error itself is stated as a part of it already.
+fn of_a_part(of: &Stated<Amount>, mpe: &Stated<Amount>, subject: &Subject<'_>) -> Fault {
+    let Subject { name, unit } = subject;
+    Fault::new(
+        TOLERANCE,
+        of.key.clone(),
+        say!("{name} is a relative error, and its limits are a part of nothing else"),
+    )
+    .label(say!("of an error that has a unit"))
+    .related(mpe.key.clone(), say!("the limits of {name} itself"))
+    .help(say!(
+        "leave out `mpe_of`, and write `mpe` as the plain number, in {}",
+        unit.symbol
+    ))
 }
 
 /// A maximum permissible error in % of a quantity that is itself in %: of the nominal value, or points?

@@ -85,3 +85,25 @@ fn a_slope_in_its_own_unit_is_plain() {
     close(found.lower, 0.28);
     close(found.upper, 0.32);
 }
+
+/// The limits of an error that is stated as a part already are parts of nothing else.
+#[test]
+fn a_relative_error_needs_no_value_of_which_it_is_a_part() {
+    let of = |unit: &str, stated: &str| {
+        format!(
+            "[measurand.e]\nmodel = \"x\"\nunit = \"{unit}\"\n[input.x]\nvalue = 0.4\nunit = \"{unit}\"\nu = 0.1\n[conformity]\nrule = \"simple\"\n{stated}\n"
+        )
+    };
+    let rejection = refused(&of("%", "mpe_of = \"100 N\"\nmpe = \"4 %\""));
+    let help = rejection.faults[0]
+        .help
+        .clone()
+        .unwrap_or_default()
+        .to_string();
+    assert!(
+        help.contains("leave out `mpe_of`") && help.ends_with("in %"),
+        "{help}"
+    );
+    budget(&of("%", "mpe = 4"));
+    budget(&of("%RH", "mpe_of = \"50 %RH\"\nmpe = 2"));
+}

@@ -227,6 +227,30 @@ fn the_t_scale_is_a_convention() {
     );
 }
 
+/// The entries of the mend take the keys along that go with them: below `components` they would be refused.
+#[test]
+fn ways_become_components_with_their_keys() {
+    let help = |text: &str| {
+        refused(&one(text)).faults[0]
+            .help
+            .clone()
+            .unwrap_or_default()
+            .to_string()
+    };
+    let told = help(
+        "value = 1\nreadings = [1, 2]\nof = \"single\"\nstep = 0.1\ndistribution = \"triangular\"\nu = 1\ndof = 5",
+    );
+    assert!(
+        told.ends_with("components = [{ readings = …, of = … }, { step = …, distribution = … }, { u = …, dof = … }]"),
+        "{told}"
+    );
+    let told = help("value = 1\nplus = 1\nminus = 2\nstep = 0.1");
+    assert!(
+        told.ends_with("components = [{ plus = …, minus = … }, { step = … }]"),
+        "{told}"
+    );
+}
+
 #[test]
 fn numbers_that_cannot_be_meant() {
     // 4 of its value is 400 %.
@@ -285,7 +309,22 @@ fn relative_amounts() {
     assert_eq!(faults(&one("value = 0\nu = \"50 ppm\""))[0].0, "B0214");
     let ratio = "[measurand.Y]\nmodel = \"X\"\n[input.X]\nvalue = 2\nu = \"1 %\"\n";
     assert_eq!(faults(ratio), [("B0113", "\"1 %\"".into())]);
-    // Of one, both are the same.
+    // Of a content the absolute reading of a percentage would be larger than the content.
+    let content = |unit: &str, value: f64| {
+        format!(
+            "[measurand.Y]\nmodel = \"X\"\nunit = \"{unit}\"\n[input.X]\nvalue = {value}\nunit = \"{unit}\"\nu = \"2 %\"\n"
+        )
+    };
+    close(budget(&content("mg/kg", 5.0)).components[0].u, 0.1);
+    close(budget(&content("mmol/mol", 5.0)).components[0].u, 0.1);
+    assert_eq!(faults(&content("g/kg", 950.0))[0].0, "B0113");
+    assert_eq!(faults(&content("mm/m", 5.0))[0].0, "B0113");
+    // Of one, both are the same; and the file may say which.
+    let said = |word: &str| budget(&format!("{ratio}relative = {word}\n")).components[0].u;
+    close(said("true"), 0.02);
+    close(said("false"), 0.01);
+    let volts = "[measurand.Y]\nmodel = \"X\"\nunit = \"V\"\n[input.X]\nvalue = 2\nunit = \"V\"\nu = \"1 %\"\nrelative = false\n";
+    assert_eq!(faults(volts)[0].0, "B0112");
     close(component("value = 1\nu = \"1.67 %\"").0, 0.0167);
     let angle = "[measurand.Y]\nmodel = \"X\"\nunit = \"°\"\n[input.X]\nvalue = 2\nunit = \"°\"\nu = \"6 '\"\n";
     close(budget(angle).components[0].u, 0.1);
@@ -315,6 +354,12 @@ fn the_larger_of_resolution_and_repeatability() {
     let largest = budget(&format!("[conventions]\nresolution = \"largest\"\n{parts}"));
     assert_eq!(largest.components.len(), 1);
     assert_eq!(largest.components[0].label, "repeatability");
+    let fine = "[conventions]\nresolution = \"largest\"\n[measurand.Y]\nmodel = \"X\"\nunit = \"°C\"\n[input.X]\nunit = \"°C\"\ncomponents = [{ readings = [20.0001, 20.0003] }, { step = 0.0002309401 }]\n";
+    let told = self::budget(fine).remarks[0].to_string();
+    assert!(
+        told.contains("(u = 6.67×10⁻⁵ K) is left out beside the larger u = 0.000100 K"),
+        "{told}"
+    );
 }
 
 #[test]

@@ -47,6 +47,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         let audits: Vec<Audit<'_>> = claims.iter().map(audit).collect();
         if audits.is_empty() {
             outcome = outcome.max(output::complain(nothing(path)));
+            continue;
         }
         outcome = outcome.max(audits.iter().map(of).max().unwrap_or(Outcome::Done));
         documents.push(

@@ -33,6 +33,8 @@ pub struct Claimed {
     pub words: String,
     /// Whether u_c is a number where the other computed cells are formulas.
     pub typed: bool,
+    /// Whether u_c is a formula: the sheet went on with the numbers that its cells hold.
+    pub computed: bool,
     /// Formulas that give another figure than their cells hold.
     pub stale: Vec<Stale>,
     /// How the columns and cells were understood.

@@ -7,7 +7,7 @@ use crate::claim::Claimed;
 use crate::import;
 use crate::programs;
 use crate::read::{self, Mapping};
-use crate::sheet::{self, Unreadable};
+use crate::sheet::{self, Grid, Unreadable};
 
 /// Every claimed budget of a file.
 ///
@@ -16,8 +16,47 @@ use crate::sheet::{self, Unreadable};
 pub fn claims(name: &str, bytes: &[u8], mapping: &Mapping) -> Result<Vec<Claimed>, Unreadable> {
     match programs::statements(name, bytes) {
         Some(statements) => Ok(statements?.iter().flat_map(programs::claims).collect()),
-        None => Ok(read::budgets(&sheet::grids(name, bytes)?, mapping)),
+        None => Ok(read::budgets(&sheets(name, bytes)?, mapping)),
     }
+}
+
+/// The sheets of a file, which is none of those that hold none.
+fn sheets(name: &str, bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
+    match no_sheet(name, bytes) {
+        Some(why) => Err(Unreadable(why)),
+        None => sheet::grids(name, bytes),
+    }
+}
+
+/// What a file is that has words and figures, and no sheet of a budget; and what to do with it.
+fn no_sheet(name: &str, bytes: &[u8]) -> Option<Said> {
+    let ending = name.rsplit('.').next().unwrap_or_default().to_lowercase();
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 12)]);
+    let begins = |mark: &str| {
+        start
+            .trim_start_matches(['\u{feff}', ' ', '\r', '\n'])
+            .starts_with(mark)
+    };
+    Some(match ending.as_str() {
+        _ if start.contains("digitalCalibrationCertificate") => say!(
+            "it is a digital calibration certificate, which states results and not how they were found; a budget reads it, certificate = {{ dcc = \"{name}\", … }}"
+        ),
+        _ if begins("%PDF") => {
+            say!("it is a page (PDF); copy its table into a workbook or a text file")
+        }
+        "docx" | "doc" | "odt" => {
+            say!(
+                "it is a document of a word processor; copy its table into a workbook or a text file"
+            )
+        }
+        "toml" => say!(
+            "it is a file of this program: `gumption eval {name}` evaluates a budget, and holds it against its [claim]"
+        ),
+        "json" if begins("{") || begins("[") => {
+            say!("it is JSON, which programs read; a sheet is a workbook, a table as text, or text")
+        }
+        _ => return None,
+    })
 }
 
 /// What is said of a file without any budget that is understood.
@@ -44,7 +83,7 @@ pub fn budget_files(
     match programs::statements(name, bytes) {
         Some(statements) => Ok(statements?.iter().map(programs::budget_file).collect()),
         None => {
-            let claims = read::budgets(&sheet::grids(name, bytes)?, mapping);
+            let claims = read::budgets(&sheets(name, bytes)?, mapping);
             let file = |claimed: &Claimed| import::budget_file(&Case::of(claimed));
             Ok(claims.iter().map(file).collect())
         }

@@ -8,6 +8,9 @@ use crate::printed::Printed;
 
 static TABLE: LazyLock<UnitTable> = LazyLock::new(UnitTable::default);
 
+/// Powers of ten that a conversion of percent or ppm is missed by: of percent, ppm, and between them.
+pub(crate) const MISSED: [f64; 6] = [10.0, 0.1, 100.0, 0.01, 1e4, 1e-4];
+
 /// A unit as a sheet writes it; `None` for what is none.
 pub(crate) fn parse(text: &str) -> Option<Unit> {
     let text = text.trim().trim_matches(['[', ']']);

@@ -246,7 +246,9 @@ pub fn apart(head: &str) -> (String, String) {
         if let Some(inner) = head.strip_suffix(close)
             && let Some(at) = inner.rfind(open)
         {
-            let (name, unit) = (inner[..at].trim(), inner[at + 1..].trim());
+            // `u / (mm²/s)`: a solidus in front of the bracket is none of the name.
+            let name = inner[..at].trim().trim_end_matches([' ', '/']);
+            let unit = inner[at + 1..].trim();
             let before = inner[..at].chars().next_back();
             // `u(xi)` is a symbol: a bracket that belongs to one letter holds no unit.
             let symbol = open == '('
@@ -373,6 +375,7 @@ mod tests {
         assert_eq!(role("标准不确定度/mV").unwrap(), (Role::U, "mV".into()));
         assert_eq!(role("Value ±").unwrap(), (Role::Used, String::new()));
         assert_eq!(role("u / HRC").unwrap().0, Role::U);
+        assert_eq!(role("u / (mm2/s)").unwrap(), (Role::U, "mm2/s".into()));
         assert_eq!(
             role("标准不确定度(×10⁻⁶)").unwrap(),
             (Role::U, "×10⁻⁶".into())

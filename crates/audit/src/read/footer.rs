@@ -154,8 +154,9 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
             }
         }
     }
-    if let Some(factor) = multiple_of_u(text) {
-        take(Whole::Factor, factor);
+    let factor = multiple_of_u(text);
+    if let Some(factor) = &factor {
+        take(Whole::Factor, factor.clone());
     }
     if !measurand.is_empty()
         && let Some(figure) = assigned(text, measurand)
@@ -202,7 +203,8 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
     let lower = text.to_lowercase();
     for (whole, keys) in WORDS.iter().filter(|(whole, _)| *whole != Whole::Y) {
         let figure = super::words::figure_after(text, keys);
-        if let Some(figure) = figure.filter(|_| has(&lower, keys)) {
+        let is_factor = |figure: &Printed| factor.as_ref().is_some_and(|k| k.text == figure.text);
+        if let Some(figure) = figure.filter(|figure| has(&lower, keys) && !is_factor(figure)) {
             take(*whole, figure);
         }
     }
@@ -214,12 +216,16 @@ fn multiple_of_u(text: &str) -> Option<Printed> {
     let mut right = text.split('=').skip(1);
     right.find_map(|right| {
         let (factor, behind) = leading(right)?;
-        let behind = behind.trim_start_matches([' ', '·', '⋅', '×', '*', 'x']);
-        let is_u = ["u_c", "uc", "u("]
-            .iter()
-            .any(|name| behind.starts_with(name));
-        ((1.0..5.0).contains(&factor.value) && is_u).then_some(factor)
+        ((1.0..5.0).contains(&factor.value) && names_u(behind)).then_some(factor)
     })
+}
+
+/// Whether u_c is what a figure in front of this is multiplied with, also without a sign: `2u_c`.
+fn names_u(behind: &str) -> bool {
+    let behind = behind.trim_start_matches([' ', '·', '⋅', '×', '*', 'x']);
+    ["u_c", "uc", "u("]
+        .iter()
+        .any(|name| behind.starts_with(name))
 }
 
 /// Whether a line, in small letters, says what u_c, ν_eff or U are.
@@ -275,6 +281,7 @@ pub fn assigned(text: &str, name: &str) -> Option<Printed> {
             if let Some((figure, behind)) = leading(right)
                 && !super::words::starts_product(behind.trim_start())
                 && !super::words::starts_quotient(behind.trim_start())
+                && !names_u(behind)
             {
                 // `U = 11.6 µm ≈ 12 µm`: what it is rounded to.
                 if let Some((between, _)) = behind.split_once('≈')
@@ -397,10 +404,12 @@ mod tests {
             ("U95=1.96 uc", Some(1.96)),
             ("扩展不确定度 U = 2 × u(y)", Some(2.0)),
             ("U = 2 × 0.027 mm", None),
+            ("扩展不确定度 U=2u_c /mΩ", Some(2.0)),
         ] {
             let mut footer = Footer::default();
             sentence(text, "", Place::default(), &mut footer);
             assert_eq!(footer.k.map(|k| k.value), k, "{text}");
+            assert_eq!(footer.expanded, None, "{text}");
         }
         let text = "Relative combined standard uncertainty w = 0.35 %";
         sentence(text, "", Place::default(), &mut footer);

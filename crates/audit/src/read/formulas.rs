@@ -22,14 +22,16 @@ pub(super) fn stale(grid: &Grid, sheet: usize, rows: Range<usize>) -> Vec<Stale>
 
 /// Whether u_c stands as a number where U and the computed cells of the rows are formulas.
 pub(super) fn typed(grid: &Grid, sheet: usize, claimed: &Claimed) -> bool {
-    let is_formula = |figure: &Option<Printed>| {
-        let at = figure.as_ref().map(|figure| figure.at);
-        at.filter(|at| at.sheet == sheet)
-            .map(|at| grid.cell(at.row, at.column).formula.is_some())
-    };
     let rows = &claimed.rows;
     let computed = rows.iter().filter(|row| !row.formulas.is_empty()).count();
     2 * computed > rows.len()
-        && is_formula(&claimed.footer.u_c) == Some(false)
-        && is_formula(&claimed.footer.expanded) == Some(true)
+        && is_formula(grid, sheet, &claimed.footer.u_c) == Some(false)
+        && is_formula(grid, sheet, &claimed.footer.expanded) == Some(true)
+}
+
+/// Whether a figure of this sheet is a formula.
+pub(super) fn is_formula(grid: &Grid, sheet: usize, figure: &Option<Printed>) -> Option<bool> {
+    let at = figure.as_ref().map(|figure| figure.at);
+    at.filter(|at| at.sheet == sheet)
+        .map(|at| grid.cell(at.row, at.column).formula.is_some())
 }

@@ -294,6 +294,7 @@ fn budget(
     table::of_columns(grid, sheet, &mut claimed);
     table::footers(grid, sheet, &mut located, below, elsewhere, &mut claimed);
     claimed.typed = formulas::typed(grid, sheet, &claimed);
+    claimed.computed = formulas::is_formula(grid, sheet, &claimed.footer.u_c) == Some(true);
     claimed.stale = formulas::stale(grid, sheet, bounds.clone());
     if located.has_bare_u_behind_c() {
         meant::u_by_sum(&mut claimed);

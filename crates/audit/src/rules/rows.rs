@@ -86,7 +86,10 @@ fn of_divisors(seen: &Seen<'_>) -> Vec<Hit> {
             false => 1.0,
         };
         let quotient = used.value / divisor.value * part;
-        let differs = far(u, quotient, open(&[used, divisor]));
+        // A power of ten is missed in the conversion, and not in the division (rule 47).
+        let missed = units::MISSED.iter().filter(|_| part != 1.0);
+        let mut ways = [1.0].iter().chain(missed);
+        let differs = ways.all(|ten| far(u, quotient * ten, open(&[used, divisor])));
         differs.then(|| {
             format!(
                 "u = {}, {}/{} = {quotient:.4}",

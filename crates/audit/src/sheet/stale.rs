@@ -5,13 +5,24 @@ use crate::printed::Printed;
 
 use super::{Cell, Grid, functions};
 
-/// Notes in every cell that its formula gives another figure than it holds.
-pub(crate) fn mark(grid: &mut Grid) {
+/// Notes in every cell of a workbook that its formula gives another figure than it holds.
+pub(crate) fn mark(book: &mut [Grid]) {
+    for sheet in 0..book.len() {
+        let found = marks(book, sheet);
+        for (row, column, gives) in found {
+            book[sheet].rows[row][column].gives = Some(gives);
+        }
+    }
+}
+
+/// Cells of a sheet with what their formulas give in the place of what they hold.
+fn marks(book: &[Grid], sheet: usize) -> Vec<(usize, usize, f64)> {
+    let grid = &book[sheet];
     let stale = |row: usize, column: usize| {
         let cell = grid.cell(row, column);
         let formula = cell.formula.as_ref()?;
         let held = held(cell)?;
-        let Value { x, open } = value(grid, formula)?;
+        let Value { x, open } = value(book, sheet, formula)?;
         // A figure in per cent is a hundred times its number.
         let figure = cell.figure()?;
         let scale = match figure.value == 0.0 {
@@ -27,17 +38,14 @@ pub(crate) fn mark(grid: &mut Grid) {
     };
     let rows = 0..grid.rows.len();
     let places = rows.flat_map(|row| (0..grid.rows[row].len()).map(move |column| (row, column)));
-    let found: Vec<(usize, usize, f64)> = places
+    places
         .filter_map(|(row, column)| stale(row, column))
-        .collect();
-    for (row, column, gives) in found {
-        grid.rows[row][column].gives = Some(gives);
-    }
+        .collect()
 }
 
-/// What a formula gives, where it can be computed.
-pub(super) fn computed(grid: &Grid, formula: &str) -> Option<f64> {
-    value(grid, formula).map(|value| value.x)
+/// What a formula on a sheet of a workbook gives, where it can be computed.
+pub(super) fn computed(book: &[Grid], sheet: usize, formula: &str) -> Option<f64> {
+    value(book, sheet, formula).map(|value| value.x)
 }
 
 /// What a formula gives, and how far, relatively, the digits of the cells that it names leave that open: other programs
@@ -59,8 +67,8 @@ impl Value {
     }
 }
 
-/// The value of a formula of numbers, cells of its own sheet, `+ - * / ^` and the functions of budgets; of others none.
-fn value(grid: &Grid, formula: &str) -> Option<Value> {
+/// The value of a formula of numbers, cells of its workbook, `+ - * / ^` and the functions of budgets; of others none.
+fn value(book: &[Grid], sheet: usize, formula: &str) -> Option<Value> {
     // Functions that came later have this in front of them in the file.
     let text: String = formula
         .replace("_xlfn.", "")
@@ -68,7 +76,8 @@ fn value(grid: &Grid, formula: &str) -> Option<Value> {
         .filter(|c| !c.is_whitespace() && *c != '$')
         .collect();
     let mut reader = Reader {
-        grid,
+        book,
+        own: sheet,
         rest: &text,
         depth: 0,
     };
@@ -80,7 +89,9 @@ fn value(grid: &Grid, formula: &str) -> Option<Value> {
 const MOST_SUMMED: usize = 1 << 12;
 
 struct Reader<'t> {
-    grid: &'t Grid,
+    book: &'t [Grid],
+    /// The sheet on which the formula stands.
+    own: usize,
     rest: &'t str,
     depth: usize,
 }
@@ -159,13 +170,40 @@ impl<'t> Reader<'t> {
             let end = self.rest.find(|c: char| !(c.is_ascii_digit() || c == '.'));
             return Some(Value::exact(self.word(end).parse().ok()?));
         }
+        let sheet = self.sheet()?;
         let is_part = |c: char| c.is_ascii_alphanumeric() || c == '.';
         let end = self.rest.find(|c: char| !is_part(c));
         let name = self.word(end).to_ascii_uppercase();
         if self.takes('(') {
             return self.function(&name);
         }
-        self.cell(&name)
+        self.cell(sheet, &name)
+    }
+
+    /// The sheet that is named in front of a cell, `Inputs!B2` or `'Input data'!B2`, or that of the formula; none where it is
+    /// not in the workbook.
+    fn sheet(&mut self) -> Option<usize> {
+        let quoted = self
+            .rest
+            .strip_prefix('\'')
+            .and_then(|rest| rest.split_once("'!"));
+        let is_part = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.');
+        let plain = self
+            .rest
+            .split_once('!')
+            .filter(|(name, _)| name.chars().all(is_part));
+        let Some((name, behind)) = quoted.or(plain) else {
+            return Some(self.own);
+        };
+        self.rest = behind;
+        let compact = |name: &str| -> String {
+            let letters = name.chars().filter(|c| !c.is_whitespace() && *c != '$');
+            letters.flat_map(char::to_lowercase).collect()
+        };
+        let name = compact(name);
+        self.book
+            .iter()
+            .position(|grid| compact(&grid.name) == name)
     }
 
     /// The text in front of a place, or all of it, which is then behind the reader.
@@ -204,6 +242,8 @@ impl<'t> Reader<'t> {
     fn list(&mut self) -> Option<Vec<Value>> {
         let mut all = Vec::new();
         loop {
+            let all_of_it = self.rest;
+            let sheet = self.sheet()?;
             let end = self.rest.find([',', ')'])?;
             match self.rest[..end].split_once(':') {
                 Some((first, last)) if !first.contains(['(', '+', '*']) => {
@@ -213,7 +253,8 @@ impl<'t> Reader<'t> {
                         return None;
                     }
                     for row in from.0..=to.0 {
-                        let cells = (from.1..=to.1).map(|column| self.grid.cell(row, column));
+                        let grid = &self.book[sheet];
+                        let cells = (from.1..=to.1).map(|column| grid.cell(row, column));
                         if cells.clone().any(Cell::lacks_value) {
                             return None;
                         }
@@ -221,7 +262,10 @@ impl<'t> Reader<'t> {
                     }
                     self.rest = &self.rest[end..];
                 }
-                _ => all.push(self.sum()?),
+                _ => {
+                    self.rest = all_of_it;
+                    all.push(self.sum()?);
+                }
             }
             if self.takes(')') {
                 return Some(all);
@@ -232,9 +276,9 @@ impl<'t> Reader<'t> {
         }
     }
 
-    fn cell(&self, name: &str) -> Option<Value> {
+    fn cell(&self, sheet: usize, name: &str) -> Option<Value> {
         let (row, column) = place(name)?;
-        held(self.grid.cell(row, column))
+        held(self.book[sheet].cell(row, column))
     }
 }
 
@@ -286,7 +330,18 @@ mod tests {
             rows: vec![row(&["m", "30", "2"]), row(&["d", "40", "1"])],
             ..Grid::default()
         };
-        let of = |formula: &str| value(&grid, formula).map(|value| value.x);
+        let inputs = Grid {
+            name: "Input data".into(),
+            rows: vec![row(&["5"])],
+            ..Grid::default()
+        };
+        let book = [grid, inputs];
+        let of = |formula: &str| value(&book, 0, formula).map(|value| value.x);
+        assert_eq!(of("'Input data'!A1*B1"), Some(150.0));
+        assert_eq!(
+            of("SQRT(SUMSQ('Input data'!$A$1:$A$1,B2))"),
+            Some(1625f64.sqrt())
+        );
         assert_eq!(of("B1/2"), Some(15.0));
         assert_eq!(of("SQRT(SUMSQ(B1:B2))"), Some(50.0));
         assert_eq!(of("SQRT($B$1^2+B2^2)*C1"), Some(100.0));
@@ -305,7 +360,8 @@ mod tests {
             ]],
             ..Grid::default()
         };
-        let of_formats = |formula: &str| value(&formats, formula).map(|value| value.x);
+        let of_formats =
+            |formula: &str| value(std::slice::from_ref(&formats), 0, formula).map(|value| value.x);
         assert_eq!(of_formats("A1/2"), Some(0.001));
         assert_eq!(of_formats("SUM(A1:C1)"), Some(0.058));
         assert_eq!(of_formats("C1*2"), None);

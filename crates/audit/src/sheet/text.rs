@@ -193,6 +193,10 @@ fn push(fields: &mut [String], c: char) {
 
 /// Markdown: tables row by row, other lines as rows of one cell without their marks.
 pub(super) fn markdown(text: &str) -> Grid {
+    const BLANKS: [&str; 4] = ["&nbsp;", "&emsp;", "&ensp;", "&thinsp;"];
+    let text = BLANKS
+        .iter()
+        .fold(text.to_owned(), |text, blank| text.replace(blank, " "));
     let mut rows = Vec::new();
     for line in text.lines() {
         let line = line.trim();

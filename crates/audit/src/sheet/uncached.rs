@@ -1,23 +1,25 @@
 //! Workbooks that keep formulas without their values, as programs write them that compute nothing.
 
 use super::{Grid, shown, stale};
+use crate::printed::Place;
 
 /// Gives cells whose formulas have no value the one that they come to, as far as formulas can be computed here; `shows` tells
 /// what a cell shows of a number.
-pub(super) fn compute(grid: &mut Grid, shows: impl Fn(usize, usize, f64) -> Option<String>) {
+pub(super) fn compute(book: &mut [Grid], shows: impl Fn(Place, f64) -> Option<String>) {
     /// Formulas that lead to one another against the order of reading: a budget has a few.
     const DEEPEST: usize = 64;
-    let mut open = without_value(grid);
+    let mut open = without_value(book);
     for _ in 0..DEEPEST {
         let before = open.len();
         // What is computed is what others are made of: cells above one another in a chain of formulas.
-        open.retain(|(row, column)| {
-            let formula = grid.cell(*row, *column).formula.clone();
-            let Some(x) = formula.and_then(|formula| stale::computed(grid, &formula)) else {
+        open.retain(|at| {
+            let formula = book[at.sheet].cell(at.row, at.column).formula.clone();
+            let Some(x) = formula.and_then(|formula| stale::computed(book, at.sheet, &formula))
+            else {
                 return true;
             };
-            let of_value = shown::cell(x, shows(*row, *column, x).as_deref());
-            let cell = &mut grid.rows[*row][*column];
+            let of_value = shown::cell(x, shows(*at, x).as_deref());
+            let cell = &mut book[at.sheet].rows[at.row][at.column];
             (cell.text, cell.shown, cell.number) = (of_value.text, of_value.shown, of_value.number);
             false
         });
@@ -27,13 +29,16 @@ pub(super) fn compute(grid: &mut Grid, shows: impl Fn(usize, usize, f64) -> Opti
     }
 }
 
-fn without_value(grid: &Grid) -> Vec<(usize, usize)> {
-    let cells = grid.rows.iter().enumerate().flat_map(|(row, cells)| {
-        let cells = cells.iter().enumerate();
-        cells.map(move |(column, cell)| ((row, column), cell))
-    });
-    let open = cells.filter(|(_, cell)| cell.lacks_value());
-    open.map(|(place, _)| place).collect()
+fn without_value(book: &[Grid]) -> Vec<Place> {
+    let of_sheet = |(sheet, grid): (usize, &Grid)| -> Vec<Place> {
+        let cells = grid.rows.iter().enumerate().flat_map(|(row, cells)| {
+            let cells = cells.iter().enumerate();
+            cells.map(move |(column, cell)| (Place { sheet, row, column }, cell))
+        });
+        let open = cells.filter(|(_, cell)| cell.lacks_value());
+        open.map(|(place, _)| place).collect()
+    };
+    book.iter().enumerate().flat_map(of_sheet).collect()
 }
 
 #[cfg(test)]
@@ -47,7 +52,7 @@ mod tests {
             formula: Some(text.into()),
             ..Cell::default()
         };
-        let mut grid = Grid {
+        let grid = Grid {
             rows: vec![vec![
                 formula("B1*2"),
                 formula("C1+D1+0.25"),
@@ -59,9 +64,20 @@ mod tests {
             ]],
             ..Grid::default()
         };
-        let shows = |_, column, x: f64| (column == 5).then(|| format!("{x:.0}"));
-        compute(&mut grid, shows);
-        let cell = |column| grid.cell(0, column);
+        let results = Grid {
+            name: "Results".into(),
+            rows: vec![vec![formula("2*Budget!A1")]],
+            ..Grid::default()
+        };
+        let grid = Grid {
+            name: "Budget".into(),
+            ..grid
+        };
+        let shows = |at: Place, x: f64| (at.column == 5).then(|| format!("{x:.0}"));
+        let mut book = [results, grid];
+        compute(&mut book, shows);
+        assert_eq!(book[0].cell(0, 0).text, "29");
+        let cell = |column| book[1].cell(0, column);
         assert_eq!(
             (cell(0).text.as_str(), cell(1).text.as_str()),
             ("14.5", "7.25")
@@ -75,7 +91,7 @@ mod tests {
     /// A chain that goes round ends.
     #[test]
     fn circles_have_no_value() {
-        let mut grid = Grid {
+        let grid = Grid {
             rows: vec![vec![
                 Cell {
                     formula: Some("B1".into()),
@@ -88,7 +104,8 @@ mod tests {
             ]],
             ..Grid::default()
         };
-        compute(&mut grid, |_, _, _| None);
-        assert!(without_value(&grid).len() == 2);
+        let mut book = [grid];
+        compute(&mut book, |_, _| None);
+        assert!(without_value(&book).len() == 2);
     }
 }

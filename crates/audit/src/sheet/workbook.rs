@@ -19,6 +19,9 @@ pub(super) fn grids(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
     })
 }
 
+/// What the cells of a sheet show of a number: row, column, the number.
+type Look = Box<dyn Fn(usize, usize, f64) -> Option<String>>;
+
 fn sheets(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
     let unreadable = |error: &dyn std::fmt::Display| Unreadable(Said::quoted(error.to_string()));
     let mut documents = open_document::told(bytes)?;
@@ -26,7 +29,7 @@ fn sheets(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
     let mut sheets = book.sheets_metadata().to_vec();
     sheets.sort_by_key(|sheet| sheet.visible != SheetVisible::Visible);
     let mut hidden = super::hidden::hidden(bytes);
-    let mut grids = Vec::new();
+    let (mut grids, mut looks): (Vec<Grid>, Vec<Look>) = (Vec::new(), Vec::new());
     for sheet in sheets {
         is_of_a_size(&mut book, &sheet.name)?;
         let Ok(values) = book.worksheet_range(&sheet.name) else {
@@ -41,7 +44,7 @@ fn sheets(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
             hidden_rows: hidden.rows,
             ..Grid::default()
         };
-        let shows = |row: usize, column: usize, x: f64| {
+        let shows = move |row: usize, column: usize, x: f64| {
             let place = (u32::try_from(row).ok()?, u32::try_from(column).ok()?);
             let of_style = styles.as_ref().and_then(|styles| {
                 let style = styles.get(place);
@@ -65,10 +68,11 @@ fn sheets(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
                 cell.formula = Some(formula.trim_start_matches('=').to_string());
             }
         }
-        uncached::compute(&mut grid, shows);
-        stale::mark(&mut grid);
         grids.push(grid);
+        looks.push(Box::new(shows));
     }
+    uncached::compute(&mut grids, |at, x| looks[at.sheet](at.row, at.column, x));
+    stale::mark(&mut grids);
     Ok(grids)
 }
 

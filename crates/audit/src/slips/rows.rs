@@ -72,9 +72,6 @@ fn root3() -> f64 {
     libm::sqrt(3.0)
 }
 
-/// Powers of ten that a conversion of percent or ppm is missed by: of percent, ppm, and between them.
-const RATIOS: [f64; 6] = [10.0, 0.1, 100.0, 0.01, 1e4, 1e-4];
-
 fn ratios(row: &Row) -> Vec<f64> {
     let is_ratio = row.relative != Relative::No
         || row
@@ -82,7 +79,7 @@ fn ratios(row: &Row) -> Vec<f64> {
             .figure()
             .is_some_and(|f| units::fraction(&f.unit).is_some());
     if is_ratio {
-        RATIOS.to_vec()
+        units::MISSED.to_vec()
     } else {
         Vec::new()
     }

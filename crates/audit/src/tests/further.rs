@@ -190,7 +190,7 @@ fn a_workbook_that_was_not_computed_again() {
         grids[0].rows[row][4].formula = Some(format!("B{number}/D{number}"));
         grids[0].rows[row][6].formula = Some(format!("E{number}*F{number}"));
     }
-    sheet::mark_stale(&mut grids[0]);
+    sheet::mark_stale(&mut grids);
     let claims = read::budgets(&grids, &read::Mapping::default());
     let audited = audit(&claims[0]);
     let best = &audited.found.explanations[0];

@@ -1,7 +1,7 @@
 //! Sheets in the words and columns of laboratories that had not been read before, and what they had in common.
 
 use super::{answer, first};
-use crate::{Verdict, audit, read, rules, sheet};
+use crate::{Verdict, audit, claims, read, rules, sheet};
 
 fn is_sound(name: &str, sheet: &str) {
     assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
@@ -310,4 +310,74 @@ fn questions_that_rows_answer_are_not_asked() {
     };
     assert_eq!(asked("Calibrator"), [16]);
     assert!(asked("Calibrator, 99 %").is_empty());
+}
+
+/// Components of a quantity stand below it without an estimate and a coefficient of their own.
+#[test]
+fn components_below_their_quantity_are_in_it() {
+    let sheet = |parts: &str| {
+        format!(
+            "quantity,estimate,unit,u,c,c·u\nV,1.00011,V,0.0000218,100,0.00218\n{parts}I,10.002,mA,0.00029,-10,-0.0029\nR,99.99,Ω,0.00363,,0.00363\n\
+             U = 0.0073 Ω (k = 2)\n"
+        )
+    };
+    let parts = "repeatability,,V,0.0000086,,0.00086\ncalibration,,V,0.0000200,,0.00200\n";
+    is_sound("sheet.csv", &sheet(parts));
+    is_sound("sheet.csv", &sheet(""));
+    let (verdict, _) = answer(
+        "sheet.csv",
+        &sheet(&parts.replace("0.0000200", "0.0000300")),
+    );
+    assert_ne!(verdict, Verdict::Sound);
+}
+
+/// Files with words and figures that hold no sheet say what they are.
+#[test]
+fn what_is_no_sheet_is_refused() {
+    for (name, text, why) in [
+        ("r.json", "{\n  \"u\": 0.1\n}\n", "JSON"),
+        (
+            "c.xml",
+            "<?xml version=\"1.0\"?>\n<dcc:digitalCalibrationCertificate>",
+            "dcc = \"c.xml\"",
+        ),
+        ("b.toml", "[input]\n", "`gumption eval b.toml`"),
+        ("p.pdf", "%PDF-1.7\n", "PDF"),
+        ("d.docx", "PK\u{3}\u{4}", "word processor"),
+    ] {
+        let error = claims(name, text.as_bytes(), &read::Mapping::default()).unwrap_err();
+        assert!(error.0.to_string().contains(why), "{name}");
+    }
+}
+
+/// Of what a percentage is a part stands in its row, or in the title, also where u is off by a power of ten.
+#[test]
+fn a_share_of_a_named_amount_is_converted() {
+    let sheet = |title: &str, source: &str, [u, u_c, expanded]: [&str; 3]| {
+        format!(
+            "{title}\nSource,±,Distribution,Divisor,u (µV)\n{source},20 ppm,rectangular,1.732,{u}\nResolution,5 µV,rectangular,1.732,2.89\n\
+             Repeatability,4 µV,normal,1,4\nu_c,,,,{u_c}\nU (k=2),,,,{expanded}\n"
+        )
+    };
+    let (right, wrong) = (["115.5", "115.6", "231"], ["11.55", "12.56", "25"]);
+    for (title, source) in [
+        ("DC voltage", "\"Calibrator, 20 ppm of 10 V\""),
+        ("直流电压", "\"标准源，10 V 的 20 ppm\""),
+        ("DC voltage at 10 V", "Calibrator"),
+    ] {
+        let (verdict, slips) = answer("sheet.csv", &sheet(title, source, right));
+        assert_eq!(
+            (verdict, slips[0].as_str()),
+            (Verdict::WithoutEffect, "too-many-digits")
+        );
+        let (verdict, slips) = answer("sheet.csv", &sheet(title, source, wrong));
+        assert_eq!(verdict, Verdict::WithEffect, "{source}");
+        assert!(
+            slips.iter().any(|slip| slip.starts_with("percent-ppm@")),
+            "{slips:?}"
+        );
+    }
+    // Of a range that nobody states, nothing is known.
+    let of_range = sheet("DC voltage at 10 V", "\"Calibrator, of range\"", wrong);
+    is_sound("sheet.csv", &of_range);
 }

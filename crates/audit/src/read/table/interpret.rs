@@ -32,6 +32,11 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
         (row.stated, row.relative) = kind::stated(&evidence);
         row.not_counted = row.not_counted.take().or_else(|| not_counted(&row.words));
     }
+    for row in &mut claimed.rows {
+        if let Some(amount) = named_whole(&row.words) {
+            row.take_part_of(&amount);
+        }
+    }
     let nominal = nominal(claimed);
     for row in &mut claimed.rows {
         if let Some(nominal) = &nominal {
@@ -56,23 +61,55 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
     }
 }
 
+/// The amount of which a row says that its percentage is a part: `20 ppm of 10 V`, `10 V 的 20 ppm`.
+fn named_whole(words: &str) -> Option<Printed> {
+    const OF: &[&str] = &["% of", "%of", "‰ of", "ppm of", "ppb of"];
+    let behind = words::figure_after(words, OF);
+    let amount = behind.or_else(|| {
+        let (front, share) = words.split_once('的')?;
+        let share = words::figures_with_units(share).next()?;
+        units::fraction(&share.unit)?;
+        words::figures_with_units(front).last()
+    })?;
+    units::fraction(&amount.unit).is_none().then_some(amount)
+}
+
 /// What percentages without an estimate are of: the result, or an amount that the title or a line names, of which the laboratory's
-/// own u shows in one row at least that it took it.
+/// own u shows in one row at least that it took it, if need be with a wrong power of ten.
 fn nominal(claimed: &Claimed) -> Option<Printed> {
     let texts = [&claimed.title, &claimed.words];
     let named = texts
         .into_iter()
         .flat_map(|text| words::figures_with_units(text));
-    let mut amounts = claimed.footer.y.iter().cloned().chain(named);
-    amounts.find(|amount| {
-        let shows = |row: &Row| {
-            let (u, part) = row.u.as_ref().zip(row.part_of(amount))?;
-            let (stated, _) = row.stated.standard()?;
-            Some(u.is_met_within(stated * part, u.half_of_digits() + 0.01 * u.value))
-        };
-        claimed.rows.iter().any(|row| shows(row) == Some(true))
-    })
+    let amounts: Vec<Printed> = claimed.footer.y.iter().cloned().chain(named).collect();
+    let shows = |row: &Row, amount: &Printed, ratio: f64| {
+        let (u, part) = row.u.as_ref().zip(row.part_of(amount))?;
+        let (stated, _) = row.stated.standard()?;
+        Some(u.is_met_within(stated * part * ratio, u.half_of_digits() + 0.01 * u.value))
+    };
+    let is_taken = |amount: &&Printed| {
+        let mut rows = claimed.rows.iter();
+        rows.any(|row| shows(row, amount, 1.0) == Some(true))
+    };
+    // A range is another whole than the value.
+    let is_missed = |amount: &&Printed| {
+        let of_value = |row: &&Row| !has(&row.words.to_lowercase(), RANGE);
+        let mut rows = claimed.rows.iter().filter(of_value);
+        rows.any(|row| {
+            units::MISSED
+                .iter()
+                .any(|ratio| shows(row, amount, *ratio) == Some(true))
+        })
+    };
+    let found = amounts
+        .iter()
+        .find(is_taken)
+        .or_else(|| amounts.iter().find(is_missed));
+    found.cloned()
 }
+
+/// Words for what a percentage may be of that is not the value.
+const RANGE: &[&str] = &["range", "full scale", "f.s.", "fs", "span", "量程", "满度"];
 
 /// What a note knows of a quantity that no row has, unless a row has its figure.
 fn add_absent(claimed: &mut Claimed) {

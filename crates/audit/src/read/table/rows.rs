@@ -70,12 +70,20 @@ pub fn rows(grid: &Grid, sheet: usize, located: &Located) -> Vec<Raw> {
 }
 
 /// Rows 1.1 and 1.2, or u_11 and u_12, below a row 1 that is the root of the sum of their squares, or the larger of them,
-/// are in it already.
+/// are in it already; so are rows without estimate and coefficient right below one that has them, and is the root.
 fn parts_are_not_counted(rows: &mut [Raw]) {
     for whole in 0..rows.len() {
-        let parts: Vec<usize> = (whole + 1..rows.len())
-            .filter(|part| rows[*part].is_part_of(&rows[whole]))
-            .collect();
+        let numbered = (whole + 1..rows.len()).filter(|part| rows[*part].is_part_of(&rows[whole]));
+        let mut parts: Vec<usize> = numbered.collect();
+        let by_place =
+            parts.is_empty() && rows[whole].row.value.is_some() && rows[whole].row.c.is_some();
+        if by_place {
+            let is_bare = |part: &usize| {
+                let row = &rows[*part].row;
+                row.value.is_none() && row.c.is_none()
+            };
+            parts = (whole + 1..rows.len()).take_while(is_bare).collect();
+        }
         let u = |i: usize| rows[i].row.u.as_ref().map(|u| (u.value, u.half));
         let (Some((own, half)), Some(of_parts)) = (
             u(whole),
@@ -84,12 +92,19 @@ fn parts_are_not_counted(rows: &mut [Raw]) {
             continue;
         };
         let root = libm::sqrt(of_parts.iter().map(|(u, _)| u * u).sum());
-        let largest = of_parts.iter().map(|(u, _)| *u).fold(0.0, f64::max);
+        let largest = match by_place {
+            true => root,
+            false => of_parts.iter().map(|(u, _)| *u).fold(0.0, f64::max),
+        };
         let open = half + of_parts.iter().map(|(_, half)| *half).fold(0.0, f64::max);
         if parts.len() >= 2 && [root, largest].iter().any(|u| (u - own).abs() <= open) {
             let why = format!("in row {}", rows[whole].row.label());
+            let c = rows[whole].row.c.clone().filter(|_| by_place);
             for part in parts {
-                rows[part].row.not_counted = Some(why.clone());
+                let row = &mut rows[part].row;
+                row.not_counted = Some(why.clone());
+                // Its coefficient is that of the quantity.
+                row.c = row.c.take().or_else(|| c.clone());
             }
         }
     }
@@ -418,9 +433,8 @@ fn is_sum(row: &Row, others: &[Raw]) -> bool {
 
 /// How many times the root of the sum of squares of other rows a figure is: once for u_c, k times for U.
 fn times(figure: &Printed, others: &[Raw]) -> Option<f64> {
-    let squares = others
-        .iter()
-        .map(|raw| raw.part().map_or(0.0, |part| part * part));
+    let counted = others.iter().filter(|raw| raw.row.not_counted.is_none());
+    let squares = counted.map(|raw| raw.part().map_or(0.0, |part| part * part));
     let root = libm::sqrt(squares.sum());
     let open = 0.02 + figure.relative_half().min(0.05);
     let near = |k: &f64| (figure.value / (k * root) - 1.0).abs() <= open;

@@ -18,6 +18,7 @@ use gumption::report::batch::{Columns, Count, Lines, Table};
 
 use super::evaluated::{parse_points, parse_profile, parse_trials};
 use super::language::system_language;
+use super::other_kind::{self, Reads};
 use super::output::{Sink, Target};
 use super::progress::Steps;
 use super::{Outcome, output};
@@ -93,7 +94,8 @@ fn evaluated(args: &Args) -> Result<Count, Outcome> {
         )));
     }
     let refused = |rejection| output::refused(&rejection, args.lang);
-    let file = BatchFile::open(Files::Disk, &args.budget, args.profile).map_err(refused)?;
+    let file = BatchFile::open(Files::Disk, &args.budget, args.profile)
+        .map_err(|rejection| other_kind::refused(&rejection, Reads::Budget, args.lang))?;
     let name = args.table.display().to_string();
     let source = match is_parquet {
         #[cfg(feature = "parquet")]

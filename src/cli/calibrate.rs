@@ -5,6 +5,7 @@ mod recordings;
 use std::path::PathBuf;
 
 use super::form::Form;
+use super::other_kind::{self, Reads};
 use super::output::{Beside, Complaint};
 use super::progress::Progress;
 use super::{Outcome, output};
@@ -100,7 +101,7 @@ fn read(file: &std::path::Path, purpose: Purpose, lang: Language) -> Result<Camp
         let _progress = Progress::of(say!("reading"));
         calibrate::load(file, purpose)
     };
-    read.map_err(|rejection| output::refused(&rejection, lang))
+    read.map_err(|rejection| other_kind::refused(&rejection, Reads::Experiment, lang))
 }
 
 /// The coefficient and the file of `COEFFICIENT=FILE|FILE`.

@@ -11,6 +11,7 @@ use gumption::render::svg;
 use gumption::report::{self, Language};
 
 use super::form::Form;
+use super::other_kind::{self, Reads};
 use super::output::{Beside, Complaint};
 use super::progress::Steps;
 use super::{Outcome, output};
@@ -45,7 +46,9 @@ pub(super) fn run(args: &Args) -> Outcome {
         .collect();
     let case = args.form.is_possible(&planned).and_then(|()| {
         let case = Case::load(&args.case, Purpose::Diagnosis);
-        let case = case.map_err(|rejection| output::refused(&rejection, args.form.language()))?;
+        let case = case.map_err(|rejection| {
+            other_kind::refused(&rejection, Reads::Experiment, args.form.language())
+        })?;
         // Now it is known what was read, too.
         args.form.is_possible(&planned).map(|()| case)
     });

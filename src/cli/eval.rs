@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::evaluated::{Row, Settings, of_rows, options};
 use super::form::Form;
+use super::other_kind::{self, Reads};
 use super::output::{Beside, Complaint};
 use super::progress::Progress;
 use super::{Outcome, archive, output};
@@ -171,7 +172,7 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
     let loaded = match budget::load_under(file, args.settings.profile) {
         Ok(loaded) => loaded,
         Err(rejection) => {
-            *worst = output::refused(&rejection, args.form.language());
+            *worst = other_kind::refused(&rejection, Reads::Budget, args.form.language());
             return Vec::new();
         }
     };

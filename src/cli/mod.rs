@@ -21,6 +21,7 @@ mod interrupt;
 mod language;
 mod new;
 mod no_command;
+mod other_kind;
 mod output;
 mod plan;
 mod progress;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::diagnose::failed;
 use super::form::Form;
+use super::other_kind::{self, Reads};
 use super::progress::Steps;
 use super::{Outcome, calibrate, output};
 use gumption::Files;
@@ -48,7 +49,9 @@ pub(super) fn run(args: &Args) -> Outcome {
 fn case(file: &Path, form: &Form) -> Outcome {
     let case = match Case::load(file, Purpose::Plan) {
         Ok(case) => case,
-        Err(rejection) => return output::refused(&rejection, form.language()),
+        Err(rejection) => {
+            return other_kind::refused(&rejection, Reads::Experiment, form.language());
+        }
     };
     super::diagnose::remarks(&case, form.language());
     output::tell_size(case.rows as u64, case.bytes(), form.language());

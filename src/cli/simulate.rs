@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::diagnose::{failed, remarks};
+use super::other_kind::{self, Reads};
 use super::output::Target;
 use super::{Outcome, output};
 use gumption::diagnose::case::{Case, Purpose};
@@ -37,7 +38,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     }
     let case = match Case::load(&args.case, Purpose::Plan) {
         Ok(case) => case,
-        Err(rejection) => return output::refused(&rejection, lang),
+        Err(rejection) => return other_kind::refused(&rejection, Reads::Experiment, lang),
     };
     remarks(&case, lang);
     match simulate(&case, args.seed) {

@@ -20,6 +20,14 @@ impl Folder {
         folder.write("good.toml", GOOD.as_bytes());
         folder.write("readings.csv", b"V,I\n5.01,20.1\n5.02,20.2\n");
         folder.write("latin1.toml", b"title = \"Widerst\xe4nde\"\n");
+        folder.write(
+            "certificate.toml",
+            b"number = \"17\"\n[laboratory]\nname = \"L\"\n[customer]\nname = \"C\"\n",
+        );
+        folder.write(
+            "experiment.toml",
+            b"recording = \"readings.csv\"\nequations = \"V = a + b*I\"\n[columns]\nV = \"output\"\nI = \"stimulus\"\n",
+        );
         folder.write("garbage.toml", &garbage());
         folder.write(
             "nested.toml",
@@ -142,6 +150,9 @@ const MISTAKES: &[(&str, &[&str])] = &[
     ("empty_path", &["eval", ""]),
     ("folder", &["eval", "folder"]),
     ("csv", &["eval", "readings.csv"]),
+    ("certificate_for_budget", &["eval", "certificate.toml"]),
+    ("experiment_for_budget", &["eval", "experiment.toml"]),
+    ("budget_for_experiment", &["diagnose", "good.toml"]),
     ("unknown_flag", &["eval", "good.toml", "--sed", "3"]),
     ("trials_zero", &["eval", "good.toml", "--trials", "0"]),
     ("trials_word", &["eval", "good.toml", "--trials", "abc"]),

@@ -112,11 +112,13 @@ pub enum Kind {
 pub fn kind_of(text: &str) -> Kind {
     let (table, _) = toml::de::DeTable::parse_recoverable(text);
     let has = |keys: &[&str]| keys.iter().any(|key| table.get_ref().contains_key(*key));
-    if has(&["schedule", "procedure"]) && !has(&["action"]) {
+    if has(&["measurand"]) {
+        Kind::Budget
+    } else if has(&["schedule", "procedure"]) && !has(&["action"]) {
         Kind::Schedule
     } else if has(&["equations", "procedure", "recording"]) {
         Kind::Experiment
-    } else if has(&["measurand", "input"]) {
+    } else if has(&["input"]) {
         Kind::Budget
     } else if has(&["columns"]) {
         Kind::Experiment

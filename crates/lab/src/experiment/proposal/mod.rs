@@ -527,6 +527,15 @@ mod tests {
         );
         let table = of("x,y\n1,16.08\n2,33.83\n3,65.8\n");
         assert_eq!(role(&table, "x"), "stimulus");
+        // What is set counts along where the rest is the number of the run.
+        for runs in ["1,1,1", "1,1,2"] {
+            let run: Vec<&str> = runs.split(',').collect();
+            let table = of(&format!(
+                "load,out,run\n1,1.01,{}\n2,2.02,{}\n3,3.01,{}\n",
+                run[0], run[1], run[2]
+            ));
+            assert_eq!(table["equations"].as_str(), Some("out = a + b*load"));
+        }
         let table = of("位置 [mm],示值 [mm]\n0,0.001\n10,10.002\n20,20.001\n");
         assert_eq!(role(&table, "位置"), "stimulus");
         let table =

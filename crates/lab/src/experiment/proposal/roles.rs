@@ -199,8 +199,11 @@ fn by_itself(column: &Column, columns: &[Column]) -> Option<RoleWord> {
             false => RoleWord::Ignore,
         });
     }
-    // Something else is set: what counts along is the number of the row, whatever its name.
-    if counts(column) && columns.iter().any(is_set) {
+    // Something else is set: what counts along is the number of the row, whatever its name. The number of a run is none
+    // of what is set, nor is what stays.
+    let is_varied =
+        |other: &Column| is_set(other) && !is_constant(other) && by_name(other).is_none();
+    if counts(column) && columns.iter().any(is_varied) {
         return Some(RoleWord::Order);
     }
     let is_numbering = column.unit.is_none() && known.iter().all(|x| x.fract() == 0.0);
@@ -214,8 +217,17 @@ fn by_itself(column: &Column, columns: &[Column]) -> Option<RoleWord> {
     if is_scatter(column, columns) {
         return Some(RoleWord::Ignore);
     }
-    let is_constant = known.iter().all(|x| *x == known[0]);
-    (is_constant && known.len() > 1).then_some(RoleWord::Covariate)
+    (is_constant(column) && known.len() > 1).then_some(RoleWord::Covariate)
+}
+
+/// Whether all its numbers are one.
+fn is_constant(column: &Column) -> bool {
+    let Data::Numbers(numbers) = &column.data else {
+        return false;
+    };
+    let mut known = numbers.iter().filter(|x| x.is_finite());
+    let first = known.next();
+    known.all(|x| Some(x) == first)
 }
 
 /// Whether it is a standard deviation, or the u of another column: `u_T` beside `T`, while `U_ref` is a voltage.

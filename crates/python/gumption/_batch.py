@@ -10,7 +10,7 @@ from typing import Any, Literal
 from . import _arrow, _engine, _table
 from ._commands import Progress, settings
 from ._faults import typed
-from ._given import Contents, Given, source
+from ._given import Contents, Given, flag, several, source
 from ._result import Language
 from ._table import Table
 
@@ -29,7 +29,7 @@ def batch(
     quasi_random: bool = False,
     shares: bool = False,
     contributions: bool = False,
-    keep: Sequence[str] = (),
+    keep: str | Sequence[str] = (),
     threads: int | None = None,
     progress: Progress = None,
     language: Language = "en",
@@ -58,7 +58,7 @@ def batch(
         source_files=files,
         wanted=settings(profile, monte_carlo, trials, seed, quasi_random, False, threads),
         more=(shares, contributions),
-        keep=keep,
+        keep=several(keep),
         progress=progress,
         language=language,
     )
@@ -132,8 +132,10 @@ def evaluated(
 ) -> tuple[Table | None, int, int]:
     """The columns of results by their names, ``None`` for one whose texts are all empty, or ``None`` where they go into a
     file; how many rows there were, and how many of them have no result."""
+    shares, contributions = more
+    columns = (flag("shares", shares), flag("contributions", contributions))
     with typed():
         found, rows, failed = _engine.batch_of(
-            source(budget, source_files), table, place, wanted, more, list(keep), progress, language
+            source(budget, source_files), table, place, wanted, columns, list(keep), progress, language
         )
     return (None if found is None else Table(found)), rows, failed

@@ -10,7 +10,7 @@ from typing import Any, Literal, Union, overload
 
 from . import _engine, _table
 from ._faults import typed
-from ._given import Contents, Given, sheet, source
+from ._given import Contents, Given, flag, several, sheet, source, whole
 from ._result import Language, Result
 from ._table import Table
 
@@ -58,17 +58,28 @@ def settings(
     threads: int | None,
 ) -> dict[str, Any]:
     """What the engine is asked for in place of what a file says."""
-    if trials is not None and trials != "adaptive" and (isinstance(trials, str) or trials < 1000):
-        raise ValueError("trials: 1000 at least, or 'adaptive'")
+    if isinstance(trials, str) and trials != "adaptive":
+        raise ValueError(f"trials: a whole number or 'adaptive' is needed, not {trials!r}")
+    if profile is not None and not isinstance(profile, str):
+        raise TypeError(f"profile: the name of one is needed, not {profile!r}")
+    wanted = {"trials": trials, "seed": seed, "quasi_random": quasi_random or None, "indices": indices or None}
+    idle = [name for name, one in wanted.items() if one is not None]
+    if idle and not flag("monte_carlo", monte_carlo):
+        raise ValueError(f"{', '.join(idle)}: of use with monte_carlo=True only")
     return {
         "profile": profile,
-        "monte_carlo": monte_carlo,
-        "trials": 0 if trials == "adaptive" else trials,
-        "seed": seed,
-        "quasi_random": quasi_random,
-        "indices": indices,
-        "threads": threads,
+        "monte_carlo": flag("monte_carlo", monte_carlo),
+        "trials": 0 if trials == "adaptive" else _optional("trials", trials, 1000, 10**12),
+        "seed": _optional("seed", seed),
+        "quasi_random": flag("quasi_random", quasi_random),
+        "indices": flag("indices", indices),
+        "threads": _optional("threads", threads, 1),
     }
+
+
+def _optional(name: str, given: Any, *limits: int) -> int | None:
+    """A whole number, where one is given."""
+    return None if given is None else whole(name, given, *limits)
 
 
 @overload
@@ -152,18 +163,14 @@ def fleet(
     ``y=X``. ``result.groups`` and ``result["y"]`` have the figures, ``result.table()`` those of each group.
     """
     wanted = {
-        "by": _several(by),
+        "by": several(by),
         "date": date,
         "device": device,
-        "references": _several(reference),
-        "threads": threads,
+        "references": several(reference),
+        "threads": _optional("threads", threads, 1),
     }
     with typed():
         return Result(_engine.fleet(_table.given(results), wanted, language), language)
-
-
-def _several(names: str | Sequence[str]) -> list[str]:
-    return [names] if isinstance(names, str) else list(names)
 
 
 def plan(
@@ -191,7 +198,8 @@ def diagnose(
     ``progress`` is told the share that is done; ``result.files()`` has the improved experiment.
     """
     with typed():
-        return Result(_engine.diagnose(source(experiment, files), seed, progress, language), language)
+        seeded = _optional("seed", seed)
+        return Result(_engine.diagnose(source(experiment, files), seeded, progress, language), language)
 
 
 def simulate(
@@ -199,7 +207,7 @@ def simulate(
 ) -> str:
     """The recording that an experiment predicts, as CSV."""
     with typed():
-        return _engine.simulate(source(experiment, files), seed, language)
+        return _engine.simulate(source(experiment, files), whole("seed", seed), language)
 
 
 def verify(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 
 from . import _engine
 
@@ -36,6 +37,10 @@ class Refused(ValueError):
         super().__init__(drawn)
         self.faults = faults
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Comes back from another process as it was raised there.
+        return type(self), (str(self), self.faults)
+
 
 class NoResult(ValueError):
     """A file that is right, and has no result."""
@@ -46,6 +51,9 @@ class NoResult(ValueError):
     def __init__(self, why: str, code: str | None):
         super().__init__(why)
         self.code = code
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (str(self), self.code)
 
 
 @contextmanager

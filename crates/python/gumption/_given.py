@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import math
+import numbers
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Union
+
+import numpy as np
 
 from . import _engine
 
@@ -22,6 +26,8 @@ def source(given: Given, files: Contents | None = None, name: str = "file.toml")
         return _in_memory(name, _engine.toml_of(given), files)
     if isinstance(given, str) and ("\n" in given or "=" in given):
         return _in_memory(name, given, files)
+    if not isinstance(given, (str, os.PathLike)):
+        raise TypeError(f"a file is its path, its text, or a dict of what would stand in it, not {type(given).__name__}")
     if files is None:
         return {"path": os.fspath(given), "files": None}
     path = Path(given)
@@ -37,5 +43,34 @@ def sheet(given: str | os.PathLike[str] | bytes, name: str) -> dict[str, Any]:
 
 def _in_memory(name: str, content: str | bytes, files: Contents | None) -> dict[str, Any]:
     contents = {name: content, **(files or {})}
-    as_bytes = [(one, text.encode() if isinstance(text, str) else bytes(text)) for one, text in contents.items()]
-    return {"path": name, "files": as_bytes}
+    return {"path": name, "files": [(one, _content(one, given)) for one, given in contents.items()]}
+
+
+def _content(name: str, given: str | bytes) -> bytes:
+    if not isinstance(given, (str, bytes)):
+        raise TypeError(f"files: what {name} holds is a text or bytes, not {type(given).__name__}")
+    return given.encode() if isinstance(given, str) else given
+
+
+def whole(name: str, given: Any, least: int = 0, most: int = 2**64 - 1) -> int:
+    """A whole number, whatever its type (``1e6``)."""
+    wanted = f"{name}: a whole number from {least} to {most} is needed, not {given!r}"
+    is_whole = isinstance(given, numbers.Real) and math.isfinite(given) and given == math.floor(given)
+    if not is_whole:
+        raise TypeError(wanted)
+    count = int(given)
+    if not least <= count <= most:
+        raise ValueError(wanted)
+    return count
+
+
+def flag(name: str, given: Any) -> bool:
+    """Yes or no, and nothing that only counts as one of them."""
+    if not isinstance(given, (bool, np.bool_)):
+        raise TypeError(f"{name}: True or False is needed, not {given!r}")
+    return bool(given)
+
+
+def several(names: str | Sequence[str]) -> list[str]:
+    """One name, or several."""
+    return [names] if isinstance(names, str) else list(names)

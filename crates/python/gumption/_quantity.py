@@ -6,9 +6,13 @@ import itertools
 import math
 import numbers
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from copy import deepcopy
 from functools import cached_property, lru_cache
 from typing import Any, Union, cast
+from uuid import uuid4
+from weakref import WeakValueDictionary
 
 import numpy as np
 
@@ -20,13 +24,40 @@ from ._units import Units
 
 Operand = Union["Quantity", float]
 
-_count = itertools.count(1)
-
 _OURS = re.compile(r"[qy]\d*")
 """Names that are given here: of quantities without one, and of results."""
 
+_lasting: WeakValueDictionary[str, Lasting] = WeakValueDictionary()
+"""What was handed over, or came, by its key."""
 
-class Quantity:
+
+class Lasting:
+    """Comes back from a pickle as what it was, where that still is: as with a copy, another one would have nothing in common
+    with it."""
+
+    _key: str | None = None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        if self._key is None:
+            self._key = uuid4().hex
+            _lasting[self._key] = self
+        state = {name: one for name, one in self.__dict__.items() if name != "result"}
+        return _again, (type(self), self._key), state
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        if self.__dict__.keys() == {"_key"}:
+            self.__dict__.update(state)
+
+
+def _again(kind: type[Lasting], key: str) -> Lasting:
+    found = _lasting.get(key)
+    if found is None:
+        found = _lasting[key] = kind.__new__(kind)
+        found._key = key
+    return found
+
+
+class Quantity(Lasting):
     """A quantity: one of which something is known, or a formula of others.
 
     Arithmetic keeps what quantities have in common: ``x - x`` is 0 exactly. Nothing is computed until a figure is
@@ -42,7 +73,7 @@ class Quantity:
         unit: Units | None = None,
         name: str | None = None,
     ):
-        self._name = name or f"q{next(_count)}"
+        self._name = name
         self._formula = formula
         self._parts = parts
         self._known = known
@@ -101,7 +132,8 @@ class Quantity:
 
     def to(self, unit: str) -> Quantity:
         """The same quantity, in another unit."""
-        return Quantity(self._name, (self,), unit=units.of(unit))
+        _known(unit)
+        return Quantity("{}", (self,), unit=units.of(unit))
 
     def budget(self) -> dict[str, Any]:
         """The budget that is evaluated."""
@@ -109,7 +141,7 @@ class Quantity:
 
     def sensitivities(self) -> dict[Quantity, float]:
         """Derivatives to the quantities on which it rests, those with an uncertainty."""
-        resting = {one._name: one for one in _order([self]) if one._known is not None}
+        resting = {name: one for one, name in _named([self]).items() if one._known is not None}
         names = [one.name for one in self.result.inputs]
         return {resting[name]: one.sensitivity for name, one in zip(names, self._found.gum.inputs)}
 
@@ -197,11 +229,8 @@ class Quantity:
         # A copy would be another quantity, that had nothing in common with this one.
         return self
 
-    def __getstate__(self) -> dict[str, Any]:
-        return {key: one for key, one in self.__dict__.items() if key != "result"}
 
-
-class Joint:
+class Joint(Lasting):
     """Quantities of which correlation coefficients are stated."""
 
     def __init__(self, members: list[Quantity], correlation: Any):
@@ -214,14 +243,14 @@ class Joint:
         """The correlation coefficient of two members, by their places."""
         return float(self._correlation[one][other])
 
-    def table(self, names: set[str]) -> dict[str, Any] | None:
-        """The table of a budget for those of these names that correlate with another; nothing where none does."""
-        named = [place for place, one in enumerate(self.members) if one._name in names]
+    def table(self, names: Mapping[Quantity, str]) -> dict[str, Any] | None:
+        """The table of a budget for those of these that correlate with another; nothing where none does."""
+        named = [place for place, one in enumerate(self.members) if one in names]
         at = [i for i in named if any(i != j and self.coefficient(i, j) != 0 for j in named)]
         if not at:
             return None
         matrix = [[self.coefficient(i, j) for j in at] for i in at]
-        return {"inputs": [self.members[i]._name for i in at], "correlation": matrix}
+        return {"inputs": [names[self.members[i]] for i in at], "correlation": matrix}
 
 
 _OPERATIONS: dict[str, tuple[str, Callable[..., Units]]] = {
@@ -274,7 +303,7 @@ def quantity(
         from ._gtc import from_gtc
 
         return from_gtc(value)
-    if name is not None and not name.isidentifier():
+    if name is not None and not (isinstance(name, str) and name.isidentifier()):
         raise ValueError(f"{name!r} cannot be the name of a quantity: write letters, digits and _")
     if name is not None and _OURS.fullmatch(name):
         raise ValueError(f"{name!r} cannot be the name of a quantity: results are called so, and quantities without a name")
@@ -286,16 +315,31 @@ def quantity(
         raise ValueError(f"u is {u}: write it without sign")
     if unit is not None:
         _known(unit)
-    stated = {"value": value, "u": None if u == 0 else u, "unit": "1" if unit is None else unit}
-    stated = {key: one for key, one in stated.items() if one is not None}
-    return Quantity(known={**stated, **known}, unit=units.of(unit), name=name)
+    stated = {"value": value, "u": None if u == 0 else u, "unit": "1" if unit is None else unit, **known}
+    # A list that is changed afterwards changes nothing here.
+    stated = {key: list(one) if isinstance(one, Iterator) else deepcopy(one) for key, one in stated.items() if one is not None}
+    if known or not all(one is None or isinstance(one, numbers.Real) for one in (value, u)) or value is None:
+        _checked(stated, name or "x")
+    return Quantity(known=stated, unit=units.of(unit), name=name)
 
 
 @lru_cache(maxsize=1024)
 def _known(unit: str) -> None:
     """Raises ``Refused`` where there is no such unit."""
-    known = {"value": 1, "u": 1, "unit": unit}
-    evaluate({"measurand": {"y": {"model": "x", "unit": unit}}, "input": {"x": known}}, monte_carlo=False)
+    _checked({"value": 1, "u": 1, "unit": unit}, "x")
+
+
+def _checked(known: dict[str, Any], name: str) -> None:
+    """Raises ``Refused`` where this cannot be known of an input."""
+    # What is exact is that beside an uncertainty, too.
+    known = {"u": 1, **known} if _is_exact(known) else known
+    budget = {"measurand": {"y": {"model": name, "unit": known["unit"]}}, "input": {name: known}}
+    evaluate(budget, monte_carlo=False)
+
+
+def _is_exact(known: Mapping[str, Any]) -> bool:
+    """Of what has neither uncertainty nor readings nothing is in doubt."""
+    return set(known) <= {"value", "unit"}
 
 
 def correlated(
@@ -307,18 +351,26 @@ def correlated(
 ) -> list[Quantity]:
     """Quantities with standard uncertainties and a matrix of correlation coefficients."""
     matrix = np.asarray(correlation, dtype=float)
-    if matrix.shape != (len(values), len(values)) or len(u) != len(values):
-        raise ValueError(f"{len(values)} values take as many u and a matrix of as many rows and columns")
-    alike = unit is None or isinstance(unit, str)
-    of_each: Sequence[str | None] = [cast("str | None", unit)] * len(values) if alike else cast(Sequence[str], unit)
-    named: Sequence[str | None] = [None] * len(values) if names is None else names
+    of_each = [unit] * len(values) if unit is None or isinstance(unit, str) else list(unit)
+    named = [None] * len(values) if names is None else list(names)
+    if matrix.shape != (len(values), len(values)) or {len(u), len(of_each), len(named)} != {len(values)}:
+        raise ValueError(
+            f"{len(values)} values take as many u, units and names, and a matrix of as many rows and columns"
+        )
     each = zip(values, u, of_each, named)
-    return Joint([quantity(y, s, one, name=name) for y, s, one, name in each], matrix).members
+    members = Joint([quantity(y, s, one, name=name) for y, s, one, name in each], matrix).members
+    covariance(members)
+    return members
 
 
 def covariance(quantities: Iterable[Quantity]) -> np.ndarray:
     """Covariance matrix of quantities, from their sensitivity coefficients (JCGM 102, 6.2)."""
     quantities = list(quantities)
+    for one in quantities:
+        if not isinstance(one, Quantity):
+            raise TypeError(f"{one!r} is no quantity: write quantity({one!r})")
+    if all(_is_exact(one._known) for one in _named(quantities) if one._known is not None):
+        return np.zeros((len(quantities), len(quantities)))
     result = evaluate(_budget(quantities), monte_carlo=False)
     if len(quantities) == 1:
         return np.array([[result["y"].gum.standard_uncertainty ** 2]])
@@ -328,7 +380,7 @@ def covariance(quantities: Iterable[Quantity]) -> np.ndarray:
 def _formed(operation: str, *given: Any) -> Quantity:
     if not all(isinstance(one, (Quantity, numbers.Real)) for one in given):
         return cast(Quantity, NotImplemented)
-    written = [one._name if isinstance(one, Quantity) else _number(float(one)) for one in given]
+    written = ["{}" if isinstance(one, Quantity) else _number(float(one)) for one in given]
     formula, unit = _OPERATIONS[operation]
     operands = [one._units if isinstance(one, Quantity) else one for one in given]
     parts = tuple(one for one in given if isinstance(one, Quantity))
@@ -341,45 +393,50 @@ def _number(value: float) -> str:
     return f"({value!r})"
 
 
-def _order(quantities: list[Quantity]) -> list[Quantity]:
-    """They and what they rest on, each after its parts."""
-    order: dict[str, Quantity] = {}
+def _named(quantities: list[Quantity]) -> dict[Quantity, str]:
+    """They and what they rest on, each after its parts, with their names in a budget."""
+    order: dict[Quantity, None] = {}
     waiting = [(one, False) for one in reversed(quantities)]
     while waiting:
         one, ready = waiting.pop()
-        known = order.get(one._name)
-        if known is not None and known is not one:
-            raise ValueError(f"two quantities are called {one._name}")
-        if known is not None:
+        if one in order:
             continue
         if ready:
-            order[one._name] = one
+            order[one] = None
         else:
             waiting.append((one, True))
             waiting.extend((part, False) for part in reversed(one._parts))
-    return list(order.values())
+    numbers = itertools.count(1)
+    names = {one: one._name or f"q{next(numbers)}" for one in order}
+    for name, count in Counter(names.values()).items():
+        if count > 1:
+            raise ValueError(f"two quantities are called {name}")
+    return names
 
 
 def _budget(quantities: list[Quantity]) -> dict[str, Any]:
     """What is known as inputs, formulas as statements of one model, each after those that it uses."""
-    order = _order(quantities)
-    known = {one._name: one for one in order if one._known is not None}
-    # Of what has neither uncertainty nor readings nothing is in doubt.
-    exact = {name for name, one in known.items() if set(one._known or ()) <= {"value", "unit"}}
-    inputs = {name: one._known for name, one in known.items() if name not in exact}
-    names = ["y"] if len(quantities) == 1 else [f"y{at}" for at in range(1, len(quantities) + 1)]
+    names = _named(quantities)
+    formulas = [
+        f"{name} = {one._formula.format(*(names[part] for part in one._parts))}"
+        for one, name in names.items()
+        if one._known is None
+    ]
+    known = [(one, name, one._known) for one, name in names.items() if one._known is not None]
+    inputs = {one: name for one, name, what in known if not _is_exact(what)}
+    outputs = ["y"] if len(quantities) == 1 else [f"y{at}" for at in range(1, len(quantities) + 1)]
     measurands = {
-        name: {"model": one._name, "unit": units.written(one._units)}
-        for name, one in zip(names, quantities)
+        output: {"model": names[one], "unit": units.written(one._units)}
+        for output, one in zip(outputs, quantities)
     }
-    groups = {id(one._joint): one._joint for one in known.values() if one._joint is not None}
-    tables = [group.table(set(inputs)) for group in groups.values()]
+    groups = {id(one._joint): one._joint for one in inputs if one._joint is not None}
+    tables = [group.table(inputs) for group in groups.values()]
     parts = {
         "title": "Quantities",
-        "model": "\n".join(f"{one._name} = {one._formula}" for one in order if one._known is None),
+        "model": "\n".join(formulas),
         "measurand": measurands,
-        "constant": {name: known[name]._known for name in known if name in exact},
-        "input": inputs,
+        "constant": {name: what for one, name, what in known if one not in inputs},
+        "input": {name: what for one, name, what in known if one in inputs},
         "joint": [table for table in tables if table is not None],
     }
     return {key: part for key, part in parts.items() if part}

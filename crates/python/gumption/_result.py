@@ -17,7 +17,7 @@ import numpy as np
 from ._digits import estimate, figure
 from ._engine import Made
 from ._faults import typed
-from ._given import Given, source
+from ._given import Given, flag, source, whole
 from ._table import Table
 
 Language = Literal["en", "zh"]
@@ -120,11 +120,18 @@ class Row(Record):
 
     def __getitem__(self, name: str) -> Any:
         """A measurand of a budget, or a coefficient of a calibration, by its name."""
+        named = self._named
+        if name not in named:
+            raise KeyError(f"there is no {name}; there are {', '.join(named)}")
+        return _wrapped(named[name])
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._named
+
+    @property
+    def _named(self) -> dict[str, Any]:
         named = [*(self._fields.get("measurands") or []), *(self._fields.get("coefficients") or [])]
-        for one in named:
-            if one["name"] == name:
-                return _wrapped(one)
-        raise KeyError(f"there is no {name}; there are {', '.join(one['name'] for one in named)}")
+        return {one["name"]: one for one in named}
 
 
 class Result:
@@ -156,6 +163,10 @@ class Result:
         """A measurand of a budget, or a coefficient of a calibration, by its name."""
         return self._only[name]
 
+    def __contains__(self, name: object) -> bool:
+        """Whether there is a measurand or a coefficient of this name."""
+        return name in self.rows[0]
+
     @property
     def _only(self) -> Row:
         if len(self.rows) > 1:
@@ -169,8 +180,9 @@ class Result:
 
     def samples(self, trials: int = 1_000_000, row: int = 0) -> dict[str, np.ndarray]:
         """Values of every measurand in trials of the Monte Carlo method; the n-th of all are of one trial."""
-        names = [one.name for one in self.rows[row].measurands]
-        return dict(zip(names, self._made.samples(row, trials)))
+        row = range(len(self.rows))[row]
+        samples = self._made.samples(row, whole("trials", trials, 1))
+        return dict(zip((one.name for one in self.rows[row].measurands), samples))
 
     def table(self) -> Table:
         """What is reported of every measurand and row, of every coefficient, or of every group of a fleet, by columns."""
@@ -201,7 +213,7 @@ class Result:
 
     def render(self, format: str, language: Languages | None = None, width: int = 100) -> bytes:
         """The report in a format of the program: ``text``, ``markdown``, ``html``, ``json`` and whatever else it has."""
-        return self._made.render(format, language or self._language, width)
+        return self._made.render(format, language or self._language, whole("width", width))
 
     def save(self, path: str | os.PathLike[str], language: Languages | None = None, replace: bool = False) -> None:
         """Writes the report in the format of the ending: ``.html``, ``.xlsx``, ``.md``, ``.json`` …
@@ -209,7 +221,7 @@ class Result:
         A file that is there is replaced if gumption wrote it and nobody changed it since, or with ``replace``; otherwise
         ``FileExistsError``.
         """
-        self._made.save(path, language or self._language, replace)
+        self._made.save(path, language or self._language, flag("replace", replace))
 
     def text(self, language: Languages | None = None, width: int = 100) -> str:
         """The report as text."""
@@ -242,6 +254,16 @@ class Result:
     def _repr_html_(self) -> str:
         page = html.escape(self.to_html(), quote=True)
         return f'<iframe srcdoc="{page}" style="width:100%;height:32em;border:0" sandbox></iframe>'
+
+    def __copy__(self) -> Result:
+        # Nothing in it changes.
+        return self
+
+    def __deepcopy__(self, _: Any) -> Result:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError("a result stays in its process; what can be handed over is its `rows`, `table()` or `text()`")
 
     def __iter__(self) -> Iterator[Row]:
         return iter(self.rows)

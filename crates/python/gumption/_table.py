@@ -114,13 +114,15 @@ def of_arrow(table: Any) -> list[tuple[str, Any]]:
 
 def _columns(table: Any) -> list[tuple[str, Any]]:
     """A frame or columns by their names."""
-    names = list(table.keys() if isinstance(table, Mapping) else getattr(table, "columns", ()))
-    if not isinstance(table, Mapping) and not (names and all(isinstance(name, str) for name in names)):
+    if not isinstance(table, Mapping) and not (hasattr(table, "__len__") and hasattr(table, "columns")):
         raise TypeError(
             "a table is a CSV file, a dict of columns, a frame of pandas or polars, or a table of Arrow,"
             f" not {type(table).__name__}"
         )
+    names = list(table.keys() if isinstance(table, Mapping) else table.columns)
     for name in names:
+        if not isinstance(name, str):
+            raise TypeError(f"the names of columns are texts, and {name!r} is none: rename it")
         if isinstance(table[name], (str, bytes)) or not hasattr(table[name], "__iter__"):
             raise TypeError(f"the column {name} is {table[name]!r}: a list or an array with a value for each row is needed")
     return [*_of_index(table, names), *((str(name), cells(table[name])) for name in names)]
@@ -143,11 +145,19 @@ def cells(column: Any) -> Any:
     return [_field(one) for one in column]
 
 
+def _element(value: Any) -> str:
+    """A number of a list; what is none is for the row to refuse."""
+    try:
+        return repr(float(value))
+    except (TypeError, ValueError):
+        return _field(value) or "nan"
+
+
 def _field(value: Any) -> str:
     if isinstance(value, str):
         return value
     if isinstance(value, (list, tuple, np.ndarray)) or hasattr(value, "to_list"):
-        return "[" + ", ".join(repr(float(one)) for one in value) + "]"
+        return f"[{', '.join(map(_element, value))}]"
     # What is missing: None, nan, and what pandas calls NaT and NA.
     if value is None or str(value) in ("nan", "NaT", "<NA>"):
         return ""

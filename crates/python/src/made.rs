@@ -18,7 +18,7 @@ use gumption_lab::diagnose::{self, Diagnosis};
 use gumption_report::{self as report, Detail, Report};
 use gumption_verify::Verification;
 use numpy::{IntoPyArray, PyArray1};
-use pyo3::exceptions::{PyFileExistsError, PyOSError, PyValueError};
+use pyo3::exceptions::{PyFileExistsError, PyMemoryError, PyOSError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::language::{Languages, spoken};
@@ -251,6 +251,13 @@ impl Made {
         let row = rows
             .get(row)
             .ok_or_else(|| PyValueError::new_err(format!("there are {} rows", rows.len())))?;
+        // The trials of the chunks, and all of them together: what there is no room for is refused, not tried.
+        let numbers = 2 * u128::from(trials) * row.budget.model.outputs().len() as u128;
+        let room = usize::try_from(numbers).map(|all| Vec::<f64>::new().try_reserve_exact(all));
+        if !matches!(room, Ok(Ok(()))) {
+            let why = format!("{trials} trials do not fit into the memory; draw fewer");
+            return Err(PyMemoryError::new_err(why));
+        }
         let options = row.options();
         let samples = watched(py, None, &options.progress, || {
             propagate::samples(&row.budget, trials, &options)

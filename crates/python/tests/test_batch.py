@@ -129,3 +129,31 @@ def test_a_file_that_would_hold_something_else_is_refused(tmp_path):
     (tmp_path / "devices.csv").write_bytes(b"PAR1\x15\x04")
     with pytest.raises(gumption.Refused, match="Parquet"):
         gumption.batch(budget, tmp_path / "devices.csv")
+
+
+def test_a_list_with_a_gap_is_a_fault_of_its_row():
+    budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
+    rows = [[1.0, None, 1.2], [1.0, "much"], [1.0, 1.2]]
+    found = gumption.batch(budget, {"V.readings": rows, "R": [1.0, 1.0, 1.0]})
+    assert [bool(one) for one in found["error"]] == [True, True, False]
+
+
+def test_what_is_no_table_of_rows_is_said():
+    budget = BUDGET.format(readings="[1, 2]", R=1, u=1)
+    with pytest.raises(ValueError, match="1 of R, 2 of V"):
+        gumption.batch(budget, {"R": [1.0], "V": [1.0, 2.0]})
+    pandas = pytest.importorskip("pandas")
+    with pytest.raises(TypeError, match="names of columns are texts, and 0 is none"):
+        gumption.batch(budget, pandas.DataFrame([[1.0, 2.0]]))
+    polars = pytest.importorskip("polars")
+    with pytest.raises(TypeError, match="not LazyFrame"):
+        gumption.batch(budget, polars.LazyFrame({"R": [1.0]}))
+
+
+def test_settings_that_do_nothing_are_refused():
+    budget, rows = BUDGET.format(readings="[1, 2]", R=1, u=1), {"R": [1.0], "type": ["A"]}
+    with pytest.raises(ValueError, match="trials, seed: of use with monte_carlo=True only"):
+        gumption.batch(budget, rows, trials=5000, seed=1)
+    with pytest.raises(TypeError, match="shares"):
+        gumption.batch(budget, rows, shares="yes")
+    assert gumption.batch(budget, rows, keep="type")["type"] == ["A"]

@@ -1,12 +1,16 @@
 """The package says what the command line says, to the last bit."""
 
+import copy
 import datetime
 import json
 import math
+import pickle
 import random
 import subprocess
 import sys
 import threading
+from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
 
 import gumption
@@ -74,8 +78,23 @@ def test_a_dict_is_a_budget():
     assert [one.name for one in from_dict.inputs] == ["V", "R"]
     readings = {"measurand": {"y": {"model": "x"}}, "input": {"x": {"readings": np.array([1.0, 2.0, 4.0])}}}
     assert math.isclose(gumption.evaluate(readings)["y"].y, 7 / 3)
-    with pytest.raises(ValueError, match="cannot stand in a file"):
-        gumption.evaluate({"title": object()})
+    exact = {"measurand": {"y": {"model": "x"}}, "input": {"x": {"value": Decimal("1.5"), "u": Fraction(1, 4)}}}
+    assert gumption.evaluate(exact)["y"].u == 0.25
+    for unfit in (object(), 1 + 2j, b"1.0", {1.0, 1.1}, [1.0, None]):
+        with pytest.raises(TypeError, match=r"^input\.x\.readings.* cannot stand in a file"):
+            gumption.evaluate({"measurand": {"y": {"model": "x"}}, "input": {"x": {"readings": unfit}}})
+
+
+def test_paths_stand_in_a_dict():
+    readings = {"readings": {"file": Path("readings.csv"), "column": "U"}}
+    budget = {"measurand": {"y": {"model": "x"}}, "input": {"x": readings}}
+    assert gumption.evaluate(budget, files={"readings.csv": "U\n1.0\n1.2\n"})["y"].y == 1.1
+    for unfit in (3, [1.0, 1.2]):
+        with pytest.raises(TypeError, match="what readings.csv holds is a text or bytes"):
+            gumption.evaluate(budget, files={"readings.csv": unfit})
+    for unfit in (None, 3, [budget], b"[input]\n"):
+        with pytest.raises(TypeError, match="a file is its path, its text, or a dict"):
+            gumption.evaluate(unfit)
 
 
 def test_a_path_with_files_in_memory(tmp_path):
@@ -124,6 +143,34 @@ def test_samples_are_not_copied():
     assert samples.flags.writeable and samples.flags.c_contiguous
 
 
+def test_samples_are_as_many_as_fit():
+    result = gumption.evaluate(RESISTOR, trials=1000)
+    assert len(result.samples(1e3)["I"]) == 1000
+    with pytest.raises(ValueError, match="trials"):
+        result.samples(0)
+    with pytest.raises(MemoryError, match="do not fit into the memory"):
+        result.samples(10**15)
+    with pytest.raises(IndexError):
+        result.samples(1000, row=1)
+
+
+def test_what_is_handed_over_comes_back():
+    result = gumption.evaluate(RESISTOR, trials=1000)
+    assert "I" in result and "J" not in result
+    assert copy.deepcopy(result) is result and copy.copy(result) is result
+    assert pickle.loads(pickle.dumps(result["I"])).u == result["I"].u
+    with pytest.raises(TypeError, match="stays in its process"):
+        pickle.dumps(result)
+    with pytest.raises(gumption.Refused) as refused:
+        gumption.evaluate(RESISTOR.replace("half_width", "half_widht"))
+    again = pickle.loads(pickle.dumps(refused.value))
+    assert (str(again), again.faults) == (str(refused.value), refused.value.faults)
+    with pytest.raises(gumption.NoResult) as without:
+        gumption.evaluate('[measurand]\ny.model = "sqrt(x)"\n[input]\nx = { value = 0, u = 0.1 }\n', monte_carlo=False)
+    again = pickle.loads(pickle.dumps(without.value))
+    assert (str(again), again.code) == (str(without.value), without.value.code)
+
+
 def test_faults_are_typed():
     with pytest.raises(gumption.Refused) as refused:
         gumption.evaluate(RESISTOR.replace("half_width", "half_widht"))
@@ -146,9 +193,23 @@ def test_a_budget_without_a_derivative_says_why():
 
 
 def test_settings_are_checked():
-    for wrong in ({"trials": 10}, {"profile": "nobody"}):
-        with pytest.raises(ValueError):
+    wrong_values = [
+        {"trials": 10},
+        {"trials": "many"},
+        {"trials": 10**15},
+        {"seed": -1},
+        {"threads": 0},
+        {"profile": "nobody"},
+        {"monte_carlo": False, "seed": 1},
+    ]
+    for wrong in wrong_values:
+        with pytest.raises(ValueError, match=list(wrong)[-1]):
             gumption.evaluate(RESISTOR, **wrong)
+    for wrong in ({"trials": 1500.5}, {"seed": "1"}, {"profile": 3}, {"monte_carlo": "no"}, {"quasi_random": 1}):
+        with pytest.raises(TypeError, match=list(wrong)[-1]):
+            gumption.evaluate(RESISTOR, **wrong)
+    same = [gumption.evaluate(RESISTOR, trials=trials)["I"].u for trials in (10_000, 1e4, np.int32(10_000))]
+    assert same[0] == same[1] == same[2]
 
 
 def test_a_missing_file_is_refused():

@@ -3,11 +3,13 @@
 import copy
 import math
 import pickle
+import subprocess
+import sys
 
 import gumption
 import numpy as np
 import pytest
-from gumption import correlated, quantity
+from gumption import correlated, covariance, quantity
 
 
 def test_what_is_common_cancels():
@@ -27,7 +29,24 @@ def test_digits_that_are_shown():
 def test_copies_are_the_same_quantity():
     x = quantity(1.5, 0.1)
     assert (copy.deepcopy(x) - x).u == 0 and copy.copy(x) is x
-    assert pickle.loads(pickle.dumps(x)).u == x.u
+    assert pickle.loads(pickle.dumps(x)) is x
+    a, b = correlated([1.0, 2.0], u=[0.1, 0.2], correlation=[[1, -0.5], [-0.5, 1]])
+    assert [(one - x).u for one in pickle.loads(pickle.dumps([x, a + b]))] == [0, (a + b - x).u]
+
+
+def test_quantities_go_to_other_processes_and_come_back():
+    x, made = quantity(1.5, 0.1), "import pickle, sys\nfrom gumption import *\n"
+    script = made + (
+        "x = pickle.loads(bytes.fromhex(sys.argv[1]))\n"
+        "a, b = correlated([1.0, 2.0], u=[0.1, 0.2], correlation=[[1, -0.5], [-0.5, 1]])\n"
+        "print(pickle.dumps([x * 2, quantity(3.0, 0.2), a, b]).hex())"
+    )
+    said = subprocess.run([sys.executable, "-c", script, pickle.dumps(x).hex()], capture_output=True, check=True)
+    double, other, a, b = pickle.loads(bytes.fromhex(said.stdout.decode()))
+    assert (double - 2 * x).u == 0
+    # What another process made has no name here that something else has.
+    assert math.isclose((other + x).u, math.hypot(0.1, 0.2), rel_tol=1e-9)
+    assert math.isclose((a + b).u, math.sqrt(0.03), rel_tol=1e-9)
 
 
 def test_what_is_no_quantity():
@@ -45,6 +64,32 @@ def test_what_is_wrong_is_told_where_it_is_written():
             quantity(value, u)
     with pytest.raises(gumption.Refused, match="not a known unit"):
         quantity(1.0, 0.1, "Vv")
+    with pytest.raises(gumption.Refused, match="not a known unit"):
+        quantity(1.0, 0.1, "V").to("Vv")
+    for wrong in ({"doff": 3}, {"distribution": "unifrom"}, {"half_width": 0.1}):
+        with pytest.raises(gumption.Refused):
+            quantity(1.0, 0.1, **wrong)
+    for text in ("1.0+/-0.1", "1.0"):
+        with pytest.raises(gumption.Refused, match="value"):
+            quantity(text)
+    with pytest.raises(TypeError, match="cannot stand in a file"):
+        quantity(quantity(1.0, 0.1))
+    with pytest.raises(ValueError, match="cannot be the name"):
+        quantity(1.0, 0.1, name=3)
+    with pytest.raises(gumption.Refused, match="not symmetric"):
+        correlated([1, 2], [0.1, 0.1], [[1, 0.9], [0.5, 1]])
+    for short in ({"names": ["a"]}, {"unit": ["V"]}):
+        with pytest.raises(ValueError, match="as many u, units and names"):
+            correlated([1, 2], [0.1, 0.1], np.eye(2), **short)
+    with pytest.raises(TypeError, match="1.0 is no quantity"):
+        covariance([quantity(1.0, 0.1), 1.0])
+
+
+def test_readings_are_those_that_were_given():
+    readings = [9.99, 10.02, 10.00]
+    x, y = quantity(None, readings=readings), quantity(None, readings=iter(tuple(readings)))
+    readings.append(99.0)
+    assert x.u == y.u == quantity(None, readings=[9.99, 10.02, 10.00]).u
 
 
 def test_a_long_chain_is_no_tree():

@@ -31,7 +31,7 @@ fn render(document: &Document, _: &Page) -> Result<Vec<u8>, Unfit> {
     })?;
     let administration = certificate.administration.as_ref().ok_or_else(|| {
         Unfit(say!(
-            "a digital certificate names the laboratory, the customer and the item: add --certificate FILE (`gumption new --certificate FILE` writes one to fill in)"
+            "a digital certificate names the laboratory, the customer and the item: add --certificate FILE, in Python `certified(FILE)` (`gumption new --certificate FILE` writes one to fill in)"
         ))
     })?;
     if certificate.results.is_empty() {

@@ -72,6 +72,8 @@ struct Entry {
 /// What is found of a measurand.
 #[derive(Debug)]
 struct Measurand {
+    /// Whether it depends on an input at all: one on which it does not has no coefficient that could vanish.
+    uses: Vec<bool>,
     gradient: Vec<Block>,
     /// Of the entries, u times derivative.
     weights: Vec<Block>,
@@ -141,7 +143,8 @@ impl RowEvaluation {
             return None;
         }
         let (inputs, count) = (budget.inputs.len(), entries.len());
-        let measurand = |_| Measurand {
+        let measurand = |at: usize| Measurand {
+            uses: budget.model.inputs_of(at),
             gradient: vec![Block::ZERO; inputs],
             weights: vec![Block::ZERO; count],
             estimate: Block::ZERO,
@@ -164,7 +167,7 @@ impl RowEvaluation {
             entries,
             factors: vec![[f64::NAN; 2]; KEPT],
             u: blocks(),
-            measurands: budget.model.outputs().iter().map(measurand).collect(),
+            measurands: (0..budget.model.outputs().len()).map(measurand).collect(),
             doubt: Block::ZERO,
             bends: blocks(),
             nudged: blocks(),
@@ -258,7 +261,9 @@ impl RowEvaluation {
     /// Marks the rows in which there may be something beyond first order: second-order terms that matter, a coefficient
     /// that vanishes, an input that is by far too large.
     fn beyond_first_order(&mut self, measurand: usize, rows: &Rows) {
-        let Measurand { gradient, u, .. } = &self.measurands[measurand];
+        let Measurand {
+            uses, gradient, u, ..
+        } = &self.measurands[measurand];
         let (doubt, level) = (&mut self.doubt, self.level);
         let bounds = self.runner.bounds(measurand);
         linear::bends(level, bounds, u, self.tolerated, doubt);
@@ -274,7 +279,12 @@ impl RowEvaluation {
             negligible: NEGLIGIBLE / SPARE,
         };
         let mut contest = Contest::OPEN;
-        for (input, bend) in self.bends.iter().enumerate() {
+        for (input, bend) in self
+            .bends
+            .iter()
+            .enumerate()
+            .filter(|(input, _)| uses[*input])
+        {
             let entrant = Entrant {
                 x: &rows.estimates[input],
                 own: &self.u[input],

@@ -257,9 +257,20 @@ fn a_faulty_row_stops_nothing() {
         "{errors:?}"
     );
     assert!(
-        errors[3].contains("where a number is expected"),
+        errors[3].contains("where a number is expected (leave it empty if"),
         "{errors:?}"
     );
+    let written = "x;x.u\n1.234,5;0,1\n1 000,5;0,1\n−1;0,1\n";
+    let (written, _) = run(budget, written, &plan(None, 1)).expect("a batch");
+    let errors = cells(&written).1;
+    for (row, (text, mend)) in errors.iter().zip([
+        ("1.234,5", "without marks of thousands"),
+        ("1 000,5", "without marks of thousands"),
+        ("−1", "write -1, with the hyphen"),
+    ]) {
+        let said = row.last().expect("an error");
+        assert!(said.contains(text) && said.contains(mend), "{said}");
+    }
     // A faulty row keeps its name, also where fields are missing behind it.
     let named = "label,x,x.u\nfirst,1,0.1\nsecond,2,-0.1\nthird,3\n007,four,0.1\n";
     let (named, _) = run(budget, named, &plan(None, 1)).expect("a batch");
@@ -440,6 +451,10 @@ fn what_no_row_can_mend_is_refused() {
     assert!(refused(budget, "\"r(x, z)\"\n1\n").contains("no correlation between x and z"));
     assert!(refused(budget, "x [mV/]\n1\n").contains("table.csv:1"));
     assert!(refused(budget, "").contains("empty"));
+    // What spreadsheets write behind the last column, and the index of a frame.
+    for nameless in ["x,\n1,\n", ",x\n0,1\n"] {
+        assert!(refused(budget, nameless).contains("a column has no name"));
+    }
     assert!(refused(&budget.replace("0.1", "0.1\nhalf = 1"), "x\n1\n").contains("half"));
     let series = format!("{budget}[series]\ncolumns = [\"x\"]\nrows = [[1]]\n");
     assert!(refused(&series, "x\n1\n").contains("a series of its own"));

@@ -224,23 +224,30 @@ pub(super) fn is_like_a_time(field: &str) -> bool {
     (field.len() >= 8 && signs >= 2) || date_parts(field).is_some()
 }
 
-/// How a field becomes a number.
-pub(super) fn mend(field: &str) -> Said {
+/// How a field that is meant as a number is written as one.
+pub fn mend_of_number(field: &str) -> Option<Said> {
     let like = |replaced: &str| replaced.parse::<f64>().is_ok();
     let point = field.replace(',', ".");
     let minus = field.replace('−', "-");
     if field.contains(',') && like(&point) {
-        return say!("write {point}, with a decimal point");
+        return Some(say!("write {point}, with a decimal point"));
     }
     let without = field.replace([',', '.', ' ', '\'', '\u{a0}', '\u{202f}'], "");
     if field.contains([',', ' ', '\'', '.', '\u{a0}', '\u{202f}'])
         && like(&without)
         && !is_like_a_time(field)
     {
-        return say!("write the number with one decimal sign and without marks of thousands");
+        return Some(say!(
+            "write the number with one decimal sign and without marks of thousands"
+        ));
     }
-    if field.contains('−') && like(&minus) {
-        return say!("write {minus}, with the hyphen as minus");
+    (field.contains('−') && like(&minus)).then(|| say!("write {minus}, with the hyphen as minus"))
+}
+
+/// How a field becomes a number.
+pub(super) fn mend(field: &str) -> Said {
+    if let Some(mend) = mend_of_number(field) {
+        return mend;
     }
     if is_like_a_time(field) {
         return mend_of_time(field);

@@ -179,7 +179,7 @@ fn suggest_to_keep(fault: &mut Fault, column: &str) {
         "a column that names the rows is called `label`; if it is a column of your own, `--keep {column}` carries it through to the results (in Python, `keep=[\"{column}\"]`)"
     );
     fault.help = Some(match fault.help.take() {
-        Some(help) => say!("{help}; {keep}"),
+        Some(help) => say!("{help}\n{keep}"),
         None => keep,
     });
 }

@@ -81,6 +81,16 @@ pub(in crate::budget) fn column(
     if wanted == LABEL {
         return Some(Column::Label);
     }
+    if wanted.is_empty() {
+        faults.push(
+            Fault::new(SERIES, name.span.clone(), say!("a column has no name"))
+                .label(say!("no name"))
+                .help(say!(
+                    "name it, `label` if it names the rows, or delete the column"
+                )),
+        );
+        return None;
+    }
     if let Some(pair) = correlated(wanted) {
         return correlation(file, pair, name, faults).map(Column::Path);
     }

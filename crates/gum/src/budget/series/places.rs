@@ -6,6 +6,7 @@ use toml::de::{DeString, DeTable, DeValue};
 use crate::budget::cell::Entry;
 use crate::budget::faults::{SERIES, UNKNOWN_NAME};
 use gumption_fault::{Fault, Said, say};
+use gumption_format::csv;
 use gumption_format::toml::{Raw, Stated, amount_parts};
 
 /// Puts the cell of a row in its place, and makes the tables that lead there.
@@ -27,7 +28,11 @@ pub(super) fn set<'t>(
                 cell.span.clone(),
                 say!("the text {text:?} where a number is expected"),
             )
-            .label(say!("expected a number in the unit of the input")),
+            .label(say!("expected a number in the unit of the input"))
+            .help(
+                csv::mend_of_number(text)
+                    .unwrap_or_else(|| say!("leave it empty if the value is missing")),
+            ),
         );
         return;
     }

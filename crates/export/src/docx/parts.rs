@@ -146,10 +146,15 @@ pub(super) fn styles() -> Element {
         .with(style(
             "Title",
             "Title",
-            spacing(0, 200).with(value("w:jc", "center")),
+            kept(0, 200).with(value("w:jc", "center")),
             Some(("32", true)),
         ))
-        .with(style("Heading1", "heading 1", kept(), Some(("24", true))))
+        .with(style(
+            "Heading1",
+            "heading 1",
+            kept(240, 80).with(value("w:outlineLvl", "0")),
+            Some(("24", true)),
+        ))
         .with(style(
             "Statement",
             "Statement",
@@ -176,23 +181,20 @@ pub(super) fn styles() -> Element {
 }
 
 fn spacing(before: u32, after: u32) -> Element {
-    element("w:pPr").with(
-        element("w:spacing")
-            .attribute("w:before", before.to_string())
-            .attribute("w:after", after.to_string()),
-    )
+    element("w:pPr").with(space(before, after))
 }
 
-/// A heading stays with what follows it, and stands in the outline.
-fn kept() -> Element {
+/// Stays with what follows it.
+fn kept(before: u32, after: u32) -> Element {
     element("w:pPr")
         .with(element("w:keepNext"))
-        .with(
-            element("w:spacing")
-                .attribute("w:before", "240")
-                .attribute("w:after", "80"),
-        )
-        .with(value("w:outlineLvl", "0"))
+        .with(space(before, after))
+}
+
+fn space(before: u32, after: u32) -> Element {
+    element("w:spacing")
+        .attribute("w:before", before.to_string())
+        .attribute("w:after", after.to_string())
 }
 
 fn bordered() -> Element {
@@ -203,11 +205,7 @@ fn bordered() -> Element {
         .attribute("w:color", "A0A0A0");
     element("w:pPr")
         .with(element("w:pBdr").with(line))
-        .with(
-            element("w:spacing")
-                .attribute("w:before", "60")
-                .attribute("w:after", "60"),
-        )
+        .with(space(60, 60))
         .with(element("w:ind").attribute("w:left", "200"))
 }
 

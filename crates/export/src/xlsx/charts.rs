@@ -21,7 +21,8 @@ pub(super) fn plots(
     names: &mut Names,
 ) -> Result<(), XlsxError> {
     for plot in document.plots() {
-        let name = names.like(&plot.id.replace('_', " "));
+        let title = plot.panels.first().map_or("", |panel| &panel.title);
+        let name = names.like(title);
         let sheet = workbook.add_worksheet();
         sheet.set_name(&name)?;
         let mut column = 0;

@@ -9,6 +9,8 @@ codes! {
         "The dates of calibrations are written as `2026-03-01`, as `01.03.2026` (with points the day goes first), or with a time behind them. A row may have none; it is left out of the drift then. `3/1/2026` leaves open which is the month.";
     NO_REFERENCE = "F0103", "a reference has no uncertainty", "参考值缺少不确定度",
         "E_n weighs a difference with the expanded uncertainties of both of its sides. Beside the column `X` of a reference stands `U(X)`, or `u(X)` with `k(X)`; 0 for a value that is exact. With several measurands, `--reference y=X` says whose reference it is.";
+    SIGN = "F0104", "an uncertainty has a sign", "不确定度带有负号",
+        "Standard and expanded uncertainties, and coverage factors, are not negative, and degrees of freedom are greater than zero. An empty field of ν stands for infinitely many.";
 }
 
 #[cfg(test)]

@@ -51,6 +51,13 @@ pub(crate) struct NumberColumn {
     pub into: Option<Conversion>,
 }
 
+impl NumberColumn {
+    /// Its number, in the unit of the measurand.
+    pub fn converted(self, number: f64) -> f64 {
+        self.into.map_or(number, |into| into.apply(number))
+    }
+}
+
 /// The head of a column.
 struct Head<'a> {
     text: &'a str,

@@ -9,7 +9,7 @@ use gumption_fault::{Fault, Rejection, say};
 use gumption_format::csv::faults::{NO_HEADER, NO_ROWS, NOT_A_NUMBER};
 use gumption_format::csv::{self, Columns, Piece, Pieces, Row, Sheet};
 
-use crate::faults::NOT_A_DATE;
+use crate::faults::{NOT_A_DATE, SIGN};
 use crate::layout::{Layout, NumberColumn, StatedColumns, layout};
 use crate::wanted::Wanted;
 
@@ -315,14 +315,42 @@ impl Fields<'_> {
     }
 
     fn number_in(&self, column: NumberColumn) -> Result<f64, Box<Fault>> {
-        let number = self.number(column.at)?;
-        Ok(column.into.map_or(number, |into| into.apply(number)))
+        Ok(column.converted(self.number(column.at)?))
     }
 
-    /// Degrees of freedom: infinite where they are, or nothing says how many.
+    /// A number that is none of those that cannot be.
+    fn size(&self, at: usize, cannot_be: impl Fn(f64) -> bool) -> Result<f64, Box<Fault>> {
+        let number = self.number(at)?;
+        if !cannot_be(number) {
+            return Ok(number);
+        }
+        let (place, line) = (self.place)(at);
+        let (column, field) = (self.sheet.header().field(at), self.fields[at]);
+        let message = say!("line {line}: {column} cannot be {field}");
+        let label = say!("not negative; degrees of freedom greater than zero");
+        let fault = Fault::new(SIGN, place, message).label(label);
+        Err(Box::new(fault.help(say!(
+            "correct the number, or leave the field empty where there is none"
+        ))))
+    }
+
+    /// An uncertainty; NaN where there is no such column.
+    fn spread(&self, column: Option<NumberColumn>) -> Result<f64, Box<Fault>> {
+        let Some(column) = column else {
+            return Ok(f64::NAN);
+        };
+        Ok(column.converted(self.size(column.at, |number| number < 0.0)?))
+    }
+
+    /// A coverage factor; NaN where there is none.
+    fn factor(&self, at: Option<usize>) -> Result<f64, Box<Fault>> {
+        at.map_or(Ok(f64::NAN), |at| self.size(at, |number| number < 0.0))
+    }
+
+    /// Degrees of freedom: infinite where nothing says how many.
     fn dof(&self, at: Option<usize>) -> Result<f64, Box<Fault>> {
-        let dof = at.map_or(Ok(f64::NAN), |at| self.number(at))?;
-        Ok(if dof > 0.0 { dof } else { f64::INFINITY })
+        let dof = at.map_or(Ok(f64::NAN), |at| self.size(at, |number| number <= 0.0))?;
+        Ok(if dof.is_nan() { f64::INFINITY } else { dof })
     }
 
     /// Days since 1970-01-01; NaN where there is none.
@@ -335,9 +363,12 @@ impl Fields<'_> {
             let (place, line) = (self.place)(at);
             let message = say!("line {line}: \"{field}\" is not a date");
             let fault = Fault::new(NOT_A_DATE, place, message).label(say!("expected a date"));
-            Box::new(fault.help(say!(
-                "write it as 2026-03-01, or leave the field empty where it is not known"
-            )))
+            Box::new(fault.help(match csv::date_meant(field) {
+                Some(meant) => say!("write {meant}"),
+                None => {
+                    say!("write it as 2026-03-01, or leave the field empty where it is not known")
+                }
+            }))
         })
     }
 }
@@ -354,14 +385,11 @@ impl Values {
         let mut stated = [f64::NAN; 3];
         let (mut estimate, mut dof) = (f64::NAN, f64::INFINITY);
         if is_good {
-            let spread = |column: Option<NumberColumn>| {
-                column.map_or(Ok(f64::NAN), |column| row.number_in(column))
-            };
             estimate = row.number_in(columns.value)?;
             dof = row.dof(columns.dof)?;
-            let own = columns.k.map_or(Ok(f64::NAN), |at| row.number(at))?;
+            let own = row.factor(columns.k)?;
             let k = if own.is_nan() { k } else { own };
-            stated = [spread(columns.u)?, k, spread(columns.expanded)?];
+            stated = [row.spread(columns.u)?, k, row.spread(columns.expanded)?];
         }
         let [u, k, expanded] = stated;
         self.estimate.push(estimate);

@@ -470,6 +470,16 @@ fn what_is_missing_or_wrong_is_told() {
         said.contains("line 3: \"9:30\" is not a date") && said.contains("line 4: \"x\""),
         "{said}"
     );
+    for (field, mend) in [
+        ("15/01/2026", "write 2026-01-15"),
+        (
+            "3/1/2026",
+            "write 2026-03-01, or 2026-01-03 if the day goes first",
+        ),
+    ] {
+        let said = refusal(&table.replace("9:30", field), &dated);
+        assert!(said.contains(mend), "{said}");
+    }
     assert!(refusal(table, &by(&["type"])).contains("did you mean \"typ\"?"));
     assert!(refusal(table, &by(&["laboratory"])).contains("`gumption batch --keep laboratory`"));
     assert!(refusal("label,y\na,1\n", &Wanted::default()).contains("F0101"));
@@ -480,6 +490,14 @@ fn what_is_missing_or_wrong_is_told() {
         refusal("y,u(y),k(y)\n1,one,2\n", &Wanted::default())
             .contains("line 2: \"one\" is not a number")
     );
+    for (row, said) in [
+        ("1,-1,2,5", "u(y) cannot be -1"),
+        ("1,1,-2,5", "k(y) cannot be -2"),
+        ("1,1,2,0", "nu(y) cannot be 0"),
+    ] {
+        let table = format!("y,u(y),k(y),nu(y)\n1,1,2,\n{row}\n");
+        assert!(refusal(&table, &Wanted::default()).contains(&format!("line 3: {said}")));
+    }
     assert!(refusal("y,u(y),k(y)\n", &Wanted::default()).contains("the table has no rows"));
     assert!(refusal("y,y [V],u(y),k(y)\n1,1,1,2\n", &Wanted::default()).contains("two columns"));
     assert!(refusal("", &Wanted::default()).contains("empty"));

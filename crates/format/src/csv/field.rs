@@ -274,7 +274,7 @@ fn mend_of_time(field: &str) -> Said {
 }
 
 /// How a date is written that has its year at the end, where year or month are in doubt.
-fn date_meant(field: &str) -> Option<Said> {
+pub fn date_meant(field: &str) -> Option<Said> {
     let [first, second, year] = date_parts(field).filter(|[first, ..]| first.len() < 4)?;
     if days_of(&format!("{first}.{second}.{year}")).is_some() && field.contains('.') {
         return None;

@@ -49,7 +49,7 @@ mod size;
 pub use columns::{Cells, Columns};
 pub use doubts::{overload, same_name, two_decimal_signs};
 pub use encoding::{Decoded, Encoding, Undecodable, decode, is_utf16, western, with_line_feeds};
-pub use field::{OVERLOAD, days, mend_of_number, number, time};
+pub use field::{OVERLOAD, date_meant, days, mend_of_number, number, time};
 pub use heading::Heading;
 pub use pieces::{Piece, Pieces};
 pub use reader::{headings, open, text_of};

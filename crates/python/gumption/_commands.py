@@ -121,7 +121,7 @@ def calibrate(
         with typed():
             return Result(_engine.calibrate(source(experiment, files), language), language)
     if isinstance(recordings, Mapping):
-        texts = {name: _recording(one) for name, one in recordings.items()}
+        texts = {str(name): _recording(one) for name, one in recordings.items()}
         listed = [(name, f"recordings/{name}.csv") for name in texts]
         at_hand = {path: texts[name] for name, path in listed}
         place = source(experiment, {**(files or {}), **at_hand})

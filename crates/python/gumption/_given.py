@@ -38,6 +38,8 @@ def sheet(given: str | os.PathLike[str] | bytes, name: str) -> dict[str, Any]:
     """A file that is no TOML: its path, or its content, whose kind the ending of ``name`` tells."""
     if isinstance(given, bytes) or (isinstance(given, str) and "\n" in given):
         return _in_memory(name, given, None)
+    if not isinstance(given, (str, os.PathLike)):
+        raise TypeError(f"a sheet is its path, its text or its bytes, not {type(given).__name__}")
     return {"path": os.fspath(given), "files": None}
 
 
@@ -48,7 +50,8 @@ def _in_memory(name: str, content: str | bytes, files: Contents | None) -> dict[
 
 def _content(name: str, given: str | bytes) -> bytes:
     if not isinstance(given, (str, bytes)):
-        raise TypeError(f"files: what {name} holds is a text or bytes, not {type(given).__name__}")
+        kind = type(given).__name__
+        raise TypeError(f"files: what {name} holds is a text or bytes, not {kind}; of a frame, frame.to_csv(index=False)")
     return given.encode() if isinstance(given, str) else given
 
 

@@ -122,7 +122,7 @@ class Row(Record):
         """A measurand of a budget, or a coefficient of a calibration, by its name."""
         named = self._named
         if name not in named:
-            raise KeyError(f"there is no {name}; there are {', '.join(named)}")
+            raise KeyError(f"there is no {name}; there are {', '.join(named) or 'none'}")
         return _wrapped(named[name])
 
     def __contains__(self, name: object) -> bool:
@@ -176,7 +176,7 @@ class Result:
     @property
     def statement(self) -> str:
         """The sentences for the certificate."""
-        return "\n".join(self._only.to_dict()["statement"][self._language])
+        return "\n".join(self._only.statement.to_dict()[self._language])
 
     def samples(self, trials: int = 1_000_000, row: int = 0) -> dict[str, np.ndarray]:
         """Values of every measurand in trials of the Monte Carlo method; the n-th of all are of one trial."""
@@ -191,6 +191,8 @@ class Result:
             return _of_groups(found)
         if found.get("coefficients"):
             return _of_coefficients(found["coefficients"])
+        if "measurands" not in found:
+            raise ValueError("evaluated budgets, calibrations and fleets have a table, and nothing else")
         columns = ("label", "measurand", "unit", "y", "u", "nu", "k", "U", "lower", "upper")
         lines = [
             (row.label, one.name, one.unit, one.y, one.u, one.nu, one.k, one.U, *(one.interval or (None, None)))

@@ -125,7 +125,12 @@ def _columns(table: Any) -> list[tuple[str, Any]]:
             raise TypeError(f"the names of columns are texts, and {name!r} is none: rename it")
         if isinstance(table[name], (str, bytes)) or not hasattr(table[name], "__iter__"):
             raise TypeError(f"the column {name} is {table[name]!r}: a list or an array with a value for each row is needed")
-    return [*_of_index(table, names), *((str(name), cells(table[name])) for name in names)]
+    columns = [*_of_index(table, names), *((name, cells(table[name])) for name in names)]
+    for name, column in columns:
+        first, rows = columns[0][0], len(columns[0][1])
+        if len(column) != rows:
+            raise ValueError(f"the columns have different lengths: {rows} of {first}, {len(column)} of {name}")
+    return columns
 
 
 def _of_index(table: Any, names: list[Any]) -> list[tuple[str, Any]]:

@@ -47,23 +47,9 @@ impl<'t> Rows<'t> {
             };
             Ok((take(name), cells))
         };
-        let columns = columns
-            .iter_mut()
-            .map(cells)
-            .collect::<PyResult<Vec<_>>>()?;
-        let rows = |at: usize| {
-            let (name, cells): &(String, Cells<'_>) = &columns[at];
-            (name.clone(), cells.count())
-        };
-        let other = (1..columns.len()).find(|at| rows(*at).1 != rows(0).1);
-        let apart = other.map(|other| (rows(0), rows(other)));
-        csv::Columns::new(columns)
-            .map(Rows::Columns)
-            .ok_or_else(|| {
-                let lengths = apart.map_or(String::new(), |((one, rows), (other, more))| {
-                    format!(": {rows} of {one}, {more} of {other}")
-                });
-                PyValueError::new_err(format!("the columns have different lengths{lengths}"))
-            })
+        let columns = columns.iter_mut().map(cells).collect::<PyResult<_>>()?;
+        let columns = csv::Columns::new(columns);
+        let columns = columns.map(Rows::Columns);
+        columns.ok_or_else(|| PyValueError::new_err("the columns have different lengths"))
     }
 }

@@ -422,6 +422,18 @@ def test_a_simulation_is_the_recording_of_its_experiment(program):
     assert gumption.diagnose(experiment, files={"recording.csv": simulated}).rows[0].to_dict()
 
 
+def test_what_a_result_has_not_is_said():
+    found = gumption.audit(TOP / "docs" / "examples" / "claimed-budget.csv")
+    with pytest.raises(ValueError, match="and nothing else"):
+        found.table()
+    with pytest.raises(AttributeError, match="there is no statement; there are format"):
+        _ = found.statement
+    with pytest.raises(KeyError, match="there are none"):
+        _ = found["u"]
+    with pytest.raises(TypeError, match="a sheet is its path"):
+        gumption.audit({"source": ["a"]})
+
+
 def test_an_audit_of_a_sheet():
     claimed = TOP / "docs/examples/claimed-budget.csv"
     found, again = gumption.audit(claimed), gumption.audit(claimed.read_bytes(), name=str(claimed))

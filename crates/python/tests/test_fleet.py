@@ -159,6 +159,14 @@ def test_recordings_in_memory_are_those_of_files(runs):
     assert alone.table()["value"][0] == alone["K"].value and alone.table()["coefficient"] == ["K", "b"]
 
 
+def test_recordings_may_be_called_by_numbers():
+    experiment = 'recording = { file = "one.csv", average = "none" }\nequations = "U = K*omega + b"\n'
+    columns = {"omega [deg/s]": [-20.0, 0.0, 20.0], "U [V]": [-0.2, 0.0001, 0.2]}
+    assert gumption.calibrate(experiment, recordings={17: columns})["label"] == ["17"]
+    with pytest.raises(ValueError, match="3 of omega .deg/s., 1 of U .V."):
+        gumption.calibrate(experiment, recordings={17: {**columns, "U [V]": [0.1]}})
+
+
 def test_an_empty_folder_is_said(tmp_path):
     with pytest.raises(OSError, match="no CSV file"):
         gumption.calibrate(GYRO, recordings=tmp_path)

@@ -308,6 +308,31 @@ fn statement(document: &Document) -> Figures {
 }
 
 #[test]
+fn sheets_are_named_in_the_language_and_titles_stay_with_the_text() {
+    let file = root().join("budgets/mass/weight-10kg-ea402-s2.toml");
+    let loaded = budget::load(&file).unwrap_or_else(|why| panic!("{}", why.render(false)));
+    let of = &loaded.rows[0].budget;
+    let evaluation = propagate::evaluate(of, &Options::default()).expect("a value");
+    let report = Report {
+        budget: of,
+        evaluation: &evaluation,
+        label: None,
+        language: Language::Chinese,
+    };
+    let document = report::evaluations(&[report], 1).expect("a row");
+    let workbook = part(&written(&document, "xlsx"), "xl/workbook.xml");
+    let sheets = workbook.split("<sheet name=\"").skip(1);
+    let names = sheets.filter_map(|sheet| sheet.split('"').next());
+    let foreign: Vec<&str> = names.filter(|name| name.is_ascii()).collect();
+    // The sheet that calculates has the name of its measurand.
+    assert_eq!(foreign, ["m_X"]);
+    let styles = part(&written(&document, "docx"), "word/styles.xml");
+    let title = styles.split("w:styleId=\"Title\"").nth(1);
+    let title = title.and_then(|title| title.split("</w:style>").next());
+    assert!(title.is_some_and(|title| title.contains("<w:keepNext/>")));
+}
+
+#[test]
 fn every_command_writes_every_format() {
     let folder = folder("commands");
     common::bent_line(&folder);

@@ -12,9 +12,9 @@ use super::series::LABEL;
 use gumption_core::quantity::UnitTable;
 use gumption_fault::{Fault, Rejection, say};
 use gumption_format::csv::{
-    Heading, OVERLOAD, Row, RowFields, Sheet, overload, text_of, two_decimal_signs,
+    Heading, OVERLOAD, Row, RowFields, Sheet, mend_of_number, overload, text_of, two_decimal_signs,
 };
-use gumption_format::toml::{Raw, Stated, amount_parts};
+use gumption_format::toml::{Raw, Stated};
 use gumption_lanes::twice::TENS;
 
 /// The columns of a table whose rows replace values of a budget.
@@ -228,9 +228,17 @@ fn written(field: &str, unit: Option<&str>, sheet: &Sheet) -> Written {
         (Some(_), None) => Written::Value(plain),
         (None, _) if field.starts_with('[') => Written::Value(field.to_owned()),
         // `0,1 %` beside `0,1`.
-        (None, _) if comma && amount_parts(&plain).is_some() => Written::Text(plain),
+        (None, _) if comma && is_amount(&plain) && mend_of_number(field).is_none() => {
+            Written::Text(plain)
+        }
         (None, _) => Written::Text(field.to_owned()),
     }
+}
+
+/// Whether a text is a number and a unit behind a blank.
+fn is_amount(text: &str) -> bool {
+    let parts = text.split_once(' ');
+    parts.is_some_and(|(number, unit)| number.parse::<f64>().is_ok() && !unit.trim().contains(' '))
 }
 
 /// The number that a field puts into a budget, where there is no doubt what it is: decimal digits, perhaps with a fraction

@@ -18,23 +18,18 @@ pub(super) fn set<'t>(
     raw: &Raw<'t>,
     faults: &mut Vec<Fault>,
 ) {
-    let amount = |text: &str| amount_parts(text).is_some();
-    if let (Entry::Text(text), Some("value")) = (&cell.value, path.last().map(String::as_str))
-        && !amount(text)
-    {
-        faults.push(
-            Fault::new(
-                SERIES,
-                cell.span.clone(),
-                say!("the text {text:?} where a number is expected"),
-            )
-            .label(say!("expected a number in the unit of the input"))
-            .help(
-                csv::mend_of_number(text)
-                    .unwrap_or_else(|| say!("leave it empty if the value is missing")),
-            ),
-        );
-        return;
+    if let (Entry::Text(text), Some("value")) = (&cell.value, path.last().map(String::as_str)) {
+        let mend = csv::mend_of_number(text);
+        if mend.is_some() || amount_parts(text).is_none() {
+            let mend = mend.unwrap_or_else(|| say!("leave it empty if the value is missing"));
+            let message = say!("the text {text:?} where a number is expected");
+            faults.push(
+                Fault::new(SERIES, cell.span.clone(), message)
+                    .label(say!("expected a number in the unit of the input"))
+                    .help(mend),
+            );
+            return;
+        }
     }
     let Some((first, rest)) = path.split_first() else {
         return;

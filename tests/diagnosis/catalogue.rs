@@ -627,3 +627,31 @@ fn a_pendulum_that_swings_out_multiplies_two_inputs() {
         "{label}"
     );
 }
+
+/// A converter at 60 voltages in an order of no meaning, with an error by the voltage.
+fn converter(seed: u64, error: impl Fn(f64) -> f64) -> String {
+    let mut noise = Noise(seed);
+    let mut rows = "V [V],code [V],t [s]\n".to_owned();
+    for row in 0..60_usize {
+        let volts = 0.1 + 0.08 * ((row * 37) % 60) as f64;
+        let code = 0.001 + 1.0003 * volts + error(volts) + 3e-4 * noise.normal();
+        let _ = writeln!(rows, "{volts:.2},{code:.5},{}", 5 * row);
+    }
+    rows
+}
+
+#[test]
+fn a_step_at_one_value_of_a_stimulus_has_a_name_and_a_place() {
+    let case = "equations = \"code = o + k*V\"\n[columns]\nV = \"stimulus\"\ncode = \"output\"\nt = \"time\"\n";
+    let transition = converter(5, |volts| if volts > 2.5 { 1.5e-3 } else { 0.0 });
+    let range = converter(6, |volts| if volts > 3.2 { 6e-4 * volts } else { 0.0 });
+    for (rows, name, place) in [
+        (transition, "transition", "V between 2.5 and 2.58"),
+        (range, "transition-scale", "V between 3.14 and 3.22"),
+    ] {
+        let found = diagnosed("transition", &rows, case);
+        assert_eq!(named(&found)[0][0], name, "{found}");
+        let variant = &found["effects"][0]["named"][0]["variants"][0];
+        assert_eq!(variant["label"], place);
+    }
+}

@@ -477,6 +477,7 @@ pub(super) const FAMILIES: &[Family] = &[
             ("bit-weights", ANY),
             ("converter", ANY),
             ("converter-nonlinearity", ANY),
+            ("transition", ANY),
         ],
         forms: &[
             |v| bits(v, |bit, chosen, _| f64::from(bit == chosen)),

@@ -4,11 +4,11 @@
 use super::building::{added, form, on_node, on_output, plain, scoped_label};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
-    amount, figure, figure_to, five_digits, largest, levels_of, map, range, rounded,
+    amount, figure, figure_to, five_digits, flag, largest, levels_of, map, range, rounded,
 };
 use super::readout::{beside, moves_on};
-use super::sharp::sharpened;
-use super::{Cell, EffectId, Modifier, Variation};
+use super::sharp::{best, sharpened};
+use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Response;
 
 /// Rounding of knees in formulas, as a share of the range: whoever writes the formula into a model has the
@@ -35,6 +35,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
             cells.push(soft_limit(fitted, column));
         }
         cells.push(kink(fitted, column));
+        cells.extend(transitions(fitted, column));
     } else {
         let (id, name) = (EffectId::Saturation, fitted.label(column));
         cells.push(plain(fitted, id, name, ends));
@@ -195,6 +196,51 @@ fn kink(fitted: &FittedModel<'_>, column: usize) -> Cell {
     });
     let (id, name) = (EffectId::Kink, fitted.label(column));
     plain(fitted, id, name, variants.collect())
+}
+
+/// The output or its scale is another one from one value on, the scale where the column has both signs beyond it on either side.
+/// Where the sign changes, the step is one at zero.
+fn transitions(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
+    let (x, label) = (fitted.numbers(column), fitted.label(column));
+    let own = steps(fitted, x, label, Node::Output);
+    let output = on_node(fitted, EffectId::Transition, label, Node::Output, own);
+    let scale = fitted.offset_and_scale().contains(&Node::Gain).then(|| {
+        let by_size = fitted.passes_zero(column);
+        let (sizes, name) = match by_size {
+            true => (map(x, f64::abs), format!("abs({label})")),
+            false => (x.to_vec(), label.to_owned()),
+        };
+        let own = steps(fitted, &sizes, &name, Node::Gain);
+        on_node(fitted, EffectId::TransitionScale, label, Node::Gain, own)
+    });
+    [output].into_iter().chain(scale).collect()
+}
+
+/// Steps between values of which two at least lie on either side: all of them, or some evenly and the best of all.
+fn steps(fitted: &FittedModel<'_>, x: &[f64], name: &str, node: Node) -> Vec<Variation> {
+    /// More are not scanned.
+    const MOST: usize = 40;
+    let levels = levels_of(x);
+    let (least, most) = (levels[0], levels[levels.len() - 1]);
+    let between = |upper: &usize| [levels[upper - 1], levels[*upper]];
+    let gaps = 2..levels.len().saturating_sub(1);
+    let gaps = gaps.filter(|upper| between(upper)[0] > 0.0 || between(upper)[1] < 0.0);
+    let gaps: Vec<usize> = gaps.collect();
+    let step = |upper: &usize| {
+        let [below, above] = between(upper);
+        let shown = |x: f64| figure_to(x, LABEL * (most - least));
+        let after = map(x, |x| flag(x >= above));
+        let text = format!("[{name} > {}]", shown(below));
+        let label = format!("{name} between {} and {}", shown(below), shown(above));
+        form(label, vec![Modifier::number(after, text)])
+    };
+    let on = |upper: &usize| step(upper).terms.into_iter();
+    let on = |upper: &usize| on(upper).map(|term| Term { node, ..term });
+    let stride = gaps.len().div_ceil(MOST).max(1);
+    let best = (stride > 1).then(|| best(fitted, &mut gaps.iter().flat_map(on)));
+    let best = best.flatten().filter(|at| at % stride > 0);
+    let scanned = (0..gaps.len()).step_by(stride).chain(best);
+    scanned.map(|at| step(&gaps[at])).collect()
 }
 
 /// Ends of the range at which the readings pile up at one value although the model moves on: what is

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::common::Noise;
-use crate::common::cases::{diagnosed_with, folder, gumption, planned};
+use crate::common::cases::{diagnosed_with, folder, gumption, named, planned};
 
 /// A photodiode at twenty powers over three decades, three times each in an order of no meaning; noise by
 /// the number of the power and the current.
@@ -264,5 +264,60 @@ fn standard_uncertainties_of_rows_are_in_the_unit_of_each_output() {
         let u: Vec<f64> = u.filter_map(|one| one["u"].as_f64()).collect();
         assert_eq!(u.len(), 1, "{:#}", found["parameters"]);
         assert!((u[0] / expected - 1.0).abs() < 1e-9, "{name}: {u:?}");
+    }
+}
+
+/// Errors of Student's distribution with four degrees of freedom, made of five normal ones each.
+fn wild(noise: &mut Noise) -> f64 {
+    let squares: f64 = (0..4).map(|_| noise.normal().powi(2)).sum();
+    noise.normal() / (squares / 4.0).sqrt()
+}
+
+/// A load cell up and down at eleven loads, three times, with an error for each reading.
+fn load_cell(seed: u64, error: impl Fn(&mut Noise, usize) -> f64) -> String {
+    let mut noise = Noise(seed);
+    for _ in 0..20 {
+        noise.uniform();
+    }
+    let mut text = "load [kN],U [mV],t [min]\n".to_owned();
+    for row in 0..66_usize {
+        let load = 10.0 * (row % 22).min(21 - row % 22) as f64;
+        let reading = 0.013 + 0.02 * load + 2e-4 * error(&mut noise, row);
+        let _ = writeln!(text, "{load},{reading:.6},{}", 2 * row);
+    }
+    text
+}
+
+const LOAD_CELL: &str = "equations = \"U = a + b*load\"\n[columns]\nload = \"stimulus\"\nU = \"output\"\nt = \"time\"\n";
+
+#[test]
+fn heavy_tails_of_estimated_noise_raise_no_alarm() {
+    let found = |seed| diagnosed_with("tails", &load_cell(seed, |noise, _| wild(noise)), LOAD_CELL);
+    let all: Vec<Value> = (1..=16).map(found).collect();
+    let alarms = all.iter().filter(|found| found["verdict"] != "none");
+    // Of normal errors alone every third would be called wrong readings, or bursts.
+    assert!(alarms.count() < 2);
+    let heavy = |found: &&Value| origin(found).contains("tails are heavier");
+    assert!(all.iter().filter(heavy).count() >= 4);
+}
+
+#[test]
+fn one_wrong_reading_among_normal_ones_is_no_heavy_tail() {
+    let error = |noise: &mut Noise, row| noise.normal() + if row == 40 { 12.0 } else { 0.0 };
+    for seed in 1..=4 {
+        let found = diagnosed_with("one-wrong", &load_cell(seed, error), LOAD_CELL);
+        assert_eq!(named(&found), ["outlier"], "{found}");
+    }
+}
+
+#[test]
+fn a_scale_that_wanders_has_no_heavy_tails() {
+    let error = |noise: &mut Noise, row: usize| {
+        let load = (row % 22).min(21 - row % 22) as f64;
+        noise.normal() + 1.5 * load * libm::sin(0.005 * (row * row) as f64)
+    };
+    for seed in 1..=4 {
+        let found = diagnosed_with("wandering-scale", &load_cell(seed, error), LOAD_CELL);
+        assert_ne!(found["verdict"], "none", "{found}");
     }
 }

@@ -94,7 +94,11 @@ impl<'f> Candidates<'f> {
             correlated: courses.likely(own),
             ..spread.clone()
         });
-        Ok((contest.p, claimed.unwrap_or_else(|| spreads[0].clone())))
+        let claimed = claimed.unwrap_or_else(|| spreads[0].clone());
+        Ok(match contest.p <= settings.alpha {
+            true => (contest.p, claimed),
+            false => (contest.p, claimed.with_tails(design, fit)),
+        })
     }
 
     /// Adds values about the parameters of strong effects; whether there are any that were not tried.

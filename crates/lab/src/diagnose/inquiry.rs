@@ -96,7 +96,7 @@ impl<'i> Inquiry<'i> {
         // What the model leaves out may look like noise that grows.
         let plain = noise::plain(design, fit, &claimed);
         let courses = Courses::of(&candidates.fitted)
-            .or_else(|| plain.is_some().then(Courses::white))
+            .or_else(|| claimed.is_estimated().then(Courses::white))
             .filter(|_| claimed.correlated.is_none());
         let mut inquiry = Inquiry {
             candidates,
@@ -343,7 +343,8 @@ impl<'i> Inquiry<'i> {
         let is_unclaimed = claimed.wanders() || claimed.is_estimated();
         let is_ordered = self.candidates.fitted.clock.column.is_some();
         let is_asked = self.found_nothing() && is_unclaimed && is_ordered;
-        let Some(courses) = self.courses.as_ref().filter(|_| is_asked) else {
+        let courses = self.courses.as_ref();
+        let Some(courses) = courses.filter(|all| is_asked && all.remember()) else {
             return Ok(());
         };
         let (design, fit) = (self.declared.seen, self.fit);

@@ -6,11 +6,12 @@ use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, NoiseClaim, Origin, RestReadings, Role, hours};
 use super::design::Design;
-use super::evidence::{self, Correlation, Covariance, Noise};
+use super::evidence::{self, Correlation, Covariance, Noise, Tails};
 use super::fit::{self, Fit, NoFit};
 use super::noise_correlation::{Correlated, Courses, Memory};
 use super::noise_growth::{self, DRAWS, Growth, Spread};
 use super::noise_labels::{self, ByLabel};
+use super::reduced::reduced;
 use super::replicates::{self, Scatter};
 use crate::recording::at_rest;
 
@@ -36,6 +37,8 @@ pub struct Claimed {
     /// Probability that replicates scatter as unevenly from group to group by chance, where it is so small
     /// that the claim does not describe them.
     pub uneven: Option<f64>,
+    /// How heavy their tails are, where the size of the noise is estimated.
+    pub tails: Tails,
 }
 
 impl Claimed {
@@ -50,12 +53,24 @@ impl Claimed {
             by_label: Vec::new(),
             draws: Vec::new(),
             uneven: None,
+            tails: Tails::default(),
         }
     }
 
     /// For the examination of a model. Of a constant that the model should give, such as a norm, it is in units of what the model
     /// gives: in units of the constant all is noise that wanders where the scale of the readings goes to zero.
     pub fn noise(&self, design: &Design<'_>, fit: &Fit) -> Noise {
+        let tails = &self.tails.draws;
+        Noise {
+            // Open independently of the rest: a step that meets every pair.
+            tails: (0..tails.len())
+                .map(|at| tails[(5 * at) % tails.len()])
+                .collect(),
+            ..self.of_normal_errors(design, fit)
+        }
+    }
+
+    fn of_normal_errors(&self, design: &Design<'_>, fit: &Fit) -> Noise {
         let own = design.observed_column(|response| {
             let ratios = design.over_constant(&fit.linear, response);
             ratios.unwrap_or_else(|| vec![1.0; design.case.rows])
@@ -83,10 +98,10 @@ impl Claimed {
         }
     }
 
-    /// Logarithm of the probability of its correlation beforehand, but for a constant.
+    /// Logarithm of the probability of its correlation beforehand, and of what its tails add, but for a constant.
     pub fn log_prior(&self) -> f64 {
         let correlated = self.correlated.as_ref();
-        correlated.map_or(0.0, |correlated| correlated.log_prior)
+        correlated.map_or(0.0, |correlated| correlated.log_prior) + self.tails.gain
     }
 
     /// The same with another correlation, and no doubt about it.
@@ -95,6 +110,25 @@ impl Claimed {
             correlated,
             draws: Vec::new(),
             ..self.clone()
+        }
+    }
+
+    /// The same with the tails that the residuals show.
+    pub fn with_tails(self, design: &Design<'_>, fit: &Fit) -> Claimed {
+        let plain = Tails::default();
+        let normal = Claimed {
+            tails: plain,
+            ..self
+        };
+        // What comes in jumps and is remembered is no noise.
+        if !normal.is_estimated() || normal.wanders() {
+            return normal;
+        }
+        let seen = reduced(design, fit, &normal.noise(design, fit));
+        let tails = seen.map(|seen| Tails::of(seen.residuals().as_slice()));
+        Claimed {
+            tails: tails.unwrap_or_default(),
+            ..normal
         }
     }
 
@@ -118,7 +152,10 @@ impl Claimed {
         let mut pairs = self.u.iter().zip(&other.u);
         let is_scaled = |(own, other): (&f64, &f64)| (own / other / ratio - 1.0).abs() < ROUNDING;
         let is_steady = self.draws.is_empty() && other.draws.is_empty();
-        is_steady && self.correlated == other.correlated && pairs.all(is_scaled)
+        is_steady
+            && self.tails == other.tails
+            && self.correlated == other.correlated
+            && pairs.all(is_scaled)
     }
 
     /// Whether the recording shows that successive rows are correlated.
@@ -188,7 +225,7 @@ pub fn refined(
             courses.likely(&likely)
         });
     }
-    left
+    left.with_tails(design, fit)
 }
 
 /// The model at the values that the case states, or at one where it states none, with the noise that it
@@ -321,6 +358,7 @@ fn replicated(design: &Design<'_>, fit: Option<&Fit>, scatters: &[Scatter]) -> O
         by_label: Vec::new(),
         draws: (0..draws.unwrap_or(0)).filter_map(draw).collect(),
         uneven: uneven.reduce(f64::min),
+        tails: Tails::default(),
     })
 }
 

@@ -161,6 +161,11 @@ impl Courses {
         }
     }
 
+    /// Whether rows may remember others.
+    pub(super) fn remember(&self) -> bool {
+        self.all.len() > 1
+    }
+
     /// A recording seen with each of them, as the noise with such a correlation; `fit` is of any model with the same rows.
     ///
     /// # Errors

@@ -55,7 +55,16 @@ pub(super) fn noise(claimed: &Claimed, l: Language) -> String {
         }
         Origin::Budget(file) => say!("from the budget {file}").in_language(l),
     };
-    text + &dof + &memory(claimed, l) + &uneven(claimed, l)
+    text + &dof + &memory(claimed, l) + &tails(claimed, l) + &uneven(claimed, l)
+}
+
+/// That errors have heavier tails than normal ones, where that is beyond doubt.
+fn tails(claimed: &Claimed, l: Language) -> String {
+    let said = claimed.tails.heavy.map(|dof| {
+        let dof = significant(dof, 1);
+        say!("; its tails are heavier than those of normal errors (Student's distribution with about {dof} degrees of freedom): single readings far off are part of it")
+    });
+    said.map_or_else(String::new, |said| said.in_language(l))
 }
 
 /// That a recording at rest tells nothing of the course of the noise.

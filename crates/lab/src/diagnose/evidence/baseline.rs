@@ -27,6 +27,7 @@ pub struct Baseline {
     /// Factors of the draws of the covariance matrix.
     draws: Vec<Arc<Factor>>,
     scale_dof: f64,
+    tails: Vec<f64>,
     /// Q of WJ, (n + k) × p.
     absorbed: DMatrix<f64>,
     /// R⁻¹ of WJ, p × p.
@@ -111,6 +112,7 @@ impl Baseline {
             whitener,
             draws,
             scale_dof: noise.scale_dof,
+            tails: noise.tails.clone(),
             explained: explained.column(0).into_owned(),
             left: left.column(0).into_owned(),
             absorbed,
@@ -267,9 +269,9 @@ impl Baseline {
         self.whitener.log_determinant() + of_parameters.sum::<f64>()
     }
 
-    /// With other draws of the covariance matrix, as L with Σ = LLᵀ.
-    pub(super) fn with_draws(self, draws: Vec<Arc<Factor>>) -> Baseline {
-        Baseline { draws, ..self }
+    /// Degrees of freedom that the errors of some simulated recordings have; ∞ where they are normal.
+    pub(super) fn tails(&self) -> &[f64] {
+        &self.tails
     }
 
     /// Q of WJ.
@@ -277,15 +279,14 @@ impl Baseline {
         &self.absorbed
     }
 
-    /// Number of draws of the covariance matrix.
-    pub(super) fn noise_draws(&self) -> usize {
-        self.draws.len()
+    /// Draws of the covariance matrix, as L with Σ = LLᵀ.
+    pub(super) fn noise_draws(&self) -> &[Arc<Factor>] {
+        &self.draws
     }
 
-    /// Standard normal columns of n + k rows, given the covariance matrix of draw number `draw` and
-    /// whitened with the best estimate.
-    pub(super) fn recolor(&self, draw: usize, normals: &DMatrix<f64>) -> DMatrix<f64> {
-        let colored = self.draws[draw].times(&normals.rows(0, self.rows).into_owned());
+    /// Standard normal columns of n + k rows, given a covariance matrix Σ = LLᵀ and whitened with the best estimate.
+    pub(super) fn recolor(&self, lower: &Factor, normals: &DMatrix<f64>) -> DMatrix<f64> {
+        let colored = lower.times(&normals.rows(0, self.rows).into_owned());
         let prior_rows = self.left.len() - self.rows;
         stacked(
             self.whitener.times(&colored),

@@ -3,7 +3,8 @@
 //! Each course of the noise (white, forgetting within a time, flickering) has a restricted likelihood of its own, without
 //! an effect and with the best one, or the best two where each is noise to the other. The gain, both maximised over the
 //! courses, is compared with what recordings have that nothing but noise of the likely courses made: with the same choice of
-//! course and effects in each.
+//! course and effects in each. Where the size of the noise is estimated, errors with heavier tails than normal ones are as
+//! much a rival.
 
 use std::sync::Arc;
 
@@ -13,12 +14,13 @@ use super::baseline::Baseline;
 use super::closed_form::{Scale, maximum};
 use super::detection::Panel;
 use super::noise::{Covariance, Factor};
-use super::null::{Simulated, side_by_side};
+use super::null::{Laws, Simulated, side_by_side};
 use super::pairs::Singles;
 use super::question::{Atom, Candidate, Question, Settings};
 use super::refusal::Refusal;
 use super::sequential;
 use super::space::{Frame, Space};
+use super::tails;
 use crate::diagnose::chance::in_proportion;
 
 /// Simulated recordings behind the probability, at most: at 1 % its standard error is 0.3 %.
@@ -37,6 +39,9 @@ pub struct Course {
     lower: Arc<Factor>,
     /// Logarithm of its probability beforehand.
     pub log_prior: f64,
+    /// Whether its errors may have heavier tails than normal ones. Not where the size of the noise is known, and wild readings with it;
+    /// nor where rows remember others: what comes in jumps is no noise.
+    has_open_tails: bool,
 }
 
 /// Courses of the noise with and without an effect.
@@ -61,7 +66,9 @@ impl Course {
         log_prior: f64,
     ) -> Result<Course, Refusal> {
         let lower = Arc::new(Factor::of(covariance)?);
+        let is_free = baseline.scale_dof() == 0.0 && matches!(*lower, Factor::Diagonal(_));
         Ok(Course {
+            has_open_tails: is_free && tails::are_open(baseline.residuals().as_slice()),
             baseline,
             lower,
             log_prior,
@@ -71,6 +78,31 @@ impl Course {
     /// Logarithm of the probability of the course without an effect, but for a constant.
     pub fn log_posterior(&self) -> f64 {
         self.log_prior + self.baseline.log_likelihood()
+    }
+
+    /// Logarithm of how much likelier than normal ones errors are with heavier tails, where those are open.
+    fn log_tails(&self, errors: &[f64]) -> f64 {
+        match self.has_open_tails {
+            true => tails::gain(errors),
+            false => 0.0,
+        }
+    }
+
+    /// Whether its errors may have heavier tails than normal ones.
+    pub(super) fn has_open_tails(&self) -> bool {
+        self.has_open_tails
+    }
+
+    /// The course with normal errors, beside an effect that gains so much, and with heavier tails where they are open: degrees of
+    /// freedom and the logarithm of the probability.
+    fn laws(&self, effect: f64) -> Vec<(&Course, f64, f64)> {
+        let whole = self.log_posterior();
+        let heavy = tails::laws(self.baseline.residuals().as_slice())
+            .skip(1)
+            .filter(|_| self.has_open_tails);
+        let normal = std::iter::once((f64::INFINITY, effect));
+        let laws = normal.chain(heavy);
+        laws.map(|(dof, log)| (self, dof, whole + log)).collect()
     }
 }
 
@@ -91,17 +123,10 @@ pub fn contest(
     atoms: &[Atom],
     settings: &Settings,
 ) -> Contest {
-    let alone: Vec<f64> = courses.iter().map(Course::log_posterior).collect();
-    let top = maximum(&alone);
-    let weights: Vec<f64> = alone.iter().map(|l| libm::exp(l - top)).collect();
-    let null = in_proportion(courses, &weights, COURSES).into_iter();
-    let null: Vec<Arc<Factor>> = null.map(|course| Arc::clone(&course.lower)).collect();
-    let simulated: Vec<Baseline> = (courses.iter())
-        .map(|course| course.baseline.clone().with_draws(null.clone()))
-        .collect();
+    let normal: Vec<f64> = courses.iter().map(Course::log_posterior).collect();
     let see = |at: usize| {
         let question = Question {
-            baseline: &simulated[at],
+            baseline: &courses[at].baseline,
             candidates,
             atoms,
             settings: settings.clone(),
@@ -113,19 +138,38 @@ pub fn contest(
         let two = Singles::new(&space).observed(&space);
         Seen {
             course: &courses[at],
-            alone: alone[at],
-            with: alone[at] + gain.max(two).max(0.0),
+            alone: normal[at] + courses[at].log_tails(courses[at].baseline.residuals().as_slice()),
+            with: normal[at] + gain.max(two).max(0.0),
             space,
             frame,
         }
     };
     let seen: Vec<Seen<'_>> = side_by_side(courses.len(), see);
+    let alone: Vec<f64> = seen.iter().map(|one| one.alone).collect();
     let with: Vec<f64> = seen.iter().map(|one| one.with).collect();
-    let observed = maximum(&with) - top;
-    let likely =
-        |one: &&Seen<'_>| one.alone > top - HOPELESS || one.with > maximum(&with) - HOPELESS;
-    let likely: Vec<&Seen<'_>> = seen.iter().filter(likely).collect();
-    let benches: Vec<Bench<'_>> = likely.iter().map(|one| Bench::new(one)).collect();
+    let (top, most) = (maximum(&alone), maximum(&with));
+    // Which law makes the recordings: that normal errors need an effect does not speak for heavy tails.
+    let effect = most - maximum(&normal);
+    let laws: Vec<(&Course, f64, f64)> = (courses.iter())
+        .flat_map(|course| course.laws(effect))
+        .collect();
+    let highest = laws
+        .iter()
+        .map(|law| law.2)
+        .fold(f64::NEG_INFINITY, f64::max);
+    let weights: Vec<f64> = laws.iter().map(|law| libm::exp(law.2 - highest)).collect();
+    let drawn = in_proportion(&laws, &weights, COURSES).into_iter();
+    let (draws, tails): (Vec<Arc<Factor>>, Vec<f64>) = drawn
+        .map(|(course, dof, _)| (Arc::clone(&course.lower), *dof))
+        .unzip();
+    let laws = Laws {
+        draws: &draws,
+        tails: &tails,
+    };
+    let likely = |one: &&Seen<'_>| one.alone > top - HOPELESS || one.with > most - HOPELESS;
+    let likely = seen.iter().filter(likely);
+    let benches: Vec<Bench<'_>> = likely.map(|one| Bench::new(one, laws)).collect();
+    let observed = most - top;
     let p = probability(&benches, observed, settings);
     Contest { p, alone, with }
 }
@@ -163,11 +207,11 @@ struct Bench<'s> {
 }
 
 impl<'s> Bench<'s> {
-    fn new(seen: &'s Seen<'s>) -> Bench<'s> {
+    fn new(seen: &'s Seen<'s>, laws: Laws<'s>) -> Bench<'s> {
         let draws = seen.space.question.settings.draws.min(DRAWS);
         Bench {
             seen,
-            simulated: Simulated::new(&seen.space, draws),
+            simulated: Simulated::by(&seen.space, laws, draws),
             panel: Panel::new(&seen.space, &seen.frame),
             singles: Singles::new(&seen.space),
         }
@@ -183,11 +227,14 @@ impl<'s> Bench<'s> {
             .map(|(sum, offset)| sum + offset)
             .collect();
         let pairs = (self.singles).in_turn(&self.seen.space, &recordings.components, &rss);
-        let each = sums.iter().zip(gains).zip(pairs);
-        let both = each.map(|((sum, [gain, _]), two)| {
-            let course = self.seen.course;
-            let alone = course.log_prior + course.baseline.log_likelihood_of(*sum);
-            [alone, alone + gain.max(two).max(0.0)]
+        let baseline = &self.seen.course.baseline;
+        let absorbed = (&recordings.errors * baseline.absorbed()) * baseline.absorbed().transpose();
+        let left = (&recordings.errors - absorbed).transpose();
+        let each = sums.iter().zip(gains).zip(pairs).zip(left.column_iter());
+        let both = each.map(|(((sum, [gain, _]), two), left)| {
+            let normal = self.seen.course.log_prior + baseline.log_likelihood_of(*sum);
+            let tails = self.seen.course.log_tails(left.as_slice());
+            [normal + tails, normal + gain.max(two).max(0.0)]
         });
         both.collect()
     }

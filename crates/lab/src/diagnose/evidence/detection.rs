@@ -77,10 +77,10 @@ pub(super) fn combined(observed: [f64; 2], draws: &[[f64; 2]]) -> f64 {
     as_well_placed(observed, draws) as f64 / (draws.len() + 1) as f64
 }
 
-/// The draws in which the better placed of the two is placed as well, with the observation itself.
-fn as_well_placed(observed: [f64; 2], draws: &[[f64; 2]]) -> usize {
+/// The draws in which the best placed of some statistics is placed as well, with the observation itself.
+pub(super) fn as_well_placed<const N: usize>(observed: [f64; N], draws: &[[f64; N]]) -> usize {
     let pool = || std::iter::once(&observed).chain(draws);
-    let ranks: Vec<Vec<usize>> = (0..2)
+    let ranks: Vec<Vec<usize>> = (0..N)
         .map(|which| {
             let mut sorted: Vec<f64> = pool().map(|pair| pair[which]).collect();
             sorted.sort_by(f64::total_cmp);
@@ -89,9 +89,9 @@ fn as_well_placed(observed: [f64; 2], draws: &[[f64; 2]]) -> usize {
                 .collect()
         })
         .collect();
-    let better = |i: usize| ranks[0][i].min(ranks[1][i]);
-    let own = better(0);
-    (0..=draws.len()).filter(|i| better(*i) <= own).count()
+    let best = |i: usize| ranks.iter().map(|own| own[i]).min();
+    let own = best(0);
+    (0..=draws.len()).filter(|i| best(*i) <= own).count()
 }
 
 /// All blocks that may be left beside a set, side by side.

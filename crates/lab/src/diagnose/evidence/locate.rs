@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use super::baseline::Baseline;
 use super::closed_form::Scale;
 use super::directions::INVISIBLE;
-use super::null::{Null, side_by_side};
+use super::null::{Laws, Null, side_by_side};
 use super::question::Settings;
 
 /// Stage of the random numbers, apart from those of the gate.
@@ -95,7 +95,7 @@ fn excited(cells: &[Cell], cell: usize) -> bool {
 
 /// The greatest statistic of all cells in simulated recordings without a disturbance.
 fn simulated(baseline: &Baseline, seen: &DMatrix<f64>, settings: &Settings) -> Vec<f64> {
-    let null = Null::new(baseline, settings.seed, STAGE);
+    let null = Null::new(baseline, Laws::of(baseline), settings.seed, STAGE);
     let chunks = settings.draws.div_ceil(gumption_lanes::LANES).max(1);
     let each = side_by_side(chunks, |index| {
         let recordings = null.along(index, seen);

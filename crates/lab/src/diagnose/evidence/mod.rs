@@ -48,6 +48,7 @@
 //! | `fit` | estimates, strength, distance to rivals |
 //! | `look_alikes` | effects that are the shape of another, aliases, mixtures |
 //! | `unlisted` | effects outside the catalogue that look like what is in it |
+//! | `tails` | errors with heavier tails than normal ones |
 //! | `unsteady` | whether what is taken for noise is as noise is |
 //! | `locate` | where the mismatch sits |
 //! | `plan` | without data: what an experiment can see and tell apart |
@@ -88,6 +89,7 @@ mod separate;
 mod sequential;
 mod slots;
 mod space;
+mod tails;
 mod unlisted;
 mod unsteady;
 
@@ -107,4 +109,5 @@ pub use plan::{Pair, Plan, Seen, visibility};
 pub use question::{Atom, Candidate, Kind, Place, Question, Settings, Shape};
 pub use refusal::Refusal;
 pub use separate::{SEPARATED, Separability, Standing, Worth, apart, doubt};
+pub use tails::Tails;
 pub use unsteady::unsteadiness;

@@ -72,6 +72,9 @@ pub struct Noise {
     /// Degrees of freedom ν₀ with which the scale of `covariance` is known: ∞ if it is known exactly, 0
     /// if only the ratios of its elements are known.
     pub scale_dof: f64,
+    /// Degrees of freedom of Student's distribution that the errors may have, as likely as they occur; none where they are
+    /// normal.
+    pub tails: Vec<f64>,
 }
 
 impl Noise {
@@ -86,6 +89,7 @@ impl Noise {
             covariance,
             draws: Vec::new(),
             scale_dof,
+            tails: Vec::new(),
         }
     }
 

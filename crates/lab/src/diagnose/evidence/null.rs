@@ -3,21 +3,42 @@
 //! Random numbers are addressed by (seed, stage and chunk, row), so that results do not depend on the
 //! number of threads or on what was drawn before.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use gumption_lanes::sampler::{gamma_block, normal_block};
 use gumption_lanes::{Block as Lanes, Generator, LANES, level};
 use nalgebra::DMatrix;
 
 use super::baseline::Baseline;
+use super::noise::Factor;
 use super::space::{Residual, Space};
 
 /// Simulated recordings of one null distribution.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Null<'a> {
     baseline: &'a Baseline,
+    laws: Laws<'a>,
     seed: u64,
     stage: u64,
+}
+
+/// Which errors simulated recordings have, in turn.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Laws<'a> {
+    /// Covariance matrices, as L with Σ = LLᵀ; none where it is the one that whitens.
+    pub(super) draws: &'a [Arc<Factor>],
+    /// Degrees of freedom of Student's distribution, ∞ where errors are normal; none where they all are.
+    pub(super) tails: &'a [f64],
+}
+
+impl<'a> Laws<'a> {
+    /// Those that a recording leaves open.
+    pub(super) fn of(baseline: &'a Baseline) -> Laws<'a> {
+        Laws {
+            draws: baseline.noise_draws(),
+            tails: baseline.tails(),
+        }
+    }
 }
 
 /// 256 simulated recordings of the errors.
@@ -33,9 +54,10 @@ const SHARED: usize = 32;
 
 impl<'a> Null<'a> {
     /// Stages of one seed are independent of each other.
-    pub(super) fn new(baseline: &'a Baseline, seed: u64, stage: u64) -> Null<'a> {
+    pub(super) fn new(baseline: &'a Baseline, laws: Laws<'a>, seed: u64, stage: u64) -> Null<'a> {
         Null {
             baseline,
+            laws,
             seed,
             stage,
         }
@@ -51,11 +73,12 @@ impl<'a> Null<'a> {
             normal_block(level(), &mut generator, &mut block);
             errors.column_mut(row).copy_from_slice(&block.0);
         }
-        let draws = self.baseline.noise_draws();
+        self.give_tails(index, &mut errors);
+        let draws = self.laws.draws;
         let nu = self.baseline.scale_dof();
         let offsets = if !nu.is_finite() || nu <= 0.0 {
             vec![0.0; LANES]
-        } else if draws > 0 {
+        } else if !draws.is_empty() {
             // The doubt about the scale is in the draws.
             vec![nu; LANES]
         } else {
@@ -63,15 +86,38 @@ impl<'a> Null<'a> {
             gamma_block(level(), &mut generator, 0.5 * nu, &mut block);
             block.0.iter().map(|half| 2.0 * half).collect()
         };
-        if draws > 0 {
+        if !draws.is_empty() {
             for group in 0..LANES / SHARED {
-                let draw = (index * (LANES / SHARED) + group) % draws;
+                let draw = &draws[(index * (LANES / SHARED) + group) % draws.len()];
                 let mut part = errors.rows_mut(group * SHARED, SHARED);
                 let colored = self.baseline.recolor(draw, &part.transpose());
                 part.copy_from(&colored.transpose());
             }
         }
         Chunk { errors, offsets }
+    }
+
+    /// Makes errors of Student's distribution of normal ones, by a divisor for each: the root of a χ² over its degrees of freedom.
+    fn give_tails(&self, index: usize, errors: &mut DMatrix<f64>) {
+        let tails = self.laws.tails;
+        let group = |lane: usize| index * (LANES / SHARED) + lane / SHARED;
+        let of_lane = |lane: usize| tails[group(lane) % tails.len()];
+        let mut laws = tails.to_vec();
+        laws.sort_by(f64::total_cmp);
+        laws.dedup();
+        let address = (self.stage << 24) | index as u64;
+        let rows = errors.ncols();
+        let mut block = Lanes::ZERO;
+        for dof in laws.into_iter().filter(|dof| dof.is_finite()) {
+            for row in 0..rows {
+                let mut generator = Generator::new(self.seed, address, (rows + 1 + row) as u64);
+                gamma_block(level(), &mut generator, 0.5 * dof, &mut block);
+                let own = (0..LANES).filter(|lane| of_lane(*lane) == dof);
+                for lane in own {
+                    errors[(lane, row)] *= (0.5 * dof / block.0[lane]).sqrt();
+                }
+            }
+        }
     }
 
     /// A chunk with its components along some directions.
@@ -114,10 +160,20 @@ pub(super) struct Recordings {
 impl<'a> Simulated<'a> {
     /// `draws` recordings, rounded up.
     pub(super) fn new(space: &'a Space<'a>, draws: usize) -> Self {
+        Simulated::by(space, Laws::of(space.question.baseline), draws)
+    }
+
+    /// The same with errors of some laws.
+    pub(super) fn by(space: &'a Space<'a>, laws: Laws<'a>, draws: usize) -> Self {
         let chunks = draws.div_ceil(LANES).max(1);
         Simulated {
             space,
-            null: Null::new(space.question.baseline, space.question.settings.seed, 0),
+            null: Null::new(
+                space.question.baseline,
+                laws,
+                space.question.settings.seed,
+                0,
+            ),
             chunks: (0..chunks).map(|_| OnceLock::new()).collect(),
         }
     }

@@ -309,15 +309,3 @@ fn one_wrong_reading_among_normal_ones_is_no_heavy_tail() {
         assert_eq!(named(&found), ["outlier"], "{found}");
     }
 }
-
-#[test]
-fn a_scale_that_wanders_has_no_heavy_tails() {
-    let error = |noise: &mut Noise, row: usize| {
-        let load = (row % 22).min(21 - row % 22) as f64;
-        noise.normal() + 1.5 * load * libm::sin(0.005 * (row * row) as f64)
-    };
-    for seed in 1..=4 {
-        let found = diagnosed_with("wandering-scale", &load_cell(seed, error), LOAD_CELL);
-        assert_ne!(found["verdict"], "none", "{found}");
-    }
-}

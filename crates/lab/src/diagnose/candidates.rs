@@ -64,7 +64,7 @@ impl<'f> Candidates<'f> {
 
     /// Whether effects beat noise that is correlated, or that grows with the reading: the probability that they gain as much
     /// by noise alone, and the noise as it is then, without effects where these do not, else with the best one. `spreads` are
-    /// the standard uncertainties that it may have.
+    /// the standard uncertainties that it may have, `found` the logarithm of the evidence for all effects that were found.
     ///
     /// # Errors
     /// When the recording does not determine the parameters.
@@ -73,6 +73,7 @@ impl<'f> Candidates<'f> {
         courses: &Courses,
         spreads: &[Claimed],
         settings: &evidence::Settings,
+        found: f64,
     ) -> Result<(f64, Claimed), Refusal> {
         let (design, fit) = (self.fitted.design, self.fitted.fit);
         let with = |spread: &Claimed| {
@@ -82,7 +83,7 @@ impl<'f> Candidates<'f> {
         };
         let seen = spreads.iter().map(with);
         let seen = seen.collect::<Result<Vec<_>, _>>()?.concat();
-        let contest = evidence::contest(&seen, &self.candidates, &self.atoms, settings);
+        let contest = evidence::contest(&seen, &self.candidates, &self.atoms, settings, found);
         let log_posterior = match contest.p <= settings.alpha {
             true => &contest.with,
             false => &contest.alone,

@@ -139,7 +139,9 @@ impl<'i> Inquiry<'i> {
     /// effect does, the two are begun with in turn, and the likelier end stays.
     fn compete(&mut self, mut starts: Vec<Claimed>) -> Result<(), Failure> {
         if let Some(courses) = &self.courses {
-            let (p, likeliest) = self.candidates.against(courses, &starts, &self.settings)?;
+            let found = self.answer.examination.score;
+            let (p, likeliest) =
+                (self.candidates).against(courses, &starts, &self.settings, found)?;
             self.settings.by_noise = p;
             match p > self.settings.alpha {
                 true => starts = vec![likeliest],

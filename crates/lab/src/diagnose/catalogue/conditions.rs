@@ -14,8 +14,8 @@ use gumption_core::quantity::Unit;
 /// Odds beforehand that pressure or humidity acts on an instrument, over those of another condition: they are
 /// recorded because laboratories record them.
 const AIR: f64 = 0.2;
-/// Odds beforehand of what is not first order in a condition: a square, a rate of change, a product.
-const HIGHER: f64 = 0.3;
+/// Odds beforehand of what is not first order in a condition: a square, a rate of change, a product; and of what comes at one value.
+pub(super) const HIGHER: f64 = 0.3;
 
 /// Cells of the columns that may act although, or besides how, the model uses them.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {

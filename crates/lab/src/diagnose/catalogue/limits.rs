@@ -2,6 +2,7 @@
 //! nothing happens.
 
 use super::building::{added, form, on_node, on_output, plain, scoped_label};
+use super::conditions::HIGHER;
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
     amount, figure, figure_to, five_digits, flag, largest, levels_of, map, range, rounded,
@@ -213,7 +214,9 @@ fn transitions(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         let own = steps(fitted, &sizes, &name, Node::Gain);
         on_node(fitted, EffectId::TransitionScale, label, Node::Gain, own)
     });
-    [output].into_iter().chain(scale).collect()
+    let cells = [output].into_iter().chain(scale);
+    let odds = HIGHER;
+    cells.map(|cell| Cell { odds, ..cell }).collect()
 }
 
 /// Steps between values of which two at least lie on either side: all of them, or some evenly and the best of all.

@@ -3,8 +3,8 @@
 //! Each course of the noise (white, forgetting within a time, flickering) has a restricted likelihood of its own, without
 //! an effect and with the best one, or the best two where each is noise to the other. The gain, both maximised over the
 //! courses, is compared with what recordings have that nothing but noise of the likely courses made: with the same choice of
-//! course and effects in each. Where the size of the noise is estimated, errors with heavier tails than normal ones are as
-//! much a rival.
+//! course and effects in each. Where the size of the noise is estimated, errors with heavier tails than normal ones make their share
+//! of these recordings: as large as they are likely without an effect, over normal ones with all effects that were found.
 
 use std::sync::Arc;
 
@@ -80,14 +80,6 @@ impl Course {
         self.log_prior + self.baseline.log_likelihood()
     }
 
-    /// Logarithm of how much likelier than normal ones errors are with heavier tails, where those are open.
-    fn log_tails(&self, errors: &[f64]) -> f64 {
-        match self.has_open_tails {
-            true => tails::gain(errors),
-            false => 0.0,
-        }
-    }
-
     /// Whether its errors may have heavier tails than normal ones.
     pub(super) fn has_open_tails(&self) -> bool {
         self.has_open_tails
@@ -122,8 +114,9 @@ pub fn contest(
     candidates: &[Candidate],
     atoms: &[Atom],
     settings: &Settings,
+    found: f64,
 ) -> Contest {
-    let normal: Vec<f64> = courses.iter().map(Course::log_posterior).collect();
+    let alone: Vec<f64> = courses.iter().map(Course::log_posterior).collect();
     let see = |at: usize| {
         let question = Question {
             baseline: &courses[at].baseline,
@@ -138,18 +131,17 @@ pub fn contest(
         let two = Singles::new(&space).observed(&space);
         Seen {
             course: &courses[at],
-            alone: normal[at] + courses[at].log_tails(courses[at].baseline.residuals().as_slice()),
-            with: normal[at] + gain.max(two).max(0.0),
+            alone: alone[at],
+            with: alone[at] + gain.max(two).max(0.0),
             space,
             frame,
         }
     };
     let seen: Vec<Seen<'_>> = side_by_side(courses.len(), see);
-    let alone: Vec<f64> = seen.iter().map(|one| one.alone).collect();
     let with: Vec<f64> = seen.iter().map(|one| one.with).collect();
     let (top, most) = (maximum(&alone), maximum(&with));
-    // Which law makes the recordings: that normal errors need an effect does not speak for heavy tails.
-    let effect = most - maximum(&normal);
+    // Which law makes the recordings: that normal errors need effects does not speak for heavy tails.
+    let effect = found.max(most - top);
     let laws: Vec<(&Course, f64, f64)> = (courses.iter())
         .flat_map(|course| course.laws(effect))
         .collect();
@@ -227,14 +219,11 @@ impl<'s> Bench<'s> {
             .map(|(sum, offset)| sum + offset)
             .collect();
         let pairs = (self.singles).in_turn(&self.seen.space, &recordings.components, &rss);
-        let baseline = &self.seen.course.baseline;
-        let absorbed = (&recordings.errors * baseline.absorbed()) * baseline.absorbed().transpose();
-        let left = (&recordings.errors - absorbed).transpose();
-        let each = sums.iter().zip(gains).zip(pairs).zip(left.column_iter());
-        let both = each.map(|(((sum, [gain, _]), two), left)| {
-            let normal = self.seen.course.log_prior + baseline.log_likelihood_of(*sum);
-            let tails = self.seen.course.log_tails(left.as_slice());
-            [normal + tails, normal + gain.max(two).max(0.0)]
+        let each = sums.iter().zip(gains).zip(pairs);
+        let both = each.map(|((sum, [gain, _]), two)| {
+            let course = self.seen.course;
+            let alone = course.log_prior + course.baseline.log_likelihood_of(*sum);
+            [alone, alone + gain.max(two).max(0.0)]
         });
         both.collect()
     }

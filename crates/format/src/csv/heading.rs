@@ -155,10 +155,10 @@ impl Heading {
 
     /// A unit that stands alone below a name, in brackets or without.
     pub(super) fn unit_alone(text: &str, units: &UnitTable) -> Option<Unit> {
-        let brackets = [SQUARE, ROUND].into_iter();
+        let mut brackets = [SQUARE, ROUND].into_iter();
         let inside =
-            brackets.filter_map(|(open, close)| text.strip_prefix(open)?.strip_suffix(close));
-        as_written(inside.last().unwrap_or(text), units).ok()
+            brackets.find_map(|(open, close)| text.strip_prefix(open)?.strip_suffix(close));
+        as_written(inside.unwrap_or(text), units).ok()
     }
 
     fn new(text: &str, name: &str, unit: Result<Option<Unit>, UnitError>) -> Heading {

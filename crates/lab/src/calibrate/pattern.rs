@@ -45,8 +45,8 @@ pub enum PatternTest {
         /// Of so many residuals.
         readings: usize,
     },
-    /// A line in a column that no equation has takes more of the residuals than scatter does (F test of one more coefficient; the
-    /// probability is that of the largest of all such columns, by Bonferroni).
+    /// A column that no equation has, on the output and on its scale, takes more of the residuals than scatter does (F test of two more
+    /// coefficients; the probability is that of the largest of all such columns, by Bonferroni).
     Follows {
         /// The column.
         column: String,
@@ -193,32 +193,43 @@ impl Residuals<'_> {
         (p_value < RARE).then_some((by, p_value))
     }
 
-    /// The probability that scatter follows a column as the residuals do; `None` where nothing of the column is left that the
-    /// parameters do not take, or a value is missing.
+    /// The probability that scatter follows a column as the residuals do, by output and scale; `None` where nothing of it is left
+    /// that the parameters do not take, or a value is missing.
     fn by_chance(&self, values: &[f64]) -> Option<f64> {
         let value = |row: &usize| match self.stack.rows[*row] {
             Row::Reading { point, .. } => values[point],
             Row::Prior { .. } => f64::NAN,
         };
-        let count = self.rows.len();
-        let column = DVector::from_iterator(count, self.rows.iter().map(value));
-        let u = DVector::from_iterator(count, self.rows.iter().map(|row| self.u[*row]));
-        let column = column.add_scalar(-column.mean()).component_div(&u);
+        let of_rows = |value: &dyn Fn(&usize) -> f64| {
+            DVector::from_iterator(self.rows.len(), self.rows.iter().map(value))
+        };
+        let column = of_rows(&value);
+        let column = column.add_scalar(-column.mean());
+        let signal = of_rows(&|row| self.stack.observed[*row] - self.of[*row]);
+        let on_scale = column.component_mul(&signal);
+        let mut acts = DMatrix::from_columns(&[column, on_scale]);
         let mut taken = self.jacobian.select_rows(self.rows);
-        let parameters = taken.column_iter_mut();
-        parameters.for_each(|mut one| one.component_div_assign(&u));
-        let column = DMatrix::from_columns(&[column]);
-        let left = without(&column, &span(taken, ROUNDING));
-        if !left.norm().is_normal() || left.norm() <= ROUNDING * column.norm() {
+        let u = of_rows(&|row| self.u[*row]);
+        for mut one in acts.column_iter_mut().chain(taken.column_iter_mut()) {
+            one.component_div_assign(&u);
+        }
+        let left = without(&acts, &span(taken, ROUNDING));
+        let is_left = |k: &usize| {
+            let (left, whole) = (left.column(*k).norm(), acts.column(*k).norm());
+            left.is_finite() && left > ROUNDING * whole
+        };
+        let kept: Vec<usize> = (0..left.ncols()).filter(is_left).collect();
+        if kept.is_empty() {
             return None;
         }
-        let residuals =
-            DVector::from_iterator(count, self.rows.iter().map(|row| self.scaled(*row)));
-        let follows = left.column(0).dot(&residuals).powi(2) / left.norm_squared();
-        let (others, dof) = (residuals.norm_squared() - follows, self.dof - 1.0);
+        let basis = span(left.select_columns(&kept), ROUNDING);
+        let residuals = of_rows(&|row| self.scaled(*row));
+        let follows = basis.tr_mul(&residuals).norm_squared();
+        let coefficients = basis.ncols() as f64;
+        let (others, dof) = (residuals.norm_squared() - follows, self.dof - coefficients);
         let beyond = follows - self.harmless();
         (dof >= 1.0 && others > 0.0 && beyond > 0.0)
-            .then(|| f_sf(beyond / (others / dof), 1.0, dof))
+            .then(|| f_sf(beyond / coefficients / (others / dof), coefficients, dof))
     }
 }
 

@@ -93,6 +93,8 @@ form! {
         growth: Vec<Option<GrowthForm<'a>>> = all(&claimed.growth, |one| one.as_ref().map(GrowthForm::of)),
         /// For each output how it differs from label to label; none where it does not.
         by_label: Vec<Option<ByLabelForm<'a>>> = all(&claimed.by_label, |one| one.as_ref().map(ByLabelForm::of)),
+        /// Degrees of freedom of Student's distribution where its tails are heavier than normal ones beyond doubt; else null.
+        tails_dof: Option<Number> = claimed.tails.heavy.map(Number),
     }
 
     /// Noise that grows with the reading y: u² = a² + (b·y)².

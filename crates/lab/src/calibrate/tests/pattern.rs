@@ -101,13 +101,13 @@ fn scatter_is_scatter() {
     assert!(alarms < 11, "{alarms}");
 }
 
-/// Twenty readings on a line, with a temperature that wanders by a tenth as much as it acts.
-fn in_the_cold(effect: f64) -> Vec<Pattern> {
+/// Twenty readings on a line, with a temperature that acts so much on the output and on the scale.
+fn in_the_cold(output: f64, scale: f64) -> Vec<Pattern> {
     let mut generator = StdRng::seed_from_u64(11);
     let scatter = Normal::new(0.0, 0.1).expect("a distribution");
     let lines = (0..20).map(|i| {
         let (rate, t) = (f64::from(i % 5), f64::from((i * 7) % 20) / 10.0);
-        let u = 2.0 * rate + effect * t + scatter.sample(&mut generator);
+        let u = 2.0 * rate * (1.0 + scale * t) + output * t + scatter.sample(&mut generator);
         format!("{rate},{t},{u}\n")
     });
     let csv = format!("omega [deg/s],T [°C],U [mV]\n{}", lines.collect::<String>());
@@ -119,18 +119,21 @@ fn in_the_cold(effect: f64) -> Vec<Pattern> {
 
 #[test]
 fn residuals_that_follow_what_no_equation_has_tell() {
-    assert_eq!(in_the_cold(0.0), []);
-    let all = in_the_cold(0.5);
-    let [
-        Pattern {
-            by: PatternTest::Follows { column },
-            p_value,
-            ..
-        },
-    ] = all.as_slice()
-    else {
-        panic!("{all:?}")
-    };
-    assert_eq!(column, "T");
-    assert!(*p_value < 1e-3, "{p_value}");
+    assert_eq!(in_the_cold(0.0, 0.0), []);
+    // In the last the two cancel in the mean of the readings.
+    for (output, scale) in [(0.5, 0.0), (0.0, 0.1), (-0.4, 0.1)] {
+        let all = in_the_cold(output, scale);
+        let [
+            Pattern {
+                by: PatternTest::Follows { column },
+                p_value,
+                ..
+            },
+        ] = all.as_slice()
+        else {
+            panic!("{all:?}")
+        };
+        assert_eq!(column, "T");
+        assert!(*p_value < 1e-3, "{p_value}");
+    }
 }

@@ -516,7 +516,7 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "ranges",
         drive: Drive::Stimulus,
         place: Place::Offset,
-        names: &[],
+        names: &[("transition", ANY)],
         forms: of_drive![
             |x, a, b| libm::sin((9.0 + 6.0 * a) * power(x.abs(), 1.7) + TAU * b).signum()
         ],

@@ -148,7 +148,7 @@ impl Checker<'_> {
         contrary::check(self);
         // Parameters that are not listed follow from the equations and the recording: where these cannot be read, that is what is
         // wrong.
-        let is_read = inferred::outlines(&self.source, &self.units).is_some();
+        let is_read = inferred::outlines(self.source, &self.units).is_some();
         if entries(&table.parameter).is_empty() && is_read {
             if !data::readable(self)? {
                 return Ok(None);

@@ -349,7 +349,7 @@ fn question(audit: &Audit<'_>, finding: &Finding, language: Language) -> String 
     let source = say!(" (rule {number}; {clause})").in_language(language);
     match details.is_empty() {
         true => format!("{asked}{source}"),
-        false => language.with_head(&asked, &details.join(language.comma())) + &source,
+        false => language.with_head(asked, &details.join(language.comma())) + &source,
     }
 }
 

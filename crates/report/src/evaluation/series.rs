@@ -26,7 +26,7 @@ pub(super) fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
             let words = if words.is_empty() {
                 String::new()
             } else {
-                l.with_head("", &words)
+                l.with_head("", words)
             };
             Block::Section(if unit.is_empty() {
                 format!("{name}{words}")

@@ -96,7 +96,7 @@ fn beside_normal(errors: &[f64]) -> [f64; LAWS.len()] {
 pub(super) fn are_open(errors: &[f64]) -> bool {
     /// Random numbers of their own: the same orders for all errors.
     const SEED: u64 = 1;
-    let mut keys = vec![Vec::with_capacity(errors.len()); LANES];
+    let mut keys = vec![Vec::new(); LANES];
     let mut block = Lanes::ZERO;
     for row in 0..errors.len() {
         let mut generator = Generator::new(SEED, 0, row as u64);

@@ -35,7 +35,6 @@ impl Checker<'_> {
         } else {
             (Kind::Repeatability, say!("repeatability"))
         };
-        let unit = unit.difference();
         let told = |u: f64| {
             let u = Decimal::from_f64(u).round_to_significant(3, Rounding::HalfEven);
             match unit.is_one() {

@@ -357,7 +357,7 @@ fn the_larger_of_resolution_and_repeatability() {
     let fine = "[conventions]\nresolution = \"largest\"\n[measurand.Y]\nmodel = \"X\"\nunit = \"°C\"\n[input.X]\nunit = \"°C\"\ncomponents = [{ readings = [20.0001, 20.0003] }, { step = 0.0002309401 }]\n";
     let told = self::budget(fine).remarks[0].to_string();
     assert!(
-        told.contains("(u = 6.67×10⁻⁵ K) is left out beside the larger u = 0.000100 K"),
+        told.contains("(u = 6.67×10⁻⁵ °C) is left out beside the larger u = 0.000100 °C"),
         "{told}"
     );
 }

@@ -20,6 +20,7 @@ use krilla::surface::Surface;
 use krilla::text::{GlyphId, KrillaGlyph};
 
 use gumption_fault::language::Language;
+use gumption_fault::say;
 use gumption_format::document::{Block, Document};
 use gumption_format::render::{Format, Page, Unfit};
 

@@ -3,6 +3,9 @@
 //!
 //! The look-elsewhere effect is inside: every atom, every variant and every generic competitor is
 //! computed for every simulated recording. With a set adopted the test is exact for that set.
+//!
+//! Where errors may have heavy tails, effects that few rows carry are held against each other and the rest against each other:
+//! what single wild readings look like is no measure for a change that all rows have.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +15,7 @@ use super::pairs::Pairs;
 use super::question::Kind;
 use super::remainders::Remainders;
 use super::sequential::probability;
-use super::space::{Frame, Space};
+use super::space::{Block, Frame, Reach, Space};
 
 /// What the test says.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,9 +24,60 @@ pub(super) struct Outcome {
     pub(super) strongest: Option<usize>,
     pub(super) p: f64,
     pub(super) draws: usize,
+    /// Effects that fewer rows carry are not what stands out.
+    pub(super) reach: Reach,
+}
+
+impl Outcome {
+    /// Whether an effect may be what stands out.
+    pub(super) fn admits(&self, block: &Block) -> bool {
+        block.reach >= self.reach
+    }
+}
+
+/// The same statistic for effects that few rows carry, and for the rest.
+pub(super) type Reaches = [f64; 2];
+
+/// How the two are compared with those of simulated recordings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kinds {
+    /// The larger one counts.
+    Together,
+    /// Each with its own.
+    Apart,
+}
+
+impl Kinds {
+    /// Of degrees of freedom of the errors: apart where some law has heavy tails.
+    pub(super) fn of(mut laws: impl Iterator<Item = f64>) -> Kinds {
+        match laws.any(f64::is_finite) {
+            true => Kinds::Apart,
+            false => Kinds::Together,
+        }
+    }
+
+    /// What is compared.
+    pub(super) fn told(self, [few, many]: Reaches) -> Reaches {
+        match self {
+            Kinds::Together => [f64::NEG_INFINITY, few.max(many)],
+            Kinds::Apart => [few, many],
+        }
+    }
+
+    /// With two effects in turn, either of which few rows may carry; and with two that mask each other.
+    fn told_with_pairs(self, [few, many]: Reaches, [in_turn, masked]: [f64; 2]) -> [f64; 4] {
+        match self {
+            Kinds::Together => {
+                let [few, many] = self.told([few.max(in_turn), many]);
+                [few, many, f64::NEG_INFINITY, masked]
+            }
+            Kinds::Apart => [few, many, in_turn, masked],
+        }
+    }
 }
 
 /// The block with most evidence, with and without what departures of the set are allowed.
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Strongest {
     block: usize,
     pub(super) statistic: f64,
@@ -40,40 +94,59 @@ pub(super) fn test(
     simulated: &Simulated,
 ) -> Outcome {
     let panel = Panel::new(space, frame);
+    let kinds = Kinds::of(space.question.baseline.tails().iter().copied());
     let allowance = departure::left(share, space.strength(frame));
-    let Some(strongest) = panel.observed(space, allowance) else {
+    let each = panel.observed(space, allowance);
+    let found = each.into_iter().flatten();
+    let Some(strongest) = found.max_by(|a, b| a.allowed.total_cmp(&b.allowed)) else {
         return Outcome {
             strongest: None,
             p: 1.0,
             draws: 0,
+            reach: Reach::Few,
         };
     };
     let alpha = space.question.settings.alpha;
-    let in_turn = |pairs: &Pairs| pairs.singles.observed(space);
-    let of_pairs = |of: &dyn Fn(&Pairs) -> f64| pairs.map_or(f64::NEG_INFINITY, of);
-    let observed = [
-        strongest.allowed.max(of_pairs(&in_turn)),
-        of_pairs(&|pairs| pairs.observed(space)),
-    ];
-    let mut seen: Vec<[f64; 2]> = Vec::new();
+    let reaches = each.map(|one| one.map_or(f64::NEG_INFINITY, |one| one.allowed));
+    let of_pairs = pairs.map_or(NO_PAIRS, |pairs| pairs.observed(space));
+    let observed = kinds.told_with_pairs(reaches, of_pairs);
+    let mut seen: Vec<[f64; 4]> = Vec::new();
     let (p, draws) = probability(simulated.chunks(), alpha, |next| {
         let found = side_by_side(next.len(), |i| {
-            panel.simulated(simulated.chunk(next.start + i), pairs)
+            let recordings = simulated.chunk(next.start + i);
+            let reaches = panel.simulated(recordings);
+            let of_pairs = match pairs {
+                Some(pairs) => pairs.simulated(space, recordings),
+                None => vec![NO_PAIRS; reaches.len()],
+            };
+            let each = reaches.into_iter().zip(of_pairs);
+            let told = each.map(|(reaches, of_pairs)| kinds.told_with_pairs(reaches, of_pairs));
+            told.collect::<Vec<_>>()
         });
         seen.extend(found.into_iter().flatten());
         // Without the observation itself.
         as_well_placed(observed, &seen) - 1
     });
+    let few: Vec<[f64; 1]> = seen.iter().map(|own| [own[0]]).collect();
+    let do_few = kinds == Kinds::Together || combined([observed[0]], &few) <= alpha;
+    let (strongest, reach) = match (do_few, each[1]) {
+        (false, Some(many)) => (many, Reach::Many),
+        _ => (strongest, Reach::Few),
+    };
     Outcome {
         strongest: Some(strongest.block),
         p,
         draws,
+        reach,
     }
 }
 
-/// Probability that the better placed of the two statistics is placed as well, by ranks among the
-/// draws and the observation: exact, however the two depend on each other.
-pub(super) fn combined(observed: [f64; 2], draws: &[[f64; 2]]) -> f64 {
+/// Where pairs are not asked for.
+const NO_PAIRS: [f64; 2] = [f64::NEG_INFINITY; 2];
+
+/// Probability that the best placed of some statistics is placed as well, by ranks among the
+/// draws and the observation: exact, however they depend on each other.
+pub(super) fn combined<const N: usize>(observed: [f64; N], draws: &[[f64; N]]) -> f64 {
     as_well_placed(observed, draws) as f64 / (draws.len() + 1) as f64
 }
 
@@ -97,7 +170,7 @@ pub(super) fn as_well_placed<const N: usize>(observed: [f64; N], draws: &[[f64; 
 /// All blocks that may be left beside a set, side by side.
 pub(super) struct Panel<'a> {
     beside: Remainders<'a>,
-    /// Named rests that differ in their directions only: the best of them is the one with the best fit.
+    /// Named rests of one reach that differ in their directions only: the best of them is the one with the best fit.
     classes: Vec<Vec<usize>>,
     generics: Vec<usize>,
 }
@@ -105,14 +178,15 @@ pub(super) struct Panel<'a> {
 impl<'a> Panel<'a> {
     pub(super) fn new(space: &'a Space<'a>, frame: &'a Frame) -> Panel<'a> {
         let beside = Remainders::new(space, frame);
-        let mut classes: BTreeMap<(usize, u64), Vec<usize>> = BTreeMap::new();
+        let mut classes: BTreeMap<(Reach, usize, u64), Vec<usize>> = BTreeMap::new();
         let mut generics = Vec::new();
         for (index, rest) in beside.rests.iter().enumerate() {
             match rest.kind {
                 Kind::Generic => generics.push(index),
                 Kind::Named => {
-                    let odds = space.blocks[rest.block].log_odds.to_bits();
-                    let class = classes.entry((rest.directions(), odds));
+                    let block = &space.blocks[rest.block];
+                    let odds = block.log_odds.to_bits();
+                    let class = classes.entry((block.reach, rest.directions(), odds));
                     class.or_default().push(index);
                 }
             }
@@ -124,29 +198,30 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// The strongest block, where this much is allowed to what resembles the set altogether.
-    pub(super) fn observed(&self, space: &Space, allowance: f64) -> Option<Strongest> {
+    /// The strongest block that few rows carry, and of the rest, where this much is allowed to what resembles the set altogether.
+    pub(super) fn observed(&self, space: &Space, allowance: f64) -> [Option<Strongest>; 2] {
         let components = self.beside.observed();
-        let each = self.beside.rests.iter().map(|rest| {
-            let own = self.beside.components(rest, &components);
-            let squares = own.iter().map(|c| c * c);
-            let evidence = rest.evidence(squares, &self.beside.residual);
-            let statistic = evidence + space.blocks[rest.block].log_odds;
-            Strongest {
-                block: rest.block,
-                statistic,
-                allowed: statistic - allowance * rest.resemblance,
-            }
-        });
-        each.max_by(|a, b| a.allowed.total_cmp(&b.allowed))
+        [Reach::Few, Reach::Many].map(|reach| {
+            let rests = self.beside.rests.iter();
+            let rests = rests.filter(|rest| space.blocks[rest.block].reach == reach);
+            let each = rests.map(|rest| {
+                let own = self.beside.components(rest, &components);
+                let squares = own.iter().map(|c| c * c);
+                let evidence = rest.evidence(squares, &self.beside.residual);
+                let statistic = evidence + space.blocks[rest.block].log_odds;
+                Strongest {
+                    block: rest.block,
+                    statistic,
+                    allowed: statistic - allowance * rest.resemblance,
+                }
+            });
+            each.max_by(|a, b| a.allowed.total_cmp(&b.allowed))
+        })
     }
 
-    pub(super) fn simulated(
-        &self,
-        recordings: &Recordings,
-        pairs: Option<&Pairs>,
-    ) -> Vec<[f64; 2]> {
-        let (space, lanes) = (self.beside.space, recordings.errors.nrows());
+    /// The greatest statistics of each of some recordings.
+    pub(super) fn simulated(&self, recordings: &Recordings) -> Vec<Reaches> {
+        let space = self.beside.space;
         let set = &recordings.errors * &self.beside.frame.basis;
         let residuals = recordings.residuals(&set, self.beside.residual);
         let mut reduced;
@@ -157,9 +232,9 @@ impl<'a> Panel<'a> {
             self.beside.reduce(&mut reduced, &set);
             &reduced
         };
-        let mut out = vec![[f64::NEG_INFINITY; 2]; lanes];
-        let mut fits = vec![0.0; lanes];
-        let mut own = vec![0.0; lanes];
+        let mut out = vec![[f64::NEG_INFINITY; 2]; residuals.len()];
+        let mut fits = vec![0.0; residuals.len()];
+        let mut own = vec![0.0; residuals.len()];
         for class in &self.classes {
             fits.fill(0.0);
             for index in class {
@@ -171,33 +246,28 @@ impl<'a> Panel<'a> {
                 }
             }
             let rest = &self.beside.rests[class[0]];
-            let odds = space.blocks[rest.block].log_odds;
+            let block = &space.blocks[rest.block];
             for (lane, place) in out.iter_mut().enumerate() {
                 let squares = std::iter::once(fits[lane]);
-                let value = rest.evidence(squares, &residuals[lane]) + odds;
-                place[0] = place[0].max(value);
+                let value = rest.evidence(squares, &residuals[lane]) + block.log_odds;
+                let place = &mut place[block.reach as usize];
+                *place = place.max(value);
             }
         }
         for index in &self.generics {
             let rest = &self.beside.rests[*index];
             let turned = self.beside.turned(rest, components);
-            let odds = space.blocks[rest.block].log_odds;
+            let block = &space.blocks[rest.block];
             for (lane, place) in out.iter_mut().enumerate() {
+                let place = &mut place[block.reach as usize];
                 let squares = (0..turned.ncols()).map(|k| turned[(lane, k)] * turned[(lane, k)]);
                 // What cannot be the most need not be known.
-                if rest.at_most(squares.clone().sum(), &residuals[lane]) + odds <= place[0] {
+                if rest.at_most(squares.clone().sum(), &residuals[lane]) + block.log_odds <= *place
+                {
                     continue;
                 }
-                let value = rest.evidence(squares, &residuals[lane]) + odds;
-                place[0] = place[0].max(value);
-            }
-        }
-        if let Some(pairs) = pairs {
-            let rss: Vec<f64> = residuals.iter().map(|r| r.rss).collect();
-            let values = pairs.simulated(&recordings.components, &rss);
-            let in_turn = (pairs.singles).in_turn(space, &recordings.components, &rss);
-            for ((place, value), two) in out.iter_mut().zip(values).zip(in_turn) {
-                *place = [place[0].max(two), value];
+                let value = rest.evidence(squares, &residuals[lane]) + block.log_odds;
+                *place = place.max(value);
             }
         }
         out

@@ -199,6 +199,12 @@ impl Recordings {
         &self.chi_squared
     }
 
+    /// The same with what is known of the scale from elsewhere.
+    pub(super) fn rss(&self) -> Vec<f64> {
+        let both = self.chi_squared.iter().zip(&self.offsets);
+        both.map(|(sum, offset)| sum + offset).collect()
+    }
+
     /// What the residuals of each recording are when a set is absorbed, along whose basis the recordings
     /// have these components; degrees of freedom and scale as those of `like`.
     pub(super) fn residuals(&self, set: &DMatrix<f64>, like: Residual) -> Vec<Residual> {

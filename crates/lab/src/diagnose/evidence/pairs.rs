@@ -9,8 +9,9 @@ use std::collections::BTreeSet;
 use nalgebra::DMatrix;
 
 use super::closed_form::{Scale, maximum, named};
+use super::null::Recordings;
 use super::question::Kind;
-use super::space::Space;
+use super::space::{Block, Space};
 
 /// Pairs nearer than this explain no more together than one of them.
 const ALIKE: f64 = 0.995;
@@ -76,13 +77,13 @@ impl Singles {
     }
 
     /// The evidence of the best effect with the best one beside it, where the scale of the noise is estimated, for each of
-    /// some recordings: one per row, with their components along the directions of all blocks, and their sums of squares.
-    pub(super) fn in_turn(
-        &self,
-        space: &Space,
-        components: &DMatrix<f64>,
-        rss: &[f64],
-    ) -> Vec<f64> {
+    /// some recordings.
+    pub(super) fn simulated(&self, space: &Space, recordings: &Recordings) -> Vec<f64> {
+        self.in_turn(space, &recordings.components, &recordings.rss())
+    }
+
+    /// The same for recordings one per row, with their components along the directions of all blocks, and their sums of squares.
+    fn in_turn(&self, space: &Space, components: &DMatrix<f64>, rss: &[f64]) -> Vec<f64> {
         if self.scale == Scale::Known || self.each.is_empty() {
             return vec![f64::NEG_INFINITY; rss.len()];
         }
@@ -160,13 +161,14 @@ impl Pairs {
         }
     }
 
-    /// The greatest statistic of the recording: half the reduction of χ², with the prior odds.
-    pub(super) fn observed(&self, space: &Space) -> f64 {
-        maximum(&self.values(space))
+    /// The greatest statistics of the recording: of two in turn, and of two that mask each other, which is half the reduction of
+    /// χ² with the prior odds.
+    pub(super) fn observed(&self, space: &Space) -> [f64; 2] {
+        [self.singles.observed(space), maximum(&self.values(space))]
     }
 
-    /// The best pairs, as blocks of the space: of any two candidates the best of their variants.
-    pub(super) fn seeds(&self, space: &Space) -> Vec<[usize; 2]> {
+    /// The best pairs of blocks of the space that may be there: of any two candidates the best of their variants.
+    pub(super) fn seeds(&self, space: &Space, may_be: impl Fn(&Block) -> bool) -> Vec<[usize; 2]> {
         let values = self.values(space);
         let mut order: Vec<usize> = (0..values.len()).collect();
         order.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
@@ -176,6 +178,7 @@ impl Pairs {
             [pair.first, pair.second].map(|at| self.singles.each[at].block)
         });
         blocks
+            .filter(|pair| pair.iter().all(|block| may_be(&space.blocks[*block])))
             .filter(|pair| seen.insert(pair.map(|block| space.blocks[block].candidate)))
             .take(SEEDS)
             .collect()
@@ -189,9 +192,19 @@ impl Pairs {
         self.pairs.iter().map(value).collect()
     }
 
-    /// The same for simulated recordings, one per row, with their components along the directions of all
-    /// blocks.
-    pub(super) fn simulated(&self, components: &DMatrix<f64>, rss: &[f64]) -> Vec<f64> {
+    /// The same statistics of simulated recordings.
+    pub(super) fn simulated(&self, space: &Space, recordings: &Recordings) -> Vec<[f64; 2]> {
+        let rss = recordings.rss();
+        let in_turn = self.singles.in_turn(space, &recordings.components, &rss);
+        let masking = self.masking(&recordings.components, &rss);
+        in_turn
+            .into_iter()
+            .zip(masking)
+            .map(<[f64; 2]>::from)
+            .collect()
+    }
+
+    fn masking(&self, components: &DMatrix<f64>, rss: &[f64]) -> Vec<f64> {
         let lanes = components.nrows();
         let mut best = vec![f64::NEG_INFINITY; lanes];
         let weights: Vec<f64> = rss.iter().map(|rss| self.singles.weight(*rss)).collect();

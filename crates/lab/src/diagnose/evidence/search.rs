@@ -6,14 +6,14 @@ use std::ops::ControlFlow;
 
 use super::closed_form::log_sum;
 use super::departure::FORM;
-use super::detection;
+use super::detection::{self, Outcome};
 use super::findings::Level;
 use super::null::Simulated;
 use super::pairs::Pairs;
 use super::question::Kind;
 use super::refusal::Refusal;
 use super::remainders::Remainders;
-use super::space::{Frame, Space};
+use super::space::{Block, Frame, Reach, Space};
 use super::unlisted::Restated;
 
 /// At most this many effects at once.
@@ -53,6 +53,8 @@ pub(super) struct Search {
     pub(super) visited: Vec<Visited>,
     /// Named sets among them.
     seen: BTreeSet<Vec<usize>>,
+    /// Effects that fewer rows carry stood out at no level.
+    reach: Reach,
 }
 
 /// Adds effects until nothing is left that stands out.
@@ -68,6 +70,7 @@ pub(super) fn search(
         complete: None,
         visited: beam.clone(),
         seen: BTreeSet::new(),
+        reach: Reach::Many,
     };
     let mut masking: Vec<Visited> = Vec::new();
     for level in 0..=EFFECTS {
@@ -97,10 +100,12 @@ pub(super) fn search(
         if level == EFFECTS {
             break;
         }
-        beam = extend(space, &beam, &mut search);
+        search.reach = search.reach.min(outcome.reach);
+        beam = extend(space, &beam, &outcome, &mut search);
         match level {
             0 => {
-                let frames = (pairs.seeds(space).into_iter()).filter_map(|pair| space.frame(&pair));
+                let seeds = pairs.seeds(space, |block| outcome.admits(block));
+                let frames = seeds.into_iter().filter_map(|pair| space.frame(&pair));
                 masking = frames.map(|pair| Visited::of(space, pair)).collect();
                 search.visit(&masking);
             }
@@ -133,15 +138,16 @@ pub(super) fn needed(space: &Space, mut set: Frame, least: usize) -> Vec<usize> 
     set.blocks
 }
 
-/// All sets with one block more than those of the beam, the best first.
-fn extend(space: &Space, beam: &[Visited], search: &mut Search) -> Vec<Visited> {
+/// All sets with one block more than those of the beam, of those that may be what stands out: the best first.
+fn extend(space: &Space, beam: &[Visited], outcome: &Outcome, search: &mut Search) -> Vec<Visited> {
     let mut seen = BTreeSet::new();
     let mut next = Vec::new();
     let best = beam.iter().take(BEAM);
     for frame in best.filter_map(|set| space.frame(&set.named)) {
         let beside = Remainders::new(space, &frame);
         let observed = beside.observed();
-        for rest in &beside.rests {
+        let rests = beside.rests.iter();
+        for rest in rests.filter(|rest| outcome.admits(&space.blocks[rest.block])) {
             let Some(score) = beside.score(rest, &observed) else {
                 continue;
             };
@@ -186,6 +192,11 @@ fn by_score(a: &&Visited, b: &&Visited) -> Ordering {
 }
 
 impl Search {
+    /// Whether an effect may be what stood out at some level.
+    pub(super) fn admits(&self, block: &Block) -> bool {
+        block.reach >= self.reach
+    }
+
     /// Keeps named sets, each once.
     fn visit(&mut self, sets: &[Visited]) {
         let new = sets

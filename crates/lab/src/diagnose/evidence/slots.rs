@@ -61,7 +61,7 @@ pub(super) fn slots(
                 Member::Named(block) => Some(block),
                 Member::Generic(_) => None,
             };
-            let mut slot = slot(space, named, generic, member, again);
+            let mut slot = slot(space, search, named, generic, member, again);
             if block.is_some() {
                 contest(space, search, named, &mut slot);
             }
@@ -142,6 +142,7 @@ fn first_is(space: &Space, rest: &Frame, slot: &mut Slot, block: usize) {
 /// Generics that only say again what the set says have their odds discounted.
 fn slot(
     space: &Space,
+    search: &Search,
     named: &[usize],
     generic: Option<usize>,
     member: Member,
@@ -155,6 +156,7 @@ fn slot(
         Member::Generic(_) => (space.frame_of(named), None),
     };
     let mut scores = replacements(space, &rest, fixed);
+    scores.retain(|(block, _)| search.admits(&space.blocks[*block]));
     for (block, score) in &mut scores {
         *score -= again.discount(*block);
     }

@@ -66,6 +66,37 @@ pub(super) struct Block {
     pub(super) columns: DMatrix<f64>,
     /// Columns of a named atom that are determined.
     pub(super) kept: Vec<usize>,
+    /// What carries it.
+    pub(super) reach: Reach,
+}
+
+/// By how many rows an effect is carried.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Reach {
+    /// By fewer than the root of all: single wild readings look like it.
+    Few,
+    /// By more.
+    Many,
+}
+
+impl Reach {
+    /// Of directions, by their rows. So many rows are d/Σh², with the leverages h of all: by the inverse of it errors with heavy
+    /// tails make the variance of the sum of squares along the directions larger.
+    fn of(basis: &DMatrix<f64>) -> Reach {
+        let mut leverages = vec![0.0; basis.nrows()];
+        for column in basis.column_iter() {
+            for (leverage, x) in leverages.iter_mut().zip(column.iter()) {
+                *leverage += x * x;
+            }
+        }
+        let squares: f64 = leverages.iter().map(|leverage| leverage * leverage).sum();
+        let rows = basis.ncols() as f64 / squares;
+        match rows * rows >= basis.nrows() as f64 {
+            true => Reach::Many,
+            // What only makes all rows scatter has no directions.
+            false => Reach::Few,
+        }
+    }
 }
 
 /// All visible atoms, and the residuals that they are to explain.
@@ -315,6 +346,7 @@ fn block(
         candidate: atom.candidate,
         log_odds,
         form,
+        reach: Reach::of(&basis),
         basis,
         columns,
         kept,

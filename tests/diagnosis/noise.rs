@@ -303,9 +303,54 @@ fn heavy_tails_of_estimated_noise_raise_no_alarm() {
 
 #[test]
 fn one_wrong_reading_among_normal_ones_is_no_heavy_tail() {
-    let error = |noise: &mut Noise, row| noise.normal() + if row == 40 { 12.0 } else { 0.0 };
+    let error = |noise: &mut Noise, row| noise.normal() + if row == 40 { 16.0 } else { 0.0 };
     for seed in 1..=4 {
         let found = diagnosed_with("one-wrong", &load_cell(seed, error), LOAD_CELL);
         assert_eq!(named(&found), ["outlier"], "{found}");
+    }
+}
+
+/// A shift that every row of a series has is held against such effects, not against what single wild readings look like.
+#[test]
+fn a_shift_is_seen_beside_heavy_tails() {
+    let mut heavy = 0;
+    for seed in 1..=4 {
+        let mut noise = Noise(100 + seed);
+        let mut text = "probe,R [mΩ]\n".to_owned();
+        for row in 0..240_usize {
+            let shift = if row % 4 == 2 { 1.0 } else { 0.0 };
+            let reading = 97.0 + 0.3 * (shift + wild(&mut noise));
+            let _ = writeln!(text, "P{},{reading:.4}", row % 4 + 1);
+        }
+        let case = "equations = \"R = R_0\"\n[columns]\nR = \"output\"\nprobe = \"factor\"\n[parameter]\nR_0 = { start = \"97 mΩ\" }\n";
+        let found = diagnosed_with("shift-beside-tails", &text, case);
+        heavy += usize::from(origin(&found).contains("tails are heavier"));
+        let names = named(&found);
+        assert!(names.contains(&"level-shift".to_owned()), "{names:?}");
+        assert!(!names.contains(&"outlier".to_owned()), "{names:?}");
+    }
+    assert!(heavy >= 2);
+}
+
+/// A gyroscope whose output is 2.5 V at rest, and whose noise grows with the rate.
+#[test]
+fn noise_may_grow_about_the_zero_of_the_output() {
+    for seed in 1..=6 {
+        let mut noise = Noise(200 + seed);
+        let mut text = "rate [deg/s],U [V],t [s]\n".to_owned();
+        for row in 0..126_i32 {
+            let rate = f64::from(10 * (row % 21) - 100);
+            let u = libm::hypot(0.0005, 6e-5 * rate);
+            let reading = 2.5 + 0.02 * rate + u * noise.normal();
+            let _ = writeln!(text, "{rate},{reading:.5},{row}");
+        }
+        let case = "equations = \"U = a + b*rate\"\n[columns]\nrate = \"stimulus\"\nU = \"output\"\nt = \"time\"\n";
+        let found = diagnosed_with("grows-about-zero", &text, case);
+        assert_eq!(found["verdict"], "none", "{}", found["statement"]);
+        let growth = &found["noise"]["growth"][0];
+        assert_eq!(growth["with"], "signal", "{growth}");
+        let slope = growth["proportional"].as_f64().unwrap_or(0.0);
+        assert!((slope / 3e-3 - 1.0).abs() < 0.3, "{slope}");
+        assert!(origin(&found).contains("(y − y₀)"), "{}", origin(&found));
     }
 }

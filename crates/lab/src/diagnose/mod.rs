@@ -104,7 +104,7 @@ pub use held_out::{HeldOutQuality, Prediction};
 pub use improved::improved;
 pub use noise::Claimed;
 pub use noise_correlation::{Correlated, Memory};
-pub use noise_growth::Growth;
+pub use noise_growth::{Growth, Quantity};
 pub use noise_labels::ByLabel;
 pub use omitted::Omitted;
 pub use parts::Confirmation;

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, NoiseClaim, Origin, RestReadings, Role, hours};
+use super::catalogue::signal;
 use super::design::Design;
 use super::evidence::{self, Correlation, Covariance, Noise, Tails};
 use super::fit::{self, Fit, NoFit};
 use super::noise_correlation::{Correlated, Courses, Memory};
-use super::noise_growth::{self, DRAWS, Growth, Spread};
+use super::noise_growth::{self, DRAWS, Growth, Likely, Quantity, Spread};
 use super::noise_labels::{self, ByLabel};
 use super::reduced::reduced;
 use super::replicates::{self, Scatter};
@@ -536,7 +537,21 @@ pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
         let by_label = noise_labels::estimate(design, &values, &own);
         let even = DVector::from_element(blocks, 1.0);
         let scales = by_label.as_ref().map_or(&even, |labels| &labels.best);
-        let likely = noise_growth::estimate(design, response, &values, &own.component_div(scales));
+        let errors = own.component_div(scales);
+        let readings = [
+            (Quantity::Reading, values),
+            (
+                Quantity::Signal,
+                design.reduced(&signal(design, fit, response)),
+            ),
+        ];
+        let grown = |(_, y): &(_, Vec<f64>)| noise_growth::estimate(design, response, y, &errors);
+        let each = readings.iter().map(|reading| (reading, grown(reading)));
+        let gain = |likely: &Option<Likely>| likely.as_ref().map_or(0.0, |likely| likely.gain);
+        // Of equals the first.
+        let ((with, values), likely) = each
+            .reduce(|a, b| if gain(&b.1) > gain(&a.1) { b } else { a })
+            .unwrap_or((&readings[0], None));
         let spread = |scales: &DVector<f64>, spread: &Spread| {
             let factors = values.iter().map(|value| spread.at(*value));
             let factors = DVector::from_iterator(blocks, factors).component_mul(scales);
@@ -558,7 +573,7 @@ pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
         let unit = || design.case.responses[response].unit.typeset();
         // Of the mean label, where growth is 1.
         let mean = u[0] / best.at(values[0]) / scales[0] * scales.mean();
-        (claimed.growth).push(likely.map(|_| best.growth(mean, unit())));
+        (claimed.growth).push(likely.map(|_| best.growth(*with, mean, unit())));
         claimed.by_label.push(by_label.as_ref().map(|labels| {
             ByLabel {
                 column: design.case.columns[labels.column].name.clone(),

@@ -1,4 +1,5 @@
-//! Noise that grows with the reading: u² = a² + (b·y)².
+//! Noise that grows with the reading: u² = a² + (b·y)²; or with what the reading is above its zero, where the model has one: an
+//! output of 2.5 V at rest need not scatter more than one of 0 V.
 //!
 //! Whether it does is read from neighbours: each residual against the straight line between the residuals
 //! with the next smaller and the next larger modelled value, under the same labels. What a model leaves out
@@ -32,9 +33,20 @@ const LARGEST_RATIO: f64 = 5.0;
 /// Draws of a/b from what the recording leaves open.
 pub(super) const DRAWS: usize = 24;
 
-/// Noise of one response that grows with the reading: u² = a² + (b·y)².
+/// What noise may grow with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// The reading, y.
+    Reading,
+    /// The reading without the constant terms of the model, y − y₀.
+    Signal,
+}
+
+/// Noise of one response that grows: u² = a² + (b·y)².
 #[derive(Debug, Clone, PartialEq)]
 pub struct Growth {
+    /// y.
+    pub with: Quantity,
     /// a.
     pub constant: f64,
     /// Its unit, that of the response.
@@ -66,8 +78,9 @@ impl Spread {
     }
 
     /// With the standard uncertainty where [`Spread::at`] is one, in the unit of the response.
-    pub fn growth(&self, scale: f64, unit: String) -> Growth {
+    pub fn growth(&self, with: Quantity, scale: f64, unit: String) -> Growth {
         Growth {
+            with,
             unit,
             constant: scale * (1.0 - self.share).sqrt(),
             proportional: scale * self.share.sqrt() / self.level,
@@ -83,6 +96,8 @@ pub(super) struct Likely {
     pub best: Spread,
     /// In proportion to their likelihood.
     pub draws: Vec<Spread>,
+    /// By how much the likeliest has a smaller −2 ln L than constant noise.
+    pub gain: f64,
 }
 
 /// The shape of least −2 ln L, where it is less by more than `gain` than that of constant noise.
@@ -116,6 +131,7 @@ pub(super) fn likely(values: &[f64], gain: f64, misfit: impl Fn(&Spread) -> f64)
     (constant - best.1 > gain).then_some(Likely {
         best: Spread { share, level },
         draws,
+        gain: constant - best.1,
     })
 }
 
@@ -125,7 +141,8 @@ pub(super) struct Difference {
     pub(super) size: f64,
 }
 
-/// How the noise of a response grows with its modelled values; `None` where it does not, as far as can be seen.
+/// How the noise of a response grows with its modelled values, or with these without constant terms; `None` where it does not, as
+/// far as can be seen.
 pub(super) fn estimate(
     design: &Design<'_>,
     response: usize,

@@ -11,7 +11,7 @@ use gumption_lanes::{Block, Generator, LANES, level};
 use super::case::Data;
 use super::catalogue::modifiers::spacing;
 use super::design::Design;
-use super::noise_growth::{self, Growth, Spread};
+use super::noise_growth::{self, Growth, Quantity, Spread};
 use gumption_core::special::chi_squared_quantile;
 
 /// Gain in −2 ln L from which noise counts as growing: exceeded by chance in 5 % of recordings (one-sided,
@@ -126,7 +126,8 @@ fn of_response(design: &Design<'_>, response: usize, rows: &[Vec<usize>]) -> Opt
     let left = dof - f64::from(u8::from(likely.is_some()));
     let scale = |spread: &Spread| self::pooled(&groups, spread) * dof / left;
     let unit = design.case.responses[response].unit.typeset();
-    let growth = (likely.as_ref()).map(|_| best.growth(scale(&best).sqrt(), unit));
+    let growth =
+        (likely.as_ref()).map(|_| best.growth(Quantity::Reading, scale(&best).sqrt(), unit));
     let count = draws.len();
     let draw = |(index, spread): (usize, &Spread)| {
         // The two are open independently of each other: a step that meets every part of the distribution.

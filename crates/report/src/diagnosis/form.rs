@@ -11,7 +11,7 @@ use gumption_lab::diagnose::evidence::{
 };
 use gumption_lab::diagnose::{
     Addition, Adopted, ByLabel, Claimed, Diagnosis, Extra, Growth, HeldOutQuality, ModelVersion,
-    Prediction, Quality, Separating, Trouble, Unsettled,
+    Prediction, Quality, Quantity, Separating, Trouble, Unsettled,
 };
 
 use super::names::Names;
@@ -99,6 +99,11 @@ form! {
 
     /// Noise that grows with the reading y: u² = a² + (b·y)².
     GrowthForm<'a> of (growth: &'a Growth) {
+        /// What y is: "reading", or "signal", the reading without the constant terms of the model.
+        with: &'static str = match growth.with {
+            Quantity::Reading => "reading",
+            Quantity::Signal => "signal",
+        },
         /// a.
         constant: Number = Number(growth.constant),
         /// b.

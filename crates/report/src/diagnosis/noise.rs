@@ -5,7 +5,7 @@ use crate::language::Language;
 use crate::number::{freedom, significant};
 use gumption_fault::say;
 use gumption_lab::diagnose::case::{Case, NoiseClaim};
-use gumption_lab::diagnose::{Claimed, Memory, Origin};
+use gumption_lab::diagnose::{Claimed, Growth, Memory, Origin, Quantity};
 
 use super::words::p_is;
 
@@ -125,18 +125,28 @@ fn growth(claimed: &Claimed, l: Language) -> String {
         .map(|growth| {
             let constant = significant(growth.constant, 2);
             let proportional = significant(100.0 * growth.proportional, 2);
+            let y = match growth.with {
+                Quantity::Reading => "y",
+                Quantity::Signal => "(y − y₀)",
+            };
             match growth.unit.as_str() {
-                "" | "1" => format!("u² = {constant}² + ({proportional} % · y)²"),
-                unit => format!("u² = ({constant} {unit})² + ({proportional} % · y)²"),
+                "" | "1" => format!("u² = {constant}² + ({proportional} % · {y})²"),
+                unit => format!("u² = ({constant} {unit})² + ({proportional} % · {y})²"),
             }
         })
         .collect();
     if grows.is_empty() {
         return String::new();
     }
-    l.pick(", growing with the reading: ", "，随示值增大：")
-        .to_owned()
-        + &grows.join("; ")
+    let grows = grows.join("; ");
+    let about_zero = |growth: &Growth| growth.with == Quantity::Signal;
+    match claimed.growth.iter().flatten().any(about_zero) {
+        true => {
+            say!(", growing with the reading: {grows}, with the constant terms y₀ of the model")
+        }
+        false => say!(", growing with the reading: {grows}"),
+    }
+    .in_language(l)
 }
 
 /// How noise that was estimated differs from label to label, if it does for any response: by its u, or where that grows too, by what

@@ -458,7 +458,7 @@ pub fn varies(numbers: &[f64]) -> bool {
 }
 
 /// The model less its constant terms: those in which a parameter alone is added.
-fn signal(design: &Design<'_>, fit: &Fit, response: usize) -> Vec<f64> {
+pub fn signal(design: &Design<'_>, fit: &Fit, response: usize) -> Vec<f64> {
     let mut signal = fit.linear.values[response].clone();
     for parameter in constant_terms(design, fit, response) {
         for (row, value) in signal.iter_mut().enumerate() {

@@ -58,7 +58,7 @@ use nalgebra::{DMatrix, DVector};
 
 pub use effect::{Effect, EffectId, Kind, Pattern, Text, Usual, effects};
 pub use finer::Finer;
-pub use fitted::{FittedModel, Node};
+pub use fitted::{FittedModel, Node, signal};
 
 use super::case::Case;
 use super::evidence;

@@ -298,3 +298,61 @@ fn a_sloping_baseline_has_a_name() {
         assert!((value - truth).abs() < 4.0 * u, "{truth} {found}");
     }
 }
+
+/// The current of a photodiode in the dark doubles every nine kelvin: it is no parabola.
+#[test]
+fn a_dark_current_is_exponential_in_the_temperature() {
+    let mut noise = Noise(41);
+    let mut rows = "P [µW],T [°C],I [µA]\n".to_owned();
+    for row in 0..66 {
+        let (power, temperature) = (f64::from(row % 6), 10.0 + 5.0 * f64::from(row / 6));
+        let dark = 0.002 * libm::exp2((temperature - 25.0) / 9.0);
+        let current = 0.45 * power + dark + 0.001 * noise.normal();
+        let _ = writeln!(rows, "{power},{temperature},{current:.5}");
+    }
+    let case = "equations = \"I = R*P + I_0\"\n[columns]\nP = \"stimulus\"\nT = \"covariate\"\nI = \"output\"\n";
+    let found = diagnosed("dark", &rows, case);
+    assert_eq!(first_names(&found), ["exponential"], "{found}");
+    // `over 13 K`: 9 K/ln 2.
+    let width = variant(&found).split(' ').nth(1).map(str::parse::<f64>);
+    let Some(Ok(width)) = width else {
+        panic!("{}", variant(&found));
+    };
+    assert!((width / 12.98 - 1.0).abs() < 0.15, "{width}");
+}
+
+/// A probe that cools by one time constant in the model and by two in truth.
+#[test]
+fn a_second_relaxation_is_told_from_curvature() {
+    let mut noise = Noise(43);
+    let mut rows = "t,T\n".to_owned();
+    for row in 0..121 {
+        let t = 0.5 * f64::from(row);
+        let slow = 68.0 * libm::exp(-t / 14.0);
+        let fast = 12.0 * libm::exp(-t / 3.5);
+        let _ = writeln!(
+            rows,
+            "{t},{:.3}",
+            21.0 + slow + fast + 0.05 * noise.normal()
+        );
+    }
+    let case = "equations = \"T = T_a + D*exp(-t/tau)\"\n[columns]\nt = \"stimulus\"\nT = \"output\"\n[parameter]\nT_a = { start = 20 }\nD = { start = 80 }\ntau = { start = 12 }\n";
+    let found = diagnosed("relaxations", &rows, case);
+    assert_eq!(first_names(&found), ["exponential"], "{found}");
+}
+
+/// Abbe's offset: where the model takes the scale as exact, it is so at the height of zero and not at the mean height.
+#[test]
+fn a_condition_with_a_zero_acts_in_proportion() {
+    let mut noise = Noise(47);
+    let mut rows = "x [mm],height [mm],y [mm]\n".to_owned();
+    for row in 0..84 {
+        let (x, height) = (25.0 * f64::from(row % 21), 20.0 * f64::from(row / 21));
+        let y = x + 8e-8 * x * height + 3e-4 * noise.normal();
+        let _ = writeln!(rows, "{x},{height},{y:.5}");
+    }
+    let case = "equations = \"y = x + z\"\n[columns]\nx = \"stimulus\"\nheight = \"covariate\"\ny = \"output\"\n";
+    let found = diagnosed("abbe", &rows, case);
+    assert_eq!(first_names(&found), ["sensitivity-scale"], "{found}");
+    assert_eq!(variant(&found), "about zero");
+}

@@ -52,7 +52,7 @@ const FIXED: [(&str, &str); 30] = [
 ];
 
 /// Labels around a figure or a name: what stands before and after it, and the same in Chinese.
-const FORMS: [([&str; 2], [&str; 2]); 16] = [
+const FORMS: [([&str; 2], [&str; 2]); 17] = [
     (["", " % of the range"], ["", " % 量程"]),
     (["half at ", ""], ["半值点 ", ""]),
     (["period ", ""], ["周期 ", ""]),
@@ -66,6 +66,7 @@ const FORMS: [([&str; 2], [&str; 2]); 16] = [
     (["gap ", ""], ["间隙 ", ""]),
     (["step ", ""], ["步距 ", ""]),
     (["other axis ", ""], ["另一轴 ", ""]),
+    (["over ", ""], ["特征宽度 ", ""]),
     (["row ", ""], ["第 ", " 行"]),
     (["rows ", ""], ["第 ", " 行"]),
     (["from ", " on"], ["自 ", " 起"]),

@@ -2,10 +2,12 @@
 //! squared, as a rate, inversely, and together.
 
 use super::building::{decay, form, on_node, on_output, pair, time_constants, timed};
+use super::exponentials;
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
     centred, correlation, figure, five_digits, late, levels_of, map, map2, range,
 };
+use super::powers::zero_near;
 use super::sharp::sharpened;
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -24,6 +26,13 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     conditions.retain(|column| !fitted.in_model(*column));
     for column in &conditions {
         cells.extend(of_condition(fitted, *column));
+        // What leaks or diffuses does so by the energy of heat; nothing else that is only recorded does.
+        let is_hot = fitted.is_temperature(*column);
+        cells.extend(
+            is_hot
+                .then(|| exponentials::cell(fitted, *column))
+                .flatten(),
+        );
     }
     for column in conditions.iter().filter(|c| spreads(fitted, **c)) {
         cells.push(reciprocal(fitted, *column));
@@ -54,11 +63,13 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         ],
     };
     let on = |node: Node| delayed(fitted, column, node, &own);
-    let linear = |delayed: &[Variation]| -> Vec<Variation> {
+    let linear = |node: Node, delayed: &[Variation]| -> Vec<Variation> {
         let leading = leading(fitted, column, &own);
-        delayed.iter().cloned().chain(leading).collect()
+        let delayed = delayed.iter().cloned().chain(leading);
+        delayed.chain(about_zero(fitted, column, node)).collect()
     };
-    let delayed = on(Node::Output);
+    let (output, gain) = (Node::Output, Node::Gain);
+    let delayed = on(output);
     let square = delayed.iter().map(|late| {
         let squares = late.terms.iter().map(|term| term.modifier.square());
         Variation {
@@ -67,12 +78,14 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         }
     });
     let square = square.chain(squares(fitted, column)).collect();
-    let (output, gain) = (Node::Output, Node::Gain);
     let first = on_offset(fitted, column);
-    let mut effects = vec![(first, output, linear(&delayed)), (second, output, square)];
+    let mut effects = vec![
+        (first, output, linear(output, &delayed)),
+        (second, output, square),
+    ];
     if fitted.has_signal() {
         let second_on_scale = EffectId::SensitivityScaleQuadratic;
-        effects.push((on_scale, gain, linear(&on(gain))));
+        effects.push((on_scale, gain, linear(gain, &on(gain))));
         effects.push((second_on_scale, gain, squares(fitted, column)));
     }
     if fitted.is_timed() {
@@ -81,7 +94,7 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     }
     if !stimulus && stands_for_temperature(fitted, column) {
         let id = EffectId::UnrecordedTemperature;
-        effects.push((id, output, linear(&delayed)));
+        effects.push((id, output, linear(output, &delayed)));
     }
     let odds = match !stimulus && is_of_air(fitted, column) {
         true => AIR,
@@ -238,6 +251,15 @@ fn of_pair(fitted: &FittedModel<'_>, x: usize, z: usize) -> Vec<Cell> {
         cells.push(pair(fitted, id, [x, z], scale(fitted), forms));
     }
     cells
+}
+
+/// In proportion to the condition, not to what it differs from its middle: where the model holds exactly without it, a height above
+/// the scale or a time of waiting.
+fn about_zero(fitted: &FittedModel<'_>, column: usize, node: Node) -> Option<Variation> {
+    let constant = Term::new(node, Modifier::number(vec![1.0; fitted.rows()], "1"));
+    let is_exact = fitted.absorbed().leaves(&fitted.column(&constant));
+    let own = || form("about zero", vec![fitted.own(column)]);
+    (is_exact && zero_near(fitted, column)).then(own)
 }
 
 /// Whether the product of two conditions is likely to mean something: one of them is applied, or both are

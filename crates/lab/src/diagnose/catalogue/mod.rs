@@ -18,6 +18,7 @@
 //! | `axes` | the same where the model holds a constant against several columns, and between outputs |
 //! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
 //! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
+//! | `exponentials` | what grows or dies away along a column |
 //! | `heating`, `waves` | power of the signal, what repeats |
 //! | `readout` | rounding and slips, readings that stand still |
 //! | `angles`, `fields` | errors of angles; what stays in the laboratory while the sensor turns |
@@ -30,6 +31,7 @@ mod axes;
 mod building;
 mod conditions;
 mod effect;
+mod exponentials;
 mod fields;
 mod finer;
 mod fitted;

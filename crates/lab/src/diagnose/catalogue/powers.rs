@@ -131,13 +131,18 @@ fn zero_of_line(x: &[f64], y: &[f64]) -> Option<f64> {
 /// Without offset and slope in the model: the zero of the quantity, unless its scale begins anywhere or the
 /// recording is far from it.
 fn free_zero(fitted: &FittedModel<'_>, column: usize) -> f64 {
-    /// Range over largest value.
-    const NEAR: f64 = 0.2;
-    let has_zero = !fitted.case().columns[column].unit.is_point();
-    match has_zero && is_within(fitted.numbers(column), 0.0, NEAR) {
+    match zero_near(fitted, column) {
         true => 0.0,
         false => search_zero(fitted, column),
     }
+}
+
+/// Whether a quantity has a zero of its own, and the recording is not far from it.
+pub(super) fn zero_near(fitted: &FittedModel<'_>, column: usize) -> bool {
+    /// Range over largest value.
+    const NEAR: f64 = 0.2;
+    let has_zero = !fitted.case().columns[column].unit.is_point();
+    has_zero && is_within(fitted.numbers(column), 0.0, NEAR)
 }
 
 #[cfg(test)]

@@ -29,6 +29,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         cells.extend(powers(fitted, *column));
         cells.extend(background(fitted, *column));
         cells.extend(exponent(fitted, *column));
+        cells.extend(super::exponentials::cell(fitted, *column));
         cells.extend(super::limits::cells(fitted, *column));
         cells.extend(dynamics(fitted, *column));
         cells.extend(super::history::cells(fitted, *column));

@@ -1,0 +1,61 @@
+//! What changes exponentially with a column, faster and faster towards one end of what was recorded.
+
+use super::building::{on_node, on_output};
+use super::conditions::HIGHER;
+use super::fitted::{FittedModel, Node};
+use super::modifiers::{amount, five_digits, levels_of, map, range};
+use super::sharp::sharpened;
+use super::{Cell, EffectId, Modifier, Term, Variation};
+
+/// A part of the output that dies away from the least value on, or grows towards the largest one.
+pub(super) fn cell(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
+    /// Fewer values show no course.
+    const VALUES: usize = 6;
+    let levels = levels_of(fitted.numbers(column));
+    let is_clock = fitted.clock.column == Some(column);
+    if is_clock || fitted.is_angle(column) || levels.len() < VALUES {
+        return None;
+    }
+    // Within one step of the values it would be the first or the last of them alone.
+    let dying = course(fitted, column, -1.0, levels[0], levels[1] - levels[0]);
+    let [before, last] = [levels[levels.len() - 2], levels[levels.len() - 1]];
+    let growing = course(fitted, column, 1.0, last, last - before);
+    let variants = dying.into_iter().chain(growing);
+    let (id, name) = (EffectId::Exponential, fitted.label(column));
+    Some(Cell {
+        odds: HIGHER,
+        ..on_node(fitted, id, name, Node::Output, variants)
+    })
+}
+
+/// exp(±(x − x₀)/w), which is one at the end x₀, for several w.
+fn course(
+    fitted: &FittedModel<'_>,
+    column: usize,
+    sign: f64,
+    end: f64,
+    step: f64,
+) -> Vec<Variation> {
+    /// Of the range. Over more of it the course is a parabola.
+    const WIDTHS: [f64; 4] = [0.03, 0.06, 0.12, 0.25];
+    let x = fitted.numbers(column);
+    let (least, most) = range(x);
+    let unit = fitted.step_unit(column).after_number();
+    let term = |width: f64| -> Term {
+        let values = map(x, |x| libm::exp(sign * (x - end) / width));
+        let sign = if sign < 0.0 { "-" } else { "" };
+        let (along, width) = (fitted.less(column, end), amount(width, &unit));
+        on_output(Modifier::number(
+            values,
+            format!("exp({sign}{along}/({width}))"),
+        ))
+    };
+    let widths = WIDTHS.map(|part| five_digits(part * (most - least)));
+    let widths: Vec<f64> = widths.into_iter().filter(|width| *width >= step).collect();
+    let widths = fitted.finer.times(sharpened(fitted, widths, &term));
+    let each = widths.into_iter().map(five_digits).map(|width| {
+        let label = format!("over {}", amount(width, &unit));
+        Variation::one(label, term(width)).shaped("w", width, &unit)
+    });
+    each.collect()
+}

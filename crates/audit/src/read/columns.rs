@@ -114,6 +114,18 @@ pub fn names_factor(head: &str) -> bool {
     FACTOR.iter().any(|word| head.contains(word)) || FACTOR_ALONE.contains(&head.as_str())
 }
 
+/// Whether a head says by itself that its figures are limits, as `半宽` does and `数值` does not.
+pub fn names_limits(head: &str) -> bool {
+    let head = compact(head);
+    let of_limits =
+        |(role, how, _): &&(Role, How, &[&str])| *role == Role::Used && matches!(how, How::Has);
+    let mut words = WORDS
+        .iter()
+        .filter(of_limits)
+        .flat_map(|(_, _, words)| *words);
+    words.any(|word| head.contains(word))
+}
+
 /// In this order: the first that fits decides. Words are compact ones.
 #[rustfmt::skip]
 const WORDS: &[(Role, How, &[&str])] = &[

@@ -46,43 +46,45 @@ pub fn note(text: &str, at: Place, claimed: &mut Claimed) -> Option<&'static str
         claimed.correlations.extend(correlation);
         return Some("correlation");
     }
-    let mut role = rule(&lower, claimed).then_some("rule for k");
-    if has(
-        &lower,
-        &["round", "修约", "只进不舍", "进位", "舍入", "四舍"],
-    ) {
-        let up = [
-            "rounded up",
-            "round up",
-            "rounding up",
-            "upwards",
-            "only up",
-            "只进不舍",
-            "进位",
-            "always up",
-            "向上",
-            "up at",
-            "not down",
-        ];
-        let nearest = [
-            "nearest",
-            "usual",
-            "half-even",
-            "half even",
-            "half up",
-            "四舍",
-            "8170",
-            "80000",
-            "就近",
-        ];
-        if has(&lower, &up) {
-            claimed.rounding = RoundingStated::Up;
-        } else if has(&lower, &nearest) {
-            claimed.rounding = RoundingStated::Nearest;
-        }
-        role = role.or(Some("rule for rounding"));
+    let role = rule(&lower, claimed).then_some("rule for k");
+    let rounds = rounding(&lower, claimed).then_some("rule for rounding");
+    role.or(rounds)
+}
+
+/// Whether a text in small letters says how U is rounded, which is then the rule.
+pub fn rounding(lower: &str, claimed: &mut Claimed) -> bool {
+    const ABOUT: &[&str] = &["round", "修约", "只进不舍", "进位", "舍入", "四舍"];
+    const UP: &[&str] = &[
+        "rounded up",
+        "round up",
+        "rounding up",
+        "upwards",
+        "only up",
+        "只进不舍",
+        "进位",
+        "always up",
+        "向上",
+        "up at",
+        "not down",
+    ];
+    const NEAREST: &[&str] = &[
+        "nearest",
+        "usual",
+        "half-even",
+        "half even",
+        "half up",
+        "四舍",
+        "8170",
+        "80000",
+        "就近",
+    ];
+    let is_about = has(lower, ABOUT);
+    if is_about && has(lower, UP) {
+        claimed.rounding = RoundingStated::Up;
+    } else if is_about && has(lower, NEAREST) {
+        claimed.rounding = RoundingStated::Nearest;
     }
-    role
+    is_about
 }
 
 /// `the reported value is the mean of 5 readings`, without the name of a row.

@@ -154,11 +154,15 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
         if let Some((figure, behind)) = leading(rest).filter(|_| !rest.starts_with("inf")) {
             let text = behind.trim_start();
             // `U = 2 × 17.4 kPa = 35 kPa`, `U = 0.5 + 5 L µm = 1.0 µm`: what it comes to.
-            if (starts_product(text) || text.starts_with('+'))
+            if (starts_product(text) || starts_sum(text))
                 && let Some((_, result)) = text.split_once('=')
             {
                 rest = result.trim_start();
                 continue;
+            }
+            // `±(35 ppm of reading + 2.5 µV)`: a term of what is not said.
+            if starts_sum(text) {
+                return None;
             }
             // `1/5 of a division`: a part of what is not said.
             if figure.half == 0.5 && starts_quotient(text) && !text.contains('=') {
@@ -200,6 +204,13 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
 /// Whether a text begins with a sign of multiplication; an `x` is one between blanks.
 pub fn starts_product(text: &str) -> bool {
     text.starts_with(['×', '*', '·']) || text.starts_with("x ") || text.starts_with("X ")
+}
+
+/// Whether a text goes on to a further term of a sum, before its clause ends: `+ 5 L µm`, `读数 + 2.5 µV`.
+fn starts_sum(text: &str) -> bool {
+    let clause = text.split([',', ';', '，', '；', '。', '(', ')', '=', '/']);
+    let clause = clause.into_iter().next().unwrap_or_default();
+    clause.contains('+')
 }
 
 /// Whether a text begins with a sign of division by a number: `/√3`, and not `/m`.
@@ -337,12 +348,19 @@ pub fn sole_figure(text: &str) -> Option<Printed> {
         if level || crate::units::parse(&unit).is_none() {
             continue;
         }
-        if found.is_some() {
+        let front = lower[..start].trim_end().strip_suffix('+');
+        if found.is_some() || front.is_some_and(ends_term) {
             return None;
         }
         found = Some(Printed { unit, ..figure });
     }
     found
+}
+
+/// Whether a text ends with a term, to which what follows is added.
+fn ends_term(front: &str) -> bool {
+    let last = front.trim_end().chars().next_back();
+    last.is_some_and(|c| c.is_alphanumeric() || matches!(c, '%' | '‰' | '℃' | '°'))
 }
 
 /// Limits above and below, each with its sign: `+0.03 / −0.01 mm`, `between −0.01 mm and +0.03 mm`.
@@ -434,11 +452,28 @@ fn unit_in(lower: &str, whole: &str) -> String {
     original.unwrap_or(unit).to_string()
 }
 
-/// A unit of ratios without what it is a ratio of: `%FS`, `ppm×`.
-fn alone(unit: &str) -> &str {
+/// A unit of ratios without what it is a ratio of: `%FS`, `ppm×`, `% of reading`.
+pub fn alone(unit: &str) -> &str {
     const RATIOS: [&str; 5] = ["%", "％", "‰", "ppm", "ppb"];
-    const OF_WHAT: [&str; 7] = ["×", "*", "·", "fs", "f.s", "rdg", "of"];
-    let is_of = |rest: &str| OF_WHAT.iter().any(|what| rest.starts_with(what));
+    const OF_WHAT: [&str; 13] = [
+        "×",
+        "*",
+        "·",
+        "fs",
+        "f.s",
+        "rdg",
+        "of",
+        "reading",
+        "range",
+        "读数",
+        "示值",
+        "量程",
+        "满量程",
+    ];
+    let is_of = |rest: &str| {
+        let rest = rest.trim_start().to_lowercase();
+        OF_WHAT.iter().any(|what| rest.starts_with(what))
+    };
     let ratio = RATIOS
         .iter()
         .find(|ratio| unit.strip_prefix(**ratio).is_some_and(is_of));

@@ -245,7 +245,12 @@ fn follows_columns(row: &Row, line: &Line) -> bool {
     let Some((used, divisor)) = row.used.as_ref().zip(row.divisor.as_ref()) else {
         return true;
     };
-    let worked = used.value / divisor.value;
+    // A percentage of something is in the unit of the row as the part that it is.
+    let to_unit = match crate::units::fraction(&used.unit) {
+        Some(_) => row.relative_factor(),
+        None => 1.0,
+    };
+    let worked = to_unit * used.value / divisor.value;
     // What is stated is exact where it is the figure that was used, once or as its half.
     let copied = row.stated.figure().is_some_and(|stated| {
         let ratio = stated.value / used.value;

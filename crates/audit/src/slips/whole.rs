@@ -1,6 +1,6 @@
 //! Slips between the rows and the statement.
 
-use crate::calculate::{Case, Combined, Factor, Freedom, Printout, Ties, factors};
+use crate::calculate::{Case, Combined, Factor, Freedom, Printout, Ties};
 use crate::claim::Coverage;
 use crate::printed::Printed;
 
@@ -37,13 +37,10 @@ fn correlated(case: &Case<'_>, change: Change) -> Vec<(Option<usize>, Change)> {
 
 /// Where k is to be looked up at ν_eff: probability.
 fn by_t(case: &Case<'_>) -> Option<f64> {
-    factors(case.claimed)
-        .into_iter()
-        .find_map(|factor| match factor {
-            Factor::StudentT(p) => Some(p),
-            _ => None,
-        })
-        .filter(|_| matches!(case.right.factor, Factor::StudentT(_)))
+    match case.right.factor {
+        Factor::StudentT(p) => Some(p),
+        _ => None,
+    }
 }
 
 /// Degrees of freedom of the rows evaluated from readings.

@@ -148,3 +148,24 @@ fn reports_are_read_as_sentences() {
         "linear-sum"
     );
 }
+
+/// Words below a merged head that name limits say more than the head, and free its role for the column that has it.
+#[test]
+fn limits_below_a_merged_head_are_limits() {
+    let sheet = |part: &str, whole: [&str; 2]| {
+        format!(
+            "序号,不确定度来源,不确定度分量,,分布,包含因子,灵敏系数,标准不确定度分量\n\
+             ,,半宽/值,单位,,,|ci|,ui / mm\n\
+             1,量块的长度误差,1.2,µm,均匀,√3,1,0.000693\n\
+             2,卡尺与量块的温度差,1.0,℃,均匀,√3,0.00575 mm/℃,{part}\n\
+             3,卡尺分辨力 0.01 mm,0.005,mm,均匀,√3,1,0.00289\n\
+             4,测量重复性（单次测量的标准偏差，10次）,0.004,mm,正态,1,1,0.004\n\
+             合成标准不确定度 uc,,,,,,,{}\n扩展不确定度 U（k=2）,,,,,,,{}\n",
+            whole[0], whole[1]
+        )
+    };
+    let sound = sheet("0.00332", ["0.0060", "0.012"]);
+    assert_eq!(answer("sheet.csv", &sound), (Verdict::Sound, Vec::new()));
+    let bare = sheet("0.577", ["0.577", "1.2"]);
+    assert!(first("sheet.csv", &bare).starts_with("c-one@"), "{bare}");
+}

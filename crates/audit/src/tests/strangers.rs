@@ -381,3 +381,95 @@ fn a_share_of_a_named_amount_is_converted() {
     let of_range = sheet("DC voltage at 10 V", "\"Calibrator, of range\"", wrong);
     is_sound("sheet.csv", &of_range);
 }
+
+/// `±(3.5×10⁻⁶ of reading + 2.5 µV)`: no term of a sum is the figure, the ± column is.
+#[test]
+fn a_term_of_a_sum_is_no_figure() {
+    let sheet = |u_c: &str, expanded: &str| {
+        format!(
+            "符号,来源,分布,区间半宽 a,k,标准不确定度 u_i,灵敏系数,u_i(y)\n\
+             u1,标准源最大允许误差 ±(3.5×10⁻⁶读数+2.5 µV),均匀,37.5 µV,√3,21.7 µV,-1,21.7 µV\n\
+             u2,被检表分辨力 10 µV,均匀,5 µV,√3,2.9 µV,1,2.9 µV\n\
+             u3,\"测量重复性 s=12 µV，n=10，取平均值\",正态,—,—,3.8 µV,1,3.8 µV\n\
+             合成标准不确定度 u_c = {u_c} µV\n扩展不确定度 U = {expanded} µV (k=2)\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("22.2", "44"));
+    assert_eq!(first("sheet.csv", &sheet("28.4", "57")), "linear-sum");
+}
+
+/// A unit of ratios that says of what it is one; the amount stands in the title, and contributions show that it was taken.
+#[test]
+fn a_unit_may_say_of_what_it_is_a_part() {
+    let sheet = |divisor: &str, drift: &str, whole: [&str; 2]| {
+        format!(
+            "Calibration of a gauge at 10 bar\n\
+             Symbol,Source of uncertainty,Value (±),Unit,Probability distribution,Divisor,ci,ui (bar),vi\n\
+             CR,\"Reference gauge, certificate U at k = 2\",0.0032,bar,Normal,2,1,0.0016,∞\n\
+             DR,Drift of the reference since its calibration,0.02,% of reading,Rectangular,{divisor},1,{drift},∞\n\
+             RES,\"Resolution, half of 0.01 bar\",0.005,bar,Rectangular,√3,1,0.00289,∞\n\
+             uc(P),Combined standard uncertainty,,,Normal,,,{},\nU,Expanded uncertainty,,,Normal (k = 2),,,{},\n",
+            whole[0], whole[1]
+        )
+    };
+    is_sound("sheet.csv", &sheet("√3", "0.00115", ["0.0035", "0.0070"]));
+    let halved = sheet("2", "0.001", ["0.00345", "0.0069"]);
+    assert_eq!(first("sheet.csv", &halved), "half-width-by-2@DR");
+}
+
+/// Of a percentage the ± and the divisor give the part, where they are held against a coarse figure.
+#[test]
+fn coarse_figures_of_parts_are_held_against_parts() {
+    let sheet = "Volumetric flow of 120 L/min\nSource,Input uncertainty,Type,Divisor,Std. uncertainty (L/min)\n\
+        \"Reference meter (cert. U, k=2)\",0.05 %,B,2,0.03\nTemperature correction,±0.02 %,B,√3,0.0139\n\
+        Counter resolution ±0.05 L/min,±0.05 L/min,B,√3,0.0289\nRepeatability (mean),0.03 %,A,1,0.036\n\
+        Combined,,,,0.0568\nExpanded (k=2),,,,0.11\n";
+    is_sound("sheet.csv", sheet);
+}
+
+/// `Expanded uncertainty | k = | 2 | 0.6`, with k below the coefficients: no row of an input.
+#[test]
+fn the_factor_of_the_whole_may_stand_below_the_coefficients() {
+    let sheet = |u_c: &str, expanded: &str| {
+        format!(
+            "i,Source,Xi ± (%),PDF,Factor,ci,ui(y) %\n1,\"Reference, U (k = 2)\",0.5,normal,2,1,0.25\n\
+             2,Reference drift,0.2,rectangular,√3,1,0.115\n3,\"Repeatability, s of mean of 3\",0.08,normal,1,1,0.08\n\
+             ,Combined uncertainty,,,,,{u_c}\n,Expanded uncertainty,,,k =,2,{expanded}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.287", "0.57"));
+    let dropped = first("sheet.csv", &sheet("0.275", "0.55"));
+    assert!(dropped.starts_with("row-dropped@"), "{dropped}");
+}
+
+/// Where the sheet states no rule for k, it may have been looked up for either probability.
+#[test]
+fn a_factor_is_looked_up_for_the_probability_that_fits() {
+    let sheet = |k: &str, expanded: &str| {
+        format!(
+            "Quantity,Standard uncertainty,Probability distribution,Degrees of freedom,Sensitivity coefficient,Uncertainty contribution\n\
+             \"t_S (certificate: U = 0.012 °C, k = 2)\",0.0060 °C,normal,∞,1,0.0060 °C\n\
+             δt_D (drift ±0.010 °C),0.0058 °C,rectangular,∞,1,0.0058 °C\n\
+             δt_B (bath gradient ±0.006 °C),0.0035 °C,rectangular,∞,1,0.0035 °C\n\
+             \"t_X (mean of 4 readings, s = 0.021 °C)\",0.0105 °C,normal,3,-1,-0.0105 °C\n\
+             Correction,,,9,,0.0138 °C\n\n\
+             \"Expanded uncertainty U = {expanded} °C, k = {k}, coverage probability 95.45 %\"\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("2.32", "0.032"));
+    assert_eq!(first("sheet.csv", &sheet("3.31", "0.046")), "k-of-typeA");
+}
+
+/// The label of U may say how it is rounded.
+#[test]
+fn a_label_may_have_the_rule_for_rounding() {
+    let sheet = |expanded: &str| {
+        format!(
+            "Contribution,Limits / U,Unit,Dist.,Div.,ci,u(y) / mg\n\"Reference weight (certificate, k=2)\",0.15,mg,N,2,1,0.075\n\
+             Drift of the reference,0.1,mg,R,√3,1,0.0577\n\"Repeatability, mean of 3 cycles, s = 0.104 mg\",0.06,mg,N,1,1,0.06\n\
+             uc,,,,,,0.1121\n\"U (k=2), rounded up to the last digit\",,,,,,{expanded}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.23"));
+    assert_eq!(first("sheet.csv", &sheet("0.22")), "rounded-down");
+}

@@ -78,6 +78,7 @@ fn footer_row(
     let measurand = claimed.measurand.clone();
     let (mut open, mut open_unit, mut found): (Option<Whole>, String, bool) =
         (None, String::new(), false);
+    let mut behind_factor: Option<Whole> = None;
     let labels = cells
         .iter()
         .filter(|(_, text)| footer::label(text, &measurand).is_some())
@@ -116,6 +117,10 @@ fn footer_row(
             }
             let relative = || (text == "W" && labels == 0).then_some(Whole::Expanded);
             if let Some(whole) = footer::label(text, &measurand).or_else(relative) {
+                // `Expanded uncertainty | k = | 2 | 0.6`: behind its factor U is still open.
+                if whole == Whole::Factor && open != Some(whole) {
+                    behind_factor = open.take();
+                }
                 // `U | Expanded uncertainty`: symbol and words of the same figure.
                 open = Some(whole);
                 open_unit = match whole {
@@ -124,6 +129,10 @@ fn footer_row(
                         String::new()
                     }
                     Whole::Freedom => String::new(),
+                    Whole::Expanded => {
+                        notes::rounding(&text.to_lowercase(), claimed);
+                        columns::apart(text).1
+                    }
                     _ => columns::apart(text).1,
                 };
             }
@@ -195,6 +204,10 @@ fn footer_row(
         if footer::set(&mut claimed.footer, whole, figure.at(place)) {
             understood(claimed, place, text, Some(whole));
             found = true;
+        }
+        if whole == Whole::Factor && behind_factor.is_some() {
+            open = behind_factor.take();
+            continue;
         }
         let keeps = by_column.is_some() && inside;
         if !keeps && labels > 1 {

@@ -305,6 +305,25 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
                 column.unit = unit;
             }
         }
+    } else if let Some(below) = below_merged {
+        let words = (0..grid.rows[located.head].len()).map(|index| {
+            let own = below.iter().find(|(column, _)| *column == index);
+            let above = || grid.cell(located.head, index).text.as_str();
+            (index, own.map_or_else(above, |(_, text)| *text))
+        });
+        let words: Vec<(usize, &str)> = words.filter(|(_, text)| !text.is_empty()).collect();
+        let mut columns = roles(&words, mapping, &|index| names_below(grid, row, index));
+        relative_contributions(grid, row, &mut columns);
+        // Names without a head.
+        for column in located.columns.drain(..) {
+            if columns
+                .iter()
+                .all(|c| c.index != column.index && c.role != column.role)
+            {
+                columns.push(column);
+            }
+        }
+        located.columns = columns;
     } else if named * 2 > filled.len() && named >= 3 {
         for column in roles(&filled, mapping, &|index| names_below(grid, row, index)) {
             let free = !located
@@ -315,13 +334,6 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
                 located.columns.push(column);
             }
         }
-    } else if let Some(columns) = below_merged {
-        for column in columns {
-            located.columns.retain(|c| c.index != column.index);
-            if !located.has(column.role) {
-                located.columns.push(column);
-            }
-        }
     } else {
         return;
     }
@@ -329,14 +341,14 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
     located.end = row + 1;
 }
 
-/// The columns that a merged head stands above, by the words below it: `分布及包含因子` above `分布` and `包含因子 k`. All
-/// words of the line name a column, and one at least stands behind the first column of a head that spans several.
-fn below_merged(
+/// The words below merged heads that say more than these: `分布` and `包含因子 k` below `分布及包含因子`. All words of the
+/// line name a column, and one at least stands behind the first column of a head that spans several.
+fn below_merged<'g>(
     grid: &Grid,
     head: usize,
-    filled: &[(usize, &str)],
+    filled: &[(usize, &'g str)],
     mapping: &Mapping,
-) -> Option<Vec<Column>> {
+) -> Option<Vec<(usize, &'g str)>> {
     let row = head + 1;
     let columns = roles(filled, mapping, &|index| names_below(grid, row, index));
     let spanned = |index: usize| {
@@ -347,6 +359,13 @@ fn below_merged(
     };
     let is_head = columns.len() == filled.len() && filled.iter().any(|(i, _)| spanned(*i));
     // `数值 | 单位` below a head of figures says no more of them than that.
-    let says = |c: &Column| !matches!(c.role, Role::Value | Role::Used | Role::Derived);
-    is_head.then(|| columns.into_iter().filter(says).collect())
+    let says = |(index, text): &(usize, &str)| {
+        let role = columns.iter().find(|c| c.index == *index).map(|c| c.role);
+        match role {
+            Some(Role::Used) => columns::names_limits(text),
+            Some(Role::Value | Role::Derived) | None => false,
+            Some(_) => true,
+        }
+    };
+    is_head.then(|| filled.iter().filter(|both| says(both)).copied().collect())
 }

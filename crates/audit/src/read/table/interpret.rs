@@ -83,7 +83,7 @@ fn nominal(claimed: &Claimed) -> Option<Printed> {
         .flat_map(|text| words::figures_with_units(text));
     let amounts: Vec<Printed> = claimed.footer.y.iter().cloned().chain(named).collect();
     let shows = |row: &Row, amount: &Printed, ratio: f64| {
-        let (u, part) = row.u.as_ref().zip(row.part_of(amount))?;
+        let (u, part) = row.made().zip(row.part_of(amount))?;
         let (stated, _) = row.stated.standard()?;
         Some(u.is_met_within(stated * part * ratio, u.half_of_digits() + 0.01 * u.value))
     };
@@ -184,10 +184,21 @@ fn not_counted(words: &str) -> Option<String> {
 }
 
 impl Row {
+    /// The standard uncertainty that the laboratory has, or the contribution where it is the same figure.
+    fn made(&self) -> Option<Printed> {
+        let is_one = |c: &Printed| c.value.abs() == 1.0 && units::parse(&c.unit).is_none();
+        let contribution = || {
+            let part = self.contribution.clone();
+            part.filter(|_| self.c.as_ref().is_none_or(is_one))
+        };
+        let figure = self.u.clone().or_else(contribution)?;
+        let value = figure.value.abs();
+        Some(Printed { value, ..figure })
+    }
+
     /// What a unit of a percentage without an estimate is in the unit of u, where it is of this amount.
     fn part_of(&self, amount: &Printed) -> Option<f64> {
-        let of_unit = |u: &&Printed| units::fraction(&u.unit).is_none();
-        let u = self.u.as_ref().filter(of_unit)?;
+        let u = self.made().filter(|u| units::fraction(&u.unit).is_none())?;
         match self.relative {
             Relative::OfValue(fraction) if self.value.is_none() => {
                 let factor = units::factor(&amount.unit, &u.unit)?;
@@ -213,7 +224,10 @@ impl Row {
             .unwrap_or_default();
         let unit_of =
             |figure: &Option<Printed>| figure.as_ref().map(|f| f.unit.clone()).unwrap_or_default();
-        let (u, used, value) = (unit_of(&self.u), unit_of(&self.used), unit_of(&self.value));
+        let (mut u, used, value) = (unit_of(&self.u), unit_of(&self.used), unit_of(&self.value));
+        if matches!(self.relative, Relative::OfFullScale(..)) {
+            u = unit_of(&self.made());
+        }
         let relative_y = units::fraction(y_unit).is_some();
         let fraction = units::fraction(&stated_unit).is_some();
         let candidates = if fraction && !relative_y {

@@ -154,7 +154,14 @@ fn what(grid: &Grid, row: usize, located: &Located, joined: bool) -> What {
                     "u_c" | "uc" | "u(c)" | "U" | "k" | "u_c(y)" | "ν_eff" | "νeff"
                 )
         });
-    if labelled && (strong && !figure(Role::C) || !inputs && !explained) {
+    // Of `Expanded uncertainty | k = | 2 | 0.6` the factor stands where the others have a coefficient.
+    let factor = located.column(Role::C).is_some_and(|c| {
+        let in_front = grid.filled(row).filter(|(column, _)| *column < c.index);
+        let label = in_front.last().map(|(_, cell)| cell.text.as_str());
+        label.and_then(|text| footer::label(text, "")) == Some(footer::Whole::Factor)
+    });
+    let coefficient = figure(Role::C) && !factor;
+    if labelled && (strong && !coefficient || !inputs && !explained) {
         return What::Footer;
     }
     let told = joined && !text(Role::Remark).is_empty() && grid.filled(row).count() >= 2;

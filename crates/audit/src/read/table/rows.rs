@@ -4,7 +4,7 @@ use crate::claim::{Figure, Row};
 use crate::printed::{Place, Printed};
 use crate::read::columns::{Role, names_factor};
 use crate::read::footer::Whole;
-use crate::read::words::has;
+use crate::read::words::{alone, has};
 use crate::sheet::Grid;
 use crate::units;
 
@@ -147,6 +147,7 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
         if figure.unit.is_empty() && matches!(role, Role::Value | Role::Used | Role::U) {
             figure.unit = unit_beside(column.index).to_string();
         }
+        figure.unit = alone(&figure.unit).to_string();
         let is_power = units::power_of_ten(&figure.unit).is_some();
         if units::parse(&figure.unit).is_none() && !is_power && !matches!(role, Role::C) {
             figure.unit.clear();
@@ -229,7 +230,7 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
             c: figure(Role::C),
             contribution: figure(Role::Contribution),
             dof: figure(Role::Dof).map(as_infinite),
-            unit: unit_beside(0).to_string(),
+            unit: alone(unit_beside(0)).to_string(),
             is_hidden: grid.hidden_rows.contains(&row),
             distribution: text(Role::Distribution),
             share: share(grid, row, located),

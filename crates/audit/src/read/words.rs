@@ -583,7 +583,10 @@ pub fn symbol_at(text: &str, symbol: &str, from: usize) -> Option<usize> {
         let (start, end) = (at + found, at + found + symbol.len());
         let free = !text[..start].chars().next_back().is_some_and(part)
             && !text[end..].chars().next().is_some_and(part);
-        if free && !(symbol == "a" && is_article(&text[end..])) {
+        // `V.calibration` is a component of V, and has u of its own.
+        let mut behind = text[end..].chars();
+        let is_owner = behind.next() == Some('.') && behind.next().is_some_and(char::is_alphabetic);
+        if free && !is_owner && !(symbol == "a" && is_article(&text[end..])) {
             return Some(start);
         }
         at = start + text[start..].chars().next().map_or(1, char::len_utf8);

@@ -186,3 +186,23 @@ fn a_turned_table_ends_before_its_sum() {
     let u = claims[0].rows[1].u.as_ref().expect("u");
     assert_eq!(u.at.a1(), "C5");
 }
+
+/// The names of sources alone are heads of standard uncertainties where the sums of the rows show it.
+#[test]
+fn points_in_rows_below_the_names_of_sources() {
+    let sheet = |second: &str, third: &str| {
+        format!(
+            "Platinum thermometers\nTemperature,Reference,Bath,Repeatability,u_c,U (k = 2)\n\
+             20 °C,0.010,0.006,0.012,0.0167,0.033\n50 °C,0.012,0.006,0.012,{second}\n100 °C,0.015,0.008,0.014,{third}\n"
+        )
+    };
+    let titles =
+        ["20 °C", "50 °C", "100 °C"].map(|point| format!("Platinum thermometers: {point}"));
+    let titles: Vec<&str> = titles.iter().map(String::as_str).collect();
+    all_sound(&sheet("0.0180,0.036", "0.0220,0.044"), &titles);
+    let added = verdicts(&sheet("0.0300,0.060", "0.0220,0.044"));
+    assert_eq!(added[1].1, Verdict::WithEffect);
+    // No row follows: nothing says that these are figures of u.
+    let none = sheet("0.0300,0.060", "0.0370,0.074").replace("0.0167", "0.0280");
+    assert_eq!(verdicts(&none).len(), 0);
+}

@@ -473,3 +473,50 @@ fn a_label_may_have_the_rule_for_rounding() {
     is_sound("sheet.csv", &sheet("0.23"));
     assert_eq!(first("sheet.csv", &sheet("0.22")), "rounded-down");
 }
+
+/// Deliveries of a pipette are readings, as are weighings and indentations.
+#[test]
+fn readings_have_names_of_their_own() {
+    let sheet = |what: &str, u: &str, whole: [&str; 2]| {
+        format!(
+            "Influence,Value,Unit,Type,Distribution,Std. uncertainty u(x),Sensitivity coefficient c,c·u(x) in µL\n\
+             \"Balance (certificate U = 0.12 mg, k = 2)\",0.12,mg,B,normal,0.06,1.003 µL/mg,0.0602\n\
+             \"Repeatability: s = 0.9 µL, 10 {what}, mean reported\",0.9,µL,A,normal,{u},1,{u}\n\
+             Temperature of the pipette ±0.5 °C,0.5,°C,B,rectangular,0.289,0.24 µL/°C,0.0693\n\
+             Combined standard uncertainty u_c,,,,,,,{}\nExpanded uncertainty U (k = 2),,,,,,,{}\n",
+            whole[0], whole[1]
+        )
+    };
+    for what in ["deliveries", "weighings", "replicates"] {
+        is_sound("sheet.csv", &sheet(what, "0.2846", ["0.299", "0.60"]));
+        let single = first("sheet.csv", &sheet(what, "0.9", ["0.905", "1.8"]));
+        assert!(single.starts_with("s-not-mean@"), "{single}");
+    }
+}
+
+/// `Value` is what was divided where the divisor gives u in one row of two, of which the other has a slip.
+#[test]
+fn a_value_that_gives_u_was_divided() {
+    let sheet = |u: &str, whole: [&str; 2]| {
+        format!(
+            "Source,Value,Unit,Distribution,Divisor,u\nCertificate (k=2),0.05,mm,normal,2,0.025\n\
+             Drift,0.02,mm,rectangular,1.732,{u}\nCombined standard uncertainty,,,,,{}\nExpanded uncertainty (k=2),,,,,{}\n",
+            whole[0], whole[1]
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.0115", ["0.0275", "0.055"]));
+    let undivided = first("sheet.csv", &sheet("0.0200", ["0.0320", "0.064"]));
+    assert!(undivided.starts_with("root3-missing@"), "{undivided}");
+}
+
+/// What is said of `V.repeatability` is said of a component of V, and not of V.
+#[test]
+fn a_component_is_not_its_quantity() {
+    let report = "Model: R = V / I\n\n\
+        quantity;estimate;unit;u;distribution;ν;c;c·u;%\nV;1.00015;V;6.76×10^-5;;3.6;100.0;0.00676;25.5\n\
+        repeatability;;V;6.45×10^-5;t (A);3;;0.00645;23.3\ncalibration;;V;2.00×10^-5;normal (B);∞;;0.00200;2.2\n\
+        I;10.0000;mA;0.00115;uniform (B);∞;-10.00;-0.0115;74.5\nR;100.015;Ω;0.0134;;55.4;;0.0134;100.0\n\n\
+        coverage factor;k = 2.00\nexpanded uncertainty;U = 0.027 Ω\n\n\
+        component;type;how u was found\nV.repeatability;A;s/√n, s = 0.0001290994, n = 4\nV.calibration;B;U/k = 4×10^-5/2\n";
+    is_sound("report.csv", report);
+}

@@ -31,6 +31,6 @@ pub(super) const TWO_POINT: &[&str] = &["two-point", "two point", "dirac", "两�
 #[rustfmt::skip]
 pub(super) const RECTANGULAR: &[&str] = &["rect", "rectang", "rechteck", "gleichverteil", "uniform", "均匀", "矩形"];
 #[rustfmt::skip]
-pub(super) const READINGS: &[&str] = &["reading", "measurement", "observation", "repeat", "determination", "indications", "values", "runs", "cycle", "次"];
+pub(super) const READINGS: &[&str] = &["reading", "measurement", "observation", "repeat", "determination", "indications", "values", "runs", "cycle", "weighing", "deliver", "dispens", "injection", "replicate", "indentation", "impact", "shots", "comparisons", "loadings", "mountings", "aliquots", "次"];
 #[rustfmt::skip]
 pub(super) const MEAN: &[&str] = &["mean of", "average of", "averages of", "means of", "mean over", "m =", "m=", "reported as mean of", "averaged over", "取平均"];

@@ -27,14 +27,14 @@ const OF_THE_MEAN: &[&str] = &[
     "sdm",
     "s of mean",
     "s of the mean",
-    "s/√",
-    "s / √",
-    "s/sqrt",
     "esdm",
     "平均值的标准",
     "平均值的实验标准",
     "均值的标准",
 ];
+
+/// The same, as the formula of what the figure is.
+const OF_ROOT: &[&str] = &["s/√", "s / √", "s/sqrt"];
 
 /// What says that a figure is that of single readings.
 const OF_SINGLE: &[&str] = &[
@@ -92,7 +92,11 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     // `repeatability, mean of 5`, with u as it stands: it is not said that the figure is that of single readings.
     let m = behind(text, e, n);
     let unsaid = !has(text, OF_SINGLE) && m.is_none_or(|m| n == Some(m));
-    let of_mean = has(text, OF_THE_MEAN) || unsaid && e.u_is_used();
+    // `s/√n, s = 0.013, n = 4` says what is computed, and s is of single readings.
+    let computed = has(text, OF_ROOT) && has(text, &["s =", "s="]);
+    let of_mean = has(text, OF_THE_MEAN) || has(text, OF_ROOT) && !computed;
+    let of_mean = of_mean || unsaid && e.u_is_used();
+    let m = m.or(n.filter(|_| computed));
     let by_u = || e.u.map(|u| s.value / u.value).filter(|d| d.is_finite());
     let squared = e
         .divisor

@@ -13,6 +13,8 @@ struct Column {
     unit: String,
     /// Which figure of the whole it holds; nothing for a source.
     whole: Option<Whole>,
+    /// Whether its head says that its figures are standard uncertainties.
+    is_said: bool,
 }
 
 /// The sheet with one table, the usual way round, for each of the rows below these heads.
@@ -29,9 +31,11 @@ pub(super) fn parted(grid: &Grid, head: usize) -> Option<Vec<Grid>> {
     let one_unit = sources.iter().all(|source| source.unit == *unit);
     let rows = rows_below(grid, head);
     let fits = |row: &&usize| is_sum(grid, **row, &sources, &whole);
-    // That one row alone is a sum may be chance where its first head does not say that it is of a point.
-    let fewest = if names_points(&cell.text) { 1 } else { 2 };
-    let are_sums = rows.len() >= fewest && 2 * rows.iter().filter(fits).count() > rows.len();
+    // That one row alone is a sum may be chance where its heads do not say what it is of.
+    let are_said = names_points(&cell.text) && sources.iter().all(|source| source.is_said);
+    let fewest = if are_said { 1 } else { 2 };
+    let sums = rows.iter().filter(fits).count();
+    let are_sums = sums >= fewest && 2 * sums > rows.len();
     if sources.len() < 2 || !one_unit || !are_sums {
         return None;
     }
@@ -78,12 +82,16 @@ fn column(index: usize, head: &str) -> Option<Column> {
             .chars()
             .nth(1)
             .is_some_and(|c| "_(0123456789 ".contains(c));
-    let is_source = is_u || role(head).is_some_and(|(role, _)| role == Role::U);
-    (whole.is_some() || is_source).then_some(Column {
+    let role = role(head).map(|(role, _)| role);
+    let is_said = is_u || role == Some(Role::U);
+    // The name of a source alone: what its figures are, the sums show.
+    let is_name = matches!(role, None | Some(Role::Name | Role::Remark));
+    (whole.is_some() || is_said || is_name).then_some(Column {
         index,
         name,
         unit,
         whole,
+        is_said,
     })
 }
 

@@ -154,6 +154,7 @@ fn accident(row: &Row, right: Line, own: &[Act]) -> f64 {
                 return 0.0;
             }
             let all = lines(Group::U).chain(lines(Group::C));
+            let all = all.chain(lines(Group::Contribution));
             chance::of_row(&figure, all.map(|line| line.contribution().abs()))
         }
         _ => 0.0,

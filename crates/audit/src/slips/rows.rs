@@ -224,7 +224,14 @@ pub(super) const SLIPS: &[Slip] = &[
     Slip { id: "c-one", rule: "3/6", weight: Error,
         en: "the sensitivity coefficient was left out (taken as 1)",
         zh: "漏乘灵敏系数（当作 1）",
-        acts: |case| each(case, |i, _| if case.right.lines[i].c.abs() == 1.0 { Vec::new() } else { vec![Change::C(1.0)] }) },
+        acts: |case| each(case, |i, row| {
+            let line = case.right.lines[i];
+            // The column of coefficients may have it, and the contributions not.
+            let both = row.c.is_some() && row.contribution.is_some();
+            let unused = both.then_some(Change::Typed(line.u * line.to_y));
+            let acts = unused.into_iter().chain([Change::C(1.0)]);
+            acts.filter(|_| line.c.abs() != 1.0).collect()
+        }) },
     Slip { id: "degrees", rule: "48", weight: Warning,
         en: "degrees were used where the derivative needs radians",
         zh: "导数需用弧度处用了度",

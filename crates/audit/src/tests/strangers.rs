@@ -520,3 +520,29 @@ fn a_component_is_not_its_quantity() {
         component;type;how u was found\nV.repeatability;A;s/√n, s = 0.0001290994, n = 4\nV.calibration;B;U/k = 4×10^-5/2\n";
     is_sound("report.csv", report);
 }
+
+/// Contributions that leave out a coefficient which the column has.
+#[test]
+fn a_coefficient_of_the_column_may_be_unused() {
+    let sheet = |part: &str, whole: [&str; 2]| {
+        format!(
+            "Source d'incertitude;Valeur;Unité;Loi;Diviseur;Coefficient de sensibilité;Contribution (µm)\n\
+             Cales étalons (certificat, k=2);0,4;µm;normale;2;1;0,20\nRésolution (quantification 10 µm);5;µm;rectangulaire;1,732;1;2,89\n\
+             Répétabilité (écart-type);3,2;µm;normale;1;1;3,20\nÉcart de température ±1 °C;1;°C;rectangulaire;1,732;1,7;{part}\n\
+             Incertitude-type composée;;;;;;{}\nIncertitude élargie (k = 2);;;;;;{}\n",
+            whole[0], whole[1]
+        )
+    };
+    is_sound("sheet.csv", &sheet("0,98", ["4,43", "8,9"]));
+    let unused = first("sheet.csv", &sheet("0,58", ["4,35", "8,7"]));
+    assert!(unused.starts_with("c-one@"), "{unused}");
+}
+
+/// `u / kPa | u / %`: a second column of u that is relative is no contribution.
+#[test]
+fn the_same_uncertainty_in_percent_is_derived() {
+    let sheet = "Pressure 2.5 MPa\nSource,Limits,Unit,Distribution,Divisor,u / kPa,u / %\n\
+        Standard gauge accuracy,0.05,%,rectangular,√3,0.722,0.0289\nDrift per year,0.5,kPa,rectangular,√3,0.289,0.0115\n\
+        \"Repeatability s (n=5), mean\",0.4,kPa,normal,√5,0.179,0.0072\nu_c,,,,,0.798,0.0319\nU (k=2),,,,,1.6,0.064\n";
+    is_sound("sheet.csv", sheet);
+}

@@ -4,6 +4,7 @@ use crate::printed::Printed;
 use crate::read::columns::{self, Role};
 use crate::read::mapping::Mapping;
 use crate::sheet::Grid;
+use crate::units;
 
 use super::located::{Column, Located};
 
@@ -161,7 +162,12 @@ fn roles(
             estimate_beside_used(&mut columns);
         }
         let taken = |role: Role| columns.iter().any(|c: &Column| c.role == role);
+        let of_first = columns.iter().find(|c: &&Column| c.role == Role::U);
+        let is_share = |unit: &str| units::fraction(unit).is_some();
+        let is_again = of_first.is_some_and(|first| is_share(&first.unit) != is_share(&unit));
         let role = match role {
+            // `u / kPa | u / %`: the same again, as a part of the value.
+            Role::U if is_again && !unit.is_empty() && !taken(Role::C) => Role::Derived,
             // `c_i | u_i`: a bare u behind the coefficient is what comes of both.
             Role::U if taken(Role::C) && !contributions && columns::is_bare_u(text) => {
                 Role::Contribution

@@ -19,13 +19,44 @@ fn refuse(error: &clap::Error) -> ! {
         output::complain(instead);
         std::process::exit(error.exit_code())
     }
-    match (spoken(), in_chinese(error)) {
-        (Language::Chinese, Some(text)) => {
-            output::warn(&text);
-            std::process::exit(error.exit_code())
-        }
-        _ => error.exit(),
-    }
+    let text = match spoken() {
+        Language::Chinese => in_chinese(error),
+        Language::English => in_english(error),
+    };
+    let Some(text) = text else { error.exit() };
+    output::warn(&text);
+    std::process::exit(error.exit_code())
+}
+
+/// The words of the standard library for a number that is none, in those of the program.
+const NO_NUMBER: [(&str, &str, &str); 4] = [
+    (
+        "invalid digit found in string",
+        "expected a whole number",
+        "应为整数",
+    ),
+    (
+        "cannot parse integer from empty string",
+        "expected a whole number, and there is none",
+        "应为整数，而此处为空",
+    ),
+    (
+        "number too large to fit in target type",
+        "the number is too large",
+        "数过大",
+    ),
+    (
+        "number too small to fit in target type",
+        "the number is too small",
+        "数过小",
+    ),
+];
+
+/// What clap says where it repeats the words of the standard library, without these.
+pub(super) fn in_english(error: &clap::Error) -> Option<String> {
+    let why = std::error::Error::source(error)?.to_string();
+    let (std, own, _) = NO_NUMBER.iter().find(|(std, ..)| *std == why)?;
+    Some(error.to_string().replace(std, own))
 }
 
 /// What to write where the command is missing: a file or an option stands in its place.
@@ -117,16 +148,11 @@ pub(super) fn in_chinese(error: &clap::Error) -> Option<String> {
     Some(lines.join("\n"))
 }
 
-/// Why a number is refused, as clap and the standard library say it; the program's own reasons are Chinese already.
+/// Why a number is refused, as clap and the standard library say it, in Chinese; the program's own reasons are that already.
 fn of_value(why: &str) -> String {
     if let Some((value, range)) = why.split_once(" is not in ") {
         return format!("{value} 不在 {range} 之内");
     }
-    match why {
-        "invalid digit found in string" => "应为整数".to_owned(),
-        "cannot parse integer from empty string" => "应为整数，而此处为空".to_owned(),
-        "number too large to fit in target type" => "数过大".to_owned(),
-        "number too small to fit in target type" => "数过小".to_owned(),
-        own => own.to_owned(),
-    }
+    let of_library = NO_NUMBER.iter().find(|(std, ..)| *std == why);
+    of_library.map_or(why, |(.., own)| own).to_owned()
 }

@@ -162,6 +162,21 @@ mod tests {
     }
 
     #[test]
+    fn a_number_that_is_none_is_told_in_words_of_the_program() {
+        for (value, expected) in [
+            ("abc", ": expected a whole number\n"),
+            ("99999999999999999999", ": the number is too large\n"),
+        ] {
+            let error = Cli::try_parse_from(["gumption", "eval", "x", "--seed", value]);
+            let text = arguments::in_english(&error.expect_err("a fault"));
+            assert!(
+                text.as_ref().is_some_and(|text| text.contains(expected)),
+                "{text:?}"
+            );
+        }
+    }
+
+    #[test]
     fn a_file_or_an_option_without_a_command_is_told_what_to_write() {
         for (arguments, expected) in [
             (&["budgets/mass/ea-s2.toml"][..], "`gumption eval"),

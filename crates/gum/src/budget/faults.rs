@@ -19,7 +19,8 @@ Hz and seconds: amounts are not carried from one to the other.";
 
 RELATIVE_UNCLEAR = "B0113", "it is not clear of what a percentage is taken", "相对量的含义不明确",
 "For a quantity that itself has dimension one, `\"0.1 %\"` could be 0.001 of the unit or 0.1 % of the value. \
-Write a plain number in the unit of the quantity; for an input, `relative = true` makes it a fraction of the value.";
+Write a plain number in the unit of the quantity; for an input, `relative = true` makes it a fraction of the value, \
+and `relative = false` an amount as it stands.";
 
 BAD_NAME = "B0114", "a name cannot be used in a formula", "名称不能用于公式",
 "Names of inputs, constants, measurands and sources begin with a letter and go on with letters, digits and \

@@ -131,7 +131,7 @@ fn table(report: &Report<'_>, measurand: usize, selection: &Selection) -> Table 
     table.rows.push(Row::Rule);
     table.push(vec![
         name.into(),
-        aligned(gum.estimate, gum.u, 2).into(),
+        estimate(gum.estimate, gum.u).into(),
         symbol(unit).into(),
         significant(gum.u, TABLE_DIGITS).into(),
         Cell::Empty,
@@ -143,6 +143,13 @@ fn table(report: &Report<'_>, measurand: usize, selection: &Selection) -> Table 
     table
 }
 
+/// An estimate beside its u: to the place of two digits of u, and where that is above the units, to the last place that u
+/// has, so that no nought stands for a digit that is known.
+fn estimate(x: f64, u: f64) -> String {
+    let digits = if u >= 100.0 { TABLE_DIGITS } else { 2 };
+    aligned(x, u, digits)
+}
+
 fn input_rows(report: &Report<'_>, gum: &Gum, i: usize, table: &mut Table) {
     let budget = report.budget;
     let (input, line) = (&budget.inputs[i], &gum.inputs[i]);
@@ -152,7 +159,7 @@ fn input_rows(report: &Report<'_>, gum: &Gum, i: usize, table: &mut Table) {
     };
     table.push(vec![
         input.name.clone().into(),
-        aligned(input.estimate, line.u, 2).into(),
+        estimate(input.estimate, line.u).into(),
         symbol(&input.unit).into(),
         significant(line.u, TABLE_DIGITS).into(),
         only.map_or(Cell::Empty, |c| distribution(c, report.language).into()),

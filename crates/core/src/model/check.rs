@@ -44,11 +44,13 @@ pub fn compile(request: &Request<'_>) -> Result<Model, Vec<ModelFault>> {
         last: None,
     };
     check.symbols(request.symbols);
+    check.l.later_measurands = request.measurands;
     if let Some(text) = request.shared {
         check.text(text, Place::Shared, false);
     }
     let mut results = Vec::new();
     for (index, measurand) in request.measurands.iter().enumerate() {
+        check.l.later_measurands = &request.measurands[index + 1..];
         results.push(check.measurand(index, measurand));
     }
     check.finish(request, &results)

@@ -23,7 +23,13 @@ impl<T: FromToml> FromToml for Vec<Stated<T>> {
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         let DeValue::Array(list) = value.get_ref() else {
-            return reader.wrong_type_with(value, Self::expected(), as_a_list(value, reader.file));
+            let help = match value.get_ref() {
+                DeValue::Table(_) if !takes_tables::<T>() => Some(say!(
+                    "a list has no keys: write its members between square brackets, [ … ]"
+                )),
+                _ => as_a_list(value, reader.file),
+            };
+            return reader.wrong_type_with(value, Self::expected(), help);
         };
         if let Some(fault) = decimal_commas(value, list, reader.file) {
             return reader.refuse(fault);
@@ -42,6 +48,13 @@ impl<T: FromToml> FromToml for Vec<Stated<T>> {
     fn tables(path: &str, rows: &mut Vec<KeyRow>) {
         T::tables(&format!("{path}[]"), rows);
     }
+}
+
+/// Whether a table may stand in a place.
+fn takes_tables<T: FromToml>() -> bool {
+    let mut rows = Vec::new();
+    T::tables("", &mut rows);
+    !rows.is_empty()
 }
 
 /// Of the numbers in quotes of one list, whose faults begin here, the first stands for all.

@@ -188,7 +188,7 @@ fn of_second_header(line: &str, before: &str) -> Said {
 fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fault {
     let end = text.len();
     let span = error.span().unwrap_or(end..end);
-    if let Some(fault) = foreign_sign(&span, text).or_else(|| decimal_comma(&span, text)) {
+    if let Some(fault) = decimal_comma(&span, text).or_else(|| foreign_sign(&span, text)) {
         return fault;
     }
     let message = error.message();
@@ -270,7 +270,10 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
         fault(say!("the text is not closed"))
             .label(say!("expected the closing quote"))
             .help(say!("add the quote at the end of the text"))
-    } else if says("unclosed array") || says("unclosed inline table") {
+    } else if says("unclosed array")
+        || says("unclosed inline table")
+        || says("missing comma between array elements") && begins_entry(&text[span.start..])
+    {
         let bracket = if says("array") { "]" } else { "}" };
         fault(say!("the list is not closed by `{bracket}`"))
             .label(say!("expected `,` or `{bracket}`"))
@@ -279,7 +282,7 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
         let written = text[line.clone()].trim();
         let (key, help) = match written.split_once(':') {
             Some((key, value)) if !key.contains(['"', '\'', '=', '#']) => {
-                let (key, value) = (key.trim(), value.trim());
+                let (key, value) = (key.trim(), in_quotes(value.trim()));
                 (key, say!("write an equals sign: {key} = {value}"))
             }
             _ => (
@@ -307,14 +310,56 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
                 "put the text between single quotes, '…', which take a backslash as it is; paths may have `/` as well"
             ))
     } else if says("unexpected key or value") && says("newline") {
+        let help = match bare_list(&text[line_of(span.start, text)]) {
+            Some(list) => say!("a list stands between square brackets: [{list}]"),
+            None => say!(
+                "write each key on a line of its own; several on one line stand between braces: {{ value = 1, u = 0.1 }}"
+            ),
+        };
         fault(say!("something stands behind the value"))
             .label(say!("expected the end of the line"))
-            .help(say!(
-                "write each key on a line of its own; several on one line stand between braces: {{ value = 1, u = 0.1 }}"
-            ))
+            .help(help)
+    } else if says("missing comma between array elements") {
+        fault(say!("a comma is missing between two members of the list"))
+            .label(say!("expected a comma in front of it"))
+            .help(say!("write a comma behind the member that stands before"))
     } else {
         let message = of_toml(message);
         fault(say!("not well-formed TOML: {message}")).label(say!("not understood here"))
+    }
+}
+
+/// Whether a text begins with a header of a table, or with a key and its equals sign: no member of a list.
+fn begins_entry(text: &str) -> bool {
+    let of_name = |c: char| c.is_alphanumeric() || "_-.".contains(c);
+    let inside = text.trim_start_matches('[');
+    let behind = inside.trim_start_matches(of_name).trim_start();
+    let is_named = inside.starts_with(char::is_alphabetic);
+    let is_header = inside.len() < text.len() && behind.starts_with(']');
+    is_named && (is_header || inside.len() == text.len() && behind.starts_with('='))
+}
+
+/// The members of a list that stands behind its key without brackets: numbers, or texts in quotes.
+fn bare_list(line: &str) -> Option<&str> {
+    let (_, list) = line.split_once('=')?;
+    let list = list.split('#').next().unwrap_or_default().trim();
+    let is_member = |member: &str| {
+        let member = member.trim();
+        let is_text = member.len() >= 2 && member.starts_with('"') && member.ends_with('"');
+        is_text || member.parse::<f64>().is_ok()
+    };
+    let is_list = list.contains(',') && list.split(',').all(is_member);
+    is_list.then_some(list)
+}
+
+/// A value with the quotes that a text needs.
+fn in_quotes(value: &str) -> String {
+    let is_other = value.parse::<f64>().is_ok()
+        || value.starts_with(['"', '\'', '[', '{'])
+        || matches!(value, "true" | "false" | "");
+    match is_other {
+        true => value.to_owned(),
+        false => format!("\"{}\"", value.replace('"', "'")),
     }
 }
 
@@ -466,22 +511,23 @@ fn decimal_comma(span: &Range<usize>, text: &str) -> Option<Fault> {
     let line = line_of(span.start, text);
     let digits = |c: char| c.is_ascii_digit();
     let of_number = |c: char| c.is_ascii_digit() || ".eE+-".contains(c);
-    let commas = bare(line.clone(), text).filter(|(_, c)| *c == ',');
+    let commas = bare(line.clone(), text).filter(|(_, c)| matches!(c, ',' | '，'));
     let number = commas
-        .map(|(at, _)| {
+        .map(|(at, comma)| {
             let before = text[line.start..at].trim_end_matches(digits).len() + line.start;
-            let behind = text[at + 1..line.end].trim_start_matches(of_number).len();
-            (before, at, line.end - behind)
+            let from = at + comma.len_utf8();
+            let behind = text[from..line.end].trim_start_matches(of_number).len();
+            (before, at, from, line.end - behind)
         })
-        .find(|(start, at, end)| {
+        .find(|(start, at, from, end)| {
             let alone = text[line.start..*start]
                 .trim_end_matches(['+', '-', ' ', '\t'])
                 .ends_with('=');
-            let followed = text[at + 1..*end].starts_with(digits);
+            let followed = text[*from..*end].starts_with(digits);
             let spaces = text[*end..line.end].len() - text[*end..line.end].trim_start().len();
-            alone && start < at && followed && (*at..=end + spaces).contains(&span.start)
+            alone && start < at && followed && (*start..=end + spaces).contains(&span.start)
         });
-    let (start, _, end) = number?;
+    let (start, _, _, end) = number?;
     let number = &text[start..end];
     Some(
         Fault::new(TOML_SYNTAX, start..end, say!("`{number}` has a comma"))
@@ -493,6 +539,7 @@ fn decimal_comma(span: &Range<usize>, text: &str) -> Option<Fault> {
 /// What to write for a number with a comma, between `quotes`: a decimal point, or nothing where the comma
 /// may part thousands.
 pub fn without_comma(number: &str, quotes: &str) -> Said {
+    let number = &number.replace('，', ",");
     let point = number.replacen(',', ".", 1);
     let behind = number.split_once(',').map_or("", |(_, behind)| behind);
     let places = behind.bytes().take_while(u8::is_ascii_digit).count();
@@ -554,6 +601,10 @@ mod tests {
             ("x = { value = 1,25, u = 2 }", "1,25", ": 1.25"),
             ("value = -1,5e-3", "1,5e-3", ": 1.5e-3"),
             ("value =\t1,5", "1,5", ": 1.5"),
+            ("value = 100，2", "100，2", ": 100.2"),
+            ("readings = 10.1, 10.2, 10.3", "", ": [10.1, 10.2, 10.3]"),
+            ("title: Current", "", "title = \"Current\""),
+            ("x = [{ a = 1 }\n{ a = 2 }]", "", "write a comma"),
             ("x = { unit = \"#\", value = 1,25 }", "1,25", ": 1.25"),
             ("value = 10,000", "10,000", "write 10000, or 10.000"),
             ("value = 10,000.5", "10,000.5", ": 10000.5"),

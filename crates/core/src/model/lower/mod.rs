@@ -17,7 +17,7 @@ use crate::model::graph::{Builder, Id, Label};
 use crate::model::operation::{binary_row, unary};
 use crate::model::printer;
 use crate::model::syntax::{Expr, Name, Span};
-use crate::model::{Place, Symbol};
+use crate::model::{MeasurandSource, Place, Symbol};
 use crate::quantity::{Unit, UnitTable};
 use gumption_fault::{Fault, say};
 
@@ -87,6 +87,8 @@ pub struct Lowering<'r> {
     pub call: Option<(Place, Span, String)>,
     /// Names that later statements of the text define.
     pub later: Vec<String>,
+    /// Measurands whose formulas come later in the file.
+    pub later_measurands: &'r [MeasurandSource<'r>],
     /// The measurand whose own formula this is.
     pub defining: Option<String>,
     /// Inputs without a unit of which `sin`, `cos` or `tan` is taken as they are: places in the input vector.
@@ -115,6 +117,7 @@ impl<'r> Lowering<'r> {
             faults: Vec::new(),
             call: None,
             later: Vec::new(),
+            later_measurands: &[],
             defining: None,
             plain_angles: Vec::new(),
             expression,

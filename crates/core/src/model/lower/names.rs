@@ -1,6 +1,7 @@
 //! What stands alone: numbers, units, names.
 
 use super::{Binding, Lowering, Value};
+use crate::model::MeasurandSource;
 use crate::model::catalogue;
 use crate::model::faults;
 use crate::model::syntax::{Expr, Span, UnitText};
@@ -106,6 +107,17 @@ impl Lowering<'_> {
                     .label(say!("not defined yet"))
                     .help(say!(
                         "move the definition of `{name}` above this line; if `{name}` depends on itself, use `solve(equation, {name}, start)`"
+                    )),
+            );
+            return;
+        }
+        let comes_later = |m: &MeasurandSource<'_>| m.name == name && m.model.is_some();
+        if self.later_measurands.iter().any(comes_later) {
+            self.report(
+                Fault::new(faults::USED_BEFORE, span.clone(), say!("`{name}` is used before it is defined"))
+                    .label(say!("its formula comes later"))
+                    .help(say!(
+                        "formulas of measurands see those above them: move `[measurand.{name}]` up; or define `{name} = …` in a `model` at the top of the file, and leave out the formula there"
                     )),
             );
             return;

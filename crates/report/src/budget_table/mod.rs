@@ -274,3 +274,15 @@ fn distribution(component: &Component, language: Language) -> String {
         kind(component.evaluation)
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::estimate;
+
+    #[test]
+    fn an_estimate_ends_where_its_u_does_above_the_units() {
+        assert_eq!(estimate(1.0, 0.000122), "1.00000");
+        assert_eq!(estimate(12045.0, 109.75), "12045");
+        assert_eq!(estimate(12045.0, 1234.0), "12040");
+    }
+}

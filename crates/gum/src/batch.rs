@@ -19,6 +19,7 @@ use crate::propagate::{
     self, BlockFigures, Evaluation, EvaluationError, MonteCarloChoice, Options, Progress,
     RowEvaluation, parallel_map,
 };
+use gumption_core::quantity::UnitTable;
 use gumption_fault::say;
 use gumption_fault::{Fault, Rejection};
 use gumption_format::csv::faults::NO_HEADER;
@@ -65,7 +66,8 @@ pub fn run<T: Default + Send>(
     let mut pieces = Pieces::new(source);
     let first = pieces.next().unwrap_or_else(empty).map_err(refused)?;
     let head = Sheet::new(&first.text)
-        .map_err(|fault| Rejection::new(table, &first.text, vec![*fault]))?;
+        .map_err(|fault| Rejection::new(table, &first.text, vec![*fault]))?
+        .above_units(&UnitTable::default());
     let batch = file.batch(&head, table, &plan.keep)?;
     let mut run = Run::new(&batch, plan, &head);
     let mut work = |sheet: &Sheet<'_>, read: u64| {

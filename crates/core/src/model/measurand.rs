@@ -212,7 +212,7 @@ impl Check<'_> {
         let found = value.unit().unwrap_or(found);
         if found.dimension != wanted.dimension {
             let message = say!(
-                "the value is {}, but `{}` is wanted {}",
+                "the value is {}, but `{}` should be {}",
                 in_words(found),
                 measurand.name,
                 in_words(wanted)
@@ -235,7 +235,7 @@ impl Check<'_> {
                 None => help,
             };
             let message = say!(
-                "the value is {}, but `{}` is wanted {}",
+                "the value is {}, but `{}` should be {}",
                 in_words(found),
                 measurand.name,
                 in_words(wanted)
@@ -304,7 +304,7 @@ impl Check<'_> {
                 faults::POINT,
                 expr.span.clone(),
                 say!(
-                    "the value is a difference in {}, but `{name}` is wanted on the {} scale",
+                    "the value is a difference in {}, but `{name}` should be on the {} scale",
                     found.symbol, wanted.symbol
                 ),
             )

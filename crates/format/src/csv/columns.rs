@@ -65,12 +65,32 @@ impl Cells<'_> {
         }
     }
 
-    /// The cell of a row, as a file has it.
+    /// The cell of a row, as a file has it: whole numbers are so where they are doubles because of a gap in their column.
     pub fn text(&self, at: usize) -> Cow<'_, str> {
         match self {
             Cells::Numbers(numbers) if numbers[at].is_nan() => Cow::Borrowed(""),
-            Cells::Numbers(numbers) => Cow::Owned(format!("{:?}", numbers[at])),
+            Cells::Numbers(numbers) => Cow::Owned(written(numbers[at])),
             Cells::Texts(texts) => Cow::Borrowed(texts[at].trim()),
         }
+    }
+}
+
+fn written(number: f64) -> String {
+    let exact = 1.0 / f64::EPSILON;
+    match number.fract() == 0.0 && number.abs() < exact {
+        true => format!("{number}"),
+        false => format!("{number:?}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_numbers_are_written_so() {
+        let cells = Cells::Numbers(Cow::Borrowed(&[7.0, f64::NAN, 0.1, -3.0, 1e300]));
+        let texts: Vec<Cow<'_, str>> = (0..cells.count()).map(|at| cells.text(at)).collect();
+        assert_eq!(texts, ["7", "", "0.1", "-3", "1e300"]);
     }
 }

@@ -241,6 +241,29 @@ fn after_solidus(text: &str) -> Option<(&str, Range<usize>)> {
 }
 
 fn by_ending(text: &str, units: &UnitTable) -> Heading {
+    let found = ending(text).and_then(|(name, unit)| quotient(name, unit));
+    match found.and_then(|(name, unit)| Some((name, units.parse(&unit).ok()?))) {
+        Some((name, unit)) => Heading::new(text, name, Ok(Some(unit))),
+        None => Heading::plain(text),
+    }
+}
+
+/// The unit with what stands over it: `bridge_mV_per_V` is in mV/V. A name that is nothing else (`mV_per_V`), or says over
+/// something that is no unit (`slope_per_K`), is a name.
+fn quotient<'t>(name: &'t str, unit: &'static str) -> Option<(&'t str, String)> {
+    let Some(over) = name.strip_suffix("_per") else {
+        return (name != "per").then(|| (name, unit.to_owned()));
+    };
+    let (name, above) = ending(over)?;
+    let unit = match unit.contains(['/', '·']) {
+        true => format!("{above}/({unit})"),
+        false => format!("{above}/{unit}"),
+    };
+    Some((name, unit))
+}
+
+/// The name, and the unit with which the text ends.
+fn ending(text: &str) -> Option<(&str, &'static str)> {
     let known = |(ending, unit): (&str, &'static str)| {
         let name = text.strip_suffix(ending)?.strip_suffix('_')?;
         let last = name.rsplit('_').next().unwrap_or_default().to_lowercase();
@@ -251,14 +274,8 @@ fn by_ending(text: &str, units: &UnitTable) -> Heading {
         let lettered = ending.len() == 1 && indexed;
         (!name.is_empty() && !lettered).then_some((name, unit))
     };
-    let longest = ENDINGS
-        .iter()
-        .filter_map(|ending| known(*ending))
-        .min_by_key(|(name, _)| name.len());
-    match longest.and_then(|(name, unit)| Some((name, units.parse(unit).ok()?))) {
-        Some((name, unit)) => Heading::new(text, name, Ok(Some(unit))),
-        None => Heading::plain(text),
-    }
+    let all = ENDINGS.iter().filter_map(|ending| known(*ending));
+    all.min_by_key(|(name, _)| name.len())
 }
 
 #[cfg(test)]
@@ -295,6 +312,8 @@ mod tests {
         assert_eq!(parts("resistivity_ohm_cm"), pair("resistivity", "Ω·cm"));
         assert_eq!(parts("rate_deg_per_s"), pair("rate", "°/s"));
         assert_eq!(parts("gyro_z_radps"), pair("gyro_z", "rad/s"));
+        assert_eq!(parts("bridge_mV_per_V"), pair("bridge", "mV/V"));
+        assert_eq!(parts("drift_ppm_per_K"), pair("drift", "ppm/K"));
     }
 
     #[test]
@@ -342,6 +361,9 @@ mod tests {
             "t_m",
             "R1_A",
             "θ_m",
+            "mV_per_V",
+            "slope_per_K",
+            "per_s",
         ] {
             assert_eq!(parts(text), (text.to_string(), None), "{text}");
         }

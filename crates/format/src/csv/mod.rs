@@ -45,6 +45,7 @@ mod reader;
 mod request;
 mod sheet;
 mod size;
+mod units_line;
 
 pub use columns::{Cells, Columns};
 pub use doubts::{overload, same_name, two_decimal_signs};

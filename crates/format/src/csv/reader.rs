@@ -158,43 +158,11 @@ pub fn headings(text: &str, units: &UnitTable) -> Result<Vec<Heading>, Box<Fault
 
 /// The rows of a CSV text below its headings.
 fn headed<'t>(text: &'t str, units: &UnitTable) -> Result<(Sheet<'t>, Vec<Heading>), Box<Fault>> {
-    let sheet = Sheet::new(text)?;
-    if let Some(headings) = above_units(&sheet, units) {
-        return Ok((sheet.without_first_row(), headings));
-    }
-    let fields = sheet.header().fields();
-    let headings = fields.map(|field| Heading::read(field, units)).collect();
+    let sheet = Sheet::new(text)?.above_units(units);
+    let columns = 0..sheet.header().len();
+    let headings = columns.map(|at| sheet.heading(at, |name| Heading::read(name, units)));
+    let headings = headings.collect();
     Ok((sheet, headings))
-}
-
-/// The headings of a table with a line of units below that of the names, as loggers write them: it holds a unit or nothing in
-/// each column, and below each unit stands a number.
-fn above_units(sheet: &Sheet, units: &UnitTable) -> Option<Vec<Heading>> {
-    let mut rows = sheet.rows().map_while(Result::ok);
-    let (line, next) = (rows.next()?, rows.next()?);
-    let mut headings = Vec::with_capacity(line.len());
-    let fields = line.fields().zip(next.fields());
-    for (name, (unit, below)) in sheet.header().fields().zip(fields) {
-        let unit = match Field::read(unit, sheet) {
-            None => Some(Heading::unit_alone(unit, units)?),
-            Some(nothing) if nothing.is_missing() => None,
-            Some(_) => return None,
-        };
-        if unit.is_some() {
-            Field::read(below, sheet)?;
-        }
-        headings.push(match unit {
-            None => Heading::read(name, units),
-            unit => Heading {
-                unit: Ok(unit),
-                ..Heading::plain(name)
-            },
-        });
-    }
-    headings
-        .iter()
-        .any(|heading| matches!(heading.unit, Ok(Some(_))))
-        .then_some(headings)
 }
 
 /// The text of a table that another file names, in whichever encoding it was saved.

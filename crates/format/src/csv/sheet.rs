@@ -9,6 +9,7 @@ use ::csv::{Position, Reader, ReaderBuilder, StringRecord, Trim};
 use memchr::{memchr_iter, memchr3};
 
 use super::faults::{NO_HEADER, NO_ROWS, ROW_LENGTH};
+use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, Said, say};
 
 /// A CSV text whose first line was read.
@@ -23,6 +24,8 @@ pub struct Sheet<'a> {
     skipped: usize,
     separator: u8,
     header: Row<'a>,
+    /// Of each column, where a line below that of the names holds them.
+    units: Vec<Option<Unit>>,
 }
 
 /// A row that was read.
@@ -92,6 +95,7 @@ impl<'a> Sheet<'a> {
             skipped: 1,
             separator,
             header,
+            units: Vec::new(),
         })
     }
 
@@ -106,14 +110,21 @@ impl<'a> Sheet<'a> {
             skipped: 0,
             separator: self.separator,
             header: self.header.clone(),
+            units: self.units.clone(),
         }
     }
 
-    /// The same table, of which the first row is no data either.
+    /// The same table, of which the first row is no data either: it holds units.
     #[must_use]
-    pub(super) fn without_first_row(mut self) -> Sheet<'a> {
+    pub(super) fn with_units(mut self, units: Vec<Option<Unit>>) -> Sheet<'a> {
         self.skipped += 1;
+        self.units = units;
         self
+    }
+
+    /// The unit of a column in a line of units.
+    pub(super) fn unit_below(&self, column: usize) -> Option<&Unit> {
+        self.units.get(column)?.as_ref()
     }
 
     /// The text.

@@ -20,7 +20,7 @@ pub static HINTS: Hints = Hints {
 };
 
 /// Words that people try, and the keys and words that they mean.
-pub const SYNONYMS: [(&str, &str); 120] = [
+pub const SYNONYMS: [(&str, &str); 123] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),
@@ -55,6 +55,9 @@ pub const SYNONYMS: [(&str, &str); 120] = [
     ("data", "readings"),
     ("data", "recording"),
     ("file", "recording"),
+    ("path", "file"),
+    ("filename", "file"),
+    ("csv", "file"),
     ("observations", "readings"),
     ("measurements", "readings"),
     ("digits", "counts"),
@@ -400,6 +403,18 @@ pub fn wrong_type(key: &str, found: &str) -> Option<Said> {
         "range" => Some(say!(
             "a range has two ends: range = [0, {width}] or range = [{below}, {width}]"
         )),
+        "certificate" => Some(say!(
+            "an expanded uncertainty stands with its k: certificate = {{ U = {width}, k = 2 }}"
+        )),
+        "specification" => {
+            let part = match number.contains(['%', 'p']) {
+                true => "reading",
+                false => "fixed",
+            };
+            Some(say!(
+                "a specification has parts: specification = {{ {part} = {width} }}; others are `range` with `span`, and `counts` with `step`"
+            ))
+        }
         "readings" => Some(say!(
             "one reading is value = {found}, with its uncertainty beside it; readings = […] are two or more"
         )),

@@ -61,11 +61,11 @@ impl Columns {
             units: Vec::new(),
         };
         let mut faults = Vec::new();
-        for (at, field) in sheet.header().fields().enumerate() {
-            let heading = match names_one(field.trim()) {
-                true => Heading::plain(field),
-                false => Heading::read(field, &known),
-            };
+        for at in 0..sheet.header().len() {
+            let heading = sheet.heading(at, |name| match names_one(name) {
+                true => Heading::plain(name),
+                false => Heading::read(name, &known),
+            });
             match &heading.unit {
                 Ok(unit) => columns
                     .units
@@ -134,6 +134,7 @@ impl Points {
         names_one: &dyn Fn(&str) -> bool,
     ) -> Result<Points, Vec<Fault>> {
         let sheet = Sheet::new(text).map_err(|fault| vec![*fault])?;
+        let sheet = sheet.above_units(&UnitTable::default());
         let columns = Columns::of(&sheet, |_| named.span.clone(), names_one)?;
         let mut rows = Vec::new();
         let is_value = |at: usize| columns.names[at].value != LABEL;
@@ -398,6 +399,20 @@ mod tests {
         let written = columns.written(&row, &sheet);
         let texts: Vec<&str> = written.iter().map(Written::text).collect();
         assert_eq!(texts, ["10,5 V", "1.5", "0.1 %"]);
+    }
+
+    #[test]
+    fn units_may_stand_below_the_names() {
+        let text = "label,R,R.u,pH_s\n,kΩ,[Ω],\na,1.5,20,4\n";
+        let sheet = Sheet::new(text).expect("names");
+        let sheet = sheet.above_units(&UnitTable::default());
+        let is_input = |name: &str| ["R", "pH_s"].contains(&name);
+        let columns = Columns::of(&sheet, |_| 0..0, is_input).expect("columns");
+        let rows: Vec<_> = sheet.rows().map(|row| row.expect("fields")).collect();
+        let written = columns.written(&rows[0], &sheet);
+        let texts: Vec<&str> = written.iter().map(Written::text).collect();
+        assert_eq!((rows.len(), rows[0].line), (1, 3));
+        assert_eq!(texts, ["a", "1.5 kΩ", "20 Ω", "4"]);
     }
 
     #[test]

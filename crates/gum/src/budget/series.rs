@@ -4,7 +4,10 @@
 //! that are read as if somebody had written them, so that a column may be any number that a budget can state.
 
 mod columns;
+mod heads;
 mod places;
+
+use std::borrow::Cow;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -16,6 +19,7 @@ use super::tables::SeriesTable;
 use columns::OWNERS;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::{Raw, Stated};
+use heads::Heads;
 use places::{leave_out, set};
 
 pub(super) use columns::{Column, LABEL, column, names_one, set_twice, targets};
@@ -28,7 +32,7 @@ type WrittenRow<'t> = (std::ops::Range<usize>, Vec<(Stated<Entry>, Raw<'t>)>);
 pub(super) struct Series<'a, 't> {
     /// Without the series: it would be copied for each of its rows.
     file: DeTable<'t>,
-    columns: &'a [Stated<String>],
+    columns: Cow<'a, [Stated<String>]>,
     targets: Vec<Option<Column>>,
     rows: Vec<WrittenRow<'t>>,
 }
@@ -40,7 +44,7 @@ impl<'t> Series<'_, 't> {
         rows.map(|(_, cells)| {
             // What can be wrong with them has been looked for.
             let mut faults = Vec::new();
-            variant(&self.file, self.columns, &self.targets, cells, &mut faults)
+            variant(&self.file, &self.columns, &self.targets, cells, &mut faults)
         })
     }
 }
@@ -63,38 +67,40 @@ where
 {
     let before = faults.len();
     let table = &stated.value;
-    let (columns, rows) = match (points, &table.columns, &table.rows) {
-        (Some(points), None, None) => {
-            let names = points.columns.names.as_slice();
-            let rows = points.rows().map(|cells| (names[0].span.clone(), cells));
-            (names, rows.collect())
-        }
-        (None, Some(columns), Some(rows)) => {
-            (columns.value.as_slice(), rows_of_file(file, &rows.value))
-        }
-        (Some(_), ..) => {
-            faults.push(
-                Fault::new(
-                    SERIES,
-                    stated.span.clone(),
-                    say!("the rows of the series are stated twice"),
-                )
-                .label(say!("in a file and here"))
-                .help(say!(
-                    "the first line of `file` names the columns: leave out `columns` and `rows`"
-                )),
-            );
-            return None;
-        }
-        _ => {
-            if !table.refused {
-                faults.push(incomplete(stated));
+    let (columns, rows): (Cow<'a, [Stated<String>]>, Vec<WrittenRow<'t>>) =
+        match (points, &table.columns, &table.rows) {
+            (Some(points), None, None) => {
+                let names = points.columns.names.as_slice();
+                let rows = points.rows().map(|cells| (names[0].span.clone(), cells));
+                (Cow::Borrowed(names), rows.collect())
             }
-            return None;
-        }
-    };
-    let rows: Vec<WrittenRow<'t>> = rows;
-    let targets = targets(file, columns, faults);
+            (None, Some(columns), Some(rows)) => {
+                let heads = Heads::of(&columns.value, faults);
+                let rows = rows_of_file(file, &rows.value, &heads);
+                (Cow::Owned(heads.names), rows)
+            }
+            (Some(_), ..) => {
+                faults.push(
+                    Fault::new(
+                        SERIES,
+                        stated.span.clone(),
+                        say!("the rows of the series are stated twice"),
+                    )
+                    .label(say!("in a file and here"))
+                    .help(say!(
+                        "the first line of `file` names the columns: leave out `columns` and `rows`"
+                    )),
+                );
+                return None;
+            }
+            _ => {
+                if !table.refused {
+                    faults.push(incomplete(stated));
+                }
+                return None;
+            }
+        };
+    let targets = targets(file, &columns, faults);
     if rows.is_empty() {
         faults.push(
             Fault::new(SERIES, stated.span.clone(), say!("the series has no rows"))
@@ -118,7 +124,7 @@ where
             });
             continue;
         }
-        variant(&alone, columns, &targets, cells, faults);
+        variant(&alone, &columns, &targets, cells, faults);
     }
     (faults.len() == before).then_some(Series {
         file: alone,
@@ -187,6 +193,7 @@ fn incomplete(stated: &Stated<SeriesTable>) -> Fault {
 fn rows_of_file<'t>(
     file: &DeTable<'t>,
     rows: &[Stated<Vec<Stated<Entry>>>],
+    heads: &Heads,
 ) -> Vec<WrittenRow<'t>> {
     let raw = match file.get("series").map(Spanned::get_ref) {
         Some(DeValue::Table(series)) => series.get("rows").map(Spanned::get_ref),
@@ -203,7 +210,7 @@ fn rows_of_file<'t>(
         .zip(raw)
         .map(|(row, raw)| {
             let cells = row.value.iter().cloned().zip(raw.iter().cloned());
-            (row.span.clone(), cells.collect())
+            (row.span.clone(), heads.over(cells))
         })
         .collect()
 }
@@ -328,6 +335,34 @@ rows = [[21, 22.5, 600, 4e2], ["294.15 K", "296 K", "0.9 K", "1 K"]]
         close(own.conformity[0].tolerance.upper, 0.4);
         close(others.components[0].u, 0.9 / 3f64.sqrt());
         close(others.conformity[0].tolerance.upper, 1.0);
+    }
+
+    #[test]
+    fn a_head_may_state_the_unit_of_its_numbers() {
+        let file = r#"
+[measurand.Y]
+model = "t - t0"
+unit = "K"
+[constant]
+t0 = "20 °C"
+[input.t]
+unit = "°C"
+value = 20.5
+half_width = "300 mK"
+[series]
+columns = ["label", "t [K]", "t.half_width [mK]"]
+rows = [["a", 295.65, 600], ["b", "296 K", "0.9 K"]]
+"#;
+        let loaded = read(file, "budget.toml", Path::new("")).expect("a budget");
+        let [one, other] = [0, 1].map(|row| &loaded.rows[row].budget);
+        let close = |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-9, "{found}");
+        close(one.inputs[0].estimate, 22.5);
+        close(one.components[0].u, 0.6 / 3f64.sqrt());
+        close(other.components[0].u, 0.9 / 3f64.sqrt());
+        let unknown = file.replace("t [K]", "t [parsec]");
+        let refused = read(&unknown, "budget.toml", Path::new("")).expect_err("no unit");
+        let place = refused.faults[0].span.clone();
+        assert_eq!((&unknown[place], refused.faults.len()), ("parsec", 1));
     }
 
     #[test]

@@ -411,7 +411,7 @@ impl Checker<'_> {
                 .into_iter()
                 .find_map(|index| Some((index, register.readings.get(&index)?)));
             let Some((component, readings)) = found else {
-                if register.incomplete {
+                if register.incomplete || stated.value.refused {
                     return None;
                 }
                 return self.refuse(

@@ -84,7 +84,10 @@ impl Checker<'_> {
                 stated.span.clone(),
                 say!("the specification of {} allows no deviation", context.owner),
             )
-            .label(say!("all parts are zero")),
+            .label(say!("all parts are zero"))
+            .help(say!(
+                "a part of a reading that is zero is nothing: state the half-width by itself, half_width = …"
+            )),
         )
     }
 

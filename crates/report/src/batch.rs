@@ -41,23 +41,25 @@ struct Line {
 }
 
 impl Lines {
-    /// Adds the line of a row of numbers behind its label; or why there are none.
+    /// Adds the line of a row of numbers behind its label, and codes of what is doubtful in them behind those; or why there are none.
     pub(super) fn push(
         &mut self,
         label: &str,
-        found: Result<(Vec<Head>, Vec<Option<f64>>), String>,
+        found: Result<(Vec<Head>, Vec<Option<f64>>, String), String>,
     ) {
         push_field(&mut self.text, label);
         let label = self.text.len();
-        let cells = found.map(|(heads, numbers)| {
+        let cells = found.map(|(heads, numbers, findings)| {
             for number in &numbers {
                 self.text.push(b',');
                 Cell::Number(*number).push(&mut self.text);
             }
+            self.text.push(b',');
+            Cell::Text(&findings).push(&mut self.text);
             // There is no error.
             self.text.extend_from_slice(b",\n");
             self.heads.get_or_insert(heads);
-            numbers.len() + 2
+            numbers.len() + 3
         });
         self.lines.push(Line {
             label,

@@ -179,27 +179,38 @@ const ROUNDS: usize = 50;
 /// # Errors
 /// A [`Trouble`] says why there are no coefficients.
 pub fn calibrate(campaign: &Campaign) -> Result<Calibration, Trouble> {
-    let mut calibration = whole(campaign)?;
-    if let Some(labels) = campaign
-        .separately
-        .as_ref()
-        .and_then(|name| campaign.points.labels(name))
-    {
-        for (level, label) in labels.levels.iter().enumerate() {
-            let rows: Vec<usize> = (0..campaign.points.len())
-                .filter(|row| labels.of_row[*row] as usize == level)
-                .collect();
-            let part = whole(&campaign.of_points(&rows)).map_err(|trouble| Trouble::InPart {
-                label: label.clone(),
-                trouble: Box::new(trouble),
-            })?;
-            calibration.parts.push((label.clone(), part));
-        }
-    }
-    Ok(calibration)
+    let parts = parts(campaign);
+    let responses = |(_, part): &(String, Calibration)| part.responses.clone();
+    let of_parts: Vec<_> = parts.iter().flatten().map(responses).collect();
+    let whole = whole(campaign, &of_parts)?;
+    Ok(Calibration {
+        parts: parts?,
+        ..whole
+    })
 }
 
-fn whole(campaign: &Campaign) -> Result<Calibration, Trouble> {
+/// The points of each label, evaluated by themselves.
+fn parts(campaign: &Campaign) -> Result<Vec<(String, Calibration)>, Trouble> {
+    let column = campaign.separately.as_ref();
+    let Some(labels) = column.and_then(|name| campaign.points.labels(name)) else {
+        return Ok(Vec::new());
+    };
+    let part = |(level, label): (usize, &String)| {
+        let rows: Vec<usize> = (0..campaign.points.len())
+            .filter(|row| labels.of_row[*row] as usize == level)
+            .collect();
+        match whole(&campaign.of_points(&rows), &[]) {
+            Ok(part) => Ok((label.clone(), part)),
+            Err(trouble) => Err(Trouble::InPart {
+                label: label.clone(),
+                trouble: Box::new(trouble),
+            }),
+        }
+    };
+    labels.levels.iter().enumerate().map(part).collect()
+}
+
+fn whole(campaign: &Campaign, parts: &[Vec<ResponseScatter>]) -> Result<Calibration, Trouble> {
     campaign.fits_into_memory()?;
     let stack = Stack::new(campaign, Readings::Taken);
     let count = campaign.experiment.parameters.len();
@@ -223,10 +234,9 @@ fn whole(campaign: &Campaign) -> Result<Calibration, Trouble> {
         false => apart(&residuals, &scatters.responses, &campaign.points.names),
     };
     let told = explained || !apart.is_empty();
-    let tells = scatters.way == Scatter::Residuals && campaign.separately.is_none();
-    let patterns = match told || !tells {
+    let patterns = match told || scatters.way != Scatter::Residuals {
         true => Vec::new(),
-        false => patterns(&stack, &solution, &gain, &u, &scatters.responses),
+        false => patterns(&stack, (&solution, &gain, &u), &scatters.responses, parts),
     };
     Ok(Calibration {
         patterns,

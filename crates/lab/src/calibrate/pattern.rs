@@ -45,6 +45,13 @@ pub enum PatternTest {
         /// Of so many residuals.
         readings: usize,
     },
+    /// The parts that are evaluated by themselves leave less than all points together (Chow 1960).
+    Parts {
+        /// The column that tells them apart.
+        column: String,
+        /// What all points leave beyond the parts, over what the parts leave, as mean squares.
+        f: f64,
+    },
     /// A column that no equation has, on the output and on its scale, takes more of the residuals than scatter does (F test of two more
     /// coefficients; the probability is that of the largest of all such columns, by Bonferroni).
     Follows {
@@ -53,13 +60,13 @@ pub enum PatternTest {
     },
 }
 
-/// What is found of each response: by repeated readings, or else by the signs, or else by what the equations do not have.
+/// What is found of each response: by its parts, or else by repeated readings, or else by the signs, or else by what the equations
+/// do not have.
 pub(super) fn patterns(
     stack: &Stack<'_>,
-    solution: &Solution,
-    gain: &Gain,
-    u: &[f64],
+    (solution, gain, u): (&Solution, &Gain, &[f64]),
     responses: &[ResponseScatter],
+    parts: &[Vec<ResponseScatter>],
 ) -> Vec<Pattern> {
     let ones = vec![1.0; stack.rows.len()];
     let jacobian: DMatrix<f64> = stack.jacobian(&solution.parameters, &ones);
@@ -74,7 +81,8 @@ pub(super) fn patterns(
             jacobian: &jacobian,
             u,
             allowed: &explained,
-            dof: own.dof,
+            own,
+            parts,
         };
         let (by, p_value) = residuals.seen()?;
         (own.test.is_none_or(|test| test.misfit.is_none())).then(|| Pattern {
@@ -98,12 +106,15 @@ struct Residuals<'a> {
     u: &'a [f64],
     /// The mean square that all stated errors let expect of each row.
     allowed: &'a [f64],
-    dof: f64,
+    own: &'a ResponseScatter,
+    /// Those of the parts that are evaluated by themselves.
+    parts: &'a [Vec<ResponseScatter>],
 }
 
 impl Residuals<'_> {
     fn seen(&self) -> Option<(PatternTest, f64)> {
-        self.by_repeats()
+        self.by_parts()
+            .or_else(|| self.by_repeats())
             .or_else(|| self.by_runs())
             .or_else(|| self.by_conditions())
     }
@@ -132,6 +143,42 @@ impl Residuals<'_> {
         least.unwrap_or(0.0)
     }
 
+    /// The sum of squares of all residuals.
+    fn total(&self) -> f64 {
+        let rows = self.rows.iter();
+        rows.map(|row| self.scaled(*row).powi(2)).sum()
+    }
+
+    /// F and its probability, of what lies inside of groups and beside them: sums of squares with their degrees of freedom.
+    /// Nothing where the inside is equal to the last digit, which tells nothing of the scatter.
+    fn f_test(&self, inside: [f64; 2], beside: [f64; 2]) -> Option<(f64, f64)> {
+        let beyond = beside[0] - self.harmless();
+        if inside[1] < 1.0 || beside[1] < 0.5 || inside[0] <= 0.0 || beyond <= 0.0 {
+            return None;
+        }
+        let f = (beyond / beside[1]) / (inside[0] / inside[1]);
+        let p_value = f_sf(f, beside[1], inside[1]);
+        (p_value < RARE).then_some((f, p_value))
+    }
+
+    fn by_parts(&self) -> Option<(PatternTest, f64)> {
+        let column = self.stack.campaign.separately.clone()?;
+        let squares = |one: &ResponseScatter| match one.dof > 0.0 {
+            true => [one.s * one.s * one.dof, one.dof],
+            false => [0.0; 2],
+        };
+        let of_parts = self.parts.iter().filter_map(|part| part.get(self.response));
+        let [inside, inside_dof] = of_parts
+            .map(squares)
+            .fold([0.0; 2], |sum, one| [sum[0] + one[0], sum[1] + one[1]]);
+        let (total, [whole, dof]) = (self.total(), squares(self.own));
+        // Parts have units of weight of their own only where the readings have weights, which are the same in both.
+        let inside = inside * total / whole;
+        let beside = [total - inside, dof - inside_dof];
+        let (f, p_value) = self.f_test([inside, inside_dof], beside)?;
+        Some((PatternTest::Parts { column, f }, p_value))
+    }
+
     fn by_repeats(&self) -> Option<(PatternTest, f64)> {
         let stimuli = |row: usize| self.stack.stimuli(row, self.response);
         let mut keyed: Vec<(Vec<f64>, usize)> =
@@ -151,31 +198,24 @@ impl Residuals<'_> {
             beside += count * mean * mean;
         }
         let inside_dof = (self.rows.len() - groups) as f64;
-        let beside_dof = self.dof - inside_dof;
-        let beside = beside - self.harmless();
-        // Repetitions that are equal to the last digit tell nothing of the scatter.
-        if inside_dof < 1.0 || beside_dof < 0.5 || inside <= 0.0 || beside <= 0.0 {
-            return None;
-        }
-        let [within, between] = [inside / inside_dof, beside / beside_dof];
-        let f = between / within;
-        let p_value = f_sf(f, beside_dof, inside_dof);
+        let beside_dof = self.own.dof - inside_dof;
+        let (f, p_value) = self.f_test([inside, inside_dof], [beside, beside_dof])?;
+        let within = (inside / inside_dof).sqrt();
         let by = PatternTest::Repeats {
-            within: within.sqrt(),
-            between: between.sqrt(),
+            within,
+            between: within * f.sqrt(),
             f,
         };
-        (p_value < RARE).then_some((by, p_value))
+        Some((by, p_value))
     }
 
     fn by_runs(&self) -> Option<(PatternTest, f64)> {
-        let total: f64 = self.rows.iter().map(|row| self.scaled(*row).powi(2)).sum();
         let found = runs(self.rows.iter().map(|row| self.of[*row]))?;
         let by = PatternTest::Runs {
             runs: found.runs,
             readings: found.above + found.below,
         };
-        let rare = found.probability < RARE && total > self.harmless();
+        let rare = found.probability < RARE && self.total() > self.harmless();
         rare.then_some((by, found.probability))
     }
 
@@ -226,7 +266,10 @@ impl Residuals<'_> {
         let residuals = of_rows(&|row| self.scaled(*row));
         let follows = basis.tr_mul(&residuals).norm_squared();
         let coefficients = basis.ncols() as f64;
-        let (others, dof) = (residuals.norm_squared() - follows, self.dof - coefficients);
+        let (others, dof) = (
+            residuals.norm_squared() - follows,
+            self.own.dof - coefficients,
+        );
         let beyond = follows - self.harmless();
         (dof >= 1.0 && others > 0.0 && beyond > 0.0)
             .then(|| f_sf(beyond / coefficients / (others / dof), coefficients, dof))

@@ -297,25 +297,29 @@ form! {
     PatternForm<'a> of (one: &'a Pattern) {
         /// The response.
         response: &'a str = &one.response,
-        /// What tells: `repeats`, `runs` or `follows`.
+        /// What tells: `parts`, `repeats`, `runs` or `follows`.
         by: &'static str = match &one.by {
+            PatternTest::Parts { .. } => "parts",
             PatternTest::Repeats { .. } => "repeats",
             PatternTest::Runs { .. } => "runs",
             PatternTest::Follows { .. } => "follows",
         },
-        /// Of repeated readings: standard deviation among themselves, in the unit of the response (of unit weight where they have weights); null for runs.
+        /// Of repeated readings: standard deviation among themselves, in the unit of the response (of unit weight where they have weights); null for others.
         within: Option<Number> = repeats(one).map(|[within, ..]| Number(within)),
         /// The same from their means about the equation.
-        between: Option<Number> = repeats(one).map(|[_, between, _]| Number(between)),
-        /// Ratio of their squares.
-        f: Option<Number> = repeats(one).map(|[.., f]| Number(f)),
-        /// How many runs of equal signs there are; null for repeated readings.
+        between: Option<Number> = repeats(one).map(|[_, between]| Number(between)),
+        /// Ratio of their squares; of `parts` that of what all points leave beyond the parts to what the parts leave.
+        f: Option<Number> = match one.by {
+            PatternTest::Parts { f, .. } | PatternTest::Repeats { f, .. } => Some(Number(f)),
+            _ => None,
+        },
+        /// How many runs of equal signs there are; null for others.
         runs: Option<usize> = signs(one).map(|[runs, _]| runs),
         /// Of so many residuals.
         residuals: Option<usize> = signs(one).map(|[_, residuals]| residuals),
-        /// The column that the residuals follow; null where it is none.
+        /// The column that the residuals follow, or that tells the parts apart; null where it is none.
         column: Option<&'a str> = match &one.by {
-            PatternTest::Follows { column } => Some(column),
+            PatternTest::Follows { column } | PatternTest::Parts { column, .. } => Some(column),
             _ => None,
         },
         /// Probability of residuals like that, were they scatter.
@@ -416,19 +420,21 @@ pub fn plan_schema() -> Value {
     machine::schema::<PlanForm<'_>>("gumption plan --json")
 }
 
-/// What repeated readings tell: within, between, F.
-fn repeats(one: &Pattern) -> Option<[f64; 3]> {
+/// What repeated readings tell: within and between.
+fn repeats(one: &Pattern) -> Option<[f64; 2]> {
     match one.by {
-        PatternTest::Repeats { within, between, f } => Some([within, between, f]),
-        PatternTest::Runs { .. } | PatternTest::Follows { .. } => None,
+        PatternTest::Repeats {
+            within, between, ..
+        } => Some([within, between]),
+        _ => None,
     }
 }
 
 /// What signs tell: how many runs, of how many residuals.
 fn signs(one: &Pattern) -> Option<[usize; 2]> {
     match one.by {
-        PatternTest::Repeats { .. } | PatternTest::Follows { .. } => None,
         PatternTest::Runs { runs, readings } => Some([runs, readings]),
+        _ => None,
     }
 }
 

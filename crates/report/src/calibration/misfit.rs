@@ -4,6 +4,7 @@ use crate::figures::with_unit;
 use crate::language::{Language, Word};
 use crate::number::{NONE, aligned, freedom, significant};
 use crate::phrase::{plural, section, table};
+use crate::remarks::REMARK;
 use crate::symbol;
 use gumption_fault::say;
 use gumption_format::document::{
@@ -246,6 +247,10 @@ fn no_scatter(campaign: &Campaign, one: &Pattern, l: Language) -> String {
                 [within, between].map(|s| with_unit(&significant(*s, 2), &unit));
             say!("readings of {response} where all stimuli are equal have the standard deviation {within}, and by the distance of their means from the equation it would be {between} (F = {f}, {p})").in_language(l)
         }
+        PatternTest::Parts { column, f } => {
+            let f = significant(*f, 2);
+            say!("the parts that {column} tells apart leave less of {response} by themselves than all points together (F = {f}, {p}); what differs from part to part is an input with by = \"{column}\" and a term in the equation").in_language(l)
+        }
         PatternTest::Follows { column } => say!("those of {response} follow {column}, which no equation has ({p})").in_language(l),
         PatternTest::Runs { runs, readings } => say!("those of {response} keep their sign in the order of the readings for longer than by chance ({runs} runs of {readings} residuals, {p})").in_language(l),
     };
@@ -259,53 +264,83 @@ pub(super) fn remarks(
     assumed: &[String],
     l: Language,
 ) -> Vec<Block> {
-    let mut items: Vec<String> = Vec::new();
-    for finding in &campaign.points.findings {
-        items.push(l.pick(
-            format!("{}; {}.", finding.message(), finding.advice()),
-            format!("{}；{}。", finding.message_zh(), finding.advice_zh()),
-        ));
-    }
-    if let Some(found) = found {
-        if found.left_out > 0 {
-            let count = found.left_out;
-            items.push(
-                say!(
-                    "{count} reading{} left out, because a value is missing.",
-                    plural(count)
-                )
-                .in_language(l),
-            );
-        }
-        items.extend(exchanged(&found.swapped, l));
-        items.extend(reversed(&found.reversed, l));
-        items.extend(found.apart.iter().map(|one| stands_apart(one, l)));
-        items.extend(found.limits.iter().map(|limit| at_limit(limit, l)));
-        items.extend(
-            found
-                .patterns
-                .iter()
-                .map(|one| no_scatter(campaign, one, l)),
-        );
-        if !found.linear {
-            items.push(l.pick(
-                "The equations are not linear in the parameters: uncertainties and written budgets are of first order in the errors.",
-                "方程对参数非线性：不确定度以及写出的预算取误差的一阶近似。",
-            ).to_owned());
-        }
-        items.extend(found.responses.iter().filter_map(|one| misfit(one, l)));
-    }
+    let mut items = of_recording(campaign, l);
+    items.extend(
+        found
+            .into_iter()
+            .flat_map(|found| of_fit(campaign, found, l)),
+    );
     if !assumed.is_empty() {
         let names = assumed.join(", ");
-        items.push(say!("No values of {names} are stated, and zero was assumed: effects that are proportional to them are not seen. State roughly what is expected: [parameter.{}] start = ….", assumed[0]).in_language(l));
+        items.push((REMARK, say!("No values of {names} are stated, and zero was assumed: effects that are proportional to them are not seen. State roughly what is expected: [parameter.{}] start = ….", assumed[0]).in_language(l)));
     }
     let remarks = campaign.experiment.remarks.iter();
-    items.extend(remarks.map(|remark| remark.in_language(l)));
+    items.extend(remarks.map(|remark| (REMARK, remark.in_language(l))));
     if items.is_empty() {
         return Vec::new();
     }
+    let texts = items.into_iter().map(|(_, text)| text).collect();
     vec![
         Block::Section(Word::Remarks.of(l).to_owned()),
-        Block::List(items),
+        Block::List(texts),
     ]
+}
+
+/// The codes of what must be known of a recording, each once; what holds of the experiment with any recording is not among them.
+pub(super) fn codes(campaign: &Campaign, found: &Calibration) -> String {
+    let l = Language::English;
+    let all = of_recording(campaign, l).into_iter();
+    let mut codes: Vec<&str> = all
+        .chain(of_fit(campaign, found, l))
+        .map(|(code, _)| code)
+        .filter(|code| *code != REMARK)
+        .collect();
+    codes.dedup();
+    codes.join(" ")
+}
+
+/// What is doubtful in a recording, each with its code.
+fn of_recording(campaign: &Campaign, l: Language) -> Vec<(&'static str, String)> {
+    let findings = campaign.points.findings.iter().map(|finding| {
+        let text = l.pick(
+            format!("{}; {}.", finding.message(), finding.advice()),
+            format!("{}；{}。", finding.message_zh(), finding.advice_zh()),
+        );
+        ("recording", text)
+    });
+    findings.collect()
+}
+
+/// What is doubtful in what was found from it, each with its code.
+fn of_fit(campaign: &Campaign, found: &Calibration, l: Language) -> Vec<(&'static str, String)> {
+    let coded = |code: &'static str| move |text: String| (code, text);
+    let count = found.left_out;
+    let left_out = (count > 0).then(|| {
+        say!(
+            "{count} reading{} left out, because a value is missing.",
+            plural(count)
+        )
+        .in_language(l)
+    });
+    let mut items: Vec<(&str, String)> = left_out.map(coded("left-out")).into_iter().collect();
+    items.extend(exchanged(&found.swapped, l).map(coded("exchanged")));
+    items.extend(reversed(&found.reversed, l).map(coded("reversed")));
+    let apart = found.apart.iter().map(|one| stands_apart(one, l));
+    items.extend(apart.map(coded("apart")));
+    let limits = found.limits.iter().map(|limit| at_limit(limit, l));
+    items.extend(limits.map(coded("saturated")));
+    let patterns = found
+        .patterns
+        .iter()
+        .map(|one| no_scatter(campaign, one, l));
+    items.extend(patterns.map(coded("no-scatter")));
+    if !found.linear {
+        items.push((REMARK, l.pick(
+            "The equations are not linear in the parameters: uncertainties and written budgets are of first order in the errors.",
+            "方程对参数非线性：不确定度以及写出的预算取误差的一阶近似。",
+        ).to_owned()));
+    }
+    let misfits = found.responses.iter().filter_map(|one| misfit(one, l));
+    items.extend(misfits.map(coded("misfit")));
+    items
 }

@@ -4,6 +4,7 @@ use gumption_lab::calibrate::{Calibration, Campaign, Contribution, Origin, Unusa
 
 use super::calibration_trouble;
 use super::causes::origin_name;
+use super::misfit::codes;
 use crate::batch::{Lines, refused};
 use crate::language::Language;
 use crate::rows::{Head, in_unit};
@@ -18,7 +19,7 @@ pub struct RecordingColumns {
 }
 
 /// Adds the line of a recording: its name, of each coefficient estimate, u, ν, k and U, of each response the standard deviation of
-/// its residuals, the shares, and the error of one that gives none.
+/// its residuals, the shares, what is doubtful in it, and the error of one that gives none.
 pub fn recording(
     lines: &mut Lines,
     label: &str,
@@ -30,8 +31,8 @@ pub fn recording(
         let numbers = numbers(campaign, found).chain(shares.into_iter().flatten());
         let (mut heads, cells): (Vec<Head>, Vec<Option<f64>>) = numbers.unzip();
         heads.insert(0, Head::texts("label"));
-        heads.push(Head::texts("error"));
-        (heads, cells)
+        heads.extend(["findings", "error"].map(Head::texts));
+        (heads, cells, codes(campaign, found))
     });
     let found = found.map_err(|unusable| match unusable {
         Unusable::Refused(rejection) => refused(rejection, language),

@@ -101,6 +101,44 @@ fn scatter_is_scatter() {
     assert!(alarms < 11, "{alarms}");
 }
 
+/// Three days of eight readings on a line, with an offset and a scale of their own.
+fn on_three_days(offset: f64, scale: f64, errors: &str) -> Vec<Pattern> {
+    let mut generator = StdRng::seed_from_u64(5);
+    let scatter = Normal::new(0.0, 0.1).expect("a distribution");
+    let days = [("mon", -1.0), ("tue", 1.0), ("wed", 0.0)];
+    let lines = days
+        .iter()
+        .flat_map(|(day, sign)| (0..8).map(move |i| (day, *sign, f64::from((i * 5) % 8) - 3.5)));
+    let lines = lines.map(|(day, sign, rate)| {
+        let u = (2.0 + sign * scale) * rate + sign * offset + scatter.sample(&mut generator);
+        format!("{rate},{day},{u}\n")
+    });
+    let csv = format!("omega [deg/s],day,U [mV]\n{}", lines.collect::<String>());
+    let file = RATE.replace("b\"]", "b + shift\"]\nseparately = \"day\"");
+    calibrate(&campaign(&format!("{file}{EXACT}{errors}"), &csv))
+        .expect("coefficients")
+        .patterns
+}
+
+#[test]
+fn parts_that_differ_by_more_than_their_readings_scatter_tell() {
+    let exact = "[input.shift]\nvalue = 0\nunit = \"mV\"\n";
+    assert_eq!(on_three_days(0.0, 0.0, exact), []);
+    for (offset, scale) in [(0.3, 0.0), (0.0, 0.1)] {
+        let all = on_three_days(offset, scale, exact);
+        let [Pattern { by, p_value, .. }] = all.as_slice() else {
+            panic!("{all:?}")
+        };
+        let PatternTest::Parts { column, f } = by else {
+            panic!("{by:?}")
+        };
+        assert_eq!(column, "day");
+        assert!(*f > 10.0 && *p_value < 1e-4, "{f} {p_value}");
+    }
+    let stated = "[input.shift]\nu = 0.3\nunit = \"mV\"\nby = \"day\"\n";
+    assert_eq!(on_three_days(0.3, 0.0, stated), []);
+}
+
 /// Twenty readings on a line, with a temperature that acts so much on the output and on the scale.
 fn in_the_cold(output: f64, scale: f64) -> Vec<Pattern> {
     let mut generator = StdRng::seed_from_u64(11);

@@ -77,6 +77,17 @@ impl Checker<'_> {
             }
             return None;
         };
+        let found = outline(&term.value, &self.units);
+        if found.is_ok_and(|found| !found.needs.iter().any(|(needed, _)| needed == name)) {
+            let message = say!("the term of the omitted effect {name} does not have {name}");
+            let help = say!(
+                "{name} is its coefficient: term = \"{name}*({})\"",
+                term.value
+            );
+            let fault = Fault::new(TERM, term.span.clone(), message);
+            self.faults.push(fault.help(help));
+            return None;
+        }
         let responses = experiment.equations.responses();
         let constants = &experiment.constants;
         let response = match &entry.value.response {

@@ -253,11 +253,21 @@ impl<'s> Checker<'s> {
     ) {
         if name.is_empty() {
             let message = say!("the equation does not say which column it gives");
+            let text = self.source.text.get(place.clone()).unwrap_or_default();
+            let label = match text.contains("==") {
+                true => say!("`==` compares; an equation has one `=`"),
+                false => say!("there is no `=`"),
+            };
             self.faults.push(
                 Fault::new(UNKNOWN_SYMBOL, place.clone(), message)
-                    .label(say!("there is no `=`"))
+                    .label(label)
                     .help(say!("write what was observed on the left: U = …")),
             );
+            return;
+        }
+        let declared = self.source.table.columns.as_ref();
+        if declared.is_some_and(|declared| declared.value.refused) {
+            // It may be one of the columns that could not be read.
             return;
         }
         let headers: Vec<&str> = headings

@@ -18,6 +18,11 @@ pub trait Shorthand: Table + FromToml {
 
     /// The table that states this key only.
     fn of(word: Stated<Self::Word>) -> Self;
+
+    /// What to write where a text is no such word.
+    fn otherwise(_text: &str) -> Option<Said> {
+        None
+    }
 }
 
 /// A table, or its most important key alone.
@@ -33,7 +38,16 @@ impl<T: Shorthand> FromToml for Short<T> {
         if matches!(value.get_ref(), DeValue::Table(_)) {
             return T::read(value, reader).map(Short);
         }
-        let word = T::Word::read(value, reader)?;
+        let before = reader.faults.len();
+        let Some(word) = T::Word::read(value, reader) else {
+            let fault = reader.faults.get_mut(before);
+            if let (Some(fault), DeValue::String(text)) = (fault, value.get_ref())
+                && fault.help.is_none()
+            {
+                fault.help = T::otherwise(text);
+            }
+            return None;
+        };
         Some(Short(T::of(Stated {
             value: word,
             span: value.span(),

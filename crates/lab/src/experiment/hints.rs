@@ -1,9 +1,9 @@
 //! What writers of experiments mistake: keys of an uncertainty, and wordings of former versions.
 
 use gumption_fault::{Said, say};
-use gumption_format::toml::{Hints, Table};
+use gumption_format::toml::{DeValue, Hints, Table};
 
-use super::tables::ExperimentTable;
+use super::tables::{ExperimentTable, NoiseWord};
 use gumption_gum::budget::hints as budget;
 
 /// The mistakes of writers of experiments.
@@ -12,7 +12,7 @@ pub static HINTS: Hints = Hints {
     synonyms: &budget::SYNONYMS,
     top: ExperimentTable::keys,
     unknown_key,
-    no_table: |_, _| -> Option<Said> { None },
+    no_table,
     wrong_type: budget::wrong_type,
     list_of_amounts: say!("quantities that differ from row to row are columns of the recording"),
 };
@@ -82,6 +82,22 @@ static FORMER: [(&str, &str, Said); 10] = [
         say!("the name of an omitted effect is that of its table: [omitted.NAME]"),
     ),
 ];
+
+/// What to write where one value stands in the place of a table.
+fn no_table(title: &str, found: &DeValue<'_>) -> Option<Said> {
+    match (title, found) {
+        ("[noise]", DeValue::String(text)) if NoiseWord::named(text).is_some() => {
+            Some(say!("write noise = {{ from = \"{text}\" }}"))
+        }
+        ("[noise]", DeValue::String(text)) => Some(say!(
+            "a standard uncertainty is noise = {{ u = \"{text}\" }}; what tells it is from = \"residuals\", \"dwells\" or \"stated\""
+        )),
+        ("[noise]", DeValue::Float(_) | DeValue::Integer(_)) => Some(say!(
+            "the standard uncertainty of a reading is noise = {{ u = … }}, in the unit of the output"
+        )),
+        _ => None,
+    }
+}
 
 fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Said> {
     let former = FORMER

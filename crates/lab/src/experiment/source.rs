@@ -291,6 +291,11 @@ impl Source {
             .rfind('\n')
             .map_or(0, |at| at + 1);
         let said = self.text[line..].lines().next().unwrap_or_default().trim();
+        // One of a list of equations.
+        let entry = said.trim_end_matches(',').strip_prefix('"');
+        let said = entry
+            .and_then(|entry| entry.strip_suffix('"'))
+            .unwrap_or(said);
         fault.message = say!(
             "{}, in the procedure {}: {said}",
             fault.message,

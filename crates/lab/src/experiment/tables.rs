@@ -182,6 +182,12 @@ impl Shorthand for ColumnTable {
             ..ColumnTable::default()
         }
     }
+
+    fn otherwise(text: &str) -> Option<Said> {
+        Some(say!(
+            "this is what the column is; its name in the first line stands in a table: {{ column = \"{text}\" }}"
+        ))
+    }
 }
 
 table! {

@@ -407,6 +407,21 @@ mod tests {
         assert_eq!(table["recording"]["dwells"][0].as_str(), Some("position"));
     }
 
+    /// What counts how often something was gone through is no stimulus, and the uncertainty of what was read no output.
+    #[test]
+    fn counts_of_repeats_are_runs_and_uncertainties_are_left() {
+        let table = of("Zyklus;Druck [bar];Strom [mA];u [mA]\n\
+            1;0;4,01;0,002\n1;5;12,02;0,003\n1;10;20,01;0,004\n2;0;4,02;0,002\n2;5;12,01;0,003\n2;10;20,03;0,004\n");
+        let roles = ["Zyklus", "Druck", "Strom", "u"].map(|name| role(&table, name));
+        assert_eq!(roles, ["run", "stimulus", "output", "ignore"]);
+        let table = of("面,第几遍,ax (LSB)\nX+,1,99.8\nX-,1,-101\nX+,2,99.9\nX-,2,-101.5\n");
+        assert_eq!(role(&table, "第几遍"), "run");
+        assert_eq!(table["equations"].as_str(), Some("ax = a + b*nx"));
+        // What rises once is set.
+        let table = of("level,U [mV]\n1,0.1\n1,0.2\n2,1.1\n2,1.2\n3,2.1\n3,2.2\n");
+        assert_eq!(role(&table, "level"), "stimulus");
+    }
+
     /// Times as a clock writes them, voltages that are called U, a reference in a condition's unit, cycles and ways in words.
     #[test]
     fn columns_are_such_as_laboratories_write() {

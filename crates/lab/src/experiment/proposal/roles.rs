@@ -217,7 +217,46 @@ fn by_itself(column: &Column, columns: &[Column]) -> Option<RoleWord> {
     if is_scatter(column, columns) {
         return Some(RoleWord::Ignore);
     }
+    if is_numbering && numbers_repeats(&known, column, columns) {
+        return Some(RoleWord::Run);
+    }
     (is_constant(column) && known.len() > 1).then_some(RoleWord::Covariate)
+}
+
+/// Whether it counts how often something was gone through: it rises by one, and another column has the same values in each of its
+/// stretches.
+fn numbers_repeats(known: &[f64], column: &Column, columns: &[Column]) -> bool {
+    let stretches: Vec<std::ops::Range<usize>> = known
+        .chunk_by(|a, b| a == b)
+        .scan(0, |end, stretch| {
+            let begin = *end;
+            *end += stretch.len();
+            Some(begin..*end)
+        })
+        .collect();
+    let counts = stretches
+        .windows(2)
+        .all(|pair| known[pair[1].start] == known[pair[0].start] + 1.0);
+    let comes_back = |other: &Column| {
+        let values = |rows: &std::ops::Range<usize>| -> BTreeSet<u64> {
+            match &other.data {
+                Data::Numbers(numbers) => {
+                    numbers[rows.clone()].iter().map(|x| x.to_bits()).collect()
+                }
+                Data::Labels(labels) => labels.of_row[rows.clone()]
+                    .iter()
+                    .map(|x| u64::from(*x))
+                    .collect(),
+            }
+        };
+        let first = values(&stretches[0]);
+        first.len() > 1 && stretches.iter().all(|rows| values(rows) == first)
+    };
+    let whole = match &column.data {
+        Data::Numbers(numbers) => numbers.len() == known.len(),
+        Data::Labels(_) => false,
+    };
+    whole && stretches.len() > 1 && counts && columns.iter().any(comes_back)
 }
 
 /// Whether all its numbers are one.
@@ -230,10 +269,23 @@ fn is_constant(column: &Column) -> bool {
     known.all(|x| Some(x) == first)
 }
 
-/// Whether it is a standard deviation, or the u of another column: `u_T` beside `T`, while `U_ref` is a voltage.
+/// Whether it is a standard deviation, or the u of another column: `u_T` beside `T`, `u` beside what is in its unit, while `U_ref`
+/// is a voltage.
 fn is_scatter(column: &Column, columns: &[Column]) -> bool {
     let name = column.name.to_lowercase();
-    let named = ["sd", "std", "stdev"];
+    let named = [
+        "sd",
+        "std",
+        "stdev",
+        "uncertainty",
+        "标准差",
+        "标准偏差",
+        "不确定度",
+    ];
+    let is_like = |other: &Column| other.name != column.name && other.unit == column.unit;
+    if column.name == "u" && column.unit.is_some() && columns.iter().any(is_like) {
+        return true;
+    }
     let of = column
         .name
         .strip_prefix("u_")

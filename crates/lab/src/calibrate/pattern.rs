@@ -245,7 +245,13 @@ impl Residuals<'_> {
         };
         let column = of_rows(&value);
         let column = column.add_scalar(-column.mean());
-        let signal = of_rows(&|row| self.stack.observed[*row] - self.of[*row]);
+        // A known quantity that a combination of readings gives is the same everywhere; less the residuals it would bring in nothing
+        // but them.
+        let observed = of_rows(&|row| self.stack.observed[*row]);
+        let signal = match observed.min() < observed.max() {
+            true => &observed - of_rows(&|row| self.of[*row]),
+            false => observed,
+        };
         let on_scale = column.component_mul(&signal);
         let mut acts = DMatrix::from_columns(&[column, on_scale]);
         let mut taken = self.jacobian.select_rows(self.rows);

@@ -101,6 +101,30 @@ fn scatter_is_scatter() {
     assert!(alarms < 11, "{alarms}");
 }
 
+/// A circle that stays in the time: what its radius leaves follows nothing more often than by chance.
+#[test]
+fn what_is_known_and_stays_has_no_scale_to_follow() {
+    const CIRCLE: &str = "title = \"Norm\"\nequations = \"r = sqrt((x - bx)^2 + (y - by)^2)\"\n\
+        recording = \"run.csv\"\nconstant.r = 1\n[parameter]\nbx = { start = 0 }\nby = { start = 0 }\n\
+        [columns]\nt = \"covariate\"\n";
+    let noise = Normal::new(0.0, 0.001).expect("a distribution");
+    let mut random = StdRng::seed_from_u64(2);
+    let mut alarms = 0;
+    for _ in 0..400 {
+        let lines = (0..24).map(|i| {
+            let angle = f64::from(i * 7 % 24) * std::f64::consts::TAU / 24.0;
+            let [x, y] = [angle.cos(), angle.sin()].map(|x| x + noise.sample(&mut random));
+            format!("{i},{x},{y}\n")
+        });
+        let csv = format!("t,x,y\n{}", lines.collect::<String>());
+        let found = calibrate(&campaign(CIRCLE, &csv)).expect("coefficients");
+        let follows = |one: &&Pattern| matches!(one.by, PatternTest::Follows { .. });
+        alarms += found.patterns.iter().filter(follows).count();
+    }
+    // Two are expected at 0.5 %, and eight come about in one of a thousand cases.
+    assert!(alarms < 8, "{alarms}");
+}
+
 /// Three days of eight readings on a line, with an offset and a scale of their own.
 fn on_three_days(offset: f64, scale: f64, errors: &str) -> Vec<Pattern> {
     let mut generator = StdRng::seed_from_u64(5);

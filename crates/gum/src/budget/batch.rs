@@ -175,8 +175,10 @@ fn suggest_to_keep(fault: &mut Fault, column: &str) {
     if fault.code != UNKNOWN_NAME {
         return;
     }
+    let bare = |c: char| c.is_alphanumeric() || "_.-".contains(c);
+    let quote = if column.chars().all(bare) { "" } else { "\"" };
     let keep = say!(
-        "a column that names the rows is called `label`; if it is a column of your own, `--keep {column}` carries it through to the results (in Python, `keep=[\"{column}\"]`)"
+        "a column that names the rows is called `label`; if it is a column of your own, `--keep {quote}{column}{quote}` carries it through to the results (in Python, `keep=[\"{column}\"]`)"
     );
     fault.help = Some(match fault.help.take() {
         Some(help) => say!("{help}\n{keep}"),

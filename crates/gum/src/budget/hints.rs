@@ -403,18 +403,6 @@ pub fn wrong_type(key: &str, found: &str) -> Option<Said> {
         "range" => Some(say!(
             "a range has two ends: range = [0, {width}] or range = [{below}, {width}]"
         )),
-        "certificate" => Some(say!(
-            "an expanded uncertainty stands with its k: certificate = {{ U = {width}, k = 2 }}"
-        )),
-        "specification" => {
-            let part = match number.contains(['%', 'p']) {
-                true => "reading",
-                false => "fixed",
-            };
-            Some(say!(
-                "a specification has parts: specification = {{ {part} = {width} }}; others are `range` with `span`, and `counts` with `step`"
-            ))
-        }
         "readings" => Some(say!(
             "one reading is value = {found}, with its uncertainty beside it; readings = […] are two or more"
         )),
@@ -438,7 +426,7 @@ fn listed(text: &str) -> Option<Said> {
 }
 
 /// What to write in place of a value that stands where a table is expected.
-fn no_table(title: &str, found: &DeValue<'_>) -> Option<Said> {
+pub fn no_table(title: &str, found: &DeValue<'_>) -> Option<Said> {
     match (title, found) {
         ("[fit.NAME.data]", DeValue::Array(_)) => Some(say!(
             "a column of data is a table, as it may have a unit and an uncertainty: {{ values = […] }}"
@@ -453,13 +441,16 @@ fn no_table(title: &str, found: &DeValue<'_>) -> Option<Said> {
         ("[monte_carlo]", _) => Some(say!(
             "[monte_carlo] is a header, with trials = … below it; every budget is checked by Monte Carlo, unless --no-mc is given"
         )),
-        ("certificate", DeValue::String(_)) => {
+        ("certificate", DeValue::String(_) | DeValue::Integer(_) | DeValue::Float(_)) => {
             Some(say!("a certificate is {{ U = …, k = 2, number = \"…\" }}"))
         }
         ("specification", DeValue::String(text)) => Some(say!(
             "its parts stand by themselves: {{ {} }}",
             parts_of(text)
         )),
+        ("specification", DeValue::Integer(_) | DeValue::Float(_)) => {
+            Some(say!("its parts stand by themselves: {{ {} }}", "fixed = …"))
+        }
         _ => None,
     }
 }

@@ -368,6 +368,9 @@ rows = [["a", 295.65, 600], ["b", "296 K", "0.9 K"]]
     #[test]
     fn an_unknown_path_is_answered_with_the_nearest() {
         assert!(message(r#""X.dfo""#, "[1]").contains("did you mean `dof`?"));
+        assert!(message(r#""u(X)""#, "[1]").contains("is the column `X.u`"));
+        assert!(message(r#""U_X""#, "[1]").contains("is the column `X.certificate.U`"));
+        assert!(message(r#""X，V""#, "[1]").contains("separated by a comma"));
         assert!(message(r#""x.dof""#, "[1]").contains("did you mean \"X.dof\"?"));
         assert!(
             message(r#""conventoins.digits""#, "[1]")

@@ -95,7 +95,7 @@ fn no_table(title: &str, found: &DeValue<'_>) -> Option<Said> {
         ("[noise]", DeValue::Float(_) | DeValue::Integer(_)) => Some(say!(
             "the standard uncertainty of a reading is noise = {{ u = … }}, in the unit of the output"
         )),
-        _ => None,
+        _ => budget::no_table(title, found),
     }
 }
 

@@ -190,6 +190,27 @@ fn unknown_column(file: &DeTable<'_>, name: &Stated<String>, path: &[String]) ->
         say!("no input or constant is called {}", path[0]),
     )
     .label(say!("unknown column"));
+    let separators = |c: char| "，；、|".contains(c) || c.is_whitespace();
+    let parts = name.value.split(separators);
+    let parts = parts.filter(|part| *part == LABEL || is_owned(file, part));
+    if parts.count() > 1 {
+        return fault.help(say!(
+            "columns are separated by a comma, a semicolon or a tab, and their names have no blanks"
+        ));
+    }
+    match uncertainty(file, &name.value) {
+        Some(("u", input)) => {
+            return fault.help(say!(
+                "the standard uncertainty of {input} is the column `{input}.u`"
+            ));
+        }
+        Some((_, input)) => {
+            return fault.help(say!(
+                "the U of a certificate is the column `{input}.certificate.U`, with `{input}.certificate.k` where k differs from row to row"
+            ));
+        }
+        None => {}
+    }
     let known = known_names(file, path.len());
     match nearest(&path[0], known.iter().map(String::as_str)) {
         Some(near) => {
@@ -236,10 +257,25 @@ fn segments(path: &str) -> Vec<String> {
     parts
 }
 
-/// Whether a file has an input, a constant or a source of this name.
+/// Whether a file has an input, a constant or a source of this name, or one whose uncertainty it writes as `u(V)`: that is no u in
+/// volt.
 pub(in crate::budget) fn names_one(file: &DeTable<'_>, name: &str) -> bool {
+    is_owned(file, name) || uncertainty(file, name).is_some()
+}
+
+fn is_owned(file: &DeTable<'_>, name: &str) -> bool {
     let mut owners = OWNERS.iter();
     owners.any(|owner| entry(file, owner, name).is_some())
+}
+
+/// The letter and the input of `u(V)`, `U(V)` or `u_V`.
+fn uncertainty<'c>(file: &DeTable<'_>, column: &'c str) -> Option<(&'c str, &'c str)> {
+    let (letter, rest) = column.split_at_checked(1)?;
+    let inside = rest
+        .strip_prefix('(')
+        .and_then(|rest| rest.strip_suffix(')'))
+        .or_else(|| rest.strip_prefix('_'))?;
+    (["u", "U"].contains(&letter) && is_owned(file, inside)).then_some((letter, inside))
 }
 
 fn entry<'a, 't>(file: &'a DeTable<'t>, owner: &str, name: &str) -> Option<&'a Raw<'t>> {

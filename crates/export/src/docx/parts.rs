@@ -163,6 +163,12 @@ pub(super) fn styles() -> Element {
         ))
         .with(style("Cell", "Cell", spacing(10, 10), Some(("18", false))))
         .with(style(
+            "SmallCell",
+            "Small cell",
+            spacing(10, 10),
+            Some(("15", false)),
+        ))
+        .with(style(
             "Small",
             "Small print",
             spacing(40, 0),

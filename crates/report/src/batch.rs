@@ -40,27 +40,39 @@ struct Line {
     rejected: bool,
 }
 
+/// What a line has behind its label.
+pub(super) struct Figures {
+    /// Of all columns.
+    pub heads: Vec<Head>,
+    /// The numbers.
+    pub numbers: Vec<Option<f64>>,
+    /// Codes of what is doubtful in them.
+    pub findings: String,
+}
+
 impl Lines {
     /// Adds the line of a row of numbers behind its label, and codes of what is doubtful in them behind those; or why there are none.
-    pub(super) fn push(
-        &mut self,
-        label: &str,
-        found: Result<(Vec<Head>, Vec<Option<f64>>, String), String>,
-    ) {
+    pub(super) fn push(&mut self, label: &str, found: Result<Figures, String>) {
         push_field(&mut self.text, label);
         let label = self.text.len();
-        let cells = found.map(|(heads, numbers, findings)| {
-            for number in &numbers {
+        let cells = found.map(
+            |Figures {
+                 heads,
+                 numbers,
+                 findings,
+             }| {
+                for number in &numbers {
+                    self.text.push(b',');
+                    Cell::Number(*number).push(&mut self.text);
+                }
                 self.text.push(b',');
-                Cell::Number(*number).push(&mut self.text);
-            }
-            self.text.push(b',');
-            Cell::Text(&findings).push(&mut self.text);
-            // There is no error.
-            self.text.extend_from_slice(b",\n");
-            self.heads.get_or_insert(heads);
-            numbers.len() + 3
-        });
+                Cell::Text(&findings).push(&mut self.text);
+                // There is no error.
+                self.text.extend_from_slice(b",\n");
+                self.heads.get_or_insert(heads);
+                numbers.len() + 3
+            },
+        );
         self.lines.push(Line {
             label,
             end: self.text.len(),

@@ -5,7 +5,7 @@ use gumption_lab::calibrate::{Calibration, Campaign, Contribution, Origin, Unusa
 use super::calibration_trouble;
 use super::causes::origin_name;
 use super::misfit::codes;
-use crate::batch::{Lines, refused};
+use crate::batch::{Figures, Lines, refused};
 use crate::language::Language;
 use crate::rows::{Head, in_unit};
 
@@ -29,10 +29,14 @@ pub fn recording(
     let found = found.map(|(campaign, found)| {
         let shares = shares.then(|| self::shares(campaign, found));
         let numbers = numbers(campaign, found).chain(shares.into_iter().flatten());
-        let (mut heads, cells): (Vec<Head>, Vec<Option<f64>>) = numbers.unzip();
+        let (mut heads, numbers): (Vec<Head>, Vec<Option<f64>>) = numbers.unzip();
         heads.insert(0, Head::texts("label"));
         heads.extend(["findings", "error"].map(Head::texts));
-        (heads, cells, codes(campaign, found))
+        Figures {
+            heads,
+            numbers,
+            findings: codes(campaign, found),
+        }
     });
     let found = found.map_err(|unusable| match unusable {
         Unusable::Refused(rejection) => refused(rejection, language),

@@ -6,6 +6,10 @@ use super::sharp::best;
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
 
+/// Odds beforehand of what is not first order: a square, a rate of change, a product of conditions, an exponential; and of what comes
+/// at one value.
+pub(super) const HIGHER: f64 = 0.3;
+
 /// A variation by what its terms follow, to be put on a node.
 pub(super) fn form(label: impl Into<String>, modifiers: Vec<Modifier>) -> Variation {
     Variation::of(label, modifiers.into_iter().map(on_output).collect())

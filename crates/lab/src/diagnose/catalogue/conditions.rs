@@ -1,7 +1,7 @@
 //! What recorded conditions may do that the model leaves out: on the offset, on the scale, with a lag,
 //! squared, as a rate, inversely, and together.
 
-use super::building::{decay, form, on_node, on_output, pair, time_constants, timed};
+use super::building::{HIGHER, decay, form, on_node, on_output, pair, time_constants, timed};
 use super::exponentials;
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
@@ -16,8 +16,6 @@ use gumption_core::quantity::Unit;
 /// Odds beforehand that pressure or humidity acts on an instrument, over those of another condition: they are
 /// recorded because laboratories record them.
 const AIR: f64 = 0.2;
-/// Odds beforehand of what is not first order in a condition: a square, a rate of change, a product; and of what comes at one value.
-pub(super) const HIGHER: f64 = 0.3;
 
 /// Cells of the columns that may act although, or besides how, the model uses them.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {

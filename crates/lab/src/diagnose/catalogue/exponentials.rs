@@ -1,7 +1,6 @@
 //! What changes exponentially with a column, faster and faster towards one end of what was recorded.
 
-use super::building::{on_node, on_output};
-use super::conditions::HIGHER;
+use super::building::{HIGHER, on_node, on_output};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{amount, five_digits, levels_of, map, range};
 use super::sharp::sharpened;
@@ -36,8 +35,9 @@ fn course(
     end: f64,
     step: f64,
 ) -> Vec<Variation> {
-    /// Of the range. Over more of it the course is a parabola.
-    const WIDTHS: [f64; 4] = [0.03, 0.06, 0.12, 0.25];
+    /// Of the range. Over more of it the course is nearly a parabola, which is the likelier one but for what heat sets free.
+    const WIDTHS: [f64; 3] = [0.03, 0.06, 0.12];
+    const OF_HEAT: f64 = 0.25;
     let x = fitted.numbers(column);
     let (least, most) = range(x);
     let unit = fitted.step_unit(column).after_number();
@@ -50,8 +50,10 @@ fn course(
             format!("exp({sign}{along}/({width}))"),
         ))
     };
-    let widths = WIDTHS.map(|part| five_digits(part * (most - least)));
-    let widths: Vec<f64> = widths.into_iter().filter(|width| *width >= step).collect();
+    let of_heat = fitted.is_temperature(column).then_some(OF_HEAT);
+    let widths = WIDTHS.into_iter().chain(of_heat);
+    let widths = widths.map(|part| five_digits(part * (most - least)));
+    let widths: Vec<f64> = widths.filter(|width| *width >= step).collect();
     let widths = fitted.finer.times(sharpened(fitted, widths, &term));
     let each = widths.into_iter().map(five_digits).map(|width| {
         let label = format!("over {}", amount(width, &unit));

@@ -1,8 +1,7 @@
 //! Ends of the range and dead zones of a column: saturation, a change of slope, a band around zero in which
 //! nothing happens.
 
-use super::building::{added, form, on_node, on_output, plain, scoped_label};
-use super::conditions::HIGHER;
+use super::building::{HIGHER, added, form, on_node, on_output, plain, scoped_label};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
     amount, figure, figure_to, five_digits, flag, largest, levels_of, map, range, rounded,

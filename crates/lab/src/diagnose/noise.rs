@@ -547,6 +547,8 @@ pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
         ];
         let grown = |(_, y): &(_, Vec<f64>)| noise_growth::estimate(design, response, y, &errors);
         let each = readings.iter().map(|reading| (reading, grown(reading)));
+        // What effects add to a constant is no signal.
+        let each = each.take(if has_stimulus(design.case) { 2 } else { 1 });
         let gain = |likely: &Option<Likely>| likely.as_ref().map_or(0.0, |likely| likely.gain);
         // Of equals the first.
         let ((with, values), likely) = each
@@ -589,6 +591,12 @@ pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
         claimed.draws = draws;
     }
     claimed
+}
+
+/// Whether something is applied, to which an output answers.
+fn has_stimulus(case: &Case) -> bool {
+    let is_applied = |role: Role| matches!(role, Role::Stimulus | Role::Angle);
+    case.columns.iter().any(|column| is_applied(column.role))
 }
 
 /// Estimated noise that is the same everywhere, where it seems not to be: what is uneven may be something else.

@@ -101,25 +101,28 @@ impl Lowering<'_> {
             self.function_as_value(name, signature, span);
             return;
         }
-        if self.later.iter().any(|n| n == name) {
-            self.report(
-                Fault::new(faults::USED_BEFORE, span.clone(), say!("`{name}` is used before it is defined"))
-                    .label(say!("not defined yet"))
-                    .help(say!(
-                        "move the definition of `{name}` above this line; if `{name}` depends on itself, use `solve(equation, {name}, start)`"
-                    )),
-            );
-            return;
-        }
         let comes_later = |m: &MeasurandSource<'_>| m.name == name && m.model.is_some();
-        if self.later_measurands.iter().any(comes_later) {
-            self.report(
-                Fault::new(faults::USED_BEFORE, span.clone(), say!("`{name}` is used before it is defined"))
-                    .label(say!("its formula comes later"))
-                    .help(say!(
-                        "formulas of measurands see those above them: move `[measurand.{name}]` up; or define `{name} = …` in a `model` at the top of the file, and leave out the formula there"
-                    )),
-            );
+        let used_before = if self.later.iter().any(|n| n == name) {
+            Some([
+                say!("not defined yet"),
+                say!(
+                    "move the definition of `{name}` above this line; if `{name}` depends on itself, use `solve(equation, {name}, start)`"
+                ),
+            ])
+        } else if self.later_measurands.iter().any(comes_later) {
+            Some([
+                say!("its formula comes later"),
+                say!(
+                    "formulas of measurands see those above them: move `[measurand.{name}]` up; or define `{name} = …` in a `model` at the top of the file, and leave out the formula there"
+                ),
+            ])
+        } else {
+            None
+        };
+        if let Some([label, help]) = used_before {
+            let message = say!("`{name}` is used before it is defined");
+            let fault = Fault::new(faults::USED_BEFORE, span.clone(), message);
+            self.report(fault.label(label).help(help));
             return;
         }
         let mut known: Vec<&str> = self

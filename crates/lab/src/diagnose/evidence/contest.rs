@@ -12,7 +12,7 @@ use gumption_lanes::LANES;
 
 use super::baseline::Baseline;
 use super::closed_form::{Scale, maximum};
-use super::detection::{Kinds, Panel, Reaches, as_well_placed};
+use super::detection::Panel;
 use super::noise::{Covariance, Factor};
 use super::null::{Laws, Simulated, side_by_side};
 use super::pairs::Singles;
@@ -105,19 +105,7 @@ struct Seen<'c> {
     /// No effect.
     frame: Frame,
     alone: f64,
-    with: Reaches,
-}
-
-impl Seen<'_> {
-    fn most(&self) -> f64 {
-        maximum(&self.with)
-    }
-}
-
-/// Logarithm of the probability of a course with the best effect that few rows carry, or the best two in turn; and with the best of
-/// the rest.
-fn with(alone: f64, [few, many]: Reaches, two: f64) -> Reaches {
-    [few.max(two), many].map(|gain| alone + gain.max(0.0))
+    with: f64,
 }
 
 /// Whether effects beat correlated noise.
@@ -139,18 +127,19 @@ pub fn contest(
         let space = Space::new(&question);
         let frame = space.empty();
         let strongest = Panel::new(&space, &frame).observed(&space, 0.0);
-        let gains = strongest.map(|one| one.map_or(0.0, |one| one.statistic));
+        let each = strongest.into_iter().flatten().map(|one| one.statistic);
+        let gain = each.fold(0.0, f64::max);
         let two = Singles::new(&space).observed(&space);
         Seen {
             course: &courses[at],
             alone: alone[at],
-            with: with(alone[at], gains, two),
+            with: alone[at] + gain.max(two).max(0.0),
             space,
             frame,
         }
     };
     let seen: Vec<Seen<'_>> = side_by_side(courses.len(), see);
-    let with: Vec<f64> = seen.iter().map(Seen::most).collect();
+    let with: Vec<f64> = seen.iter().map(|one| one.with).collect();
     let (top, most) = (maximum(&alone), maximum(&with));
     // Which law makes the recordings: that normal errors need effects does not speak for heavy tails.
     let effect = found.max(most - top);
@@ -166,44 +155,38 @@ pub fn contest(
     let (draws, tails): (Vec<Arc<Factor>>, Vec<f64>) = drawn
         .map(|(course, dof, _)| (Arc::clone(&course.lower), *dof))
         .unzip();
-    let made = Laws {
+    let laws = Laws {
         draws: &draws,
         tails: &tails,
     };
-    let likely = |one: &&Seen<'_>| one.alone > top - HOPELESS || one.most() > most - HOPELESS;
+    let likely = |one: &&Seen<'_>| one.alone > top - HOPELESS || one.with > most - HOPELESS;
     let likely = seen.iter().filter(likely);
-    let benches: Vec<Bench<'_>> = likely.map(|one| Bench::new(one, made)).collect();
-    let best = [0, 1].map(|reach| {
-        let of_courses = seen.iter().map(|one| one.with[reach]);
-        of_courses.fold(f64::NEG_INFINITY, f64::max)
-    });
-    let kinds = Kinds::of(laws.iter().map(|law| law.1));
-    let observed = kinds.told(best.map(|with| with - top));
-    let p = probability(&benches, observed, kinds, settings);
+    let benches: Vec<Bench<'_>> = likely.map(|one| Bench::new(one, laws)).collect();
+    let observed = most - top;
+    let p = probability(&benches, observed, settings);
     Contest { p, alone, with }
 }
 
 /// Probability that the best effect gains as much in recordings with nothing but noise, the course chosen anew in each.
-fn probability(benches: &[Bench<'_>], observed: Reaches, kinds: Kinds, settings: &Settings) -> f64 {
+fn probability(benches: &[Bench<'_>], observed: f64, settings: &Settings) -> f64 {
     let chunks = settings.draws.min(DRAWS).div_ceil(LANES).max(1);
-    let mut seen: Vec<Reaches> = Vec::new();
+    let mut as_much = 0;
     let (p, _) = sequential::probability(chunks, settings.alpha, |next| {
         // All courses of one chunk, then those of the next.
         let each = side_by_side(next.len() * benches.len(), |at| {
             benches[at % benches.len()].simulated(next.start + at / benches.len())
         });
         for chunk in each.chunks(benches.len()) {
-            let gains = |draw: usize| {
-                let [alone, few, many] = [0, 1, 2].map(|which| {
+            let gain = |draw: usize| {
+                let [alone, with] = [0, 1].map(|which| {
                     let own = chunk.iter().map(|own| own[draw][which]);
                     own.fold(f64::NEG_INFINITY, f64::max)
                 });
-                kinds.told([few - alone, many - alone])
+                with - alone
             };
-            seen.extend((0..LANES).map(gains));
+            as_much += (0..LANES).filter(|draw| gain(*draw) >= observed).count();
         }
-        // Without the observation itself.
-        as_well_placed(observed, &seen) - 1
+        as_much
     });
     p
 }
@@ -227,20 +210,19 @@ impl<'s> Bench<'s> {
         }
     }
 
-    /// Logarithms of the probability of this course without an effect, and with the best of each reach, for each recording of
+    /// Logarithms of the probability of this course without an effect and with the best one or two, for each recording of
     /// a chunk.
-    fn simulated(&self, chunk: usize) -> Vec<[f64; 3]> {
+    fn simulated(&self, chunk: usize) -> Vec<[f64; 2]> {
         let recordings = self.simulated.drawn(chunk);
         let gains = self.panel.simulated(&recordings);
         let pairs = self.singles.simulated(&self.seen.space, &recordings);
         let each = recordings.chi_squared().iter().zip(gains).zip(pairs);
-        let all = each.map(|((sum, gains), two)| {
+        let both = each.map(|((sum, [few, many]), two)| {
             let course = self.seen.course;
             let alone = course.log_prior + course.baseline.log_likelihood_of(*sum);
-            let [few, many] = with(alone, gains, two);
-            [alone, few, many]
+            [alone, alone + few.max(many).max(two).max(0.0)]
         });
-        all.collect()
+        both.collect()
     }
 }
 

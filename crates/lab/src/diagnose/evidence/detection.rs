@@ -15,7 +15,7 @@ use super::pairs::Pairs;
 use super::question::Kind;
 use super::remainders::Remainders;
 use super::sequential::probability;
-use super::space::{Block, Frame, Reach, Space};
+use super::space::{Frame, Reach, Space};
 
 /// What the test says.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,19 +28,12 @@ pub(super) struct Outcome {
     pub(super) reach: Reach,
 }
 
-impl Outcome {
-    /// Whether an effect may be what stands out.
-    pub(super) fn admits(&self, block: &Block) -> bool {
-        block.reach >= self.reach
-    }
-}
-
 /// The same statistic for effects that few rows carry, and for the rest.
-pub(super) type Reaches = [f64; 2];
+type Reaches = [f64; 2];
 
 /// How the two are compared with those of simulated recordings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kinds {
+enum Kinds {
     /// The larger one counts.
     Together,
     /// Each with its own.
@@ -49,27 +42,19 @@ pub(super) enum Kinds {
 
 impl Kinds {
     /// Of degrees of freedom of the errors: apart where some law has heavy tails.
-    pub(super) fn of(mut laws: impl Iterator<Item = f64>) -> Kinds {
-        match laws.any(f64::is_finite) {
+    fn of(laws: &[f64]) -> Kinds {
+        match laws.iter().any(|dof| dof.is_finite()) {
             true => Kinds::Apart,
             false => Kinds::Together,
         }
     }
 
-    /// What is compared.
-    pub(super) fn told(self, [few, many]: Reaches) -> Reaches {
-        match self {
-            Kinds::Together => [f64::NEG_INFINITY, few.max(many)],
-            Kinds::Apart => [few, many],
-        }
-    }
-
-    /// With two effects in turn, either of which few rows may carry; and with two that mask each other.
-    fn told_with_pairs(self, [few, many]: Reaches, [in_turn, masked]: [f64; 2]) -> [f64; 4] {
+    /// What is compared, with two effects in turn, either of which few rows may carry, and with two that mask each other.
+    fn told(self, [few, many]: Reaches, [in_turn, masked]: [f64; 2]) -> [f64; 4] {
         match self {
             Kinds::Together => {
-                let [few, many] = self.told([few.max(in_turn), many]);
-                [few, many, f64::NEG_INFINITY, masked]
+                let largest = few.max(many).max(in_turn);
+                [f64::NEG_INFINITY, largest, f64::NEG_INFINITY, masked]
             }
             Kinds::Apart => [few, many, in_turn, masked],
         }
@@ -94,7 +79,7 @@ pub(super) fn test(
     simulated: &Simulated,
 ) -> Outcome {
     let panel = Panel::new(space, frame);
-    let kinds = Kinds::of(space.question.baseline.tails().iter().copied());
+    let kinds = Kinds::of(space.question.baseline.tails());
     let allowance = departure::left(share, space.strength(frame));
     let each = panel.observed(space, allowance);
     let found = each.into_iter().flatten();
@@ -109,7 +94,7 @@ pub(super) fn test(
     let alpha = space.question.settings.alpha;
     let reaches = each.map(|one| one.map_or(f64::NEG_INFINITY, |one| one.allowed));
     let of_pairs = pairs.map_or(NO_PAIRS, |pairs| pairs.observed(space));
-    let observed = kinds.told_with_pairs(reaches, of_pairs);
+    let observed = kinds.told(reaches, of_pairs);
     let mut seen: Vec<[f64; 4]> = Vec::new();
     let (p, draws) = probability(simulated.chunks(), alpha, |next| {
         let found = side_by_side(next.len(), |i| {
@@ -120,7 +105,7 @@ pub(super) fn test(
                 None => vec![NO_PAIRS; reaches.len()],
             };
             let each = reaches.into_iter().zip(of_pairs);
-            let told = each.map(|(reaches, of_pairs)| kinds.told_with_pairs(reaches, of_pairs));
+            let told = each.map(|(reaches, of_pairs)| kinds.told(reaches, of_pairs));
             told.collect::<Vec<_>>()
         });
         seen.extend(found.into_iter().flatten());

@@ -6,14 +6,14 @@ use std::ops::ControlFlow;
 
 use super::closed_form::log_sum;
 use super::departure::FORM;
-use super::detection::{self, Outcome};
+use super::detection;
 use super::findings::Level;
 use super::null::Simulated;
 use super::pairs::Pairs;
 use super::question::Kind;
 use super::refusal::Refusal;
 use super::remainders::Remainders;
-use super::space::{Block, Frame, Reach, Space};
+use super::space::{Frame, Reach, Space};
 use super::unlisted::Restated;
 
 /// At most this many effects at once.
@@ -54,7 +54,7 @@ pub(super) struct Search {
     /// Named sets among them.
     seen: BTreeSet<Vec<usize>>,
     /// Effects that fewer rows carry stood out at no level.
-    reach: Reach,
+    pub(super) reach: Reach,
 }
 
 /// Adds effects until nothing is left that stands out.
@@ -101,10 +101,10 @@ pub(super) fn search(
             break;
         }
         search.reach = search.reach.min(outcome.reach);
-        beam = extend(space, &beam, &outcome, &mut search);
+        beam = extend(space, &beam, outcome.reach, &mut search);
         match level {
             0 => {
-                let seeds = pairs.seeds(space, |block| outcome.admits(block));
+                let seeds = pairs.seeds(space, |block| outcome.reach.admits(block));
                 let frames = seeds.into_iter().filter_map(|pair| space.frame(&pair));
                 masking = frames.map(|pair| Visited::of(space, pair)).collect();
                 search.visit(&masking);
@@ -139,7 +139,7 @@ pub(super) fn needed(space: &Space, mut set: Frame, least: usize) -> Vec<usize> 
 }
 
 /// All sets with one block more than those of the beam, of those that may be what stands out: the best first.
-fn extend(space: &Space, beam: &[Visited], outcome: &Outcome, search: &mut Search) -> Vec<Visited> {
+fn extend(space: &Space, beam: &[Visited], reach: Reach, search: &mut Search) -> Vec<Visited> {
     let mut seen = BTreeSet::new();
     let mut next = Vec::new();
     let best = beam.iter().take(BEAM);
@@ -147,7 +147,7 @@ fn extend(space: &Space, beam: &[Visited], outcome: &Outcome, search: &mut Searc
         let beside = Remainders::new(space, &frame);
         let observed = beside.observed();
         let rests = beside.rests.iter();
-        for rest in rests.filter(|rest| outcome.admits(&space.blocks[rest.block])) {
+        for rest in rests.filter(|rest| reach.admits(&space.blocks[rest.block])) {
             let Some(score) = beside.score(rest, &observed) else {
                 continue;
             };
@@ -192,11 +192,6 @@ fn by_score(a: &&Visited, b: &&Visited) -> Ordering {
 }
 
 impl Search {
-    /// Whether an effect may be what stood out at some level.
-    pub(super) fn admits(&self, block: &Block) -> bool {
-        block.reach >= self.reach
-    }
-
     /// Keeps named sets, each once.
     fn visit(&mut self, sets: &[Visited]) {
         let new = sets

@@ -156,7 +156,7 @@ fn slot(
         Member::Generic(_) => (space.frame_of(named), None),
     };
     let mut scores = replacements(space, &rest, fixed);
-    scores.retain(|(block, _)| search.admits(&space.blocks[*block]));
+    scores.retain(|(block, _)| search.reach.admits(&space.blocks[*block]));
     for (block, score) in &mut scores {
         *score -= again.discount(*block);
     }

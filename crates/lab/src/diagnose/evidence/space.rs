@@ -80,6 +80,11 @@ pub(super) enum Reach {
 }
 
 impl Reach {
+    /// Whether a block has at least this reach.
+    pub(super) fn admits(self, block: &Block) -> bool {
+        block.reach >= self
+    }
+
     /// Of directions, by their rows. So many rows are d/Σh², with the leverages h of all: by the inverse of it errors with heavy
     /// tails make the variance of the sum of squares along the directions larger.
     fn of(basis: &DMatrix<f64>) -> Reach {

@@ -126,3 +126,26 @@ fn what_has_no_size_has_no_name() {
         assert!(strength > 2.58, "{found}");
     }
 }
+
+/// Readings over ten days with a wave of so many hours.
+fn wave_over_days(hours: f64) -> Value {
+    let mut noise = Noise(235);
+    let mut rows = "time [h],U [µV]\n".to_owned();
+    for row in 0..160 {
+        let time = 1.5 * f64::from(row) + 0.3 * noise.normal();
+        let wave = 0.6 * libm::sin(TAU * time / hours + 1.1);
+        let _ = writeln!(rows, "{time:.3},{:.3}", 4.0 + wave + 0.2 * noise.normal());
+    }
+    let case = "equations = \"U = U_0\"\n[columns]\ntime = \"time\"\nU = \"output\"\n[noise]\nu = \"0.2 µV\"\n";
+    diagnosed(&format!("wave-of-{hours}"), &rows, case)
+}
+
+/// A wave that the recording cannot tell from a day is the day's, and one that it can is not.
+#[test]
+fn a_cycle_of_the_calendar_is_no_wave_of_any_period() {
+    let found = wave_over_days(24.0);
+    assert_eq!(names(&found, 0), ["daily"], "{found}");
+    assert_eq!(found["verdict"], "identified", "{found}");
+    let found = wave_over_days(24.84);
+    assert_eq!(names(&found, 0), ["wave"], "{found}");
+}

@@ -23,5 +23,6 @@ mod norms;
 mod reading;
 mod recordings;
 mod refusals;
+mod rounding;
 mod sizes;
 mod warmth;

@@ -1,11 +1,11 @@
 //! What is asked of a recording: candidates as columns, the recording as residuals, and the effects that were
 //! found in the model.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::adopt::{self, Free};
 use super::case::Case;
-use super::catalogue::{self, Cell, Finer, FittedModel, Variation};
+use super::catalogue::{self, Cell, EffectId, Finer, FittedModel, Variation};
 use super::design::Design;
 use super::evidence::{
     self, Atom, Baseline, Candidate, Examination, Fitted, Question, Refusal, Shape, TRACE,
@@ -32,7 +32,12 @@ impl<'f> Candidates<'f> {
         claimed: &Claimed,
         white: &Baseline,
     ) -> Candidates<'f> {
-        let cells = catalogue::cells(&fitted);
+        let mut cells = catalogue::cells(&fitted);
+        // Rounding that the noise holds is told by itself.
+        let is_noise = |cell: &Cell| {
+            cell.effect.id == EffectId::Quantisation && claimed.rounds(fitted.case(), &cell.words.y)
+        };
+        cells.retain(|cell| !is_noise(cell));
         let (candidates, atoms) = question(&fitted, &cells, claimed, white);
         Candidates {
             fitted,
@@ -60,6 +65,33 @@ impl<'f> Candidates<'f> {
             Ok(Some((extended, fit))) => left(&Design::new(&extended.case), &fit),
             Ok(None) | Err(_) => left(self.fitted.design, self.fitted.fit),
         }
+    }
+
+    /// What the model leaves with the named effects in it, and how many parameters it has then.
+    pub(super) fn left(
+        &self,
+        examination: &Examination,
+        claimed: &Claimed,
+    ) -> (DVector<f64>, usize) {
+        let of = |fit: &Fit| (fit.residuals.clone(), fit.unknowns.len());
+        match self.adopted_fit(examination, claimed) {
+            Ok(Some((_, fit))) => of(&fit),
+            Ok(None) | Err(_) => of(self.fitted.fit),
+        }
+    }
+
+    /// Adds what is known to be there, and not by its columns: its candidate and its atom.
+    pub(super) fn add(&mut self, cell: Cell) -> (usize, usize) {
+        let (number, atom) = (self.cells.len(), self.atoms.len());
+        self.cells.push(cell);
+        self.candidates.push(candidate(&self.cells, number));
+        self.atoms.push(Atom {
+            candidate: number,
+            variant: 0,
+            shape: Shape::Scatter,
+            share: 1.0,
+        });
+        (number, atom)
     }
 
     /// Whether effects beat noise that is correlated, or that grows with the reading: the probability that they gain as much
@@ -223,16 +255,7 @@ fn question(
 ) -> (Vec<Candidate>, Vec<Atom>) {
     let (mut candidates, mut atoms) = (Vec::new(), Vec::new());
     for (index, cell) in cells.iter().enumerate() {
-        candidates.push(Candidate {
-            name: format!("{} {}", cell.effect.id, cell.words.x),
-            family: cell.effect.family.clone(),
-            place: cell.place.clone(),
-            cause: cause(cells, index),
-            repeats: cell.effect.repeats,
-            describes: cell.effect.pattern.is_some(),
-            happens: (cell.effect.pattern).is_some_and(|pattern| !pattern.recurs()),
-            odds: cell.odds,
-        });
+        candidates.push(candidate(cells, index));
         let before = atoms.len();
         let (numbers, shapes): (Vec<usize>, Vec<Shape>) = (cell.variants.iter().enumerate())
             .filter_map(|(number, variation)| {
@@ -256,6 +279,21 @@ fn question(
         }
     }
     (candidates, atoms)
+}
+
+/// What the statistics know of a cell.
+fn candidate(cells: &[Cell], index: usize) -> Candidate {
+    let cell = &cells[index];
+    Candidate {
+        name: format!("{} {}", cell.effect.id, cell.words.x),
+        family: cell.effect.family.clone(),
+        place: cell.place.clone(),
+        cause: cause(cells, index),
+        repeats: cell.effect.repeats,
+        describes: cell.effect.pattern.is_some(),
+        happens: (cell.effect.pattern).is_some_and(|pattern| !pattern.recurs()),
+        odds: cell.odds,
+    }
 }
 
 /// The cell that stands for the cause of one: that of which it is another order, or itself.

@@ -256,7 +256,9 @@ pub(super) fn separating(recorded: &Recorded<'_>, examination: &Examination) -> 
             let variants: Vec<(&Variation, f64)> = (alternative.variants.iter())
                 .map(|variant| (candidates.variation(variant.atom), variant.share))
                 .collect();
-            let Some((variation, _)) = variants.first() else {
+            // What has no size is told by no measurement of it.
+            let Some((variation, _)) = variants.first().filter(|(one, _)| !one.terms.is_empty())
+            else {
                 continue;
             };
             let cell = alternative.candidate;

@@ -2,6 +2,8 @@
 //! need.
 
 use super::case::{Blocks, Case, Column, Data, NoiseClaim, Role};
+use super::noise::Claimed;
+use super::resolution::u_of_step;
 use super::simulate::{heading, recorded};
 use super::{Diagnosis, Origin};
 use crate::experiment::written::own_units;
@@ -64,7 +66,7 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
     }
     text += &constants(case);
     let at_rest = at_rest(case);
-    text += &claims(case, at_rest.as_deref());
+    text += &claims(case, &diagnosis.noise, at_rest.as_deref());
     let mut files = vec![("case.toml", text), (RECORDING, recorded(extended).csv())];
     files.extend(at_rest.map(|text| (AT_REST, text)));
     Some(files)
@@ -179,16 +181,29 @@ fn at_rest(case: &Case) -> Option<String> {
     text_of(Files::Disk, &path, file).ok()
 }
 
-/// The claim about the noise, and the settings; `at_rest` is the text of the recording at rest that is
-/// written beside.
-fn claims(case: &Case, at_rest: Option<&str>) -> String {
+/// The claim about the noise, with the rounding that was found beside it, and the settings; `at_rest` is the text of the recording
+/// at rest that is written beside.
+fn claims(case: &Case, found: &Claimed, at_rest: Option<&str>) -> String {
     let noise = match &case.noise {
         NoiseClaim::Stated {
             origin: Origin::Budget(file),
             ..
         } => format!("\n[noise]\nbudget = {}\n", path(case, file)),
-        NoiseClaim::Stated { u, dof, walk, .. } => {
-            let mut lines = u.first().map_or(String::new(), |u| format!("u = {u:e}\n"));
+        NoiseClaim::Stated {
+            u,
+            dof,
+            walk,
+            steps,
+            ..
+        } => {
+            let seen = found
+                .rounding
+                .as_ref()
+                .and_then(|rounding| rounding.steps[0]);
+            let step = steps[0].or(seen);
+            let own = |u: &f64| (u * u - steps[0].map_or(0.0, u_of_step).powi(2)).sqrt();
+            let mut lines = (u.first()).map_or(String::new(), |u| format!("u = {:e}\n", own(u)));
+            lines += &step.map_or(String::new(), |step| format!("resolution = {step:e}\n"));
             if dof.is_finite() {
                 lines += &format!("dof = {dof}\n");
             }

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::candidates::{Candidates, baseline, settings};
 use super::case::Case;
-use super::catalogue::{Finer, FittedModel, generics};
+use super::catalogue::{Cell, Finer, FittedModel, generics, readout};
 use super::coarse::Coarse;
 use super::confirm::along;
 use super::design::Design;
@@ -23,6 +23,8 @@ use super::noise::{self, Claimed};
 use super::noise_correlation::Courses;
 use super::possible;
 use super::regions;
+use super::resolution::u_of_step;
+use gumption_core::special::chi_squared_sf;
 
 /// So often the values about the parameter of an effect are brought closer together.
 const REFINEMENTS: u8 = 3;
@@ -107,11 +109,16 @@ impl<'i> Inquiry<'i> {
             courses,
             progress,
         };
-        let starts: Vec<Claimed> = [claimed].into_iter().chain(plain).collect();
-        inquiry.begin(starts)?;
+        // So may the rounding of the readings, where the claim is without it.
+        let alpha = inquiry.of_rounding();
+        let rounded = claimed.with_rounding(declared.design, declared.fit, alpha);
+        let rounded = rounded.filter(|_| !inquiry.found_nothing());
+        let starts = [claimed].into_iter().chain(plain).chain(rounded);
+        inquiry.begin(starts.collect())?;
         inquiry.linearise_again()?;
         inquiry.sharpen()?;
         inquiry.look_for_unsteady_noise()?;
+        inquiry.tell_rounding();
         Ok(inquiry)
     }
 
@@ -130,7 +137,7 @@ impl<'i> Inquiry<'i> {
                 answer.baseline = baseline(design, fit, &answer.claimed)?;
                 Ok(())
             }
-            _ if starts[0].is_estimated() || self.courses.is_some() => self.compete(starts),
+            _ if self.is_open() || starts.len() > 1 => self.compete(starts),
             _ => Ok(()),
         }
     }
@@ -364,6 +371,50 @@ impl<'i> Inquiry<'i> {
         Ok(())
     }
 
+    /// Whether something that was found may be an effect.
+    fn names(&self, cell: &Cell) -> bool {
+        let slots = self.answer.examination.slots.iter();
+        let mut named = slots.flat_map(|slot| &slot.named);
+        named.any(|named| self.candidates.cells[named.candidate].is(cell))
+    }
+
+    /// The level of the test for rounding, which is one of its own beside that of all effects.
+    fn of_rounding(&self) -> f64 {
+        0.5 * self.settings.alpha
+    }
+
+    /// Names the rounding of the readings that the claimed noise does not hold, where what is left beside everything that was found
+    /// is more than the claim. That the readings come in steps is seen without any model.
+    fn tell_rounding(&mut self) {
+        let claimed = &self.answer.claimed;
+        let rounding = claimed.rounding.clone();
+        let Some(rounding) = rounding.filter(|rounding| !rounding.is_stated) else {
+            return;
+        };
+        let alpha = self.of_rounding();
+        let (left, parameters) = (self.candidates).left(&self.answer.examination, claimed);
+        let count = left.len() as f64;
+        let blocks = left.len() / rounding.steps.len();
+        for (response, step) in rounding.steps.iter().enumerate() {
+            let Some(step) = *step else { continue };
+            let cell = readout::rounding_of(&self.candidates.fitted, response, step);
+            if self.names(&cell) {
+                continue;
+            }
+            let own = |of: &DVector<f64>| of.rows(response * blocks, blocks).into_owned();
+            let u = own(&rounding.without.u);
+            let chi_squared = own(&left).component_div(&u).norm_squared();
+            // Responses share the degrees of freedom of all.
+            let freedom = blocks as f64 * (1.0 - parameters as f64 / count);
+            let p = chi_squared_sf(chi_squared, freedom.max(1.0));
+            if p <= alpha {
+                let lambda = u.map(|u| u_of_step(step) / u).norm();
+                let variant = self.candidates.add(cell);
+                self.answer.examination.named(variant, lambda, 2.0 * p);
+            }
+        }
+    }
+
     /// Where the mismatch sits, the most conspicuous first.
     pub(super) fn located(&self) -> Vec<(evidence::Cell, Located)> {
         if self.found_nothing() {
@@ -381,9 +432,10 @@ impl<'i> Inquiry<'i> {
         found.into_iter().map(with_cell).collect()
     }
 
-    /// Whether the noise is estimated.
+    /// Whether the noise depends on what is found beside it.
     fn is_open(&self) -> bool {
-        self.answer.claimed.is_estimated() || self.courses.is_some()
+        let claimed = &self.answer.claimed;
+        claimed.is_estimated() || claimed.rounding.is_some() || self.courses.is_some()
     }
 
     fn found_nothing(&self) -> bool {

@@ -12,6 +12,7 @@ use super::fit::{self, Fit, NoFit};
 use super::noise_correlation::{Correlated, Courses, Memory};
 use super::noise_growth::{self, DRAWS, Growth, Likely, Quantity, Spread};
 use super::noise_labels::{self, ByLabel};
+use super::noise_rounding::{self, Rounded, Rounding, Unrounded};
 use super::reduced::reduced;
 use super::replicates::{self, Scatter};
 use crate::recording::at_rest;
@@ -40,6 +41,8 @@ pub struct Claimed {
     pub uneven: Option<f64>,
     /// How heavy their tails are, where the size of the noise is estimated.
     pub tails: Tails,
+    /// Rounding of the readings that the claim does not hold, and `u` and `correlated` do.
+    pub rounding: Option<Rounding>,
 }
 
 impl Claimed {
@@ -55,6 +58,7 @@ impl Claimed {
             draws: Vec::new(),
             uneven: None,
             tails: Tails::default(),
+            rounding: None,
         }
     }
 
@@ -176,6 +180,58 @@ impl Claimed {
         self.growth.iter().any(Option::is_some) || self.by_label.iter().any(Option::is_some)
     }
 
+    /// With the rounding that it may be without, where a test of all readings at the level `alpha` would show that it is.
+    pub(super) fn with_rounding(
+        &self,
+        design: &Design<'_>,
+        fit: &Fit,
+        alpha: f64,
+    ) -> Option<Claimed> {
+        if self.is_estimated() || self.rounding.is_some() {
+            return None;
+        }
+        let rounded = noise_rounding::possible(design, fit, self.before_rounding(), alpha)?;
+        Some(self.clone().rounded(Some(rounded)))
+    }
+
+    /// What is claimed about other readings of the same instrument, with the rounding that was found in some.
+    pub(super) fn rounded_like(self, design: &Design<'_>, fit: &Fit, found: &Claimed) -> Claimed {
+        let found = found.rounding.as_ref().filter(|found| !found.is_stated);
+        let rounded = found.map(|found| {
+            let rounding = Rounding {
+                without: self.before_rounding(),
+                ..found.clone()
+            };
+            noise_rounding::beside(design, fit, rounding)
+        });
+        self.rounded(rounded)
+    }
+
+    fn before_rounding(&self) -> Unrounded {
+        Unrounded {
+            u: self.u.clone(),
+            correlated: self.correlated.clone(),
+        }
+    }
+
+    fn rounded(self, rounded: Option<Rounded>) -> Claimed {
+        let Some(rounded) = rounded else { return self };
+        Claimed {
+            u: rounded.u,
+            correlated: rounded.correlated,
+            rounding: Some(rounded.rounding),
+            draws: Vec::new(),
+            ..self
+        }
+    }
+
+    /// Whether rounding of this output is a part of it that the claim does not hold.
+    pub fn rounds(&self, case: &Case, output: &str) -> bool {
+        let steps = self.rounding.iter().flat_map(|rounding| &rounding.steps);
+        let mut responses = case.responses.iter().zip(steps);
+        responses.any(|(response, step)| response.name == output && step.is_some())
+    }
+
     /// Whether the size of the noise follows from the residuals alone.
     pub fn is_estimated(&self) -> bool {
         self.dof == 0.0
@@ -197,10 +253,13 @@ pub fn settle(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
         _ => claimed(design, Some(&rough)).unwrap_or_else(|| estimated(design, &rough)),
     };
     let fit = fit::near(design, &claimed.u, rough.unknowns.clone())?;
-    if claimed.is_estimated() {
-        let better = estimated(design, &fit);
-        return Ok((fit, better));
-    }
+    let claimed = match claimed.is_estimated() {
+        true => estimated(design, &fit),
+        false => {
+            let rounded = noise_rounding::certain(design, &fit, claimed.before_rounding());
+            claimed.rounded(rounded)
+        }
+    };
     Ok((fit, claimed))
 }
 
@@ -215,9 +274,12 @@ pub fn refined(
     let mut left = if claimed.is_estimated() {
         spread_out(design, fit)
     } else {
-        claimed.clone()
+        let rounding = claimed.rounding.clone();
+        let rounded = rounding.map(|own| noise_rounding::beside(design, fit, own));
+        claimed.clone().rounded(rounded)
     };
-    if let Some(courses) = courses {
+    // What readings have in common by their rounding is its correlation.
+    if let Some(courses) = courses.filter(|_| left.rounding.is_none()) {
         let seen = courses.seen(design, fit, &|correlated| {
             left.with(correlated).noise(design, fit)
         });
@@ -360,6 +422,7 @@ fn replicated(design: &Design<'_>, fit: Option<&Fit>, scatters: &[Scatter]) -> O
         draws: (0..draws.unwrap_or(0)).filter_map(draw).collect(),
         uneven: uneven.reduce(f64::min),
         tails: Tails::default(),
+        rounding: None,
     })
 }
 

@@ -124,7 +124,8 @@ pub(super) fn noise_of(
 ) -> Claimed {
     match &known.design.case.noise {
         NoiseClaim::Stated { .. } | NoiseClaim::AtRest { .. } | NoiseClaim::PerRow { .. } => {
-            noise::planned(design, fit)
+            let planned = noise::planned(design, fit);
+            planned.rounded_like(design, fit, known.claimed)
         }
         NoiseClaim::Estimated | NoiseClaim::Replicates(_) => {
             let own = known.design.blocks.len();

@@ -66,7 +66,10 @@ fn fields(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<(String, Strin
             l.pick("Recording", "记录").into(),
             recorded + &left_out + &as_differences(case, l),
         ),
-        (l.pick("Noise", "噪声").into(), noise(&diagnosis.noise, l)),
+        (
+            l.pick("Noise", "噪声").into(),
+            noise(case, &diagnosis.noise, l),
+        ),
         (l.pick("Test for a mismatch", "不一致检验").into(), test),
     ]
 }

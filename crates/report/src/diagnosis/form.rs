@@ -15,7 +15,7 @@ use gumption_lab::diagnose::{
 };
 
 use super::names::Names;
-use super::noise::noise;
+use super::noise::{noise, unclaimed_steps};
 use super::parts::{ByUnknown, EstimateForm, MeasureForm, OmittedForm, by_unknown};
 use super::statement::verdict;
 use super::words::{measure, unsettled};
@@ -44,7 +44,7 @@ form! {
         /// Equations of the declared model.
         model: &'a [String] = &case.model,
         /// The noise that was used.
-        noise: NoiseForm<'a> = NoiseForm::of(&d.noise, names.l),
+        noise: NoiseForm<'a> = NoiseForm::of(case, &d.noise, names.l),
         /// Rows of the recording.
         rows: usize = case.rows,
         /// Rows, or means of rows, of all outputs.
@@ -84,15 +84,17 @@ form! {
     }
 
     /// The noise that was used.
-    NoiseForm<'a> of (claimed: &'a Claimed, l: Language) {
+    NoiseForm<'a> of (case: &'a Case, claimed: &'a Claimed, l: Language) {
         /// Where it comes from.
-        origin: String = noise(claimed, l),
+        origin: String = noise(case, claimed, l),
         /// Degrees of freedom of its scale; 0 where the residuals tell it.
         dof: Number = Number(claimed.dof),
         /// For each output how it grows with the reading; none where it does not.
         growth: Vec<Option<GrowthForm<'a>>> = all(&claimed.growth, |one| one.as_ref().map(GrowthForm::of)),
         /// For each output how it differs from label to label; none where it does not.
         by_label: Vec<Option<ByLabelForm<'a>>> = all(&claimed.by_label, |one| one.as_ref().map(ByLabelForm::of)),
+        /// For each output the step of its readings, where the claim is without their rounding; none where it is not.
+        steps: Vec<Option<Number>> = all(unclaimed_steps(claimed), |step| step.map(Number)),
         /// Degrees of freedom of Student's distribution where its tails are heavier than normal ones beyond doubt; else null.
         tails_dof: Option<Number> = claimed.tails.heavy.map(Number),
     }

@@ -2,17 +2,17 @@
 
 use crate::figures::with_unit;
 use crate::language::Language;
-use crate::number::{freedom, significant};
+use crate::number::{exact, freedom, significant};
 use gumption_fault::say;
 use gumption_lab::diagnose::case::{Case, NoiseClaim};
-use gumption_lab::diagnose::{Claimed, Growth, Memory, Origin, Quantity};
+use gumption_lab::diagnose::{Claimed, Growth, Memory, Origin, Quantity, u_of_step};
 
 use super::words::p_is;
 
 /// The noise that was assumed, and why, where it needs outputs that are not recorded.
 pub fn assumed_noise(case: &Case, claimed: &Claimed, l: Language) -> String {
     if claimed.origin != Origin::Unknown {
-        return noise(claimed, l);
+        return noise(case, claimed, l);
     }
     let why = match case.noise {
         NoiseClaim::Replicates(_) => l.pick(
@@ -28,7 +28,7 @@ pub fn assumed_noise(case: &Case, claimed: &Claimed, l: Language) -> String {
 }
 
 /// Where the noise comes from.
-pub(super) fn noise(claimed: &Claimed, l: Language) -> String {
+pub(super) fn noise(case: &Case, claimed: &Claimed, l: Language) -> String {
     let dof = if claimed.dof.is_finite() && claimed.dof > 0.0 {
         format!(", ν = {}", freedom(claimed.dof))
     } else {
@@ -55,7 +55,34 @@ pub(super) fn noise(claimed: &Claimed, l: Language) -> String {
         }
         Origin::Budget(file) => say!("from the budget {file}").in_language(l),
     };
-    text + &dof + &memory(claimed, l) + &tails(claimed, l) + &uneven(claimed, l)
+    text + &rounding(case, claimed, l)
+        + &dof
+        + &memory(claimed, l)
+        + &tails(claimed, l)
+        + &uneven(claimed, l)
+}
+
+/// The rounding of readings that a claim does not hold.
+fn rounding(case: &Case, claimed: &Claimed, l: Language) -> String {
+    let steps = case.responses.iter().zip(unclaimed_steps(claimed));
+    let said = steps.filter_map(|(response, step)| {
+        let (output, unit) = (&response.name, response.unit.typeset());
+        let u = with_unit(&significant(u_of_step((*step)?), 2), &unit);
+        let step = with_unit(&exact((*step)?), &unit);
+        Some(
+            say!("; beside it the rounding of {output} to steps of {step}: u = {u}").in_language(l),
+        )
+    });
+    said.collect()
+}
+
+/// For each output the step of its readings, where the claim is without their rounding.
+pub(super) fn unclaimed_steps(claimed: &Claimed) -> &[Option<f64>] {
+    let unclaimed = claimed
+        .rounding
+        .as_ref()
+        .filter(|rounding| !rounding.is_stated);
+    unclaimed.map_or(&[], |rounding| &rounding.steps)
 }
 
 /// That errors have heavier tails than normal ones, where that is beyond doubt.

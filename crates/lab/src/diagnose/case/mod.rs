@@ -157,6 +157,8 @@ pub enum NoiseClaim {
     Stated {
         /// One for each response.
         u: Vec<f64>,
+        /// The step of the numbers of each response whose rounding is in it, where it is stated.
+        steps: Vec<Option<f64>>,
         /// Degrees of freedom.
         dof: f64,
         /// Random walk beside it, per root of an hour, one for each response; 0 if none is claimed.

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::declared::Declared;
 use super::{Column, NoiseClaim, Observed, Response};
+use crate::diagnose::resolution::u_of_step;
 use crate::experiment::at_rest::{Headed, hours};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
@@ -59,8 +60,13 @@ impl Checker<'_> {
                 let u = self.noise_in(amount, &units).unwrap_or_default();
                 let table = file.noise.as_ref().map(|noise| noise.value.clone());
                 let table = table.unwrap_or_default();
+                let steps = self.resolution(&table, columns, responses);
+                let with_step = |(u, step): (f64, &Option<f64>)| {
+                    step.map_or(u, |step| libm::hypot(u, u_of_step(step)))
+                };
                 NoiseClaim::Stated {
-                    u: self.with_resolution(&table, columns, responses, u),
+                    u: u.into_iter().zip(&steps).map(with_step).collect(),
+                    steps,
                     dof,
                     walk: self.walk(&table, columns, responses),
                     origin: Origin::Case,
@@ -75,6 +81,7 @@ impl Checker<'_> {
                 NoiseClaim::Estimated,
                 |(u, dof)| NoiseClaim::Stated {
                     walk: vec![0.0; u.len()],
+                    steps: vec![None; u.len()],
                     u,
                     dof,
                     origin: Origin::Budget(path.value.clone()),
@@ -111,6 +118,7 @@ impl Checker<'_> {
         }
         NoiseClaim::Stated {
             walk: vec![0.0; u.len()],
+            steps: vec![None; u.len()],
             u,
             dof: f64::INFINITY,
             origin: Origin::Case,
@@ -179,24 +187,22 @@ impl Checker<'_> {
         }
     }
 
-    /// Adds what the step of the numbers leaves open: a step q has the standard uncertainty q/√12.
-    fn with_resolution(
+    /// The step of the numbers of each response, where it is stated.
+    fn resolution(
         &mut self,
         table: &NoiseTable,
         columns: &[Column],
         responses: &[Response],
-        u: Vec<f64>,
-    ) -> Vec<f64> {
-        let add = |(u, response): (f64, &Response)| {
+    ) -> Vec<Option<f64>> {
+        let step = |response: &Response| {
             let own = match response.observed {
                 Observed::Column(column) => columns[column].resolution,
                 Observed::Constant(_) => None,
             };
             let stated = table.resolution.as_ref();
-            let step = stated.map_or(own, |step| self.spread(step, &response.unit));
-            step.map_or(u, |step| libm::hypot(u, step / 12.0_f64.sqrt()))
+            stated.map_or(own, |step| self.spread(step, &response.unit))
         };
-        u.into_iter().zip(responses).map(add).collect()
+        responses.iter().map(step).collect()
     }
 
     /// Random walk of each response, per root of an hour.

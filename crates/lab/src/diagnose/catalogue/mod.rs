@@ -45,7 +45,7 @@ pub(super) mod modifiers;
 pub(super) mod norm;
 mod parameters;
 mod powers;
-mod readout;
+pub(super) mod readout;
 mod response;
 mod rows;
 mod sharp;

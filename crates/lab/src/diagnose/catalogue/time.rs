@@ -77,23 +77,31 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         });
         let decays = single.chain(double).chain(anew).collect();
         add(&[EffectId::WarmUp, EffectId::WarmUpScale], decays);
-        /// A period is told from so much of it on, and up to so many.
-        const MOST: f64 = 60.0;
-        for (id, name, seconds, least) in [
-            (EffectId::Season, "1 year", 365.2422 * 86_400.0, 0.75),
-            (EffectId::Daily, "24 h", 86_400.0, 1.0),
-        ] {
-            let Some(period) = fitted.seconds().map(|second| seconds / second) else {
-                continue;
-            };
-            if (least * period..=MOST * period).contains(&span) {
-                let phase = map(&since, |t| std::f64::consts::TAU * t / period);
-                let pair = wave(&phase, &format!("2*pi*{began}/({name})"));
-                add(&[id], vec![form("", pair)]);
-            }
+        for (id, name, period) in cycles(fitted) {
+            let phase = map(&since, |t| std::f64::consts::TAU * t / period);
+            let pair = wave(&phase, &format!("2*pi*{began}/({name})"));
+            add(&[id], vec![form("", pair)]);
         }
     }
     cells
+}
+
+/// The cycles of the calendar that the recording can show: what each is, its name, and its period in the unit of the time.
+pub(super) fn cycles(fitted: &FittedModel<'_>) -> Vec<(EffectId, &'static str, f64)> {
+    /// A period is told from so much of it on, and up to so many.
+    const MOST: f64 = 60.0;
+    let span = fitted.clock.span();
+    let shown = |(id, name, seconds, least): (EffectId, &'static str, f64, f64)| {
+        let period = seconds / fitted.seconds()?;
+        (least * period..=MOST * period)
+            .contains(&span)
+            .then_some((id, name, period))
+    };
+    let all = [
+        (EffectId::Season, "1 year", 365.2422 * 86_400.0, 0.75),
+        (EffectId::Daily, "24 h", 86_400.0, 1.0),
+    ];
+    all.into_iter().filter_map(shown).collect()
 }
 
 /// The time since the start of each run, where the instrument was off before it for longer than it then was on; nothing where it was

@@ -81,7 +81,11 @@ fn periods(fitted: &FittedModel<'_>, column: Option<usize>, words: String) -> Op
         .collect();
     let peaks = to_peaks(fitted, &blocks, &mut frequencies, step / span);
     let grid: Vec<f64> = (frequencies.iter().map(|frequency| 1.0 / frequency)).collect();
-    let periods = fitted.finer.times(grid.clone());
+    let mut periods = fitted.finer.times(grid.clone());
+    if column.is_none() {
+        let calendar = told_from_none(fitted, &blocks, &peaks, span);
+        periods.retain(|period| !calendar.iter().any(|own| is_near(*period, *own, span)));
+    }
     let least = rounded(least, 1e-4 * span);
     let began = match column {
         Some(column) => fitted.less(column, least),
@@ -161,6 +165,31 @@ fn to_peaks(fitted: &FittedModel<'_>, x: &[f64], frequencies: &mut [f64], step: 
         1.0 / frequencies[peak]
     });
     moved.collect()
+}
+
+/// Periods of the calendar of which no peak of the residuals' spectrum nearby can be told: what repeats with them is the day or
+/// the year, and not a wave of a period that only happens to be that long.
+fn told_from_none(fitted: &FittedModel<'_>, x: &[f64], peaks: &[f64], span: f64) -> Vec<f64> {
+    /// Quantile of chi-squared with one degree of freedom: the period is the calendar's unless the likelihood ratio speaks
+    /// against it at 1 %, the level of all alarms.
+    const APART: f64 = 6.635;
+    let (rows, whole) = (x.len() as f64, fitted.fit.residuals.norm_squared());
+    let power = |period: f64| power(fitted, x, 1.0 / period);
+    let cycles = super::time::cycles(fitted).into_iter();
+    let cycles = cycles.map(|(_, _, period)| period);
+    let is_told = |own: &f64| {
+        peaks.iter().any(|peak| {
+            let left = whole - power(*peak);
+            let gained = power(*peak) - power(*own);
+            is_near(*peak, *own, span) && gained * rows > APART * left
+        })
+    };
+    cycles.filter(|own| !is_told(own)).collect()
+}
+
+/// Whether two periods are less than half a wave apart over the whole span.
+fn is_near(one: f64, other: f64, span: f64) -> bool {
+    (1.0 / one - 1.0 / other).abs() * span < 0.5
 }
 
 /// Power of the residuals at a frequency: the sum of squares that a sine and a cosine take away (Lomb and

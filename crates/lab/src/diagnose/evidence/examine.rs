@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::findings::{Alternative, Examination, Slot, State, Verdict};
+use super::findings::{Alternative, Examination, Slot, State, Variant, Verdict};
 use super::fit::{fitted, noise};
 use super::grades::{alike, graded};
 use super::null::Simulated;
@@ -101,6 +101,26 @@ impl Examination {
         self.verdict = Verdict::Unexplained;
         if let Some(first) = self.levels.first_mut() {
             first.p = p;
+        }
+    }
+
+    /// Something is there besides that is known by itself: its candidate and its atom, its strength, and the probability of as
+    /// much by chance.
+    pub fn named(&mut self, (candidate, atom): (usize, usize), lambda: f64, p: f64) {
+        let named = Alternative {
+            variants: vec![Variant { atom, share: 1.0 }],
+            lambda,
+            ..Alternative::unnamed(candidate)
+        };
+        self.slots.push(Slot {
+            state: State::Identified,
+            named: vec![named],
+            generic_share: 0.0,
+            ..unnamed(Vec::new())
+        });
+        self.verdict = verdict(&self.slots);
+        if let Some(first) = self.levels.first_mut() {
+            first.p = first.p.min(p);
         }
     }
 

@@ -1,0 +1,93 @@
+//! Readings in steps that are coarser than what is claimed of their noise.
+
+use std::fmt::Write;
+
+use serde_json::Value;
+
+use crate::common::Noise;
+use crate::common::cases::{diagnosed, diagnosed_with, first_names, folder, gumption, json};
+
+/// The step of a display, V.
+const STEP: f64 = 0.01;
+
+/// A transducer at levels that come again, with what else it follows, noise of this standard uncertainty before the display.
+fn recording(noise: &mut Noise, u: f64, beside: impl Fn(f64, f64) -> f64) -> String {
+    let mut rows = "x [N],T [°C],y [V]\n".to_owned();
+    for row in 0..66_i32 {
+        let force = 20.0 * f64::from([0, 1, 2, 3, 4, 5, 4, 3, 2, 1][row as usize % 10]);
+        let temperature = 20.0 + 2.0 * libm::sin(f64::from(row) / 7.0) + 0.3 * noise.normal();
+        let before = 0.237 + 0.1043 * force + beside(force, temperature) + u * noise.normal();
+        let shown = (before / STEP).round() * STEP;
+        let _ = writeln!(rows, "{force},{temperature:.2},{shown:.2}");
+    }
+    rows
+}
+
+/// A case that claims this noise of the readings.
+fn case(claim: &str) -> String {
+    format!(
+        "equations = \"y = a + b*x\"\n[columns]\nx = \"stimulus\"\nT = \"covariate\"\ny = \"output\"\n[noise]\n{claim}\n"
+    )
+}
+
+/// The step that each named rounding has.
+fn steps(found: &Value) -> &Value {
+    &found["noise"]["steps"]
+}
+
+/// Less is claimed than rounding makes, or enough for it and not for both.
+#[test]
+fn a_claim_is_without_the_rounding() {
+    for (name, u) in [("far-below", STEP / 8.0), ("above", STEP / 3.0)] {
+        let rows = recording(&mut Noise(71), u, |_, _| 0.0);
+        let found = diagnosed_with(
+            &format!("rounding-{name}"),
+            &rows,
+            &case(&format!("u = {u}")),
+        );
+        assert_eq!(first_names(&found), ["quantisation"], "{name}: {found}");
+        assert_eq!(found["verdict"], "identified", "{name}: {found}");
+        assert_eq!(steps(&found)[0], STEP, "{name}: {found}");
+    }
+}
+
+/// With the resolution in the claim nothing is left out.
+#[test]
+fn a_claim_with_the_resolution_agrees() {
+    for seed in 80..84 {
+        let u = STEP / 8.0;
+        let rows = recording(&mut Noise(seed), u, |_, _| 0.0);
+        let claim = format!("u = {u}\nresolution = {STEP}");
+        let found = diagnosed_with("rounding-claimed", &rows, &case(&claim));
+        assert_eq!(found["verdict"], "none", "{seed}: {found}");
+        assert_eq!(steps(&found).as_array().map(Vec::len), Some(0), "{found}");
+    }
+}
+
+/// An effect beside it has its name and its size; with both in it the model agrees.
+#[test]
+fn an_effect_is_found_beside_the_rounding() {
+    let u = STEP / 8.0;
+    let rows = recording(&mut Noise(73), u, |_, temperature| {
+        0.015 * (temperature - 20.0)
+    });
+    let folder = folder("rounding-beside");
+    std::fs::write(folder.join("recording.csv"), rows).expect("written");
+    let text = format!(
+        "recording = \"recording.csv\"\n{}",
+        case(&format!("u = {u}"))
+    );
+    let found = diagnosed(&folder, &text);
+    assert_eq!(
+        first_names(&found),
+        ["tempco-bias", "quantisation"],
+        "{found}"
+    );
+    let size = &found["improved"]["coefficients"][0];
+    let of = |key: &str| size[key].as_f64().expect("a number");
+    assert!((of("value") - 0.015).abs() < 3.0 * of("u"), "{size}");
+    let arguments = ["diagnose", "case.toml", "--improved", "improved"];
+    assert!(gumption(&folder, &arguments).0);
+    let again = json(&folder, &["diagnose", "improved/case.toml", "--json"]);
+    assert_eq!(again["verdict"], "none", "{again}");
+}

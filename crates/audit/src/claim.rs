@@ -208,7 +208,7 @@ pub const RANGE: [(f64, f64); 8] = [
 ];
 
 /// C(n) and ν of the range method; those of 9 beyond the table.
-pub fn range_factor(n: f64) -> (f64, f64) {
+pub(crate) fn range_factor(n: f64) -> (f64, f64) {
     let place = (n as usize).clamp(2, 9) - 2;
     RANGE[place]
 }
@@ -328,12 +328,12 @@ impl Row {
 
 impl Claimed {
     /// Whether the cell of a figure holds something else than its formula gives.
-    pub fn is_stale(&self, figure: &Printed) -> bool {
+    pub(crate) fn is_stale(&self, figure: &Printed) -> bool {
         self.stale.iter().any(|cell| cell.at == figure.at)
     }
 
     /// Whether nothing of what it states was computed: then there is nothing to hold a calculation against.
-    pub fn computes_nothing(&self) -> bool {
+    pub(crate) fn computes_nothing(&self) -> bool {
         let Footer {
             u_c,
             nu_eff,
@@ -352,7 +352,7 @@ impl Claimed {
     }
 
     /// Whether the sheet is a summary, which states no standard uncertainty of a row.
-    pub fn is_summary(&self) -> bool {
+    fn is_summary(&self) -> bool {
         self.rows
             .iter()
             .all(|row| row.u.is_none() && row.contribution.is_none())

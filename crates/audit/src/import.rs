@@ -8,7 +8,7 @@ use crate::printed::Printed;
 use crate::units;
 
 /// A budget file, with remarks as comments where the sheet leaves something open.
-pub fn budget_file(case: &Case<'_>) -> String {
+pub(crate) fn budget_file(case: &Case<'_>) -> String {
     let claimed = case.claimed;
     let names = names(claimed);
     let mut text = String::new();

@@ -156,7 +156,7 @@ impl Printed {
 
     /// Half a unit in the last digit of an expanded uncertainty that decides: who prints more digits than two shows what a
     /// certificate never states, and the third decides nothing.
-    pub fn half_that_decides(&self) -> f64 {
+    pub(crate) fn half_that_decides(&self) -> f64 {
         let third = 0.5 * libm::exp10(libm::floor(libm::log10(self.value.abs())) - 2.0);
         match self.is_long() || self.digits > 8 {
             true => self.half_of_digits().max(third),
@@ -166,7 +166,7 @@ impl Printed {
 
     /// What the digits of a coefficient leave open, as a ratio: sheets compute with more than they show. Whole numbers are
     /// exact, and less than three digits are no rounded coefficient.
-    pub fn coarseness(&self) -> f64 {
+    pub(crate) fn coarseness(&self) -> f64 {
         if self.half >= 0.5 || self.digits < 3 {
             0.0
         } else {
@@ -175,7 +175,7 @@ impl Printed {
     }
 
     /// Whether it may stand for no uncertainty about it: relative width of its rounding.
-    pub fn relative_half(&self) -> f64 {
+    pub(crate) fn relative_half(&self) -> f64 {
         if self.value == 0.0 {
             f64::INFINITY
         } else {

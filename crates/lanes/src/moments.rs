@@ -103,12 +103,6 @@ fn pairwise(mut sums: [f64; PARTIALS]) -> f64 {
     sums[0]
 }
 
-/// How many lanes hold NaN or an infinity.
-pub fn count_nonfinite(level: Level, x: &Block) -> usize {
-    let count: u64 = dispatch!(level, _ => x.0.iter().map(|x| u64::from(!x.is_finite())).sum());
-    count as usize
-}
-
 /// The smallest and the largest number; NaN is passed over, and nothing but NaN gives (∞, −∞).
 pub fn min_max(level: Level, x: &[f64]) -> (f64, f64) {
     dispatch!(level, _ => {
@@ -165,11 +159,9 @@ mod tests {
     }
 
     #[test]
-    fn extremes_and_failures_are_found() {
+    fn extremes_pass_over_nan() {
         let mut x = awkward();
-        let bad = x.0.iter().filter(|x| !x.is_finite()).count();
         for level in levels() {
-            assert_eq!(count_nonfinite(level, &x), bad);
             assert_eq!(min_max(level, &x.0), (f64::NEG_INFINITY, f64::INFINITY));
         }
         x.0.iter_mut()
@@ -178,13 +170,11 @@ mod tests {
         for level in levels() {
             assert_eq!(min_max(level, &x.0), (-1.797e308, 1.797e308));
         }
-        assert_eq!(bad, 4);
         assert_eq!(min_max(level(), &[2.0, f64::NAN, 1.0]), (1.0, 2.0));
         let none = Block([f64::NAN; LANES]);
         assert_eq!(
             min_max(level(), &none.0),
             (f64::INFINITY, f64::NEG_INFINITY)
         );
-        assert_eq!(count_nonfinite(level(), &none), LANES);
     }
 }

@@ -15,7 +15,7 @@ pub type Stretch = [f64; 2];
 pub const EMPTY: Stretch = [f64::INFINITY, f64::NEG_INFINITY];
 
 /// Values that may wait in a [`Separated`] before another block is separated.
-pub const WAITING: usize = 1024;
+const WAITING: usize = 1024;
 
 /// What is left of some blocks when the values of two stretches are taken out.
 #[derive(Debug, Clone)]

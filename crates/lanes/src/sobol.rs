@@ -21,7 +21,7 @@ use crate::{Block, LANES};
 pub const DIMENSIONS: usize = 64;
 
 /// Most points of a sequence, as a power of two.
-pub const MOST_BITS: u32 = 32;
+const MOST_BITS: u32 = 32;
 
 /// Digits of a block's own points.
 const LOW: usize = LANES.trailing_zeros() as usize;

@@ -105,7 +105,7 @@ impl Double {
     }
 
     /// (sin x, cos x) for |x| up to 2²⁷.
-    pub fn sin_cos(x: f64) -> (Double, Double) {
+    pub(crate) fn sin_cos(x: f64) -> (Double, Double) {
         let k = (x / HALF_PI[0]).round();
         let r = Double::reduce(x, k, HALF_PI);
         let square = r.times(r);
@@ -122,13 +122,13 @@ impl Double {
     }
 
     /// |x − self| in units of the last place of `self`.
-    pub fn ulps(self, x: f64) -> f64 {
+    pub(crate) fn ulps(self, x: f64) -> f64 {
         ((x - self.0) - self.1).abs() / ulp(self.0)
     }
 }
 
 /// The distance from |x| to the next larger number.
-pub fn ulp(x: f64) -> f64 {
+pub(crate) fn ulp(x: f64) -> f64 {
     x.abs().next_up() - x.abs()
 }
 
@@ -138,7 +138,7 @@ pub fn same(a: f64, b: f64) -> bool {
 }
 
 /// Runs a kernel on every level and panics where the bits differ.
-pub fn same_on_all_levels(what: &str, kernel: impl Fn(Level, &mut Block)) {
+pub(crate) fn same_on_all_levels(what: &str, kernel: impl Fn(Level, &mut Block)) {
     let mut expected: Option<Block> = None;
     for level in levels() {
         let mut out = Block::ZERO;
@@ -155,7 +155,7 @@ pub fn same_on_all_levels(what: &str, kernel: impl Fn(Level, &mut Block)) {
 }
 
 /// The arguments at which functions go wrong, and ordinary ones of both signs and many sizes.
-pub fn awkward() -> Block {
+pub(crate) fn awkward() -> Block {
     const SPECIAL: [f64; 22] = [
         0.0,
         1.0,

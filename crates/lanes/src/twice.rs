@@ -24,7 +24,7 @@ pub fn two_sum(a: f64, b: f64) -> Twice {
 
 /// The same for |a| ≥ |b|.
 #[inline(always)]
-pub fn quick_two_sum(a: f64, b: f64) -> Twice {
+fn quick_two_sum(a: f64, b: f64) -> Twice {
     let high = a + b;
     [high, b - (high - a)]
 }

@@ -36,7 +36,7 @@ impl Stated {
 
 impl Row {
     /// What a stated relative figure is multiplied by to be in the unit of the row.
-    pub fn relative_factor(&self) -> f64 {
+    pub(crate) fn relative_factor(&self) -> f64 {
         match (self.relative, &self.value) {
             (Relative::OfValue(fraction), Some(value)) => {
                 let to_unit = units::factor(&value.unit, &self.unit);
@@ -49,7 +49,7 @@ impl Row {
 }
 
 /// The factor that the sheet's shape of a row has; for the list of understood rows.
-pub fn shape_of(stated: &Stated) -> Option<Shape> {
+pub(crate) fn shape_of(stated: &Stated) -> Option<Shape> {
     match stated {
         Stated::Limits { shape, .. } | Stated::FullWidth { shape, .. } => Some(*shape),
         Stated::Step { .. } | Stated::Unequal { .. } => Some(Shape::Rectangular),

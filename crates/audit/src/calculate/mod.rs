@@ -17,5 +17,5 @@ pub use calculation::{
     welch,
 };
 pub use case::{Case, factors};
-pub use known::shape_of;
+pub(crate) use known::shape_of;
 pub(crate) use model::{formula, unit_of_y};

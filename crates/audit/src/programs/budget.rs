@@ -10,7 +10,7 @@ use crate::import::{comment, number, quoted};
 use super::statement::{Equation, Input, Known, Part, Statement};
 
 /// The budget file, with what a reader should know of the source as comments.
-pub fn budget_file(statement: &Statement) -> String {
+pub(crate) fn budget_file(statement: &Statement) -> String {
     let mut text = String::new();
     let title = if statement.title.is_empty() {
         "Imported budget"

@@ -32,7 +32,7 @@ mod uncertradio;
 mod units;
 mod yaml;
 
-pub use budget::budget_file;
+pub(crate) use budget::budget_file;
 pub use claims::claims;
 pub use statement::Statement;
 

@@ -102,7 +102,7 @@ impl Statement {
     }
 
     /// The steps on the way to a result that are no results themselves, in their order.
-    pub fn steps_of<'s>(&'s self, result: &'s Equation) -> Vec<&'s Equation> {
+    pub(super) fn steps_of<'s>(&'s self, result: &'s Equation) -> Vec<&'s Equation> {
         let mut needed = vec![result];
         for equation in self.equations.iter().rev() {
             let used = |other: &&Equation| uses(&other.formula, &equation.name);

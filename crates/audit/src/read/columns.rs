@@ -83,7 +83,7 @@ impl Role {
     ];
 
     /// Whether figures stand in such a column.
-    pub fn is_figure(self) -> bool {
+    pub(crate) fn is_figure(self) -> bool {
         use Role::*;
         matches!(self, Value | Used | Divisor | U | C | Contribution | Dof)
     }

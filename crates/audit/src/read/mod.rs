@@ -43,7 +43,7 @@ mod words;
 pub use columns::Role;
 pub(crate) use footer::Whole;
 pub use mapping::Mapping;
-pub use points::are_several;
+pub(crate) use points::are_several;
 pub(crate) use words::{
     count_before, figure_after, figures_with_units, has, has_symbol, symbol_at,
 };

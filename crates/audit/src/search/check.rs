@@ -54,7 +54,7 @@ pub enum Gap {
 
 impl Checked {
     /// Whether every claimed figure is met.
-    pub fn meets_all(&self) -> bool {
+    pub(super) fn meets_all(&self) -> bool {
         self.u_c && self.nu_eff && self.k && self.expanded
     }
 
@@ -75,12 +75,12 @@ impl Checked {
 
 impl Act {
     /// Whether what the row prints as its contribution is not what enters the sum.
-    pub fn changes_contribution(&self) -> bool {
+    pub(super) fn changes_contribution(&self) -> bool {
         matches!(self.change, Change::U(_) | Change::Scaled(_) | Change::C(_))
     }
 
     /// Whether it leaves u_c as it is.
-    pub fn acts_behind_sum(&self) -> bool {
+    pub(super) fn acts_behind_sum(&self) -> bool {
         matches!(
             self.change,
             Change::Factor(_) | Change::Freedom(_) | Change::Report(_)
@@ -94,7 +94,7 @@ impl Act {
     }
 
     /// Whether it changes what is stated, and no uncertainty: the result itself, or the unit of U.
-    pub fn changes_statement(&self) -> bool {
+    pub(super) fn changes_statement(&self) -> bool {
         use crate::slips::Reporting;
         matches!(
             self.change,

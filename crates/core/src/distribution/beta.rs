@@ -89,10 +89,6 @@ impl Univariate for Beta {
         })
     }
 
-    fn is_symmetric(&self) -> bool {
-        self.alpha == self.beta
-    }
-
     fn mean(&self) -> Option<f64> {
         let Beta {
             alpha,

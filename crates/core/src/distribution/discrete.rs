@@ -128,16 +128,6 @@ impl Univariate for Discrete {
         })
     }
 
-    fn is_symmetric(&self) -> bool {
-        let mirrored = self.probabilities.iter().rev();
-        finite::balanced(&self.values)
-            && self
-                .probabilities
-                .iter()
-                .zip(mirrored)
-                .all(|(p, q)| (p - q).abs() <= 1e-12)
-    }
-
     fn mean(&self) -> Option<f64> {
         Some(finite::mean(self.pairs()))
     }

@@ -59,10 +59,6 @@ impl Univariate for Empirical {
         Some(self.sample.iter().rev().map(|x| -x).collect())
     }
 
-    fn is_symmetric(&self) -> bool {
-        finite::balanced(&self.sample)
-    }
-
     fn mean(&self) -> Option<f64> {
         Some(finite::mean(self.pairs()))
     }

@@ -39,18 +39,6 @@ pub(super) fn steps(values: &[f64], mut below: impl FnMut(usize) -> f64) -> Vec<
         .collect()
 }
 
-/// Whether ascending values lie symmetrically about their middle.
-pub(super) fn balanced(values: &[f64]) -> bool {
-    let (Some(first), Some(last)) = (values.first(), values.last()) else {
-        return true;
-    };
-    let tolerance = 1e-12 * (last - first);
-    values
-        .iter()
-        .zip(values.iter().rev())
-        .all(|(low, high)| ((low - first) - (last - high)).abs() <= tolerance)
-}
-
 /// Refuses values that are none or do not ascend.
 pub(super) fn ascending(name: &Said, values: &[f64]) -> Result<(), ParameterError> {
     let unusable = |message: Said, help| Err(ParameterError::Unusable { message, help });

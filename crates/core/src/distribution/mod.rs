@@ -299,11 +299,6 @@ impl Distribution {
         each!(self, d => d.of_counts(counts).map(Self::from))
     }
 
-    /// Whether the distribution is its own mirror image about its median.
-    pub fn is_symmetric(&self) -> bool {
-        each!(self, d => d.is_symmetric())
-    }
-
     /// Whether it is a normal distribution (t with infinite ν is one).
     pub fn is_normal(&self) -> bool {
         each!(self, d => d.is_normal())

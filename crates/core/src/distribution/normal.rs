@@ -95,10 +95,6 @@ impl Univariate for Normal {
         true
     }
 
-    fn is_symmetric(&self) -> bool {
-        true
-    }
-
     fn mean(&self) -> Option<f64> {
         Some(self.mean)
     }

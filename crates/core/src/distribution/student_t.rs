@@ -125,10 +125,6 @@ impl Univariate for StudentT {
         self.dof.is_infinite()
     }
 
-    fn is_symmetric(&self) -> bool {
-        true
-    }
-
     fn mean(&self) -> Option<f64> {
         (self.dof > 1.0).then_some(self.location)
     }

@@ -80,10 +80,6 @@ macro_rules! symmetric {
             Some(mirrored)
         }
 
-        fn is_symmetric(&self) -> bool {
-            true
-        }
-
         fn mean(&self) -> Option<f64> {
             Some(0.5 * (self.lower + self.upper))
         }

@@ -114,12 +114,6 @@ impl Univariate for Triangular {
         })
     }
 
-    fn is_symmetric(&self) -> bool {
-        let Triangular { lower, mode, upper } = *self;
-        let width = upper - lower;
-        ((mode - lower) - (upper - mode)).abs() <= 1e-12 * width
-    }
-
     fn mean(&self) -> Option<f64> {
         Some((self.lower + self.mode + self.upper) / 3.0)
     }

@@ -191,11 +191,6 @@ pub trait Univariate: fmt::Debug + Clone + Send + Sync + Sized + 'static {
         None
     }
 
-    /// Whether the distribution is its own mirror image about its median.
-    fn is_symmetric(&self) -> bool {
-        false
-    }
-
     /// Expectation; `None` when it does not exist.
     fn mean(&self) -> Option<f64>;
 

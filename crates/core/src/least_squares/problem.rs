@@ -108,7 +108,7 @@ impl Errors {
     }
 
     /// Whether no predictor has an error.
-    pub fn predictors_are_exact(&self) -> bool {
+    pub(super) fn predictors_are_exact(&self) -> bool {
         self.x.iter().all(|spread| *spread == Spread::Exact)
     }
 }

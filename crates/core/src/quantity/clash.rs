@@ -119,7 +119,7 @@ pub fn revolutions_as_angle(found: &Unit, wanted: &Unit, text: &str) -> Option<S
 }
 
 /// What a result in such a unit may state in place of a count, to follow what [`revolutions_as_angle`] says.
-pub fn unit_of_angle(found: &Unit) -> Option<Said> {
+pub(crate) fn unit_of_angle(found: &Unit) -> Option<Said> {
     let (rate, period) = (
         say!("write `unit = \"rad/s\"` for the angular velocity"),
         say!("write `unit = \"s/rad\"` for the reciprocal of the angular velocity"),

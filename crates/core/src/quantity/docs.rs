@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::builtin::{Prefixes, UNITS, UnitKind};
 
 /// The page in Markdown: how units are written, and all that are built in.
-pub fn unit_documentation() -> String {
+fn unit_documentation() -> String {
     let mut page = SYNTAX.to_owned();
     for (kind, heading) in CHAPTERS {
         let _ = writeln!(page, "\n### {heading}\n");

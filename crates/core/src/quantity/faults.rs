@@ -55,7 +55,7 @@ pub const CODES: &[Code] = &[
 ];
 
 /// A name that is no unit.
-pub const UNKNOWN_UNIT: Code = Code {
+pub(super) const UNKNOWN_UNIT: Code = Code {
     id: "U001",
     title: "unknown unit",
     title_zh: "未知的单位符号",
@@ -70,7 +70,7 @@ A unit of your own is declared once per file:
 };
 
 /// A unit text that does not follow the syntax.
-pub const MALFORMED_UNIT: Code = Code {
+pub(super) const MALFORMED_UNIT: Code = Code {
     id: "U002",
     title: "malformed unit",
     title_zh: "单位的写法有误",
@@ -80,7 +80,7 @@ Products are `·`, `*` or a space, quotients `/`, powers `^2`, `**2` or `²`; pa
 };
 
 /// A product after a solidus.
-pub const AMBIGUOUS_SOLIDUS: Code = Code {
+pub(super) const AMBIGUOUS_SOLIDUS: Code = Code {
     id: "U003",
     title: "ambiguous solidus",
     title_zh: "单位中的斜线有歧义",
@@ -90,7 +90,7 @@ the SI Brochure therefore ask for parentheses or negative exponents: `W/(m·K)`,
 };
 
 /// A number other than 1 in a unit.
-pub const NUMBER_IN_UNIT: Code = Code {
+pub(super) const NUMBER_IN_UNIT: Code = Code {
     id: "U004",
     title: "number in a unit",
     title_zh: "单位中含有数字",
@@ -104,7 +104,7 @@ A unit text holds names only; the number 1 alone stands for dimension one and ma
 };
 
 /// An exponent that is no small rational number.
-pub const BAD_EXPONENT: Code = Code {
+pub(super) const BAD_EXPONENT: Code = Code {
     id: "U005",
     title: "unfit exponent",
     title_zh: "单位的指数不可用",
@@ -115,7 +115,7 @@ because `s^1/2` means (s^1)/2.",
 };
 
 /// An empty unit text.
-pub const EMPTY_UNIT: Code = Code {
+pub(super) const EMPTY_UNIT: Code = Code {
     id: "U006",
     title: "empty unit",
     title_zh: "单位为空",
@@ -125,7 +125,7 @@ whether the unit was forgotten.",
 };
 
 /// A definition in the `[unit]` table that cannot be used.
-pub const BAD_DEFINITION: Code = Code {
+pub(super) const BAD_DEFINITION: Code = Code {
     id: "U007",
     title: "unfit definition of a unit",
     title_zh: "单位的定义不可用",

@@ -6,6 +6,7 @@ mod chinese;
 mod clash;
 mod decimal;
 mod dimension;
+#[cfg(test)]
 mod docs;
 mod dsi;
 mod factor;
@@ -21,10 +22,10 @@ mod token;
 mod unit;
 
 pub use builtin::{BuiltinUnit, Definition, Prefixes, UnitKind, units};
-pub use clash::{hint_for_clash, per_coulomb, revolutions_as_angle, unit_of_angle};
+pub(crate) use clash::unit_of_angle;
+pub use clash::{hint_for_clash, per_coulomb, revolutions_as_angle};
 pub use decimal::{Decimal, Rounding};
 pub use dimension::Dimension;
-pub use docs::unit_documentation;
 pub use factor::Factor;
 pub use faults::UnitError;
 pub use print::{Grouping, PowerStyle, Style};

@@ -198,11 +198,6 @@ impl UnitTable {
         faults
     }
 
-    /// All built-in units, in the order of the documentation.
-    pub fn builtin() -> impl Iterator<Item = &'static BuiltinUnit> {
-        UNITS.iter()
-    }
-
     fn lookup(&self, name: &str) -> Option<Scale> {
         lookup(name, &self.own, &BUILTIN)
     }

@@ -7,4 +7,4 @@ pub use read::Rows;
 pub use write::Writer;
 
 /// The ending of such files.
-pub const ENDING: &str = "parquet";
+const ENDING: &str = "parquet";

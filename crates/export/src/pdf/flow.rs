@@ -95,7 +95,7 @@ impl<'f> Flow<'f> {
     }
 
     /// Goes on with a new page.
-    pub fn begin_page(&mut self) {
+    pub(super) fn begin_page(&mut self) {
         self.pages.push(Vec::new());
         self.y = TOP;
     }

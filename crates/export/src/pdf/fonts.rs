@@ -116,7 +116,7 @@ pub(super) struct Found {
 
 impl Fonts {
     /// The fonts of the system; `None` where there is none of the known families.
-    pub fn of_the_system() -> Option<Self> {
+    pub(super) fn of_the_system() -> Option<Self> {
         let files = files();
         let mut fonts = Fonts {
             faces: Vec::new(),
@@ -157,7 +157,7 @@ impl Fonts {
     }
 
     /// The glyph of a character in the first face that has it.
-    pub fn glyph(&self, style: Style, character: char) -> Option<Found> {
+    pub(super) fn glyph(&self, style: Style, character: char) -> Option<Found> {
         let chain = &self.chains[style as usize];
         chain.iter().find_map(|face| {
             let (glyph, advance) = self.faces[*face].glyph(character)?;

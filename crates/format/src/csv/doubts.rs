@@ -83,7 +83,7 @@ pub fn two_decimal_signs(sheet: &Sheet<'_>, has_numbers: impl Fn(usize) -> bool)
 }
 
 /// Two columns of one name, with their places.
-pub fn same_name(name: &str, first: Range<usize>, second: Range<usize>) -> Fault {
+pub(super) fn same_name(name: &str, first: Range<usize>, second: Range<usize>) -> Fault {
     Fault::new(
         SAME_NAME,
         second,

@@ -146,13 +146,13 @@ impl NoText {
 }
 
 /// Whether bytes are text in UTF-16.
-pub fn is_utf16(bytes: &[u8]) -> bool {
+pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
     utf16(bytes).is_some()
 }
 
 /// A text whose lines end as old Macs ended them, with a carriage return alone, with line feeds: every place stays where it is.
 #[must_use]
-pub fn with_line_feeds(text: String) -> String {
+pub(crate) fn with_line_feeds(text: String) -> String {
     match text.contains('\r') && !text.contains('\n') {
         true => text.replace('\r', "\n"),
         false => text,

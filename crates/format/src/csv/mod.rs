@@ -48,8 +48,9 @@ mod size;
 mod units_line;
 
 pub use columns::{Cells, Columns};
-pub use doubts::{overload, same_name, two_decimal_signs};
-pub use encoding::{Decoded, Encoding, Undecodable, decode, is_utf16, western, with_line_feeds};
+pub use doubts::{overload, two_decimal_signs};
+pub use encoding::{Decoded, Encoding, Undecodable, decode, western};
+pub(crate) use encoding::{is_utf16, with_line_feeds};
 pub use field::{OVERLOAD, date_meant, days, mend_of_number, number, time};
 pub use heading::Heading;
 pub use pieces::{Piece, Pieces};

@@ -19,7 +19,7 @@ pub use lists::{Named, OneOrMany, as_a_list};
 pub use matrix::{Matrices, Matrix, Row};
 pub use places::{Form, Places, Statement, Step, Written};
 pub use strings::StringMap;
-pub use syntax::{document, elsewhere, leaves_the_rest, syntax_faults, without_comma};
+pub use syntax::{document, elsewhere, leaves_the_rest, syntax_faults};
 pub use table::{
     FromToml, Hints, Key, KeyRow, Present, Raw, Reader, Slot, Stated, Table, described, doc_text,
     in_order, inner, read_table, table, unknown_word, words,

@@ -150,7 +150,7 @@ impl Statement {
     }
 
     /// Whether it is a header.
-    pub fn is_header(&self) -> bool {
+    pub(super) fn is_header(&self) -> bool {
         self.value.is_none()
     }
 }

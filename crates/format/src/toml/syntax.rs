@@ -538,7 +538,7 @@ fn decimal_comma(span: &Range<usize>, text: &str) -> Option<Fault> {
 
 /// What to write for a number with a comma, between `quotes`: a decimal point, or nothing where the comma
 /// may part thousands.
-pub fn without_comma(number: &str, quotes: &str) -> Said {
+pub(super) fn without_comma(number: &str, quotes: &str) -> Said {
     let number = &number.replace('，', ",");
     let point = number.replacen(',', ".", 1);
     let behind = number.split_once(',').map_or("", |(_, behind)| behind);

@@ -41,7 +41,7 @@ pub struct Conventions {
 
 impl Conventions {
     /// How U and y are rounded.
-    pub fn rounding_rule(&self) -> RoundingRule {
+    pub(crate) fn rounding_rule(&self) -> RoundingRule {
         RoundingRule {
             digits: self.digits,
             rounding: self.rounding,

@@ -52,7 +52,7 @@ pub enum Amounts {
 
 impl Amounts {
     /// The amount that holds for an element; nothing when the list is too short.
-    pub fn of_element(stated: &Stated<Self>, element: usize) -> Option<Stated<Amount>> {
+    pub(super) fn of_element(stated: &Stated<Self>, element: usize) -> Option<Stated<Amount>> {
         match &stated.value {
             Amounts::One(amount) => Some(stated.map(|_| amount.clone())),
             Amounts::Each(list) => list.get(element).cloned(),

@@ -355,7 +355,7 @@ impl MonteCarlo {
 
     /// Whether the interval is lopsided ([`half_width`](Self::half_width)) and the shortest interval is shorter than
     /// the symmetric one by more than 1 %, beyond the noise of both.
-    pub fn is_asymmetric(&self, digits: u8) -> bool {
+    pub(super) fn is_asymmetric(&self, digits: u8) -> bool {
         let width = |[low, high]: [f64; 2]| high - low;
         let [_, _, low, high] = self.standard_errors;
         // Three standard errors of either end.
@@ -371,7 +371,7 @@ impl MonteCarlo {
 
 impl Conventions {
     /// Whether y and k·u are all that is claimed.
-    pub fn claims_moments(&self) -> bool {
+    fn claims_moments(&self) -> bool {
         self.confirmation == Confirmation::Moments
             || matches!(self.coverage_factor, CoverageRule::Fixed(_))
     }

@@ -94,7 +94,7 @@ impl Cause {
     }
 
     /// Degrees of freedom of its contribution to a coefficient (Welch–Satterthwaite).
-    pub fn contribution_dof(&self, coefficient: usize) -> f64 {
+    pub(super) fn contribution_dof(&self, coefficient: usize) -> f64 {
         if let [dof] = self.dof.as_slice() {
             return *dof;
         }

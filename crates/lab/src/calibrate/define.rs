@@ -53,7 +53,11 @@ pub fn load_from(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Camp
 ///
 /// # Errors
 /// As [`load`].
-pub fn load_with(files: Files<'_>, path: &Path, recording: &Path) -> Result<Campaign, Rejection> {
+pub(super) fn load_with(
+    files: Files<'_>,
+    path: &Path,
+    recording: &Path,
+) -> Result<Campaign, Rejection> {
     let text = text_of(files, path)?;
     let folder = path.parent().unwrap_or_else(|| Path::new(""));
     let name = path.display().to_string();

@@ -98,7 +98,7 @@ impl Dwelling {
 
 impl Points {
     /// The averages of the dwells of a recording, and the dwells of which too few samples are left.
-    pub fn of_dwells(recording: &Recording, dwelling: &Dwelling) -> (Points, Vec<Dwell>) {
+    pub(crate) fn of_dwells(recording: &Recording, dwelling: &Dwelling) -> (Points, Vec<Dwell>) {
         let dwells = dwelling.dwells(recording);
         let time = dwelling
             .time

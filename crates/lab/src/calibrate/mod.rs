@@ -70,7 +70,7 @@ pub use calibration::{Calibration, Figures, PartScatter, calibrate, estimates};
 pub use campaign::{Campaign, FunctionResult, Omitted, Scatter, Weights};
 pub use cause::{Cause, Contribution, Origin};
 pub use coefficient::Coefficient;
-pub use define::{load, load_from, load_with, read};
+pub use define::{load, load_from, read};
 pub use dwells::{Dwelling, DwellsBy};
 pub use identify::{Alias, Combination, Identifiability, NearAlias, Shift, Shifts};
 pub use limits::Limit;

@@ -94,13 +94,13 @@ impl Experiment {
     }
 
     /// The symbols that are parameters.
-    pub fn parameter_places(&self) -> std::ops::Range<usize> {
+    pub(crate) fn parameter_places(&self) -> std::ops::Range<usize> {
         let first = self.columns.len();
         first..first + self.parameters.len()
     }
 
     /// The symbols that are inputs.
-    pub fn input_places(&self) -> std::ops::Range<usize> {
+    pub(crate) fn input_places(&self) -> std::ops::Range<usize> {
         let first = self.columns.len() + self.parameters.len();
         first..first + self.inputs.len()
     }

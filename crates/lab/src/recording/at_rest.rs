@@ -75,7 +75,12 @@ pub struct Rows<'a> {
 
 /// Noise of rows from readings at rest. Nothing for too few readings, readings
 /// that are all alike, or times that fall.
-pub fn from_rest(rest: &AtRest<'_>, rows: &Rows<'_>, draws: usize, seed: u64) -> Option<RestNoise> {
+pub(crate) fn from_rest(
+    rest: &AtRest<'_>,
+    rows: &Rows<'_>,
+    draws: usize,
+    seed: u64,
+) -> Option<RestNoise> {
     let count = rest.readings.len();
     let finite = rest
         .readings

@@ -118,7 +118,7 @@ impl Average {
     ///
     /// u² = Σ u_i²/N², with the degrees of freedom of Welch and Satterthwaite; `s` is pooled over the
     /// averages, counts are sums.
-    pub fn of_averages(parts: &[Average]) -> Option<Average> {
+    pub(crate) fn of_averages(parts: &[Average]) -> Option<Average> {
         let (first, rest) = parts.split_first()?;
         if rest.is_empty() {
             return Some(*first);

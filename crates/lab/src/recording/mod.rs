@@ -60,7 +60,8 @@ pub use average::{Average, Drift, TooFew};
 pub use checks::{Checks, Finding, Problem, Severity, check};
 pub use noise::{Coefficient, Noises};
 pub use power_law::PowerLaw;
-pub use segment::{Cut, Dwell, Settling, Steps, Stillness, by_label, by_steps, by_stillness};
+pub use segment::{Cut, Dwell, Settling, Steps, Stillness, by_label};
+pub(crate) use segment::{by_steps, by_stillness};
 
 pub use gumption_format::csv::{
     Column, Content, Data, Heading, Labels, Recording, Request, headings, text_of,

@@ -92,7 +92,7 @@ pub fn by_label(columns: &[&Labels]) -> Vec<Dwell> {
 /// time. A stretch in which it creeps through the tolerance is part of a ramp and no dwell.
 ///
 /// Missing values of the stimulus do not end a dwell.
-pub fn by_steps(stimulus: &[f64], steps: &Steps) -> Vec<Dwell> {
+pub(crate) fn by_steps(stimulus: &[f64], steps: &Steps) -> Vec<Dwell> {
     let fewest = steps.fewest.max(1);
     let tolerance = steps.tolerance.unwrap_or_else(|| usual(stimulus, fewest));
     // The longest first, of equal ones the earliest.
@@ -197,7 +197,7 @@ fn mean(values: &[f64]) -> Option<f64> {
 /// Stretches in which no output scatters more than it does when quiet.
 ///
 /// The outputs have equal lengths. Missing values do not count; a window without values is not still.
-pub fn by_stillness(outputs: &[&[f64]], stillness: &Stillness) -> Vec<Dwell> {
+pub(crate) fn by_stillness(outputs: &[&[f64]], stillness: &Stillness) -> Vec<Dwell> {
     let window = stillness.window.max(2);
     let rows = outputs.iter().map(|output| output.len()).min().unwrap_or(0);
     let mut still = vec![!outputs.is_empty(); (rows + 1).saturating_sub(window)];

@@ -30,7 +30,7 @@ pub fn parted(grid: &Grid) -> Vec<Grid> {
 
 /// Whether several figures of the whole stand side by side, or below each other in columns of their own: budgets of several points
 /// in a form that is not understood.
-pub fn are_several(grid: &Grid) -> bool {
+pub(crate) fn are_several(grid: &Grid) -> bool {
     let several = |row: usize| {
         let labelled = whole_of_row(grid, row).is_some();
         let figures = grid.filled(row).filter(|(_, cell)| cell.figure().is_some());

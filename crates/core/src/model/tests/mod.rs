@@ -43,7 +43,7 @@ pub fn symbols(text: &str) -> Vec<Symbol> {
 }
 
 /// One measurand Y with its own model; an empty unit text means none is stated.
-pub fn try_model(inputs: &str, model: &str, wanted: &str) -> Result<Model, Vec<ModelFault>> {
+pub(super) fn try_model(inputs: &str, model: &str, wanted: &str) -> Result<Model, Vec<ModelFault>> {
     let units = UnitTable::default();
     let symbols = symbols(inputs);
     let unit = (!wanted.is_empty()).then(|| unit(wanted));

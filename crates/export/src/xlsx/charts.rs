@@ -2,7 +2,7 @@
 
 use rust_xlsxwriter::{
     Chart, ChartFont, ChartFormat, ChartLine, ChartLineDashType, ChartMarker, ChartMarkerType,
-    ChartSolidFill, ChartType, Workbook, Worksheet, XlsxError,
+    ChartSeries, ChartSolidFill, ChartType, Workbook, Worksheet, XlsxError,
 };
 
 use super::looks::Looks;
@@ -25,14 +25,20 @@ pub(super) fn plots(
         let name = names.like(title);
         let sheet = workbook.add_worksheet();
         sheet.set_name(&name)?;
-        let mut column = 0;
+        let mut data = Data {
+            name: &name,
+            sheet,
+            looks,
+            column: 0,
+        };
         let mut charts = Vec::new();
         for panel in &plot.panels {
-            charts.push(chart(panel, &name, sheet, looks, &mut column)?);
-            column += 1;
+            charts.push(chart(panel, &mut data)?);
+            data.column += 1;
         }
+        let beside = data.column;
         for (chart, at) in charts.iter().zip(0u32..) {
-            sheet.insert_chart(HEIGHT * at, column, chart)?;
+            sheet.insert_chart(HEIGHT * at, beside, chart)?;
         }
     }
     Ok(())
@@ -88,13 +94,89 @@ fn columns(layer: &Layer, panel: &Panel) -> Vec<(String, Vec<Option<f64>>)> {
     }
 }
 
-fn chart(
-    panel: &Panel,
-    name: &str,
-    sheet: &mut Worksheet,
-    looks: &Looks,
-    column: &mut u16,
-) -> Result<Chart, XlsxError> {
+/// The numbers behind charts, in columns of their sheet.
+struct Data<'a> {
+    /// Of the sheet.
+    name: &'a str,
+    sheet: &'a mut Worksheet,
+    looks: &'a Looks,
+    /// The next one that is free.
+    column: u16,
+}
+
+/// Where the numbers of a layer stand: those across in the first column, others in those behind it.
+struct Written {
+    first: u16,
+    rows: u32,
+}
+
+impl Data<'_> {
+    fn head(&mut self, text: &str) -> Result<(), XlsxError> {
+        self.sheet
+            .write_string_with_format(0, self.column, cut(text), &self.looks.head)?;
+        Ok(())
+    }
+
+    /// Columns of a layer; places without a number are empty cells.
+    fn curves(&mut self, columns: &[(String, Vec<Option<f64>>)]) -> Result<Written, XlsxError> {
+        let first = self.column;
+        for (head, numbers) in columns {
+            self.head(head)?;
+            self.sheet.set_column_width(self.column, 16)?;
+            for (number, row) in numbers.iter().zip(1u32..) {
+                if let Some(number) = number {
+                    self.sheet.write_number(row, self.column, *number)?;
+                }
+            }
+            self.column += 1;
+        }
+        let longest = columns.first().map_or(0, |(_, numbers)| numbers.len());
+        Ok(written(first, longest))
+    }
+
+    /// The names of bars, and numbers of each.
+    fn bars<const N: usize>(
+        &mut self,
+        heads: [&str; N],
+        bars: &[Bar],
+        numbers: impl Fn(&Bar) -> [f64; N],
+    ) -> Result<Written, XlsxError> {
+        let first = self.column;
+        for head in std::iter::once("").chain(heads) {
+            self.head(head)?;
+            self.column += 1;
+        }
+        for (bar, row) in bars.iter().zip(1u32..) {
+            self.sheet.write_string(row, first, cut(&bar.name))?;
+            for (number, at) in numbers(bar).into_iter().zip(first + 1..) {
+                if number.is_finite() {
+                    self.sheet.write_number(row, at, number)?;
+                }
+            }
+        }
+        Ok(written(first, bars.len()))
+    }
+
+    /// A series of the numbers in the column `at`.
+    fn series<'c>(
+        &self,
+        chart: &'c mut Chart,
+        Written { first, rows }: &Written,
+        at: u16,
+    ) -> &'c mut ChartSeries {
+        chart
+            .add_series()
+            .set_categories((self.name, 1, *first, *rows, *first))
+            .set_values((self.name, 1, at, *rows, at))
+    }
+}
+
+fn written(first: u16, rows: usize) -> Written {
+    let rows = u32::try_from(rows).unwrap_or(0);
+    Written { first, rows }
+}
+
+fn chart(panel: &Panel, data: &mut Data<'_>) -> Result<Chart, XlsxError> {
     let is_bars = |layer: &Layer| matches!(layer.marks, Marks::Bars(_));
     let bars = panel.layers.iter().filter(|layer| is_bars(layer)).count();
     let mut chart = Chart::new(match bars {
@@ -102,47 +184,18 @@ fn chart(
         1 => ChartType::BarStacked,
         _ => ChartType::Bar,
     });
-    let (mut series_count, mut unnamed) = (0, Vec::new());
+    let (mut series, mut unnamed) = (0, Vec::new());
     for layer in &panel.layers {
         match &layer.marks {
-            Marks::Bars(own) if bars == 1 => {
-                stretches(&mut chart, layer, own, name, sheet, looks, column)?;
-                continue;
+            Marks::Bars(own) if bars == 1 => stretches(&mut chart, layer, own, data)?,
+            Marks::Bars(own) => lengths(&mut chart, layer, own, data)?,
+            _ => {
+                let drawn = curves(&mut chart, layer, &columns(layer, panel), data)?;
+                // Help for the eye has no name, and what has two edges is named once.
+                let named = usize::from(!layer.name.is_empty());
+                unnamed.extend((series..series + drawn).skip(named));
+                series += drawn;
             }
-            Marks::Bars(own) => {
-                lengths(&mut chart, layer, own, name, sheet, looks, column)?;
-                continue;
-            }
-            _ => {}
-        }
-        let columns = columns(layer, panel);
-        let first = *column;
-        for (head, numbers) in &columns {
-            sheet.write_string_with_format(0, *column, cut(head), &looks.head)?;
-            sheet.set_column_width(*column, 16)?;
-            for (number, row) in numbers.iter().zip(1u32..) {
-                if let Some(number) = number {
-                    sheet.write_number(row, *column, *number)?;
-                }
-            }
-            *column += 1;
-        }
-        let rows = u32::try_from(columns[0].1.len()).unwrap_or(0);
-        if rows == 0 {
-            continue;
-        }
-        for y in first + 1..*column {
-            // Help for the eye has no name, and what has two edges is named once.
-            if layer.name.is_empty() || y > first + 1 {
-                unnamed.push(series_count);
-            }
-            series_count += 1;
-            let series = chart.add_series();
-            series
-                .set_categories((name, 1, first, rows, first))
-                .set_values((name, 1, y, rows, y))
-                .set_name(said(&columns[usize::from(y - first)].0).as_str());
-            draw(series, layer);
         }
     }
     let mut font = ChartFont::new();
@@ -171,33 +224,36 @@ fn chart(
     Ok(chart)
 }
 
+/// Points, lines and bands; how many series they are.
+fn curves(
+    chart: &mut Chart,
+    layer: &Layer,
+    columns: &[(String, Vec<Option<f64>>)],
+    data: &mut Data<'_>,
+) -> Result<usize, XlsxError> {
+    let written = data.curves(columns)?;
+    if written.rows == 0 {
+        return Ok(0);
+    }
+    let series = columns.get(1..).unwrap_or_default();
+    for ((head, _), at) in series.iter().zip(written.first + 1..) {
+        let series = data.series(chart, &written, at);
+        series.set_name(said(head).as_str());
+        draw(series, layer);
+    }
+    Ok(series.len())
+}
+
 /// Bars from 0 beside those of other layers.
 fn lengths(
     chart: &mut Chart,
     layer: &Layer,
     bars: &[Bar],
-    name: &str,
-    sheet: &mut Worksheet,
-    looks: &Looks,
-    column: &mut u16,
+    data: &mut Data<'_>,
 ) -> Result<(), XlsxError> {
-    let first = *column;
-    for (head, at) in ["", layer.name.as_str()].into_iter().zip(first..) {
-        sheet.write_string_with_format(0, at, cut(head), &looks.head)?;
-    }
-    for (bar, row) in bars.iter().zip(1u32..) {
-        sheet.write_string(row, first, cut(&bar.name))?;
-        if bar.to.is_finite() {
-            sheet.write_number(row, first + 1, bar.to)?;
-        }
-    }
-    *column += 2;
-    let rows = u32::try_from(bars.len()).unwrap_or(0);
-    if rows > 0 {
-        chart
-            .add_series()
-            .set_categories((name, 1, first, rows, first))
-            .set_values((name, 1, first + 1, rows, first + 1))
+    let written = data.bars([&layer.name], bars, |bar| [bar.to])?;
+    if written.rows > 0 {
+        data.series(chart, &written, written.first + 1)
             .set_name(said(&layer.name).as_str())
             .set_gap(40)
             .set_format(&mut filled(colour(layer.tone)));
@@ -216,41 +272,21 @@ fn stretches(
     chart: &mut Chart,
     layer: &Layer,
     bars: &[Bar],
-    name: &str,
-    sheet: &mut Worksheet,
-    looks: &Looks,
-    column: &mut u16,
+    data: &mut Data<'_>,
 ) -> Result<(), XlsxError> {
-    let first = *column;
-    let heads = ["", "from", "to", "start", layer.name.as_str()];
-    for (head, at) in heads.into_iter().zip(first..) {
-        sheet.write_string_with_format(0, at, cut(head), &looks.head)?;
-    }
-    for (bar, row) in bars.iter().zip(1u32..) {
-        sheet.write_string(row, first, cut(&bar.name))?;
+    let heads = ["from", "to", "start", &layer.name];
+    let written = data.bars(heads, bars, |bar| {
         let (low, high) = (bar.from.min(bar.to), bar.from.max(bar.to));
-        for (number, at) in [bar.from, bar.to, low, high - low]
-            .into_iter()
-            .zip(first + 1..)
-        {
-            if number.is_finite() {
-                sheet.write_number(row, at, number)?;
-            }
-        }
-    }
-    let rows = u32::try_from(bars.len()).unwrap_or(0);
-    *column += 5;
-    if rows == 0 {
+        [bar.from, bar.to, low, high - low]
+    })?;
+    if written.rows == 0 {
         return Ok(());
     }
     let mut unseen = ChartFormat::new();
     unseen.set_no_fill().set_no_line();
     let mut seen = filled(colour(layer.tone));
-    for (at, format) in [(first + 3, &mut unseen), (first + 4, &mut seen)] {
-        chart
-            .add_series()
-            .set_categories((name, 1, first, rows, first))
-            .set_values((name, 1, at, rows, at))
+    for (at, format) in [(3, &mut unseen), (4, &mut seen)] {
+        data.series(chart, &written, written.first + at)
             .set_gap(40)
             .set_format(format);
     }
@@ -283,7 +319,7 @@ fn colour(tone: Tone) -> u32 {
 }
 
 /// Points without lines, lines without points; told apart by shape and dashes too.
-fn draw(series: &mut rust_xlsxwriter::ChartSeries, layer: &Layer) {
+fn draw(series: &mut ChartSeries, layer: &Layer) {
     let colour = colour(layer.tone);
     let (shape, dashes) = match layer.tone {
         Tone::Main => (ChartMarkerType::Circle, ChartLineDashType::Solid),

@@ -39,30 +39,26 @@ pub(super) fn set(
 ) -> Vec<Letter> {
     let mut letters = Vec::new();
     for run in runs(text) {
-        match run {
-            Run::Plain(text) => put(text, style, size, 0.0, fonts, missing, &mut letters),
-            Run::Code(text) => put(
-                text,
-                Style::Mono,
-                0.92 * size,
-                0.0,
-                fonts,
-                missing,
-                &mut letters,
-            ),
-            Run::Raised(text) => {
-                let text = text.replace('-', "−");
-                put(
-                    &text,
-                    style,
-                    0.7 * size,
-                    0.35 * size,
-                    fonts,
-                    missing,
-                    &mut letters,
-                );
-            }
-        }
+        letters.extend(match run {
+            Run::Plain(text) => plain(text, style, size, fonts, missing),
+            Run::Code(text) => plain(text, Style::Mono, 0.92 * size, fonts, missing),
+            Run::Raised(text) => raised(text, style, size, fonts, missing),
+        });
+    }
+    letters
+}
+
+/// The glyphs of an exponent.
+fn raised(
+    text: &str,
+    style: Style,
+    size: f32,
+    fonts: &Fonts,
+    missing: &mut Missing,
+) -> Vec<Letter> {
+    let mut letters = plain(&text.replace('-', "−"), style, 0.7 * size, fonts, missing);
+    for letter in &mut letters {
+        letter.rise = 0.35 * size;
     }
     letters
 }
@@ -76,19 +72,6 @@ pub(super) fn plain(
     missing: &mut Missing,
 ) -> Vec<Letter> {
     let mut letters = Vec::new();
-    put(text, style, size, 0.0, fonts, missing, &mut letters);
-    letters
-}
-
-fn put(
-    text: &str,
-    style: Style,
-    size: f32,
-    rise: f32,
-    fonts: &Fonts,
-    missing: &mut Missing,
-    letters: &mut Vec<Letter>,
-) {
     for character in text.chars() {
         // Marks for lines, and spaces of other widths.
         let shown = match character {
@@ -109,9 +92,10 @@ fn put(
             glyph: found.glyph,
             advance: found.advance,
             size,
-            rise,
+            rise: 0.0,
         }));
     }
+    letters
 }
 
 /// Width of letters on one line; soft hyphens are not seen.

@@ -81,17 +81,9 @@ fn part(grid: &Grid, start: usize, end: usize) -> Grid {
 mod tests {
     use super::*;
 
-    fn grid(rows: &[&str]) -> Grid {
-        let cells = |row: &&str| row.split('|').map(Cell::new).collect();
-        Grid {
-            rows: rows.iter().map(cells).collect(),
-            ..Grid::default()
-        }
-    }
-
     #[test]
     fn two_heads_with_a_column_between_are_two_tables() {
-        let both = parted(&grid(&[
+        let both = parted(&Grid::of_rows(&[
             "Coverage factor k = 2",
             "1 V||||10 V",
             "Source|±|u||Source|±|u",
@@ -102,7 +94,7 @@ mod tests {
         assert!(both[1].rows[3][0].is_empty() && both[1].rows[3][4].text == "b");
         assert!(both[0].rows[1].get(4).is_none_or(Cell::is_empty));
         // A gap in one head, and a table of words beside it, part nothing.
-        let one = grid(&["Source|±||u|c", "a|1||2|1"]);
+        let one = Grid::of_rows(&["Source|±||u|c", "a|1||2|1"]);
         assert_eq!(parted(&one), [one]);
     }
 }

@@ -102,19 +102,10 @@ fn words<'t>(heads: impl Iterator<Item = &'t str>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sheet::Cell;
-
-    fn grid(rows: &[&str]) -> Grid {
-        let cells = |row: &&str| row.split('|').map(Cell::new).collect();
-        Grid {
-            rows: rows.iter().map(cells).collect(),
-            ..Grid::default()
-        }
-    }
 
     #[test]
     fn heads_in_the_first_column_are_turned() {
-        let turned = upright(&grid(&[
+        let turned = upright(&Grid::of_rows(&[
             "Budget",
             "",
             "Symbol|a|b",
@@ -127,7 +118,7 @@ mod tests {
         assert_eq!(turned.rows[2][2].text, "u(xi)".replace("xi", "x_i"));
         assert_eq!(turned.rows[4][1].text, "√3");
         assert_eq!(turned.rows.len(), 7);
-        let usual = grid(&["Symbol|u(x_i)|c_i", "a|0.1|1", "b|0.2|1"]);
+        let usual = Grid::of_rows(&["Symbol|u(x_i)|c_i", "a|0.1|1", "b|0.2|1"]);
         assert_eq!(upright(&usual), usual);
     }
 }

@@ -125,6 +125,16 @@ impl Cell {
 }
 
 impl Grid {
+    /// A sheet of these rows, with bars between their cells.
+    #[cfg(test)]
+    pub(crate) fn of_rows(rows: &[&str]) -> Grid {
+        let cells = |row: &&str| row.split('|').map(Cell::new).collect();
+        Grid {
+            rows: rows.iter().map(cells).collect(),
+            ..Grid::default()
+        }
+    }
+
     /// The cell at a place; an empty one beyond the edge.
     pub fn cell(&self, row: usize, column: usize) -> &Cell {
         static NOTHING: Cell = Cell {

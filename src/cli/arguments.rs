@@ -1,6 +1,8 @@
 //! The arguments of the command line, and what is said where they are not understood: by clap in English, and from the
 //! same findings in Chinese.
 
+use std::ffi::OsString;
+
 use clap::Parser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
@@ -11,7 +13,20 @@ use gumption::language::Language;
 
 /// The arguments; ends the program where there is nothing else to do.
 pub(super) fn parse<T: Parser>() -> T {
-    T::try_parse().unwrap_or_else(|error| refuse(&error))
+    try_parse(std::env::args_os()).unwrap_or_else(|error| refuse(&error))
+}
+
+/// `--seed -3` is an option with a value that is wrong, and no option `-3`.
+pub(super) fn try_parse<T: Parser>(
+    arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>,
+) -> Result<T, clap::Error> {
+    let numbers = |arg: clap::Arg| {
+        let takes_values = arg.get_action().takes_values();
+        arg.allow_negative_numbers(takes_values)
+    };
+    let mut command = T::command().mut_subcommands(|command| command.mut_args(numbers));
+    let mut matches = command.try_get_matches_from_mut(arguments)?;
+    T::from_arg_matches_mut(&mut matches).map_err(|error| error.format(&mut command))
 }
 
 fn refuse(error: &clap::Error) -> ! {
@@ -32,8 +47,8 @@ fn refuse(error: &clap::Error) -> ! {
 const NO_NUMBER: [(&str, &str, &str); 4] = [
     (
         "invalid digit found in string",
-        "expected a whole number",
-        "应为整数",
+        "expected a whole number without a sign",
+        "应为不带正负号的整数",
     ),
     (
         "cannot parse integer from empty string",

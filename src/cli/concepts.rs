@@ -61,7 +61,7 @@ pub(super) const CONCEPTS: &[Concept] = &[
     },
     Concept {
         name: "coverage-factor",
-        aliases: &["k", "expanded uncertainty", "包含因子"],
+        aliases: &["k", "expanded uncertainty", "confidence", "confidence level", "level of confidence", "包含因子", "扩展不确定度", "包含概率", "置信概率", "置信水平"],
         title: "where k comes from (GUM 6 and annex G)",
         text: "U = k·u_c(y). coverage_factor_from in [conventions] names the rule:\n\n\"t\": the quantile of the t distribution with ν_eff degrees of freedom, of the normal distribution when ν_eff is infinite. ν_eff is cut to the next lower integer (GUM G.4.1) after rounding to the tenth that is printed; degrees_of_freedom = \"real\" uses it as it is.\n\n\"output\" (the default of most profiles): as \"t\", unless one component that is neither normal nor t, or two rectangles together, make up nearly all of u(y) (the others at most 0.3 of it; or, for two rectangles, each of them more than all others together) and ν_eff is at least 50. Then k comes from the distribution of the linearised output, the dominant components convolved with a normal remainder: 1.65 for a rectangle alone and p = 95 %, where the normal factor 1.96 would reach beyond the rectangle. The profile EA takes the dominant components alone, as EA-4/02 does in its examples S9, S10 and S11.\n\n\"normal\": the normal quantile always.\n\ncoverage_factor = 2 fixes k; p is then whatever that k happens to cover, and the report says how much.",
     },
@@ -73,13 +73,13 @@ pub(super) const CONCEPTS: &[Concept] = &[
     },
     Concept {
         name: "degrees-of-freedom",
-        aliases: &["welch-satterthwaite", "ws", "effective degrees of freedom", "freedom_refused", "few_degrees_of_freedom", "自由度"],
+        aliases: &["welch-satterthwaite", "ws", "effective degrees of freedom", "freedom_refused", "few_degrees_of_freedom", "自由度", "有效自由度"],
         title: "how well u itself is known (GUM G.4)",
         text: "n readings give ν = n − 1. A component whose u is uncertain by Δu/u (`reliability`) has ν = ½(Δu/u)^-2 (GUM G.4.2). Most Type B components have ν = ∞.\n\nν_eff of u(y) follows from the Welch–Satterthwaite formula, u⁴(y) / Σ u_i⁴(y)/ν_i (GUM G.4.1), which holds for independent terms. Correlated components that share one ν, such as joint readings, count as one term with that ν (Willink 2007). For correlated components with different finite ν no formula is valid: gumption refuses to invent one, says which components it concerns, and takes the smallest ν for k.\n\nThe elements of a vector whose uncertainty is one statement share its ν: they are one term, too.\n\nMonte Carlo needs no ν_eff: readings and stated standard uncertainties with finite ν are drawn from t distributions, elements that share one ν from a multivariate one. Limits with a shape (a rectangle, say) and finite ν are drawn as they are stated; their ν counts for the GUM method only, and a remark says so.",
     },
     Concept {
         name: "detection-limit",
-        aliases: &["detection", "decision threshold", "characteristic limits", "iso 11929", "探测限", "判断阈", "判断限"],
+        aliases: &["detection", "limit of detection", "lod", "decision threshold", "characteristic limits", "iso 11929", "探测限", "检出限", "判断阈", "判断限"],
         title: "decision threshold and detection limit (ISO 11929)",
         text: "A net effect that cannot be negative is recognised where y is above the decision threshold y* = k_{1−α}·u(0), which is exceeded with probability α where there is none. The detection limit y# = y* + k_{1−β}·u(y#) is the smallest value that is recognised with probability 1 − β. Both need u of a measurement that finds another value: the input that `gross` names takes the estimate that gives it, counts follow as their square root, relative uncertainties in proportion. Where u grows as fast as the value there is no detection limit.\n\nBest estimate and coverage interval are those of the normal distribution of the result, cut off at zero. With Monte Carlo, threshold and limit are also found from the quantiles of the simulated results (ISO 11929-2).",
     },
@@ -126,6 +126,12 @@ pub(super) const CONCEPTS: &[Concept] = &[
         text: "outlier_test beside `readings` examines the most outlying of them, on either side, and reports. It never removes: that is for somebody who knows what happened when the reading was taken.\n\n\"grubbs\": largest deviation from the mean in units of s, two-sided at the level `significance` (0.05); three readings or more (ISO 5725-2, GB/T 4883). \"dixon\": gap beside the outermost reading over the range: r10 for 3 to 7 readings, r11 to 10, r21 to 13, r22 to 30; two-sided, critical values from the exact distribution. \"dixon-q\": r10, gap over the whole range, for 3 to 30 readings, as in the Q test of chemists. \"4d\": four mean deviations of the other readings. \"3s\": three standard deviations, for 11 readings or more, because fewer cannot reach that far.\n\nFigures for claims: V.outlier.place, value, statistic, critical, p.",
     },
     Concept {
+        name: "propagation",
+        aliases: &["combined standard uncertainty", "u_c", "sensitivity coefficient", "sensitivity coefficients", "sensitivity", "law of propagation", "uncertainty budget", "合成标准不确定度", "灵敏系数", "不确定度传播律"],
+        title: "how the inputs make up u_c (GUM 5)",
+        text: "The combined standard uncertainty of y = f(x_1, x_2, …) is u_c with u_c² = Σ c_i²·u²(x_i) where the inputs are independent; correlated ones add 2·c_i·c_j·u(x_i, x_j) for each pair (GUM 5.1.2, 5.2.2). The sensitivity coefficient c_i = ∂f/∂x_i says by how much y changes for one unit of x_i. gumption differentiates the formulas exactly, and takes c_i in unit of the measurand per unit of the input.\n\nThe budget table has a row for each input: estimate, u, distribution, ν, c, the contribution c·u and its share of u_c². See `gumption explain shares` for which input matters, `second-order` for what this leaves out, and `coverage-factor` for the way from u_c to U.",
+    },
+    Concept {
         name: "resolution",
         aliases: &["quantisation", "digitisation", "分辨力"],
         title: "what a display or a converter does not show",
@@ -133,7 +139,7 @@ pub(super) const CONCEPTS: &[Concept] = &[
     },
     Concept {
         name: "rounding",
-        aliases: &["significant digits", "修约"],
+        aliases: &["significant digits", "significant figures", "修约", "有效数字"],
         title: "how printed figures are rounded (GUM 7.2.6)",
         text: "U is rounded to one or two significant digits, and the estimate to the same last place. Rounding starts from the shortest decimal digits of the number, never from its binary tail, and happens once, at the end. `half-even` (default, as GB/T 8170) takes ties to the even digit, `half-up` away from zero, `up` raises U always. The profile EA rounds up where rounding would lower U by more than 5 %. JSON output is never rounded.",
     },
@@ -163,13 +169,13 @@ pub(super) const CONCEPTS: &[Concept] = &[
     },
     Concept {
         name: "type-a",
-        aliases: &["repeatability", "autocorrelation", "type a evaluation", "A类"],
+        aliases: &["standard uncertainty", "standard deviation", "pooled standard deviation", "repeatability", "autocorrelation", "type a evaluation", "A类", "标准不确定度", "标准偏差", "重复性"],
         title: "standard uncertainty from readings (GUM 4.2)",
         text: "n readings with the experimental standard deviation s: u = s/√n for their mean, with ν = n − 1. of = \"single\" takes u = s, for one later reading; of = 3 takes s/√3, for the mean of three. `pooled` replaces s and its ν by those of earlier work. `type = \"A\"` says of a stated `u` that it was evaluated from readings.\n\nReadings that follow each other may be correlated (GUM 4.2.7). The report gives the lag-1 coefficient of ten readings or more, with a remark where independent readings would hardly show it (beyond 2/√n). `autocorrelated` divides by the effective number of independent readings, n/F with F = 1 + 2 Σ (1 − k/n) ρ_k: the mean takes up F·σ²/n of every product of deviations, so that ρ_k is estimated as (n − F)·r_k/(n − k) + F/n, and the sum ends with the first lag of four correlation times, 4·F/2 (Sokal 1997), or with n/4. Then u = σ/√n_eff with σ² = Σ (x − x̄)²/(n − F), and ν = n_eff − 1.\n\nAll sums are formed with twice the digits of a double, and a reading is the decimal that is written: readings that agree in their first twelve digits lose nothing. See `gumption explain anova` for readings in groups and `gumption explain outliers` for tests.\n\nIn Monte Carlo the mean of n readings has a scaled and shifted t distribution (JCGM 101, 6.4.9), whose standard deviation is √(ν/(ν − 2)) times s/√n: the two methods therefore differ a little for few readings. t_scale = \"standard-deviation\" in [conventions] gives the t distribution the standard deviation s/√n instead.",
     },
     Concept {
         name: "type-b",
-        aliases: &["type b evaluation", "B类"],
+        aliases: &["standard uncertainty", "divisor", "type b evaluation", "B类", "标准不确定度", "除数", "半宽", "最大允许误差"],
         title: "standard uncertainty from other knowledge (GUM 4.3)",
         text: "From a certificate: u = U/k; with p and ν stated, k is the quantile of the t distribution. From limits ±a: a/√3 for a rectangle, a/√6 for a triangle, a/√2 for the arc sine of a quantity that swings between them, a/k_p for a normal distribution of which the limits hold the part p. From a resolution q: q/(2√3). From an accuracy specification: its parts are added to one half-width.\n\nType A and Type B differ in how u was found and in nothing else: both are standard deviations and are combined alike (GUM 3.3.4). `gumption explain distributions` lists the shapes.",
     },

@@ -138,10 +138,37 @@ pub(super) fn run(args: &Args) -> Outcome {
         .into_iter()
         .collect();
     texts.extend(found(&wanted, &topics).iter().map(|t| t.explained()));
-    if texts.is_empty() {
+    if !texts.is_empty() {
+        return output::print(texts.join("\n"));
+    }
+    let speaking = speaking_of(&wanted, &topics);
+    if speaking.is_empty() {
         return output::complain(unknown(&wanted, &topics));
     }
-    output::print(texts.join("\n"))
+    let head = say!("`{wanted}` is no topic of its own; these speak of it:").in_language(lang);
+    output::print(head + "\n" + &lines(&speaking))
+}
+
+/// The topics of which the names have the wanted words, else the titles, else the texts.
+fn speaking_of<'t>(wanted: &str, topics: &'t [Topic]) -> Vec<&'t Topic> {
+    let wanted = folded(wanted);
+    let has = |text: &str| {
+        let text = folded(text);
+        let starts = text.match_indices(&wanted).map(|(at, _)| &text[..at]);
+        let is_chinese = !wanted.starts_with(|c: char| c.is_ascii());
+        let mut before = starts.map(|front| front.chars().next_back());
+        !wanted.is_empty() && before.any(|c| is_chinese || !c.is_some_and(char::is_alphanumeric))
+    };
+    let places: [&dyn Fn(&Topic) -> bool; 3] = [
+        &|topic| has(&topic.name) || topic.aliases.iter().any(|alias| has(alias)),
+        &|topic| has(&topic.title),
+        &|topic| has(&topic.text),
+    ];
+    let speaking = |place: &dyn Fn(&Topic) -> bool| -> Vec<&Topic> {
+        topics.iter().filter(|topic| place(topic)).collect()
+    };
+    let mut found = places.into_iter().map(speaking);
+    found.find(|found| !found.is_empty()).unwrap_or_default()
 }
 
 /// Everything of that name; in a section where `u` and `U` are two topics, the one that is spelt alike.
@@ -280,18 +307,16 @@ fn overview(topics: &[Topic], lang: Language) -> String {
 
 /// The topics of a section, one per line.
 fn listed(section: Section, topics: &[Topic], lang: Language) -> String {
-    let of_section = || topics.iter().filter(move |t| t.section == section);
-    let width = of_section().map(|t| t.name.chars().count()).max();
-    let mut text = section.title().in_language(lang) + "\n";
-    for topic in of_section() {
-        text.push_str(&format!(
-            "  {:width$}  {}\n",
-            topic.name,
-            topic.title,
-            width = width.unwrap_or(0)
-        ));
-    }
-    text
+    let of_section: Vec<&Topic> = topics.iter().filter(|t| t.section == section).collect();
+    section.title().in_language(lang) + "\n" + &lines(&of_section)
+}
+
+/// Topics with their titles, one per line.
+fn lines(topics: &[&Topic]) -> String {
+    let width = topics.iter().map(|t| t.name.chars().count()).max();
+    let width = width.unwrap_or(0);
+    let line = |topic: &&Topic| format!("  {:width$}  {}\n", topic.name, topic.title);
+    topics.iter().map(line).collect()
 }
 
 fn topics(lang: Language) -> Vec<Topic> {
@@ -550,6 +575,21 @@ mod tests {
         );
     }
 
+    /// Words that are nobody's name lead to where they are used; those that are a misspelt name nowhere.
+    #[test]
+    fn words_are_found_where_they_are_used() {
+        let english = topics(Language::English);
+        let names = |word: &str| -> Vec<&str> {
+            let speaking = speaking_of(word, &english).into_iter();
+            speaking.map(|topic| topic.name.as_str()).collect()
+        };
+        assert!(names("Drift").contains(&"rule-36"));
+        assert!(names("clause 8").contains(&"validation"));
+        assert!(names("trianglar").is_empty());
+        let chinese = topics(Language::Chinese);
+        assert!(!speaking_of("漂移", &chinese).is_empty());
+    }
+
     #[test]
     fn topics_are_found_by_their_other_names() {
         let topics = topics(Language::English);
@@ -565,6 +605,9 @@ mod tests {
             "rectangular",
             "half_width",
             "[[joint]]",
+            "divisor",
+            "sensitivity coefficient",
+            "除数",
             "U001",
         ] {
             assert!(!found(name, &topics).is_empty(), "{name}");

@@ -140,7 +140,7 @@ mod tests {
     /// What Chinese users read of these arguments.
     fn in_chinese(arguments: &[&str]) -> String {
         let arguments = ["gumption"].iter().chain(arguments);
-        let error = Cli::try_parse_from(arguments).expect_err("a fault");
+        let error = arguments::try_parse::<Cli>(arguments).expect_err("a fault");
         arguments::in_chinese(&error).unwrap_or_default()
     }
 
@@ -151,7 +151,11 @@ mod tests {
             (&["eval"], "缺少必需的参数：<FILE>..."),
             (&["eval", "--foo", "x"], "没有参数 `--foo`"),
             (&["eval", "x", "--threads", "0"], "：0 不在 1..=1024 之内"),
-            (&["eval", "x", "--threads", "a"], "：应为整数"),
+            (&["eval", "x", "--threads", "a"], "：应为不带正负号的整数"),
+            (
+                &["eval", "x", "--seed", "-3"],
+                "值 `-3` 有误：应为不带正负号的整数",
+            ),
             (&["eval", "-o"], "`--output <FILE>` 缺少值"),
         ] {
             let text = in_chinese(arguments);
@@ -164,10 +168,11 @@ mod tests {
     #[test]
     fn a_number_that_is_none_is_told_in_words_of_the_program() {
         for (value, expected) in [
-            ("abc", ": expected a whole number\n"),
+            ("abc", ": expected a whole number without a sign\n"),
+            ("-3", ": expected a whole number without a sign\n"),
             ("99999999999999999999", ": the number is too large\n"),
         ] {
-            let error = Cli::try_parse_from(["gumption", "eval", "x", "--seed", value]);
+            let error = arguments::try_parse::<Cli>(["gumption", "eval", "x", "--seed", value]);
             let text = arguments::in_english(&error.expect_err("a fault"));
             assert!(
                 text.as_ref().is_some_and(|text| text.contains(expected)),
@@ -195,7 +200,7 @@ mod tests {
             ),
         ] {
             let arguments = ["gumption"].iter().chain(arguments);
-            let error = Cli::try_parse_from(arguments).expect_err("a fault");
+            let error = arguments::try_parse::<Cli>(arguments).expect_err("a fault");
             let said = arguments::instead(&error).expect("what to write");
             assert!(said.to_string().contains(expected), "{said}");
         }
@@ -203,7 +208,7 @@ mod tests {
             &["gumption", "evl"][..],
             &["gumption", "eval", "--foo", "x"],
         ] {
-            let error = Cli::try_parse_from(arguments).expect_err("a fault");
+            let error = arguments::try_parse::<Cli>(arguments).expect_err("a fault");
             assert_eq!(arguments::instead(&error), None);
         }
     }

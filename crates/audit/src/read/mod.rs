@@ -18,6 +18,7 @@
 //! | `mapping` | what a user says of a sheet |
 //! | `points` | sheets with a budget for each calibration point |
 //! | `prose` | budgets without a table |
+//! | `simulated` | statements of Monte Carlo |
 //! | `turned` | tables whose rows and columns are exchanged |
 //! | `words` | words and figures in texts |
 
@@ -36,6 +37,7 @@ mod notes;
 mod points;
 mod prose;
 mod result_unit;
+mod simulated;
 mod table;
 mod turned;
 mod words;
@@ -44,6 +46,7 @@ pub use columns::Role;
 pub(crate) use footer::Whole;
 pub use mapping::Mapping;
 pub(crate) use points::are_several;
+pub(crate) use simulated::MONTE_CARLO;
 pub(crate) use words::{
     count_before, figure_after, figures_with_units, has, has_symbol, symbol_at,
 };
@@ -223,6 +226,7 @@ fn told(all: &[Line], rows: Vec<(usize, Row)>, mapping: &Mapping) -> Claimed {
     find_model(&others, &mut claimed, mapping);
     symbols_of_model(&mut raw, &mut claimed);
     place_lines(&others, &mut claimed);
+    simulated::set_aside(&mut claimed);
     table::interpret(&raw, false, &mut claimed);
     claimed
 }
@@ -311,6 +315,7 @@ fn budget(
             claimed.unit = result_unit::unit_of_result(&claimed);
         }
     }
+    simulated::set_aside(&mut claimed);
     let full = located.is_evaluated();
     let other = located
         .open_uncertainty()

@@ -4,7 +4,7 @@ use gumption_core::special::{chi_squared_upper_quantile, f_quantile};
 
 use crate::claim::Stated;
 use crate::printed::{Printed, leading};
-use crate::read::{count_before, figure_after};
+use crate::read::{MONTE_CARLO, count_before, figure_after};
 use crate::units;
 
 use super::{Hit, Seen, shown};
@@ -136,7 +136,6 @@ pub(super) fn second_order(seen: &Seen<'_>) -> Vec<Hit> {
 /// The interval of Monte Carlo that the sheet states, beyond the numerical tolerance of two digits of u_c (JCGM 101, 7.9.2
 /// and 8.1.3) from y ± U.
 pub(super) fn not_validated(seen: &Seen<'_>) -> Vec<Hit> {
-    const NAMES: [&str; 5] = ["monte carlo", "monte-carlo", "mcm", "蒙特卡洛", "蒙特卡罗"];
     let footer = &seen.claimed.footer;
     let (Some(y), Some(expanded)) = (&footer.y, &footer.expanded) else {
         return Vec::new();
@@ -151,7 +150,7 @@ pub(super) fn not_validated(seen: &Seen<'_>) -> Vec<Hit> {
         y.value - expanded.value * to_y,
         y.value + expanded.value * to_y,
     ];
-    let lines = texts(seen).filter(|(_, text)| has(text, &NAMES));
+    let lines = texts(seen).filter(|(_, text)| has(text, &MONTE_CARLO));
     let hit = |(row, text): (Option<usize>, &str)| {
         let (low, high) = interval(text)?;
         let apart = (low.value - ends[0])

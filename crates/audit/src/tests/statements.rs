@@ -187,3 +187,33 @@ fn a_result_that_nothing_gives_is_taken() {
     assert!(taken("", "50.0123 mm"));
     assert!(!taken("50.0012 mm", "50.0033 mm"));
 }
+
+/// What a sheet says to be of Monte Carlo, its rows do not give: k and U are set aside, and the rest is held against them.
+#[test]
+fn a_statement_of_monte_carlo_is_set_aside() {
+    let sheet =
+        |u_c: &str, statement: &str| format!("{}\n{UMASS}u_c,,,,,{u_c}\n{statement}\n", HEADS[0]);
+    for (statement, is_aside) in [
+        ("U = 29 mg\nReported is the Monte Carlo result", true),
+        ("报告采用蒙特卡洛法的结果\n扩展不确定度 U = 29 mg", true),
+        (
+            "Expanded uncertainty from Monte Carlo (10^6 trials): U = 29 mg",
+            true,
+        ),
+        (
+            "U = 29 mg\nThe expanded uncertainty was validated by Monte Carlo",
+            false,
+        ),
+        ("U = 29 mg\n已采用蒙特卡洛法验证", false),
+    ] {
+        let text = sheet("16.4 mg", statement);
+        let (_, claimed) = footer(&text);
+        assert_eq!(claimed.expanded.is_none(), is_aside, "{text}");
+        let (verdict, _) = answer("sheet.csv", &text);
+        assert_eq!(verdict == Verdict::Sound, is_aside, "{text}");
+        let wrong = answer("sheet.csv", &sheet("19.4 mg", statement)).0;
+        assert_ne!(wrong, Verdict::Sound, "{text}");
+    }
+}
+
+const UMASS: &str = "m_S,10000.005 g,12.0 mg,normal,1,12.0 mg\nδm,0 g,11.2 mg,normal,1,11.2 mg\n";

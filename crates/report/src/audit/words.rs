@@ -459,6 +459,7 @@ pub(super) fn role(role: &str, language: Language) -> String {
         "model" => "测量模型",
         "correlation" => "相关性",
         "rule for k" => "k 的规则",
+        "of Monte Carlo, not recomputed" => "蒙特卡洛法的结果，未重新计算",
         "rule for rounding" => "修约规则",
         "note to a row" => "某行的说明",
         "known, but not in the table" => "已知，但表中没有此项",

@@ -82,9 +82,20 @@ fn symbol(text: &str) -> Option<Whole> {
 
 /// `combined relative standard uncertainty` is called by the words for the absolute one.
 fn absolute(text: &str) -> String {
-    ["relative ", "Relative ", "rel. ", "相对"]
+    RELATIVE
         .iter()
         .fold(text.to_string(), |text, word| text.replace(word, ""))
+}
+
+const RELATIVE: [&str; 4] = ["relative ", "Relative ", "rel. ", "相对"];
+
+/// Whether a label is that of a figure relative to the result, by its words or as `u(c)/c`.
+pub fn is_relative(label: &str) -> bool {
+    let divided = label.split_once(")/").and_then(|(front, by)| {
+        let (_, name) = front.split_once('(')?;
+        Some(by.trim().starts_with(name.trim()))
+    });
+    divided == Some(true) || RELATIVE.iter().any(|word| label.contains(word))
 }
 
 /// What a cell labels, if it labels a figure of the whole.

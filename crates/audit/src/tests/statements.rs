@@ -217,3 +217,39 @@ fn a_statement_of_monte_carlo_is_set_aside() {
 }
 
 const UMASS: &str = "m_S,10000.005 g,12.0 mg,normal,1,12.0 mg\nδm,0 g,11.2 mg,normal,1,11.2 mg\n";
+
+/// A relative figure of the whole is of the result where the sheet computes in the unit of that, and the absolute one goes
+/// before it.
+#[test]
+fn relative_figures_of_the_whole_are_of_the_result() {
+    let sheet = |lines: &str| {
+        format!(
+            "Concentration c = m·P/V\nQuantity,Value x,Unit,u(x)\nm,100.28,mg,0.05\nP,0.9999,,0.000058\nV,0.1,L,0.00007\n\
+             c,1002.7,mg/L,\n{lines}\n\"U(c), k=2\",1.7,mg/L\n"
+        )
+    };
+    for (lines, u_c) in [
+        ("u(c)/c,0.00086\nu(c),0.86,mg/L", 0.86),
+        (
+            "Combined relative standard uncertainty,0.086 %\nCombined standard uncertainty,0.86,mg/L",
+            0.86,
+        ),
+        ("相对合成标准不确定度,0.086 %", 0.00086 * 1002.7),
+        ("u(c)/c,0.00086", 0.00086 * 1002.7),
+    ] {
+        let text = sheet(lines);
+        let read = value(&footer(&text).1.u_c).unwrap_or_default();
+        assert!((read - u_c).abs() < 1e-9, "{text}: {read}");
+        assert_eq!(
+            answer("sheet.csv", &text),
+            (Verdict::Sound, Vec::new()),
+            "{text}"
+        );
+    }
+    let wrong = sheet("u(c)/c,0.00086\nu(c),0.86,mg/L").replace("1.7,mg", "0.86,mg");
+    assert_eq!(first("sheet.csv", &wrong), "k-forgotten");
+    // A sheet in percent is held in percent.
+    let percent = "Source,Relative standard uncertainty (%)\na,0.3\nb,0.4\nF,100 kN\nCombined relative standard uncertainty,0.50 %\n\
+                   \"Expanded uncertainty, k = 2\",1.0 %\n";
+    assert_eq!(value(&footer(percent).1.u_c), Some(0.5));
+}

@@ -12,6 +12,7 @@ use crate::sheet::Grid;
 use crate::units;
 
 use super::located::Located;
+use super::relative::Relative;
 use super::rows::positive;
 
 /// The claimed figures in some rows of the sheet. Rows that were used are no text any more.
@@ -23,11 +24,16 @@ pub fn footers(
     skip: impl Fn(usize) -> bool,
     claimed: &mut Claimed,
 ) {
+    let mut relative = Vec::new();
     for row in rows {
         let of_table = located.rows.contains(&row) || row == located.head;
-        if !of_table && !skip(row) && footer_row(grid, sheet, row, located, claimed) {
+        let is_text = !of_table && !skip(row);
+        if is_text && footer_row(grid, sheet, row, located, claimed, &mut relative) {
             located.used.insert(row);
         }
+    }
+    for figure in relative {
+        figure.settle(claimed);
     }
 }
 
@@ -58,6 +64,7 @@ fn footer_row(
     row: usize,
     located: &Located,
     claimed: &mut Claimed,
+    relative: &mut Vec<Relative>,
 ) -> bool {
     let cells: Vec<(usize, String)> = grid
         .filled(row)
@@ -79,6 +86,7 @@ fn footer_row(
     let (mut open, mut open_unit, mut found): (Option<Whole>, String, bool) =
         (None, String::new(), false);
     let mut behind_factor: Option<Whole> = None;
+    let mut is_relative = false;
     let labels = cells
         .iter()
         .filter(|(_, text)| footer::label(text, &measurand).is_some())
@@ -115,8 +123,9 @@ fn footer_row(
                     continue;
                 }
             }
-            let relative = || (text == "W" && labels == 0).then_some(Whole::Expanded);
-            if let Some(whole) = footer::label(text, &measurand).or_else(relative) {
+            let of_force = || (text == "W" && labels == 0).then_some(Whole::Expanded);
+            if let Some(whole) = footer::label(text, &measurand).or_else(of_force) {
+                is_relative = footer::is_relative(text);
                 // `Expanded uncertainty | k = | 2 | 0.6`: behind its factor U is still open.
                 if whole == Whole::Factor && open != Some(whole) {
                     behind_factor = open.take();
@@ -201,7 +210,11 @@ fn footer_row(
         } else {
             positive(figure)
         };
-        if footer::set(&mut claimed.footer, whole, figure.at(place)) {
+        if is_relative && matches!(whole, Whole::Combined | Whole::Expanded) {
+            let figure = figure.at(place);
+            relative.push(Relative { whole, figure });
+            found = true;
+        } else if footer::set(&mut claimed.footer, whole, figure.at(place)) {
             understood(claimed, place, text, Some(whole));
             found = true;
         }

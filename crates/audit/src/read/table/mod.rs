@@ -7,6 +7,7 @@
 //! | `content` | what stands in a column, where its head is doubtful |
 //! | `locate` | where a table stands, and which rows are its rows |
 //! | `pages` | tables that go on on the next page |
+//! | `relative` | figures of the whole that are relative to the result |
 //! | `rows` | its rows with their figures |
 //! | `footers` | the claimed figures of the whole |
 //! | `interpret` | what is known of each row |
@@ -18,6 +19,7 @@ mod interpret;
 mod locate;
 mod located;
 mod pages;
+mod relative;
 mod rows;
 
 pub use footers::{footers, of_columns};

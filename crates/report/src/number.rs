@@ -28,7 +28,17 @@ pub(super) fn print(number: &Decimal) -> String {
 /// `x` with this many significant digits. Zeros that would only fill up to the decimal marker are
 /// written as a power of ten, so that no digit is shown that is not known.
 pub fn significant(x: f64, digits: u8) -> String {
-    let rounded = Decimal::from_f64(x).round_to_significant(digits, Rounding::HalfEven);
+    shown(&Decimal::from_f64(x).round_to_significant(digits, Rounding::HalfEven))
+}
+
+/// The same, rounded up; not by what a computation in doubles adds to a number.
+pub(super) fn significant_up(x: f64, digits: u8) -> String {
+    const OF_DOUBLES: u8 = 12;
+    let number = Decimal::from_f64(x).round_to_significant(OF_DOUBLES, Rounding::HalfEven);
+    shown(&number.round_to_significant(digits, Rounding::Up))
+}
+
+fn shown(rounded: &Decimal) -> String {
     match (rounded.leading_place(), rounded.place()) {
         (Some(leading), Some(place)) if place > 0 => {
             format!(
@@ -37,7 +47,7 @@ pub fn significant(x: f64, digits: u8) -> String {
                 STYLE.power(leading)
             )
         }
-        _ => print(&rounded),
+        _ => print(rounded),
     }
 }
 
@@ -148,6 +158,13 @@ pub(super) fn in_unit(label: &str, unit: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rounding_up_is_of_what_is_known() {
+        assert_eq!(significant_up(1.2138, 2), "1.3");
+        assert_eq!(significant_up(0.1 + 0.2, 2), "0.30");
+        assert_eq!(significant_up(0.0999, 2), "0.10");
+    }
 
     #[test]
     fn large_degrees_of_freedom_are_printed_where_they_were_counted() {

@@ -108,7 +108,7 @@ pub const RULES: &[Rule] = &[
     rule(63, Error, "digits", t("U has more than two significant digits", "U 的有效数字多于两位", "JCGM 100, 7.2.6; ILAC-P14, 5.5", "the figure is used in a further calculation", "该数值用于后续计算"), Look(whole::digits)),
     rule(64, Warning, "one-digit", t("U has one digit, and that is 1 or 2", "U 只有一位且首位为 1 或 2", "JJF 1059.1-2012, 5.3.8.1", "other guides allow one digit", "其他规范允许一位"), Look(whole::one_digit)),
     rule(65, Error, "last-places", t("the last places of y and U differ", "y 与 U 的末位未对齐", "JCGM 100, 7.2.6; JJF 1059.1-2012, 5.3.8.3", "U is relative, or y is quoted from elsewhere", "U 为相对值，或 y 引自他处"), Look(whole::last_places)),
-    rule(66, Warning, "rounded-down", t("rounding lowered U by more than 5 %", "修约使 U 减小超过 5 %", "EA-4/02 M:2022, 6.3", "the printed u_c is rounded itself", "所列 u_c 本身已修约"), Look(whole::rounded_down)),
+    rule(66, Warning, "rounded-down", t("rounding lowered U by more than 5 %, or against the stated rule", "修约使 U 减小超过 5 %，或违反所述修约规则", "EA-4/02 M:2022, 6.3", "the printed u_c is rounded itself", "所列 u_c 本身已修约"), Look(whole::rounded_down)),
     rule(67, Warning, "rounded-twice", t("U follows from rounding twice", "U 经连续修约得到", "GB/T 8170-2008, 3.3; ISO 80000-1, B.3", "U was computed from the rounded u_c", "U 由修约后的 u_c 计算"), Look(whole::twice_rounded)),
     rule(68, Warning, "sign", t("a lone U has a ± before it", "单独的 U 前加了 ±", "JJF 1059.1-2012, 5.3.7", "other guides allow it", "其他规范允许"), Look(words::sign_before_u)),
     rule(69, Warning, "unit-of-U", t("U is in percent, or another unit than y, without saying of what", "U 的单位与 y 不同，或为百分数而未说明", "JCGM 100, 7.2.4", "it is relative to y, which is said elsewhere", "为相对 y 的值，另有说明"), Look(whole::units_of_result)),

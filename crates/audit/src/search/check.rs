@@ -93,12 +93,12 @@ impl Act {
         matches!(self.change, Change::Report(Reporting::Long))
     }
 
-    /// Whether it changes what is stated, and no uncertainty: the result itself, or the unit of U.
+    /// Whether it changes what is stated, and no uncertainty: the result itself, the unit of U, or its rounding.
     pub(super) fn changes_statement(&self) -> bool {
         use crate::slips::Reporting;
         matches!(
             self.change,
-            Change::Result(_) | Change::Report(Reporting::Scale(1.0))
+            Change::Result(_) | Change::Report(Reporting::Scale(1.0) | Reporting::Down)
         )
     }
 }

@@ -472,6 +472,7 @@ fn a_label_may_have_the_rule_for_rounding() {
     };
     is_sound("sheet.csv", &sheet("0.23"));
     assert_eq!(first("sheet.csv", &sheet("0.22")), "rounded-down");
+    assert_eq!(answer("sheet.csv", &sheet("0.22")).0, Verdict::WithEffect);
 }
 
 /// Deliveries of a pipette are readings, as are weighings and indentations.

@@ -1,6 +1,6 @@
 //! Sentences of an audit.
 
-use gumption_audit::claim::{Row, Shape, Stated};
+use gumption_audit::claim::{RoundingStated, Row, Shape, Stated};
 use gumption_audit::printed::Printed;
 use gumption_audit::search::{Broken, Gap};
 use gumption_audit::slips::Change;
@@ -9,7 +9,7 @@ use gumption_core::distribution::Entry;
 use gumption_fault::say;
 
 use crate::language::Language;
-use crate::number::significant;
+use crate::number::{significant, significant_up};
 use crate::phrase::{plural, third_person};
 
 /// A row's name, kept short.
@@ -70,14 +70,11 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
     let found = &audit.found;
     let claimed = found.case.claimed;
     let unit = &claimed.unit;
-    let with_unit = |x: f64, digits| {
-        if unit.is_empty() {
-            significant(x, digits)
-        } else {
-            format!("{} {unit}", significant(x, digits))
-        }
+    let right_u = match claimed.rounding {
+        RoundingStated::Up => significant_up(found.right.expanded, 2),
+        RoundingStated::Nearest | RoundingStated::Unstated => significant(found.right.expanded, 2),
     };
-    let right_u = with_unit(found.right.expanded, 2);
+    let right_u = format!("{right_u} {unit}").trim_end().to_owned();
     let claimed_u = match (&claimed.footer.expanded, language) {
         (Some(u), Language::English) => format!(" where {} is claimed", as_claimed(audit, u)),
         (Some(u), Language::Chinese) => format!("，声称值为 {}", as_claimed(audit, u)),
@@ -137,7 +134,7 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
             let accidental = found.withheld > 0 && found.gaps.iter().all(|gap| !matches!(gap, Gap::Row(..)));
             if accidental {
                 let (n, p) = (found.withheld, percent(found.accident));
-                sentences.push(say!("{n} combination{} of slips match{}, but figures as coarse as these would be matched by accident with a probability of {p} %: none is named.", plural(n), third_person(n)).in_language(language));
+                sentences.push(say!("{n} combination{} of slips fit{}, but figures as coarse as these would be matched by accident with a probability of {p} %: none is named.", plural(n), third_person(n)).in_language(language));
             }
             sentences
         }

@@ -67,8 +67,15 @@ const NO_NUMBER: [(&str, &str, &str); 4] = [
     ),
 ];
 
-/// What clap says where it repeats the words of the standard library, without these.
+/// What clap says where it repeats the words of the standard library, without these; of an option that there is not, without
+/// the tip to write `-- -o` in its place.
 pub(super) fn in_english(error: &clap::Error) -> Option<String> {
+    if error.kind() == ErrorKind::UnknownArgument {
+        let text = error.to_string();
+        let is_tip = |part: &&str| part.trim_start().starts_with("tip: to pass ");
+        let parts: Vec<&str> = text.split("\n\n").filter(|part| !is_tip(part)).collect();
+        return Some(parts.join("\n\n"));
+    }
     let why = std::error::Error::source(error)?.to_string();
     let (std, own, _) = NO_NUMBER.iter().find(|(std, ..)| *std == why)?;
     Some(error.to_string().replace(std, own))

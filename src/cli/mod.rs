@@ -182,6 +182,15 @@ mod tests {
     }
 
     #[test]
+    fn an_option_that_there_is_not_is_no_value() {
+        let error = arguments::try_parse::<Cli>(["gumption", "new", "-o", "x"]);
+        let text = arguments::in_english(&error.expect_err("a fault"));
+        let text = text.unwrap_or_default();
+        assert!(text.contains("'-o'") && !text.contains("-- -o"), "{text}");
+        assert!(text.contains("Usage:"), "{text}");
+    }
+
+    #[test]
     fn a_file_or_an_option_without_a_command_is_told_what_to_write() {
         for (arguments, expected) in [
             (&["budgets/mass/ea-s2.toml"][..], "`gumption eval"),

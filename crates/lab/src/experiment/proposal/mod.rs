@@ -5,6 +5,7 @@
 //! several axes that are set, the sum of one for each, and of axes that labels turn up and down likewise; around a turn, a wave.
 
 mod asked;
+mod field;
 mod guess;
 mod positions;
 mod roles;
@@ -23,7 +24,7 @@ use super::entries::RoleWord;
 use super::procedure::Procedure;
 use asked::by_procedure;
 use guess::Guess;
-use positions::Positions;
+use positions::{Positions, of_gravity, of_stimulus};
 use roles::{followed, goes_around, is_kin, roles, stretches};
 
 /// Rows from which on a recording has to say whether they are samples or averages.
@@ -176,20 +177,28 @@ fn by_line(columns: &[Guess<'_>], language: Language) -> String {
         best.is_some_and(|best| best.name == guess.name || is_kin(best.column, guess.column))
     };
     let mut taken: BTreeSet<String> = columns.iter().map(|guess| guess.name.clone()).collect();
-    let turned = columns
-        .iter()
-        .filter(|_| set.iter().all(|guess| guess.role == RoleWord::Time));
-    let turned = turned.filter_map(|guess| Some((guess, Positions::of(guess.column)?)));
-    let positions = turned.map(|(guess, positions)| {
+    let of_label = columns.iter();
+    let of_label = of_label.filter_map(|guess| Some((guess, Positions::of(guess.column)?)));
+    let timed = set.iter().all(|guess| guess.role == RoleWord::Time);
+    let positions = of_label.map(|(guess, positions)| {
         let names = positions.axes().into_iter();
         let names = names.map(|axis| identifier(&format!("n{axis}"), &mut taken));
-        let names: Vec<String> = names.collect();
-        let table = positions.table(&guess.name, &names);
-        (names, table)
+        (guess, positions, names.collect::<Vec<String>>())
     });
-    let (along, positions) = match positions.into_iter().next() {
-        Some((names, table)) => (names.into_iter().map(|name| (name, None)).collect(), table),
-        None => {
+    let (along, positions) = match (positions.into_iter().next(), best) {
+        // Gravity acts along the axes, or what is set does.
+        (Some((guess, positions, names)), _) if timed && positions.are_up_or_down() => {
+            let table = positions.table(&guess.name, &names, &of_gravity(), language);
+            (names.into_iter().map(|name| (name, None)).collect(), table)
+        }
+        (Some((guess, positions, names)), Some(best)) if !timed && outputs.len() > 1 => {
+            let one = of_stimulus(&best.name);
+            let table = positions.table(&guess.name, &names, &one, language);
+            let along = names.iter().map(|name| format!("{}*{name}", best.name));
+            (along.map(|along| (along, None)).collect(), table)
+        }
+        _ if timed && field::is_constant(&outputs) => (Vec::new(), String::new()),
+        _ => {
             let along = set.iter().copied().filter(is_along);
             let along = along.map(|guess| (guess.name.clone(), Some(guess.column)));
             (along.collect(), String::new())
@@ -231,7 +240,7 @@ fn by_line(columns: &[Guess<'_>], language: Language) -> String {
         several => format!("equations = [\n    {},\n]", several.join(",\n    ")),
     };
     let field = match (outputs.as_slice(), along.is_empty()) {
-        ([x, y, z], true) => in_a_field(x, y, z, language),
+        ([x, y, z], true) => field::equation(x, y, z, language),
         _ => String::new(),
     };
     let columns: String = columns
@@ -239,25 +248,6 @@ fn by_line(columns: &[Guess<'_>], language: Language) -> String {
         .map(|guess| declared(guess, language))
         .collect();
     format!("{equations}\n{field}\n[columns]\n{columns}{positions}")
-}
-
-/// Three axes and nothing that was set: they may have been turned in a field that stays.
-fn in_a_field(x: &Guess<'_>, y: &Guess<'_>, z: &Guess<'_>, language: Language) -> String {
-    let unit = x
-        .column
-        .unit
-        .as_ref()
-        .map_or_else(String::new, |unit| format!(" {}", unit.typeset()));
-    let asked = say!("Turned in a field of constant strength F? Then the axes are stimuli, and");
-    format!(
-        "# {}\n\
-         # equations = \"F = sqrt(({} - b1)^2 + ({} - b2)^2 + ({} - b3)^2)\"\n\
-         # constant.F = \"…{unit}\"\n",
-        asked.in_language(language),
-        x.name,
-        y.name,
-        z.name
-    )
 }
 
 fn declared(guess: &Guess<'_>, language: Language) -> String {
@@ -571,6 +561,41 @@ mod tests {
         let text = text.expect("a table");
         let line = "# equations = \"F = sqrt((mx - b1)^2 + (my - b2)^2 + (mz - b3)^2)\"";
         assert!(text.contains(line), "{text}");
+    }
+
+    /// Samples that a clock counts, of axes of which the length stays: they were turned, and nothing drifts.
+    #[test]
+    fn axes_that_are_turned_by_hand_keep_their_length() {
+        let sample = |i: u32, length: f64| {
+            let (a, b) = (0.7 * f64::from(i), 0.31 * f64::from(i));
+            let of_axis = [a.sin() * b.cos(), a.sin() * b.sin(), a.cos()];
+            let [x, y, z] = of_axis.map(|part| length * part + 0.1);
+            format!("{},{x:.3},{y:.3},{z:.3}\n", 0.1 * f64::from(i))
+        };
+        let head = "t [s],ax [m/s^2],ay [m/s^2],az [m/s^2]\n";
+        let rows = |length: &dyn Fn(u32) -> f64| -> String {
+            (0..60).map(|i| sample(i, length(i))).collect()
+        };
+        let table = of(&format!("{head}{}", rows(&|_| 9.8)));
+        assert_eq!(table["equations"][0].as_str(), Some("ax = a1"));
+        let table = of(&format!("{head}{}", rows(&|i| f64::from(i))));
+        assert_eq!(table["equations"][0].as_str(), Some("ax = a1 + b1*t"));
+    }
+
+    /// A rate about the axis that a label names acts on every output.
+    #[test]
+    fn what_is_set_acts_along_the_axis_of_the_label() {
+        let row = |i: i32| {
+            let (axis, rate) = (["X", "Y", "Z"][(i / 4) as usize], 10 * (i % 4 - 2));
+            format!("{axis},{rate},{},{},{}\n", rate + 1, i % 3, 2 - i % 5)
+        };
+        let rows: String = (0..12).map(row).collect();
+        let table = of(&format!("轴,转速(°/s),gx(°/s),gy(°/s),gz(°/s)\n{rows}"));
+        assert_eq!(
+            table["equations"][1].as_str(),
+            Some("gy = a2 + b21*转速*nx + b22*转速*ny + b23*转速*nz")
+        );
+        assert_eq!(table["positions"]["column"].as_str(), Some("轴"));
     }
 
     /// Six positions without columns of what acts along the axes: the labels say it.

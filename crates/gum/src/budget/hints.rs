@@ -410,12 +410,20 @@ pub fn wrong_type(key: &str, found: &str) -> Option<Said> {
     }
 }
 
-/// A list of numbers for a text that has them, and a unit behind the last one.
+/// A list of numbers for a text that has them, and may have a unit behind the last one.
 fn listed(text: &str) -> Option<Said> {
     let parts = text.split([',', ';', '，', '、', ' ', '\t']);
     let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
     let (unit, numbers) = parts.split_last()?;
     let is_number = |part: &str| part.parse::<f64>().is_ok();
+    let has_decimal_comma = text
+        .split(',')
+        .skip(1)
+        .any(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+    if parts.len() > 1 && !has_decimal_comma && parts.iter().all(|part| is_number(part)) {
+        let numbers = parts.join(", ");
+        return Some(say!("numbers stand in brackets: [{numbers}]"));
+    }
     if is_number(unit) || numbers.len() < 2 || !numbers.iter().all(|part| is_number(part)) {
         return None;
     }

@@ -139,10 +139,14 @@ impl Lowering<'_> {
                 .flat_map(|frame| frame.keys().map(String::as_str)),
         );
         known.sort_unstable();
+        let product = product(name, &known);
         let help = match nearest(name, known) {
             _ if self.defining.as_deref() == Some(name) => say!(
                 "`{name}` is what this formula gives; an equation with `{name}` on both sides is written `solve({name} == …, {name}, start)`"
             ),
+            _ if let Some((first, second)) = product => {
+                say!("a product has its sign: {first} * {second}")
+            }
             Some(near) => say!("did you mean `{near}`?"),
             None if name == "e" => say!("write `exp(1)` for the base of natural logarithms"),
             None => say!(
@@ -159,4 +163,14 @@ impl Lowering<'_> {
             .help(help),
         );
     }
+}
+
+/// The two names of `mg` for `m * g`.
+fn product<'n>(name: &'n str, known: &[&str]) -> Option<(&'n str, &'n str)> {
+    let cuts = name.char_indices().skip(1);
+    let mut pairs = cuts.map(|(at, _)| name.split_at(at));
+    pairs.find(|(first, second)| {
+        let is_known = |part: &str| known.binary_search(&part).is_ok();
+        first != second && is_known(first) && is_known(second)
+    })
 }

@@ -5,6 +5,3 @@ mod write;
 
 pub use read::Rows;
 pub use write::Writer;
-
-/// The ending of such files.
-const ENDING: &str = "parquet";

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::adopt::{self, Free};
 use super::case::Case;
-use super::catalogue::{self, Cell, EffectId, Finer, FittedModel, Variation};
+use super::catalogue::{self, Cell, Finer, FittedModel, Variation, readout};
 use super::design::Design;
 use super::evidence::{
     self, Atom, Baseline, Candidate, Examination, Fitted, Question, Refusal, Shape, TRACE,
@@ -35,7 +35,7 @@ impl<'f> Candidates<'f> {
         let mut cells = catalogue::cells(&fitted);
         // Rounding that the noise holds is told by itself.
         let is_noise = |cell: &Cell| {
-            cell.effect.id == EffectId::Quantisation && claimed.rounds(fitted.case(), &cell.words.y)
+            readout::is_rounding(cell) && claimed.rounds(fitted.case(), &cell.words.y)
         };
         cells.retain(|cell| !is_noise(cell));
         let (candidates, atoms) = question(&fitted, &cells, claimed, white);

@@ -58,6 +58,11 @@ fn quantisation(fitted: &FittedModel<'_>, response: usize) -> Option<Cell> {
     Some(cell)
 }
 
+/// Whether a cell is the rounding of an output.
+pub(in crate::diagnose) fn is_rounding(cell: &Cell) -> bool {
+    cell.effect.id == EffectId::Quantisation
+}
+
 /// Rounding that is known by the readings alone: what it does is noise of known size.
 pub(in crate::diagnose) fn rounding_of(
     fitted: &FittedModel<'_>,

@@ -20,7 +20,7 @@
 
 /// Largest |x| that the vector range reduction of [`sin`] and [`cos`] takes, 2²⁶; larger arguments
 /// go to `libm` one by one.
-pub(crate) const REDUCIBLE: f64 = 67_108_864.0;
+pub const REDUCIBLE: f64 = 67_108_864.0;
 
 /// ln 2 in two parts; the first has 42 bits, so that its product with an exponent is exact.
 const LN2: [f64; 2] = [0.693_147_180_559_890_3, 5.497_923_018_708_371e-14];

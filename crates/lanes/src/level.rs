@@ -9,7 +9,7 @@ pub use fearless_simd::Level;
 
 /// Names an instruction set that is to be used instead of the best one, as [`name`] does: `AVX2`, say. Results
 /// are the same with each; a name that this processor does not know is passed over.
-const CHOICE: &str = "GUMPTION_INSTRUCTION_SET";
+pub const CHOICE: &str = "GUMPTION_INSTRUCTION_SET";
 
 /// The best instruction set of this processor, or the one that [`CHOICE`] asks for; found on the first
 /// call.

@@ -30,7 +30,7 @@ fn case(claim: &str) -> String {
     )
 }
 
-/// The step that each named rounding has.
+/// The step of each output whose rounding the claim is without.
 fn steps(found: &Value) -> &Value {
     &found["noise"]["steps"]
 }

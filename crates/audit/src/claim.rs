@@ -326,7 +326,16 @@ impl Row {
     }
 }
 
+/// What cells of a statement of Monte Carlo are taken as.
+pub(crate) const OF_MONTE_CARLO: &str = "of Monte Carlo, not recomputed";
+
 impl Claimed {
+    /// Whether it states k or U of Monte Carlo, which its rows do not give.
+    pub fn is_simulated(&self) -> bool {
+        let mut roles = self.understood.iter().map(|read| read.role);
+        roles.any(|role| role == OF_MONTE_CARLO)
+    }
+
     /// Whether the cell of a figure holds something else than its formula gives.
     pub(crate) fn is_stale(&self, figure: &Printed) -> bool {
         self.stale.iter().any(|cell| cell.at == figure.at)

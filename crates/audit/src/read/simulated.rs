@@ -1,6 +1,6 @@
 //! Statements that are those of a Monte Carlo calculation: the rows of a sheet do not give them.
 
-use crate::claim::{Claimed, Coverage};
+use crate::claim::{Claimed, Coverage, OF_MONTE_CARLO};
 
 use super::footer::{self, Whole};
 use super::words::has;
@@ -19,7 +19,7 @@ pub(super) fn set_aside(claimed: &mut Claimed) {
     for read in &mut claimed.understood {
         let of_figure = figures.iter().flatten().any(|figure| figure.at == read.at);
         if of_figure || read.role == "rule for k" {
-            read.role = "of Monte Carlo, not recomputed";
+            read.role = OF_MONTE_CARLO;
         }
     }
 }

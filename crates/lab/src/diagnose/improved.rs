@@ -1,7 +1,7 @@
 //! The improved model as files: a case with the new terms, and the recording with the columns that they
 //! need.
 
-use super::case::{Blocks, Case, Column, Data, NoiseClaim, Role};
+use super::case::{Blocks, Case, Column, Data, NoiseClaim, Observed, Role};
 use super::noise::Claimed;
 use super::resolution::u_of_step;
 use super::simulate::{heading, recorded};
@@ -39,11 +39,18 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
     text += &own_units(&case.own_units);
     text += "\n[columns]\n";
     let is_there = |column: &&Column| !matches!(column.data, Data::Absent);
-    for column in extended.columns.iter().filter(is_there) {
+    let steps = steps(case, &diagnosis.noise);
+    for (index, column) in extended.columns.iter().enumerate() {
+        if !is_there(&column) {
+            continue;
+        }
+        let mut outputs = case.responses.iter().zip(&steps);
+        let own = outputs.find(|(output, _)| output.observed == Observed::Column(index));
+        let step = own.and_then(|(_, step)| *step);
         let mut additions = adopted.extended.additions.iter();
         let addition = additions.find(|addition| addition.column.as_ref() == Some(&column.name));
         let remark = addition.map_or(String::new(), |addition| format!("  # {}", addition.text));
-        let (name, entry) = (key(&column.name), entry(column, extended));
+        let (name, entry) = (key(&column.name), entry(column, extended, step));
         text += &format!("{name} = {entry}{remark}\n");
     }
     text += "\n[parameter]\n";
@@ -66,7 +73,7 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
     }
     text += &constants(case);
     let at_rest = at_rest(case);
-    text += &claims(case, &diagnosis.noise, at_rest.as_deref());
+    text += &claims(case, at_rest.as_deref());
     let mut files = vec![("case.toml", text), (RECORDING, recorded(extended).csv())];
     files.extend(at_rest.map(|text| (AT_REST, text)));
     Some(files)
@@ -122,7 +129,7 @@ fn averaging(case: &Case, diagnosis: &Diagnosis) -> String {
     }
 }
 
-fn entry(column: &Column, case: &Case) -> String {
+fn entry(column: &Column, case: &Case, step: Option<f64>) -> String {
     let role = match column.role {
         Role::Uncertainty => "u",
         other => other.word(),
@@ -132,6 +139,7 @@ fn entry(column: &Column, case: &Case) -> String {
         ("u", column.u),
         ("u_common", column.u_common),
         ("full_scale", column.full_scale),
+        ("resolution", step),
     ];
     let stated = stated.map(|(key, stated)| stated.map(|value| format!("{key} = {value:e}")));
     let heading = heading.map(|heading| format!("column = {}", quoted(&heading)));
@@ -181,9 +189,19 @@ fn at_rest(case: &Case) -> Option<String> {
     text_of(Files::Disk, &path, file).ok()
 }
 
-/// The claim about the noise, with the rounding that was found beside it, and the settings; `at_rest` is the text of the recording
-/// at rest that is written beside.
-fn claims(case: &Case, found: &Claimed, at_rest: Option<&str>) -> String {
+/// The step of the numbers of each output whose rounding is a part of a stated noise: as it is stated, or as the readings show it.
+fn steps(case: &Case, found: &Claimed) -> Vec<Option<f64>> {
+    let NoiseClaim::Stated { steps, .. } = &case.noise else {
+        return vec![None; case.responses.len()];
+    };
+    let seen = |at: usize| found.rounding.as_ref()?.steps[at];
+    let of = steps.iter().enumerate();
+    of.map(|(at, step)| step.or_else(|| seen(at))).collect()
+}
+
+/// The claim about the noise, and the settings; `at_rest` is the text of the recording at rest that is
+/// written beside.
+fn claims(case: &Case, at_rest: Option<&str>) -> String {
     let noise = match &case.noise {
         NoiseClaim::Stated {
             origin: Origin::Budget(file),
@@ -196,14 +214,9 @@ fn claims(case: &Case, found: &Claimed, at_rest: Option<&str>) -> String {
             steps,
             ..
         } => {
-            let seen = found
-                .rounding
-                .as_ref()
-                .and_then(|rounding| rounding.steps[0]);
-            let step = steps[0].or(seen);
+            // Resolutions stand beside their outputs.
             let own = |u: &f64| (u * u - steps[0].map_or(0.0, u_of_step).powi(2)).sqrt();
             let mut lines = (u.first()).map_or(String::new(), |u| format!("u = {:e}\n", own(u)));
-            lines += &step.map_or(String::new(), |step| format!("resolution = {step:e}\n"));
             if dof.is_finite() {
                 lines += &format!("dof = {dof}\n");
             }

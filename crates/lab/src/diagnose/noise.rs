@@ -41,7 +41,8 @@ pub struct Claimed {
     pub uneven: Option<f64>,
     /// How heavy their tails are, where the size of the noise is estimated.
     pub tails: Tails,
-    /// Rounding of the readings that the claim does not hold, and `u` and `correlated` do.
+    /// The rounding of the readings in `u` and `correlated`, where readings of the same input have it in common or the claim is
+    /// without it.
     pub rounding: Option<Rounding>,
 }
 
@@ -225,7 +226,7 @@ impl Claimed {
         }
     }
 
-    /// Whether rounding of this output is a part of it that the claim does not hold.
+    /// Whether the rounding of this output is a part of it.
     pub fn rounds(&self, case: &Case, output: &str) -> bool {
         let steps = self.rounding.iter().flat_map(|rounding| &rounding.steps);
         let mut responses = case.responses.iter().zip(steps);

@@ -179,7 +179,7 @@ fn of_reading(design: &Design<'_>, claimed: &Unrounded, at: usize) -> f64 {
 }
 
 /// What the errors of rounding of two observations have in common, for all pairs. Readings of nearly the same are rounded alike, unless
-/// noise of more than half a step comes before: covariance of the errors of two quantities at the predicted distance, each with
+/// noise of more than a third of a step comes before: covariance of the errors of two quantities at the predicted distance, each with
 /// the claimed noise, wherever they lie between two steps (B. Widrow and I. Kollár, Quantization Noise, 2008).
 fn shared(
     design: &Design<'_>,

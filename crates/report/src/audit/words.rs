@@ -245,6 +245,7 @@ fn sound(audit: &Audit<'_>, language: Language) -> Vec<String> {
                 format!("U = {claimed}：{before}。"),
             )
         }
+        None if audit.found.case.claimed.is_simulated() => say!("The U of Monte Carlo that is stated was not recomputed; by the law of propagation it is {before}.").in_language(language),
         None => pick(
             format!("No U is claimed; it is {before}."),
             format!("没有声称 U；{before}。"),

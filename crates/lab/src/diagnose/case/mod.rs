@@ -140,7 +140,7 @@ pub struct Response {
 }
 
 /// What the right side of an equation is held against.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Observed {
     /// A column.
     Column(usize),

@@ -11,6 +11,7 @@ use super::modifiers::{amount, correlation, figure, levels_of, map, range, round
 use super::sharp::summit;
 use super::{Cell, EffectId};
 use crate::diagnose::case::Role;
+use gumption_core::special::chi_squared_upper_quantile;
 
 /// A wave with fewer periods is the business of drifts and smooth curves.
 const FEWEST_PERIODS: f64 = 3.0;
@@ -83,7 +84,7 @@ fn periods(fitted: &FittedModel<'_>, column: Option<usize>, words: String) -> Op
     let grid: Vec<f64> = (frequencies.iter().map(|frequency| 1.0 / frequency)).collect();
     let mut periods = fitted.finer.times(grid.clone());
     if column.is_none() {
-        let calendar = told_from_none(fitted, &blocks, &peaks, span);
+        let calendar = of_the_calendar(fitted, &blocks, &peaks, span);
         periods.retain(|period| !calendar.iter().any(|own| is_near(*period, *own, span)));
     }
     let least = rounded(least, 1e-4 * span);
@@ -168,12 +169,12 @@ fn to_peaks(fitted: &FittedModel<'_>, x: &[f64], frequencies: &mut [f64], step: 
 }
 
 /// Periods of the calendar of which no peak of the residuals' spectrum nearby can be told: what repeats with them is the day or
-/// the year, and not a wave of a period that only happens to be that long.
-fn told_from_none(fitted: &FittedModel<'_>, x: &[f64], peaks: &[f64], span: f64) -> Vec<f64> {
-    /// Quantile of chi-squared with one degree of freedom: the period is the calendar's unless the likelihood ratio speaks
-    /// against it at 1 %, the level of all alarms.
-    const APART: f64 = 6.635;
-    let (rows, whole) = (x.len() as f64, fitted.fit.residuals.norm_squared());
+/// the year, and not a wave of a period that only happens to be that long. A peak is told where the likelihood ratio speaks
+/// against the calendar's period at the level of all alarms.
+fn of_the_calendar(fitted: &FittedModel<'_>, x: &[f64], peaks: &[f64], span: f64) -> Vec<f64> {
+    let apart = chi_squared_upper_quantile(fitted.case().settings.alpha, 1.0);
+    let residuals = &fitted.fit.residuals;
+    let (count, whole) = (residuals.len() as f64, residuals.norm_squared());
     let power = |period: f64| power(fitted, x, 1.0 / period);
     let cycles = super::time::cycles(fitted).into_iter();
     let cycles = cycles.map(|(_, _, period)| period);
@@ -181,7 +182,7 @@ fn told_from_none(fitted: &FittedModel<'_>, x: &[f64], peaks: &[f64], span: f64)
         peaks.iter().any(|peak| {
             let left = whole - power(*peak);
             let gained = power(*peak) - power(*own);
-            is_near(*peak, *own, span) && gained * rows > APART * left
+            is_near(*peak, *own, span) && gained * count > apart * left
         })
     };
     cycles.filter(|own| !is_told(own)).collect()

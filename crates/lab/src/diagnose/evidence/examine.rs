@@ -96,8 +96,7 @@ impl Examination {
     /// Nothing was found but a competitor without a name that is no direction of the recording, with this probability for as
     /// much by chance.
     pub fn unnamed(&mut self, candidate: usize, p: f64) {
-        self.slots
-            .push(unnamed(vec![Alternative::unnamed(candidate)]));
+        self.slots.push(unnamed(vec![Alternative::bare(candidate)]));
         self.verdict = Verdict::Unexplained;
         if let Some(first) = self.levels.first_mut() {
             first.p = p;
@@ -110,7 +109,7 @@ impl Examination {
         let named = Alternative {
             variants: vec![Variant { atom, share: 1.0 }],
             lambda,
-            ..Alternative::unnamed(candidate)
+            ..Alternative::bare(candidate)
         };
         self.slots.push(Slot {
             state: State::Identified,

@@ -119,8 +119,8 @@ impl Slot {
 }
 
 impl Alternative {
-    /// A competitor without a name, and without doubt.
-    pub(super) fn unnamed(candidate: usize) -> Alternative {
+    /// A candidate without coefficients, and without doubt.
+    pub(super) fn bare(candidate: usize) -> Alternative {
         Alternative {
             candidate,
             probability: 1.0,

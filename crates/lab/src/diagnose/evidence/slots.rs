@@ -345,7 +345,7 @@ fn alternative(space: &Space, rest: &Frame, ranked: Ranked, named: f64) -> Alter
     let mut alternative = Alternative {
         probability: ranked.probability * named,
         variants: variants.collect(),
-        ..Alternative::unnamed(ranked.candidate)
+        ..Alternative::bare(ranked.candidate)
     };
     alternative.stated(space, rest, block);
     alternative
@@ -367,6 +367,6 @@ fn unnamed(ranked: Ranked) -> Alternative {
     Alternative {
         probability: ranked.probability,
         variants: variants.collect(),
-        ..Alternative::unnamed(ranked.candidate)
+        ..Alternative::bare(ranked.candidate)
     }
 }

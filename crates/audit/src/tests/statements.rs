@@ -1,16 +1,21 @@
 //! The statement of a sheet: closing lines that stand as the last row of a table, and the result itself.
 
 use super::{answer, first};
-use crate::claim::Footer;
+use crate::claim::{Claimed, Footer};
 use crate::printed::Printed;
 use crate::read::{self, Mapping};
 use crate::{Verdict, sheet};
 
 fn footer(text: &str) -> (usize, Footer) {
+    let claimed = claimed(text);
+    (claimed.rows.len(), claimed.footer)
+}
+
+fn claimed(text: &str) -> Claimed {
     let grids = sheet::grids("sheet.csv", text.as_bytes()).unwrap();
-    let claims = read::budgets(&grids, &Mapping::default());
+    let mut claims = read::budgets(&grids, &Mapping::default());
     assert_eq!(claims.len(), 1, "{text}");
-    (claims[0].rows.len(), claims[0].footer.clone())
+    claims.remove(0)
 }
 
 fn value(figure: &Option<Printed>) -> Option<f64> {
@@ -207,8 +212,9 @@ fn a_statement_of_monte_carlo_is_set_aside() {
         ("U = 29 mg\n已采用蒙特卡洛法验证", false),
     ] {
         let text = sheet("16.4 mg", statement);
-        let (_, claimed) = footer(&text);
-        assert_eq!(claimed.expanded.is_none(), is_aside, "{text}");
+        let claimed = claimed(&text);
+        assert_eq!(claimed.footer.expanded.is_none(), is_aside, "{text}");
+        assert_eq!(claimed.is_simulated(), is_aside, "{text}");
         let (verdict, _) = answer("sheet.csv", &text);
         assert_eq!(verdict == Verdict::Sound, is_aside, "{text}");
         let wrong = answer("sheet.csv", &sheet("19.4 mg", statement)).0;

@@ -10,7 +10,7 @@ use gumption::budget::KeyRow;
 use gumption::distribution::Kind;
 use gumption::distribution::stating::Word;
 use gumption::fault::catalogue::told;
-use gumption::fault::{Code, Said, nearest, say};
+use gumption::fault::{Code, Said, harmless, nearest, say};
 use gumption::language::Language;
 use gumption::{
     audit, budget, csv, diagnose, distribution, equations, experiment, fleet, model, quantity,
@@ -145,6 +145,8 @@ pub(super) fn run(args: &Args) -> Outcome {
     if speaking.is_empty() {
         return output::complain(unknown(&wanted, &topics));
     }
+    // The words are the user's.
+    let wanted = harmless(&wanted);
     let head = say!("`{wanted}` is no topic of its own; these speak of it:").in_language(lang);
     output::print(head + "\n" + &lines(&speaking))
 }

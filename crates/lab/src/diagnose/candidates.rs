@@ -1,7 +1,9 @@
 //! What is asked of a recording: candidates as columns, the recording as residuals, and the effects that were
 //! found in the model.
 
-use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
+
+use nalgebra::DMatrix;
 
 use super::adopt::{self, Free};
 use super::case::Case;
@@ -11,7 +13,7 @@ use super::evidence::{
     self, Atom, Baseline, Candidate, Examination, Fitted, Question, Refusal, Shape, TRACE,
 };
 use super::fit::{self, Fit, NoFit};
-use super::noise::{self, Claimed};
+use super::noise::Claimed;
 use super::noise_correlation::Courses;
 use super::reduced::reduced;
 
@@ -35,7 +37,7 @@ impl<'f> Candidates<'f> {
         let mut cells = catalogue::cells(&fitted);
         // Rounding that the noise holds is told by itself.
         let is_noise = |cell: &Cell| {
-            readout::is_rounding(cell) && claimed.rounds(fitted.case(), &cell.words.y)
+            readout::is_rounding(cell) && claimed.may_round(fitted.design, &cell.words.y)
         };
         cells.retain(|cell| !is_noise(cell));
         let (candidates, atoms) = question(&fitted, &cells, claimed, white);
@@ -53,30 +55,16 @@ impl<'f> Candidates<'f> {
         (self.atoms).retain_mut(|atom| keeps(atom, &cells[atom.candidate]));
     }
 
-    /// The noise that is left when the named effects are in the model.
-    pub(super) fn noise(
+    /// Something of the model with the named effects in it, as it is fitted.
+    pub(super) fn of_adopted<T>(
         &self,
         examination: &Examination,
         claimed: &Claimed,
-        courses: Option<&Courses>,
-    ) -> Claimed {
-        let left = |design: &Design<'_>, fit: &Fit| noise::refined(design, fit, claimed, courses);
+        of: impl FnOnce(&Design<'_>, &Fit) -> T,
+    ) -> T {
         match self.adopted_fit(examination, claimed) {
-            Ok(Some((extended, fit))) => left(&Design::new(&extended.case), &fit),
-            Ok(None) | Err(_) => left(self.fitted.design, self.fitted.fit),
-        }
-    }
-
-    /// What the model leaves with the named effects in it, and how many parameters it has then.
-    pub(super) fn left(
-        &self,
-        examination: &Examination,
-        claimed: &Claimed,
-    ) -> (DVector<f64>, usize) {
-        let of = |fit: &Fit| (fit.residuals.clone(), fit.unknowns.len());
-        match self.adopted_fit(examination, claimed) {
-            Ok(Some((_, fit))) => of(&fit),
-            Ok(None) | Err(_) => of(self.fitted.fit),
+            Ok(Some((extended, fit))) => of(&Design::new(&extended.case), &fit),
+            Ok(None) | Err(_) => of(self.fitted.design, self.fitted.fit),
         }
     }
 
@@ -108,25 +96,22 @@ impl<'f> Candidates<'f> {
         found: f64,
     ) -> Result<(f64, Claimed), Refusal> {
         let (design, fit) = (self.fitted.design, self.fitted.fit);
-        let with = |spread: &Claimed| {
-            courses.seen(design, fit, &|correlated| {
-                spread.with(correlated).noise(design, fit)
-            })
-        };
-        let seen = spreads.iter().map(with);
-        let seen = seen.collect::<Result<Vec<_>, _>>()?.concat();
+        let (mut seen, mut laws) = (Vec::new(), Vec::new());
+        for spread in spreads {
+            let own = spread.laws(design, fit, courses);
+            let first = seen.len();
+            seen.extend(spread.seen_with(design, fit, &own)?);
+            laws.push((spread, own, first..seen.len()));
+        }
         let contest = evidence::contest(&seen, &self.candidates, &self.atoms, settings, found);
         let log_posterior = match contest.p <= settings.alpha {
             true => &contest.with,
             false => &contest.alone,
         };
-        let each = log_posterior.chunks(seen.len() / spreads.len());
-        let most = evidence::maximum;
-        let likeliest = (spreads.iter().zip(each)).max_by(|a, b| most(a.1).total_cmp(&most(b.1)));
-        let claimed = likeliest.map(|(spread, own)| Claimed {
-            correlated: courses.likely(own),
-            ..spread.clone()
-        });
+        let of = |range: &Range<usize>| &log_posterior[range.clone()];
+        let most = |(_, _, range): &&_| evidence::maximum(of(range));
+        let likeliest = (laws.iter()).max_by(|a, b| most(a).total_cmp(&most(b)));
+        let claimed = likeliest.map(|(spread, laws, range)| spread.likeliest(laws, of(range)));
         let claimed = claimed.unwrap_or_else(|| spreads[0].clone());
         Ok(match contest.p <= settings.alpha {
             true => (contest.p, claimed),

@@ -24,7 +24,6 @@ use super::noise_correlation::Courses;
 use super::possible;
 use super::regions;
 use super::resolution::u_of_step;
-use gumption_core::special::chi_squared_sf;
 
 /// So often the values about the parameter of an effect are brought closer together.
 const REFINEMENTS: u8 = 3;
@@ -98,7 +97,7 @@ impl<'i> Inquiry<'i> {
         // What the model leaves out may look like noise that grows.
         let plain = noise::plain(design, fit, &claimed);
         let courses = Courses::of(&candidates.fitted)
-            .or_else(|| claimed.is_estimated().then(Courses::white))
+            .or_else(|| (claimed.is_estimated()).then(|| Courses::white(design.observations())))
             .filter(|_| claimed.correlated.is_none());
         let mut inquiry = Inquiry {
             candidates,
@@ -357,8 +356,11 @@ impl<'i> Inquiry<'i> {
             return Ok(());
         };
         let (design, fit) = (self.declared.seen, self.fit);
-        let with = |correlated| claimed.with(correlated).noise(design, fit);
-        let seen = courses.seen(design, fit, &with)?;
+        let laws = claimed.laws(design, fit, courses);
+        if claimed.rounding.is_some() || laws.may_jump() {
+            return Ok(());
+        }
+        let seen = claimed.seen_with(design, fit, &laws)?;
         // Two tests, each with half of the probability of a false alarm.
         let alpha = 0.5 * self.settings.alpha;
         let noise = claimed.noise(design, fit);
@@ -383,8 +385,8 @@ impl<'i> Inquiry<'i> {
         0.5 * self.settings.alpha
     }
 
-    /// Names the rounding of the readings that the claimed noise does not hold, where what is left beside everything that was found
-    /// is more than the claim. That the readings come in steps is seen without any model.
+    /// Names the rounding of the readings where what is left beside everything that was found shows it: that they come in steps is
+    /// seen without any model.
     fn tell_rounding(&mut self) {
         let claimed = &self.answer.claimed;
         let rounding = claimed.rounding.clone();
@@ -392,22 +394,17 @@ impl<'i> Inquiry<'i> {
             return;
         };
         let alpha = self.of_rounding();
-        let (left, parameters) = (self.candidates).left(&self.answer.examination, claimed);
-        let count = left.len() as f64;
-        let blocks = left.len() / rounding.steps.len();
+        let examination = &self.answer.examination;
+        let chances = (self.candidates).of_adopted(examination, claimed, |design, fit| {
+            claimed.unrounded_by_chance(design, fit, &rounding)
+        });
+        let blocks = rounding.without.u.len() / rounding.steps.len();
         for (response, step) in rounding.steps.iter().enumerate() {
             let Some(step) = *step else { continue };
             let cell = readout::rounding_of(&self.candidates.fitted, response, step);
-            if self.names(&cell) {
-                continue;
-            }
-            let own = |of: &DVector<f64>| of.rows(response * blocks, blocks).into_owned();
-            let u = own(&rounding.without.u);
-            let chi_squared = own(&left).component_div(&u).norm_squared();
-            // Responses share the degrees of freedom of all.
-            let freedom = blocks as f64 * (1.0 - parameters as f64 / count);
-            let p = chi_squared_sf(chi_squared, freedom.max(1.0));
-            if p <= alpha {
+            let p = chances[response];
+            if p <= alpha && !self.names(&cell) {
+                let u = rounding.without.u.rows(response * blocks, blocks);
                 let lambda = u.map(|u| u_of_step(step) / u).norm();
                 let variant = self.candidates.add(cell);
                 self.answer.examination.named(variant, lambda, 2.0 * p);
@@ -449,8 +446,10 @@ impl<'i> Inquiry<'i> {
 
     /// The noise that is left when what was found is in the model.
     fn noise_beside(&self, answer: &Answer) -> Claimed {
-        let courses = self.courses.as_ref();
-        (self.candidates).noise(&answer.examination, &answer.claimed, courses)
+        let (claimed, courses) = (&answer.claimed, self.courses.as_ref());
+        (self.candidates).of_adopted(&answer.examination, claimed, |design, fit| {
+            noise::refined(design, fit, claimed, courses)
+        })
     }
 }
 

@@ -72,6 +72,8 @@ pub enum Memory {
     White,
     /// As a recording at rest or the case say.
     Claimed,
+    /// Readings of nearly the same are rounded alike.
+    Rounded,
     /// This share of the variance is forgotten within a time constant.
     Fading {
         /// Share of the variance.
@@ -87,6 +89,7 @@ pub enum Memory {
 }
 
 /// What the noise of a recording may be.
+#[derive(Clone)]
 pub(super) struct Courses {
     /// The unit of their times.
     unit: String,
@@ -151,19 +154,35 @@ impl Courses {
     }
 
     /// Where no other is asked for.
-    pub(super) fn white() -> Courses {
+    pub(super) fn white(observations: usize) -> Courses {
+        // Beyond these no other is compared with it.
+        let size = match observations > MOST_COMPARED {
+            true => 0,
+            false => observations,
+        };
         Courses {
             unit: String::new(),
             all: vec![(
                 Memory::White,
-                Arc::new(Correlation::new(DMatrix::zeros(0, 0))),
+                Arc::new(Correlation::new(DMatrix::identity(size, size))),
             )],
         }
     }
 
     /// Whether rows may remember others.
     pub(super) fn remember(&self) -> bool {
-        self.all.len() > 1
+        self.all.iter().any(|(memory, _)| memory.fades())
+    }
+
+    /// These, and what readings have in common by their rounding.
+    pub(super) fn or_rounded(
+        &self,
+        correlations: impl IntoIterator<Item = Arc<Correlation>>,
+    ) -> Courses {
+        let mut courses = self.clone();
+        let rounded = correlations.into_iter();
+        (courses.all).extend(rounded.map(|correlation| (Memory::Rounded, correlation)));
+        courses
     }
 
     /// A recording seen with each of them, as the noise with such a correlation; `fit` is of any model with the same rows.
@@ -217,12 +236,14 @@ impl Courses {
         }
     }
 
-    /// White noise is as likely beforehand as all others together.
+    /// White noise is as likely beforehand as all that fades together, and as rounding of readings that come in steps.
     fn log_prior(&self, at: usize) -> f64 {
-        match at {
-            0 => 0.0,
-            _ => -libm::log((self.all.len() - 1).max(1) as f64),
-        }
+        let memory = self.all[at].0;
+        let is_rounded = |memory: Memory| memory == Memory::Rounded;
+        let is_alike = |(other, _): &&(Memory, Arc<Correlation>)| {
+            other.fades() == memory.fades() && is_rounded(*other) == is_rounded(memory)
+        };
+        -libm::log(self.all.iter().filter(is_alike).count() as f64)
     }
 }
 
@@ -238,10 +259,15 @@ fn of_all(own: &DMatrix<f64>, responses: usize) -> DMatrix<f64> {
 }
 
 impl Memory {
+    /// Whether rows have in common what is near in time.
+    pub fn fades(self) -> bool {
+        matches!(self, Memory::Fading { .. } | Memory::Flicker { .. })
+    }
+
     /// Correlation of two different rows.
     fn correlation(self, apart: f64, constants: &[f64]) -> f64 {
         match self {
-            Memory::White | Memory::Claimed => 0.0,
+            Memory::White | Memory::Claimed | Memory::Rounded => 0.0,
             Memory::Fading {
                 share,
                 time_constant,

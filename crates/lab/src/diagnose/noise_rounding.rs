@@ -1,7 +1,7 @@
 //! Noise beside the rounding of readings: where they come in steps that are coarser than what is claimed of their noise, the
 //! claim cannot hold their rounding.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, SQRT_2};
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
@@ -13,7 +13,12 @@ use super::evidence::Correlation;
 use super::fit::Fit;
 use super::noise_correlation::{Correlated, Memory};
 use super::resolution::{resolution, u_of_step};
-use gumption_core::special::chi_squared_upper_quantile;
+use gumption_core::special::{
+    chi_squared_cdf, chi_squared_sf, chi_squared_upper_quantile, normal_upper_quantile,
+};
+
+/// Probability of what is left out of the question.
+const RARE: f64 = 1e-3;
 
 /// Errors before the readings are rounded.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,6 +79,69 @@ pub(super) fn possible(
     seen(design, fit, claimed, steps)
 }
 
+/// The rounding in noise of which the size is estimated, where readings of nearly the same have it in common: beside noise of each
+/// size before it that a recording may tell from others.
+pub(super) fn estimated(design: &Design<'_>, fit: &Fit) -> Vec<Rounded> {
+    /// Noise of more than so many steps leaves nothing in common (see [`in_common`]).
+    const MOST: f64 = 0.48;
+    /// Ratio of successive sizes.
+    const RATIO: f64 = 0.5;
+    let steps = steps(design, fit, &|_, _| false);
+    // Beside less noise a reading that is shown one step off all others is far off, as normal errors go.
+    let far = normal_upper_quantile(RARE / design.blocks.len() as f64);
+    let is_usual = |size: &f64| {
+        let own = size * size + 1.0 / 12.0 - in_common(0.0, size * SQRT_2);
+        far * own.sqrt() >= 1.0
+    };
+    let sizes = std::iter::successors(Some(MOST * RATIO), |size| Some(size * RATIO));
+    let beside = |size: f64| {
+        let possible = |response: usize| {
+            let step = steps[response]?;
+            is_possible(
+                design,
+                fit,
+                response,
+                step * (size * size + 1.0 / 12.0).sqrt(),
+            )
+            .then_some(step)
+        };
+        let steps: Vec<Option<f64>> = (0..steps.len()).map(possible).collect();
+        let u = |at: usize| {
+            let (response, _) = design.place(at);
+            steps[response].map_or_else(|| left(design, fit, response), |step| size * step)
+        };
+        let without = Unrounded {
+            u: DVector::from_fn(design.observations(), |at, _| u(at)),
+            correlated: None,
+        };
+        seen(design, fit, without, steps).filter(|rounded| rounded.correlated.is_some())
+    };
+    sizes.take_while(is_usual).filter_map(beside).collect()
+}
+
+/// Whether a model may leave so much of a response where its errors have this standard uncertainty.
+fn is_possible(design: &Design<'_>, fit: &Fit, response: usize, u: f64) -> bool {
+    let blocks = design.blocks.len() as f64;
+    let chi_squared = blocks * (left(design, fit, response) / u).powi(2);
+    let dof = (blocks - design.unknowns.len() as f64 / design.case.responses.len() as f64).max(1.0);
+    chi_squared_cdf(chi_squared, dof) >= RARE && chi_squared_sf(chi_squared, dof) >= RARE
+}
+
+/// Root mean square of what a model leaves of a response.
+fn left(design: &Design<'_>, fit: &Fit, response: usize) -> f64 {
+    let own = observations(design, response);
+    let own = fit.residuals.rows(own.start, own.len());
+    // A perfect fit leaves nothing; any positive number serves.
+    (own.norm_squared() / own.len() as f64)
+        .sqrt()
+        .max(f64::MIN_POSITIVE.sqrt())
+}
+
+/// Whether so many observations can have in common what their rounding does.
+pub(super) fn is_compared(design: &Design<'_>) -> bool {
+    design.observations() <= MOST_COMPARED
+}
+
 /// The same rounding beside another fit, or of other readings of the same instrument.
 pub(super) fn beside(design: &Design<'_>, fit: &Fit, rounding: Rounding) -> Rounded {
     let Rounding { steps, without, .. } = &rounding;
@@ -83,7 +151,7 @@ pub(super) fn beside(design: &Design<'_>, fit: &Fit, rounding: Rounding) -> Roun
         without.u[at].powi(2) + rounding
     };
     let u = DVector::from_fn(without.u.len(), |at, _| variance(at).sqrt());
-    let shared = (u.len() <= MOST_COMPARED).then(|| shared(design, fit, without, &step_of));
+    let shared = is_compared(design).then(|| shared(design, fit, without, (&u, &step_of)));
     let shared = shared.filter(|shared| shared.amax() > 0.0);
     let correlated = shared.map(|shared| {
         let own = without.correlated.as_ref().map(Correlated::expected);
@@ -97,7 +165,7 @@ pub(super) fn beside(design: &Design<'_>, fit: &Fit, rounding: Rounding) -> Roun
         Correlated {
             correlation: Arc::new(Correlation::new(correlation)),
             draws: Vec::new(),
-            memory: Memory::Claimed,
+            memory: Memory::Rounded,
             unit: String::new(),
             log_prior: 0.0,
         }
@@ -154,15 +222,13 @@ fn steps(design: &Design<'_>, fit: &Fit, is_held: &dyn Fn(usize, f64) -> bool) -
     /// Readings that a model meets to less than this part of the rounding are not rounded to that step: equal distances of what
     /// is measured look alike.
     const MET: f64 = 0.5;
-    let blocks = design.blocks.len();
     let step = |(response, of): (usize, &Response)| {
         if matches!(of.observed, Observed::Constant(_)) {
             return None;
         }
-        let left = fit.residuals.rows(response * blocks, blocks);
-        let left = (left.norm_squared() / blocks as f64).sqrt();
         let step = resolution(&design.observed(response))?;
-        (left >= MET * u_of_step(step) && !is_held(response, step)).then_some(step)
+        let is_met = left(design, fit, response) < MET * u_of_step(step);
+        (!is_met && !is_held(response, step)).then_some(step)
     };
     design.case.responses.iter().enumerate().map(step).collect()
 }
@@ -180,26 +246,52 @@ fn of_reading(design: &Design<'_>, claimed: &Unrounded, at: usize) -> f64 {
 
 /// What the errors of rounding of two observations have in common, for all pairs. Readings of nearly the same are rounded alike, unless
 /// noise of more than a third of a step comes before: covariance of the errors of two quantities at the predicted distance, each with
-/// the claimed noise, wherever they lie between two steps (B. Widrow and I. Kollár, Quantization Noise, 2008).
+/// the claimed noise, wherever they lie between two steps (B. Widrow and I. Kollár, Quantization Noise, 2008). How far apart they
+/// are is known as well as the fit is.
 fn shared(
     design: &Design<'_>,
     fit: &Fit,
     claimed: &Unrounded,
-    step: &dyn Fn(usize) -> Option<f64>,
+    (u, step): (&DVector<f64>, &dyn Fn(usize) -> Option<f64>),
 ) -> DMatrix<f64> {
     let predicted: Vec<Vec<f64>> = (fit.linear.values.iter())
         .map(|values| design.reduced(values))
         .collect();
     let count = claimed.u.len();
-    DMatrix::from_fn(count, count, |a, b| {
+    let of_fit = of_fit(fit, u);
+    let of = |a: usize, b: usize| {
         let ((response, i), (other, j)) = (design.place(a), design.place(b));
-        let (Some(step), true) = (step(a), response == other && a != b) else {
+        let (Some(step), true) = (step(a), response == other) else {
             return 0.0;
         };
         let apart = (predicted[response][i] - predicted[response][j]) / step;
-        let blur = (claimed.u[a].powi(2) + claimed.u[b].powi(2)).sqrt() / step;
+        let of_fit = (of_fit.row(a) - of_fit.row(b)).norm_squared();
+        let blur = (claimed.u[a].powi(2) + claimed.u[b].powi(2) + of_fit).sqrt() / step;
         step * step * in_common(apart, blur)
-    })
+    };
+    let mut shared = DMatrix::zeros(count, count);
+    for a in 0..count {
+        for b in 0..a {
+            shared[(a, b)] = of(a, b);
+            shared[(b, a)] = shared[(a, b)];
+        }
+    }
+    shared
+}
+
+/// Rows of which the products are the covariances of what is predicted, with independent errors of these standard uncertainties.
+fn of_fit(fit: &Fit, u: &DVector<f64>) -> DMatrix<f64> {
+    let slopes = &fit.jacobian;
+    let weighted = DMatrix::from_fn(slopes.nrows(), slopes.ncols(), |at, of| {
+        slopes[(at, of)] / u[at]
+    });
+    let svd = weighted.svd(true, false);
+    // J·(JᵀWJ)⁻¹·Jᵀ in units of u: the left singular vectors span what is predicted.
+    let mut own = svd.u.unwrap_or_else(|| DMatrix::zeros(slopes.nrows(), 0));
+    for (at, mut row) in own.row_iter_mut().enumerate() {
+        row *= u[at];
+    }
+    own
 }
 
 /// Covariance of the errors of rounding to whole numbers of two quantities that lie this far apart, wherever they lie; `blur` is

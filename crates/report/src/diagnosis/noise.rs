@@ -62,16 +62,18 @@ pub(super) fn noise(case: &Case, claimed: &Claimed, l: Language) -> String {
         + &uneven(claimed, l)
 }
 
-/// The rounding of readings that a claim does not hold.
+/// The rounding of readings, where a claim does not hold it or it is a part of what is estimated.
 fn rounding(case: &Case, claimed: &Claimed, l: Language) -> String {
     let steps = case.responses.iter().zip(unclaimed_steps(claimed));
     let said = steps.filter_map(|(response, step)| {
         let (output, unit) = (&response.name, response.unit.typeset());
         let u = with_unit(&significant(u_of_step((*step)?), 2), &unit);
         let step = with_unit(&exact((*step)?), &unit);
-        Some(
-            say!("; beside it the rounding of {output} to steps of {step}: u = {u}").in_language(l),
-        )
+        let said = match claimed.is_estimated() {
+            true => say!("; in it the rounding of {output} to steps of {step}: u = {u}"),
+            false => say!("; beside it the rounding of {output} to steps of {step}: u = {u}"),
+        };
+        Some(said.in_language(l))
     });
     said.collect()
 }
@@ -97,7 +99,7 @@ fn tails(claimed: &Claimed, l: Language) -> String {
 /// That a recording at rest tells nothing of the course of the noise.
 fn white(claimed: &Claimed, l: Language) -> &'static str {
     match &claimed.correlated {
-        Some(correlated) if correlated.memory == Memory::Claimed => "",
+        Some(correlated) if matches!(correlated.memory, Memory::Claimed | Memory::Rounded) => "",
         _ => l.pick(
             ", as white noise (its course needs the time, by one name in both recordings, and 20 readings)",
             "，按白噪声处理（计入其时间相关性需要两份记录有同名时间列，且至少 20 个读数）",
@@ -117,7 +119,7 @@ fn memory(claimed: &Claimed, l: Language) -> String {
         false => significant(100.0 * share, digits(share)),
     };
     match correlated.memory {
-        Memory::White | Memory::Claimed => String::new(),
+        Memory::White | Memory::Claimed | Memory::Rounded => String::new(),
         Memory::Fading {
             share,
             time_constant,

@@ -9,6 +9,7 @@ use super::fitted::{FittedModel, Node};
 use super::levels::{Factor, factors};
 use super::modifiers::{known, map};
 use super::{Cell, EffectId, Modifier, Term, Variation, tied};
+use crate::diagnose::resolution::resolution;
 
 /// Longer recordings are not searched row by row.
 const MOST: usize = 800;
@@ -24,7 +25,16 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         return Vec::new();
     }
     let named = |rows: &[usize]| fitted.design.called(rows[0], rows[rows.len() - 1]);
-    let outliers = blocks.iter().map(|rows| {
+    let observed = (0..fitted.case().responses.len()).map(|of| fitted.design.observed(of));
+    let steps: Vec<Option<f64>> = observed.map(|readings| resolution(&readings)).collect();
+    // One step of a display more or less is rounding.
+    let is_far = |(block, _): &(usize, &Vec<usize>)| {
+        steps.iter().enumerate().any(|(response, step)| {
+            let left = fitted.fit.residuals[response * blocks.len() + block];
+            step.is_none_or(|step| left.abs() > step)
+        })
+    };
+    let outliers = (blocks.iter().enumerate()).filter(is_far).map(|(_, rows)| {
         let terms = (0..fitted.case().responses.len()).map(|response| {
             let mut modifier = vec![0.0; fitted.rows()];
             for row in rows {
@@ -35,7 +45,11 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         });
         Variation::of(named(rows), terms.collect())
     });
-    let mut cells = vec![plain(fitted, EffectId::Outlier, "row", outliers.collect())];
+    let outliers: Vec<Variation> = outliers.collect();
+    let mut cells = Vec::new();
+    if !outliers.is_empty() {
+        cells.push(plain(fitted, EffectId::Outlier, "row", outliers));
+    }
     if blocks.len() == fitted.rows() && fitted.has_signal() && blocks.len() <= MOST / 2 {
         cells.push(swapped(fitted));
         cells.push(reversed(fitted));

@@ -273,6 +273,7 @@ impl Binary {
             Rule::Mul => a * b,
             Rule::Div => a / b,
             _ if N == 1 => Jet::constant(value()),
+            Rule::Pow if stays_zero(a, b) => Jet::constant(value()),
             Rule::Pow => {
                 // exp(b ln a), where a and b both move.
                 let exponent = b * a.compose(&logarithm(elementary::ln(a.value()), a.value(), 1.0));
@@ -305,6 +306,7 @@ impl Binary {
             Rule::Sub => (one, -one),
             Rule::Mul => (b, a),
             Rule::Div => (b.recip(), -(a / b) / b),
+            Rule::Pow if stays_zero(a, b) => (self.value(a, b - one) * b, zero),
             Rule::Pow => {
                 let power = self.value(a, b);
                 let log = a.compose(&logarithm(elementary::ln(a.value()), a.value(), 1.0));
@@ -324,6 +326,12 @@ impl Binary {
             Rule::Staircase => (one, zero),
         }
     }
+}
+
+/// Whether a^b is 0 whatever the exponent does, as (dose/e)^b is without a dose: a is 0 and does not move, and b is positive. By way
+/// of ln a it would have no derivative.
+fn stays_zero<const N: usize>(a: Jet<N>, b: Jet<N>) -> bool {
+    a.0.iter().all(|part| *part == 0.0) && b.value() > 0.0
 }
 
 /// x^c, for a constant exponent.

@@ -202,6 +202,19 @@ fn powers_of_small_large_and_negative_numbers() {
 }
 
 #[test]
+fn nothing_to_some_power_stays_nothing_whatever_the_power() {
+    // Without a dose the response does not depend on the slope of its curve, nor on where it is half.
+    let model = model("x y", "7.5 / (1 + (0*y / y)^x)", "");
+    let point = [2.4, 3.1];
+    assert_eq!(model.values(&point), [7.5]);
+    assert_eq!(model.gradients(&point).as_slice(), [0.0, 0.0]);
+    let along = &model.along(&point, &[1.0, 0.7])[0];
+    for derivatives in [&along.gradient, &along.second, &along.third] {
+        assert_eq!(derivatives[..], [0.0, 0.0]);
+    }
+}
+
+#[test]
 fn parts_of_a_formula_have_the_derivatives_of_the_whole() {
     // Of the operations some are made of little, some of nearly everything.
     let graph = model("x[100]", "exp(mean(x)) / x[3] + sd(x)", "").graph;

@@ -123,12 +123,43 @@ fn plays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     single.chain([even, uneven]).collect()
 }
 
-/// Whether a course goes both ways, more than by returning to where a series begins.
+/// Whether a course goes both ways, more than by returning to where a series begins: enough of its values are reached rising and
+/// falling. Of series that only rise, falling leads to the first value alone.
 pub(super) fn comes_back(t: &[f64], x: &[f64]) -> bool {
     /// Rows of the rarer way, one in so many.
     const ONE_IN: usize = 8;
     let way = direction(t, x);
-    let rising = way.iter().filter(|way| **way > 0.0).count();
-    let turns = way.windows(2).any(|pair| pair[0] != pair[1]);
-    turns && rising.min(way.len() - rising) * ONE_IN >= way.len()
+    let reached = |falling: bool| {
+        let each = way.iter().zip(x);
+        let own = each.filter(|(way, _)| (**way < 0.0) == falling);
+        own.map(|(_, x)| *x).collect::<Vec<f64>>()
+    };
+    let (rising, falling) = (reached(false), reached(true));
+    let among = |own: &[f64], others: &[f64]| {
+        let (least, most) = range(others);
+        own.iter().filter(|x| (least..=most).contains(*x)).count()
+    };
+    let both = among(&rising, &falling).min(among(&falling, &rising));
+    both * ONE_IN >= way.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn series_that_only_rise_do_not_come_back() {
+        let course = |series: &[&[f64]]| {
+            let x: Vec<f64> = series.concat();
+            let t: Vec<f64> = (0..x.len()).map(|row| row as f64).collect();
+            comes_back(&t, &x)
+        };
+        let (up, down) = ([3.0, 5.0, 10.0, 15.0, 25.0], [20.0, 12.0, 8.0, 4.0]);
+        let again = [3.2, 5.0, 10.0, 15.0, 24.0];
+        assert!(!course(&[&up, &again, &up, &again]));
+        assert!(!course(&[&up, &up, &up]));
+        assert!(course(&[&up, &down]));
+        assert!(course(&[&up, &down, &again, &down]));
+        assert!(course(&[&[5.0, 25.0, 3.0, 10.0, 15.0]]));
+    }
 }

@@ -189,6 +189,10 @@ fn every_command_refuses_the_same_mistakes() {
             changed("U = K*omega + b", "U = K*omega + b*U"),
             "on both sides",
         ),
+        (
+            changed("U = K*omega + b", "ln(U) = K*omega + b"),
+            "the left side of an equation is no formula",
+        ),
     ];
     // What a diagnosis is told of some of its parameters it need not be told of all; a calibration lists all or none.
     let [calibrated, diagnosed] = both(&changed("K*omega + b", "K*omega + b + c"));

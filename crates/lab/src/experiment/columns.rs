@@ -265,6 +265,19 @@ impl<'s> Checker<'s> {
             );
             return;
         }
+        let text = self.source.text.get(place.clone()).unwrap_or_default();
+        let left = text.split_once('=').map_or("", |(left, _)| left);
+        if left.contains(&format!("{name}(")) {
+            let message = say!("the left side of an equation is no formula");
+            self.faults.push(
+                Fault::new(UNKNOWN_SYMBOL, place.clone(), message)
+                    .label(say!("{name} stands on the left"))
+                    .help(say!(
+                        "write on the left what was observed, and the inverse function on the right: `y = exp(a + b*x)` for `ln(y) = a + b*x`"
+                    )),
+            );
+            return;
+        }
         let declared = self.source.table.columns.as_ref();
         if declared.is_some_and(|declared| declared.value.refused) {
             // It may be one of the columns that could not be read.
@@ -273,6 +286,7 @@ impl<'s> Checker<'s> {
         let headers: Vec<&str> = headings
             .iter()
             .map(|heading| heading.name.as_str())
+            .filter(|name| !name.is_empty())
             .collect();
         let fault = Fault::new(
             UNKNOWN_SYMBOL,

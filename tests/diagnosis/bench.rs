@@ -356,3 +356,20 @@ fn a_condition_with_a_zero_acts_in_proportion() {
     assert_eq!(first_names(&found), ["sensitivity-scale"], "{found}");
     assert_eq!(variant(&found), "about zero");
 }
+
+#[test]
+fn the_first_row_is_told_by_its_number() {
+    let mut noise = Noise(83);
+    let mut rows = "t [s],x [mm],U [V]\n".to_owned();
+    for row in 0..30 {
+        let x = f64::from(7 * row % 10);
+        let wrong = if row == 0 { 0.1 } else { 0.0 };
+        let read = 0.2 * x + wrong + 0.003 * noise.normal();
+        let _ = writeln!(rows, "{row},{x},{read:.4}");
+    }
+    let case =
+        "equations = \"U = z + k*x\"\n[columns]\nt = \"time\"\nx = \"stimulus\"\nU = \"output\"\n";
+    let found = diagnosed("first", &rows, case);
+    let statement = found["statement"].as_str().unwrap_or_default();
+    assert!(statement.contains("(row 1)"), "{statement}");
+}

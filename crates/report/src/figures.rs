@@ -204,10 +204,10 @@ fn beside(pair: &Rounded, uncertainty: &Decimal) -> String {
     }
 }
 
-/// A number with its unit.
+/// A number with its unit; the unit one is not written.
 pub(super) fn with_unit(number: &str, unit: &str) -> String {
     match unit {
-        "" => number.to_string(),
+        "" | "1" => number.to_string(),
         _ => format!("{number}{}{unit}", space_before(unit)),
     }
 }

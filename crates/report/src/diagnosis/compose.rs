@@ -1,5 +1,6 @@
 //! A diagnosis as blocks: verdict, where, what, the improvement, what remains open.
 
+use crate::figures::with_unit;
 use crate::language::Language;
 use crate::number::{NONE, aligned, significant};
 use crate::phrase::{section, table};
@@ -257,8 +258,7 @@ fn amplitude(
 ) -> Option<String> {
     let size = diagnosis.amplitude(case, alternative)?;
     let (value, u) = (aligned(size.value, size.u, 2), significant(size.u, 2));
-    let text = format!("{value} ± {u} {}", size.unit);
-    let text = text.trim_end();
+    let text = with_unit(&format!("{value} ± {u}"), &size.unit);
     Some(say!("amplitude {text}").in_language(l))
 }
 

@@ -69,9 +69,7 @@ impl<'a> Names<'a> {
     /// The name, and what distinguishes the variant.
     pub(super) fn variant(self, (cell, variation): (usize, usize)) -> String {
         let label = self.cell(cell).variants[variation].short_label();
-        // Numbers without a unit stand alone.
-        let label = label.strip_suffix(" 1").unwrap_or(&label);
-        let (name, label) = (self.plain(cell), spoken(label, self.l));
+        let (name, label) = (self.plain(cell), spoken(&label, self.l));
         match label.is_empty() {
             true => name,
             false => self.l.with_aside(&name, &label),

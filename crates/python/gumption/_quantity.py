@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from functools import cached_property, lru_cache
-from typing import Any, Union, cast
+from typing import TYPE_CHECKING, Any, NoReturn, Union, cast
 from uuid import uuid4
 from weakref import WeakValueDictionary
 
@@ -216,11 +216,29 @@ class Quantity(Lasting):
         """Estimate and u alike: ``f"{x:.3f}"``."""
         if not spec:
             return repr(self)
-        return self._shown(f"{self.y:{spec}}", None if self.u is None else f"{self.u:{spec}}")
+        try:
+            return self._shown(f"{self.y:{spec}}", None if self.u is None else f"{self.u:{spec}}")
+        except ValueError:
+            raise ValueError(
+                f"{spec!r} is no format of a number, such as '.3f'; without one u has three digits, and the estimate ends with it"
+            ) from None
 
     def _shown(self, y: str, u: str | None) -> str:
         unit = "" if self.unit == "1" else f" {self.unit}"
         return f"<{y}{unit}>" if u is None else f"<{y}{unit}, u = {u}>"
+
+    def __float__(self) -> NoReturn:
+        raise TypeError("a quantity is no float: its estimate is .y; functions that keep its uncertainty are those of NumPy, np.sin(x)")
+
+    # A checker of types knows what there is.
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> NoReturn:
+            """Tells what there is where a name of another package is asked for, such as ``nominal_value``."""
+            if name.startswith("_"):
+                raise AttributeError(name)
+            own = ", ".join(one for one in vars(Quantity) if not one.startswith("_") and one not in _OPERATIONS)
+            raise AttributeError(f"a quantity has no {name}; it has {own}")
 
     def __copy__(self) -> Quantity:
         return self
@@ -286,12 +304,12 @@ for _name, (_written, _) in _OPERATIONS.items():
 
 
 def quantity(
-    value: Any, u: float | str | None = None, unit: str | None = None, *, name: str | None = None, **known: Any
+    value: Any = None, u: float | str | None = None, unit: str | None = None, *, name: str | None = None, **known: Any
 ) -> Quantity:
     """A quantity of which something is known.
 
     ``u`` is its standard uncertainty; anything else is said as in an input of a budget file: ``half_width=0.1``,
-    ``dof=9``, ``readings=[…]`` (with ``value`` None), ``distribution="triangular"``, ``certificate={"U": 0.2, "k": 2}``.
+    ``dof=9``, ``readings=[…]`` (without ``value``), ``distribution="triangular"``, ``certificate={"U": 0.2, "k": 2}``.
     A number of the package ``uncertainties`` or ``GTC`` stays correlated with all others that are taken so. ``name`` is what
     reports call it.
     """

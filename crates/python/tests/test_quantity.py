@@ -85,6 +85,18 @@ def test_what_is_wrong_is_told_where_it_is_written():
         covariance([quantity(1.0, 0.1), 1.0])
 
 
+def test_names_and_formats_of_other_packages_are_told():
+    x = quantity(1.0, 0.1)
+    with pytest.raises(AttributeError, match="no nominal_value; it has .*y, unit, u, "):
+        _ = x.nominal_value
+    with pytest.raises(ValueError, match=r"'\.2u' is no format"):
+        _ = f"{x:.2u}"
+    for to_float in (math.sin, float):
+        with pytest.raises(TypeError, match="estimate is .y; .*np.sin"):
+            to_float(x)
+    assert not hasattr(x, "nominal_value") and quantity(readings=[1, 2, 3]).y == 2
+
+
 def test_readings_are_those_that_were_given():
     readings = [9.99, 10.02, 10.00]
     x, y = quantity(None, readings=readings), quantity(None, readings=iter(tuple(readings)))

@@ -206,3 +206,22 @@ fn points_in_rows_below_the_names_of_sources() {
     let none = sheet("0.0300,0.060", "0.0370,0.074").replace("0.0167", "0.0280");
     assert_eq!(verdicts(&none).len(), 0);
 }
+
+/// One head, with the unit, above the names of the sources in a second line, as merged cells leave it.
+#[test]
+fn points_in_rows_below_a_head_of_two_lines() {
+    let sheet = |u_c: &str, expanded: &str| {
+        format!(
+            "数字温度计校准不确定度一览表\n校准点 / ℃,标准不确定度分量 u_i / ℃,,,,合成标准不确定度 u_c / ℃,k,扩展不确定度 U / ℃\n\
+             ,标准铂电阻,恒温槽均匀性,被检分辨力,重复性,,,\n\
+             0,0.005,0.0058,0.029,0.011,0.032,2,0.06\n50,0.006,0.0087,0.029,0.012,{u_c},2,{expanded}\n\
+             100,0.008,0.0115,0.029,0.014,0.035,2,0.07\n"
+        )
+    };
+    let titles =
+        ["0 °C", "50 °C", "100 °C"].map(|point| format!("数字温度计校准不确定度一览表: {point}"));
+    let titles: Vec<&str> = titles.iter().map(String::as_str).collect();
+    all_sound(&sheet("0.033", "0.07"), &titles);
+    let added = verdicts(&sheet("0.056", "0.11"));
+    assert_eq!(added[1].1, Verdict::WithEffect);
+}

@@ -23,7 +23,8 @@ pub fn parted(grid: &Grid) -> Vec<Grid> {
         let columns = spanned.and_then(|grid| columns::parted(&grid, head + 1));
         let columns = columns.or_else(|| columns::parted(grid, head));
         let columns = columns.or_else(|| rows::parted(grid, head));
-        columns.or_else(|| lines::parted(grid, head))
+        let columns = columns.or_else(|| lines::parted(grid, head));
+        columns.or_else(|| lines::parted(&spans::named(grid, head)?, head + 1))
     });
     found.unwrap_or_else(|| vec![grid.clone()])
 }

@@ -1,5 +1,6 @@
-//! Heads of points that each span the columns of a second line: `1 bar` above `±` and `u`.
+//! Heads that span the columns of a second line: `1 bar` above `±` and `u`, or `u_i / °C` above the names of sources.
 
+use crate::read::columns::apart;
 use crate::sheet::{Cell, Grid};
 
 use super::amount;
@@ -36,9 +37,45 @@ pub(super) fn joined(grid: &Grid, head: usize) -> Option<Grid> {
             .map(|cell| cell.text.as_str())
             .join(" "),
     };
-    let heads = (0..width).map(|column| Cell::new(&text(column)));
+    Some(with_heads(grid, head, (0..width).map(text)))
+}
+
+/// The sheet with the names of sources in the second line in the unit of what stands above them, and what stands above no name in that
+/// line; nothing where no head spans two names, or where the first line is a title above the first of them.
+pub(super) fn named(grid: &Grid, head: usize) -> Option<Grid> {
+    let below = grid.rows.get(head + 1)?;
+    let names: Vec<(usize, &Cell)> = grid.filled(head + 1).collect();
+    let above = |column: usize| grid.filled(head).take_while(|(at, _)| *at <= column).last();
+    let parents: Option<Vec<usize>> = names
+        .iter()
+        .map(|(column, name)| above(*column).filter(|_| name.figure().is_none()))
+        .map(|parent| parent.map(|(at, _)| at))
+        .collect();
+    let spans = parents?.windows(2).any(|two| two[0] == two[1]);
+    let (first, _) = grid.filled(head).next()?;
+    if !spans || !grid.cell(head + 1, first).is_empty() {
+        return None;
+    }
+    let width = below.len().max(grid.rows[head].len());
+    let text = |column: usize| {
+        let name = grid.cell(head + 1, column);
+        if name.is_empty() {
+            return grid.cell(head, column).text.clone();
+        }
+        let own = apart(&name.text).1;
+        let unit = above(column).map(|(_, parent)| apart(&parent.text).1);
+        match unit.filter(|unit| own.is_empty() && !unit.is_empty()) {
+            Some(unit) => format!("{} / {unit}", name.text),
+            None => name.text.clone(),
+        }
+    };
+    Some(with_heads(grid, head, (0..width).map(text)))
+}
+
+/// The sheet with these heads in the second of two lines of them.
+fn with_heads(grid: &Grid, head: usize, heads: impl Iterator<Item = String>) -> Grid {
     let mut joined = grid.clone();
-    joined.rows[head + 1] = heads.collect();
+    joined.rows[head + 1] = heads.map(|text| Cell::new(&text)).collect();
     joined.rows[head].clear();
-    Some(joined)
+    joined
 }

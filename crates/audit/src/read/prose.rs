@@ -110,7 +110,11 @@ fn is_name(head: &str) -> bool {
 /// A line that ends in the standard uncertainty which it comes to, as a row.
 fn of_conclusion(words: &str, u: Printed, at: Place) -> Option<Row> {
     let ends = |c: char| ":,;=±(".contains(c) || c.is_ascii_digit();
-    let name = words[..words.find(ends).unwrap_or(words.len())].trim();
+    let name = &words[..words.find(ends).unwrap_or(words.len())];
+    // `天平分辨力引入的标准不确定度`: about the resolution.
+    let of_u = ["引入的标准不确定度", "的标准不确定度"];
+    let end = of_u.iter().find_map(|words| name.find(words));
+    let name = name[..end.unwrap_or(name.len())].trim();
     let row = Row {
         name: name.into(),
         at,
@@ -282,12 +286,19 @@ fn unnumbered(text: &str) -> &str {
     if let Some((_, behind)) = bracketed {
         return behind.trim_start();
     }
-    let digits = text.bytes().take_while(u8::is_ascii_digit).count();
-    let behind = &text[digits..];
-    let numbered =
-        digits > 0 && digits <= 2 && behind.starts_with(['.', ')']) && behind[1..].starts_with(' ');
-    if numbered {
-        behind[1..].trim_start()
+    let end = text.find(|c: char| !c.is_ascii_digit() && c != '.');
+    let (number, behind) = text.split_at(end.unwrap_or(text.len()));
+    let closed = number.ends_with('.') || behind.starts_with([')', '、']);
+    let levels = number.trim_end_matches('.').split('.');
+    let are_short = levels.clone().all(|level| (1..=2).contains(&level.len()));
+    let behind = behind.trim_start_matches([')', '、']);
+    // `3.1 Resolution`, and no `0.5 mm`.
+    let is_section = || {
+        let word = behind.split_whitespace().next().unwrap_or_default();
+        levels.count() > 1 && crate::units::parse(word).is_none()
+    };
+    if are_short && behind.starts_with(' ') && (closed || is_section()) {
+        behind.trim_start()
     } else {
         text
     }
@@ -322,6 +333,13 @@ mod tests {
         assert_eq!(
             (standard.label(), standard.u.as_ref().unwrap().value),
             ("Standard", 0.006)
+        );
+        let section = read(
+            "3.2 天平分辨力引入的标准不确定度 u(P2):d = 0.1 mg,均匀分布,u(P2) = 0.1/(2√3) = 0.029 mg",
+        );
+        assert_eq!(
+            (section.label(), section.u.as_ref().unwrap().value),
+            ("天平分辨力", 0.029)
         );
         let certificate = read("t_s: certificate, u = 0.012 °C (k = 2)");
         assert!(certificate.u.is_none());

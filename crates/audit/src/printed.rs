@@ -91,6 +91,16 @@ impl Printed {
         self.shown.as_deref().unwrap_or(&self.text)
     }
 
+    /// As a person reads it, with its unit where that stands in the head of its column: behind a bare number.
+    pub fn with_unit(&self) -> String {
+        let text = self.as_read();
+        let is_bare = text.ends_with(char::is_numeric) && !text.ends_with(&self.unit);
+        match is_bare {
+            true => format!("{text} {}", self.unit),
+            false => text.to_string(),
+        }
+    }
+
     /// The figure that a person reads, in the unit of this one: rules about digits are about those that are shown.
     pub fn read(&self) -> Printed {
         let read = self.shown.as_deref().and_then(Printed::parse);

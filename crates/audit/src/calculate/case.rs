@@ -54,7 +54,7 @@ impl<'a> Case<'a> {
             .iter()
             .enumerate()
             .map(|(i, row)| line(claimed, row, derivatives.as_ref().map(|d| d[i])));
-        let right = Calculation {
+        let mut right = Calculation {
             lines: lines.collect(),
             correlations: claimed.correlations.clone(),
             combined: Combined::Root,
@@ -62,6 +62,7 @@ impl<'a> Case<'a> {
             factor: factors(claimed)[0],
             report: Report::default(),
         };
+        right.freedom = freedom(claimed, &right);
         Case {
             claimed,
             right,
@@ -119,6 +120,29 @@ fn in_unit_of_result(claimed: &Claimed, known: &Differentiated) -> Vec<f64> {
     match relative {
         Some(relative) if met(&relative) > met(&ratio) => relative,
         _ => ratio,
+    }
+}
+
+/// How ν_eff is to be found. Where no row tells its degrees of freedom, one that is stated cannot be computed again: it is taken
+/// as it stands, if it is not below what one degree in each open row would give.
+fn freedom(claimed: &Claimed, welch: &Calculation) -> Freedom {
+    let Some(stated) = &claimed.footer.nu_eff else {
+        return Freedom::Welch;
+    };
+    let rows = || welch.lines.iter().zip(&claimed.rows);
+    let is_told = |(line, _): (&Line, &Row)| line.counted && line.dof.is_finite();
+    if rows().any(is_told) {
+        return Freedom::Welch;
+    }
+    let mut least = welch.clone();
+    for (line, row) in least.lines.iter_mut().zip(&claimed.rows) {
+        if row.leaves_freedom_open() {
+            line.dof = 1.0;
+        }
+    }
+    match stated.value + stated.half >= libm::floor(least.figures(&[], None).nu_eff) {
+        true => Freedom::Given(stated.value),
+        false => Freedom::Welch,
     }
 }
 
@@ -244,11 +268,15 @@ fn to_y(claimed: &Claimed, row: &Row, from_model: bool) -> f64 {
         }
         return of(&row.unit, value) * of(unit_of_y(claimed), y_unit);
     }
-    if row.unit.is_empty() || y_unit.is_empty() {
+    if y_unit.is_empty() {
         return 1.0;
     }
-    if unit_of_c(row).is_some() && units::parse(&row.unit).is_some() {
+    let is_known = row.unit.is_empty() || units::parse(&row.unit).is_some();
+    if unit_of_c(row).is_some() && is_known {
         return by_unit_of_c(claimed, row).unwrap_or(1.0);
+    }
+    if row.unit.is_empty() {
+        return 1.0;
     }
     if let Some(factor) = by_named_length(claimed, row) {
         return factor;

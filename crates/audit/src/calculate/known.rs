@@ -35,6 +35,21 @@ impl Stated {
 }
 
 impl Row {
+    /// Whether nothing on the sheet tells its degrees of freedom: neither a figure, nor readings, nor that it is of type B.
+    pub fn leaves_freedom_open(&self) -> bool {
+        let open = matches!(
+            self.stated,
+            Stated::Nothing
+                | Stated::Standard { dof: None, .. }
+                | Stated::Deviation {
+                    n: None,
+                    pooled: None,
+                    ..
+                }
+        );
+        open && self.dof.is_none()
+    }
+
     /// What a stated relative figure is multiplied by to be in the unit of the row.
     pub(crate) fn relative_factor(&self) -> f64 {
         match (self.relative, &self.value) {

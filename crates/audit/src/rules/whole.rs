@@ -1,6 +1,6 @@
 //! What the figures of the whole show.
 
-use crate::calculate::{Factor, t};
+use crate::calculate::{Factor, Freedom, t};
 use crate::claim::{Correlation, Coverage, Stated};
 use crate::printed::Printed;
 use crate::read::Whole;
@@ -115,7 +115,8 @@ pub(super) fn two_at_few(seen: &Seen<'_>) -> Vec<Hit> {
 
 /// ν_eff of independent inputs is between the smallest ν and the sum of all.
 pub(super) fn freedom(seen: &Seen<'_>) -> Vec<Hit> {
-    let Some(nu) = &seen.claimed.footer.nu_eff else {
+    let nu = seen.claimed.footer.nu_eff.as_ref();
+    let Some(nu) = nu.filter(|_| seen.case.right.freedom == Freedom::Welch) else {
         return Vec::new();
     };
     let counted = seen

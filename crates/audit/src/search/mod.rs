@@ -13,7 +13,7 @@ mod chance;
 mod check;
 mod row;
 
-use crate::calculate::{Calculation, Case, Figures, factors};
+use crate::calculate::{Calculation, Case, Figures, Freedom, factors};
 use crate::claim::Claimed;
 use crate::slips::{self, Act, Change, Reporting, Weight};
 
@@ -414,6 +414,11 @@ impl Found<'_> {
     /// Whether a result is claimed that nothing on the sheet gives: it is taken as it stands.
     pub fn takes_result(&self) -> bool {
         slips::is_open(&self.case)
+    }
+
+    /// Whether a number of effective degrees of freedom is claimed that nothing on the sheet gives: it is taken as it stands.
+    pub fn takes_freedom(&self) -> bool {
+        matches!(self.case.right.freedom, Freedom::Given(nu) if nu.is_finite())
     }
 
     /// Whether the result would be printed differently if everything in an explanation were corrected.

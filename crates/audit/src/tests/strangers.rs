@@ -547,3 +547,66 @@ fn the_same_uncertainty_in_percent_is_derived() {
         \"Repeatability s (n=5), mean\",0.4,kPa,normal,√5,0.179,0.0072\nu_c,,,,,0.798,0.0319\nU (k=2),,,,,1.6,0.064\n";
     is_sound("sheet.csv", sheet);
 }
+
+/// A table without degrees of freedom cannot give the ν_eff that stands below it; one that says type B can.
+#[test]
+fn degrees_of_freedom_that_no_row_tells_are_taken_as_they_stand() {
+    let sheet = |evaluation: &str, u_c: &str, nu: &str, k: &str, expanded: &str| {
+        format!(
+            "Quantity,Type,Estimate,Unit,u(x),c\nV,{evaluation},1.00015,V,0.000068,10\nR,{evaluation},100.02,ohm,0.0058,-0.1\n\n\
+             combined standard uncertainty,{u_c},mA\neffective degrees of freedom,{nu}\nk (95 %),{k},\nexpanded uncertainty,{expanded},mA\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("", "0.00089", "10.8", "2.23", "0.0020"));
+    let wrong = sheet("", "0.00089", "10.8", "2.57", "0.0023");
+    assert_ne!(answer("sheet.csv", &wrong).0, Verdict::Sound);
+    let impossible = sheet("", "0.00089", "0.8", "12.71", "0.011");
+    assert_ne!(answer("sheet.csv", &impossible).0, Verdict::Sound);
+    let b = sheet("B", "0.00089", "10.8", "2.23", "0.0020");
+    assert_eq!(first("sheet.csv", &b), "veff-wrong");
+}
+
+/// A relative u_c below rows with units is what it comes to, and is called by what it is of.
+#[test]
+fn a_relative_sum_is_called_by_its_result() {
+    let sheet = "Concentration c = m·P/V\nQuantity,Value x,Unit,u(x)\nm,100.28,mg,0.05\nP,0.9999,,0.000058\nV,0.1,L,0.00007\nc,1002.7,mg/L,\n\
+                 Combined relative standard uncertainty,0.00086\n\"U(c), k=2\",1.7,mg/L\n";
+    is_sound("relative.csv", sheet);
+    let claims =
+        claims("relative.csv", sheet.as_bytes(), &read::Mapping::default()).expect("a sheet");
+    let u_c = claims[0].footer.u_c.as_ref().expect("u_c");
+    assert_eq!(u_c.as_read(), "0.00086·c");
+    assert!((u_c.read().value - 0.862).abs() < 0.001);
+}
+
+/// Ppm of a ratio are a number where the column of u holds one, although nothing but the ppm has a unit.
+#[test]
+fn parts_of_a_ratio_are_numbers() {
+    let sheet = |u: &str, expanded: &str| {
+        format!(
+            "Quantity,Estimate,Stated uncertainty,Distribution,Divisor,u(xi),ci,ui(y)\nR_S,100.0005 Ω,2 ppm,normal k=2,2,100 µΩ,1,100 µΩ\n\
+             bridge ratio r,1.0000023,0.9 ppm,rectangular,√3,{u},100 Ω,52 µΩ\nrepeatability,0,15 µΩ,normal,1,15 µΩ,1,15 µΩ\n\
+             R_X,100.0007 Ω,,,,,,{expanded}\n"
+        )
+    };
+    is_sound("ratio.csv", &sheet("5.2E-07", "114 µΩ"));
+    let undivided = sheet("9.0E-07", "135 µΩ").replace("52 µΩ", "90 µΩ");
+    assert!(first("ratio.csv", &undivided).starts_with("root3-missing@"));
+}
+
+/// Sections of a report with their numbers, each of which ends in its standard uncertainty.
+#[test]
+fn sections_end_in_their_standard_uncertainties() {
+    let report = |standard: &str, u_c: &str, expanded: &str| {
+        format!(
+            "电子天平示值误差测量结果的不确定度评定\n1.2 被测对象：220 g/0.1 mg 电子天平，测量点 200 g\n2 测量模型  ΔE = P - m\n\
+             3.1 天平重复性引入的标准不确定度 u(P1)：在 200 g 点重复测量 10 次，单次实验标准差 s = 0.12 mg，则 u(P1) = s = 0.12 mg\n\
+             3.2 天平分辨力引入的标准不确定度 u(P2)：实际分度值 d = 0.1 mg，均匀分布，u(P2) = 0.1/(2√3) = 0.029 mg\n\
+             3.3 标准砝码引入的标准不确定度 u(m)：E2 等级 200 g 砝码最大允许误差 ±0.30 mg，均匀分布，u(m) = {standard} mg\n\
+             4 合成标准不确定度  u_c = {u_c} mg\n5 扩展不确定度  取 k = 2，U = k·u_c = {expanded} mg\n"
+        )
+    };
+    is_sound("report.txt", &report("0.30/√3 = 0.173", "0.21", "0.43"));
+    let halved = first("report.txt", &report("0.30/2 = 0.150", "0.19", "0.39"));
+    assert!(halved.starts_with("half-width-by-2@"), "{halved}");
+}

@@ -100,6 +100,12 @@ fn one(file: &str, audit: &Audit<'_>, language: Language) -> Vec<Block> {
             "测量结果本身未作核对：表中没有能给出该结果的测量模型或估计值。",
         )));
     }
+    if audit.found.takes_freedom() {
+        blocks.push(Block::Paragraph(pick(
+            "ν_eff was taken as it stands: no row tells its degrees of freedom.",
+            "有效自由度未作核对：表中没有任何一行给出自由度。",
+        )));
+    }
     blocks.push(Block::Section(pick(
         "How the sheet was understood",
         "对表格的理解",
@@ -153,9 +159,18 @@ fn shown(figure: Option<&Printed>) -> String {
 fn figures(audit: &Audit<'_>, language: Language) -> Vec<KeyFigure> {
     let (claimed, right) = (audit.found.case.claimed, audit.found.right);
     let pick = |en: &str, zh: &str| language.pick(en, zh).to_string();
-    let figure = |name: &str, claimed: Option<&Printed>, right: String, unit: &str| KeyFigure {
+    // What is stated in the unit of the right figure beside it needs no unit.
+    let in_its_unit = |figure: &Printed| match figure.unit.as_str() {
+        unit if unit.is_empty() || unit == claimed.unit => figure.as_read().to_string(),
+        _ => figure.with_unit(),
+    };
+    let figure = |name: &str, stated: Option<&Printed>, right: String, unit: &str| KeyFigure {
         name: name.to_string(),
-        value: format!("{right} ({} {})", pick("claimed", "声称"), shown(claimed)),
+        value: format!(
+            "{right} ({} {})",
+            pick("claimed", "声称"),
+            stated.map_or(NONE.to_string(), in_its_unit)
+        ),
         unit: unit.to_string(),
     };
     let footer = &claimed.footer;
@@ -255,6 +270,12 @@ fn rows(audit: &Audit<'_>, language: Language) -> Table {
         } else {
             language.pick("not counted", "不计").to_string()
         };
+        let is_untold = audit.found.takes_freedom() && row.leaves_freedom_open();
+        let dof = if is_untold {
+            String::new()
+        } else {
+            freedom(line.dof)
+        };
         table.push(vec![
             Cell::from(words::short(row)),
             words::stated(row, language).into(),
@@ -263,7 +284,7 @@ fn rows(audit: &Audit<'_>, language: Language) -> Table {
             significant(line.c, 4).into(),
             contribution.into(),
             shown(row.contribution.as_ref()).into(),
-            freedom(line.dof).into(),
+            dof.into(),
             mark.into(),
         ]);
     }

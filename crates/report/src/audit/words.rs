@@ -174,13 +174,12 @@ fn recomputed(audit: &Audit<'_>, language: Language) -> Option<String> {
 
 /// A claimed figure with its unit, else with that of the result.
 fn as_claimed(audit: &Audit<'_>, figure: &Printed) -> String {
-    let unit = match figure.unit.as_str() {
-        "" => audit.found.case.claimed.unit.as_str(),
-        own => own,
-    };
-    match figure.as_read() {
-        text if text.ends_with(unit) => text.to_string(),
-        text => format!("{text} {unit}"),
+    match figure.unit.as_str() {
+        "" => {
+            let unit = &audit.found.case.claimed.unit;
+            format!("{} {unit}", figure.as_read()).trim_end().to_owned()
+        }
+        _ => figure.with_unit(),
     }
 }
 

@@ -44,8 +44,23 @@ pub fn stated(e: &Evidence<'_>) -> (Stated, Relative) {
             dof: None,
         }),
     });
+    let stated = match stated {
+        Stated::Standard { u, dof: None }
+            if is_of_type(&columns, "b") || shape(&columns).is_some() =>
+        {
+            let dof = Some(f64::INFINITY);
+            Stated::Standard { u, dof }
+        }
+        stated => stated,
+    };
     let relative = relative(&stated, &text);
     (stated, relative)
+}
+
+/// Whether the laboratory's columns call the evaluation one of type A or B: `A`, `B 类`.
+fn is_of_type(columns: &str, letter: &str) -> bool {
+    let mut words = columns.split(|c: char| !c.is_alphanumeric());
+    words.any(|word| word.strip_suffix('类').unwrap_or(word) == letter)
 }
 
 /// Words without the clause that says in which other row this one is contained: what that one is, is not said of this.
@@ -115,10 +130,7 @@ fn by_columns(e: &Evidence<'_>, columns: &str) -> Option<Stated> {
             shape_stated: true,
         });
     }
-    let type_a = columns
-        .split(|c: char| !c.is_alphanumeric())
-        .any(|word| word == "a" || word == "a类" || word == "t");
-    if type_a {
+    if is_of_type(columns, "a") || is_of_type(columns, "t") {
         return deviation(e, "");
     }
     if has(columns, NORMAL) {

@@ -215,6 +215,21 @@ impl Row {
         }
     }
 
+    /// Whether a percentage is of an estimate that is a number, as the laboratory's own u shows: `0.2 ppm` of a ratio of 1.00002 is
+    /// 2E-07 there, and not 0.2.
+    fn is_part_of_number(&self) -> bool {
+        let (Relative::OfValue(fraction), Some(value), Some(u)) =
+            (self.relative, &self.value, &self.u)
+        else {
+            return false;
+        };
+        let are_bare = value.unit.is_empty() && u.unit.is_empty();
+        let distance = |x: f64| libm::log(x / u.value).abs();
+        self.stated.standard().is_some_and(|(stated, _)| {
+            are_bare && distance(stated * fraction * value.value.abs()) < distance(stated)
+        })
+    }
+
     /// Figures of ± and of what is stated in the unit of u, where all units are known.
     fn convert_to_one_unit(&mut self, y_unit: &str) {
         let stated_unit = self
@@ -235,9 +250,10 @@ impl Row {
         } else {
             [&u, &used, &self.unit, &value]
         };
+        let of_number = self.is_part_of_number();
         let known = candidates
             .into_iter()
-            .find(|unit| !unit.is_empty())
+            .find(|unit| !unit.is_empty() && !(of_number && units::fraction(unit).is_some()))
             .cloned();
         // Nothing but the percentage has a unit: it is of the value, which has none.
         let bare = known.is_none() && fraction && !relative_y && self.relative != Relative::No;

@@ -17,10 +17,16 @@ impl Relative {
     pub(super) fn settle(self, claimed: &mut Claimed) {
         let (at, text) = (self.figure.at, self.figure.text.clone());
         let figure = match self.of_result(claimed) {
-            Some((y, unit)) => Printed {
-                unit,
-                ..self.figure.scaled(y)
-            },
+            Some((factor, y)) => {
+                let result = match claimed.measurand.as_str() {
+                    "" => "y",
+                    name => name,
+                };
+                let called = format!("{}·{result}", self.figure.as_read());
+                let unit = y.unit;
+                let scaled = self.figure.scaled(factor).called(&called);
+                Printed { unit, ..scaled }
+            }
             None => self.figure,
         };
         let is_used = footer::set(&mut claimed.footer, self.whole, figure);
@@ -35,8 +41,8 @@ impl Relative {
         });
     }
 
-    /// The result in whose unit a figure of 1 is absolute, with that unit, if the sheet computes in it.
-    fn of_result(&self, claimed: &Claimed) -> Option<(f64, String)> {
+    /// What makes the figure absolute, and the result of which it is a part, if the sheet computes in its unit.
+    fn of_result(&self, claimed: &Claimed) -> Option<(f64, Printed)> {
         let fraction = match self.figure.unit.as_str() {
             "" => 1.0,
             unit => units::fraction(unit)?,
@@ -51,6 +57,6 @@ impl Relative {
         let sum = libm::sqrt(parts.map(|part| part.value * part.value).sum());
         let is_sum = (sum - self.figure.value).abs() <= 0.05 * self.figure.value;
         let is_relative = units::fraction(&claimed.unit).is_some() || is_ratio(&y.unit) || is_sum;
-        (!is_relative).then(|| (fraction * y.value.abs(), y.unit.clone()))
+        (!is_relative).then(|| (fraction * y.value.abs(), y.clone()))
     }
 }

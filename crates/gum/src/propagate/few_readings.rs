@@ -34,38 +34,45 @@ pub(super) fn with_normal_readings(budget: &Budget) -> Option<Budget> {
 /// The components of few readings by which the u of Monte Carlo differs from that of the GUM in a digit that is
 /// reported, the one with the fewest degrees of freedom first; none where all of them together do not.
 pub(super) fn behind(budget: &Budget, gum: &Gum) -> Vec<FewReadings> {
-    let mut found: Vec<(f64, FewReadings)> = Vec::new();
     if gum.u <= 0.0 {
         return Vec::new();
     }
-    for (index, line) in gum.components.iter().enumerate() {
-        let dof = drawn_dof(budget, index);
-        let variance = line.contribution * line.contribution;
-        if dof.is_finite() && variance > 0.0 {
-            let component = &budget.components[index];
-            // Excess of the variance of t over that of the mean.
-            let excess = match dof > 2.0 {
-                true => variance * (drawn_variance(component, dof) - 1.0),
-                false => f64::INFINITY,
-            };
-            let readings = FewReadings {
-                component: component.name.to_string(),
-                dof,
-                share: line.share,
-            };
-            found.push((excess, readings));
+    // What it adds to the variance, in units of u²: its share, which tells the sign of what it has in common with others.
+    let excess_of = |index: usize, dof: f64| {
+        let share = gum.components[index].share;
+        match dof > 2.0 {
+            true => share * (drawn_variance(&budget.components[index], dof) - 1.0),
+            false if share > 0.0 => f64::INFINITY,
+            false => 0.0,
         }
-    }
-    let excess: f64 = found.iter().map(|(excess, _)| excess).sum();
-    let u = libm::sqrt(gum.u * gum.u + excess);
+    };
+    let drawn = (0..gum.components.len()).map(|index| (index, drawn_dof(budget, index)));
+    let mut found: Vec<(usize, f64)> = drawn.filter(|(_, dof)| dof.is_finite()).collect();
+    let excess: f64 = found.iter().map(|(at, dof)| excess_of(*at, *dof)).sum();
+    let u = gum.u * libm::sqrt(1.0 + excess.max(0.0));
     if u - gum.u <= numerical_tolerance(gum.u, budget.conventions.digits) {
         return Vec::new();
     }
     /// What adds less than this part of the excess is not behind it.
     const PART: f64 = 0.1;
-    found.retain(|(own, _)| *own >= PART * excess);
-    found.sort_by(|(_, a), (_, b)| a.dof.total_cmp(&b.dof));
-    found.into_iter().map(|(_, readings)| readings).collect()
+    let large = found
+        .iter()
+        .filter(|(at, dof)| excess_of(*at, *dof) >= PART * excess);
+    let large: Vec<usize> = large.map(|(at, _)| *at).collect();
+    // The parameters of one fit have their scatter in common.
+    let is_behind = |at: usize| {
+        let mut groups = budget.groups.iter().map(|group| &group.members);
+        let with_large = |members: &Vec<usize>| large.iter().any(|one| members.contains(one));
+        large.contains(&at) || groups.any(|members| members.contains(&at) && with_large(members))
+    };
+    found.retain(|(at, _)| gum.components[*at].share != 0.0 && is_behind(*at));
+    found.sort_by(|(_, a), (_, b)| a.total_cmp(b));
+    let told = found.into_iter().map(|(at, dof)| FewReadings {
+        component: budget.components[at].name.to_string(),
+        dof,
+        share: gum.components[at].share,
+    });
+    told.collect()
 }
 
 /// ν of the t-distribution from which a component is drawn; infinite where there is none.

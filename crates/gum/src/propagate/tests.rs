@@ -541,3 +541,23 @@ fn few_readings_are_told_once() {
     let eight = "[10.001, 10.003, 10.002, 10.001, 10.003, 10.002, 10.002, 10.001]";
     assert_eq!(told(&findings("JJF", eight)), (7.0, None));
 }
+
+/// The parameters of a fit have their scatter in common: all of them are told, and their parts are no more than the whole.
+#[test]
+fn parameters_of_a_fit_are_few_readings_together() {
+    let text = "profile = \"JJF\"\n[fit.line]\nmodel = \"y = a + b*x\"\n[fit.line.data]\nx = { values = [0.1, 0.3, 0.5, 0.7, 0.9] }\n\
+                y = { values = [0.029, 0.083, 0.133, 0.181, 0.219] }\n[input.y0]\nvalue = 0.0712\nresidual_of = \"line\"\nof = 2\n\
+                [measurand.x0]\nmodel = \"(y0 - a)/b\"\n";
+    let loaded = crate::budget::read(text, "b.toml", std::path::Path::new(""));
+    let evaluation = run(&loaded.unwrap().rows[0].budget, MonteCarloChoice::AsBudget);
+    let told = evaluation
+        .findings
+        .iter()
+        .find_map(|found| match &found.kind {
+            FindingKind::FewReadings { components, .. } => Some(components),
+            _ => None,
+        });
+    let told = told.expect("few readings");
+    assert_eq!(told.len(), 3, "{told:?}");
+    close(told.iter().map(|one| one.share).sum(), 1.0, 1e-9);
+}

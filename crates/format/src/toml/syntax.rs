@@ -229,10 +229,18 @@ fn syntax_fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fau
         fault(say!("`{marked}` is a value with its uncertainty"))
             .label(say!("expected a number"))
             .help(of_concise(number))
-    } else if let (true, Some((number, rest))) = (unquoted, marked.split_once('±')) {
+    } else if let (true, Some(("", amount))) = (unquoted, parted_by_plus_minus(marked)) {
+        fault(say!("`{marked}` is not how a number is written in TOML"))
+            .label(say!("expected a number"))
+            .help(without_sign(amount))
+    } else if let (true, Some((number, rest))) = (unquoted, parted_by_plus_minus(marked)) {
         fault(say!("`{marked}` is a value with its uncertainty"))
             .label(say!("expected a number"))
-            .help(of_plus_minus(number.trim(), rest.trim()))
+            .help(of_plus_minus(number, rest))
+    } else if matches!(marked, "…" | "..." | "……") {
+        fault(say!("`{marked}` stands for what only you know"))
+            .label(say!("expected a number or a text in quotes"))
+            .help(say!("write what it is in its place, or leave the key out"))
     } else if unquoted && is_calculation(marked) {
         let help = match quotient(marked) {
             Some(result) => say!("write {result}; formulas stand in a `model`"),
@@ -399,11 +407,38 @@ pub(super) fn of_concise(number: &str) -> Said {
     )
 }
 
+/// What stands in front of ± and behind it, also where keyboards have none: `1.00 +/- 0.05`.
+pub(super) fn parted_by_plus_minus(text: &str) -> Option<(&str, &str)> {
+    let parts = ["±", "+/-", "+-"]
+        .iter()
+        .find_map(|sign| text.split_once(sign))?;
+    Some((parts.0.trim(), parts.1.trim()))
+}
+
+/// How to mend limits that are written with their sign.
+pub(super) fn without_sign(amount: &str) -> Said {
+    let quotes = match amount.parse::<f64>() {
+        Ok(_) => "",
+        Err(_) => "\"",
+    };
+    say!("leave out the ±, which the key says: {quotes}{amount}{quotes}")
+}
+
 /// What is written in place of a value with ± and its uncertainty.
 pub(super) fn of_plus_minus(number: &str, rest: &str) -> Said {
+    let (value, uncertainty) = (as_stated(number, rest), as_stated(rest, number));
     say!(
-        "the value and its uncertainty have keys of their own: value = \"{number} …\", and u, half_width or certificate = {{ U = \"{rest}\", k = 2 }}, whichever it is"
+        "the value and its uncertainty have keys of their own: value = {value}, and u, half_width or certificate = {{ U = {uncertainty}, k = 2 }}, whichever it is"
     )
+}
+
+/// An amount as a file states it: a bare number with the unit of the other one, if that has any.
+fn as_stated(text: &str, other: &str) -> String {
+    match (text.parse::<f64>(), amount(other)) {
+        (Ok(_), Some((_, unit))) => format!("\"{text} {unit}\""),
+        (Ok(_), None) => text.to_owned(),
+        (Err(_), _) => format!("\"{text}\""),
+    }
 }
 
 /// The whole calculation of which the parser marks a part.

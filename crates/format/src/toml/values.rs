@@ -8,7 +8,7 @@ use toml::de::{DeFloat, DeInteger, DeValue};
 use super::faults::{AMOUNT, NOT_FINITE, NOT_WHOLE, QUOTED_NUMBER, WRONG_TYPE};
 use super::spelled::{sexagesimal, spelled};
 use super::strings::StringMap;
-use super::syntax::{of_concise, of_plus_minus, without_comma};
+use super::syntax::{of_concise, of_plus_minus, parted_by_plus_minus, without_comma, without_sign};
 use super::table::{FromToml, Raw, Reader};
 use gumption_core::calendar::Day;
 use gumption_fault::{Fault, Said, say};
@@ -413,16 +413,10 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
         fault.help(without_comma(text.trim(), "\""))
     } else if has_comma(text) {
         fault.help(without_comma(text.trim(), ""))
-    } else if let Some(amount) = text.trim().strip_prefix('±').map(str::trim) {
-        let quotes = match amount.parse::<f64>() {
-            Ok(_) => "",
-            Err(_) => "\"",
-        };
-        fault.help(say!(
-            "leave out the ±, which the key says: {quotes}{amount}{quotes}"
-        ))
-    } else if let Some((number, rest)) = text.split_once('±') {
-        fault.help(of_plus_minus(number.trim(), rest.trim()))
+    } else if let Some(("", amount)) = parted_by_plus_minus(text) {
+        fault.help(without_sign(amount))
+    } else if let Some((number, rest)) = parted_by_plus_minus(text) {
+        fault.help(of_plus_minus(number, rest))
     } else if let Some((number, _)) = text
         .split_once('(')
         .filter(|(number, _)| number.trim().parse::<f64>().is_ok())

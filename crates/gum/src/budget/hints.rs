@@ -298,6 +298,9 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
         ("a CSV column in groups", _) => Some(say!(
             "groups are lists of readings, one for each group: groups = [[…], […]]"
         )),
+        ("a CSV column", _) if nearest(key, known.iter().copied()).is_none() => Some(say!(
+            "a number or a list stands without braces, and other keys beside it: u = 0.1, dof = 9; in braces stands a column of a file"
+        )),
         ("[series]", _) if nearest(key, known.iter().copied()).is_none() => Some(say!(
             "the columns of a series are named once, its rows follow: columns = [\"{key}\"], rows = [[…], […]]"
         )),

@@ -151,25 +151,36 @@ pub(super) fn run(args: &Args) -> Outcome {
     output::print(head + "\n" + &lines(&speaking))
 }
 
-/// The topics of which the names have the wanted words, else the titles, else the texts.
+/// The topics of which the names have the wanted words, else the titles, else the texts; where none has them as whole words, as
+/// the beginnings of words.
 fn speaking_of<'t>(wanted: &str, topics: &'t [Topic]) -> Vec<&'t Topic> {
     let wanted = folded(wanted);
-    let has = |text: &str| {
+    let is_chinese = !wanted.starts_with(|c: char| c.is_ascii());
+    let is_edge = |c: Option<char>| is_chinese || !c.is_some_and(char::is_alphanumeric);
+    let has = |text: &str, whole: bool| {
         let text = folded(text);
-        let starts = text.match_indices(&wanted).map(|(at, _)| &text[..at]);
-        let is_chinese = !wanted.starts_with(|c: char| c.is_ascii());
-        let mut before = starts.map(|front| front.chars().next_back());
-        !wanted.is_empty() && before.any(|c| is_chinese || !c.is_some_and(char::is_alphanumeric))
+        let mut places = text.match_indices(&wanted);
+        !wanted.is_empty()
+            && places.any(|(at, _)| {
+                let behind = &text[at + wanted.len()..];
+                is_edge(text[..at].chars().next_back())
+                    && (!whole || is_edge(behind.chars().next()))
+            })
     };
-    let places: [&dyn Fn(&Topic) -> bool; 3] = [
-        &|topic| has(&topic.name) || topic.aliases.iter().any(|alias| has(alias)),
-        &|topic| has(&topic.title),
-        &|topic| has(&topic.text),
+    let places: [&dyn Fn(&Topic, bool) -> bool; 3] = [
+        &|topic, whole| {
+            let mut names = topic.aliases.iter().chain([&topic.name]);
+            names.any(|name| has(name, whole))
+        },
+        &|topic, whole| has(&topic.title, whole),
+        &|topic, whole| has(&topic.text, whole),
     ];
-    let speaking = |place: &dyn Fn(&Topic) -> bool| -> Vec<&Topic> {
-        topics.iter().filter(|topic| place(topic)).collect()
+    let speaking = |place: &dyn Fn(&Topic, bool) -> bool, whole: bool| -> Vec<&Topic> {
+        topics.iter().filter(|topic| place(topic, whole)).collect()
     };
-    let mut found = places.into_iter().map(speaking);
+    let mut found = [true, false]
+        .into_iter()
+        .flat_map(|whole| places.map(|place| speaking(place, whole)));
     found.find(|found| !found.is_empty()).unwrap_or_default()
 }
 
@@ -588,6 +599,8 @@ mod tests {
         assert!(names("Drift").contains(&"rule-36"));
         assert!(names("clause 8").contains(&"validation"));
         assert!(names("trianglar").is_empty());
+        // What is turned is no test uncertainty ratio.
+        assert_eq!(names("TUR"), ["conformity"]);
         let chinese = topics(Language::Chinese);
         assert!(!speaking_of("漂移", &chinese).is_empty());
     }
@@ -609,6 +622,8 @@ mod tests {
             "[[joint]]",
             "divisor",
             "sensitivity coefficient",
+            "bias",
+            "零偏",
             "除数",
             "U001",
         ] {

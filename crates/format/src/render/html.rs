@@ -226,8 +226,9 @@ impl Page {
     /// A table, which moves sideways where the page is too narrow for it.
     fn table(&mut self, table: &Table, heading: Option<&str>) {
         let label = escaped(heading.unwrap_or(self.word("Table", "表")));
+        let wide = class_of_table(table.columns.len());
         self.line(format_args!(
-            "<div class=\"wide\" role=\"group\" aria-label=\"{label}\" tabindex=\"0\">\n<table>\n<thead><tr>"
+            "<div {wide} role=\"group\" aria-label=\"{label}\" tabindex=\"0\">\n<table>\n<thead><tr>"
         ));
         for column in &table.columns {
             let head = inline(&column.head);
@@ -265,6 +266,17 @@ impl Page {
             ruled = "";
         }
         self.line(format_args!("</tbody>\n</table>\n</div>"));
+    }
+}
+
+/// Columns of numbers that stand side by side on a page of A4; the style sheet makes more of them smaller on paper, where nothing moves
+/// sideways. A page is 178 mm wide between its margins, a number of three digits with its power of ten 5.7 times the size of its letters.
+const ABREAST: usize = 10;
+
+fn class_of_table(columns: usize) -> String {
+    match columns > ABREAST {
+        true => format!("class=\"wide many\" style=\"--columns: {columns}\""),
+        false => "class=\"wide\"".into(),
     }
 }
 
@@ -444,5 +456,15 @@ mod tests {
         assert!(at("statement of a") < at("budget of a"));
         assert!(at("budget of a") < at("statement of b"));
         assert!(at("statement of b") < at("budget of b"));
+    }
+
+    /// On paper a table cannot be moved sideways: one of many columns has smaller letters there.
+    #[test]
+    fn many_columns_fit_on_paper() {
+        let of = |table: Table| page(vec![Block::Table(table)]);
+        let number = ("c·u", ColumnKind::Numbers);
+        let many = of(Table::new([number; 13]));
+        assert!(many.contains("class=\"wide many\" style=\"--columns: 13\""));
+        assert!(!of(Table::new([number; 9])).contains("wide many\""));
     }
 }

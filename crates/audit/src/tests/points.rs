@@ -225,3 +225,14 @@ fn points_in_rows_below_a_head_of_two_lines() {
     let added = verdicts(&sheet("0.056", "0.11"));
     assert_eq!(added[1].1, Verdict::WithEffect);
 }
+
+/// The unit behind a point may stand in brackets.
+#[test]
+fn points_in_columns_with_units_in_brackets() {
+    let sheet = "Clamp meter\nContributor,Distribution,Divisor,50 A (mA),500 A (mA)\nCalibrator,rectangular,1.732,60,550\n\
+                 \"Coil (k=2)\",normal,2,100,1000\nResolution ±,rectangular,1.732,50,50\nRepeatability,normal,1,20,110\n\
+                 Combined u,,,70.2,603\n\"Expanded U (k=2)\",,,140,1206\n";
+    let found = verdicts(sheet);
+    let titles: Vec<&str> = found.iter().map(|(title, _)| title.as_str()).collect();
+    assert_eq!(titles, ["Clamp meter: 50 A", "Clamp meter: 500 A"]);
+}

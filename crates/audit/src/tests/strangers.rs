@@ -610,3 +610,16 @@ fn sections_end_in_their_standard_uncertainties() {
     let halved = first("report.txt", &report("0.30/2 = 0.150", "0.19", "0.39"));
     assert!(halved.starts_with("half-width-by-2@"), "{halved}");
 }
+
+/// Glassware is made to its nominal capacity: a triangle in the column of distributions has its reason, other limits need one.
+#[test]
+fn triangles_of_glassware_have_their_reason() {
+    let sheet = |name: &str| {
+        format!(
+            "来源,半宽/%,分布,包含因子,相对标准不确定度/%\n标准物质定值,1.2,正态,2,0.60\n{name},0.8,三角,√6,0.33\n重复性,0.95,正态,1,0.95\n\
+             合成相对标准不确定度 urel/%,,,,1.17\n相对扩展不确定度 Urel/%（k=2）,,,,2.3\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("移液管容量允差"));
+    assert!(first("sheet.csv", &sheet("温度计允差")).starts_with("triangle@"));
+}

@@ -21,6 +21,8 @@ pub(super) const LIMITS: &[&str] = &["limit", "limits", "maximum permissible", "
 #[rustfmt::skip]
 pub(super) const STANDARD: &[&str] = &["standard uncertainty", "标准不确定度"];
 #[rustfmt::skip]
+pub(super) const GLASSWARE: &[&str] = &["pipet", "flask", "buret", "glassware", "移液管", "吸量管", "容量瓶", "滴定管", "玻璃量器"];
+#[rustfmt::skip]
 pub(super) const TRIANGULAR: &[&str] = &["triang", "dreieck", "三角"];
 #[rustfmt::skip]
 pub(super) const TRAPEZOID: &[&str] = &["trapez", "梯形"];

@@ -51,9 +51,15 @@ pub(super) fn limits(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         let of_column = shape(&e.columns.to_lowercase());
         of_column.filter(|shape| shape.divisor() < Shape::Rectangular.divisor())
     };
+    // The reason is known of volumes of glassware, which are made to their nominal value (QUAM:2012, A1).
+    let to_nominal = || {
+        let of_column = shape(&e.columns.to_lowercase());
+        of_column.filter(|shape| *shape == Shape::Triangular && has(text, GLASSWARE))
+    };
     let shape = shape(text)
         .or_else(|| level.then(|| Shape::Normal(normal_factor(e, text))))
-        .or_else(cautious);
+        .or_else(cautious)
+        .or_else(to_nominal);
     Some(Stated::Limits {
         half_width,
         shape: shape.unwrap_or(Shape::Rectangular),

@@ -90,7 +90,7 @@ fn points(grid: &Grid, head: usize) -> Option<Vec<Point>> {
 
 /// Whether heads have nothing but the point, or a unit behind it.
 fn is_bare(columns: &[(usize, String)]) -> bool {
-    let is_nothing = |rest: &str| rest.is_empty() || is_unit(rest.trim_start_matches(['/', ' ']));
+    let is_nothing = |rest: &str| rest.is_empty() || is_unit(unmarked(rest));
     columns.len() == 1 && columns.iter().all(|(_, rest)| is_nothing(rest))
 }
 
@@ -163,9 +163,19 @@ fn combined(grid: &Grid, rows: &BTreeSet<usize>, column: usize) -> Option<(f64, 
     })
 }
 
+/// The unit of `/ Hz`, `(Hz)` and `[Hz]`.
+fn unmarked(rest: &str) -> &str {
+    let rest = rest.trim_start_matches(['/', ' ']);
+    let brackets = [('(', ')'), ('[', ']')];
+    let inner = brackets
+        .iter()
+        .find_map(|(open, close)| rest.strip_prefix(*open)?.strip_suffix(*close));
+    inner.unwrap_or(rest)
+}
+
 /// `u_i / Hz` of `/ Hz`.
 fn unit_behind(kind: &str, rest: &str) -> String {
-    let rest = rest.trim_start_matches(['/', ' ']);
+    let rest = unmarked(rest);
     let (_, unit) = apart(&format!("{kind} / {rest}"));
     match unit.is_empty() {
         true => kind.to_owned(),

@@ -1,5 +1,5 @@
 //! Noise beside the rounding of readings: where they come in steps that are coarser than what is claimed of their noise, the
-//! claim cannot hold their rounding.
+//! claim cannot hold their rounding; noise that is estimated has it in it.
 
 use std::f64::consts::{PI, SQRT_2};
 use std::sync::Arc;
@@ -82,8 +82,8 @@ pub(super) fn possible(
 /// The rounding in noise of which the size is estimated, where readings of nearly the same have it in common: beside noise of each
 /// size before it that a recording may tell from others.
 pub(super) fn estimated(design: &Design<'_>, fit: &Fit) -> Vec<Rounded> {
-    /// Noise of more than so many steps leaves nothing in common (see [`in_common`]).
-    const MOST: f64 = 0.48;
+    /// Of twice as many steps nothing is left in common (see [`in_common`]).
+    const MOST: f64 = 0.25;
     /// Ratio of successive sizes.
     const RATIO: f64 = 0.5;
     let steps = steps(design, fit, &|_, _| false);
@@ -93,17 +93,12 @@ pub(super) fn estimated(design: &Design<'_>, fit: &Fit) -> Vec<Rounded> {
         let own = size * size + 1.0 / 12.0 - in_common(0.0, size * SQRT_2);
         far * own.sqrt() >= 1.0
     };
-    let sizes = std::iter::successors(Some(MOST * RATIO), |size| Some(size * RATIO));
+    let sizes = std::iter::successors(Some(MOST), |size| Some(size * RATIO));
     let beside = |size: f64| {
         let possible = |response: usize| {
             let step = steps[response]?;
-            is_possible(
-                design,
-                fit,
-                response,
-                step * (size * size + 1.0 / 12.0).sqrt(),
-            )
-            .then_some(step)
+            let u = step * (size * size + 1.0 / 12.0).sqrt();
+            is_possible(design, fit, response, u).then_some(step)
         };
         let steps: Vec<Option<f64>> = (0..steps.len()).map(possible).collect();
         let u = |at: usize| {

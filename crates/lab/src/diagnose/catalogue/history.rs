@@ -160,6 +160,6 @@ mod tests {
         assert!(!course(&[&up, &up, &up]));
         assert!(course(&[&up, &down]));
         assert!(course(&[&up, &down, &again, &down]));
-        assert!(course(&[&[5.0, 25.0, 3.0, 10.0, 15.0]]));
+        assert!(course(&[&[5.0, 25.0, 3.0, 10.0, 15.0, 8.0, 20.0, 12.0]]));
     }
 }

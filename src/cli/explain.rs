@@ -151,6 +151,9 @@ pub(super) fn run(args: &Args) -> Outcome {
     output::print(head + "\n" + &lines(&speaking))
 }
 
+/// Whether a part of a topic has a word, as a whole or as the beginning of one.
+type Place<'p> = &'p dyn Fn(&Topic, bool) -> bool;
+
 /// The topics of which the names have the wanted words, else the titles, else the texts; where none has them as whole words, as
 /// the beginnings of words.
 fn speaking_of<'t>(wanted: &str, topics: &'t [Topic]) -> Vec<&'t Topic> {
@@ -167,7 +170,7 @@ fn speaking_of<'t>(wanted: &str, topics: &'t [Topic]) -> Vec<&'t Topic> {
                     && (!whole || is_edge(behind.chars().next()))
             })
     };
-    let places: [&dyn Fn(&Topic, bool) -> bool; 3] = [
+    let places: [Place<'_>; 3] = [
         &|topic, whole| {
             let mut names = topic.aliases.iter().chain([&topic.name]);
             names.any(|name| has(name, whole))
@@ -175,7 +178,7 @@ fn speaking_of<'t>(wanted: &str, topics: &'t [Topic]) -> Vec<&'t Topic> {
         &|topic, whole| has(&topic.title, whole),
         &|topic, whole| has(&topic.text, whole),
     ];
-    let speaking = |place: &dyn Fn(&Topic, bool) -> bool, whole: bool| -> Vec<&Topic> {
+    let speaking = |place: Place<'_>, whole: bool| -> Vec<&Topic> {
         topics.iter().filter(|topic| place(topic, whole)).collect()
     };
     let mut found = [true, false]

@@ -253,7 +253,7 @@ impl Row {
         let of_number = self.is_part_of_number();
         let known = candidates
             .into_iter()
-            .find(|unit| !unit.is_empty() && !(of_number && units::fraction(unit).is_some()))
+            .find(|unit| !unit.is_empty() && (!of_number || units::fraction(unit).is_none()))
             .cloned();
         // Nothing but the percentage has a unit: it is of the value, which has none.
         let bare = known.is_none() && fraction && !relative_y && self.relative != Relative::No;

@@ -37,7 +37,7 @@ impl<'f> Candidates<'f> {
         let mut cells = catalogue::cells(&fitted);
         // Rounding that the noise holds is told by itself.
         let is_noise = |cell: &Cell| {
-            readout::is_rounding(cell) && claimed.may_round(fitted.design, &cell.words.y)
+            readout::is_rounding(cell) && claimed.rounds(fitted.case(), &cell.words.y)
         };
         cells.retain(|cell| !is_noise(cell));
         let (candidates, atoms) = question(&fitted, &cells, claimed, white);

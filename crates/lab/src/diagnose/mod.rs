@@ -76,6 +76,7 @@ mod noise;
 mod noise_correlation;
 mod noise_growth;
 mod noise_labels;
+mod noise_laws;
 mod noise_rounding;
 mod omitted;
 mod parts;

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use super::case::{Case, NoiseClaim, Origin, RestReadings, Role, hours};
 use super::catalogue::signal;
 use super::design::Design;
-use super::evidence::{self, Correlation, Covariance, Noise, Refusal, Tails};
+use super::evidence::{self, Correlation, Covariance, Noise, Tails};
 use super::fit::{self, Fit, NoFit};
 use super::noise_correlation::{Correlated, Courses, Memory};
 use super::noise_growth::{self, DRAWS, Growth, Likely, Quantity, Spread};
@@ -16,7 +16,6 @@ use super::noise_rounding::{self, Rounded, Rounding, Unrounded};
 use super::reduced::reduced;
 use super::replicates::{self, Scatter};
 use crate::recording::at_rest;
-use gumption_core::special::chi_squared_sf;
 
 /// The noise of the observations.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,20 +44,6 @@ pub struct Claimed {
     /// The rounding of the readings in `u` and `correlated`, where readings of the same input have it in common or the claim is
     /// without it.
     pub rounding: Option<Rounding>,
-}
-
-/// What the course of the noise may be beside a fit.
-pub(super) struct Laws {
-    courses: Courses,
-    /// Those of the courses that are rounding.
-    rounded: Vec<Rounded>,
-}
-
-impl Laws {
-    /// Whether rounding of the readings may be a part of it: its errors jump from one step to the next.
-    pub(super) fn may_jump(&self) -> bool {
-        !self.rounded.is_empty()
-    }
 }
 
 impl Claimed {
@@ -242,87 +227,11 @@ impl Claimed {
         }
     }
 
-    /// Whether the rounding of this output may be a part of it.
-    pub(super) fn may_round(&self, design: &Design<'_>, output: &str) -> bool {
+    /// Whether the rounding of this output is a part of it.
+    pub(super) fn rounds(&self, case: &Case, output: &str) -> bool {
         let steps = self.rounding.iter().flat_map(|rounding| &rounding.steps);
-        let mut responses = design.case.responses.iter().zip(steps);
-        let is_open = self.is_estimated() && noise_rounding::is_compared(design);
-        is_open || responses.any(|(response, step)| response.name == output && step.is_some())
-    }
-
-    /// For each response the probability at most that the recording would be as it is without the rounding in the noise. A claim has
-    /// a χ². Where the size is estimated, a ratio of likelihoods exceeds 1/p by chance with a probability of p at most (Markov's
-    /// inequality).
-    pub(super) fn unrounded_by_chance(
-        &self,
-        design: &Design<'_>,
-        fit: &Fit,
-        rounding: &Rounding,
-    ) -> Vec<f64> {
-        let responses = 0..rounding.steps.len();
-        if self.is_estimated() {
-            let likelihood = |claimed: &Claimed| {
-                let seen = reduced(design, fit, &claimed.noise(design, fit));
-                seen.map_or(0.0, |seen| seen.log_likelihood())
-            };
-            let p = libm::exp(likelihood(&self.uncorrelated()) - likelihood(self));
-            return responses.map(|_| p).collect();
-        }
-        let blocks = design.blocks.len();
-        // Responses share the degrees of freedom of all.
-        let parameters = design.unknowns.len() as f64 / rounding.steps.len() as f64;
-        let p = |response: usize| {
-            let own = |of: &DVector<f64>| of.rows(response * blocks, blocks).into_owned();
-            let left = own(&fit.residuals).component_div(&own(&rounding.without.u));
-            chi_squared_sf(left.norm_squared(), (blocks as f64 - parameters).max(1.0))
-        };
-        responses.map(p).collect()
-    }
-
-    /// What its course may be beside a fit.
-    pub(super) fn laws(&self, design: &Design<'_>, fit: &Fit, courses: &Courses) -> Laws {
-        let is_open = self.is_estimated() && self.rounding.is_none();
-        let rounded = match is_open && noise_rounding::is_compared(design) {
-            true => noise_rounding::estimated(design, fit),
-            false => Vec::new(),
-        };
-        let correlated = rounded.iter().filter_map(|one| one.correlated.as_ref());
-        let correlations = correlated.map(|one| Arc::clone(&one.correlation));
-        Laws {
-            courses: courses.or_rounded(correlations),
-            rounded,
-        }
-    }
-
-    /// The recording seen with each law.
-    ///
-    /// # Errors
-    /// When the recording does not determine the parameters.
-    pub(super) fn seen_with(
-        &self,
-        design: &Design<'_>,
-        fit: &Fit,
-        laws: &Laws,
-    ) -> Result<Vec<evidence::Course>, Refusal> {
-        let with = |correlated| self.with(correlated).noise(design, fit);
-        laws.courses.seen(design, fit, &with)
-    }
-
-    /// With the law that has the greatest of these logarithms of the probability, and with the doubt that the others leave.
-    pub(super) fn likeliest(&self, laws: &Laws, log_posterior: &[f64]) -> Claimed {
-        let correlated = laws.courses.likely(log_posterior);
-        let is_chosen = |one: &&Rounded| match (&one.correlated, &correlated) {
-            (Some(one), Some(chosen)) => Arc::ptr_eq(&one.correlation, &chosen.correlation),
-            _ => false,
-        };
-        let rounded = laws.rounded.iter().find(is_chosen);
-        let rounding = rounded.map(|one| one.rounding.clone());
-        let rounding = rounding.or_else(|| self.rounding.clone());
-        Claimed {
-            correlated,
-            rounding,
-            ..self.clone()
-        }
+        let mut responses = case.responses.iter().zip(steps);
+        responses.any(|(response, step)| response.name == output && step.is_some())
     }
 
     /// Whether the size of the noise follows from the residuals alone.

@@ -17,7 +17,7 @@ use gumption_core::special::{
     chi_squared_cdf, chi_squared_sf, chi_squared_upper_quantile, normal_upper_quantile,
 };
 
-/// Probability of what is left out of the question.
+/// Of noise that is estimated, what has less than this probability is out of the question.
 const RARE: f64 = 1e-3;
 
 /// Errors before the readings are rounded.
@@ -36,7 +36,7 @@ pub struct Rounding {
     pub steps: Vec<Option<f64>>,
     /// The noise without it.
     pub without: Unrounded,
-    /// Whether the case states the steps; else the readings show them, and the claim is without their rounding.
+    /// Whether the case states the steps; else the readings show them, and a claim is without their rounding.
     pub is_stated: bool,
 }
 

@@ -129,21 +129,25 @@ pub(super) fn noise_of(
         }
         NoiseClaim::Estimated | NoiseClaim::Replicates(_) => {
             let own = known.design.blocks.len();
-            let rms = known.design.root_mean_squares(&known.claimed.u);
+            let rounding = known.claimed.rounding.as_ref();
+            let before = rounding.map_or(&known.claimed.u, |rounding| &rounding.without.u);
+            let rms = known.design.root_mean_squares(before);
             let u = DVector::from_fn(design.observations(), |at, _| {
                 let (response, block) = design.place(at);
                 if block < recorded {
-                    known.claimed.u[response * own + block]
+                    before[response * own + block]
                 } else {
                     rms[response]
                 }
             });
-            Claimed {
+            let planned = Claimed {
                 u,
                 correlated: None,
                 draws: Vec::new(),
+                rounding: None,
                 ..known.claimed.clone()
-            }
+            };
+            planned.rounded_like(design, fit, known.claimed)
         }
     }
 }

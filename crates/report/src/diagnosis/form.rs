@@ -93,7 +93,7 @@ form! {
         growth: Vec<Option<GrowthForm<'a>>> = all(&claimed.growth, |one| one.as_ref().map(GrowthForm::of)),
         /// For each output how it differs from label to label; none where it does not.
         by_label: Vec<Option<ByLabelForm<'a>>> = all(&claimed.by_label, |one| one.as_ref().map(ByLabelForm::of)),
-        /// For each output the step of its readings, where the claim is without their rounding; none where it is not.
+        /// For each output the step of its readings, where their rounding is beside what is claimed, or a part of what is estimated; none where it is not.
         steps: Vec<Option<Number>> = all(unclaimed_steps(claimed), |step| step.map(Number)),
         /// Degrees of freedom of Student's distribution where its tails are heavier than normal ones beyond doubt; else null.
         tails_dof: Option<Number> = claimed.tails.heavy.map(Number),

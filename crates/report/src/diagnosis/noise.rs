@@ -78,7 +78,7 @@ fn rounding(case: &Case, claimed: &Claimed, l: Language) -> String {
     said.collect()
 }
 
-/// For each output the step of its readings, where the claim is without their rounding.
+/// For each output the step of its readings, where their rounding is beside what is claimed, or a part of what is estimated.
 pub(super) fn unclaimed_steps(claimed: &Claimed) -> &[Option<f64>] {
     let unclaimed = claimed
         .rounding

@@ -258,16 +258,9 @@ impl Checker<'_> {
             .row
             .as_ref()
             .map(|row| row.map(|row| row.0.clone()));
-        let row = self.one(file, from, "row", What::Row, row.as_ref(), &rows)?;
+        let row = self.one(file, from, What::Row, row.as_ref(), &rows)?;
         let measurand = from.value.measurand.as_deref();
-        let measurand = self.one(
-            file,
-            from,
-            "measurand",
-            What::Measurand,
-            measurand,
-            &measurands,
-        )?;
+        let measurand = self.one(file, from, What::Measurand, measurand, &measurands)?;
         candidates
             .iter()
             .position(|c| c.row == row.as_deref() && Some(c.measurand) == measurand.as_deref())
@@ -278,8 +271,7 @@ impl Checker<'_> {
         &mut self,
         file: &str,
         from: &Stated<FromTable>,
-        key: &str,
-        word: What,
+        what: What,
         stated: Option<&Stated<String>>,
         names: &[String],
     ) -> Option<Option<String>> {
@@ -291,10 +283,10 @@ impl Checker<'_> {
                 let wanted = &stated.value;
                 let message = match names {
                     [] => say!("{file} has no series, and so no row \"{wanted}\""),
-                    _ => word.absent(file, wanted),
+                    _ => what.absent(file, wanted),
                 };
                 let fault =
-                    Fault::new(FROM_MEASURAND, stated.span.clone(), message).label(word.no_such());
+                    Fault::new(FROM_MEASURAND, stated.span.clone(), message).label(what.no_such());
                 let near = nearest(wanted, names.iter().map(String::as_str));
                 self.refuse(match (near, names) {
                     (_, []) => fault.help(say!("leave out `row`")),
@@ -306,10 +298,14 @@ impl Checker<'_> {
                 Fault::new(
                     FROM_MEASURAND,
                     from.span.clone(),
-                    word.several(file, names.len()),
+                    what.several(file, names.len()),
                 )
-                .label(word.which())
-                .help(say!("add {key} = \"…\", one of: {}", shortened(names))),
+                .label(what.which())
+                .help(say!(
+                    "add {} = \"…\", one of: {}",
+                    what.key(),
+                    shortened(names)
+                )),
             ),
         }
     }
@@ -392,6 +388,14 @@ enum What {
 }
 
 impl What {
+    /// The key that states it.
+    fn key(self) -> &'static str {
+        match self {
+            What::Row => "row",
+            What::Measurand => "measurand",
+        }
+    }
+
     fn absent(self, file: &str, wanted: &str) -> Said {
         match self {
             What::Row => say!("{file} has no row {wanted}"),

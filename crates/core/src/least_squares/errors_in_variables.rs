@@ -116,6 +116,8 @@ struct Prepared<'a> {
     v_xy: DMatrix<f64>,
     v_yy: DMatrix<f64>,
     factor: Option<Factor>,
+    /// Its responses as they were read.
+    observed: DVector<f64>,
 }
 
 /// The response of a block at adjusted predictors.
@@ -126,10 +128,18 @@ struct Local {
     slopes: DMatrix<f64>,
 }
 
-/// A block with its errors eliminated.
-struct Projected {
+/// Points of the curve for a block.
+struct Place {
+    /// Errors of the predictors by which they are reached, point by point of each predictor.
     shifts: DVector<f64>,
     local: Local,
+    /// eᵀ V⁻¹ e; None where errors without variance would be needed.
+    distance: Option<f64>,
+}
+
+/// A block with its errors eliminated.
+struct Projected {
+    place: Place,
     misfit: DVector<f64>,
     factor: Cholesky<f64>,
 }
@@ -143,6 +153,10 @@ impl<'a> UncertainPredictors<'a> {
             v_xy: block.part(0..m, m..m + 1),
             v_yy: block.part(m..m + 1, m..m + 1),
             factor: Factor::new(&block.v),
+            observed: DVector::from_iterator(
+                block.points.len(),
+                block.points.iter().map(|point| problem.y[*point]),
+            ),
         };
         UncertainPredictors {
             problem,
@@ -179,25 +193,33 @@ impl<'a> UncertainPredictors<'a> {
         whole.then_some(local)
     }
 
+    /// The points of the curve that these errors of the predictors reach.
+    fn place(
+        &self,
+        prepared: &Prepared,
+        parameters: &[f64],
+        shifts: DVector<f64>,
+    ) -> Option<Place> {
+        let local = self.local(prepared.block, parameters, &shifts)?;
+        let distance = prepared.distance(&shifts, &(&prepared.observed - &local.f));
+        Some(Place {
+            shifts,
+            local,
+            distance,
+        })
+    }
+
     /// The nearest points of the curve, from a first guess.
     fn project(
         &self,
         prepared: &Prepared,
         parameters: &[f64],
-        mut shifts: DVector<f64>,
+        guess: DVector<f64>,
     ) -> Option<Projected> {
-        let observed = DVector::from_iterator(
-            prepared.block.points.len(),
-            prepared
-                .block
-                .points
-                .iter()
-                .map(|point| self.problem.y[*point]),
-        );
-        let mut local = self.local(prepared.block, parameters, &shifts)?;
-        let mut distance = prepared.distance(&shifts, &(&observed - &local.f));
+        let mut place = self.place(prepared, parameters, guess)?;
         for step in 0.. {
-            let misfit = &observed - &local.f - &local.slopes * &shifts;
+            let Place { shifts, local, .. } = &place;
+            let misfit = &prepared.observed - &local.f - &local.slopes * shifts;
             let across = &prepared.v_xy - &prepared.v_xx * local.slopes.transpose();
             let c = &prepared.v_yy
                 - prepared.v_xy.transpose() * local.slopes.transpose()
@@ -206,33 +228,37 @@ impl<'a> UncertainPredictors<'a> {
             let mut multipliers = misfit.clone();
             factor.lower(multipliers.as_mut_slice());
             factor.upper(multipliers.as_mut_slice());
-            let change = across * multipliers - &shifts;
-            let k = prepared.block.points.len();
-            let done = change
-                .iter()
-                .zip(&shifts)
-                .enumerate()
-                .all(|(index, (change, shift))| {
-                    let u = prepared.v_xx[(index, index)].sqrt();
-                    let x = self.problem.x[(prepared.block.points[index % k], index / k)];
-                    change.abs() <= 1e-13 * (shift.abs() + u) + 4.0 * f64::EPSILON * x.abs()
-                });
-            let moved = (!done && step < MOST_INNER_STEPS)
-                .then(|| {
-                    self.move_towards(prepared, parameters, &shifts, &change, &observed, distance)
-                })
+            let change = across * multipliers - shifts;
+            let moved = (step < MOST_INNER_STEPS && !self.is_rounding(prepared, shifts, &change))
+                .then(|| self.move_towards(prepared, parameters, &place, &change))
                 .flatten();
             let Some(moved) = moved else {
                 return Some(Projected {
-                    shifts,
-                    local,
+                    place,
                     misfit,
                     factor,
                 });
             };
-            (shifts, local, distance) = moved;
+            place = moved;
         }
         None
+    }
+
+    /// Whether a change of the errors of predictors is below what they are known to, or what the predictors are
+    /// rounded to.
+    fn is_rounding(
+        &self,
+        prepared: &Prepared,
+        shifts: &DVector<f64>,
+        change: &DVector<f64>,
+    ) -> bool {
+        let points = &prepared.block.points;
+        let mut pairs = change.iter().zip(shifts).enumerate();
+        pairs.all(|(index, (change, shift))| {
+            let u = prepared.v_xx[(index, index)].sqrt();
+            let x = self.problem.x[(points[index % points.len()], index / points.len())];
+            change.abs() <= 1e-13 * (shift.abs() + u) + 4.0 * f64::EPSILON * x.abs()
+        })
     }
 
     /// The whole change, or as much of it as brings the points nearer. None where nothing does:
@@ -241,23 +267,18 @@ impl<'a> UncertainPredictors<'a> {
         &self,
         prepared: &Prepared,
         parameters: &[f64],
-        shifts: &DVector<f64>,
+        from: &Place,
         change: &DVector<f64>,
-        observed: &DVector<f64>,
-        distance: Option<f64>,
-    ) -> Option<(DVector<f64>, Local, Option<f64>)> {
+    ) -> Option<Place> {
         let mut part = 1.0;
         for _ in 0..30 {
-            let trial = shifts + change * part;
-            if let Some(local) = self.local(prepared.block, parameters, &trial) {
-                let there = prepared.distance(&trial, &(observed - &local.f));
-                let nearer = match (there, distance) {
-                    (Some(there), Some(here)) => there <= here * (1.0 + 1e-12),
-                    _ => true,
-                };
-                if nearer {
-                    return Some((trial, local, there));
-                }
+            let moved = self.place(prepared, parameters, &from.shifts + change * part);
+            let nearer = moved.filter(|moved| match (moved.distance, from.distance) {
+                (Some(there), Some(here)) => there <= here * (1.0 + 1e-12),
+                _ => true,
+            });
+            if nearer.is_some() {
+                return nearer;
             }
             part *= 0.5;
         }
@@ -289,7 +310,7 @@ impl Residuals for UncertainPredictors<'_> {
                     .map(|place| near.map_or(0.0, |near| near.shifts[*place])),
             );
             let mut projected = self.project(prepared, parameters, guess)?;
-            for (place, shift) in places.iter().zip(&projected.shifts) {
+            for (place, shift) in places.iter().zip(&projected.place.shifts) {
                 linear.shifts[*place] = *shift;
             }
             let factor = &projected.factor;
@@ -298,7 +319,7 @@ impl Residuals for UncertainPredictors<'_> {
             for (joined, mut column) in linear
                 .jacobian
                 .iter_mut()
-                .zip(projected.local.jacobian.column_iter_mut())
+                .zip(projected.place.local.jacobian.column_iter_mut())
             {
                 factor.lower(column.as_mut_slice());
                 joined.extend(column.iter());
@@ -306,10 +327,9 @@ impl Residuals for UncertainPredictors<'_> {
             let mut ones = vec![1.0; points.len()];
             factor.lower(&mut ones);
             linear.ones.extend(ones);
-            let mut observed: Vec<f64> =
-                points.iter().map(|point| self.problem.y[*point]).collect();
-            factor.lower(&mut observed);
-            linear.observed.extend(observed);
+            let mut observed = prepared.observed.clone();
+            factor.lower(observed.as_mut_slice());
+            linear.observed.extend(observed.iter());
         }
         Some(linear)
     }

@@ -190,16 +190,18 @@ def diagnose(
     *,
     files: Contents | None = None,
     seed: int | None = None,
+    why: str | None = None,
     progress: Progress = None,
     language: Language = "en",
 ) -> Result:
     """Holds a recording against its declared model, and says what was left out.
 
+    ``why`` is an effect, by its identifier or words of its name, or ``"all"``: the result then says why it is not the answer.
     ``progress`` is told the share that is done; ``result.files()`` has the improved experiment.
     """
     with typed():
         seeded = _optional("seed", seed)
-        return Result(_engine.diagnose(source(experiment, files), seeded, progress, language), language)
+        return Result(_engine.diagnose(source(experiment, files), seeded, why, progress, language), language)
 
 
 def simulate(

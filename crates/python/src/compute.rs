@@ -272,6 +272,7 @@ pub(crate) fn diagnose(
     py: Python<'_>,
     source: Source,
     seed: Option<u64>,
+    why: Option<String>,
     progress: Option<Py<PyAny>>,
     language: &str,
 ) -> PyResult<Made> {
@@ -281,6 +282,10 @@ pub(crate) fn diagnose(
         let mut case = case(&source, case::Purpose::Diagnosis)?;
         if let Some(seed) = seed {
             case.settings.seed = seed;
+        }
+        if let Some(words) = &why {
+            case.ask(words)
+                .map_err(|why| Unmade::NoResult(why.in_language(language), None))?;
         }
         let found = diagnoses::diagnose(&case, &|done| share.at(done))
             .map_err(|why| failed(&case, &why, language))?;

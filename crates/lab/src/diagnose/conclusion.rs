@@ -5,7 +5,7 @@
 use super::case::Case;
 use super::catalogue::{EffectId, Term, Variation};
 use super::confirm::Estimated;
-use super::evidence::{self, Alternative, Likeness, Slot, State, Verdict};
+use super::evidence::{self, Against, Alternative, Likeness, Slot, State, Verdict};
 use super::run::Diagnosis;
 
 /// What a diagnosis says, in one sentence.
@@ -62,6 +62,23 @@ pub enum Doubt<'d> {
         /// Whether names resemble it.
         resembles: bool,
     },
+}
+
+/// How an effect that was considered stands to the answer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Standing {
+    /// It is in the answer, with this probability.
+    Named(f64),
+    /// It is among the tentative names, with this probability.
+    Tentative(f64),
+    /// The parameters absorb it.
+    Absorbed,
+    /// In the place of another it leaves more than chance does.
+    Excluded,
+    /// In the place of another it would do, and is less likely.
+    LessLikely,
+    /// There is nothing in whose place it could stand.
+    NotSeen,
 }
 
 /// Less likely than this, what has no name is out of the question.
@@ -139,6 +156,30 @@ impl Diagnosis {
             },
             (true, true, Some(name)) => Conclusion::Undecided { name, places },
             (true, true, None) => Conclusion::Unexplained { places },
+        }
+    }
+
+    /// How an effect that is asked about stands to the answer.
+    pub fn standing(&self, against: &Against) -> Standing {
+        // Another order of a name may be what holds.
+        let is_it = |atom: usize| self.atoms[atom].0 == against.candidate;
+        let share = |one: &Alternative| {
+            let own = one.variants.iter().filter(|variant| is_it(variant.atom));
+            one.probability * own.map(|variant| variant.share).sum::<f64>()
+        };
+        let slots = self.examination.slots.iter();
+        let told = slots.flat_map(|slot| slot.told().map(move |one| (slot, share(one))));
+        let named = told.filter(|(_, probability)| *probability > 0.0);
+        let named = named.max_by(|a, b| a.1.total_cmp(&b.1));
+        match (named, &against.instead) {
+            (Some((slot, probability)), _) => match slot.is_explained() {
+                true => Standing::Named(probability),
+                false => Standing::Tentative(probability),
+            },
+            (None, _) if !against.visible => Standing::Absorbed,
+            (None, Some(instead)) if instead.is_excluded => Standing::Excluded,
+            (None, Some(_)) => Standing::LessLikely,
+            (None, None) => Standing::NotSeen,
         }
     }
 

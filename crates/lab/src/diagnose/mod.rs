@@ -40,6 +40,7 @@
 //! | `plan` | what an experiment can see and tell apart, without data |
 //! | `extra`, `prolonged` | measurements that may follow, and the recording together with one of them |
 //! | `explanation` | explanations of the same mismatch, and what tells them apart |
+//! | `accounts` | why effects that a reader asks about are not the answer |
 //! | `typical`, `omitted` | usual sizes of effects, and what those cost that are not in the model |
 //! | `declared_form` | whether the declared model has an effect already, by its form |
 //! | `conclusion` | what is said: names that are told, tentative ones, what has none |
@@ -50,6 +51,7 @@
 //! | `size` | how much memory a diagnosis takes |
 //! | `stand_in` | what can stand in for something whose trace is known |
 
+mod accounts;
 mod adopt;
 mod adopted;
 mod blocks;
@@ -94,10 +96,11 @@ mod size;
 mod stand_in;
 mod typical;
 
+pub use accounts::Account;
 pub use adopt::{Addition, Extended, Free};
 pub use adopted::Adopted;
-pub use case::{Extra, Measure, Origin};
-pub use conclusion::{Conclusion, Doubt};
+pub use case::{Asked, Called, Extra, Measure, Origin};
+pub use conclusion::{Conclusion, Doubt, Standing};
 pub use confirm::{Estimated, Quality};
 pub use emphasis::{Agreement, Unseen};
 pub use explanation::Separating;

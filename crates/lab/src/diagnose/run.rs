@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::accounts::{self, Account};
 use super::adopted::{Adopted, adopt_named};
 use super::candidates::{Candidates, baseline};
 use super::case::Case;
@@ -56,6 +57,8 @@ pub struct Diagnosis {
     pub unsettled: Vec<Unsettled>,
     /// Explanations that the recording cannot tell apart, with the measurements that would.
     pub separating: Vec<Separating>,
+    /// Why effects that were asked about are not the answer.
+    pub accounts: Vec<Account>,
 }
 
 impl Diagnosis {
@@ -149,6 +152,7 @@ pub fn diagnose(
         baseline: &baseline,
     };
     let separating = explanation::separating(&recorded, &examination);
+    let accounts = accounts::accounts(&candidates, &baseline, &settings, &examination);
     let atoms = candidates.atoms.iter();
     let atoms = atoms.map(|atom| (atom.candidate, atom.variant)).collect();
     Ok(Diagnosis {
@@ -161,6 +165,7 @@ pub fn diagnose(
         omitted,
         unsettled,
         separating,
+        accounts,
         held_out,
         choices,
         steady: candidates.fitted.is_steady(),

@@ -18,7 +18,7 @@ use super::names::{Names, quantity};
 use super::noise::noise;
 use super::statement::verdict;
 use super::words::{chance, p_found, probability, unsettled};
-use super::{improvement, open};
+use super::{accounts, improvement, open};
 
 /// The whole report.
 pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
@@ -35,6 +35,7 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Blo
     blocks.extend(improvement::parameters(diagnosis, l));
     blocks.extend(open::lines(diagnosis, l));
     blocks.extend(open::rivals(diagnosis, l));
+    blocks.extend(accounts::blocks(case, diagnosis, l));
     blocks.push(Block::Footer(vec![footer(case, diagnosis, l)]));
     blocks
 }

@@ -7,13 +7,15 @@ use gumption_format::machine::{self, Machine, Number, all, form, numbers};
 use gumption_lab::diagnose::case::Case;
 use gumption_lab::diagnose::catalogue::Term;
 use gumption_lab::diagnose::evidence::{
-    self, Alternative, Level, Located, Rival, Slot, State, Variant, Verdict, Worth,
+    self, Against, Alternative, Beside, Instead, Level, Located, Rival, Slot, State, Variant,
+    Verdict, Worth,
 };
 use gumption_lab::diagnose::{
-    Addition, Adopted, ByLabel, Claimed, Diagnosis, Extra, Growth, HeldOutQuality, ModelVersion,
-    Prediction, Quality, Quantity, Separating, Trouble, Unsettled,
+    Account, Addition, Adopted, ByLabel, Claimed, Diagnosis, Extra, Growth, HeldOutQuality,
+    ModelVersion, Prediction, Quality, Quantity, Separating, Standing, Trouble, Unsettled,
 };
 
+use super::accounts::nowhere;
 use super::names::Names;
 use super::noise::{noise, unclaimed_steps};
 use super::parts::{ByUnknown, EstimateForm, MeasureForm, OmittedForm, by_unknown};
@@ -81,6 +83,73 @@ form! {
         u_with_unseen: ByUnknown<'a> = by_unknown(&d.unknowns, &d.u_with_unseen()),
         /// Explanations that the recording cannot tell apart, and what would.
         separating: Vec<SeparatingForm> = all(&d.separating, |one| SeparatingForm::of(one, names)),
+        /// What speaks against effects that were asked about; none where none were.
+        accounts: Vec<AccountForm<'a>> = all(&d.accounts, |one| AccountForm::of(one, case, d, names)),
+    }
+
+    /// Why an effect is not the answer.
+    AccountForm<'a> of (account: &'a Account, case: &'a Case, d: &'a Diagnosis, names: Names<'a>) {
+        /// Identifier of the catalogue.
+        id: &'a str = match account {
+            Account::LeftOut(id) | Account::NothingToActOn(id) => id.as_str(),
+            Account::Considered(against) => names.cell(against.candidate).effect.id.as_str(),
+        },
+        /// Name.
+        name: String = match account {
+            Account::LeftOut(id) | Account::NothingToActOn(id) => nowhere(*id, names.l),
+            Account::Considered(against) => names.full(against.candidate),
+        },
+        /// `named`, `tentative`, `absorbed`, `excluded`, `less-likely`, `not-seen`, `left-out` or `nothing-to-act-on`.
+        standing: &'static str = match account {
+            Account::LeftOut(_) => "left-out",
+            Account::NothingToActOn(_) => "nothing-to-act-on",
+            Account::Considered(against) => match d.standing(against) {
+                Standing::Named(_) => "named",
+                Standing::Tentative(_) => "tentative",
+                Standing::Absorbed => "absorbed",
+                Standing::Excluded => "excluded",
+                Standing::LessLikely => "less-likely",
+                Standing::NotSeen => "not-seen",
+            },
+        },
+        /// It in the place of an effect of the answer, or of what has no name.
+        instead: Option<InsteadForm<'a>> = match account {
+            Account::Considered(Against { instead: Some(instead), .. }) => Some(InsteadForm::of(instead, case, d, names)),
+            _ => None,
+        },
+        /// It beside the answer.
+        beside: Option<BesideForm<'a>> = match account {
+            Account::Considered(Against { beside: Some(beside), .. }) => Some(BesideForm::of(beside, case, d, names)),
+            _ => None,
+        },
+    }
+
+    /// An effect in the place of another.
+    InsteadForm<'a> of (instead: &'a Instead, case: &'a Case, d: &'a Diagnosis, names: Names<'a>) {
+        /// The effect that gives way; null for something without a name.
+        of: Option<String> = instead.of.map(|of| names.plain(of)),
+        /// Sizes and strength, with the probability that the answer leaves it.
+        effect: AlternativeForm<'a> = AlternativeForm::of(&instead.own, case, d, names),
+        /// χ² of what is left.
+        chi_squared: Number = Number(instead.chi_squared),
+        /// Its degrees of freedom.
+        dof: usize = instead.dof,
+        /// By what the noise, claimed or left by the answer, would have to be multiplied to make residuals as large.
+        noise_factor: Number = Number(instead.noise),
+        /// What explains most of what is left.
+        strongest: Option<String> = instead.strongest.map(|atom| names.variant(d.atoms[atom])),
+        /// Probability of as much by chance.
+        p: Number = Number(instead.p),
+        /// Simulated recordings behind it.
+        draws: usize = instead.draws,
+    }
+
+    /// An effect beside the answer.
+    BesideForm<'a> of (beside: &'a Beside, case: &'a Case, d: &'a Diagnosis, names: Names<'a>) {
+        /// Sizes and strength, with the probability against none.
+        effect: AlternativeForm<'a> = AlternativeForm::of(&beside.own, case, d, names),
+        /// The size from which on it is detected mostly, for an effect with one size.
+        detectable: Option<Number> = beside.detectable.map(Number),
     }
 
     /// The noise that was used.

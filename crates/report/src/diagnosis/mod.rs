@@ -1,5 +1,6 @@
 //! Documents of diagnoses and of plans of experiments, and why there is none.
 
+mod accounts;
 mod compose;
 mod expected;
 mod form;

@@ -294,19 +294,13 @@ impl Checker<'_> {
                     (None, _) => fault.help(say!("it has: {}", shortened(names))),
                 })
             }
-            (None, _) => self.refuse(
-                Fault::new(
-                    FROM_MEASURAND,
-                    from.span.clone(),
-                    what.several(file, names.len()),
-                )
-                .label(what.which())
-                .help(say!(
-                    "add {} = \"…\", one of: {}",
-                    what.key(),
-                    shortened(names)
-                )),
-            ),
+            (None, _) => {
+                let message = what.several(file, names.len());
+                let fault = Fault::new(FROM_MEASURAND, from.span.clone(), message);
+                let key = what.key();
+                let help = say!("add {key} = \"…\", one of: {}", shortened(names));
+                self.refuse(fault.label(what.which()).help(help))
+            }
         }
     }
 

@@ -1,6 +1,7 @@
 //! The case file: a declared model, a recording, and what is claimed about both.
 
 mod actions;
+mod asked;
 mod candidates;
 mod check;
 mod columns;
@@ -24,6 +25,7 @@ pub(super) use crate::experiment::at_rest::hours;
 pub use crate::experiment::entries::RoleWord as Role;
 pub(super) use actions::repeated;
 pub use actions::{Extra, Measure};
+pub use asked::{Asked, Called};
 pub use noise::Origin;
 pub use rows::Rows;
 pub(super) use rows::interval;
@@ -236,6 +238,18 @@ pub enum Blocks {
     Dwells(Vec<usize>),
 }
 
+impl Case {
+    /// Asks for an account of effects, by any name.
+    ///
+    /// # Errors
+    /// The catalogue has no such effect, with what may have been meant.
+    pub fn ask(&mut self, words: &str) -> Result<(), Said> {
+        let own = self.candidates.iter().map(|own| own.name.as_str());
+        self.settings.asked = Asked::of(words, own)?;
+        Ok(())
+    }
+}
+
 /// How the diagnosis is run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
@@ -252,6 +266,8 @@ pub struct Settings {
     /// Largest shifts of the output that would not surprise, as shares of full scale, by the identifier of
     /// the effect.
     pub typical: Vec<(String, f64)>,
+    /// The effects of which it says why they are not the answer.
+    pub asked: Asked,
 }
 
 /// What a case is read for.

@@ -2,8 +2,8 @@
 
 use super::columns::nearly;
 use super::rows::interval;
-use super::{Averaging, Blocks, Column, Role, Settings};
-use crate::diagnose::catalogue::effects;
+use super::{Asked, Averaging, Blocks, Column, Role, Settings};
+use crate::diagnose::catalogue::{Effect, Kind, effects};
 use crate::diagnose::faults::{ROLE, SETTING, UNKNOWN_NAME};
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::AverageEntry;
@@ -81,6 +81,7 @@ impl Checker<'_> {
             seed: table.seed.as_ref().map_or(1, |seed| seed.value),
             draws: self.draws(&table),
             typical: self.typical(&table),
+            asked: Asked::Nothing,
         }
     }
 
@@ -141,5 +142,14 @@ impl Checker<'_> {
             }
         }
         sizes
+    }
+}
+
+impl Settings {
+    /// Whether an effect is considered; explanations of the user's own are, unless they are excluded.
+    pub fn admits(&self, effect: &Effect) -> bool {
+        let named = |word: &String| *word == effect.id.as_str() || *word == effect.family;
+        let chosen = (self.catalogue.as_ref()).is_none_or(|list| list.iter().any(named));
+        (chosen || effect.kind == Kind::Own) && !self.exclude.iter().any(named)
     }
 }

@@ -374,13 +374,7 @@ pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         norm.spread(fitted, &mut cells);
     }
     let settings = &fitted.design.case.settings;
-    let wanted = |cell: &Cell| {
-        let effect = cell.effect;
-        let named = |word: &String| *word == effect.id.as_str() || *word == effect.family;
-        let chosen = (settings.catalogue.as_ref()).is_none_or(|list| list.iter().any(named));
-        (chosen || effect.kind == Kind::Own) && !settings.exclude.iter().any(named)
-    };
-    cells.retain(|cell| !cell.variants.is_empty() && wanted(cell));
+    cells.retain(|cell| !cell.variants.is_empty() && settings.admits(cell.effect));
     let mut cells = distinct(cells);
     fitted.finer.prune(&mut cells);
     cells.extend(generics::cells(fitted));

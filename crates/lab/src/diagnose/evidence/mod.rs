@@ -53,6 +53,7 @@
 //! | `locate` | where the mismatch sits |
 //! | `plan` | without data: what an experiment can see and tell apart |
 //! | `separate` | which extra measurement tells rivals apart |
+//! | `against` | what speaks against candidates that the answer does not name |
 //! | `omitted` | what effects that are not adopted do to the uncertainty |
 
 #![allow(
@@ -60,6 +61,7 @@
     reason = "negated comparisons turn NaN away"
 )]
 
+mod against;
 mod baseline;
 mod choice;
 mod closed_form;
@@ -93,6 +95,7 @@ mod tails;
 mod unlisted;
 mod unsteady;
 
+pub use against::{Against, Beside, Instead, against};
 pub use baseline::{Baseline, Prior, Spread};
 pub use closed_form::maximum;
 pub use contest::{Contest, Course, contest};

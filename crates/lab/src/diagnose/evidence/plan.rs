@@ -44,7 +44,7 @@ pub struct Pair {
 }
 
 /// Strength with which effects are detected nearly always.
-const DETECTED: f64 = 6.0;
+pub(super) const DETECTED: f64 = 6.0;
 /// Sine of the angle under which two effects are one.
 const ALIAS: f64 = 1e-3;
 

@@ -353,7 +353,7 @@ fn alternative(space: &Space, rest: &Frame, ranked: Ranked, named: f64) -> Alter
 
 impl Alternative {
     /// With the sizes of one of its blocks beside a set.
-    fn stated(&mut self, space: &Space, rest: &Frame, block: usize) {
+    pub(super) fn stated(&mut self, space: &Space, rest: &Frame, block: usize) {
         let estimate = estimate(space, rest, block);
         self.nearest = nearest(space, rest, block, &estimate);
         self.choice = DVector::zeros(estimate.coefficients.len());

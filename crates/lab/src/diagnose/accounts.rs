@@ -1,0 +1,55 @@
+//! Why effects that a reader asks about are not the answer.
+
+use super::candidates::Candidates;
+use super::case::{Asked, Called};
+use super::catalogue::{Cell, EffectId, Kind};
+use super::evidence::{self, Against, Baseline, Examination, Settings};
+
+/// What becomes of an effect that is asked about.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Account {
+    /// `[diagnosis]` leaves it out.
+    LeftOut(EffectId),
+    /// Nothing in the case is what it acts on.
+    NothingToActOn(EffectId),
+    /// It was considered, on certain quantities.
+    Considered(Against),
+}
+
+/// The accounts of all that is asked.
+pub(super) fn accounts(
+    candidates: &Candidates<'_>,
+    baseline: &Baseline,
+    settings: &Settings,
+    found: &Examination,
+) -> Vec<Account> {
+    let case = candidates.fitted.case();
+    let numbered = || candidates.cells.iter().enumerate();
+    let is_named = |cell: &Cell| cell.effect.kind != Kind::Unnamed;
+    let considered = |is_meant: &dyn Fn(&Cell) -> bool| -> Vec<Account> {
+        let cells = numbered().filter(|(_, cell)| is_named(cell) && is_meant(cell));
+        let cells: Vec<usize> = cells.map(|(index, _)| index).collect();
+        let question = candidates.question(baseline, settings);
+        let against = evidence::against(&question, found, &cells).into_iter();
+        against.map(Account::Considered).collect()
+    };
+    let of = |called: &Called| {
+        let (id, accounts) = match called {
+            Called::Effect(id) => (*id, considered(&|cell| cell.effect.id == *id)),
+            Called::Own(name) => {
+                let is_own = |cell: &Cell| cell.effect.kind == Kind::Own && cell.words.x == *name;
+                (EffectId::User, considered(&is_own))
+            }
+        };
+        match accounts.is_empty() {
+            true if case.settings.admits(id.entry()) => vec![Account::NothingToActOn(id)],
+            true => vec![Account::LeftOut(id)],
+            false => accounts,
+        }
+    };
+    match &case.settings.asked {
+        Asked::Nothing => Vec::new(),
+        Asked::Everything => considered(&|_| true),
+        Asked::These(these) => these.iter().flat_map(of).collect(),
+    }
+}

@@ -1,0 +1,125 @@
+//! Which effects a reader asks about, by whatever name.
+
+use gumption_fault::{Said, nearest, say};
+
+use crate::diagnose::catalogue::{Effect, EffectId, Kind, effects};
+
+/// The effects of which a diagnosis is to say why they are not the answer.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub enum Asked {
+    /// None.
+    #[default]
+    Nothing,
+    /// All that the case can have.
+    Everything,
+    /// These.
+    These(Vec<Called>),
+}
+
+/// An effect that is asked about.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Called {
+    /// One of the catalogue.
+    Effect(EffectId),
+    /// An explanation of the user's own, by its name.
+    Own(String),
+}
+
+impl Asked {
+    /// What is meant by `all`, by an identifier of the catalogue, the name of an explanation of the user's own, or by words of the
+    /// name or the description of an effect in either language: those that have all of them in the closest of these.
+    ///
+    /// # Errors
+    /// Nothing is called so, with what may have been meant.
+    pub fn of<'o>(words: &str, own: impl Iterator<Item = &'o str>) -> Result<Asked, Said> {
+        let wanted = plain(words);
+        let wanted = wanted.trim();
+        if ["all", "全部"].contains(&wanted) {
+            return Ok(Asked::Everything);
+        }
+        if let Some(own) = own.into_iter().find(|own| plain(own) == wanted) {
+            return Ok(Asked::These(vec![Called::Own(own.to_owned())]));
+        }
+        let known = effects().iter();
+        let known = known.filter(|effect| matches!(effect.kind, Kind::Physics | Kind::Record));
+        let of = |says: fn(&Effect) -> String, is_meant: &dyn Fn(&str) -> bool| -> Vec<Called> {
+            let meant = known
+                .clone()
+                .filter(|effect| is_meant(&plain(&says(effect))));
+            meant.map(|effect| Called::Effect(effect.id)).collect()
+        };
+        let has_all = |text: &str| {
+            let mut words = wanted.split_whitespace();
+            !wanted.is_empty() && words.all(|word| text.contains(word))
+        };
+        let mut closest = [
+            of(|effect| effect.id.to_string(), &|text| text == wanted),
+            of(names, &has_all),
+            of(descriptions, &has_all),
+        ]
+        .into_iter();
+        closest
+            .find(|found| !found.is_empty())
+            .map(Asked::These)
+            .ok_or_else(|| {
+                let all = say!("`--why all` accounts for every effect that the case can have");
+                let ids = known.clone().map(|effect| effect.id.as_str());
+                let mend = nearest(words, ids).map_or(all, |near| say!("did you mean \"{near}\"?"));
+                say!("the catalogue has no effect \"{words}\": {mend}")
+            })
+    }
+}
+
+fn names(effect: &Effect) -> String {
+    format!("{} {} {}", effect.id, effect.name.en, effect.name.zh)
+}
+
+fn descriptions(effect: &Effect) -> String {
+    format!("{} {} {}", effect.family, effect.prose.en, effect.prose.zh)
+}
+
+/// In lower case, with blanks between words.
+fn plain(text: &str) -> String {
+    text.to_lowercase().replace(['-', '_'], " ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn asked(words: &str) -> Vec<Called> {
+        match Asked::of(words, ["bending"].into_iter()) {
+            Ok(Asked::These(these)) => these,
+            other => panic!("{words}: {other:?}"),
+        }
+    }
+
+    #[test]
+    fn effects_are_found_by_identifier_name_and_description() {
+        let lag = Called::Effect(EffectId::TemperatureLag);
+        assert_eq!(asked("temperature-lag"), [lag.clone()]);
+        assert_eq!(asked("Thermal lag"), [lag.clone()]);
+        assert_eq!(asked("热滞后"), [lag]);
+        assert_eq!(asked("Bending"), [Called::Own("bending".to_owned())]);
+        // The identifier goes before names that have it in them.
+        assert_eq!(asked("cubic"), [Called::Effect(EffectId::Cubic)]);
+        assert!(asked("temperature").len() > 3);
+        assert!(asked("dead zone").contains(&Called::Effect(EffectId::ZeroStep)));
+        assert_eq!(Asked::of("ALL", [].into_iter()), Ok(Asked::Everything));
+    }
+
+    #[test]
+    fn what_nobody_knows_is_refused() {
+        let refused = Asked::of("hystersis", [].into_iter())
+            .unwrap_err()
+            .to_string();
+        assert!(refused.contains("hysteresis"), "{refused}");
+        assert!(Asked::of("", [].into_iter()).is_err());
+        assert!(
+            Asked::of("astrology", [].into_iter())
+                .unwrap_err()
+                .to_string()
+                .contains("--why all")
+        );
+    }
+}

@@ -1,0 +1,209 @@
+//! Why effects that were asked about are not the answer.
+
+use crate::figures::with_unit;
+use crate::language::Language;
+use crate::number::{aligned, percent, significant};
+use crate::phrase::section;
+use gumption_fault::say;
+use gumption_format::document::Block;
+use gumption_lab::diagnose::case::Case;
+use gumption_lab::diagnose::catalogue::{EffectId, Words};
+use gumption_lab::diagnose::evidence::{Against, Alternative, Beside, Instead, Verdict};
+use gumption_lab::diagnose::{Account, Diagnosis, Standing};
+
+use super::labels::spoken;
+use super::names::Names;
+use super::words::{chance, p_found};
+
+/// What was asked about, effect by effect.
+pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
+    let teller = Teller {
+        case,
+        diagnosis,
+        names: Names::of_diagnosis(diagnosis, l),
+    };
+    let told = diagnosis
+        .accounts
+        .iter()
+        .map(|account| teller.account(account));
+    let told: Vec<String> = told.collect();
+    match told.is_empty() {
+        true => Vec::new(),
+        false => vec![
+            section(l, "What was asked about", "所询问的影响"),
+            Block::List(told),
+        ],
+    }
+}
+
+/// The name of an effect that acts on nothing in this case.
+pub(super) fn nowhere(id: EffectId, l: Language) -> String {
+    let [x, y, z, p] = ["x", "y", "z", "p"].map(str::to_owned);
+    Words { x, y, z, p }.fill(id.entry().name.of(l))
+}
+
+struct Teller<'t> {
+    case: &'t Case,
+    diagnosis: &'t Diagnosis,
+    names: Names<'t>,
+}
+
+impl Teller<'_> {
+    fn account(&self, account: &Account) -> String {
+        let l = self.names.l;
+        match account {
+            Account::LeftOut(id) => {
+                let name = nowhere(*id, l);
+                say!("{name}: not considered; [diagnosis] leaves it out.").in_language(l)
+            }
+            Account::NothingToActOn(id) => {
+                let (name, formula) = (nowhere(*id, l), &id.entry().formula);
+                say!(
+                    "{name}: not considered; the case has nothing that it could act on ({formula})."
+                )
+                .in_language(l)
+            }
+            Account::Considered(against) => self.considered(against),
+        }
+    }
+
+    fn considered(&self, against: &Against) -> String {
+        let l = self.names.l;
+        let name = self.names.full(against.candidate);
+        let beside = || against.beside.as_ref().map(|beside| self.beside(beside));
+        let instead = || {
+            against
+                .instead
+                .as_ref()
+                .map(|instead| self.instead(instead))
+        };
+        let both = || {
+            let both = [instead(), beside()].into_iter().flatten();
+            both.collect::<Vec<_>>().join(l.pick(" ", ""))
+        };
+        match self.diagnosis.standing(against) {
+            Standing::Named(p) => {
+                let p = chance(p);
+                say!("{name}: in the answer ({p} %).").in_language(l)
+            }
+            Standing::Tentative(p) => {
+                let p = chance(p);
+                say!("{name}: among the tentative names ({p} %).").in_language(l)
+            }
+            Standing::Absorbed => say!("{name}: the parameters absorb it whatever its size; no recording of this design shows it.").in_language(l),
+            Standing::Excluded => {
+                let why = both();
+                say!("{name}: excluded. {why}").in_language(l)
+            }
+            Standing::LessLikely => {
+                let why = both();
+                say!("{name}: not excluded, but less likely. {why}").in_language(l)
+            }
+            Standing::NotSeen => {
+                let why = beside().unwrap_or_default();
+                say!("{name}: not seen. {why}").in_language(l)
+            }
+        }
+    }
+
+    /// It in the place of another.
+    fn instead(&self, instead: &Instead) -> String {
+        let l = self.names.l;
+        let place = match instead.of {
+            Some(of) => {
+                let other = self.names.plain(of);
+                say!("In the place of {other}").in_language(l)
+            }
+            None => l
+                .pick("As the name of what has none", "作为未能命名部分的名称")
+                .to_owned(),
+        };
+        let own = self.described(&instead.own);
+        let (chi_squared, dof) = (significant(instead.chi_squared, 3), instead.dof);
+        let p = p_found(instead.p, instead.draws);
+        let left = match instead.strongest {
+            Some(atom) if instead.is_excluded => {
+                let other = self.names.variant(self.diagnosis.atoms[atom]);
+                say!("{other} stands out beside it ({p}).").in_language(l)
+            }
+            _ => {
+                let share = percent(instead.own.probability);
+                say!("nothing stands out beside it ({p}), and the answer leaves it a probability of {share} %.").in_language(l)
+            }
+        };
+        let fit =
+            say!("{place}{own} it leaves χ² = {chi_squared} for {dof} degrees of freedom; {left}")
+                .in_language(l);
+        match instead.is_excluded && instead.noise > 1.0 {
+            true => fit + &self.brought_back(instead),
+            false => fit,
+        }
+    }
+
+    /// What would make it possible.
+    fn brought_back(&self, instead: &Instead) -> String {
+        let (l, times) = (self.names.l, significant(instead.noise, 2));
+        match self.diagnosis.noise.is_estimated() {
+            true => {
+                say!(" It would do if the noise were {times} times that which the answer leaves.")
+                    .in_language(l)
+            }
+            false => say!(" It would do if the noise were {times} times that which is claimed.")
+                .in_language(l),
+        }
+    }
+
+    /// It beside the answer.
+    fn beside(&self, beside: &Beside) -> String {
+        let l = self.names.l;
+        let (lambda, own) = (
+            significant(beside.own.lambda, 2),
+            self.described(&beside.own),
+        );
+        let seen = match self.diagnosis.examination.verdict {
+            Verdict::None => {
+                say!("Beside the declared model{own} its strength is λ = {lambda}").in_language(l)
+            }
+            _ => say!("Beside the answer{own} its strength is λ = {lambda}").in_language(l),
+        };
+        let unit = self.units(&beside.own).next().unwrap_or_default();
+        match beside.detectable {
+            Some(size) => {
+                let size = with_unit(&significant(size, 2), &unit);
+                say!("{seen}; from a size of about {size} on it would be seen.").in_language(l)
+            }
+            None => say!("{seen}.").in_language(l),
+        }
+    }
+
+    /// Variant and sizes, in brackets with a blank before them; nothing where there are too many.
+    fn described(&self, own: &Alternative) -> String {
+        /// More are in the JSON.
+        const MOST: usize = 2;
+        let l = self.names.l;
+        let variation = self.diagnosis.variation(own);
+        let label = variation.map(|variation| spoken(&variation.short_label(), l));
+        let label = label.filter(|label| !label.is_empty());
+        let sizes = own
+            .estimate
+            .iter()
+            .zip(own.u().iter().copied().collect::<Vec<_>>());
+        let sizes = sizes.zip(self.units(own)).map(|((size, u), unit)| {
+            with_unit(
+                &format!("{} ± {}", aligned(*size, u, 2), significant(u, 2)),
+                &unit,
+            )
+        });
+        let sizes = sizes.filter(|_| own.estimate.len() <= MOST);
+        let all: Vec<String> = label.into_iter().chain(sizes).collect();
+        match all.is_empty() {
+            true => String::new(),
+            false => l.with_aside("", &all.join(l.comma())),
+        }
+    }
+
+    fn units(&self, own: &Alternative) -> impl Iterator<Item = String> {
+        let terms = self.diagnosis.terms(own).into_iter();
+        terms.map(|term| term.unit_of_size(self.case).typeset())
+    }
+}

@@ -3,9 +3,12 @@
 use crate::figures::with_unit;
 use crate::language::Language;
 use crate::number::{aligned, percent, significant};
-use crate::phrase::section;
+use crate::phrase::{paragraph, section, table};
 use gumption_fault::say;
-use gumption_format::document::Block;
+use gumption_format::document::{
+    Block,
+    ColumnKind::{Names as NamesColumn, Numbers, Wrapped},
+};
 use gumption_lab::diagnose::case::Case;
 use gumption_lab::diagnose::catalogue::{EffectId, Words};
 use gumption_lab::diagnose::evidence::{Against, Alternative, Beside, Instead, Verdict};
@@ -13,7 +16,10 @@ use gumption_lab::diagnose::{Account, Diagnosis, Standing};
 
 use super::labels::spoken;
 use super::names::Names;
-use super::words::{chance, p_found};
+use super::words::{chance, p_found, probability};
+
+/// So many effects have their sentences; more are a table.
+const READ: usize = 5;
 
 /// What was asked about, effect by effect.
 pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
@@ -22,24 +28,27 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Blo
         diagnosis,
         names: Names::of_diagnosis(diagnosis, l),
     };
-    let told = diagnosis
-        .accounts
-        .iter()
-        .map(|account| teller.account(account));
-    let told: Vec<String> = told.collect();
-    match told.is_empty() {
-        true => Vec::new(),
-        false => vec![
-            section(l, "What was asked about", "所询问的影响"),
-            Block::List(told),
-        ],
-    }
+    let accounts = &diagnosis.accounts;
+    let told = match accounts.len() {
+        0 => return Vec::new(),
+        n if n > READ => teller.table(),
+        _ => vec![Block::List(
+            accounts.iter().map(|one| teller.account(one)).collect(),
+        )],
+    };
+    let heading = section(l, "What was asked about", "所询问的影响");
+    [vec![heading], told].concat()
 }
 
 /// The name of an effect that acts on nothing in this case.
 pub(super) fn nowhere(id: EffectId, l: Language) -> String {
+    letters().fill(id.entry().name.of(l))
+}
+
+/// What stands for the columns and quantities that there are not.
+fn letters() -> Words {
     let [x, y, z, p] = ["x", "y", "z", "p"].map(str::to_owned);
-    Words { x, y, z, p }.fill(id.entry().name.of(l))
+    Words { x, y, z, p }
 }
 
 struct Teller<'t> {
@@ -57,7 +66,7 @@ impl Teller<'_> {
                 say!("{name}: not considered; [diagnosis] leaves it out.").in_language(l)
             }
             Account::NothingToActOn(id) => {
-                let (name, formula) = (nowhere(*id, l), &id.entry().formula);
+                let (name, formula) = (nowhere(*id, l), letters().fill(&id.entry().formula));
                 say!(
                     "{name}: not considered; the case has nothing that it could act on ({formula})."
                 )
@@ -67,9 +76,65 @@ impl Teller<'_> {
         }
     }
 
+    /// What was considered, with the figures of the sentences.
+    fn table(&self) -> Vec<Block> {
+        let l = self.names.l;
+        let mut table = table(
+            l,
+            [
+                ("effect", "影响", Wrapped),
+                ("standing", "地位", NamesColumn),
+                ("χ²", "χ²", Numbers),
+                ("ν", "ν", Numbers),
+                ("p", "p", Numbers),
+                ("noise", "噪声", Numbers),
+                ("λ", "λ", Numbers),
+            ],
+        );
+        for account in &self.diagnosis.accounts {
+            let Account::Considered(against) = account else {
+                continue;
+            };
+            let figures = against.instead.as_ref().map(|instead| {
+                [
+                    significant(instead.chi_squared, 3),
+                    instead.dof.to_string(),
+                    probability(instead.p),
+                    format!("× {}", significant(instead.noise, 2)),
+                ]
+            });
+            let own = against.beside.as_ref().map(|beside| &beside.own);
+            let own = own.or(against.instead.as_ref().map(|instead| &instead.own));
+            let lambda = own.map_or(String::new(), |own| significant(own.lambda, 2));
+            let name = self.names.full(against.candidate);
+            let standing = self.standing(self.diagnosis.standing(against));
+            let cells = [name, standing.to_owned()].into_iter();
+            let cells = cells.chain(figures.unwrap_or_default()).chain([lambda]);
+            table.push(cells.map(Into::into).collect());
+        }
+        let key = paragraph(
+            l,
+            "χ² for ν degrees of freedom is what it leaves in the place of the likeliest effect of the answer, or of what has no name; p the probability of what stands out beside it; it would do with noise so many times larger; λ is its strength beside the answer. `--why EFFECT` has sizes.",
+            "χ²（自由度 ν）为用它代替结论中最可能的一项影响（或未能命名的部分）后所余；p 为此外所显著部分的概率；噪声须为所示倍数，它才说得通；λ 为它加在结论之外的强度。大小见 `--why 影响`。",
+        );
+        vec![Block::Table(table), key]
+    }
+
+    fn standing(&self, standing: Standing) -> &'static str {
+        let l = self.names.l;
+        match standing {
+            Standing::Named(_) => l.pick("in the answer", "在结论中"),
+            Standing::Tentative(_) => l.pick("tentative", "仅供参考"),
+            Standing::Absorbed => l.pick("absorbed", "被吸收"),
+            Standing::Excluded => l.pick("excluded", "已排除"),
+            Standing::LessLikely => l.pick("less likely", "可能性较小"),
+            Standing::NotSeen => l.pick("not seen", "未见到"),
+        }
+    }
+
     fn considered(&self, against: &Against) -> String {
         let l = self.names.l;
-        let name = self.names.full(against.candidate);
+        let name = self.names.plain(against.candidate);
         let beside = || against.beside.as_ref().map(|beside| self.beside(beside));
         let instead = || {
             against

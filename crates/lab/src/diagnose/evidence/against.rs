@@ -20,7 +20,8 @@ pub struct Against {
     /// It in place of an effect of the answer, or of what has no name: the likeliest set of that kind. `None` where there is nothing
     /// in whose place it could stand.
     pub instead: Option<Instead>,
-    /// It beside all effects of the answer; `None` where it adds nothing to what these may do.
+    /// It beside all effects of the answer; `None` where it adds nothing to what these may do, and where it stands beside them as the
+    /// name of what has none.
     pub beside: Option<Beside>,
 }
 
@@ -99,11 +100,13 @@ impl<'t> Trial<'t> {
         let own =
             blocks.filter(|(_, block)| block.candidate == candidate && block.kind() == Kind::Named);
         let blocks: Vec<usize> = own.map(|(index, _)| index).collect();
+        let instead = self.instead(&blocks);
+        let is_beside = instead.as_ref().is_some_and(|instead| instead.of.is_none());
         Against {
             candidate,
             visible: !blocks.is_empty(),
-            instead: self.instead(&blocks),
-            beside: self.beside(&blocks),
+            beside: (!is_beside).then(|| self.beside(&blocks)).flatten(),
+            instead,
         }
     }
 
@@ -189,6 +192,8 @@ impl<'t> Trial<'t> {
             ..Alternative::bare(found.candidate)
         };
         alternative.stated(self.space, rest, block);
+        // It was asked for, and not found.
+        alternative.selection = 1.0;
         alternative
     }
 }

@@ -6,7 +6,6 @@ use nalgebra::{DMatrix, DVector};
 /// right less often than they say, because catalogues have gaps.
 pub(super) const ALONE: f64 = 0.99;
 
-use super::selection;
 use gumption_core::special::student_t_two_sided_quantile;
 
 /// The answer in one word.
@@ -103,6 +102,9 @@ pub struct Alternative {
     /// Standard uncertainties of the coefficients by the choice between explanations of the other slots; zeros
     /// for all but the first of a slot.
     pub choice: DVector<f64>,
+    /// By what the standard uncertainties from the noise are larger because it was found: weak effects are found where they came out
+    /// large.
+    pub(super) selection: f64,
     /// Degrees of freedom of the covariance matrix; ∞ if the noise is known.
     pub dof: f64,
     /// Visible strength λ of the most probable variant: its size beside the other effects, over the noise.
@@ -128,6 +130,7 @@ impl Alternative {
             estimate: DVector::zeros(0),
             covariance: DMatrix::zeros(0, 0),
             choice: DVector::zeros(0),
+            selection: 1.0,
             dof: f64::INFINITY,
             lambda: f64::NAN,
             nearest: None,
@@ -143,7 +146,7 @@ impl Alternative {
 
     /// The standard uncertainty of a coefficient from those that noise and choice give it.
     pub fn widened(&self, of_noise: f64, choice: f64) -> f64 {
-        let found = of_noise * selection::factor(self.lambda);
+        let found = of_noise * self.selection;
         (found * found + choice * choice).sqrt()
     }
 

@@ -12,6 +12,7 @@ use super::look_alikes;
 use super::question::{Kind, Question};
 use super::remainders::{Remainder, Remainders};
 use super::search::Search;
+use super::selection;
 use super::space::{Frame, Space};
 use super::unlisted::Restated;
 
@@ -359,6 +360,7 @@ impl Alternative {
         self.choice = DVector::zeros(estimate.coefficients.len());
         (self.estimate, self.covariance) = (estimate.coefficients, estimate.covariance);
         (self.dof, self.lambda) = (estimate.dof, estimate.lambda);
+        self.selection = selection::factor(estimate.lambda);
     }
 }
 

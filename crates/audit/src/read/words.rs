@@ -269,6 +269,29 @@ pub fn only_figure(text: &str, keys: &[&str]) -> Option<Printed> {
     sole_figure(text).or_else(of_clause)
 }
 
+/// A text in which the unit behind a bracket stands with both of its figures: `23 °C ± 1 °C` for `(23 ± 1) °C`.
+pub fn with_units_inside(text: &str) -> String {
+    let Some((front, rest)) = text.split_once('(') else {
+        return text.to_owned();
+    };
+    let known = rest.split_once(')').and_then(|(inside, behind)| {
+        let (value, limit) = inside.split_once('±')?;
+        let behind = behind.trim_start();
+        let end = behind.find([' ', ',', ';', '(', ')', '。', '、']);
+        let (unit, behind) = behind.split_at(end.unwrap_or(behind.len()));
+        let is_bare = |text: &str| text.trim().parse::<f64>().is_ok();
+        let whole = is_bare(value) && is_bare(limit) && crate::units::parse(unit).is_some();
+        whole.then(|| {
+            format!(
+                "{value} {unit} ± {limit} {unit}{}",
+                with_units_inside(behind)
+            )
+        })
+    });
+    let rest = known.unwrap_or_else(|| format!("({}", with_units_inside(rest)));
+    format!("{front}{rest}")
+}
+
 /// A text without the figures that cannot be of a quantity in this unit: the designation of an instrument (`5720A`), and
 /// what is in the unit of something else, where the text has a figure that can.
 pub fn of_unit(text: &str, unit: &str) -> String {

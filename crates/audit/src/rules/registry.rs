@@ -128,4 +128,5 @@ pub const RULES: &[Rule] = &[
     rule(83, Warning, "old-budget", t("the budget is older than its method or its standards", "评定早于方法修订或标准器复校", "ISO/IEC 17025:2017, 7.6", "nothing in it has changed", "内容未受影响"), Look(records::old_budget)),
     rule(84, Warning, "comparison", t("|E_n| is above one in a comparison with this U", "比对结果 |E_n| 大于 1", "ISO/IEC 17043; ISO 13528", "the transfer standard was unstable", "传递标准不稳定"), Look(words::comparison)),
     rule(85, Warning, "check-standard", t("the check standard scatters more than twice as much as predicted", "核查标准的标准偏差超过预期两倍", "ISO/IEC 17025:2017, 7.7", "the check standard itself is poor", "核查标准本身较差"), Look(records::check_standard)),
+    rule(86, Error, "no-coefficient", t("u in the unit of another quantity is summed without a sensitivity coefficient", "单位属于另一种量的标准不确定度未乘灵敏系数便参与合成", "JCGM 100, 5.1.2, 5.1.3", "the coefficient is one in the units of the table", "按表中单位灵敏系数恰为 1"), Look(rows::without_coefficient)),
 ];

@@ -122,6 +122,29 @@ pub(super) fn derivative(seen: &Seen<'_>) -> Vec<Hit> {
         .collect()
 }
 
+/// A standard uncertainty in the unit of another quantity than the result, which is its contribution as it stands: kelvins
+/// in a sum of nanometres.
+pub(super) fn without_coefficient(seen: &Seen<'_>) -> Vec<Hit> {
+    let of_result = &seen.claimed.unit;
+    let Some(result) = units::parse(of_result) else {
+        return Vec::new();
+    };
+    each(seen, |row, _| {
+        let (u, contribution) = (row.u.as_ref()?, row.contribution.as_ref()?);
+        let unit = units::parse(&u.unit)?;
+        let is_bare = row
+            .c
+            .as_ref()
+            .is_none_or(|c| c.value.abs() == 1.0 && c.unit.is_empty());
+        let is_other = unit.dimension != result.dimension && units::fraction(&u.unit).is_none();
+        let is_summed = contribution.value != 0.0 && contribution.is_met_by(u.value);
+        (is_bare && is_other && is_summed).then(|| {
+            let (u, contribution) = (u.with_unit(), contribution.as_read());
+            format!("u = {u}, u_i(y) = {contribution} {of_result}")
+        })
+    })
+}
+
 /// The divisor that belongs to the distribution which the laboratory itself names.
 fn named_divisor(distribution: &str) -> Option<f64> {
     let text = distribution.to_lowercase();

@@ -225,8 +225,13 @@ fn mismatch(row: &Row, line: &Line) -> Option<Broken> {
             .as_ref()
             .map(|u| c * u.value * line.to_y)
             .filter(|_| line.typed.is_none());
-        // A coefficient is shown with fewer digits than it was multiplied with.
-        let shown = row.c.as_ref().map_or(0.0, Printed::coarseness);
+        // A coefficient is shown with fewer digits than it was multiplied with, and so is a standard uncertainty of which no
+        // more is stated.
+        let of_u = match &row.stated {
+            Stated::Standard { u, .. } => u.coarseness(),
+            _ => 0.0,
+        };
+        let shown = of_u + row.c.as_ref().map_or(0.0, Printed::coarseness);
         let met = near(&contribution, line.contribution(), slack + shown)
             || by_columns.is_some_and(|x| near(&contribution, x, shown));
         if !met {

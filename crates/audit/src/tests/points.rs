@@ -98,6 +98,17 @@ fn the_row_of_an_expanded_uncertainty_is_no_source() {
     );
 }
 
+/// A blank line parts the sources from their totals; the row of a resolution has its ± itself; `Expanded U` is no source.
+#[test]
+fn totals_of_points_behind_a_blank_line() {
+    all_sound(
+        "Clamp meter\nContributor,Distribution,Divisor,50 A (mA),500 A (mA)\nCalibrator,rectangular,1.732,60,550\n\
+         Coil uncertainty (k=2),normal,2,100,1000\nResolution ±,rectangular,1.732,50,50\nRepeatability,normal,1,20,110\n\n\
+         Combined u,,,70.2,603\nExpanded U (k=2),,,140,1200\n",
+        &["Clamp meter: 50 A", "Clamp meter: 500 A"],
+    );
+}
+
 /// A wrong point among right ones is found, and it alone.
 #[test]
 fn one_point_is_wrong() {

@@ -623,3 +623,66 @@ fn triangles_of_glassware_have_their_reason() {
     is_sound("sheet.csv", &sheet("移液管容量允差"));
     assert!(first("sheet.csv", &sheet("温度计允差")).starts_with("triangle@"));
 }
+
+/// `(23 ± 1) °C` says of a row in µV/V what it comes from, and not how large it is.
+#[test]
+fn a_unit_behind_a_bracket_is_that_of_its_figures() {
+    is_sound(
+        "sheet.csv",
+        "数字多用表直流电压10 V校准\n不确定度来源,半宽 (µV/V),概率分布,除数,标准不确定度 (µV/V)\n标准源校准证书 k=2,4.0,正态,2,2.00\n\
+         温度系数 (23±1) ℃,0.8,均匀,1.732,0.46\n测量重复性 平均值的标准差,1.6,正态,1,1.60\n合成标准不确定度,,,,2.60\n扩展不确定度 U (k=2),,,,5.2\n",
+    );
+}
+
+/// `Repeatability, mean of 10` beside the divisor 1: nothing says that the figure is that of single readings.
+#[test]
+fn a_mean_of_many_is_not_divided_again() {
+    let sheet = |words: &str| {
+        format!(
+            "Thermometer\nSource,Value ± / °C,Distribution,Divisor,u / °C\nReference (certificate k = 2),0.010,normal,2,0.0050\n\
+             Bath,0.008,rectangular,√3,0.0046\n{words},0.0027,normal,1,0.0027\nu_c,,,,0.0073\nU (k = 2),,,,0.015\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("Repeatability; mean of 10"));
+    assert_eq!(
+        first(
+            "sheet.csv",
+            &sheet("Repeatability; s of 10 readings; mean of 10")
+        ),
+        "s-not-mean@Repeatability; s of 10 readings; mean of 10"
+    );
+    assert_eq!(
+        first(
+            "sheet.csv",
+            &sheet("Wiederholbarkeit (s von 10 Messungen; Mittelwert)")
+        ),
+        "s-not-mean@Wiederholbarkeit (s von 10 Messungen; Mittelwert)"
+    );
+}
+
+/// Contributions that were computed from more digits of u than a sheet prints, where it states no more than u.
+#[test]
+fn printed_standard_uncertainties_have_further_digits() {
+    let sheet = |c: &str| {
+        format!(
+            "Titration\nQuantity,Estimate,Unit,Standard uncertainty,Sensitivity coefficient,Contribution\nm,0.38880,g,0.000122,0.2608,{c}\n\
+             V,14.890,mL,0.0142,0.006809,9.68E-05\nrep,1.0000,1,0.00100,0.1014,0.000101\nu_c,,,,,0.000143\nU (k = 2),,,,,0.00029\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("3.19E-05"));
+    assert_ne!(
+        answer("sheet.csv", &sheet("3.39E-05")),
+        (Verdict::Sound, Vec::new())
+    );
+}
+
+/// A report that holds its own figures against those of a source states its own.
+#[test]
+fn figures_that_are_called_claimed_are_those_of_a_source() {
+    is_sound(
+        "report.md",
+        "| Source | ± / mm | Distribution | Divisor | u / mm |\n|---|---|---|---|---|\n| standard, k = 2 | 0.010 | normal | 2 | 0.0050 |\n\
+         | drift | 0.008 | rectangular | √3 | 0.0046 |\n\n- u_c = 0.0068 mm\n- U = 0.014 mm (k = 2)\n\n\
+         |  | claimed |  | obtained |\n|---|---|---|---|\n| expanded uncertainty U | 0.02 | GUM | 0.0136 |\n",
+    );
+}

@@ -110,6 +110,7 @@ pub(super) fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         "lsb",
         "digit",
     ];
+    const HALF: &[&str] = &["±", "+/-", "half", "半宽"];
     if let Some(step) = e.figure(KEYS) {
         // `resolution ± 0.005` is half of it, and so is `estimated to a fifth of a division (half-width 0.005)`.
         let named = figure_after(text, &["half-width", "half width", "半宽"]);
@@ -146,12 +147,12 @@ pub(super) fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     let by_twice_root3 = e
         .divisor
         .is_some_and(|d| (d - 2.0 * libm::sqrt(3.0)).abs() < 0.02);
-    // A summary states what is known: the whole step, unless its head and divisor both say half of it.
+    // A summary states what is known: the whole step, unless its words, of column or row, and its divisor both say half of it.
     let by_root3 = e
         .divisor
         .is_some_and(|d| (d - libm::sqrt(3.0)).abs() < 0.01);
     let head = e.used_head.to_lowercase();
-    let half = by_root3 && has(&head, &["±", "+/-", "half", "半宽"]);
+    let half = by_root3 && [head.as_str(), text].iter().any(|words| has(words, HALF));
     let whole = by_twice_root3 || !e.full && !half;
     Some(if whole {
         Stated::Step { step: used }

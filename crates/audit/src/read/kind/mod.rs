@@ -19,7 +19,7 @@ use crate::printed::Printed;
 use crate::units;
 
 use super::converter;
-use super::words::{figure_after, has, named_probability};
+use super::words::{figure_after, has, named_probability, with_units_inside};
 
 pub use evidence::Evidence;
 use family::*;
@@ -29,7 +29,7 @@ use subject::{Subject, subject};
 
 /// What is stated, and whether it is relative.
 pub fn stated(e: &Evidence<'_>) -> (Stated, Relative) {
-    let own = own_words(e.words);
+    let own = with_units_inside(&own_words(e.words));
     let e = &Evidence { words: &own, ..*e };
     let text = e.words.to_lowercase();
     let columns = e.columns.to_lowercase();

@@ -51,6 +51,8 @@ const OF_SINGLE: &[&str] = &[
     "sd",
     "deviation",
     "scatter of",
+    "s von",
+    "standardabweichung",
     "experimental",
     "bessel",
     "标准偏差",
@@ -91,7 +93,8 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     let pooled = has(text, POOLED).then(|| pooled_freedom(text, n)).flatten();
     // `repeatability, mean of 5`, with u as it stands: it is not said that the figure is that of single readings.
     let m = behind(text, e, n);
-    let unsaid = !has(text, OF_SINGLE) && m.is_none_or(|m| n == Some(m));
+    let of_all = |m: f64| n.map_or(e.mean_of.is_none(), |n| n == m);
+    let unsaid = !has(text, OF_SINGLE) && m.is_none_or(of_all);
     // `s/√n, s = 0.013, n = 4` says what is computed, and s is of single readings.
     let computed = has(text, OF_ROOT) && has(text, &["s =", "s="]);
     let of_mean = has(text, OF_THE_MEAN) || has(text, OF_ROOT) && !computed;
@@ -215,7 +218,8 @@ fn after_mean(text: &str, mean: Option<usize>) -> Option<f64> {
 
 /// Readings behind the reported value: as many as are said, or all where it is their mean.
 fn behind(text: &str, e: &Evidence<'_>, n: Option<f64>) -> Option<f64> {
-    let is_mean = has(text, &["mean", "average", "平均", "均值"]) && !reports_single(text);
+    let is_mean =
+        has(text, &["mean", "average", "平均", "均值", "mittelwert"]) && !reports_single(text);
     mean(text, e).or(n.filter(|_| is_mean))
 }
 

@@ -135,11 +135,16 @@ fn without(grid: &Grid, is_left_out: impl Fn(usize, usize) -> bool) -> Grid {
     }
 }
 
-/// The rows below a head, up to an empty one.
+/// The rows below a head, up to an empty one; the figures of the whole may stand below it.
 fn rows_below(grid: &Grid, head: usize) -> BTreeSet<usize> {
-    let filled = |row: &usize| grid.filled(*row).next().is_some();
-    let rows = (head + 1..grid.rows.len()).take_while(filled);
-    rows.collect()
+    let first = |row: usize| grid.filled(row).next();
+    let is_whole = |row: usize| {
+        let label = first(row).and_then(|(_, cell)| footer::label(&cell.text, ""));
+        label.is_some_and(|whole| whole != Whole::Y)
+    };
+    let rows = head + 1..grid.rows.len();
+    let rows = rows.take_while(|row| first(*row).is_some() || is_whole(row + 1));
+    rows.filter(|row| first(*row).is_some()).collect()
 }
 
 /// Figures of a column in some rows.

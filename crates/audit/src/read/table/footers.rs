@@ -74,7 +74,8 @@ fn footer_row(
         let mut rows = claimed.rows.iter();
         rows.any(|row| !row.symbol.is_empty() && row.symbol == text)
     };
-    if cells.len() < 2 || of_row(&cells[0].1) {
+    let is_claim = || cells.iter().any(|(column, _)| is_claim(grid, row, *column));
+    if cells.len() < 2 || of_row(&cells[0].1) || is_claim() {
         return false;
     }
     let inside = located.used.contains(&row) || row < located.end;
@@ -230,6 +231,17 @@ fn footer_row(
         }
     }
     found || across(grid, sheet, row, &cells, claimed)
+}
+
+/// Whether a figure stands below a head that calls it somebody's claim, which a report holds against its own.
+fn is_claim(grid: &Grid, row: usize, column: usize) -> bool {
+    if grid.cell(row, column).figure().is_none() {
+        return false;
+    }
+    let above = (0..row).rev().map(|row| grid.cell(row, column));
+    let mut heads = above.filter(|cell| !cell.text.is_empty() && cell.figure().is_none());
+    let head = heads.next().map(|cell| cell.text.to_lowercase());
+    head.is_some_and(|head| matches!(head.as_str(), "claimed" | "声称值"))
 }
 
 /// Whether a row is the sum of a column.

@@ -145,7 +145,7 @@ fn what(grid: &Grid, row: usize, located: &Located, joined: bool) -> What {
                     "有效自由度",
                     "包含因子",
                 ],
-            ) || lower.starts_with("expanded uncertainty")
+            ) || lower.starts_with("expanded u")
                 || lower.starts_with("erweiterte")
                 || lower.starts_with("sum u(")
                 || lower.starts_with("扩展不确定度")

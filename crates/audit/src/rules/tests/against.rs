@@ -390,6 +390,14 @@ pub(super) fn against() -> Vec<(u8, Sheet)> {
         ),
         (85, noted("Check standard: s = 0.031 g, predicted 0.012 g")),
         (
+            86,
+            with(|sheet| {
+                let line = &mut sheet.lines[3];
+                (line.estimate, line.known) = ("20 K", "temperature; limits ±0.0300 K");
+                sheet.replaced = vec![("|0.01732|1|", "|0.01732 K|1|")];
+            }),
+        ),
+        (
             80,
             with(|sheet| {
                 sheet.notes.push("Standard: valid until 2025-01-31");

@@ -26,14 +26,13 @@ impl Lowering<'_> {
             return Some(());
         };
         let (text, symbol) = (printer::expression(term), &wanted.symbol);
-        let own = value.unit()?.symbol.clone();
         self.report(
             Fault::new(
                 faults::SCALED_TWICE,
                 term.span.clone(),
                 say!("the factor {number} would convert `{name}` to {symbol} a second time: units are converted without it"),
             )
-            .label(say!("the factor from {own} to {symbol}"))
+            .label(say!("a conversion to {symbol}"))
             .help(say!(
                 "leave {number} out of `{text}`; if it belongs to the measurement, as a dilution does, state it by name in [constant], or write `{number} '1'`"
             )),
@@ -54,10 +53,21 @@ impl Lowering<'_> {
         }
         // π is written with some digits only.
         let near = if wanted.factor.pi == 0 { 0.0 } else { NEAR };
+        // A purity in percent has a factor of its own beside the one from mg and mL to mg/L.
+        let names = expr
+            .names()
+            .into_iter()
+            .filter_map(|name| self.symbol(name));
+        let ratios = names.filter(|symbol| symbol.unit.dimension == Dimension::NONE);
+        let of_ratio = |symbol: &Symbol| {
+            let ratio = symbol.unit.factor.value();
+            [factor / ratio, factor * ratio]
+        };
+        let mut factors = vec![factor, 1.0 / factor];
+        factors.extend(ratios.flat_map(of_ratio));
         let is_it = |number: f64| {
-            [factor, 1.0 / factor]
-                .iter()
-                .any(|f| (number / f - 1.0).abs() <= near)
+            let mut factors = factors.iter();
+            factors.any(|f| (number / f - 1.0).abs() <= near.max(f64::EPSILON))
         };
         let mut open = vec![expr];
         while let Some(e) = open.pop() {

@@ -5,7 +5,9 @@ use toml::de::DeValue;
 
 use super::faults::{AMOUNT, QUOTED_NUMBER};
 use super::matrix::{Matrix, Row};
-use super::table::{FromToml, KeyRow, Raw, Reader, Stated, in_order, inner};
+use super::table::{
+    FromToml, Hints, KeyRow, Raw, Reader, Stated, above_the_first_table, in_order, inner,
+};
 use gumption_fault::{Fault, Said, say};
 use smol_str::SmolStr;
 
@@ -256,6 +258,16 @@ pub struct Named<T> {
     pub refused: bool,
 }
 
+/// A text that is no entry is a key of the whole file where it has the name of one: `model = "V / R"` below [constant].
+fn tell_place_of_key(key: &str, item: &Raw<'_>, faults: &mut [Fault], hints: &Hints) {
+    let is_text = matches!(item.get_ref(), DeValue::String(_));
+    if is_text && (hints.top)().contains(&key) {
+        for fault in faults {
+            fault.help = Some(above_the_first_table(key));
+        }
+    }
+}
+
 impl<T: FromToml> FromToml for Named<T> {
     fn expected() -> Said {
         say!("a table of named entries")
@@ -274,8 +286,15 @@ impl<T: FromToml> FromToml for Named<T> {
             refused: false,
         };
         for (key, item) in in_order(table) {
+            let before = reader.faults.len();
             let Some(read) = T::read(item, reader) else {
                 named.refused = true;
+                tell_place_of_key(
+                    key.get_ref(),
+                    item,
+                    &mut reader.faults[before..],
+                    reader.hints,
+                );
                 continue;
             };
             named.entries.push((

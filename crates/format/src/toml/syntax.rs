@@ -424,9 +424,13 @@ pub(super) fn without_sign(amount: &str) -> Said {
     say!("leave out the ±, which the key says: {quotes}{amount}{quotes}")
 }
 
-/// What is written in place of a value with ± and its uncertainty.
+/// What is written in place of a value with ± and its uncertainty, which may stand in a bracket in front of their unit.
 pub(super) fn of_plus_minus(number: &str, rest: &str) -> Said {
-    let (value, uncertainty) = (as_stated(number, rest), as_stated(rest, number));
+    let (number, rest) = match number.strip_prefix(['(', '（']) {
+        Some(number) => (number.trim(), rest.replacen([')', '）'], "", 1)),
+        None => (number, rest.to_owned()),
+    };
+    let (value, uncertainty) = (as_stated(number, &rest), as_stated(&rest, number));
     say!(
         "the value and its uncertainty have keys of their own: value = {value}, and u, half_width or certificate = {{ U = {uncertainty}, k = 2 }}, whichever it is"
     )
@@ -579,7 +583,9 @@ pub(super) fn without_comma(number: &str, quotes: &str) -> Said {
     let behind = number.split_once(',').map_or("", |(_, behind)| behind);
     let places = behind.bytes().take_while(u8::is_ascii_digit).count();
     let joined = number.replace(',', "");
-    if places != 3 {
+    // No thousand begins with a nought.
+    let is_decimal = places != 3 || number.trim_start_matches(['-', '+']).starts_with('0');
+    if is_decimal {
         say!("write a decimal point: {quotes}{point}{quotes}")
     } else if behind[places..].starts_with(['.', ',']) {
         say!("write it without commas: {quotes}{joined}{quotes}")

@@ -304,11 +304,16 @@ fn unknown_key(key: &Key<'_>, table: &'static str, known: &[&'static str], hints
     }
     match meant(name, known, hints) {
         Some(near) => fault.help(say!("did you mean `{near}`?")),
-        None if (hints.top)().contains(&name.as_ref()) => fault.help(say!(
-            "`{name}` belongs to the top of the file, above the first [table]: a line belongs to the header above it"
-        )),
+        None if (hints.top)().contains(&name.as_ref()) => fault.help(above_the_first_table(name)),
         None => fault.help(say!("known keys: {}", known.join(", "))),
     }
+}
+
+/// The mend of a key of the whole file that stands below a header.
+pub(super) fn above_the_first_table(name: &str) -> Said {
+    say!(
+        "`{name}` belongs to the top of the file, above the first [table]: a line belongs to the header above it"
+    )
 }
 
 /// A documentation comment as one line of text.

@@ -347,7 +347,8 @@ fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
     // Of `0,1 °C` the number is not 0, and neither `10 ± 1 V` nor `1/3` is a number with a unit.
     let rest = body[end..].trim_start();
     let divided = rest.strip_prefix('/').map(str::trim_start);
-    let goes_on = rest.starts_with([',', '，', '±', '('])
+    let goes_on = rest.starts_with([',', '，', '('])
+        || parted_by_plus_minus(rest).is_some()
         || is_arithmetic(rest)
         || goes_on_in_a_smaller_unit(rest)
         || rest.starts_with(|c: char| c.is_ascii_digit() || "xX×·⋅*'".contains(c))

@@ -20,7 +20,7 @@ pub static HINTS: Hints = Hints {
 };
 
 /// Words that people try, and the keys and words that they mean.
-pub const SYNONYMS: [(&str, &str); 123] = [
+pub const SYNONYMS: [(&str, &str); 130] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),
@@ -60,6 +60,10 @@ pub const SYNONYMS: [(&str, &str); 123] = [
     ("csv", "file"),
     ("observations", "readings"),
     ("measurements", "readings"),
+    ("measured", "readings"),
+    ("indications", "readings"),
+    ("repeat", "readings"),
+    ("repeats", "readings"),
     ("digits", "counts"),
     ("digit", "counts"),
     ("dist", "distribution"),
@@ -122,6 +126,9 @@ pub const SYNONYMS: [(&str, &str); 123] = [
     ("常量", "constant"),
     ("读数", "readings"),
     ("测量值", "readings"),
+    ("示值", "readings"),
+    ("观测值", "readings"),
+    ("重复测量", "readings"),
     ("半宽", "half_width"),
     ("区间半宽", "half_width"),
     ("分辨力", "step"),

@@ -55,7 +55,13 @@ impl Language {
             (_, []) => String::new(),
             (_, [one]) => one.clone(),
             (Language::English, [front @ .., last]) => format!("{} and {last}", front.join(", ")),
-            (Language::Chinese, [front @ .., last]) => format!("{}和{last}", front.join("、")),
+            (Language::Chinese, [front @ .., last]) => {
+                let beside = |c: Option<char>| c.is_some_and(|c| c.is_ascii_alphanumeric());
+                let blank = |c| if beside(c) { " " } else { "" };
+                let front = front.join("、");
+                let around = (front.chars().last(), last.chars().next());
+                format!("{front}{}和{}{last}", blank(around.0), blank(around.1))
+            }
         }
     }
 

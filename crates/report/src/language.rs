@@ -137,7 +137,7 @@ mod tests {
     fn lists_read_naturally() {
         let names: Vec<String> = ["a", "b", "c"].map(String::from).to_vec();
         assert_eq!(Language::English.list(&names), "a, b and c");
-        assert_eq!(Language::Chinese.list(&names), "a、b和c");
+        assert_eq!(Language::Chinese.list(&names), "a、b 和 c");
         assert_eq!(Language::English.either(&names), "a or b or c");
         assert_eq!(Language::Chinese.either(&names), "a、b或c");
         assert_eq!(Language::Chinese.either(&names[..1]), "a");

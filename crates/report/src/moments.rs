@@ -99,7 +99,8 @@ pub(super) fn few_readings(
     .in_language(l);
     let result = measurand.and_then(|m| report.evaluation.results.get(m));
     let reason = result.map(|result| result.reported(&report.budget.conventions).reason);
-    let refuted = reason.map_or_else(String::new, |reason| of_reason(report, reason));
+    let narrower = result.is_some_and(is_narrower);
+    let refuted = reason.map_or_else(String::new, |reason| of_reason(report, reason, narrower));
     let space = l.pick(" ", "");
     let parts = match (dof, result) {
         (Some(dof), _) => [few_degrees(report, measurand, dof), drawn, refuted],
@@ -107,10 +108,13 @@ pub(super) fn few_readings(
             let few = l.pick("Few degrees of freedom:", "自由度小：");
             let factor = result.filter(|_| refuted.is_empty());
             let follows = factor.map_or(refuted, |result| of_factor(report, result, components));
-            let more = l.pick(
-                "More readings would bring both together.",
-                "增加测量次数可使两者接近。",
-            );
+            let more = match narrower {
+                true => "",
+                false => l.pick(
+                    "More readings would bring both together.",
+                    "增加测量次数可使两者接近。",
+                ),
+            };
             [format!("{few}{space}{drawn}"), follows, more.to_string()]
         }
     };
@@ -118,12 +122,21 @@ pub(super) fn few_readings(
     parts.join(space)
 }
 
+/// Whether the interval of Monte Carlo is narrower than that of the GUM: few readings only make it wider.
+fn is_narrower(result: &MeasurandResult) -> bool {
+    let half = |[low, high]: [f64; 2]| (high - low) / 2.0;
+    let of_gum = result.gum.coverage.half_width_for_p;
+    let found = result.monte_carlo.as_ref();
+    found.is_some_and(|found| half(found.symmetric) < of_gum)
+}
+
 /// What the reason why the statement takes its method has to do with few readings; nothing where another finding tells
 /// the reason, or the factor k tells it.
-fn of_reason(report: &Report<'_>, reason: Reason) -> String {
+fn of_reason(report: &Report<'_>, reason: Reason, narrower: bool) -> String {
     let l = report.language;
     let p = probability(report.coverage_probability());
     match reason {
+        Reason::FewReadings if narrower => say!("The {p} interval of Monte Carlo is narrower than that of the GUM all the same: the shapes of other distributions make it so (clause 8), while the statement is u itself (GUM 4.2.3) times the k of the profile. Take the Monte Carlo interval wherever a {p} interval is needed.").in_language(l),
         Reason::FewReadings => say!("The {p} interval of Monte Carlo therefore differs from that of the GUM by more than the tolerance δ (clause 8), while the statement is u itself (GUM 4.2.3) times the k of the profile. Take the Monte Carlo interval wherever a {p} interval is needed.").in_language(l),
         Reason::NotNegative => say!("The statement takes the interval of ISO 11929, which rests on u itself (GUM 4.2.3).").in_language(l),
         _ => String::new(),

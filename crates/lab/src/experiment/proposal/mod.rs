@@ -2,9 +2,11 @@
 //!
 //! Names and units come from the first line. Roles are told by how the numbers behave, which decides nothing: the file says of each column what is in
 //! it, and that its role is a guess. Without a procedure the equation is a straight line, the least that has a coefficient to calibrate; along
-//! several axes that are set, the sum of one for each, and of axes that labels turn up and down likewise; around a turn, a wave.
+//! several axes that are set, the sum of one for each, and of axes that labels turn up and down likewise; around a turn, a wave;
+//! of what a speed of rotation presses outwards, along its square.
 
 mod asked;
+mod centrifuge;
 mod field;
 mod guess;
 mod positions;
@@ -198,6 +200,10 @@ fn by_line(columns: &[Guess<'_>], language: Language) -> String {
             (along.map(|along| (along, None)).collect(), table)
         }
         _ if timed && field::is_constant(&outputs) => (Vec::new(), String::new()),
+        (None, Some(best)) if centrifuge::is_one(&outputs, best) => {
+            let along = centrifuge::acceleration(best, columns);
+            (vec![(along, None)], String::new())
+        }
         _ => {
             let along = set.iter().copied().filter(is_along);
             let along = along.map(|guess| (guess.name.clone(), Some(guess.column)));
@@ -441,6 +447,25 @@ mod tests {
             1,-100,10,-2001\n1,100,10,2003\n-1,-100,40,-2004\n-1,100,40,2000\n");
         assert_eq!(role(&table, "T"), "covariate");
         assert_eq!(table["equations"].as_str(), Some("out = a + b*rate"));
+    }
+
+    /// An accelerometer on a centrifuge feels the square of the speed, a gyroscope on a rate table the speed.
+    #[test]
+    fn a_centrifuge_goes_with_the_square_of_its_speed() {
+        let rows = |of: &dyn Fn(f64) -> f64| -> String {
+            let speeds = (0..8).map(|place| f64::from(40 * place));
+            speeds
+                .map(|speed| format!("{speed},500,{:.5}\n", of(speed)))
+                .collect()
+        };
+        let head = "speed [r/min],arm [mm],U [V]\n";
+        let table = of(&format!("{head}{}", rows(&|x| 0.01 + 3e-5 * x * x)));
+        assert_eq!(table["equations"].as_str(), Some("U = a + b*speed^2*arm"));
+        let table = of(&format!(
+            "{head}{}",
+            rows(&|x| 0.01 + 3e-3 * x + 1e-9 * x * x)
+        ));
+        assert_eq!(table["equations"].as_str(), Some("U = a + b*speed"));
     }
 
     /// A tumbled accelerometer goes around with the angle, an encoder along it.

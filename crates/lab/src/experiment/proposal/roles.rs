@@ -145,7 +145,7 @@ fn in_turns(column: &Column) -> Option<Vec<f64>> {
 }
 
 /// R² of a straight line through the rows in which both are numbers.
-fn determination(x: &[f64], y: &[f64]) -> f64 {
+pub(super) fn determination(x: &[f64], y: &[f64]) -> f64 {
     let [x, y] = centred([x.to_vec(), y.to_vec()]);
     let (xx, yy) = (product(&x, &x), product(&y, &y));
     match xx > 0.0 && yy > 0.0 {

@@ -3,6 +3,7 @@
 //! | chapter | holds |
 //! |---|---|
 //! | `beside` | tables side by side |
+//! | `blanks` | tables whose columns stand one blank apart |
 //! | `blocks` | tables that are blocks of one budget |
 //! | `columns` | what a column is, by its head |
 //! | `table` | where a table stands, and its rows |
@@ -23,6 +24,7 @@
 //! | `words` | words and figures in texts |
 
 mod beside;
+mod blanks;
 mod blocks;
 mod columns;
 mod converter;
@@ -70,6 +72,17 @@ pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
     for (sheet, grid) in grids.iter().enumerate() {
         let tables = table::locate(grid, mapping).into_iter();
         found.extend(tables.map(|located| Found::new(grid, sheet, located)));
+    }
+    if found.is_empty() {
+        let parted = |grid: &Grid| blanks::parted(grid).ok_or_else(|| grid.clone());
+        let parted: Vec<_> = grids.iter().map(parted).collect();
+        if parted.iter().any(Result::is_ok) {
+            let grids: Vec<Grid> = parted
+                .into_iter()
+                .map(|grid| grid.unwrap_or_else(|own| own))
+                .collect();
+            return budgets(&grids, mapping);
+        }
     }
     let (inputs, evaluated): (Vec<Found>, Vec<Found>) = found
         .iter()

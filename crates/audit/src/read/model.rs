@@ -41,11 +41,14 @@ pub(super) fn symbols_of_model(raw: &mut [table::Raw], claimed: &mut Claimed) {
         }
         let model = claimed.model.clone().unwrap_or_default();
         let in_model = notes::names_of(row).find(|word| words::has_symbol(&model, word));
+        // What a bracket says in Chinese words is a remark.
+        let chinese = |c: char| ('\u{4e00}'..='\u{9fff}').contains(&c);
         let bracketed = || {
             row.name
                 .rsplit_once('(')
                 .and_then(|(_, tail)| tail.strip_suffix(')'))
                 .filter(|s| s.chars().count() <= 12 && words::may_be_symbol(s))
+                .filter(|s| !s.starts_with(chinese))
         };
         let first = || {
             row.name

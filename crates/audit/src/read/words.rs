@@ -181,7 +181,7 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
             }
             let mut unit = unit_in(text, whole);
             if crate::units::parse(&unit).is_none() {
-                if figure.half == 0.5 && starts_plural(text) {
+                if figure.half == 0.5 && (starts_plural(text) || starts_period(text)) {
                     return None;
                 }
                 unit.clear();
@@ -225,6 +225,12 @@ pub fn starts_quotient(text: &str) -> bool {
 fn starts_plural(text: &str) -> bool {
     let letters = text.bytes().take_while(u8::is_ascii_alphabetic).count();
     letters >= 5 && text[..letters].ends_with('s')
+}
+
+/// Whether a text begins with a period of time, for which something holds: `accuracy (1 year)`.
+fn starts_period(text: &str) -> bool {
+    const PERIODS: [&str; 7] = ["year", "month", "week", "day", "年", "个月", "天"];
+    PERIODS.iter().any(|period| text.starts_with(period))
 }
 
 /// What stands behind a bracket that says under which condition a figure holds: `expanded (k = 2): 0.014 bar`.

@@ -686,3 +686,66 @@ fn figures_that_are_called_claimed_are_those_of_a_source() {
          |  | claimed |  | obtained |\n|---|---|---|---|\n| expanded uncertainty U | 0.02 | GUM | 0.0136 |\n",
     );
 }
+
+/// What a bracket says of a Chinese name is a remark: the row keeps its whole name.
+#[test]
+fn a_chinese_name_is_whole_with_its_bracket() {
+    assert_eq!(
+        first(
+            "sheet.csv",
+            "来源,半宽/mV,分布,除数,u/mV\n标准器,0.4,正态,2,0.200\n温度影响(实验室),0.31,均匀,2,0.155\nu_c,,,,0.253\nU (k=2),,,,0.51\n",
+        ),
+        "half-width-by-2@温度影响(实验室)"
+    );
+}
+
+/// `accuracy (1 year)` is no accuracy of 1.
+#[test]
+fn a_period_is_no_limit() {
+    is_sound(
+        "sheet.csv",
+        "Calibration of a 1 V source at 1 V\nComponent,Limits / U,Unit,Distribution,Divisor,c,u_i (µV)\nDMM accuracy (1 year); 99 %,18,ppm,normal,2.58,1,6.98\n\
+         Thermal EMF,2,µV,rectangular,1.732,1,1.15\nuc,,,,,,7.07\n\"U, k=2\",,,,,,14\n",
+    );
+}
+
+/// A step of 0.1 µmol/mol in a budget in percent is a part of the 50 µmol/mol of the title, as the sheet's own u shows.
+#[test]
+fn amounts_in_a_budget_in_percent_are_parts_of_what_is_named() {
+    let sheet = |u: &str, u_c: &str| {
+        format!(
+            "## 一氧化碳检测报警器示值误差不确定度评定（50 µmol/mol 点）\n\n| 来源 | 已知信息 | 类别 | 相对标准不确定度 u_rel / % |\n|---|---|---|---|\n\
+             | 标准气体(有证标准物质) | U_rel=1.0 %，k=2 | B | 0.50 |\n| 分辨力 | 0.1 µmol/mol | B | {u} |\n\
+             \n合成相对标准不确定度 u_crel = {u_c} %\n\n相对扩展不确定度 U_rel = 1.0 %，k = 2\n"
+        )
+    };
+    is_sound("sheet.md", &sheet("0.058", "0.50"));
+    assert_ne!(
+        answer("sheet.md", &sheet("0.31", "0.59")),
+        (Verdict::Sound, Vec::new())
+    );
+}
+
+/// A table as it is copied from a page, its columns one blank apart.
+#[test]
+fn columns_may_stand_one_blank_apart() {
+    let english = |u: &str, u_c: &str, expanded: &str| {
+        format!(
+            "Uncertainty of DC voltage 100 V\nSource Value ± Distribution Divisor u (µV/V)\n\
+             Reference multimeter (certificate, k = 2) 12 µV/V normal 2 {u}\nReference drift, 1 year 8 µV/V rectangular 1.732 4.62\n\
+             Resolution 1 µV/V rectangular 1.732 0.58\nRepeatability, std. dev. of the mean 2.2 µV/V normal 1 2.20\n\
+             Combined standard uncertainty {u_c}\nExpanded uncertainty (k = 2) {expanded}\n"
+        )
+    };
+    is_sound("page.txt", &english("6.00", "7.91", "16"));
+    assert_eq!(
+        first("page.txt", &english("12.00", "13.06", "26")),
+        "cert-undivided@Reference multimeter (certificate, k = 2)"
+    );
+    is_sound(
+        "page.txt",
+        "表1 标准不确定度分量汇总表\n不确定度来源 半宽 分布 包含因子 标准不确定度 灵敏系数 分量\n标准砝码 0.5 mg 均匀 √3 0.29 mg 1 0.29 mg\n\
+         天平分辨力 0.05 mg 均匀 √3 0.029 mg 1 0.029 mg\n测量重复性 0.12 mg 正态 1 0.12 mg 1 0.12 mg\n合成标准不确定度 u_c = 0.32 mg\n\
+         扩展不确定度 U = 0.63 mg (k = 2)\n",
+    );
+}

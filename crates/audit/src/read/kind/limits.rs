@@ -1,5 +1,7 @@
 //! What is known as limits, steps and certificates.
 
+use gumption_core::special::normal_two_sided_quantile;
+
 use crate::claim::{Shape, Stated};
 use crate::read::words::{figure_after, has, named_probability, signed_pair};
 
@@ -56,7 +58,14 @@ pub(super) fn limits(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         let of_column = shape(&e.columns.to_lowercase());
         of_column.filter(|shape| *shape == Shape::Triangular && has(text, GLASSWARE))
     };
+    // `accuracy, 99 %`, divided by 2.58.
+    let of_probability = || {
+        let k = normal_two_sided_quantile(named_probability(text)?);
+        let divisor = e.divisor?;
+        ((divisor / k - 1.0).abs() < 0.01).then_some(Shape::Normal(k))
+    };
     let shape = shape(text)
+        .or_else(of_probability)
         .or_else(|| level.then(|| Shape::Normal(normal_factor(e, text))))
         .or_else(cautious)
         .or_else(to_nominal);

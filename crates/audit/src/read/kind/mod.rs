@@ -63,6 +63,13 @@ fn is_of_type(columns: &str, letter: &str) -> bool {
     words.any(|word| word.strip_suffix('类').unwrap_or(word) == letter)
 }
 
+/// Whether a word names a distribution, or the type of evaluation in front of it.
+pub(crate) fn names_distribution(word: &str) -> bool {
+    let lower = word.to_lowercase();
+    let of_type = ["a", "b", "a类", "b类"].contains(&lower.as_str());
+    of_type || shape(&lower).is_some() || has(&lower, NORMAL) || lower == "t分布"
+}
+
 /// Words without the clause that says in which other row this one is contained: what that one is, is not said of this.
 fn own_words(words: &str) -> String {
     const CONTAINED: [&str; 6] = [

@@ -37,6 +37,11 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
             row.take_part_of(&amount);
         }
     }
+    if let Some(whole) = whole_of_shares(claimed) {
+        for row in &mut claimed.rows {
+            row.take_share_of(&whole);
+        }
+    }
     let nominal = nominal(claimed);
     for row in &mut claimed.rows {
         if let Some(nominal) = &nominal {
@@ -77,11 +82,7 @@ fn named_whole(words: &str) -> Option<Printed> {
 /// What percentages without an estimate are of: the result, or an amount that the title or a line names, of which the laboratory's
 /// own u shows in one row at least that it took it, if need be with a wrong power of ten.
 fn nominal(claimed: &Claimed) -> Option<Printed> {
-    let texts = [&claimed.title, &claimed.words];
-    let named = texts
-        .into_iter()
-        .flat_map(|text| words::figures_with_units(text));
-    let amounts: Vec<Printed> = claimed.footer.y.iter().cloned().chain(named).collect();
+    let amounts = amounts(claimed);
     let shows = |row: &Row, amount: &Printed, ratio: f64| {
         let (u, part) = row.made().zip(row.part_of(amount))?;
         let (stated, _) = row.stated.standard()?;
@@ -106,6 +107,26 @@ fn nominal(claimed: &Claimed) -> Option<Printed> {
         .find(is_taken)
         .or_else(|| amounts.iter().find(is_missed));
     found.cloned()
+}
+
+/// What amounts in a budget in percent are parts of, `0.1 mg/L` at 50 mg/L: of what is named, what the laboratory's own u shows.
+fn whole_of_shares(claimed: &Claimed) -> Option<Printed> {
+    let is_taken = |row: &Row, amount: &Printed| {
+        let made = row.made().zip(row.share_of(amount));
+        made.zip(row.stated.standard())
+            .is_some_and(|((u, share), (stated, _))| {
+                u.is_met_within(stated * share, u.half_of_digits() + 0.01 * u.value)
+            })
+    };
+    let mut amounts = amounts(claimed).into_iter();
+    amounts.find(|amount| claimed.rows.iter().any(|row| is_taken(row, amount)))
+}
+
+/// The result, and the amounts that the title and the lines name.
+fn amounts(claimed: &Claimed) -> Vec<Printed> {
+    let texts = [&claimed.title, &claimed.words].into_iter();
+    let named = texts.flat_map(|text| words::figures_with_units(text));
+    claimed.footer.y.iter().cloned().chain(named).collect()
 }
 
 /// Words for what a percentage may be of that is not the value.
@@ -205,6 +226,24 @@ impl Row {
                 Some(fraction * factor * amount.value.abs())
             }
             _ => None,
+        }
+    }
+
+    /// What a unit of an amount that is stated without an estimate is in the unit of u, where u is the share of this amount.
+    fn share_of(&self, amount: &Printed) -> Option<f64> {
+        let fraction = units::fraction(&self.made()?.unit)?;
+        let unit = self.stated.figure().map(|figure| figure.unit.as_str())?;
+        let is_amount = !unit.is_empty() && units::fraction(unit).is_none() && self.value.is_none();
+        let factor = units::factor(unit, &amount.unit)?;
+        (is_amount && amount.value != 0.0).then(|| factor / (fraction * amount.value.abs()))
+    }
+
+    fn take_share_of(&mut self, amount: &Printed) {
+        if let Some((share, u)) = self.share_of(amount).zip(self.made()) {
+            for figure in self.stated.figures_mut() {
+                *figure = figure.clone().scaled(share);
+                figure.unit.clone_from(&u.unit);
+            }
         }
     }
 

@@ -8,6 +8,7 @@ mod heads;
 mod places;
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -41,11 +42,61 @@ impl<'t> Series<'_, 't> {
     /// The file with each row in place.
     pub fn variants(&self) -> impl ExactSizeIterator<Item = Variant<'t>> {
         let rows = self.rows.iter();
-        rows.map(|(_, cells)| {
+        let naming = self.naming();
+        rows.map(move |(_, cells)| {
             // What can be wrong with them has been looked for.
             let mut faults = Vec::new();
-            variant(&self.file, &self.columns, &self.targets, cells, &mut faults)
+            let mut row = variant(&self.file, &self.columns, &self.targets, cells, &mut faults);
+            if let Some((column, unit)) = &naming {
+                row.label = Some(amount(&cells[*column].0.value, unit));
+            }
+            row
         })
+    }
+
+    /// Where no column is of labels, the first quantity that differs from row to row names them: its column and unit.
+    fn naming(&self) -> Option<(usize, String)> {
+        let of_labels = |target: &Option<Column>| matches!(target, Some(Column::Label));
+        if self.targets.iter().any(of_labels) {
+            return None;
+        }
+        let differs = |column: usize| {
+            let cells = self.rows.iter().map(|(_, cells)| &cells[column].0.value);
+            let texts: BTreeSet<String> = cells.map(label).collect();
+            texts.len() == self.rows.len() && texts.len() > 1
+        };
+        let mut columns = self.targets.iter().enumerate();
+        columns.find_map(|(column, target)| match target {
+            Some(Column::Path(path)) if differs(column) => {
+                unit_of_value(&self.file, path).map(|unit| (column, unit))
+            }
+            _ => None,
+        })
+    }
+}
+
+/// The unit that a file states for what a path is the value of; empty for none.
+fn unit_of_value(file: &DeTable<'_>, path: &[String]) -> Option<String> {
+    let [owner, name, key @ ..] = path else {
+        return None;
+    };
+    let is_value = matches!(key, []) || matches!(key, [key] if key == "value");
+    let is_owned = OWNERS.contains(&owner.as_str());
+    let unit = || match columns::entry(file, owner, name)?.get_ref() {
+        DeValue::Table(entry) => match entry.get("unit")?.get_ref() {
+            DeValue::String(unit) => Some(unit.to_string()),
+            _ => None,
+        },
+        _ => None,
+    };
+    (is_value && is_owned).then(|| unit().unwrap_or_default())
+}
+
+/// A cell as the name of its row: a text has its unit with it.
+fn amount(cell: &Entry, unit: &str) -> String {
+    match cell {
+        Entry::Number(number) if !unit.is_empty() => format!("{number} {unit}"),
+        cell => label(cell),
     }
 }
 

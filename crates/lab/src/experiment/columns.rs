@@ -375,7 +375,7 @@ fn number_as_labels(name: &str, key: &str, place: &Range<usize>) -> Fault {
             "dwells that steps of {name} tell apart are steps = \"{name}\""
         )),
         _ => fault.help(say!(
-            "name a column that says which run, position or direction a row belongs to"
+            "name a column that says which run, position or direction a row belongs to; a column of numbers may stand once more as labels: setting = {{ role = \"position\", column = \"{name}\" }}"
         )),
     }
 }

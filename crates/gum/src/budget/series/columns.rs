@@ -219,9 +219,14 @@ fn unknown_column(file: &DeTable<'_>, name: &Stated<String>, path: &[String]) ->
                 .collect();
             fault.help(say!("did you mean \"{}\"?", whole.join(".")))
         }
-        None => fault.help(
-            say!("columns are inputs, constants, `label`, or other numbers of the file by their path, such as `claim.value`"),
-        ),
+        None => fault.help(match path {
+            [name] => say!(
+                "state it as [input.{name}] with its unit and uncertainty, or as [constant.{name}] with its unit: the rows give its value; `label` names the rows"
+            ),
+            _ => say!(
+                "columns are inputs, constants, `label`, or other numbers of the file by their path, such as `claim.value`"
+            ),
+        }),
     }
 }
 
@@ -278,7 +283,7 @@ fn uncertainty<'c>(file: &DeTable<'_>, column: &'c str) -> Option<(&'c str, &'c 
     (["u", "U"].contains(&letter) && is_owned(file, inside)).then_some((letter, inside))
 }
 
-fn entry<'a, 't>(file: &'a DeTable<'t>, owner: &str, name: &str) -> Option<&'a Raw<'t>> {
+pub(super) fn entry<'a, 't>(file: &'a DeTable<'t>, owner: &str, name: &str) -> Option<&'a Raw<'t>> {
     match file.get(owner)?.get_ref() {
         DeValue::Table(table) => table.get(name),
         _ => None,

@@ -98,6 +98,32 @@ fn series_replace_values_row_by_row() {
 }
 
 #[test]
+fn rows_without_labels_are_named_by_what_differs() {
+    let labels = |columns: &str, rows: &str| -> Vec<Option<String>> {
+        let text = format!(
+            "[measurand.Y]\nmodel = \"X + c\"\nunit = \"V\"\n[input.X]\nunit = \"V\"\nu = 0.1\n[constant]\nc = \"1 V\"\n\
+             [series]\ncolumns = {columns}\nrows = {rows}\n"
+        );
+        let rows = read(&text, "budget.toml", Path::new("")).unwrap().rows;
+        rows.into_iter().map(|row| row.label).collect()
+    };
+    let named = |names: [&str; 2]| names.map(|name| Some(name.to_owned())).to_vec();
+    assert_eq!(
+        labels("[\"X\", \"X.dof\"]", "[[400, 3], [600.5, 4]]"),
+        named(["400 V", "600.5 V"])
+    );
+    assert_eq!(
+        labels("[\"X.u\", \"c\", \"X\"]", "[[0.1, 1, 3], [0.2, 1, 4]]"),
+        named(["3 V", "4 V"])
+    );
+    assert_eq!(labels("[\"X\"]", "[[3], [3]]"), [None, None]);
+    assert_eq!(
+        labels("[\"X\", \"label\"]", "[[3, \"a\"], [4, \"b\"]]"),
+        named(["a", "b"])
+    );
+}
+
+#[test]
 fn claims_are_read_in_the_unit_of_the_measurand() {
     let claim = budget(&one("value = 1\nu = 0.1\n[claim]\nU = \"200 mV\"\nk = 2"))
         .claims

@@ -15,6 +15,9 @@ use super::kind::names_distribution;
 /// Fewest columns behind the names that make a table.
 const FEWEST: usize = 2;
 
+/// How many rows below a head tell how many columns it has.
+const NEAR: usize = 50;
+
 /// Most words in a head.
 const LONGEST: usize = 24;
 
@@ -22,15 +25,17 @@ const LONGEST: usize = 24;
 pub(super) fn parted(grid: &Grid) -> Option<Grid> {
     let lines: Option<Vec<&str>> = grid.rows.iter().map(|row| line(row)).collect();
     let lines = lines?;
+    let rows: Vec<Row<'_>> = lines.iter().map(|line| Row::of(line)).collect();
     (0..lines.len()).find_map(|head| {
-        let rows: Vec<Row<'_>> = lines[head + 1..].iter().map(|line| Row::of(line)).collect();
-        let behind = usual(&rows)?;
-        let heads = heads(lines[head], behind + 1, &rows)?;
+        let below = &rows[head + 1..];
+        let near = &below[..below.len().min(NEAR)];
+        let behind = usual(near)?;
+        let heads = heads(lines[head], behind + 1, near)?;
         let mut parted = grid.clone();
         parted.rows[head] = heads.iter().map(|head| Cell::new(head)).collect();
-        for (place, row) in rows.iter().enumerate() {
+        for (row, parted) in below.iter().zip(&mut parted.rows[head + 1..]) {
             if let Some(cells) = row.cells(behind) {
-                parted.rows[head + 1 + place] = cells.iter().map(|cell| Cell::new(cell)).collect();
+                *parted = cells.iter().map(|cell| Cell::new(cell)).collect();
             }
         }
         Some(parted)

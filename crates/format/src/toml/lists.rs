@@ -258,11 +258,11 @@ pub struct Named<T> {
     pub refused: bool,
 }
 
-/// A text that is no entry is a key of the whole file where it has the name of one: `model = "V / R"` below [constant].
+/// A text that is no amount is a key of the whole file where it has the name of one: `model = "V / R"` below [constant].
 fn tell_place_of_key(key: &str, item: &Raw<'_>, faults: &mut [Fault], hints: &Hints) {
     let is_text = matches!(item.get_ref(), DeValue::String(_));
     if is_text && (hints.top)().contains(&key) {
-        for fault in faults {
+        for fault in faults.iter_mut().filter(|fault| fault.code == AMOUNT) {
             fault.help = Some(above_the_first_table(key));
         }
     }

@@ -74,12 +74,11 @@ pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
         found.extend(tables.map(|located| Found::new(grid, sheet, located)));
     }
     if found.is_empty() {
-        let parted = |grid: &Grid| blanks::parted(grid).ok_or_else(|| grid.clone());
-        let parted: Vec<_> = grids.iter().map(parted).collect();
-        if parted.iter().any(Result::is_ok) {
-            let grids: Vec<Grid> = parted
-                .into_iter()
-                .map(|grid| grid.unwrap_or_else(|own| own))
+        let parted: Vec<Option<Grid>> = grids.iter().map(blanks::parted).collect();
+        if parted.iter().any(Option::is_some) {
+            let both = parted.into_iter().zip(&grids);
+            let grids: Vec<Grid> = both
+                .map(|(parted, own)| parted.unwrap_or_else(|| own.clone()))
                 .collect();
             return budgets(&grids, mapping);
         }

@@ -149,3 +149,37 @@ fn a_cycle_of_the_calendar_is_no_wave_of_any_period() {
     let found = wave_over_days(24.84);
     assert_eq!(names(&found, 0), ["wave"], "{found}");
 }
+
+/// What a flow takes from a hot wire goes with another power than declared, under a root and beside what goes without a flow.
+#[test]
+fn an_exponent_may_stand_within_another_function() {
+    let mut noise = Noise(237);
+    let mut rows = "U [m/s],E [V]\n".to_owned();
+    for row in 0..60 {
+        let flow = [0.5, 0.8, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 16.0][row % 10];
+        let heat = 1.9 + 0.85 * libm::pow(flow, 0.42);
+        let _ = writeln!(rows, "{flow},{:.4}", heat.sqrt() + 1e-3 * noise.normal());
+    }
+    let case = "equations = \"E = sqrt(A + B*(U/(1 'm/s'))^0.5)\"\n[columns]\nU = \"stimulus\"\nE = \"output\"\n[parameter]\nA = { start = \"2 V^2\" }\nB = { start = \"1 V^2\" }\n";
+    let found = diagnosed("hot-wire", &rows, case);
+    assert_eq!(names(&found, 0)[0], "exponent", "{found}");
+    assert!((size(&found, 0) + 0.08).abs() < 0.015, "{found}");
+}
+
+/// A square that levels off is no second order beside a declared one.
+#[test]
+fn a_declared_square_is_not_left_out() {
+    let mut noise = Noise(240);
+    let mut rows = "pixel,lambda [nm]\n".to_owned();
+    for row in 0..48 {
+        let pixel = f64::from((row % 12) * (row % 12) * 14 + 60);
+        let middle = (pixel - 900.0) / 900.0;
+        let line = 340.2 + 0.31 * pixel - 1.2e-5 * pixel * pixel + 0.1 * libm::pow(middle, 3.0);
+        let _ = writeln!(rows, "{pixel},{:.3}", line + 0.012 * noise.normal());
+    }
+    let case = "equations = \"lambda = c0 + c1*pixel + c2*pixel^2\"\n[columns]\npixel = \"stimulus\"\nlambda = \"output\"\n";
+    let found = diagnosed("spectrometer", &rows, case);
+    let named = names(&found, 0);
+    assert!(named.contains(&"cubic".to_owned()), "{named:?}");
+    assert!(!named.contains(&"quadratic".to_owned()), "{named:?}");
+}

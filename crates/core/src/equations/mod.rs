@@ -196,6 +196,11 @@ impl Equations {
         self.equations.iter().all(affine)
     }
 
+    /// The power through which alone an equation depends on a symbol, and whether it is in proportion to that.
+    pub fn exponent_of(&self, symbol: usize, response: usize) -> Option<(f64, bool)> {
+        self.equations.get(response)?.model.exponent_of(symbol, 0)
+    }
+
     /// Printed form of the statements that all equations see; empty where there are none.
     pub fn shared(&self) -> &str {
         &self.shared

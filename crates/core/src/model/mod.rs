@@ -14,6 +14,7 @@ mod complex;
 mod curves;
 mod cut;
 mod exact;
+mod exponent;
 mod expressions;
 pub mod faults;
 mod forms;
@@ -312,6 +313,12 @@ impl Model {
     /// are held; `None` where they are none, or of higher degree.
     pub fn degree_in(&self, inputs: &[usize]) -> Option<u8> {
         interaction::degree(&self.graph, inputs)
+    }
+
+    /// The power through which alone an output depends on an input, and whether it is in proportion to that: 0.45 of `U` in
+    /// `sqrt(A + B*U^0.45)`, which is not.
+    pub fn exponent_of(&self, input: usize, output: usize) -> Option<(f64, bool)> {
+        exponent::of(&self.graph, output, input)
     }
 
     /// Which of the request's symbols no measurand depends on.

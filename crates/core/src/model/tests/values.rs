@@ -386,6 +386,28 @@ fn every_function_is_documented() {
     }
 }
 
+/// The power through which alone an output depends on an input.
+#[test]
+fn exponents_of_inputs() {
+    let exponent = |text: &str| model("a b c", text, "").exponent_of(0, 0);
+    let cases = [
+        ("sqrt(b + c*(a/2)^0.45)", Some((0.45, false))),
+        ("b*sqrt(a)*c", Some((0.5, true))),
+        ("b/a/cbrt(a)", Some((-4.0 / 3.0, true))),
+        ("b - c*a^2", Some((2.0, false))),
+        ("-a^3*exp(b)", Some((3.0, true))),
+        ("exp(-(a/b)^2) + a*a", Some((2.0, false))),
+        ("b + c*a", Some((1.0, false))),
+        ("b*(a + 273.15)^4", Some((1.0, false))),
+        ("b*a + c*a^2", None),
+        ("b*a^c", Some((1.0, false))),
+        ("b + c", None),
+    ];
+    for (text, wanted) in cases {
+        assert_eq!(exponent(text), wanted, "{text}");
+    }
+}
+
 /// The degree in some inputs together while the others are held.
 #[test]
 fn degrees_of_polynomials() {

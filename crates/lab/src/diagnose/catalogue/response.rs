@@ -81,35 +81,59 @@ fn background(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     shows.then(|| on_node(fitted, EffectId::Background, label, node, forms))
 }
 
-/// Another exponent, where the model is a power of a quantity and has no zero besides: the flow through an orifice, light at a
-/// distance, radiation of a hot body; the first power where the quantity spreads, as the rate of a viscometer does.
+/// Another exponent, where the model has the quantity under one power alone: the flow through an orifice, light at a distance, the
+/// heat that a flow takes from a wire; the first power where the model is in proportion to a quantity that spreads, as the rate of
+/// a viscometer does.
 fn exponent(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
-    /// Exponents so near to one another are the same.
-    const SAME: f64 = 1e-3;
     /// Below it a quantity only corrects the output.
     const WEAK: f64 = 0.1;
     let x = fitted.numbers(column);
-    let one_output = fitted.case().responses.len() == 1 && fitted.constant_terms(0).is_empty();
-    if !one_output || range(x).0 <= 0.0 {
+    let case = fitted.case();
+    let one_output = case.responses.len() == 1;
+    if !one_output || range(x).0 < 0.0 || case.columns[column].unit.is_point() {
         return None;
     }
-    let slope = fitted.slope(Node::Column(column), 0);
-    let powers: Vec<f64> = (x.iter().zip(&slope).zip(fitted.signal(0)))
-        .map(|((x, slope), y)| x * slope / y)
-        .collect();
-    let (least, most) = range(&powers);
-    let steady = (most - least).is_finite() && most - least <= SAME;
-    let is_line = (least - 1.0).abs() < SAME && !spreads(fitted, column);
-    if !steady || is_line || least.abs() < WEAK {
+    let symbol = case.parameters.len() + column;
+    let (exponent, whole) = case.equations.exponent_of(symbol, 0)?;
+    let is_line = exponent == 1.0 && !(whole && spreads(fitted, column));
+    if is_line || exponent.abs() < WEAK {
         return None;
     }
+    let above = x.iter().filter(|x| **x > 0.0).map(|x| libm::log(*x));
+    let middle = five_digits(libm::exp(mean(&above.collect::<Vec<f64>>())));
+    let node = Node::Column(column);
+    let by = |change: f64| raised(fitted, column, middle, [exponent, change]);
+    // Large changes are no multiples of a small one: that which is found, to two digits.
+    let two_digits = |x: f64| format!("{x:.1e}").parse().unwrap_or(x);
+    let found = |change: f64| size_of(fitted, &Term::new(node, by(change))).map(two_digits);
+    let change = found(0.0).map_or(0.0, |first| found(first).unwrap_or(first));
+    let (id, form) = (EffectId::Exponent, form("", vec![by(change)]));
+    Some(on_node(fitted, id, fitted.label(column), node, [form]))
+}
+
+/// What a quantity would be for a power of it to have an exponent that is changed by so much, less what it is, for each unit of the
+/// change; for no change the limit.
+fn raised(
+    fitted: &FittedModel<'_>,
+    column: usize,
+    middle: f64,
+    [exponent, change]: [f64; 2],
+) -> Modifier {
     let label = fitted.label(column);
-    let middle = five_digits(libm::exp(mean(&map(x, libm::log))));
-    let modifier = map(x, |x| libm::log(x / middle));
-    let text = format!("ln({label}/({}))", fitted.figure(column, middle));
-    let form = form("", vec![Modifier::number(modifier, text)]);
-    let id = EffectId::Exponent;
-    Some(on_node(fitted, id, label, Node::Gain, [form]))
+    let part = format!("({label}/({}))", fitted.figure(column, middle));
+    let power = five_digits(change / exponent);
+    let text = match change == 0.0 {
+        true => format!("{label}*ln{part}/{exponent}"),
+        false => format!("{label}*({part}^({}) - 1)/({change})", figure(power)),
+    };
+    let by_logarithm = |logarithm: f64| match change == 0.0 {
+        true => logarithm / exponent,
+        false => libm::expm1(power * logarithm) / change,
+    };
+    fitted.by(column, text, |x| match x > 0.0 {
+        true => x * by_logarithm(libm::log(x / middle)),
+        false => 0.0,
+    })
 }
 
 /// Curvature of the response to a factor of a product of quantities of different kinds, such as current times
@@ -155,6 +179,10 @@ fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         .zip(super::powers::of(fitted, column))
         .map(|(id, forms)| on_node(fitted, id, label, Node::Output, forms));
     let mut cells: Vec<Cell> = powers.collect();
+    let bends_by = |cell: &Cell| {
+        let mut terms = cell.variants.iter().flat_map(|variant| &variant.terms);
+        terms.any(|term| fitted.absorbed().leaves(&fitted.column(term)))
+    };
     if fitted.passes_zero(column) {
         let form = form(
             "",
@@ -162,7 +190,7 @@ fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         );
         let id = EffectId::Asymmetry;
         cells.push(on_node(fitted, id, label, Node::Output, [form]));
-    } else if !fitted.is_temperature(column) {
+    } else if !fitted.is_temperature(column) && bends_by(&cells[0]) {
         cells[0].variants.extend(levelling(fitted, column));
     }
     cells

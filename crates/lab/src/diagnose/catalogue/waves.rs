@@ -7,10 +7,11 @@ use std::f64::consts::TAU;
 use super::angles::harmonics;
 use super::building::{form, on_node, wave};
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{amount, correlation, figure, levels_of, map, range, rounded};
+use super::modifiers::{amount, correlation, figure, levels_of, map, mean, range, rounded};
 use super::sharp::summit;
 use super::{Cell, EffectId};
 use crate::diagnose::case::Role;
+use crate::diagnose::evidence::LIKENESS;
 use gumption_core::special::chi_squared_upper_quantile;
 
 /// A wave with fewer periods is the business of drifts and smooth curves.
@@ -86,6 +87,12 @@ fn periods(fitted: &FittedModel<'_>, column: Option<usize>, words: String) -> Op
     if column.is_none() {
         let calendar = of_the_calendar(fitted, &blocks, &peaks, span);
         periods.retain(|period| !calendar.iter().any(|own| is_near(*period, *own, span)));
+        let rounds = rounds(fitted);
+        periods.retain(|period| {
+            !rounds
+                .iter()
+                .any(|groups| goes_round(&blocks, groups, *period))
+        });
     }
     let least = rounded(least, 1e-4 * span);
     let began = match column {
@@ -188,6 +195,37 @@ fn of_the_calendar(fitted: &FittedModel<'_>, x: &[f64], peaks: &[f64], span: f64
     cycles.filter(|own| !is_told(own)).collect()
 }
 
+/// The rows at each value, for each stimulus whose values come again and again.
+fn rounds(fitted: &FittedModel<'_>) -> Vec<Vec<Vec<usize>>> {
+    let of_column = |column: usize| {
+        let x = fitted.design.reduced(fitted.numbers(column));
+        let values = levels_of(&x);
+        let at = |value: &f64| (0..x.len()).filter(|row| x[*row] == *value).collect();
+        (2 * values.len() <= x.len()).then(|| values.iter().map(at).collect())
+    };
+    fitted.used(Role::Stimulus).filter_map(of_column).collect()
+}
+
+/// Whether a wave over the time is a value of its own at each value of a stimulus, which goes round with it: but for less than
+/// makes an effect another.
+fn goes_round(t: &[f64], groups: &[Vec<usize>], period: f64) -> bool {
+    let phases = map(t, |t| TAU * t / period);
+    let [between, whole] = [libm::sin, libm::cos]
+        .map(|wave: fn(f64) -> f64| {
+            let wave = map(&phases, wave);
+            let mean = mean(&wave);
+            let of_group = |rows: &Vec<usize>| {
+                let sum = rows.iter().map(|row| wave[*row] - mean).sum::<f64>();
+                sum * sum / rows.len() as f64
+            };
+            let whole = wave.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>();
+            [groups.iter().map(of_group).sum::<f64>(), whole]
+        })
+        .into_iter()
+        .fold([0.0; 2], |sums, of| [sums[0] + of[0], sums[1] + of[1]]);
+    whole - between < LIKENESS * LIKENESS * whole
+}
+
 /// Whether two periods are less than half a wave apart over the whole span.
 fn is_near(one: f64, other: f64, span: f64) -> bool {
     (1.0 / one - 1.0 / other).abs() * span < 0.5
@@ -221,4 +259,22 @@ fn power(fitted: &FittedModel<'_>, x: &[f64], frequency: f64) -> f64 {
     };
     let residuals = fitted.fit.residuals.as_slice();
     residuals.chunks(x.len()).map(of_response).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wave_of_the_round_is_that_of_the_stimulus() {
+        let times: Vec<f64> = (0..80).map(|row| 4.0 * f64::from(row)).collect();
+        let groups: Vec<Vec<usize>> = (0..8).map(|at| (at..80).step_by(8).collect()).collect();
+        // A round takes 32; a half and a quarter of it go round as well.
+        for period in [32.0, 16.0, 32.2] {
+            assert!(goes_round(&times, &groups, period), "{period}");
+        }
+        for period in [36.0, 29.0, 20.0] {
+            assert!(!goes_round(&times, &groups, period), "{period}");
+        }
+    }
 }

@@ -7,7 +7,7 @@
 /// A departure by this share is the effect as listed …
 pub(super) const FORM: f64 = 0.1;
 /// … and by this share still that effect: something that acts like it.
-pub(super) const LIKENESS: f64 = 0.3;
+pub const LIKENESS: f64 = 0.3;
 
 /// What a part of an effect of this strength that its form leaves adds to the logarithm of a likelihood.
 pub(super) fn left(share: f64, strength: f64) -> f64 {

@@ -99,6 +99,7 @@ pub use against::{Against, Beside, Instead, against};
 pub use baseline::{Baseline, Prior, Spread};
 pub use closed_form::maximum;
 pub use contest::{Contest, Course, contest};
+pub use departure::LIKENESS;
 pub use directions::{TRACE, all, determined, inverse, left, left_beside, side_by_side, span};
 pub(super) use directions::{orthonormal, without};
 pub use examine::examine;

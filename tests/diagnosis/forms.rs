@@ -183,3 +183,23 @@ fn a_declared_square_is_not_left_out() {
     assert!(named.contains(&"cubic".to_owned()), "{named:?}");
     assert!(!named.contains(&"quadratic".to_owned()), "{named:?}");
 }
+
+/// A second band of a gas is no offset of the output, however well one does that makes a parabola of the exponential.
+#[test]
+fn nothing_is_larger_than_the_readings() {
+    let mut noise = Noise(241);
+    let mut rows = "c [µmol/mol],U [V]\n".to_owned();
+    for row in 0..240 {
+        let c = [0.0, 200.0, 400.0, 600.0, 800.0, 1000.0, 1500.0, 2000.0][row / 5 % 8];
+        let bands = 0.97 * libm::exp(-2.4e-4 * c) + 0.03 * libm::exp(-3e-3 * c);
+        let _ = writeln!(rows, "{c},{:.4}", 2.0 * bands + 8e-4 * noise.normal());
+    }
+    let case = "equations = \"U = U0*exp(-k*c)\"\n[columns]\nc = \"stimulus\"\nU = \"output\"\n[parameter]\nU0 = { start = \"2 V\" }\nk = { start = \"0.0002 mol/µmol\" }\n";
+    let found = diagnosed("two-bands", &rows, case);
+    let sizes = found["improved"]["coefficients"].as_array();
+    let offsets = sizes.into_iter().flatten().filter(|one| one["unit"] == "V");
+    for offset in offsets {
+        let size = offset["value"].as_f64().expect("a size");
+        assert!(size.abs() < 4.0, "{found}");
+    }
+}

@@ -1,11 +1,12 @@
-//! Sizes that an effect cannot have: a reversal that is not complete, a change of the scale that leaves nothing of the response.
+//! Sizes that an effect cannot have: a reversal that is not complete, a change of the scale that leaves nothing of the response, a
+//! shift that is larger than readings can differ.
 
 use std::collections::BTreeMap;
 
 use nalgebra::DVector;
 
 use super::candidates::Candidates;
-use super::catalogue::modifiers::{known, line_through, map2};
+use super::catalogue::modifiers::{known, largest, line_through, map2};
 use super::catalogue::{FittedModel, Node, Variation};
 use super::confirm::along;
 use super::evidence::{Alternative, Examination};
@@ -23,19 +24,33 @@ pub(super) fn missized(
         let is_other = sizes
             .map(|(at, size)| (*size, named.covariance[(at, at)].max(0.0).sqrt()))
             .any(|(size, u)| !effect.admits(size, u));
-        let takes_all = || {
-            let first = named.variants.first();
-            let variation = first.map(|first| candidates.variation(first.atom));
-            let on_scale = |of: &&Variation| of.terms.iter().any(|term| term.node == Node::Gain);
-            variation.filter(on_scale).is_some_and(|variation| {
-                let scales = scales(&candidates.fitted, variation, &named.estimate, claimed);
+        let fitted = &candidates.fitted;
+        let is_impossible = |variation: &Variation| {
+            let on_scale = variation.terms.iter().any(|term| term.node == Node::Gain);
+            let takes_all = || {
+                let scales = scales(fitted, variation, &named.estimate, claimed);
                 takes_all(variation, named.estimate.as_slice(), &scales)
-            })
+            };
+            (on_scale && takes_all()) || outgrows(fitted, variation, &named.estimate)
         };
-        is_other || (effect.exact.is_none() && takes_all())
+        let first = named.variants.first();
+        let first = first.filter(|_| effect.exact.is_none());
+        is_other || first.is_some_and(|first| is_impossible(candidates.variation(first.atom)))
     };
     let named = examination.slots.iter().flat_map(|slot| &slot.named);
     named.filter(wrong).map(|named| named.candidate).collect()
+}
+
+/// Whether an effect of these sizes adds more to an output than any two numbers of the size of its readings differ: it stands only
+/// against parameters that take it away again.
+fn outgrows(fitted: &FittedModel<'_>, variation: &Variation, sizes: &DVector<f64>) -> bool {
+    let added = variation.columns(fitted) * sizes.map(known);
+    let blocks = fitted.design.blocks.len();
+    (0..fitted.case().responses.len()).any(|response| {
+        let readings = fitted.design.observed(response);
+        let added = added.rows(response * blocks, blocks);
+        largest(added.as_slice()) > 2.0 * largest(&readings)
+    })
 }
 
 /// What the signal of each response becomes, over what it was, when the parameters are fitted anew beside an effect of these

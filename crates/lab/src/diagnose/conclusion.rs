@@ -146,7 +146,13 @@ impl Diagnosis {
             Verdict::Partly | Verdict::Unexplained => {}
         }
         let named: Vec<&Slot> = told.into_iter().chain(open).collect();
-        let tentative: Vec<&Alternative> = slots.filter_map(|slot| self.tentative(slot)).collect();
+        // Another form of what has its name already has none of its own.
+        let is_told = |one: &&Alternative| {
+            let mut firsts = named.iter().filter_map(|slot| slot.named.first());
+            firsts.any(|first| first.candidate == one.candidate)
+        };
+        let tentative = slots.filter_map(|slot| self.tentative(slot));
+        let tentative: Vec<&Alternative> = tentative.filter(|one| !is_told(one)).collect();
         let places = self.places();
         match (named.is_empty(), tentative.is_empty(), self.undecided()) {
             (false, ..) => Conclusion::AndMore { named, tentative },

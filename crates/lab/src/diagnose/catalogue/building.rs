@@ -6,8 +6,8 @@ use super::sharp::best;
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
 
-/// Odds beforehand of what is not first order: a square, a rate of change, a product of conditions, an exponential; and of what comes
-/// at one value.
+/// Odds beforehand of what is not first order: a square, a rate of change, a product of conditions, an exponential; of what comes
+/// at one value; of a slip of a line where the rows may stand in any order.
 pub(super) const HIGHER: f64 = 0.3;
 
 /// A variation by what its terms follow, to be put on a node.
@@ -144,6 +144,14 @@ pub(super) fn plain(
     variants: Vec<Variation>,
 ) -> Cell {
     cell(fitted, id, Node::Output, along, variants)
+}
+
+/// A cell of what is made of neighbouring rows: likely where they follow each other in time, and not where a table is sorted.
+pub(super) fn slip(fitted: &FittedModel<'_>, id: EffectId, variants: Vec<Variation>) -> Cell {
+    Cell {
+        odds: if fitted.is_ordered() { 1.0 } else { HIGHER },
+        ..plain(fitted, id, "row", variants)
+    }
 }
 
 /// A form by its time constants, of which a single one is its shape.

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use nalgebra::DVector;
 
-use super::building::{added, on_output, plain};
+use super::building::{added, on_output, plain, slip};
 use super::fitted::{FittedModel, varies};
 use super::modifiers::{figure, map, map2, range, spacing, successive, typical_step};
 use super::sharp::nearly_all;
@@ -159,7 +159,7 @@ fn shifted(fitted: &FittedModel<'_>) -> Option<Cell> {
             variant(&label, vec![of(&model, first, late)])
         }));
     }
-    Some(plain(fitted, EffectId::Shifted, "row", variants))
+    Some(slip(fitted, EffectId::Shifted, variants))
 }
 
 /// Fewer readings in a row are alike by chance.

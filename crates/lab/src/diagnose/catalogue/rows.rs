@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::building::{added, cell, on_output, plain};
+use super::building::{added, cell, on_output, plain, slip};
 use super::fitted::{FittedModel, Node};
 use super::levels::{Factor, factors};
 use super::modifiers::{known, map};
@@ -79,7 +79,7 @@ fn swapped(fitted: &FittedModel<'_>) -> Cell {
         // All responses of a row are exchanged together: one coefficient.
         Variation::of(label.clone(), tied(terms.collect()))
     });
-    plain(fitted, EffectId::Swapped, "row", variants.collect())
+    slip(fitted, EffectId::Swapped, variants.collect())
 }
 
 /// The model fitted without single rows, which may have bent the fit; all rows alike.

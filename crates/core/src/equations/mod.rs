@@ -175,11 +175,7 @@ impl Equations {
         if values.len() != self.symbols {
             return f64::NAN;
         }
-        let gradient = equation.model.gradients(values);
-        for (slope, derivative) in slopes.iter_mut().zip(gradient.row(0).iter()) {
-            *slope = *derivative;
-        }
-        equation.model.values(values)[0]
+        equation.model.value_and_slopes(values, slopes)
     }
 
     /// The value of an equation alone; see [`Equations::at`].

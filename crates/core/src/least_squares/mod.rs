@@ -66,7 +66,7 @@ pub use directions::{span, without};
 pub use elsewhere::{Elsewhere, elsewhere};
 pub use gradient::Gradient;
 pub use lack_of_fit::{LackOfFit, Replicates, lack_of_fit, replicates};
-pub use nonlinear::{Linear, Minimum, Residuals, Stuck, minimise};
+pub use nonlinear::{Linear, Minimum, Residuals, Stuck, glance, minimise};
 pub use pattern::{Runs, runs};
 pub use polynomial::Polynomial;
 pub use problem::{Errors, Problem, Response, Scale, Spread};

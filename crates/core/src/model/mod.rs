@@ -226,6 +226,17 @@ impl Model {
         resolution::resolved(&self.graph, x)
     }
 
+    /// The value of the first output, and its derivatives by all inputs.
+    pub fn value_and_slopes(&self, x: &[f64], slopes: &mut [f64]) -> f64 {
+        let values = self.graph.evaluate(&points(x));
+        let id = self.graph.outputs[0];
+        let gradient = self.graph.gradient(&values, id, self.inputs);
+        for (slope, derivative) in slopes.iter_mut().zip(gradient) {
+            *slope = derivative.value();
+        }
+        values[id as usize].value()
+    }
+
     /// ∂f_o/∂x_i, outputs × inputs, by one reverse sweep per output.
     pub fn gradients(&self, x: &[f64]) -> DMatrix<f64> {
         let values = self.graph.evaluate(&points(x));

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::catalogue::modifiers::largest;
 use super::design::{Design, Linear};
-use gumption_core::least_squares::{self, Residuals, Stuck, minimise};
+use gumption_core::least_squares::{self, Minimum, Residuals, Stuck, glance, minimise};
 
 /// The model at its best.
 #[derive(Debug, Clone)]
@@ -181,18 +181,23 @@ pub fn from(design: &Design<'_>, u: &DVector<f64>, start: DVector<f64>) -> Resul
     found.map(|(_, fit)| fit)
 }
 
-/// Fits the model from a place that should be near; from everywhere else where that fails.
+/// Fits the model from a place that should be near; where that leads to no minimum, from elsewhere, where a good start shows soon.
 ///
 /// # Errors
 /// As [`fit`].
 pub fn near(design: &Design<'_>, u: &DVector<f64>, start: DVector<f64>) -> Result<Fit, NoFit> {
-    match from(design, u, start) {
-        Ok(found) if found.lost.is_none() => Ok(found),
-        first => match (first, fit(design, u)) {
-            // The search from elsewhere may end in a place that is no better.
-            (Ok(first), Err(_)) => Ok(first),
-            (_, second) => second,
-        },
+    let problem = Problem::new(design, u);
+    match problem.search(start) {
+        Ok((_, found)) if found.lost.is_none() => Ok(found),
+        first => {
+            let starts = starts(design).into_iter();
+            let others = starts.filter_map(|start| problem.glance(&start));
+            let best = others.min_by(|a, b| a.0.total_cmp(&b.0));
+            match best {
+                Some((_, fit)) => Ok(without_turns(design, fit)),
+                None => first.map(|(_, fit)| fit),
+            }
+        }
     }
 }
 
@@ -278,6 +283,16 @@ impl<'f, 'c> Problem<'f, 'c> {
             ..at(self.design, DVector::from_vec(unknowns))
         };
         Ok((linear.chi_squared(), fit))
+    }
+
+    /// The fit to which a short search leads, with its χ².
+    fn glance(&self, start: &DVector<f64>) -> Option<(f64, Fit)> {
+        let Minimum {
+            parameters, linear, ..
+        } = glance(self, start.as_slice())?;
+        self.determined(&linear).ok()?;
+        let fit = at(self.design, DVector::from_vec(parameters));
+        Some((linear.chi_squared(), fit))
     }
 
     /// Whether every unknown has an effect of its own on the fitted values.

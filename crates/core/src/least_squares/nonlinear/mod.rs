@@ -45,7 +45,7 @@ pub fn minimise(residuals: &dyn Residuals, start: &[f64]) -> Result<Minimum, Stu
 }
 
 /// The minimum that a short search from a start leads to, if it does.
-pub(super) fn glance(residuals: &dyn Residuals, start: &[f64]) -> Option<Minimum> {
+pub fn glance(residuals: &dyn Residuals, start: &[f64]) -> Option<Minimum> {
     /// Enough wherever a start is a good one; a search that creeps may be left alone.
     const STEPS: usize = 60;
     let first = residuals.at(start, None)?;

@@ -55,7 +55,7 @@ impl<'a> Names<'a> {
     /// The name of a candidate with its columns in it.
     pub(super) fn plain(self, cell: usize) -> String {
         let cell = self.cell(cell);
-        self.words(cell).fill(cell.effect.name.of(self.l))
+        self.filled(cell, cell.effect.name.of(self.l))
     }
 
     /// The name, and what distinguishes a candidate whose only variant has a label: the harmonic of an angle.
@@ -80,7 +80,16 @@ impl<'a> Names<'a> {
     pub(super) fn prose(self, cell: usize) -> String {
         let cell = self.cell(cell);
         let own = cell.description.clone();
-        own.unwrap_or_else(|| self.words(cell).fill(cell.effect.prose.of(self.l)))
+        own.unwrap_or_else(|| self.filled(cell, cell.effect.prose.of(self.l)))
+    }
+
+    /// A text of the catalogue with the words of a candidate in it: blanks stand about names of columns, and not about Chinese words.
+    fn filled(self, cell: &Cell, text: &str) -> String {
+        let filled = self.words(cell).fill(text);
+        match self.l {
+            Language::English => filled,
+            Language::Chinese => closed_up(&filled),
+        }
     }
 
     /// What the texts of a candidate speak of: offset, scale and signal have words, columns and parameters keep their
@@ -154,6 +163,18 @@ impl<'a> Names<'a> {
     }
 }
 
+/// A text without single blanks between Chinese characters.
+fn closed_up(text: &str) -> String {
+    let is_chinese = |c: Option<&char>| c.is_some_and(|c| ('\u{4e00}'..='\u{9fff}').contains(c));
+    let letters: Vec<char> = text.chars().collect();
+    let stays = |at: &usize| {
+        let before = at.checked_sub(1).and_then(|before| letters.get(before));
+        letters[*at] != ' ' || !(is_chinese(before) && is_chinese(letters.get(at + 1)))
+    };
+    let kept = (0..letters.len()).filter(stays);
+    kept.map(|at| letters[at]).collect()
+}
+
 /// A quantity of the model: offset and scale, of one output or of all, have words, others their names.
 pub(super) fn quantity(node: &str, l: Language) -> String {
     if let Some((part, output)) = node.split_once(" of ") {
@@ -173,5 +194,16 @@ pub(super) fn unknown(name: &str, l: Language) -> String {
     match name.strip_prefix("common error of ") {
         Some(column) => l.pick(name.to_owned(), format!("{column} 的共同误差")),
         None => name.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blanks_stand_about_names_of_columns_alone() {
+        assert_eq!(closed_up("零位 上随 x 平滑变化"), "零位上随 x 平滑变化");
+        assert_eq!(closed_up("沿 行号 的波动"), "沿行号的波动");
     }
 }

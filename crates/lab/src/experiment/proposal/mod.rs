@@ -413,6 +413,9 @@ mod tests {
         let table = of("面,第几遍,ax (LSB)\nX+,1,99.8\nX-,1,-101\nX+,2,99.9\nX-,2,-101.5\n");
         assert_eq!(role(&table, "第几遍"), "run");
         assert_eq!(table["equations"].as_str(), Some("ax = a + b*nx"));
+        // A unit of time stands for its name.
+        let table = of("Days,Weight [kg]\n0,184.35\n4,182.51\n7,180.45\n");
+        assert_eq!(role(&table, "Days"), "time");
         // What rises once is set.
         let table = of("level,U [mV]\n1,0.1\n1,0.2\n2,1.1\n2,1.2\n3,2.1\n3,2.2\n");
         assert_eq!(role(&table, "level"), "stimulus");

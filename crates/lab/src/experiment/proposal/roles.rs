@@ -382,8 +382,9 @@ fn is_clock(column: &Column) -> bool {
             .iter()
             .any(|start| name.starts_with(start));
     // A unit that stands for the name.
-    const UNITS: [&str; 8] = [
-        "sec", "seconds", "min", "minutes", "hours", "秒", "分钟", "小时",
+    const UNITS: [&str; 12] = [
+        "sec", "seconds", "min", "minutes", "hours", "days", "weeks", "years", "秒", "分钟",
+        "小时", "天数",
     ];
     let is_unit = UNITS.contains(&name.as_str());
     let second = UnitTable::default().parse("s");

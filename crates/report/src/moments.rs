@@ -99,7 +99,9 @@ pub(super) fn few_readings(
     .in_language(l);
     let result = measurand.and_then(|m| report.evaluation.results.get(m));
     let reason = result.map(|result| result.reported(&report.budget.conventions).reason);
-    let narrower = result.is_some_and(is_narrower);
+    // Without a difference beyond the tolerance the sign of it is chance.
+    let differs = reason == Some(Reason::FewReadings);
+    let narrower = differs && result.is_some_and(is_narrower);
     let refuted = reason.map_or_else(String::new, |reason| of_reason(report, reason, narrower));
     let space = l.pick(" ", "");
     let parts = match (dof, result) {

@@ -65,6 +65,8 @@ impl Lowering<'_> {
         };
         let mut factors = vec![factor, 1.0 / factor];
         factors.extend(ratios.flat_map(of_ratio));
+        // One converts nothing: the percent of the result is that of the ratio.
+        factors.retain(|factor| (factor - 1.0).abs() > NEAR);
         let is_it = |number: f64| {
             let mut factors = factors.iter();
             factors.any(|f| (number / f - 1.0).abs() <= near.max(f64::EPSILON))

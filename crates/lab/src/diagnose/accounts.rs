@@ -2,7 +2,7 @@
 
 use super::candidates::Candidates;
 use super::case::{Asked, Called};
-use super::catalogue::{Cell, EffectId, Kind};
+use super::catalogue::{Cell, EffectId, Kind, effects};
 use super::evidence::{self, Against, Baseline, Examination, Settings};
 
 /// What becomes of an effect that is asked about.
@@ -34,17 +34,20 @@ pub(super) fn accounts(
         against.map(Account::Considered).collect()
     };
     let of = |called: &Called| {
-        let (id, accounts) = match called {
-            Called::Effect(id) => (*id, considered(&|cell| cell.effect.id == *id)),
+        let (effect, accounts) = match called {
+            Called::Effect(id) => (Some(id.entry()), considered(&|cell| cell.effect.id == *id)),
             Called::Own(name) => {
                 let is_own = |cell: &Cell| cell.effect.kind == Kind::Own && cell.words.x == *name;
-                (EffectId::User, considered(&is_own))
+                let own = effects().iter().find(|effect| effect.kind == Kind::Own);
+                (own, considered(&is_own))
             }
         };
-        match accounts.is_empty() {
-            true if case.settings.admits(id.entry()) => vec![Account::NothingToActOn(id)],
-            true => vec![Account::LeftOut(id)],
-            false => accounts,
+        match effect.filter(|_| accounts.is_empty()) {
+            None => accounts,
+            Some(effect) if case.settings.admits(effect) => {
+                vec![Account::NothingToActOn(effect.id)]
+            }
+            Some(effect) => vec![Account::LeftOut(effect.id)],
         }
     };
     match &case.settings.asked {

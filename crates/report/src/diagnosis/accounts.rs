@@ -16,7 +16,7 @@ use gumption_lab::diagnose::{Account, Diagnosis, Standing};
 
 use super::labels::spoken;
 use super::names::Names;
-use super::words::{chance, p_found, probability};
+use super::words::{chance, p_found};
 
 /// So many effects have their sentences; more are a table.
 const READ: usize = 5;
@@ -99,8 +99,12 @@ impl Teller<'_> {
                 [
                     significant(instead.chi_squared, 3),
                     instead.dof.to_string(),
-                    probability(instead.p),
-                    format!("× {}", significant(instead.noise, 2)),
+                    p_found(instead.p, instead.draws)
+                        .replace("p ", "")
+                        .replace("= ", ""),
+                    instead.noise.map_or(String::new(), |noise| {
+                        format!("× {}", significant(noise, 2))
+                    }),
                 ]
             });
             let own = against.beside.as_ref().map(|beside| &beside.own);
@@ -114,8 +118,8 @@ impl Teller<'_> {
         }
         let key = paragraph(
             l,
-            "χ² for ν degrees of freedom is what it leaves in the place of the likeliest effect of the answer, or of what has no name; p the probability of what stands out beside it; it would do with noise so many times larger; λ is its strength beside the answer. `--why EFFECT` has sizes.",
-            "χ²（自由度 ν）为用它代替结论中最可能的一项影响（或未能命名的部分）后所余；p 为此外所显著部分的概率；噪声须为所示倍数，它才说得通；λ 为它加在结论之外的强度。大小见 `--why 影响`。",
+            "χ² for ν degrees of freedom is what it leaves in the place of the likeliest effect of the answer, or of what has no name; p the probability of what stands out beside it; with noise so many times larger than claimed it would not be excluded; λ is its strength beside the answer. `--why EFFECT` has sizes.",
+            "χ²（自由度 ν）为用它代替结论中最可能的一项影响（或未能命名的部分）后所余；p 为此外所显著部分的概率；若噪声为声称值的所示倍数，它便不会被排除；λ 为它加在结论之外的强度。大小见 `--why 影响`。",
         );
         vec![Block::Table(table), key]
     }
@@ -199,23 +203,16 @@ impl Teller<'_> {
         let fit =
             say!("{place}{own} it leaves χ² = {chi_squared} for {dof} degrees of freedom; {left}")
                 .in_language(l);
-        match instead.is_excluded && instead.noise > 1.0 {
-            true => fit + &self.brought_back(instead),
-            false => fit,
-        }
+        fit + &self.brought_back(instead)
     }
 
     /// What would make it possible.
     fn brought_back(&self, instead: &Instead) -> String {
-        let (l, times) = (self.names.l, significant(instead.noise, 2));
-        match self.diagnosis.noise.is_estimated() {
-            true => {
-                say!(" It would do if the noise were {times} times that which the answer leaves.")
-                    .in_language(l)
-            }
-            false => say!(" It would do if the noise were {times} times that which is claimed.")
-                .in_language(l),
-        }
+        let times = instead.noise.map(|noise| significant(noise, 2));
+        times.map_or_else(String::new, |times| {
+            say!(" It would not be excluded if the noise were {times} times that which is claimed.")
+                .in_language(self.names.l)
+        })
     }
 
     /// It beside the answer.
@@ -237,7 +234,7 @@ impl Teller<'_> {
                 let size = with_unit(&significant(size, 2), &unit);
                 say!("{seen}; from a size of about {size} on it would be seen.").in_language(l)
             }
-            None => say!("{seen}.").in_language(l),
+            None => seen + l.pick(".", "。"),
         }
     }
 

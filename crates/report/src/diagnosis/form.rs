@@ -134,8 +134,8 @@ form! {
         chi_squared: Number = Number(instead.chi_squared),
         /// Its degrees of freedom.
         dof: usize = instead.dof,
-        /// By what the noise, claimed or left by the answer, would have to be multiplied to make residuals as large.
-        noise_factor: Number = Number(instead.noise),
+        /// By what the claimed noise would have to be multiplied for it not to be excluded; null where it is not, or nothing is claimed.
+        noise_factor: Option<Number> = instead.noise.map(Number),
         /// What explains most of what is left.
         strongest: Option<String> = instead.strongest.map(|atom| names.variant(d.atoms[atom])),
         /// Probability of as much by chance.

@@ -97,12 +97,13 @@ mod tests {
     #[test]
     fn effects_are_found_by_identifier_name_and_description() {
         let lag = Called::Effect(EffectId::TemperatureLag);
-        assert_eq!(asked("temperature-lag"), [lag.clone()]);
+        assert_eq!(asked(EffectId::TemperatureLag.as_str()), [lag.clone()]);
         assert_eq!(asked("Thermal lag"), [lag.clone()]);
         assert_eq!(asked("热滞后"), [lag]);
         assert_eq!(asked("Bending"), [Called::Own("bending".to_owned())]);
         // The identifier goes before names that have it in them.
-        assert_eq!(asked("cubic"), [Called::Effect(EffectId::Cubic)]);
+        let cube = EffectId::Cubic;
+        assert_eq!(asked(cube.as_str()), [Called::Effect(cube)]);
         assert!(asked("temperature").len() > 3);
         assert!(asked("dead zone").contains(&Called::Effect(EffectId::ZeroStep)));
         assert_eq!(Asked::of("ALL", [].into_iter()), Ok(Asked::Everything));
@@ -113,7 +114,7 @@ mod tests {
         let refused = Asked::of("hystersis", [].into_iter())
             .unwrap_err()
             .to_string();
-        assert!(refused.contains("hysteresis"), "{refused}");
+        assert!(refused.contains(EffectId::Hysteresis.as_str()), "{refused}");
         assert!(Asked::of("", [].into_iter()).is_err());
         assert!(
             Asked::of("astrology", [].into_iter())

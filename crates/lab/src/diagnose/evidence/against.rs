@@ -2,6 +2,7 @@
 //! beside it.
 
 use super::choice::block_of;
+use super::closed_form::Scale;
 use super::departure::FORM;
 use super::detection;
 use super::findings::{Alternative, Examination, Variant, Verdict};
@@ -36,9 +37,9 @@ pub struct Instead {
     pub chi_squared: f64,
     /// … and its degrees of freedom.
     pub dof: usize,
-    /// By what the noise would have to be multiplied for the residuals to be as large as noise makes them: that which is claimed, or
-    /// where it is estimated, that which the answer leaves.
-    pub noise: f64,
+    /// By what noise that is claimed would have to be multiplied for it not to be excluded; `None` where it is not excluded, or where the
+    /// residuals tell the noise.
+    pub noise: Option<f64>,
     /// The atom that explains most of what is left.
     pub strongest: Option<usize>,
     /// Probability that as much would be left by chance, among all atoms, if this set were the truth.
@@ -128,10 +129,9 @@ impl<'t> Trial<'t> {
         let space = self.space;
         let left = space.residual(&set);
         let outcome = detection::test(space, &set, FORM, None, self.simulated);
-        let noise = match space.question.baseline.scale_dof() == 0.0 {
-            true => space.sigma(&set) / space.sigma(&self.answer),
-            false => (left.chi_squared / left.dof.max(1) as f64).sqrt(),
-        };
+        let is_excluded = outcome.p <= space.question.settings.alpha;
+        let is_claimed = is_excluded && matches!(space.scale, Scale::Known);
+        let noise = || detection::tolerable(space, &set, FORM, self.simulated);
         Some(Instead {
             own: Alternative {
                 probability: 1.0 / (1.0 + libm::exp(self.score - score)),
@@ -140,11 +140,11 @@ impl<'t> Trial<'t> {
             of: of.map(|of| space.blocks[of].candidate),
             chi_squared: left.chi_squared,
             dof: left.dof,
-            noise,
+            noise: is_claimed.then(noise).flatten(),
             strongest: outcome.strongest.map(|block| space.blocks[block].atom),
             p: outcome.p,
             draws: outcome.draws,
-            is_excluded: outcome.p <= space.question.settings.alpha,
+            is_excluded,
         })
     }
 

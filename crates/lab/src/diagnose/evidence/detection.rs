@@ -126,6 +126,52 @@ pub(super) fn test(
     }
 }
 
+/// By what noise that is known would have to be multiplied for the strongest block beside a set to be no more than it is in all but α of
+/// recordings; `None` where not even many times the noise does.
+pub(super) fn tolerable(
+    space: &Space,
+    frame: &Frame,
+    share: f64,
+    simulated: &Simulated,
+) -> Option<f64> {
+    /// More is no noise.
+    const MOST: f64 = 1e6;
+    /// Halvings of the interval in which the factor lies: six digits.
+    const STEPS: usize = 20;
+    let panel = Panel::new(space, frame);
+    let allowance = departure::left(share, space.strength(frame));
+    let of_chunk = |i: usize| panel.simulated(simulated.chunk(i));
+    let each = side_by_side(simulated.chunks(), of_chunk).into_iter();
+    let mut largest: Vec<f64> = each.flatten().map(|[few, many]| few.max(many)).collect();
+    largest.sort_by(|a, b| b.total_cmp(a));
+    let alpha = space.question.settings.alpha;
+    let as_extreme = (alpha * (largest.len() + 1) as f64) as usize;
+    let critical = *largest.get(as_extreme.max(1) - 1)?;
+    let stands_out = |noise: f64| {
+        let found = panel.observed_with(space, allowance, noise);
+        found
+            .into_iter()
+            .flatten()
+            .any(|one| one.allowed > critical)
+    };
+    let mut high = 1.0;
+    while stands_out(high) {
+        high *= 2.0;
+        if high > MOST {
+            return None;
+        }
+    }
+    let mut low = 0.5 * high;
+    for _ in 0..STEPS {
+        let middle = 0.5 * (low + high);
+        match stands_out(middle) {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    Some(high)
+}
+
 /// Where pairs are not asked for.
 const NO_PAIRS: [f64; 2] = [f64::NEG_INFINITY; 2];
 
@@ -185,14 +231,21 @@ impl<'a> Panel<'a> {
 
     /// The strongest block that few rows carry, and of the rest, where this much is allowed to what resembles the set altogether.
     pub(super) fn observed(&self, space: &Space, allowance: f64) -> [Option<Strongest>; 2] {
-        let components = self.beside.observed();
+        self.observed_with(space, allowance, 1.0)
+    }
+
+    /// The same with noise so many times larger, of which the allowance has its part.
+    fn observed_with(&self, space: &Space, allowance: f64, noise: f64) -> [Option<Strongest>; 2] {
+        let components = self.beside.observed() / noise;
+        let residual = self.beside.residual.with_noise(noise);
+        let allowance = allowance / (noise * noise);
         [Reach::Few, Reach::Many].map(|reach| {
             let rests = self.beside.rests.iter();
             let rests = rests.filter(|rest| space.blocks[rest.block].reach == reach);
             let each = rests.map(|rest| {
                 let own = self.beside.components(rest, &components);
                 let squares = own.iter().map(|c| c * c);
-                let evidence = rest.evidence(squares, &self.beside.residual);
+                let evidence = rest.evidence(squares, &residual);
                 let statistic = evidence + space.blocks[rest.block].log_odds;
                 Strongest {
                     block: rest.block,

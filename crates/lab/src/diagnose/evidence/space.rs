@@ -290,6 +290,18 @@ pub(super) struct Residual {
     pub(super) scale: Scale,
 }
 
+impl Residual {
+    /// The same where the noise is known and so many times larger.
+    pub(super) fn with_noise(self, noise: f64) -> Residual {
+        let times = 1.0 / (noise * noise);
+        Residual {
+            chi_squared: times * self.chi_squared,
+            rss: times * self.rss,
+            ..self
+        }
+    }
+}
+
 impl Block {
     pub(super) fn kind(&self) -> Kind {
         match self.form {

@@ -13,7 +13,7 @@ pub enum Account {
     /// Nothing in the case is what it acts on.
     NothingToActOn(EffectId),
     /// It was considered, on certain quantities.
-    Considered(Against),
+    Considered(Box<Against>),
 }
 
 /// The accounts of all that is asked.
@@ -31,7 +31,8 @@ pub(super) fn accounts(
         let cells: Vec<usize> = cells.map(|(index, _)| index).collect();
         let question = candidates.question(baseline, settings);
         let against = evidence::against(&question, found, &cells).into_iter();
-        against.map(Account::Considered).collect()
+        let boxed = against.map(|one| Account::Considered(Box::new(one)));
+        boxed.collect()
     };
     let of = |called: &Called| {
         let (effect, accounts) = match called {

@@ -113,14 +113,14 @@ form! {
             },
         },
         /// It in the place of an effect of the answer, or of what has no name.
-        instead: Option<InsteadForm<'a>> = match account {
-            Account::Considered(Against { instead: Some(instead), .. }) => Some(InsteadForm::of(instead, case, d, names)),
-            _ => None,
+        instead: Option<InsteadForm<'a>> = {
+            let instead = considered(account).and_then(|against| against.instead.as_ref());
+            instead.map(|instead| InsteadForm::of(instead, case, d, names))
         },
         /// It beside the answer.
-        beside: Option<BesideForm<'a>> = match account {
-            Account::Considered(Against { beside: Some(beside), .. }) => Some(BesideForm::of(beside, case, d, names)),
-            _ => None,
+        beside: Option<BesideForm<'a>> = {
+            let beside = considered(account).and_then(|against| against.beside.as_ref());
+            beside.map(|beside| BesideForm::of(beside, case, d, names))
         },
     }
 
@@ -472,4 +472,12 @@ pub fn diagnosis_schema() -> Value {
 /// A number, where there is one.
 fn finite(x: f64) -> Option<Number> {
     x.is_finite().then_some(Number(x))
+}
+
+/// What speaks against an effect, where it was considered.
+fn considered(account: &Account) -> Option<&Against> {
+    match account {
+        Account::Considered(against) => Some(against),
+        Account::LeftOut(_) | Account::NothingToActOn(_) => None,
+    }
 }

@@ -96,10 +96,10 @@ mod tests {
 
     #[test]
     fn effects_are_found_by_identifier_name_and_description() {
-        let lag = Called::Effect(EffectId::TemperatureLag);
-        assert_eq!(asked(EffectId::TemperatureLag.as_str()), [lag.clone()]);
-        assert_eq!(asked("Thermal lag"), [lag.clone()]);
-        assert_eq!(asked("热滞后"), [lag]);
+        let lag = [Called::Effect(EffectId::TemperatureLag)];
+        assert_eq!(asked(EffectId::TemperatureLag.as_str()), lag);
+        assert_eq!(asked("Thermal lag"), lag);
+        assert_eq!(asked("热滞后"), lag);
         assert_eq!(asked("Bending"), [Called::Own("bending".to_owned())]);
         // The identifier goes before names that have it in them.
         let cube = EffectId::Cubic;

@@ -369,6 +369,10 @@ def test_a_diagnosis_finds_the_square_and_tells_its_progress():
     assert found.verdict == "identified" and found.effects[0].named[0].id == "quadratic"
     assert set(found.files()) >= {"budget.toml", "case.toml", "recording.csv"}
     assert shares and all(0 <= share <= 1 for share in shares)
+    [rival] = gumption.diagnose(experiment, files=files, why="cubic").accounts
+    assert rival.standing == "excluded" and rival.instead.noise_factor > 1
+    with pytest.raises(ValueError, match="the catalogue has no effect"):
+        gumption.diagnose(experiment, files=files, why="astrology")
 
     class Enough(Exception):
         pass

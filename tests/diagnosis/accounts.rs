@@ -52,7 +52,10 @@ fn a_rival_is_excluded_by_what_it_leaves() {
         found["effects"][0]["named"][0]["id"], "quadratic",
         "{found}"
     );
-    assert_eq!(accounts(&found, "quadratic")[0]["standing"], "named");
+    let own = &accounts(&found, "quadratic")[0];
+    assert_eq!(own["standing"], "named");
+    // What its figures are is said where it is named.
+    assert!(own["instead"].is_null() && own["beside"].is_null(), "{own}");
     let cube = &accounts(&found, "cubic")[0];
     assert_eq!(cube["standing"], "excluded", "{cube}");
     let ones = DVector::from_element(x.len(), 1.0);

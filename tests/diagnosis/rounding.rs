@@ -76,6 +76,22 @@ fn a_claim_with_the_resolution_agrees() {
     }
 }
 
+/// Who asks for the rounding then is told that the noise holds it.
+#[test]
+fn rounding_that_is_claimed_is_a_part_of_the_noise() {
+    let rows = recording(&mut Noise(80), STEP / 8.0, |_, _| 0.0);
+    let folder = folder("rounding-asked");
+    std::fs::write(folder.join("recording.csv"), rows).unwrap();
+    let claim = format!("u = {}\nresolution = {STEP}", STEP / 8.0);
+    let text = format!("recording = \"recording.csv\"\n{}", case(&claim));
+    std::fs::write(folder.join("case.toml"), text).unwrap();
+    let found = json(
+        &folder,
+        &["diagnose", "case.toml", "--json", "--why", "quantisation"],
+    );
+    assert_eq!(found["accounts"][0]["standing"], "of-noise", "{found}");
+}
+
 /// An effect beside it has its name and its size; with both in it the model agrees.
 #[test]
 fn an_effect_is_found_beside_the_rounding() {

@@ -2,7 +2,7 @@
 
 use super::candidates::Candidates;
 use super::case::{Asked, Called};
-use super::catalogue::{Cell, EffectId, Kind, effects};
+use super::catalogue::{Cell, Effect, EffectId, Kind, effects};
 use super::evidence::{self, Against, Baseline, Examination, Settings};
 
 /// What becomes of an effect that is asked about.
@@ -12,6 +12,10 @@ pub enum Account {
     LeftOut(EffectId),
     /// Nothing in the case is what it acts on.
     NothingToActOn(EffectId),
+    /// The noise holds it.
+    OfNoise(EffectId),
+    /// A candidate that would have a size which it cannot have.
+    Impossible(usize),
     /// It was considered, on certain quantities.
     Considered(Box<Against>),
 }
@@ -31,8 +35,11 @@ pub(super) fn accounts(
         let cells: Vec<usize> = cells.map(|(index, _)| index).collect();
         let question = candidates.question(baseline, settings);
         let against = evidence::against(&question, found, &cells).into_iter();
-        let boxed = against.map(|one| Account::Considered(Box::new(one)));
-        boxed.collect()
+        let account = |one: Against| match candidates.impossible.contains(&one.candidate) {
+            true => Account::Impossible(one.candidate),
+            false => Account::Considered(Box::new(one)),
+        };
+        against.map(account).collect()
     };
     let of = |called: &Called| {
         let (effect, accounts) = match called {
@@ -43,8 +50,13 @@ pub(super) fn accounts(
                 (own, considered(&is_own))
             }
         };
+        let is_noise = |effect: &Effect| {
+            let mut held = candidates.of_noise.iter();
+            held.any(|cell| cell.effect.id == effect.id)
+        };
         match effect.filter(|_| accounts.is_empty()) {
             None => accounts,
+            Some(effect) if is_noise(effect) => vec![Account::OfNoise(effect.id)],
             Some(effect) if case.settings.admits(effect) => {
                 vec![Account::NothingToActOn(effect.id)]
             }

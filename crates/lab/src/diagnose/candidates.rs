@@ -1,6 +1,7 @@
 //! What is asked of a recording: candidates as columns, the recording as residuals, and the effects that were
 //! found in the model.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use nalgebra::DMatrix;
@@ -26,6 +27,10 @@ pub(super) struct Candidates<'f> {
     pub(super) cells: Vec<Cell>,
     pub(super) candidates: Vec<Candidate>,
     pub(super) atoms: Vec<Atom>,
+    /// What the noise holds, and is told by itself.
+    pub(super) of_noise: Vec<Cell>,
+    /// Candidates that would have a size which they cannot have.
+    pub(super) impossible: BTreeSet<usize>,
 }
 
 impl<'f> Candidates<'f> {
@@ -34,19 +39,27 @@ impl<'f> Candidates<'f> {
         claimed: &Claimed,
         white: &Baseline,
     ) -> Candidates<'f> {
-        let mut cells = catalogue::cells(&fitted);
+        let cells = catalogue::cells(&fitted);
         // Rounding that the noise holds is told by itself.
         let is_noise = |cell: &Cell| {
             readout::is_rounding(cell) && claimed.rounds(fitted.case(), &cell.words.y)
         };
-        cells.retain(|cell| !is_noise(cell));
+        let (of_noise, cells): (Vec<Cell>, Vec<Cell>) = cells.into_iter().partition(is_noise);
         let (candidates, atoms) = question(&fitted, &cells, claimed, white);
         Candidates {
             fitted,
             cells,
             candidates,
             atoms,
+            of_noise,
+            impossible: BTreeSet::new(),
         }
+    }
+
+    /// Leaves out what would have a size that it cannot have.
+    pub(super) fn leave_out(&mut self, impossible: &[usize]) {
+        self.retain(|atom, _| !impossible.contains(&atom.candidate));
+        self.impossible.extend(impossible);
     }
 
     /// Keeps some of the atoms.

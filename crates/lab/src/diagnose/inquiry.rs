@@ -498,7 +498,7 @@ fn ask(
                 examination,
             });
         }
-        candidates.retain(|atom, _| !missized.contains(&atom.candidate));
+        candidates.leave_out(&missized);
     }
 }
 

@@ -72,6 +72,15 @@ impl Teller<'_> {
                 )
                 .in_language(l)
             }
+            Account::OfNoise(id) => {
+                let name = nowhere(*id, l);
+                say!("{name}: a part of the noise, where the line of the noise tells it.")
+                    .in_language(l)
+            }
+            Account::Impossible(cell) => {
+                let name = self.names.full(*cell);
+                say!("{name}: it would have a size that it cannot have.").in_language(l)
+            }
             Account::Considered(against) => self.considered(against),
         }
     }
@@ -92,8 +101,16 @@ impl Teller<'_> {
             ],
         );
         for account in &self.diagnosis.accounts {
-            let Account::Considered(against) = account else {
-                continue;
+            let against = match account {
+                Account::Considered(against) => against,
+                Account::Impossible(cell) => {
+                    let standing = l.pick("impossible size", "大小不可能");
+                    let cells = [self.names.full(*cell), standing.to_owned()].into_iter();
+                    let cells = cells.chain(vec![String::new(); 5]);
+                    table.push(cells.map(Into::into).collect());
+                    continue;
+                }
+                Account::LeftOut(_) | Account::NothingToActOn(_) | Account::OfNoise(_) => continue,
             };
             let figures = against.instead.as_ref().map(|instead| {
                 [
@@ -118,8 +135,8 @@ impl Teller<'_> {
         }
         let key = paragraph(
             l,
-            "χ² for ν degrees of freedom is what it leaves in the place of the likeliest effect of the answer, or of what has no name; p the probability of what stands out beside it; with noise so many times larger than claimed it would not be excluded; λ is its strength beside the answer. `--why EFFECT` has sizes.",
-            "χ²（自由度 ν）为用它代替结论中最可能的一项影响（或未能命名的部分）后所余；p 为此外所显著部分的概率；若噪声为声称值的所示倍数，它便不会被排除；λ 为它加在结论之外的强度。大小见 `--why 影响`。",
+            "χ² for ν degrees of freedom, with the noise as the answer has it, is what each leaves in the place of the likeliest effect of the answer, or of what has no name; p the probability of what stands out beside it; with noise so many times larger than claimed it would not be excluded; λ is its strength beside the answer. `--why EFFECT` has sizes.",
+            "χ²（自由度 ν，噪声同结论）为用它代替结论中最可能的一项影响（或未能命名的部分）后所余；p 为此外所显著部分的概率；若噪声为声称值的所示倍数，它便不会被排除；λ 为它加在结论之外的强度。大小见 `--why 影响`。",
         );
         vec![Block::Table(table), key]
     }

@@ -91,18 +91,22 @@ form! {
     AccountForm<'a> of (account: &'a Account, case: &'a Case, d: &'a Diagnosis, names: Names<'a>) {
         /// Identifier of the catalogue.
         id: &'a str = match account {
-            Account::LeftOut(id) | Account::NothingToActOn(id) => id.as_str(),
+            Account::LeftOut(id) | Account::NothingToActOn(id) | Account::OfNoise(id) => id.as_str(),
+            Account::Impossible(cell) => names.cell(*cell).effect.id.as_str(),
             Account::Considered(against) => names.cell(against.candidate).effect.id.as_str(),
         },
         /// Name.
         name: String = match account {
-            Account::LeftOut(id) | Account::NothingToActOn(id) => nowhere(*id, names.l),
+            Account::LeftOut(id) | Account::NothingToActOn(id) | Account::OfNoise(id) => nowhere(*id, names.l),
+            Account::Impossible(cell) => names.full(*cell),
             Account::Considered(against) => names.full(against.candidate),
         },
-        /// `named`, `tentative`, `absorbed`, `excluded`, `less-likely`, `not-seen`, `left-out` or `nothing-to-act-on`.
+        /// `named`, `tentative`, `absorbed`, `excluded`, `less-likely`, `not-seen`, `impossible`, `of-noise`, `left-out` or `nothing-to-act-on`.
         standing: &'static str = match account {
             Account::LeftOut(_) => "left-out",
             Account::NothingToActOn(_) => "nothing-to-act-on",
+            Account::OfNoise(_) => "of-noise",
+            Account::Impossible(_) => "impossible",
             Account::Considered(against) => match d.standing(against) {
                 Standing::Named(_) => "named",
                 Standing::Tentative(_) => "tentative",
@@ -478,6 +482,6 @@ fn finite(x: f64) -> Option<Number> {
 fn considered(account: &Account) -> Option<&Against> {
     match account {
         Account::Considered(against) => Some(against),
-        Account::LeftOut(_) | Account::NothingToActOn(_) => None,
+        _ => None,
     }
 }

@@ -101,7 +101,7 @@ impl<'t> Trial<'t> {
         let own =
             blocks.filter(|(_, block)| block.candidate == candidate && block.kind() == Kind::Named);
         let blocks: Vec<usize> = own.map(|(index, _)| index).collect();
-        let instead = self.instead(&blocks);
+        let instead = self.instead(candidate, &blocks);
         let is_beside = instead.as_ref().is_some_and(|instead| instead.of.is_none());
         Against {
             candidate,
@@ -113,8 +113,10 @@ impl<'t> Trial<'t> {
 
     /// The likeliest set with one of these blocks in it and without one of the answer, or, where something has no name, with all of
     /// the answer.
-    fn instead(&self, blocks: &[usize]) -> Option<Instead> {
-        let given_way = self.answer.blocks.iter().map(|block| Some(*block));
+    fn instead(&self, candidate: usize, blocks: &[usize]) -> Option<Instead> {
+        let is_other = |block: &&usize| self.space.blocks[**block].candidate != candidate;
+        let given_way = self.answer.blocks.iter().filter(is_other);
+        let given_way = given_way.map(|block| Some(*block));
         let nameless = self.is_open.then_some(None);
         let places: Vec<Option<usize>> = given_way.chain(nameless).collect();
         let sets = places.into_iter().flat_map(|of| {

@@ -161,7 +161,7 @@ pub(super) fn tolerable(
             return None;
         }
     }
-    let mut low = 0.5 * high;
+    let mut low = (0.5 * high).max(1.0);
     for _ in 0..STEPS {
         let middle = 0.5 * (low + high);
         match stands_out(middle) {

@@ -43,7 +43,7 @@ pub struct Pair {
     pub separable: Option<f64>,
 }
 
-/// Strength with which effects are detected nearly always.
+/// Strength with which effects are mostly detected.
 pub(super) const DETECTED: f64 = 6.0;
 /// Sine of the angle under which two effects are one.
 const ALIAS: f64 = 1e-3;

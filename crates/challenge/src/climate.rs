@@ -63,7 +63,6 @@ impl Climate {
             .collect();
         let ramp = r.random_range(-0.8..0.8) / duration;
         let air = wander(0.15, 900.0, r);
-        let [fixture_lag, bulb_lag] = [r.random_range(200.0..500.0), r.random_range(60.0..300.0)];
         let moisture = wander(1.5, 3000.0, r);
         let weather = wander(0.4, 5000.0, r);
         let pressure_trend = r.random_range(-2.0..2.0) / duration;
@@ -73,6 +72,10 @@ impl Climate {
         let motor = (0..runs)
             .map(|_| log_between(r, MOTOR[0], MOTOR[1]))
             .collect();
+        // Fixture and thermometer are those of the device: a fresh campaign finds them as they were.
+        let mut masses = source(seed, Stream::Fixture, 0);
+        let fixture_lag = masses.random_range(200.0..500.0);
+        let bulb_lag = masses.random_range(60.0..300.0);
         let start: f64 = waves.iter().map(|w| w.amplitude * libm::sin(w.phase)).sum();
         Climate {
             waves,
@@ -184,6 +187,14 @@ mod tests {
             climate.advance(2.0, 0);
         }
         assert!((climate.shown().temperature - 25.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_fresh_campaign_has_the_same_fixture_and_other_weather() {
+        let [first, fresh] = [0, 1].map(|campaign| Climate::new(3, campaign, 8000.0, 3));
+        let lags = |climate: &Climate| [climate.fixture_lag, climate.bulb_lag];
+        assert_eq!(lags(&first), lags(&fresh));
+        assert_ne!(first.ramp, fresh.ramp);
     }
 
     #[test]

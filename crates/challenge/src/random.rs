@@ -26,6 +26,8 @@ pub(super) enum Stream {
     Effect,
     /// Salt of the truth file.
     Salt,
+    /// The fixture and the thermometer on it.
+    Fixture,
 }
 
 /// A source of random numbers.

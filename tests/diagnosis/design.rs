@@ -282,6 +282,85 @@ fn the_square_of_a_condition_goes_on_about_its_own_origin() {
     assert!(rms.is_some_and(|rms| rms < 1.2 * 5e-4), "{rms:?}");
 }
 
+/// Two bridges in one housing: both shift with the temperature, one is not linear.
+fn two_bridges(seed: u64) -> String {
+    let mut noise = Noise(seed);
+    let mut text = "load [kN],U [mV],V [mV],room [°C]\n".to_owned();
+    for row in 0..60 {
+        let (load, room) = (f64::from(row * 7 % 11) * 10.0, 23.0 + noise.normal());
+        let mut output = |slope: f64, square: f64, shift: f64| {
+            let shifted = shift * (room - 23.0);
+            slope * load + square * load * load + shifted + 5e-4 * noise.normal()
+        };
+        let (first, second) = (output(0.02, 0.0, 3e-3), output(0.03, 2e-6, -5e-3));
+        let _ = writeln!(text, "{load},{first:.6},{second:.6},{room:.3}");
+    }
+    text
+}
+
+#[test]
+fn what_two_outputs_follow_stands_once_in_the_model() {
+    let folder = folder("bridges");
+    let written = |file: &str, text: String| std::fs::write(folder.join(file), text);
+    written("bridges.csv", two_bridges(4)).expect("written");
+    written("next.csv", two_bridges(5)).expect("written");
+    let case = "recording = \"bridges.csv\"\nequations = [\"U = a + b*load\", \"V = c + d*load\"]\nheld_out = { file = \"next.csv\" }\n[columns]\nU = \"output\"\nV = \"output\"\nload = \"stimulus\"\nroom = \"covariate\"\n[noise]\nu = \"0.5 µV\"\n";
+    let found = diagnosed(&folder, case);
+    let additions = found["improved"]["additions"]
+        .as_array()
+        .expect("additions");
+    let columns: Vec<&str> = additions
+        .iter()
+        .filter_map(|one| one["column"].as_str())
+        .collect();
+    assert_eq!(columns.len(), 3, "{additions:#?}");
+    let mut distinct = columns.clone();
+    distinct.sort_unstable();
+    distinct.dedup();
+    assert_eq!(distinct.len(), 2, "{additions:#?}");
+    for output in 0..2 {
+        let rms = found["held_out"]["after"]["rms"][output].as_f64();
+        assert!(rms.is_some_and(|rms| rms < 1.2 * 5e-4), "{found:#}");
+    }
+}
+
+/// A load cell that follows the temperature of the room; its humidity follows that by `share`, and else its own ways.
+fn warm_load_cell(share: f64, seed: u64) -> String {
+    let mut noise = Noise(seed);
+    let mut text = "load [kN],deflection [mV],room [°C],humidity [%]\n".to_owned();
+    for row in 0..60 {
+        let load = f64::from(row * 7 % 11) * 10.0;
+        let (room, own) = (noise.normal(), noise.normal());
+        let damp = share * room + libm::sqrt(1.0 - share * share) * own;
+        let output = 0.01 + 0.02 * load + 2e-3 * room + 5e-4 * noise.normal();
+        let (room, humidity) = (23.0 + room, 50.0 - 4.0 * damp);
+        let _ = writeln!(text, "{load},{output:.6},{room:.3},{humidity:.3}");
+    }
+    text
+}
+
+#[test]
+fn a_held_out_recording_says_which_explanation_of_a_list_predicts_it() {
+    let folder = folder("listed");
+    let written = |file: &str, text: String| std::fs::write(folder.join(file), text);
+    written("load-cell.csv", warm_load_cell(0.9995, 4)).expect("written");
+    written("next.csv", warm_load_cell(0.0, 5)).expect("written");
+    let case = LOAD_CELL.replace("humidity =", "room = \"covariate\"\nhumidity =");
+    let found = diagnosed(&folder, &case);
+    assert_eq!(found["verdict"], "ambiguous", "{found:#}");
+    let listed = found["held_out"]["listed"].as_array().expect("a list");
+    assert!(listed.len() > 1, "{found:#}");
+    for one in listed {
+        let right = one["name"]
+            .as_str()
+            .is_some_and(|name| name.contains("room"));
+        let p = one["prediction"]["p"].as_f64().expect("a probability");
+        assert_eq!(p >= 0.01, right, "{listed:#?}");
+    }
+    let (_, told) = gumption(&folder, &["diagnose", "case.toml", "--lang", "en"]);
+    assert!(told.contains("only this one predicts it"), "{told}");
+}
+
 /// A load cell whose output is higher by 5 µV from a row on.
 fn knocked_load_cell(from: u32, seed: u64) -> String {
     let mut noise = Noise(seed);

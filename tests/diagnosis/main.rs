@@ -25,5 +25,6 @@ mod reading;
 mod recordings;
 mod refusals;
 mod rounding;
+mod shapes;
 mod sizes;
 mod warmth;

@@ -20,6 +20,8 @@ pub struct Extended {
     pub additions: Vec<Addition>,
     /// The effects that were added.
     pub effects: Vec<Free>,
+    /// Terms with the modifiers of the further columns, in their order, each with the index of its effect.
+    pub(super) columns: Vec<(usize, Term)>,
 }
 
 impl Extended {
@@ -91,14 +93,25 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
     let mut additions: Vec<Addition> = Vec::new();
     let texts = (0..case.responses.len()).map(|response| case.equations.text(response));
     let mut equations: Vec<Extending> = texts.map(Extending::of).collect();
-    let mut columns = Vec::new();
+    let mut columns: Vec<(String, usize, &Term)> = Vec::new();
     let mut places = effects.iter().enumerate().flat_map(|(effect, free)| {
         let coefficients = free.coefficients.iter();
         coefficients.map(move |coefficient| (effect, *coefficient))
     });
-    for term in effects.iter().flat_map(|free| &free.variation.terms) {
+    let terms = effects.iter().enumerate();
+    let terms =
+        terms.flat_map(|(at, free)| free.variation.terms.iter().map(move |term| (at, term)));
+    for (effect, term) in terms {
         let written = term.written();
-        let column = (!stands_alone(term)).then(|| free(&case, "effect", columns.len() + 1));
+        let column = (!stands_alone(term)).then(|| {
+            // Several outputs may follow the same, each by a size of its own.
+            let known = columns.iter().find(|(.., own)| own.written() == written);
+            known.map(|(name, ..)| name.clone()).unwrap_or_else(|| {
+                let name = free(&case, "effect", columns.len() + 1);
+                columns.push((name.clone(), effect, term));
+                name
+            })
+        });
         let shared = additions.last().filter(|_| term.tied);
         let parameter = match shared {
             Some(addition) => addition.parameter.clone(),
@@ -113,10 +126,6 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
                 equation.insert(fitted, response, term, &product);
             }
         }
-        columns.extend(column.iter().map(|column| {
-            let data = Data::Numbers(fitted.design.spread(&written.values));
-            Column::new(column, Role::Covariate, &written.unit, data)
-        }));
         if is_new {
             case.parameters.push(Parameter {
                 name: parameter.clone(),
@@ -136,7 +145,14 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
             });
         }
     }
-    case.columns.extend(columns);
+    case.columns.extend(columns.iter().map(|(name, _, term)| {
+        let written = term.written();
+        let data = Data::Numbers(fitted.design.spread(&written.values));
+        Column::new(name, Role::Covariate, &written.unit, data)
+    }));
+    let columns = columns.into_iter();
+    let columns = columns.map(|(_, effect, term)| (effect, term.clone()));
+    let columns = columns.collect();
     let texts = equations.iter().enumerate();
     let texts = texts.map(|(response, equation)| equation.text(fitted, response));
     let texts: Vec<String> = texts.collect();
@@ -146,11 +162,12 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
         case,
         additions,
         effects,
+        columns,
     })
 }
 
 /// Whether the modifier of a term is one, in every row.
-pub(super) fn stands_alone(term: &Term) -> bool {
+fn stands_alone(term: &Term) -> bool {
     term.written().values.iter().all(|value| *value == 1.0)
 }
 

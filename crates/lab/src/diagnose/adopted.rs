@@ -8,6 +8,7 @@ use super::evidence::{Alternative, Baseline, Examination};
 use super::fit::{Fit, NoFit};
 use super::noise::Claimed;
 use super::parts::{self, Confirmation};
+use super::shapes::{Shapes, shapes};
 
 /// The model with the effects in it.
 #[derive(Debug)]
@@ -18,6 +19,8 @@ pub struct Adopted {
     pub coefficients: Vec<Estimated>,
     /// The unknowns of the declared model, now.
     pub unknowns: Vec<Estimated>,
+    /// What the effects have beside sizes.
+    pub shapes: Shapes,
     /// The improved case.
     pub extended: Extended,
     /// How well it describes the recording.
@@ -40,7 +43,14 @@ pub(super) fn adopt_named(
     };
     let design = Design::new(&extended.case);
     let quality = confirm::quality(&design, &fit, claimed);
-    let all = estimates(&design, &fit, claimed);
+    let shapes = shapes(
+        candidates,
+        &found.atoms,
+        &extended,
+        (&design, &fit),
+        claimed,
+    );
+    let all = shapes.widened(estimates(&design, &fit, claimed));
     let added = extended.additions.len();
     let confirmation = parts::confirmation(&design, &fit, claimed, added, &found);
     let (mut coefficients, unknowns): (Vec<Estimated>, Vec<Estimated>) =
@@ -55,6 +65,7 @@ pub(super) fn adopt_named(
         atoms,
         coefficients,
         unknowns,
+        shapes,
         quality,
         confirmation,
         fit,

@@ -122,6 +122,14 @@ fn mixed(spreads: &[Spread], at: usize) -> (f64, f64) {
     (variance, 2.0 * variance * variance / of_variance)
 }
 
+/// By what the noise is larger than claimed; one where the claim stands.
+pub(super) fn scale(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> f64 {
+    match claimed.is_estimated() {
+        true => (chi_squared(fit, claimed) / degrees(design).max(1.0)).sqrt(),
+        false => 1.0,
+    }
+}
+
 /// Observations and priors less unknowns.
 pub(super) fn degrees(design: &Design<'_>) -> f64 {
     (design.observations() + design.priors()) as f64 - design.unknowns.len() as f64

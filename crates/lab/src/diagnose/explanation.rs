@@ -239,7 +239,7 @@ pub struct Separating {
 /// The most that an explanation has which is not listed: less than whatever is.
 const UNLISTED: f64 = 0.01;
 /// More explanations take long and help nobody.
-const CONTENDERS: usize = 6;
+pub(super) const CONTENDERS: usize = 6;
 /// Rivals of which more is left are told apart as it is.
 const CLOSE: f64 = 4.0;
 

@@ -4,7 +4,7 @@
 use gumption_core::special::{chi_squared_sf, f_sf};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::adopt::stands_alone;
+use super::adopt::Extended;
 use super::adopted::Adopted;
 use super::candidates::Candidates;
 use super::case::Data;
@@ -13,6 +13,8 @@ use super::catalogue::{self, Cell, FittedModel, Pattern, Term, Variation};
 use super::coarse::Coarse;
 use super::confirm;
 use super::design::{Design, Unknown};
+use super::evidence::{Alternative, Examination, Fitted, Slot};
+use super::explanation::CONTENDERS;
 use super::fit::{self, Fit};
 use super::noise::Claimed;
 use super::prolonged::{Known, noise_of};
@@ -31,6 +33,19 @@ pub struct HeldOutQuality {
     /// With the adopted physics; `None` if nothing was adopted, or where its course in this recording does
     /// not follow from the columns: that of a jump does only in what was recorded after it.
     pub after: Option<Prediction>,
+    /// By each explanation of a list, the adopted one first.
+    pub listed: Vec<Listed>,
+}
+
+/// How an explanation predicts the recording that stands in a list with others, in the place of the one that was adopted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Listed {
+    /// Index of the slot in the examination.
+    pub slot: usize,
+    /// The candidate.
+    pub candidate: usize,
+    /// As [`HeldOutQuality::after`].
+    pub prediction: Option<Prediction>,
 }
 
 /// A prediction against what was observed.
@@ -51,6 +66,18 @@ impl HeldOutQuality {
         self.after.as_ref().unwrap_or(&self.before)
     }
 
+    /// The candidate of a list that alone predicts the recording: at the level `alpha` its errors are not larger than chance allows,
+    /// and those of all others are.
+    pub fn speaks_for(&self, slot: usize, alpha: f64) -> Option<usize> {
+        let of_slot: Vec<&Listed> = self.listed.iter().filter(|one| one.slot == slot).collect();
+        let p = |one: &&Listed| one.prediction.as_ref().and_then(|prediction| prediction.p);
+        let known: Option<Vec<f64>> = of_slot.iter().map(p).collect();
+        let known = known?;
+        let mut possible = (0..known.len()).filter(|at| known[*at] >= alpha);
+        let only = possible.next().filter(|_| possible.next().is_none())?;
+        (known.len() > 1).then(|| of_slot[only].candidate)
+    }
+
     /// Whether what was adopted does not show here: the errors are larger than chance allows at the level `alpha`, and no
     /// smaller than without it.
     pub(super) fn contradicts(&self, alpha: f64) -> bool {
@@ -68,14 +95,25 @@ impl HeldOutQuality {
 pub(super) fn held_out(
     known: &Known<'_>,
     candidates: &Candidates<'_>,
+    examination: &Examination,
     adopted: Option<&Adopted>,
 ) -> Option<HeldOutQuality> {
     let held = known.design.case.held_out.as_ref()?;
     let case = known.design.case.with(&held.rows);
     let design = Design::new(&case);
     let (fit, claimed) = known.at(&design);
-    let after = adopted.and_then(|adopted| improved(known, candidates, adopted));
+    let model = |adopted: &Adopted| {
+        improved(
+            known,
+            candidates,
+            &adopted.atoms,
+            (&adopted.extended, &adopted.fit),
+        )
+    };
+    let after = adopted.and_then(model);
+    let listed = adopted.map(|_| listed(known, candidates, examination, after.as_ref()));
     Some(HeldOutQuality {
+        listed: listed.unwrap_or_default(),
         file: held.file.clone(),
         observations: design.observations(),
         expected: design.root_mean_squares(&claimed.u),
@@ -150,19 +188,78 @@ fn chi_squared(errors: &DVector<f64>, mut slopes: DMatrix<f64>, covariance: &DMa
     (errors.norm_squared() - taken).max(0.0)
 }
 
+/// By each of several explanations of an effect; `after` is by the first.
+fn listed(
+    known: &Known<'_>,
+    candidates: &Candidates<'_>,
+    examination: &Examination,
+    after: Option<&Prediction>,
+) -> Vec<Listed> {
+    let slots = examination.slots.iter().enumerate();
+    let several = slots.filter(|(_, slot)| slot.named.len() > 1);
+    let of = several.flat_map(|(at, slot)| {
+        let named = slot.named.iter().take(CONTENDERS).enumerate();
+        named.map(move |(place, alternative)| Listed {
+            slot: at,
+            candidate: alternative.candidate,
+            prediction: match place {
+                0 => after.cloned(),
+                _ => in_place(known, candidates, examination, slot, alternative),
+            },
+        })
+    });
+    of.collect()
+}
+
+/// By an explanation in the place of the first of its slot.
+fn in_place(
+    known: &Known<'_>,
+    candidates: &Candidates<'_>,
+    examination: &Examination,
+    slot: &Slot,
+    alternative: &Alternative,
+) -> Option<Prediction> {
+    let found = examination.fitted.as_ref()?;
+    let first = slot.named.first()?.variants.first()?.atom;
+    let other = alternative.variants.first()?.atom;
+    let mut sizes = found.coefficients.as_slice();
+    let mut all: Vec<f64> = Vec::new();
+    for atom in &found.atoms {
+        let (own, rest) = sizes.split_at_checked(candidates.variation(*atom).coefficients())?;
+        all.extend(if *atom == first {
+            alternative.estimate.as_slice()
+        } else {
+            own
+        });
+        sizes = rest;
+    }
+    let atoms = found.atoms.iter();
+    let instead = Fitted {
+        atoms: atoms
+            .map(|atom| if *atom == first { other } else { *atom })
+            .collect(),
+        coefficients: DVector::from_vec(all),
+        ..found.clone()
+    };
+    let (extended, fit) = candidates.refitted(&instead, known.claimed).ok()??;
+    improved(known, candidates, &instead.atoms, (&extended, &fit))
+}
+
+/// By a model with effects in it.
 fn improved(
     known: &Known<'_>,
     candidates: &Candidates<'_>,
-    adopted: &Adopted,
+    atoms: &[usize],
+    (extended, fit): (&Extended, &Fit),
 ) -> Option<Prediction> {
     let held = known.design.case.held_out.as_ref()?;
     let both = known.design.case.followed_by(&held.rows);
     let design = Design::new(&both);
-    let fit = fit::at(&design, known.design.carried(&known.fit.unknowns, &design));
-    let coarse = Coarse::of(&design, &fit);
+    let declared = fit::at(&design, known.design.carried(&known.fit.unknowns, &design));
+    let coarse = Coarse::of(&design, &declared);
     let seen = coarse.design();
     let mut finer = candidates.fitted.finer.clone();
-    for atom in &adopted.atoms {
+    for atom in atoms {
         finer.keep(candidates.cell(*atom), candidates.variation(*atom));
     }
     let wide = FittedModel::new(&seen, &coarse.fit).refined(finer);
@@ -170,33 +267,30 @@ fn improved(
     let numeric = wide.numeric();
     let columns = (numeric.iter()).map(|column| seen.spread(wide.numbers(*column)));
     let columns: Vec<Vec<f64>> = columns.collect();
+    let cells = atoms.iter().map(|atom| candidates.cell(*atom));
+    let mut patterns = cells.filter_map(|cell| cell.effect.pattern);
+    let jumps = patterns.any(|pattern| matches!(pattern, Pattern::Jump | Pattern::ScaleJump));
+    if jumps && !follows(&wide, known.design.case.rows) {
+        return None;
+    }
     let mut rows = held.rows.clone();
-    for (atom, free) in adopted.atoms.iter().zip(&adopted.extended.effects) {
-        let cell = candidates.cell(*atom);
-        let pattern = cell.effect.pattern;
-        let is_jump = matches!(pattern, Some(Pattern::Jump | Pattern::ScaleJump));
-        if is_jump && !follows(&wide, known.design.case.rows) {
-            return None;
-        }
+    for (effect, term) in &extended.columns {
         // Both recordings together may have other effects than the first: the same course by another name is the same course.
+        let cell = candidates.cell(atoms[*effect]);
         let alike: Vec<&Cell> = others.iter().filter(|other| other.is(cell)).collect();
         let all: Vec<&Cell> = others.iter().collect();
         let designs = [candidates.fitted.design, &seen];
-        let terms = free.variation.terms.iter();
-        for term in terms.filter(|term| !stands_alone(term)) {
-            let modifier = moved(term, &alike, &columns, designs)
-                .or_else(|| continued(term, &alike, designs, LIKE))
-                .or_else(|| continued(term, &all, designs, SAME))?;
-            rows.data.push(Data::Numbers(modifier));
-        }
+        let modifier = moved(term, &alike, &columns, designs)
+            .or_else(|| continued(term, &alike, designs, LIKE))
+            .or_else(|| continued(term, &all, designs, SAME))?;
+        rows.data.push(Data::Numbers(modifier));
     }
-    let extended = &adopted.extended.case;
     let model = Known {
-        design: &Design::new(extended),
-        fit: &adopted.fit,
+        design: &Design::new(&extended.case),
+        fit,
         claimed: known.claimed,
     };
-    let case = extended.with(&rows);
+    let case = extended.case.with(&rows);
     let design = Design::new(&case);
     let (fit, claimed) = model.at(&design);
     Some(model.prediction(&design, &fit, &claimed))

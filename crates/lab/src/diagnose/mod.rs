@@ -35,6 +35,7 @@
 //! | `inquiry` | the recording asked in stages, noise and effects in turn |
 //! | `run` | a diagnosis from end to end |
 //! | `adopt` | the model with effects in it: its equations, its fit |
+//! | `shapes` | time constants, knees and widths of adopted effects, and what is not known of them |
 //! | `confirm`, `parts`, `held_out` | how well a model describes the recording, its parts, and a recording that the fit has not seen |
 //! | `regions` | where the mismatch may sit |
 //! | `plan` | what an experiment can see and tell apart, without data |
@@ -91,6 +92,7 @@ mod replicates;
 pub(crate) mod resolution;
 mod result;
 mod run;
+mod shapes;
 mod simulate;
 mod size;
 mod stand_in;
@@ -106,7 +108,7 @@ pub use emphasis::{Agreement, Unseen};
 pub use explanation::Separating;
 pub use failure::Failure;
 pub use fit::{ModelVersion, NoFit, Trouble, Unsettled};
-pub use held_out::{HeldOutQuality, Prediction};
+pub use held_out::{HeldOutQuality, Listed, Prediction};
 pub use improved::improved;
 pub use noise::Claimed;
 pub use noise_correlation::{Correlated, Memory};
@@ -119,5 +121,6 @@ pub use plan::{Outlook, Promise, Prospect, plan};
 pub use resolution::u_of_step;
 pub use result::budget;
 pub use run::{Diagnosis, diagnose};
+pub use shapes::{Shape, Shapes};
 pub use simulate::{Sheet, Simulation, simulate};
 pub use stand_in::{Pick, StandIn, stand_ins};

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::candidates::baseline;
 use super::case::Role;
-use super::confirm::{degrees, over_noise};
+use super::confirm::{degrees, over_noise, scale};
 use super::design::Design;
 use super::evidence::{Baseline, Fitted};
 use super::fit::Fit;
@@ -49,10 +49,7 @@ pub(super) fn confirmation(
     };
     let chi_squared = fit.residuals.component_div(&claimed.u).norm_squared();
     let dof = degrees(design);
-    let scale = match claimed.is_estimated() {
-        true => (chi_squared / dof.max(1.0)).sqrt(),
-        false => 1.0,
-    };
+    let scale = scale(design, fit, claimed);
     let of = |(i, part): (usize, &usize)| {
         let u = scale * covariance[(i, i)].max(0.0).sqrt();
         (names[*part].clone(), values[i], u)

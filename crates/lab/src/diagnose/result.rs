@@ -183,6 +183,10 @@ fn correlations(
 ) -> String {
     let place = |result: &ResultOf<'_>| design.named(&result.estimate.name);
     let covariance = confirm::covariance(design, fit, &diagnosis.noise);
+    let covariance = match &diagnosis.adopted {
+        Some(adopted) => adopted.shapes.with(covariance),
+        None => covariance,
+    };
     let mut text = String::new();
     for (at, a) in results.iter().enumerate() {
         for b in &results[at + 1..] {

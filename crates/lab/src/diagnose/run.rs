@@ -128,7 +128,7 @@ pub fn diagnose(
     };
     let worse = (adopted.as_ref()).is_some_and(|adopted| adopted.predicts_worse(&before));
     let adopted = adopted.filter(|_| !worse);
-    let held_out = held_out::held_out(&known, &candidates, adopted.as_ref());
+    let held_out = held_out::held_out(&known, &candidates, &examination, adopted.as_ref());
     let contradicted = (held_out.as_ref()).is_some_and(|held| held.contradicts(settings.alpha));
     let recurs = (adopted.as_ref()).is_some_and(|adopted| recurs(adopted, &candidates));
     if worse || (recurs && contradicted) {

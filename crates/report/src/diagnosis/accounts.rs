@@ -16,7 +16,7 @@ use gumption_lab::diagnose::{Account, Diagnosis, Standing};
 
 use super::labels::spoken;
 use super::names::Names;
-use super::words::{chance, p_found};
+use super::words::{below_p, chance, p_found};
 
 /// So many effects have their sentences; more are a table.
 const READ: usize = 5;
@@ -116,9 +116,7 @@ impl Teller<'_> {
                 [
                     significant(instead.chi_squared, 3),
                     instead.dof.to_string(),
-                    p_found(instead.p, instead.draws)
-                        .replace("p ", "")
-                        .replace("= ", ""),
+                    below_p(&p_found(instead.p, instead.draws)),
                     instead.noise.map_or(String::new(), |noise| {
                         format!("× {}", significant(noise, 2))
                     }),

@@ -11,8 +11,8 @@ use gumption_lab::diagnose::evidence::{
     Verdict, Worth,
 };
 use gumption_lab::diagnose::{
-    Account, Addition, Adopted, ByLabel, Claimed, Diagnosis, Extra, Growth, HeldOutQuality,
-    ModelVersion, Prediction, Quality, Quantity, Separating, Standing, Trouble, Unsettled,
+    Account, Addition, Adopted, ByLabel, Claimed, Diagnosis, Extra, Growth, HeldOutQuality, Listed,
+    ModelVersion, Prediction, Quality, Quantity, Separating, Shape, Standing, Trouble, Unsettled,
 };
 
 use super::accounts::nowhere;
@@ -76,7 +76,7 @@ form! {
         /// What effects cost that were not adopted and may be there all the same, the dearest first.
         omitted: Vec<OmittedForm<'a>> = all(&d.omitted, |line| OmittedForm::of(line, &d.unknowns, names)),
         /// How well the held-out recording is predicted.
-        held_out: Option<HeldOutForm<'a>> = d.held_out.as_ref().map(HeldOutForm::of),
+        held_out: Option<HeldOutForm<'a>> = d.held_out.as_ref().map(|held| HeldOutForm::of(held, names)),
         /// For each effect with several explanations what the choice between them costs each parameter.
         choices: Vec<ByUnknown<'a>> = all(&d.choices, |u| by_unknown(&d.unknowns, u)),
         /// Standard uncertainties of the parameters with all that may be there unseen.
@@ -378,6 +378,8 @@ form! {
         additions: Vec<AdditionForm<'a>> = all(&adopted.extended.additions, AdditionForm::of),
         /// Their sizes.
         coefficients: Vec<EstimateForm<'a>> = all(&adopted.coefficients, EstimateForm::of),
+        /// What the effects have beside sizes: time constants, knees, widths, periods.
+        shapes: Vec<ShapeForm<'a>> = all(&adopted.shapes.all, ShapeForm::of),
         /// The parameters of the declared model, now.
         parameters: Vec<EstimateForm<'a>> = all(&adopted.unknowns, EstimateForm::of),
         /// χ² that the linear prediction promised.
@@ -400,6 +402,14 @@ form! {
         unit_of_modifier: String = addition.unit.typeset(),
     }
 
+    /// What an effect has beside a size.
+    ShapeForm<'a> of (shape: &'a Shape) {
+        /// The place of the effect among those in the model, from 0.
+        effect: usize = shape.effect,
+        /// Its estimate, under the symbol that it has in formulas.
+        estimate: EstimateForm<'a> = EstimateForm::of(&shape.estimated),
+    }
+
     /// A size in a part of the recording.
     PartForm<'a> of (one: &'a (String, f64, f64)) {
         /// The part.
@@ -411,7 +421,7 @@ form! {
     }
 
     /// How well the held-out recording is predicted.
-    HeldOutForm<'a> of (held: &'a HeldOutQuality) {
+    HeldOutForm<'a> of (held: &'a HeldOutQuality, names: Names<'a>) {
         /// Its file.
         file: &'a str = &held.file,
         /// Its rows, or means of rows.
@@ -422,6 +432,18 @@ form! {
         before: PredictionForm = PredictionForm::of(&held.before),
         /// With the adopted physics.
         after: Option<PredictionForm> = held.after.as_ref().map(PredictionForm::of),
+        /// By each explanation of the lists, in the place of the first.
+        listed: Vec<ListedForm> = all(&held.listed, |one| ListedForm::of(one, names)),
+    }
+
+    /// The prediction by an explanation of a list.
+    ListedForm of (one: &Listed, names: Names<'_>) {
+        /// Its effect, as of `effects`, from 0.
+        effect: usize = one.slot,
+        /// The name of the explanation.
+        name: String = names.plain(one.candidate),
+        /// None where what it does in that recording does not follow from the columns.
+        prediction: Option<PredictionForm> = one.prediction.as_ref().map(PredictionForm::of),
     }
 
     /// A prediction against what was observed.
@@ -430,6 +452,8 @@ form! {
         rms: Vec<Number> = numbers(&prediction.rms),
         /// Sum of the squares of the errors over their variances.
         chi_squared: Number = Number(prediction.chi_squared),
+        /// Probability of errors that large by chance; none where successive rows are correlated.
+        p: Option<Number> = prediction.p.map(Number),
     }
 
     /// Explanations of one effect that the recording cannot tell apart.

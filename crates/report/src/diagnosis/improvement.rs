@@ -12,9 +12,10 @@ use gumption_format::document::{
     Row, Table,
 };
 use gumption_lab::diagnose::case::Case;
-use gumption_lab::diagnose::{Adopted, Agreement, Diagnosis, HeldOutQuality, Quality};
+use gumption_lab::diagnose::{Adopted, Agreement, Diagnosis, HeldOutQuality, Quality, Shape};
 
 use super::labels::spoken;
+use super::listed;
 use super::names::unknown;
 use super::words::p_is;
 
@@ -37,19 +38,24 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Blo
             .and_then(|adopted| confirmation(adopted, l)),
     );
     blocks.extend(not_predicted(diagnosis, l).or_else(|| badly_predicted(case, diagnosis, l)));
+    blocks.extend(listed::blocks(case, diagnosis, l));
     blocks
 }
 
 fn improved_model(adopted: &Adopted) -> Vec<String> {
-    let additions = adopted.extended.additions.iter();
     let lines = adopted.extended.case.model_lines().into_iter();
+    let mut lines: Vec<String> = lines.map(str::to_owned).collect();
+    for addition in &adopted.extended.additions {
+        let Some(column) = &addition.column else {
+            continue;
+        };
+        let line = format!("{column} = {}", addition.text);
+        // Several outputs may follow the same.
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
     lines
-        .map(str::to_owned)
-        .chain(additions.filter_map(|addition| {
-            let column = addition.column.as_ref()?;
-            Some(format!("{column} = {}", addition.text))
-        }))
-        .collect()
 }
 
 fn coefficients(adopted: &Adopted, l: Language) -> Table {
@@ -76,7 +82,27 @@ fn coefficients(adopted: &Adopted, l: Language) -> Table {
             estimated.unit.as_str().into(),
         ]);
     }
+    for shape in &adopted.shapes.all {
+        let estimated = &shape.estimated;
+        table.push(vec![
+            estimated.name.as_str().into(),
+            place_of(shape, adopted, l).into(),
+            aligned(estimated.value, estimated.u, 2).into(),
+            significant(estimated.u, 2).into(),
+            estimated.unit.as_str().into(),
+        ]);
+    }
     table
+}
+
+/// Where a shape stands in the formulas.
+fn place_of(shape: &Shape, adopted: &Adopted, l: Language) -> String {
+    let additions = adopted.extended.additions.iter();
+    let own = additions.filter(|addition| addition.effect == shape.effect);
+    let mut columns: Vec<&str> = own.filter_map(|one| one.column.as_deref()).collect();
+    columns.dedup();
+    let columns = columns.join(", ");
+    say!("– (in {columns})").in_language(l)
 }
 
 /// What the formulas call the signal, where they do.

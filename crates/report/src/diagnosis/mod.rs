@@ -6,6 +6,7 @@ mod expected;
 mod form;
 mod improvement;
 mod labels;
+mod listed;
 mod names;
 mod noise;
 mod open;

@@ -59,6 +59,11 @@ pub(super) fn p_is(p: f64) -> String {
     }
 }
 
+/// The same below a head that says `p`.
+pub(super) fn below_p(equation: &str) -> String {
+    equation.replace("p = ", "").replace("p ", "")
+}
+
 /// A probability found from so many simulated recordings: the least that they can show is a bound.
 pub(super) fn p_found(p: f64, draws: usize) -> String {
     let least = 1.0 / (draws + 1) as f64;

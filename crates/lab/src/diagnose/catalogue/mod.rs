@@ -155,7 +155,7 @@ pub struct ShapeParameter {
 }
 
 /// What a disturbance follows.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Modifier {
     /// Row by row; what disturbs several quantities alike is kept once.
     pub values: Arc<[f64]>,

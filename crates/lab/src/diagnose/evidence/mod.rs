@@ -108,7 +108,7 @@ pub use fit::singles;
 pub use grades::{Likeness, likeness};
 pub use locate::{Cell, Located, locate};
 pub use noise::{Correlation, Covariance, Noise};
-pub use omitted::omitted;
+pub use omitted::{narrowed, omitted};
 pub use plan::{Pair, Plan, Seen, visibility};
 pub use question::{Atom, Candidate, Kind, Place, Question, Settings, Shape};
 pub use refusal::Refusal;

@@ -13,17 +13,24 @@ use super::baseline::Baseline;
 /// u² = diag(G C Gᵀ) with the gain G of [`Baseline::gain`]. An invisible effect keeps its full size, one
 /// that the recording excludes costs next to nothing. For one column u = |G|·s/√(1 + s²‖A‖²).
 pub fn omitted(baseline: &Baseline, columns: &DMatrix<f64>, typical: f64) -> DVector<f64> {
-    let seen = baseline.project(columns) * typical;
-    let gain = baseline.gain(columns) * typical;
-    let precision = DMatrix::identity(columns.ncols(), columns.ncols()) + seen.tr_mul(&seen);
-    let Some(factor) = precision.cholesky() else {
+    let columns = columns * typical;
+    let Some(known) = narrowed(baseline, &columns) else {
         // Only numbers that are not finite get here.
         return DVector::from_element(baseline.parameters(), f64::NAN);
     };
-    let spread = factor.solve(&gain.transpose());
+    let gain = baseline.gain(&columns);
+    let spread = known * gain.transpose();
     DVector::from_fn(baseline.parameters(), |j, _| {
         gain.row(j).transpose().dot(&spread.column(j)).sqrt()
     })
+}
+
+/// Covariance matrix that a recording leaves of coefficients whose covariance matrix is one beforehand, (I + AᵀA)⁻¹ with A the
+/// visible part of their columns; nothing where these are not finite.
+pub fn narrowed(baseline: &Baseline, columns: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let seen = baseline.project(columns);
+    let precision = DMatrix::identity(columns.ncols(), columns.ncols()) + seen.tr_mul(&seen);
+    precision.cholesky().map(|factor| factor.inverse())
 }
 
 #[cfg(test)]

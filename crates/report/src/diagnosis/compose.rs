@@ -18,7 +18,7 @@ use super::names::{Names, quantity};
 use super::noise::noise;
 use super::statement::verdict;
 use super::words::{chance, p_found, probability, unsettled};
-use super::{accounts, improvement, open};
+use super::{accounts, improvement, listed, open};
 
 /// The whole report.
 pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
@@ -59,7 +59,9 @@ fn fields(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<(String, Strin
     let (count, alpha) = (diagnosis.cells.len(), significant(case.settings.alpha, 2));
     let test =
         say!("{p} over all {count} explanations together (alarm below {alpha})").in_language(l);
-    vec![
+    let held_out = listed::told(case, diagnosis, l);
+    let held_out = held_out.map(|told| (l.pick("Held out", "留出记录").to_owned(), told));
+    let mut fields = vec![
         (
             l.pick("Declared model", "声明的模型").into(),
             case.model_lines().join("; "),
@@ -73,7 +75,9 @@ fn fields(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<(String, Strin
             noise(case, &diagnosis.noise, l),
         ),
         (l.pick("Test for a mismatch", "不一致检验").into(), test),
-    ]
+    ];
+    fields.extend(held_out);
+    fields
 }
 
 /// Columns whose temperatures count from 0 °C.

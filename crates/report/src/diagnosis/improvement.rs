@@ -38,7 +38,7 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Blo
             .and_then(|adopted| confirmation(adopted, l)),
     );
     blocks.extend(not_predicted(diagnosis, l).or_else(|| badly_predicted(case, diagnosis, l)));
-    blocks.extend(listed::blocks(case, diagnosis, l));
+    blocks.extend(listed::blocks(diagnosis, l));
     blocks
 }
 

@@ -14,19 +14,29 @@ use crate::language::Language;
 use crate::number::significant;
 use crate::phrase::table;
 
+/// Which explanations it speaks for, where it does.
+pub(super) fn told(case: &Case, diagnosis: &Diagnosis, l: Language) -> Option<String> {
+    let held = diagnosis.held_out.as_ref()?;
+    let names = Names::of_diagnosis(diagnosis, l);
+    let lists = held.listed.chunk_by(|a, b| a.slot == b.slot);
+    let alone = lists.filter_map(|list| held.speaks_for(list[0].slot, case.settings.alpha));
+    let alone: Vec<String> = alone.map(|candidate| names.plain(candidate)).collect();
+    let (file, list) = (&held.file, alone.join(l.semicolon()));
+    let told = say!("{file} is predicted within the noise only by: {list}");
+    (!alone.is_empty()).then(|| told.in_language(l))
+}
+
 /// How each explanation of a list predicts the recording.
-pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
+pub(super) fn blocks(diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
     let Some(held) = diagnosis.held_out.as_ref() else {
         return Vec::new();
     };
     let names = Names::of_diagnosis(diagnosis, l);
     let lists = held.listed.chunk_by(|a, b| a.slot == b.slot);
-    lists
-        .flat_map(|list| of_list(held, list, case.settings.alpha, names))
-        .collect()
+    lists.flat_map(|list| of_list(held, list, names)).collect()
 }
 
-fn of_list(held: &HeldOutQuality, list: &[Listed], alpha: f64, names: Names<'_>) -> Vec<Block> {
+fn of_list(held: &HeldOutQuality, list: &[Listed], names: Names<'_>) -> Vec<Block> {
     let (l, file) = (names.l, &held.file);
     let mut table = table(
         l,
@@ -47,12 +57,8 @@ fn of_list(held: &HeldOutQuality, list: &[Listed], alpha: f64, names: Names<'_>)
         ]);
     }
     let before = say!("{file}, predicted by each explanation of the list as it was fitted:");
-    let told = held.speaks_for(list[0].slot, alpha).map(|candidate| {
-        let name = names.plain(candidate);
-        say!("Within the noise only this one predicts it: {name}.")
-    });
-    let mut blocks = vec![Block::Paragraph(before.in_language(l))];
-    blocks.push(Block::Table(table.without_empty_columns()));
-    blocks.extend(told.map(|told| Block::Paragraph(told.in_language(l))));
-    blocks
+    vec![
+        Block::Paragraph(before.in_language(l)),
+        Block::Table(table.without_empty_columns()),
+    ]
 }

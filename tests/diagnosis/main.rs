@@ -14,6 +14,7 @@ mod bench;
 mod catalogue;
 mod concealed;
 mod design;
+mod deviations;
 mod evidence;
 mod examples;
 mod forms;

@@ -8,6 +8,7 @@ use nalgebra::DMatrix;
 
 use super::adopt::{self, Free};
 use super::case::Case;
+use super::catalogue::deviations::Deviations;
 use super::catalogue::{self, Cell, Finer, FittedModel, Variation, readout};
 use super::design::Design;
 use super::evidence::{
@@ -60,6 +61,26 @@ impl<'f> Candidates<'f> {
     pub(super) fn leave_out(&mut self, impossible: &[usize]) {
         self.retain(|atom, _| !impossible.contains(&atom.candidate));
         self.impossible.extend(impossible);
+    }
+
+    /// Lets effects act where nothing bounds their sizes, if the model is one of deviations; whether any acted elsewhere before.
+    pub(super) fn free(&mut self) -> bool {
+        let fitted = &self.fitted;
+        let Some(deviations) = Deviations::of(fitted) else {
+            return false;
+        };
+        let variations = self.cells.iter_mut().flat_map(|cell| &mut cell.variants);
+        let freed = variations.filter_map(|one| deviations.free(fitted, one).then_some(()));
+        if freed.count() == 0 {
+            return false;
+        }
+        for atom in &mut self.atoms {
+            if let Shape::Columns(columns) = &mut atom.shape {
+                let variation = &self.cells[atom.candidate].variants[atom.variant];
+                *columns = variation.columns(fitted);
+            }
+        }
+        true
     }
 
     /// Keeps some of the atoms.

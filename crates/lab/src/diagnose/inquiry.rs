@@ -479,7 +479,8 @@ impl Answer {
     }
 }
 
-/// Asks for every candidate. Effects that are seen with a size which they cannot have are something else: without them, again.
+/// Asks for every candidate. Effects that are seen with a size which they cannot have are something else: without them, again, or
+/// where deviations bound no size.
 fn ask(
     candidates: &mut Candidates<'_>,
     claimed: Claimed,
@@ -498,7 +499,9 @@ fn ask(
                 examination,
             });
         }
-        candidates.leave_out(&missized);
+        if !candidates.free() {
+            candidates.leave_out(&missized);
+        }
     }
 }
 

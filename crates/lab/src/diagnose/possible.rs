@@ -1,12 +1,12 @@
 //! Sizes that an effect cannot have: a reversal that is not complete, a change of the scale that leaves nothing of the response, a
-//! shift that is larger than readings can differ.
+//! shift that is larger than readings can differ, an error of a column beyond all of its values.
 
 use std::collections::BTreeMap;
 
 use nalgebra::DVector;
 
 use super::candidates::Candidates;
-use super::catalogue::modifiers::{known, largest, line_through, map2};
+use super::catalogue::modifiers::{known, largest, line_through, map2, range};
 use super::catalogue::{FittedModel, Node, Variation};
 use super::confirm::along;
 use super::evidence::{Alternative, Examination};
@@ -31,7 +31,9 @@ pub(super) fn missized(
                 let scales = scales(fitted, variation, &named.estimate, claimed);
                 takes_all(variation, named.estimate.as_slice(), &scales)
             };
-            (on_scale && takes_all()) || outgrows(fitted, variation, &named.estimate)
+            (on_scale && takes_all())
+                || outgrows(fitted, variation, &named.estimate)
+                || leaves_range(fitted, variation, &named.estimate)
         };
         let first = named.variants.first();
         let first = first.filter(|_| effect.exact.is_none());
@@ -51,6 +53,30 @@ fn outgrows(fitted: &FittedModel<'_>, variation: &Variation, sizes: &DVector<f64
         let added = added.rows(response * blocks, blocks);
         largest(added.as_slice()) > 2.0 * largest(&readings)
     })
+}
+
+/// Whether an effect of these sizes moves a column by more than it varies in all, but for errors of its zero and of its scale.
+fn leaves_range(fitted: &FittedModel<'_>, variation: &Variation, sizes: &DVector<f64>) -> bool {
+    let mut shifts: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+    for (coefficient, term) in variation.numbered() {
+        let size = sizes.get(coefficient).map_or(0.0, |size| known(*size));
+        if let Node::Column(column) = term.node {
+            let of_column = shifts.entry(column);
+            let shift = of_column.or_insert_with(|| vec![0.0; fitted.rows()]);
+            *shift = map2(shift, &term.modifier.values, |shift, x| shift + size * x);
+        }
+    }
+    shifts.iter().any(|(column, shift)| {
+        let x = fitted.numbers(*column);
+        let (factor, offset, _) = line_through(x, shift);
+        let bent = map2(x, shift, |x, shift| shift - offset - factor * x);
+        width(&bent) > width(x)
+    })
+}
+
+fn width(x: &[f64]) -> f64 {
+    let (least, most) = range(x);
+    most - least
 }
 
 /// What the signal of each response becomes, over what it was, when the parameters are fitted anew beside an effect of these

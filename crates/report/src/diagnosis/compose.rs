@@ -199,7 +199,7 @@ fn named(case: &Case, diagnosis: &Diagnosis, slot: &Slot, names: Names<'_>) -> V
             let text = only_like(diagnosis.likeness(slot), names.l);
             blocks.push(Block::Paragraph(text.to_owned()));
         }
-        let lines = [names.formula(diagnosis, alternative)].into_iter();
+        let lines = [names.formula(case, diagnosis, alternative)].into_iter();
         let lines = lines.chain(multiplied(diagnosis, alternative, names.l));
         let lines = lines.chain(amplitude(case, diagnosis, alternative, names.l));
         blocks.push(Block::Formula(lines.collect()));

@@ -296,7 +296,7 @@ form! {
         /// What it is.
         prose: String = names.prose(one.candidate),
         /// What it adds to the model.
-        formula: String = names.in_english().formula(d, one),
+        formula: String = names.in_english().formula(case, d, one),
         /// Quantity of the model that is disturbed.
         node: &'a str = &names.cell(one.candidate).place.node,
         /// What the disturbance follows.

@@ -3,7 +3,8 @@
 use crate::language::Language;
 use crate::number::percent;
 use gumption_fault::say;
-use gumption_lab::diagnose::catalogue::{Cell, Words};
+use gumption_lab::diagnose::case::Case;
+use gumption_lab::diagnose::catalogue::{Cell, Node, Words};
 use gumption_lab::diagnose::evidence::{Alternative, Slot};
 use gumption_lab::diagnose::{Diagnosis, Outlook};
 
@@ -147,10 +148,18 @@ impl<'a> Names<'a> {
     }
 
     /// The formula of an explanation, without the lag where its best variant has none.
-    pub(super) fn formula(self, diagnosis: &Diagnosis, one: &Alternative) -> String {
+    pub(super) fn formula(self, case: &Case, diagnosis: &Diagnosis, one: &Alternative) -> String {
         let cell = self.cell(one.candidate);
         let fill = |text: &str| self.words(cell).fill(&formula_in(text, self.l));
-        let general = &cell.effect.formula;
+        let declared = &cell.effect.formula;
+        let first = diagnosis.terms(one).first().map(|term| term.node);
+        let general = &match first {
+            Some(Node::Parameter(slope)) if cell.place.node == "scale" => {
+                by_slope(declared, &case.parameters[slope].name)
+            }
+            Some(Node::Output) if cell.place.node == cell.words.x => on_output(declared),
+            _ => declared.clone(),
+        };
         let without_lag = || {
             let (before, rest) = general.split_once("lag(")?;
             let (within, after) = rest.split_once(", τ)")?;
@@ -160,6 +169,26 @@ impl<'a> Names<'a> {
             true => fill(general),
             false => without_lag().unwrap_or_else(|| fill(general)),
         }
+    }
+}
+
+/// A formula of a column, where its effect is on the output.
+fn on_output(formula: &str) -> String {
+    let part = formula.strip_prefix("{x} → {x} + ");
+    part.map_or_else(
+        || formula.to_owned(),
+        |part| format!("{{y}} = model + {part}"),
+    )
+}
+
+/// A formula of the scale, where its effect is on the slope by a parameter.
+fn by_slope(formula: &str, parameter: &str) -> String {
+    let slope = format!("∂model/∂{parameter}");
+    let relative = formula.strip_suffix(')');
+    let relative = relative.and_then(|formula| formula.split_once("model·(1 + "));
+    match relative {
+        Some((before, change)) => format!("{before}model + {change}·{slope}"),
+        None => formula.replace("signal", &slope),
     }
 }
 
@@ -200,6 +229,16 @@ pub(super) fn unknown(name: &str, l: Language) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_effect_on_a_slope_is_no_part_of_a_signal() {
+        let relative = by_slope("{y} = model·(1 + β·lag({x} − mean, τ))", "k");
+        assert_eq!(relative, "{y} = model + β·lag({x} − mean, τ)·∂model/∂k");
+        let drift = by_slope("{y} = model + β·signal·t", "k");
+        assert_eq!(drift, "{y} = model + β·∂model/∂k·t");
+        let creep = on_output("{x} → {x} + β·(lag({x}, τ) − {x})");
+        assert_eq!(creep, "{y} = model + β·(lag({x}, τ) − {x})");
+    }
 
     #[test]
     fn blanks_stand_about_names_of_columns_alone() {

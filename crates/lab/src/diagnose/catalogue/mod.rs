@@ -19,6 +19,7 @@
 //! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
 //! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
 //! | `exponentials` | what grows or dies away along a column |
+//! | `deviations` | the same where the model is of errors, and no scale bounds its changes |
 //! | `heating`, `waves` | power of the signal, what repeats |
 //! | `readout` | rounding and slips, readings that stand still |
 //! | `angles`, `fields` | errors of angles; what stays in the laboratory while the sensor turns |
@@ -30,6 +31,7 @@ mod angles;
 mod axes;
 mod building;
 mod conditions;
+pub(super) mod deviations;
 mod effect;
 mod exponentials;
 mod fields;

@@ -122,3 +122,15 @@ fn nothing_is_found_in_nothing() {
         assert_eq!(found["verdict"], "none", "{found}");
     }
 }
+
+/// What the scale of one reading does is no matter of how far the declared model bends.
+#[test]
+fn the_scale_of_one_reading_drifts() {
+    let rows = turned(9, |row, [x, y, z]| {
+        [x, y, z * (1.0 + 1e-4 * f64::from(row))]
+    });
+    let found = diagnosed("scale-drifts", &rows, CASE);
+    assert_eq!(first(&found), "drift-scale", "{found}");
+    let named = &found["effects"][0]["named"][0]["variants"][0]["label"];
+    assert!(named.as_str().unwrap().contains("mz"), "{found}");
+}

@@ -425,11 +425,9 @@ impl<'f> FittedModel<'f> {
         constant_terms(self.design, self.fit, response)
     }
 
-    /// Whether the readings hardly vary, so that what acts on the output and what acts on the scale are one. A constant that
-    /// the model should give has inputs that vary.
+    /// Whether the readings hardly vary, so that what acts on the output and what acts on the scale are one.
     pub fn is_steady(&self) -> bool {
-        let implicit = (0..self.case().responses.len()).any(|response| self.is_implicit(response));
-        !implicit && !self.has_signal()
+        !self.has_signal()
     }
 
     /// The offset, and the scale where it is something else.
@@ -438,13 +436,16 @@ impl<'f> FittedModel<'f> {
         [Node::Output].into_iter().chain(scale).collect()
     }
 
-    /// Whether the signal of any response varies so much that its scale is something else than an offset.
+    /// Whether the signal of any response varies so much that its scale is something else than an offset. A constant that the
+    /// model should give has inputs that vary.
     pub fn has_signal(&self) -> bool {
         const LEAST: f64 = 0.01;
-        self.signal.iter().any(|signal| {
+        let varies = |signal: &[f64]| {
             let (least, most) = range(signal);
             most - least > LEAST * largest(signal)
-        })
+        };
+        let mut responses = 0..self.signal.len();
+        responses.any(|at| self.is_implicit(at) || varies(&self.signal[at]))
     }
 }
 

@@ -219,7 +219,7 @@ struct Ranked {
     /// The candidate of the first block.
     candidate: usize,
     probability: f64,
-    /// Blocks with their atoms and shares, most probable first.
+    /// Blocks with their atoms and shares, those of the most probable order first.
     blocks: Vec<(usize, Variant)>,
 }
 
@@ -237,7 +237,10 @@ fn ranking(space: &Space, scores: &[(usize, f64)], kind: Kind, whole: f64) -> Ve
         .into_values()
         .map(|mut scores| {
             let sum = log_sum(scores.iter().map(|(_, score)| *score));
-            scores.sort_by(|a, b| b.1.total_cmp(&a.1));
+            let of_order = by_order(space, &scores);
+            let order = |block: usize| of_order[&space.blocks[block].candidate];
+            // The likeliest order first, which need not be that of the likeliest block.
+            scores.sort_by(|a, b| (order(b.0).total_cmp(&order(a.0))).then(b.1.total_cmp(&a.1)));
             Ranked {
                 candidate: space.blocks[scores[0].0].candidate,
                 probability: libm::exp(sum - whole),
@@ -256,6 +259,18 @@ fn ranking(space: &Space, scores: &[(usize, f64)], kind: Kind, whole: f64) -> Ve
         .collect();
     ranked.sort_by(|a, b| b.probability.total_cmp(&a.probability));
     ranked
+}
+
+/// Logarithm of the odds of each candidate that some blocks are of.
+fn by_order(space: &Space, scores: &[(usize, f64)]) -> BTreeMap<usize, f64> {
+    let mut of_order: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+    for (block, score) in scores {
+        let own = of_order.entry(space.blocks[*block].candidate).or_default();
+        own.push(*score);
+    }
+    let sums = of_order.into_iter();
+    sums.map(|(candidate, own)| (candidate, log_sum(own.into_iter())))
+        .collect()
 }
 
 /// The shortest list that holds the truth with the credible probability, and what cannot be told from
@@ -370,5 +385,29 @@ fn unnamed(ranked: Ranked) -> Alternative {
         probability: ranked.probability,
         variants: variants.collect(),
         ..Alternative::bare(ranked.candidate)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture::{Asked, course, shape, white};
+    use super::super::question::Candidate;
+
+    #[test]
+    fn the_likeliest_order_gives_the_name() {
+        const ROWS: usize = 40;
+        let power = |exponent: f64| shape(course(ROWS, |t| libm::pow(t, exponent)));
+        // One variant of the second order fits better than each of the first, and not than all of these.
+        let asked = Asked::of(&course(ROWS, |t| 10.0 * t), &white(ROWS))
+            .with(
+                Candidate::plain("first", 0),
+                [0.97, 0.98, 1.02, 1.03].map(power).into(),
+            )
+            .with(Candidate::plain("second", 0), vec![power(1.0)]);
+        let examination = asked.examined();
+        let named = &examination.slots[0].named;
+        assert_eq!(named.len(), 1);
+        assert_eq!(named[0].candidate, 0);
+        assert!(named[0].variants.iter().any(|variant| variant.atom == 4));
     }
 }

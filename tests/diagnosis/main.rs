@@ -19,6 +19,7 @@ mod evidence;
 mod examples;
 mod forms;
 mod instruments;
+mod laws;
 mod memory;
 mod noise;
 mod norms;

@@ -33,7 +33,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         );
     }
     for column in conditions.iter().filter(|c| spreads(fitted, **c)) {
-        cells.push(reciprocal(fitted, *column));
+        cells.push(reciprocal(fitted, *column, scale(fitted)));
     }
     for (at, x) in conditions.iter().enumerate() {
         for z in &conditions[at + 1..] {
@@ -199,7 +199,17 @@ pub(super) fn spreads(fitted: &FittedModel<'_>, column: usize) -> bool {
     has_zero && least > 0.0 && most > FACTOR * least
 }
 
-fn reciprocal(fitted: &FittedModel<'_>, column: usize) -> Cell {
+/// In inverse proportion to a column, beside a model that is a line along it: what an end, a start or a friction adds weighs the
+/// more the smaller it is.
+pub(super) fn inverse(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
+    let shows = fitted.is_line(column) && spreads(fitted, column);
+    shows.then(|| Cell {
+        odds: HIGHER,
+        ..reciprocal(fitted, column, Node::Output)
+    })
+}
+
+fn reciprocal(fitted: &FittedModel<'_>, column: usize, node: Node) -> Cell {
     let label = fitted.label(column);
     let modifier = Modifier::new(
         map(fitted.numbers(column), |x| 1.0 / x),
@@ -207,7 +217,7 @@ fn reciprocal(fitted: &FittedModel<'_>, column: usize) -> Cell {
         Unit::one().quotient(&fitted.step_unit(column)),
     );
     let form = form("", vec![modifier]);
-    on_node(fitted, EffectId::Reciprocal, label, scale(fitted), [form])
+    on_node(fitted, EffectId::Reciprocal, label, node, [form])
 }
 
 /// The scale, or the offset where that is one.

@@ -3,7 +3,7 @@
 use super::building::{HIGHER, on_node, on_output};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{amount, five_digits, levels_of, map, range};
-use super::sharp::sharpened;
+use super::sharp::{beats, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 
 /// A part of the output that dies away from the least value on, or grows towards the largest one.
@@ -38,8 +38,9 @@ fn course(
     /// Of the range, which is covered evenly: up to 0.13 of it a parabola beside a line leaves more than half of the course, of a
     /// quarter 0.31. What is nearer to it is a parabola until something speaks for more.
     const WIDTHS: [f64; 3] = [0.03, 0.06, 0.12];
-    /// Heat does: what it sets free over a gap of E grows over k·T²/E, which is 7 to 26 K for 1.1 to 0.3 eV about 300 K.
-    const OF_HEAT: f64 = 0.25;
+    /// Heat does: what it sets free over a gap of E grows over k·T²/E, which is 7 to 26 K for 1.1 to 0.3 eV about 300 K. So does a
+    /// recording in which the parabola does not do.
+    const WIDE: f64 = 0.25;
     let x = fitted.numbers(column);
     let (least, most) = range(x);
     let unit = fitted.step_unit(column).after_number();
@@ -52,9 +53,13 @@ fn course(
             format!("exp({sign}{along}/({width}))"),
         ))
     };
-    let of_heat = fitted.is_temperature(column).then_some(OF_HEAT);
-    let widths = WIDTHS.into_iter().chain(of_heat);
-    let widths = widths.map(|part| five_digits(part * (most - least)));
+    let width = |part: f64| five_digits(part * (most - least));
+    let shows = || {
+        let parabola = on_output(fitted.by(column, "", |x| (x - end) * (x - end)));
+        beats(fitted, &term(width(WIDE)), &parabola)
+    };
+    let wide = (fitted.is_temperature(column) || shows()).then_some(WIDE);
+    let widths = WIDTHS.into_iter().chain(wide).map(width);
     let widths: Vec<f64> = widths.filter(|width| *width >= step).collect();
     let widths = fitted.finer.times(sharpened(fitted, widths, &term));
     let each = widths.into_iter().map(five_digits).map(|width| {

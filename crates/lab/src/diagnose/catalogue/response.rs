@@ -2,7 +2,7 @@
 //! lag.
 
 use super::building::{cell, course, decay, form, on_node, on_output, pair, time_constants, timed};
-use super::conditions::{on_offset, spreads};
+use super::conditions::{inverse, on_offset, spreads};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{
     Course, creeps, delayed, figure, five_digits, grid, largest, levels_of, map, map2, mean, range,
@@ -30,6 +30,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         cells.extend(background(fitted, *column));
         cells.extend(exponent(fitted, *column));
         cells.extend(super::exponentials::cell(fitted, *column));
+        cells.extend(inverse(fitted, *column));
         cells.extend(super::limits::cells(fitted, *column));
         cells.extend(dynamics(fitted, *column));
         cells.extend(super::history::cells(fitted, *column));

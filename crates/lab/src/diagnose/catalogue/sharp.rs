@@ -88,6 +88,15 @@ pub(super) fn size_of(fitted: &FittedModel<'_>, term: &Term) -> Option<f64> {
     shows.then(|| rest.dot(&residuals.left) / rest.norm_squared())
 }
 
+/// Whether a term explains the residuals clearly better than another one.
+pub(super) fn beats(fitted: &FittedModel<'_>, term: &Term, other: &Term) -> bool {
+    residuals(fitted).is_some_and(|residuals| {
+        let [power, least] = [term, other].map(|one| residuals.power(&fitted.column(one)));
+        let left = residuals.left.norm_squared() - power;
+        (power - least) * residuals.degrees() > SHOWS * left
+    })
+}
+
 /// The best of many regressors, where it alone explains nearly all of the residuals.
 pub(super) fn nearly_all(
     fitted: &FittedModel<'_>,

@@ -174,28 +174,61 @@ fn soft_limit(fitted: &FittedModel<'_>, column: usize) -> Cell {
     plain(fitted, EffectId::Saturation, name, variants.collect())
 }
 
-/// Another slope from one value on.
+/// Another slope from one value on; where the parameters do not take up a line, below one value as well, which is then something else.
 fn kink(fitted: &FittedModel<'_>, column: usize) -> Cell {
+    let (id, name) = (EffectId::Kink, fitted.label(column));
+    let above = |at: f64| {
+        let text = format!("max({}, 0)", fitted.beyond(column, at));
+        on_output(fitted.by(column, text, |x| (x - at).max(0.0)))
+    };
+    let below = |at: f64| {
+        let text = format!("max({} - {name}, 0)", fitted.figure(column, at));
+        on_output(fitted.by(column, text, |x| (at - x).max(0.0)))
+    };
+    let is_left = |law: fn(f64) -> f64| {
+        let part = on_output(fitted.by(column, "", law));
+        fitted.absorbed().leaves(&fitted.column(&part))
+    };
+    let mut variants = knees(fitted, column, "at", &above);
+    if fitted.is_line(column) && (is_left(|_| 1.0) || is_left(|x| x)) {
+        // What the model is declared for holds at half of the values at least.
+        let values = levels_of(fitted.numbers(column));
+        let middle = values[values.len() / 2];
+        let mut low = knees(fitted, column, "below", &below);
+        low.retain(|one| one.shape.as_ref().is_some_and(|knee| knee.value <= middle));
+        variants.extend(low);
+    }
+    plain(fitted, id, name, variants)
+}
+
+/// A term with its knee at values over all of the range.
+fn knees(
+    fitted: &FittedModel<'_>,
+    column: usize,
+    word: &str,
+    term: &dyn Fn(f64) -> Term,
+) -> Vec<Variation> {
     /// Parts into which the range is divided.
     const PARTS: usize = 16;
     let x = fitted.numbers(column);
     let unit = fitted.unit(column);
     let (least, most) = range(x);
-    let parts = (1..PARTS).map(|part| least + part as f64 / PARTS as f64 * (most - least));
+    let parts = (1..PARTS).map(|part| part as f64 / PARTS as f64 * (most - least));
     // Beyond the last value but one there is one reading: wrong, or the only one on another slope. Beside a model that is no line
     // it is a straight background.
     let values = levels_of(x);
-    let ends = [values[1], values[values.len() - 2]];
+    let ends = [values[1], values[values.len() - 2]].map(|end| end - least);
     let ends = ends.into_iter().filter(|_| fitted.is_line(column));
-    let knees = fitted.finer.levels(parts.chain(ends).collect());
-    let variants = knees.into_iter().map(|at| {
+    let mut distances: Vec<f64> = parts.chain(ends).collect();
+    distances.sort_by(f64::total_cmp);
+    let term = |at: f64| term(rounded(at, KNEE * (most - least)));
+    let distances = sharpened(fitted, distances, &|distance| term(least + distance));
+    let knees = map(&distances, |distance| least + distance);
+    let variants = fitted.finer.levels(knees).into_iter().map(|at| {
         let shown = figure_to(at, LABEL * (most - least));
-        let beyond = fitted.beyond(column, rounded(at, KNEE * (most - least)));
-        let modifier = fitted.by(column, format!("max({beyond}, 0)"), |x| (x - at).max(0.0));
-        Variation::one(format!("at {shown} {unit}"), on_output(modifier)).shaped("x₀", at, &unit)
+        Variation::one(format!("{word} {shown} {unit}"), term(at)).shaped("x₀", at, &unit)
     });
-    let (id, name) = (EffectId::Kink, fitted.label(column));
-    plain(fitted, id, name, variants.collect())
+    variants.collect()
 }
 
 /// The output or its scale is another one from one value on, the scale where the column has both signs beyond it on either side.

@@ -40,7 +40,8 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let least = (span * 3e-3).max(fitted.clock.interval());
     let scales = grid(least, span / 3.0, 2.2, 7);
     let mut drifts = vec![form("", vec![fitted.centred_time()])];
-    if fitted.is_timed() {
+    let is_recorded = fitted.clock.column.is_some();
+    if is_recorded {
         let slowing = |scale: f64| {
             let modifier = map(&since, |t| libm::log1p(t / scale));
             on_output(Modifier::unnamed(modifier))
@@ -51,7 +52,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     add(&[EffectId::Drift, EffectId::DriftScale], drifts);
     let steps = steps(fitted, &along);
     add(&[EffectId::Step, EffectId::StepScale], steps);
-    if fitted.is_timed() {
+    if is_recorded {
         let dying = |since: &[f64], began: &str, tau: f64| {
             on_output(decay(since, began, tau, &fitted.duration(tau)))
         };

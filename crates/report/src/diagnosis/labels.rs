@@ -18,7 +18,7 @@ pub(super) fn spoken(label: &str, language: Language) -> String {
 }
 
 /// Labels that are always the same.
-const FIXED: [(&str, &str); 30] = [
+const FIXED: [(&str, &str); 32] = [
     ("with a constant", "含常数项"),
     ("about zero", "以零点为中心"),
     ("with its half", "含其半周期"),
@@ -36,6 +36,7 @@ const FIXED: [(&str, &str); 30] = [
     ("second half", "后半段"),
     ("square alone", "仅平方项"),
     ("with a linear part", "含线性项"),
+    ("with a square and a linear part", "含平方项和线性项"),
     ("with its rate of change", "含变化率"),
     ("with its square", "含平方项"),
     ("with the root of time", "随时间的平方根"),
@@ -46,6 +47,7 @@ const FIXED: [(&str, &str); 30] = [
     ("each with a size of its own", "各有各的大小"),
     ("several widths", "多种宽度"),
     ("widest in the middle", "中间最宽"),
+    ("of the next movement at rest", "停住时取随后的方向"),
     ("on rising values only", "仅上行"),
     ("on falling values only", "仅下行"),
     ("1 year", "1 年"),

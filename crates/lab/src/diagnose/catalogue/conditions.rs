@@ -76,11 +76,13 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         }
     });
     let square = square.chain(squares(fitted, column)).collect();
+    let cube = temperature.then(|| (EffectId::TempcoCubic, output, cubes(fitted, column)));
     let first = on_offset(fitted, column);
     let mut effects = vec![
         (first, output, linear(output, &delayed)),
         (second, output, square),
     ];
+    effects.extend(cube);
     if fitted.has_signal() {
         let second_on_scale = EffectId::SensitivityScaleQuadratic;
         effects.push((on_scale, gain, linear(gain, &on(gain))));
@@ -101,6 +103,7 @@ fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let cell = |(id, node, forms): (EffectId, Node, Vec<Variation>)| Cell {
         odds: match id {
             EffectId::UnrecordedTemperature => 1.0,
+            EffectId::TempcoCubic => odds * HIGHER * HIGHER,
             _ if id.entry().is_higher => odds * HIGHER,
             _ => odds,
         },
@@ -159,6 +162,21 @@ fn squares(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
         variants.push(form("with a linear part", vec![own.square(), own]));
     }
     variants
+}
+
+/// The cube about the middle, with a linear part, which moves its turning points, and with the square, which moves its middle.
+fn cubes(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
+    /// Through so many values these go anyhow.
+    const FEW: usize = 4;
+    if levels_of(fitted.numbers(column)).len() <= FEW {
+        return Vec::new();
+    }
+    let own = fitted.centred(column);
+    let (square, cube) = (own.square(), own.cube());
+    vec![
+        form("with a linear part", vec![cube.clone(), own.clone()]),
+        form("with a square and a linear part", vec![cube, square, own]),
+    ]
 }
 
 /// The modifier without a lag, and with each of a series of time constants where it has to get through

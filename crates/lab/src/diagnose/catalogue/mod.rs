@@ -202,10 +202,20 @@ impl Modifier {
     }
 
     fn square(&self) -> Modifier {
+        self.power(2)
+    }
+
+    fn cube(&self) -> Modifier {
+        self.power(3)
+    }
+
+    /// A whole power, from the first on.
+    fn power(&self, exponent: i32) -> Modifier {
+        let unit = (1..exponent).fold(self.unit.clone(), |unit, _| unit.product(&self.unit));
         Modifier::new(
-            modifiers::map(&self.values, |x| x * x),
-            format!("{}^2", self.text),
-            self.unit.product(&self.unit),
+            modifiers::map(&self.values, |x| x.powi(exponent)),
+            format!("{}^{exponent}", self.text),
+            unit,
         )
     }
 }

@@ -3,7 +3,7 @@
 use super::building::{form, on_output, plain};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
-    direction, figure, five_digits, grid, map, map2, mean_of, play, range, typical_step,
+    direction, figure, five_digits, grid, map, map2, mean_of, onward, play, range, typical_step,
 };
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -81,12 +81,18 @@ fn loops(fitted: &FittedModel<'_>, column: usize, way: &[f64]) -> Vec<Variation>
         }),
     ];
     let constant = form("", vec![Modifier::number(way.to_vec(), direction.as_str())]);
+    // The end of the range, read once more in the series that leads away from it.
+    let onward = onward(&fitted.clock.values, x);
+    let turned = (onward != way).then(|| {
+        let modifier = Modifier::number(onward, format!("next_{direction}"));
+        form("of the next movement at rest", vec![modifier])
+    });
     let closed = loops.into_iter().map(|(on, side, of)| {
         let modifier = map2(&wide, way, |wide, way| wide * of(way));
         let modifier = Modifier::number(modifier, format!("{side}*{shape}"));
         form(format!("{on}widest in the middle"), vec![modifier])
     });
-    let simple = [constant].into_iter().chain(closed);
+    let simple = [constant].into_iter().chain(turned).chain(closed);
     simple.chain(plays(fitted, column)).collect()
 }
 

@@ -207,6 +207,20 @@ fn direction_in_one(x: &[f64]) -> Vec<f64> {
     out
 }
 
+/// The same, where rows at rest take the direction of the movement that follows, if there is one.
+pub fn onward(t: &[f64], x: &[f64]) -> Vec<f64> {
+    in_each(t, |rows| {
+        let x = &x[rows];
+        let mut out = direction_in_one(x);
+        for row in (1..x.len().saturating_sub(1)).rev() {
+            if x[row] == x[row - 1] {
+                out[row] = out[row + 1];
+            }
+        }
+        out
+    })
+}
+
 /// Play of width `w`: what follows `x` only when `x` reaches the end of the gap. It begins in the middle of its gap, and anew
 /// where the time goes backwards.
 pub fn play(t: &[f64], x: &[f64], w: f64) -> Vec<f64> {
@@ -417,6 +431,9 @@ mod tests {
         let t = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
         assert_eq!(play(&t, &x, 1.0), [0.0, 0.5, 1.5, 1.5, 1.5, 0.5]);
         assert_eq!(direction(&t, &x), [1.0, 1.0, 1.0, -1.0, -1.0, -1.0]);
+        let again = [0.0, 1.0, 1.0, 0.0, 0.0];
+        assert_eq!(direction(&t[..5], &again), [1.0, 1.0, 1.0, -1.0, -1.0]);
+        assert_eq!(onward(&t[..5], &again), [1.0, 1.0, -1.0, -1.0, -1.0]);
     }
 
     #[test]

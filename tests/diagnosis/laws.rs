@@ -100,3 +100,27 @@ fn numbered_readings_show_a_warm_up() {
     let listed = named_apart(&found).concat();
     assert!(listed.iter().any(|id| id == "warm-up"), "{found}");
 }
+
+/// An ohmmeter changes its range twice, and each range has a zero of its own.
+#[test]
+fn two_changes_of_range_are_two_effects() {
+    let mut noise = Noise(517);
+    let mut rows = "no,R_ref [ohm],R [ohm]\n".to_owned();
+    for row in 0..120 {
+        let r = 10.0 + 8.3 * f64::from(row * 37 % 120);
+        let zero = match r {
+            r if r > 600.0 => -0.02,
+            r if r > 200.0 => 0.06,
+            _ => 0.0,
+        };
+        let _ = writeln!(
+            rows,
+            "{},{r:.1},{:.3}",
+            row + 1,
+            r + zero + 0.006 * noise.normal()
+        );
+    }
+    let case = "equations = \"R = r0 + g*R_ref\"\n[columns]\nno = \"order\"\nR_ref = \"stimulus\"\nR = \"output\"\n";
+    let found = diagnosed("ranges", &rows, case);
+    assert_eq!(first_names(&found), ["transition", "transition"], "{found}");
+}

@@ -124,3 +124,27 @@ fn two_changes_of_range_are_two_effects() {
     let found = diagnosed("ranges", &rows, case);
     assert_eq!(first_names(&found), ["transition", "transition"], "{found}");
 }
+
+/// A potentiometer whose shaft is not in line with the scale: the angle is set, and called a stimulus.
+#[test]
+fn an_angle_that_is_set_has_harmonics() {
+    let mut noise = Noise(518);
+    let mut rows = "angle [deg],U [V]\n".to_owned();
+    for row in 0..101 {
+        let angle = 3.5 * f64::from(row);
+        let error = 0.006 * libm::sin(angle.to_radians() + 0.4);
+        let _ = writeln!(
+            rows,
+            "{angle},{:.4}",
+            0.1 + 0.02 * angle + error + 0.002 * noise.normal()
+        );
+    }
+    let case =
+        "equations = \"U = U0 + k*angle\"\n[columns]\nangle = \"stimulus\"\nU = \"output\"\n";
+    let found = diagnosed("potentiometer", &rows, case);
+    let listed = named_apart(&found);
+    assert_eq!(listed.len(), 1, "{found}");
+    for id in ["eccentricity", "periodic"] {
+        assert!(listed[0].iter().any(|one| one == id), "{listed:?}");
+    }
+}

@@ -14,12 +14,28 @@ use gumption_core::quantity::UnitTable;
 /// Highest harmonic.
 pub(super) const HIGHEST: u32 = 4;
 
-/// Cells of the angles.
+/// A harmonic shows where the recording has more of its phase.
+const SHOWN: f64 = 0.9 * PI;
+
+/// Cells of the angles, and of the stimuli that turn like them.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
-    angles(fitted)
-        .into_iter()
-        .flat_map(|column| of_angle(fitted, column))
-        .collect()
+    let angles = angles(fitted).into_iter();
+    let turned = angles.flat_map(|column| of_angle(fitted, column));
+    let scanned = scanned(fitted).into_iter();
+    let scanned = scanned.flat_map(|column| repeating(fitted, column));
+    turned.chain(scanned).collect()
+}
+
+/// Stimuli that are angles over half a turn and more, whatever they are called: those of a potentiometer or a protractor.
+fn scanned(fitted: &FittedModel<'_>) -> Vec<usize> {
+    let turns = |column: &usize| {
+        let (least, most) = range(&radians(fitted, *column));
+        most - least > SHOWN
+    };
+    let is_stimulus = |column: &usize| fitted.case().columns[*column].role == Role::Stimulus;
+    let mut scanned = fitted.numeric();
+    scanned.retain(|c| is_stimulus(c) && fitted.is_angle(*c) && turns(c));
+    scanned
 }
 
 /// Columns of angles that vary.
@@ -38,10 +54,19 @@ pub(super) fn turning(fitted: &FittedModel<'_>) -> Vec<usize> {
 }
 
 fn of_angle(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
+    let mut cells = repeating(fitted, column);
+    if fitted.in_model(column) {
+        cells.extend(play(fitted, column));
+    }
+    cells
+}
+
+/// What repeats with each turn.
+fn repeating(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let name = fitted.label(column);
     // A wave shows by half of it, and by two positions.
     let last = (positions(&radians(fitted, column)) / 2).min(HIGHEST as usize) as u32;
-    let variants = harmonics(fitted, column, 1..=last, 0.9 * PI);
+    let variants = harmonics(fitted, column, 1..=last, SHOWN);
     // Harmonics are independent of one another: each is a candidate of its own.
     let each = |id: EffectId, node: Node| -> Vec<Cell> {
         let one = |form: &Variation| on_node(fitted, id, name, node, [form.clone()]);
@@ -59,7 +84,6 @@ fn of_angle(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         return cells;
     }
     cells.extend(each(EffectId::Eccentricity, Node::Column(column)));
-    cells.extend(play(fitted, column));
     cells
 }
 

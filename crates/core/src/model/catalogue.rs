@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use foldhash::fast::RandomState;
 
-use super::operation::{BINARY, UNARY};
+use super::operation::{BINARY, DimensionRule, UNARY};
 
 /// What the help says about a function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,6 +18,13 @@ pub struct FunctionInfo {
     pub doc: &'static str,
     /// What it does to units, in words.
     pub dimension: &'static str,
+}
+
+impl FunctionInfo {
+    /// Whether its value is in the unit of its arguments, and in proportion to all of them together.
+    pub fn keeps_unit(&self) -> bool {
+        [SAME, DimensionRule::Same.words()].contains(&self.dimension)
+    }
 }
 
 const SAME: &str = "gives the unit of the elements, which must be of one dimension";

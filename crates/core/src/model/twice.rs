@@ -1,6 +1,7 @@
 //! Units that are converted by hand, although they are converted without it: angles to radians, `sin(phi*pi/180)`, and
 //! values to the wanted unit.
 
+use super::catalogue::{FunctionInfo, find};
 use super::faults;
 use super::lower::{Lowering, Value};
 use super::printer;
@@ -83,7 +84,7 @@ impl Lowering<'_> {
             if let Some(number) = number.filter(|number| is_it(*number)) {
                 return Some((e, number));
             }
-            open.extend(e.children());
+            open.extend(in_proportion(e));
         }
         None
     }
@@ -238,6 +239,19 @@ impl Lowering<'_> {
             )),
         );
         None
+    }
+}
+
+/// The parts whose scale is that of the whole: the 10 of `ln(10)` and of `10^x` converts nothing.
+fn in_proportion(e: &Expr) -> Vec<&Expr> {
+    match &e.node {
+        Node::Chain { .. } | Node::Minus(_) | Node::Vector(_) => e.children(),
+        Node::Index { vector, .. } => vec![vector],
+        Node::If { yes, no, .. } => vec![yes, no],
+        Node::Call { name, .. } if find(&name.text).is_some_and(FunctionInfo::keeps_unit) => {
+            e.children()
+        }
+        _ => Vec::new(),
     }
 }
 

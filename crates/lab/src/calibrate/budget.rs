@@ -1,8 +1,8 @@
 //! Coefficients as the measurands of a budget file.
 //!
 //! Near its estimate a coefficient is the sum of what each error does to it: estimate + Σ c·e. The file
-//! says so with the errors as inputs, so that `gumption eval` finds the same standard uncertainty by both
-//! methods, and the covariances of coefficients that share a file.
+//! says so with the errors as inputs, so that `gumption eval` finds the same standard and expanded uncertainties, and the
+//! covariances of coefficients that share a file.
 
 use std::fmt::Write;
 
@@ -45,7 +45,7 @@ pub fn budget(
                 .iter()
                 .any(|index| matters(cause.contribution(*index), &figures.coefficients[*index]))
         })
-        .flat_map(|(number, cause)| InputOfCause::of(campaign, found, cause, number, &coefficients))
+        .map(|(number, cause)| InputOfCause::of(campaign, found, cause, number, &coefficients))
         .collect();
     for index in &coefficients {
         measurand(&mut text, found, *index, &inputs);
@@ -86,16 +86,12 @@ fn head(campaign: &Campaign, language: Language) -> String {
     }
     let conventions = &experiment.conventions;
     line("profile", &conventions.profile);
-    text += "\n[conventions]\n";
-    for stated in conventions
-        .overrides
-        .iter()
-        .filter(|stated| !stated.starts_with("t_scale"))
-    {
+    if !conventions.overrides.is_empty() {
+        text += "\n[conventions]\n";
+    }
+    for stated in &conventions.overrides {
         let _ = writeln!(text, "{stated}");
     }
-    // u of an error is its standard deviation.
-    text += "t_scale = \"standard-deviation\"\n";
     let mut own = experiment.own_units.clone();
     own.sort();
     text + &own_units(&own)
@@ -134,22 +130,21 @@ struct InputOfCause {
 type Place<'f> = (usize, &'f Coefficient);
 
 impl InputOfCause {
-    /// The input of a cause; scatter that is not one error for all coefficients has one for each
-    /// coefficient, tied to the others by its covariance.
+    /// The input of a cause; scatter that is not one error for all coefficients is a vector, of which they take their parts.
     fn of(
         campaign: &Campaign,
         found: &Calibration,
         cause: &Cause,
         number: usize,
         coefficients: &[usize],
-    ) -> Vec<InputOfCause> {
+    ) -> InputOfCause {
         let of_place = |index: &usize| (*index, &found.figures.coefficients[*index]);
         let places: Vec<Place<'_>> = coefficients.iter().map(of_place).collect();
         let name = name_of(cause, number);
         let count = cause.effects.ncols();
         match doubt_of(campaign, cause) {
             Some(doubt) if count == 1 || (count <= LONGEST && doubt.dof.is_infinite()) => {
-                vec![stated(cause, doubt, &name, &places)]
+                stated(cause, doubt, &name, &places)
             }
             _ => independent(cause, &name, &places),
         }
@@ -201,10 +196,7 @@ fn stated(cause: &Cause, doubt: &Doubt, name: &str, places: &[Place<'_>]) -> Inp
             &quotient(&one.unit, &doubt.unit),
         );
     }
-    let estimate = match cause.effects.ncols() {
-        1 => "value = 0".to_owned(),
-        count => format!("values = [{}]", vec!["0"; count].join(", ")),
-    };
+    let estimate = zeros(cause.effects.ncols());
     let unit = unit_line(&doubt.unit);
     let mut width = width(&doubt.distribution, doubt.u, doubt.dof);
     width += type_line(doubt.evaluation, &width);
@@ -220,38 +212,45 @@ fn stated(cause: &Cause, doubt: &Doubt, name: &str, places: &[Place<'_>]) -> Inp
     input
 }
 
-/// Many errors, summed up: independent normal variables, of which each coefficient takes its part by the
-/// Cholesky factor of the covariance matrix that the cause makes.
-fn independent(cause: &Cause, name: &str, places: &[Place<'_>]) -> Vec<InputOfCause> {
+/// Many errors, summed up: independent variables, of which each coefficient takes its part by the Cholesky factor of the
+/// covariance matrix that the cause makes. One s is behind all of them, as behind the scatter about a line: whatever
+/// is formed of them has its degrees of freedom.
+fn independent(cause: &Cause, name: &str, places: &[Place<'_>]) -> InputOfCause {
+    let has_part = |(index, one): &Place<'_>| matters(cause.contribution(*index), one);
+    let places: Vec<Place<'_>> = places.iter().copied().filter(has_part).collect();
     let indices: Vec<usize> = places.iter().map(|(index, _)| *index).collect();
     let rows = cause.effects.select_rows(&indices);
     let factor = lower_factor(&(&rows * rows.transpose()));
-    let mut inputs = Vec::new();
-    for (column, (own, _)) in places.iter().enumerate() {
-        let name = match places.len() {
-            1 => name.to_owned(),
-            _ => format!("{name}_{}", column + 1),
-        };
-        let mut input = InputOfCause {
-            terms: Vec::new(),
-            text: String::new(),
-        };
-        for (row, (index, one)) in places.iter().enumerate() {
-            let entry = factor[(row, column)];
-            if matters(entry, one) {
-                input.act((*index, one), &[entry], &name, &one.unit);
-            }
-        }
-        if input.terms.is_empty() {
-            continue;
-        }
-        let normal = Distribution::Normal(Normal { mean: 0.0, sd: 1.0 });
-        let mut width = width(&normal, 1.0, cause.contribution_dof(*own));
-        width += type_line(cause.evaluation, &width);
-        let _ = write!(input.text, "\n[input.{}]\nvalue = 0\n{width}", key(&name));
-        inputs.push(input);
+    let is_needed = |column: &usize| factor.column(*column).norm() > 0.0;
+    let columns: Vec<usize> = (0..factor.ncols()).filter(is_needed).collect();
+    let mut input = InputOfCause {
+        terms: Vec::new(),
+        text: String::new(),
+    };
+    for (row, place) in places.iter().enumerate() {
+        let slopes: Vec<f64> = columns.iter().map(|column| factor[(row, *column)]).collect();
+        input.act(*place, &slopes, name, &place.1.unit);
     }
-    inputs
+    // Where each error has its own, the coefficients differ by a little; the least promises too much to none.
+    let dofs = indices.iter().map(|index| cause.contribution_dof(*index));
+    let normal = Distribution::Normal(Normal { mean: 0.0, sd: 1.0 });
+    let mut width = width(&normal, 1.0, dofs.fold(f64::INFINITY, f64::min));
+    width += type_line(cause.evaluation, &width);
+    let _ = write!(
+        input.text,
+        "\n[input.{}]\n{}\n{width}",
+        key(name),
+        zeros(columns.len())
+    );
+    input
+}
+
+/// The estimate of so many errors.
+fn zeros(count: usize) -> String {
+    match count {
+        1 => "value = 0".to_owned(),
+        count => format!("values = [{}]", vec!["0"; count].join(", ")),
+    }
 }
 
 /// Says of a stated u that it was evaluated from readings.
@@ -293,8 +292,6 @@ fn width(distribution: &Distribution, u: f64, dof: f64) -> String {
         Some(half) if *shape == Uniform::KIND => format!("half_width = {half:?}\n"),
         Some(half) => format!("half_width = {half:?}\ndistribution = \"{}\"\n", shape.key),
         _ if dof.is_infinite() => format!("u = {u:?}\n"),
-        // The standard deviation of trials of a t distribution of so few degrees of freedom does not converge.
-        _ if dof <= 4.0 => format!("u = {u:?}\ndof = {dof:?}\ndistribution = \"normal\"\n"),
         _ => format!("u = {u:?}\ndof = {dof:?}\n"),
     }
 }

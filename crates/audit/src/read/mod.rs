@@ -345,11 +345,20 @@ fn budget(
 fn drop_measurand(grid: &Grid, raw: &mut Vec<table::Raw>, claimed: &mut Claimed) {
     let named = raw.iter().position(|raw| raw.is_result(&claimed.measurand));
     let closing = || table::closing(raw);
-    let Some(place) = named.or_else(closing) else {
+    let product = table::product(raw).filter(|_| claimed.model.is_none());
+    let Some(place) = named.or_else(closing).or(product) else {
         return;
     };
     let result = raw.remove(place).row;
     claimed.rows.remove(place);
+    if product == Some(place)
+        && let Some(y) = &result.value
+    {
+        for (raw, row) in raw.iter_mut().zip(&mut claimed.rows) {
+            raw.row.c = table::coefficient(y, row);
+            row.c.clone_from(&raw.row.c);
+        }
+    }
     if claimed.measurand.is_empty() {
         claimed.measurand = result.symbol.clone();
     }

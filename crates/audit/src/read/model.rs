@@ -4,7 +4,7 @@ use crate::claim::{Claimed, Row, Understood};
 
 use super::lines::Line;
 use super::mapping::Mapping;
-use super::{notes, table, words};
+use super::{columns, footer, notes, table, words};
 
 pub(super) fn find_model(all: &[&Line], claimed: &mut Claimed, mapping: &Mapping) {
     if let Some(model) = &mapping.model {
@@ -14,12 +14,12 @@ pub(super) fn find_model(all: &[&Line], claimed: &mut Claimed, mapping: &Mapping
         return;
     }
     let found = all.iter().find_map(|line| {
-        let parts = line
+        let of_part = line
             .text
             .split(" ; ")
-            .find_map(|part| notes::model(part, claimed));
-        parts
-            .or_else(|| notes::model(&line.text, claimed))
+            .find_map(|part| parts(part, claimed));
+        of_part
+            .or_else(|| parts(&line.text, claimed))
             .map(|model| (line.at, line.text.clone(), model))
     });
     if let Some((at, text, (left, right))) = found {
@@ -31,6 +31,86 @@ pub(super) fn find_model(all: &[&Line], claimed: &mut Claimed, mapping: &Mapping
         claimed.measurand = left;
         claimed.model = Some(right);
     }
+}
+
+/// The model in a line: left side and right side, where the right side names rows.
+fn parts(text: &str, claimed: &Claimed) -> Option<(String, String)> {
+    let (left, right) = text.split_once('=')?;
+    let left = left.rsplit([':', '\u{ff1a}']).next().unwrap_or(left).trim();
+    let left = left.rsplit(char::is_whitespace).next().unwrap_or(left);
+    let right = right
+        .split([';', '。'])
+        .next()
+        .unwrap_or(right)
+        .trim()
+        .trim_end_matches('.');
+    let right = right
+        .split(", where")
+        .next()
+        .unwrap_or(right)
+        .split(", 其中")
+        .next()
+        .unwrap_or(right)
+        .split(",其中")
+        .next()
+        .unwrap_or(right)
+        .trim();
+    let right = without_unit(right, claimed);
+    let named = claimed
+        .rows
+        .iter()
+        .filter(|row| notes::names_of(row).any(|name| words::has_symbol(right, name)))
+        .count();
+    let enough = named >= 2 || named == 1 && claimed.rows.len() <= 2;
+    // `… is 0.2 N (k = 2), giving …` is a sentence.
+    let is_closed = left.matches('(').count() == left.matches(')').count();
+    let short = !left.is_empty() && left.chars().count() <= 24;
+    let identifier = short && is_closed && !left.contains([',', '|']);
+    // `u_c = sqrt(u1^2 + …)`, `U = k·u_c`, `k = 2` are no models.
+    let of_claim = footer::label(left, "").is_some_and(|whole| whole != footer::Whole::Y);
+    let about_u = of_claim
+        || left.starts_with("u_")
+        || left.starts_with("u(")
+        || left.starts_with("r(")
+        || is_coefficient(left, claimed)
+        || left.starts_with('∂')
+        || left.starts_with('ν');
+    (enough
+        && identifier
+        && !about_u
+        && crate::printed::leading(right).is_none_or(|(_, rest)| !rest.trim().is_empty()))
+    .then(|| (left.to_string(), right.to_string()))
+}
+
+/// A formula without the unit of its value in a bracket behind it: `1000·m·P/V  [mg/L]`.
+fn without_unit<'t>(formula: &'t str, claimed: &Claimed) -> &'t str {
+    let bracket = |[open, close]: [char; 2]| formula.strip_suffix(close)?.rsplit_once(open);
+    let Some((front, unit)) = [['[', ']'], ['(', ')']].into_iter().find_map(bracket) else {
+        return formula;
+    };
+    // `a (b)` is a product where b has its row.
+    let is_row = claimed.rows.iter().any(|row| row.symbol == unit);
+    let is_behind = front.ends_with(' ') && !front.trim_end().ends_with(is_operator);
+    match is_behind && !is_row && columns::is_unit(unit) {
+        true => front.trim_end(),
+        false => formula,
+    }
+}
+
+fn is_operator(c: char) -> bool {
+    matches!(c, '+' | '-' | '−' | '*' | '·' | '×' | '/' | '÷' | '^' | '=')
+}
+
+/// `c_1`, `c_i`, `c_m` beside a quantity m: a sensitivity coefficient, where `c_Cd` is a concentration.
+fn is_coefficient(name: &str, claimed: &Claimed) -> bool {
+    name.strip_prefix("c_").is_some_and(|of| {
+        let is_index = of == "i" || of.chars().all(|c| c.is_ascii_digit());
+        is_index
+            || claimed
+                .rows
+                .iter()
+                .any(|row| notes::names_of(row).any(|name| name == of))
+    })
 }
 
 /// Rows without a symbol take that word of their name which the model uses.

@@ -389,66 +389,6 @@ fn equals_figure(text: &str) -> Option<f64> {
     leading(&text[at + 1..]).map(|(figure, _)| figure.value)
 }
 
-/// The model in a line: left side and right side, where the right side names rows.
-pub fn model(text: &str, claimed: &Claimed) -> Option<(String, String)> {
-    let (left, right) = text.split_once('=')?;
-    let left = left.rsplit([':', '\u{ff1a}']).next().unwrap_or(left).trim();
-    let left = left.rsplit(char::is_whitespace).next().unwrap_or(left);
-    let right = right
-        .split([';', '。'])
-        .next()
-        .unwrap_or(right)
-        .trim()
-        .trim_end_matches('.');
-    let right = right
-        .split(", where")
-        .next()
-        .unwrap_or(right)
-        .split(", 其中")
-        .next()
-        .unwrap_or(right)
-        .split(",其中")
-        .next()
-        .unwrap_or(right)
-        .trim();
-    let named = claimed
-        .rows
-        .iter()
-        .filter(|row| names_of(row).any(|name| has_symbol(right, name)))
-        .count();
-    let enough = named >= 2 || named == 1 && claimed.rows.len() <= 2;
-    // `… is 0.2 N (k = 2), giving …` is a sentence.
-    let is_closed = left.matches('(').count() == left.matches(')').count();
-    let short = !left.is_empty() && left.chars().count() <= 24;
-    let identifier = short && is_closed && !left.contains([',', '|']);
-    // `u_c = sqrt(u1^2 + …)`, `U = k·u_c`, `k = 2` are no models.
-    let of_claim = footer::label(left, "").is_some_and(|whole| whole != footer::Whole::Y);
-    let about_u = of_claim
-        || left.starts_with("u_")
-        || left.starts_with("u(")
-        || left.starts_with("r(")
-        || is_coefficient(left, claimed)
-        || left.starts_with('∂')
-        || left.starts_with('ν');
-    (enough
-        && identifier
-        && !about_u
-        && leading(right).is_none_or(|(_, rest)| !rest.trim().is_empty()))
-    .then(|| (left.to_string(), right.to_string()))
-}
-
-/// `c_1`, `c_i`, `c_m` beside a quantity m: a sensitivity coefficient, where `c_Cd` is a concentration.
-fn is_coefficient(name: &str, claimed: &Claimed) -> bool {
-    name.strip_prefix("c_").is_some_and(|of| {
-        let is_index = of == "i" || of.chars().all(|c| c.is_ascii_digit());
-        is_index
-            || claimed
-                .rows
-                .iter()
-                .any(|row| names_of(row).any(|name| name == of))
-    })
-}
-
 /// A certificate of an input of the model that no row has.
 pub fn absent(text: &str, at: Place, claimed: &Claimed) -> Option<Row> {
     let mut row = super::prose::row(text.strip_prefix("Note to ").unwrap_or(text), at)?;

@@ -129,17 +129,26 @@ pub(super) fn without_coefficient(seen: &Seen<'_>) -> Vec<Hit> {
     let Some(result) = units::parse(of_result) else {
         return Vec::new();
     };
-    each(seen, |row, _| {
-        let (u, contribution) = (row.u.as_ref()?, row.contribution.as_ref()?);
-        let unit = units::parse(&u.unit)?;
+    each(seen, |row, line| {
+        let contribution = row.contribution.as_ref()?;
+        // Without a column of u it is what is stated that has been divided.
+        let (u, unit) = match &row.u {
+            Some(u) => (u.value, &u.unit),
+            None => (line.u, &row.unit),
+        };
+        let own = units::parse(unit)?;
         let is_bare = row
             .c
             .as_ref()
             .is_none_or(|c| c.value.abs() == 1.0 && c.unit.is_empty());
-        let is_other = unit.dimension != result.dimension && units::fraction(&u.unit).is_none();
-        let is_summed = contribution.value != 0.0 && contribution.is_met_by(u.value);
+        let is_other = own.dimension != result.dimension && units::fraction(unit).is_none();
+        let is_summed = contribution.value != 0.0 && contribution.is_met_by(u);
         (is_bare && is_other && is_summed).then(|| {
-            let (u, contribution) = (u.with_unit(), contribution.as_read());
+            let u = match &row.u {
+                Some(u) => u.with_unit(),
+                None => format!("{u:.3} {unit}"),
+            };
+            let contribution = contribution.as_read();
             format!("u = {u}, u_i(y) = {contribution} {of_result}")
         })
     })

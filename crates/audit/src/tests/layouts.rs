@@ -169,3 +169,55 @@ fn limits_below_a_merged_head_are_limits() {
     let bare = sheet("0.577", ["0.577", "1.2"]);
     assert!(first("sheet.csv", &bare).starts_with("c-one@"), "{bare}");
 }
+
+/// The table of QUAM:2012, A1 without a line that states the model: relative uncertainties say that it is a product.
+#[test]
+fn relative_uncertainties_show_a_product() {
+    let sheet = |model: &str, own: &str, u: &str, expanded: &str| {
+        format!(
+            "Preparation of a calibration standard\n{model}\nSymbol,Quantity,Value,Unit,u(x),u(x)/x\nP,Purity,0.9999,,0.000058,0.000058\n\
+             m,Mass,100.28,mg,0.05,0.00050\nV,Volume,100,mL,0.07,0.00070\n{own},Concentration,1002.7,mg/L,{u},0.00086\n\n\
+             U (k=2),,,mg/L,{expanded}\n"
+        )
+    };
+    for model in ["", "c_Cd = 1000*m*P/V", "Model: c_Cd = 1000·m·P/V  [mg/L]"] {
+        let found = answer("sheet.csv", &sheet(model, "c_Cd", "0.864", "1.7"));
+        assert_eq!(found, (Verdict::Sound, Vec::new()), "{model}");
+    }
+    assert_eq!(first("sheet.csv", &sheet("", "c_Cd", "0.864", "0.86")), "k-forgotten");
+}
+
+/// What closes a table may be called by its words alone, and be wrong.
+#[test]
+fn a_standard_uncertainty_below_the_rows_is_that_of_the_whole() {
+    let sheet = |label: &str, u: &str, expanded: &str| {
+        format!(
+            "| Quelle | Wert | Verteilung | Teiler | u in % |\n|---|---|---|---|---|\n| Bezugsnormal | 0,20 % | Normal | 2 | 0,1000 |\n\
+             | Reproduzierbarkeit | 0,30 % | Rechteck | √12 | 0,0866 |\n| Wiederholbarkeit | 0,12 % | Normal | 1 | 0,1200 |\n\
+             | **{label}** | | | | {u} |\n\nErweiterte Messunsicherheit W (k = 2): {expanded} %\n"
+        )
+    };
+    for label in ["Standardunsicherheit w", "Standard uncertainty", "标准不确定度"] {
+        let sound = answer("sheet.md", &sheet(label, "0,1786", "0,36"));
+        assert_eq!(sound, (Verdict::Sound, Vec::new()), "{label}");
+        assert_eq!(first("sheet.md", &sheet(label, "0,1323", "0,26")), "row-dropped@3", "{label}");
+    }
+}
+
+/// Kelvins in a sum of micrometres are seen where only the limits have a unit, too.
+#[test]
+fn limits_of_another_quantity_need_a_coefficient() {
+    let rules = |limits: &str, c: &str, u: &str, u_c: &str| -> Vec<u8> {
+        let sheet = format!(
+            "Gauge block 50 mm\nSource,Limits,Divisor,c,u (µm)\n\"Reference (U, k=2)\",0.040 µm,2,1,0.0200\nTemperature,{limits},1.732,{c},{u}\n\
+             Repeatability,0.030 µm,1,1,0.0300\nCombined standard uncertainty,,,,{u_c}\n"
+        );
+        let grids = crate::sheet::grids("sheet.csv", sheet.as_bytes()).expect("a sheet");
+        let claims = crate::read::budgets(&grids, &crate::read::Mapping::default());
+        let found = crate::rules::findings(&crate::audit(&claims[0]).found);
+        found.into_iter().map(|one| one.rule).collect()
+    };
+    assert!(rules("0.5 K", "1", "0.2887", "0.291").contains(&86));
+    assert!(!rules("0.5 K", "0.575 µm/K", "0.1660", "0.170").contains(&86));
+    assert!(!rules("0.5 µm", "1", "0.2887", "0.291").contains(&86));
+}

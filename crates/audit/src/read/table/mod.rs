@@ -9,6 +9,7 @@
 //! | `pages` | tables that go on on the next page |
 //! | `relative` | figures of the whole that are relative to the result |
 //! | `rows` | its rows with their figures |
+//! | `product` | tables of a product, by their relative uncertainties |
 //! | `footers` | the claimed figures of the whole |
 //! | `interpret` | what is known of each row |
 
@@ -19,6 +20,7 @@ mod interpret;
 mod locate;
 mod located;
 mod pages;
+mod product;
 mod relative;
 mod rows;
 
@@ -26,4 +28,5 @@ pub use footers::{footers, of_columns};
 pub use interpret::interpret;
 pub use locate::locate;
 pub use located::Located;
+pub use product::{coefficient, product};
 pub use rows::{Raw, closing, figures_of_result, rows};

@@ -405,13 +405,27 @@ pub fn closing(rows: &[Raw]) -> Option<usize> {
     // `u(E)` below names that are no symbols of uncertainties.
     let of_result = |row: &Row| row.label().starts_with("u(") || row.label().starts_with("u_c(");
     let is_symbol = of_result(row) && !others.iter().any(|raw| of_result(&raw.row));
+    let is_called = is_standard(row) && !others.iter().any(|raw| is_standard(&raw.row));
     let has_both = row.value.is_some() && row.contribution.is_some() && row.u.is_none();
     let figures = [&row.value, &row.u, &row.contribution];
     let is_made = figures
         .into_iter()
         .flatten()
         .any(|figure| times(figure, others).is_some());
-    (has_both || is_made || is_symbol || is_sum(row, others)).then_some(others.len())
+    let closes = has_both || is_made || is_symbol || is_called || is_sum(row, others);
+    closes.then_some(others.len())
+}
+
+/// Whether a row is called a standard uncertainty, as that of the whole is in short.
+fn is_standard(row: &Row) -> bool {
+    const WORDS: [&str; 4] = [
+        "standard uncertainty",
+        "standardunsicherheit",
+        "incertitude-type",
+        "标准不确定度",
+    ];
+    let label = row.label().to_lowercase();
+    WORDS.iter().any(|word| label.starts_with(word))
 }
 
 /// Whether the estimate of a row is made of those of others: their sum with any signs, or the largest of them with small

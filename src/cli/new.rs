@@ -18,6 +18,9 @@ pub(super) struct Args {
     /// File to write; it must not exist yet. `-` prints it [default: budget.toml, certificate.toml or experiment.toml]
     #[arg(value_name = "PATH")]
     path: Option<PathBuf>,
+    /// File to write, as other commands have it
+    #[arg(short, long, value_name = "PATH", conflicts_with = "path")]
+    output: Option<PathBuf>,
     /// Write the data of a certificate to fill in (`gumption eval --certificate`) in place of a budget
     #[arg(long, conflicts_with = "recording")]
     certificate: bool,
@@ -46,7 +49,8 @@ pub(super) fn run(args: &Args) -> Outcome {
         (None, true) => "certificate.toml",
         (None, false) => "budget.toml",
     };
-    let path = args.path.clone().unwrap_or_else(|| default.into());
+    let stated = args.path.as_ref().or(args.output.as_ref());
+    let path = stated.cloned().unwrap_or_else(|| default.into());
     let text = match (&args.recording, args.certificate) {
         (Some(recording), _) => match proposed(recording, &path, args) {
             Ok(text) => text,

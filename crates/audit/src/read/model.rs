@@ -14,10 +14,7 @@ pub(super) fn find_model(all: &[&Line], claimed: &mut Claimed, mapping: &Mapping
         return;
     }
     let found = all.iter().find_map(|line| {
-        let of_part = line
-            .text
-            .split(" ; ")
-            .find_map(|part| parts(part, claimed));
+        let of_part = line.text.split(" ; ").find_map(|part| parts(part, claimed));
         of_part
             .or_else(|| parts(&line.text, claimed))
             .map(|model| (line.at, line.text.clone(), model))

@@ -184,7 +184,10 @@ fn relative_uncertainties_show_a_product() {
         let found = answer("sheet.csv", &sheet(model, "c_Cd", "0.864", "1.7"));
         assert_eq!(found, (Verdict::Sound, Vec::new()), "{model}");
     }
-    assert_eq!(first("sheet.csv", &sheet("", "c_Cd", "0.864", "0.86")), "k-forgotten");
+    assert_eq!(
+        first("sheet.csv", &sheet("", "c_Cd", "0.864", "0.86")),
+        "k-forgotten"
+    );
 }
 
 /// What closes a table may be called by its words alone, and be wrong.
@@ -197,10 +200,18 @@ fn a_standard_uncertainty_below_the_rows_is_that_of_the_whole() {
              | **{label}** | | | | {u} |\n\nErweiterte Messunsicherheit W (k = 2): {expanded} %\n"
         )
     };
-    for label in ["Standardunsicherheit w", "Standard uncertainty", "标准不确定度"] {
+    for label in [
+        "Standardunsicherheit w",
+        "Standard uncertainty",
+        "标准不确定度",
+    ] {
         let sound = answer("sheet.md", &sheet(label, "0,1786", "0,36"));
         assert_eq!(sound, (Verdict::Sound, Vec::new()), "{label}");
-        assert_eq!(first("sheet.md", &sheet(label, "0,1323", "0,26")), "row-dropped@3", "{label}");
+        assert_eq!(
+            first("sheet.md", &sheet(label, "0,1323", "0,26")),
+            "row-dropped@3",
+            "{label}"
+        );
     }
 }
 

@@ -432,7 +432,7 @@ pub(super) fn of_plus_minus(number: &str, rest: &str) -> Said {
     };
     let (value, uncertainty) = (as_stated(number, &rest), as_stated(&rest, number));
     say!(
-        "the value and its uncertainty have keys of their own: value = {value}, and u, half_width or certificate = {{ U = {uncertainty}, k = 2 }}, whichever it is"
+        "the value and its uncertainty have keys of their own: value = {value}, and u = {uncertainty}, half_width = {uncertainty} or certificate = {{ U = {uncertainty}, k = 2 }}, whichever it is"
     )
 }
 

@@ -305,6 +305,9 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
         ("a CSV column in groups", _) => Some(say!(
             "groups are lists of readings, one for each group: groups = [[…], […]]"
         )),
+        ("a CSV column", "k" | "U" | "p" | "dof") => Some(say!(
+            "an expanded uncertainty is stated as certificate = {{ U = …, k = 2 }}, a standard uncertainty as a number: u = 0.1, dof = 9"
+        )),
         ("a CSV column", _) if nearest(key, known.iter().copied()).is_none() => Some(say!(
             "a number or a list stands without braces, and other keys beside it: u = 0.1, dof = 9; in braces stands a column of a file"
         )),

@@ -228,7 +228,10 @@ fn independent(cause: &Cause, name: &str, places: &[Place<'_>]) -> InputOfCause 
         text: String::new(),
     };
     for (row, place) in places.iter().enumerate() {
-        let slopes: Vec<f64> = columns.iter().map(|column| factor[(row, *column)]).collect();
+        let slopes: Vec<f64> = columns
+            .iter()
+            .map(|column| factor[(row, *column)])
+            .collect();
         input.act(*place, &slopes, name, &place.1.unit);
     }
     // Where each error has its own, the coefficients differ by a little; the least promises too much to none.

@@ -10,7 +10,9 @@ use super::rows::Raw;
 pub fn product(rows: &[Raw]) -> Option<usize> {
     let (last, others) = rows.split_last()?;
     let own = relative(&last.row)?;
-    let parts = others.iter().map(|raw| relative(&raw.row).map(|(part, _)| part));
+    let parts = others
+        .iter()
+        .map(|raw| relative(&raw.row).map(|(part, _)| part));
     let parts: Vec<f64> = parts.collect::<Option<_>>()?;
     let root = libm::sqrt(parts.iter().map(|part| part * part).sum());
     let (value, half) = own;
@@ -24,7 +26,14 @@ pub fn coefficient(result: &Printed, row: &Row) -> Option<Printed> {
     let x = row.value.as_ref().filter(|x| x.value != 0.0)?;
     let ratio = result.clone().scaled(1.0 / x.value);
     let unit = String::new();
-    Some(Printed { half: 0.0, unit, ..ratio }.called("y/x"))
+    Some(
+        Printed {
+            half: 0.0,
+            unit,
+            ..ratio
+        }
+        .called("y/x"),
+    )
 }
 
 /// u/x of a row, and what the digits of u leave open.

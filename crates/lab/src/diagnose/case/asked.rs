@@ -64,7 +64,9 @@ impl Asked {
             .ok_or_else(|| {
                 let all = say!("`--why all` accounts for every effect that the case can have");
                 let ids = known.clone().map(|effect| effect.id.as_str());
-                let mend = nearest(words, ids).map_or(all, |near| say!("did you mean \"{near}\"?"));
+                let near = nearest(words, ids).map(str::to_owned);
+                let near = near.or_else(|| respelt(wanted, known.clone().map(names)));
+                let mend = near.map_or(all, |near| say!("did you mean \"{near}\"?"));
                 say!("the catalogue has no effect \"{words}\": {mend}")
             })
     }
@@ -72,6 +74,18 @@ impl Asked {
 
 fn names(effect: &Effect) -> String {
     format!("{} {} {}", effect.id, effect.name.en, effect.name.zh)
+}
+
+/// The words as the nearest words of some name have them, where one name has all of these.
+fn respelt(wanted: &str, names: impl Iterator<Item = String> + Clone) -> Option<String> {
+    let names = names.map(|name| plain(&name));
+    names.into_iter().find_map(|name| {
+        let near = wanted
+            .split_whitespace()
+            .map(|word| nearest(word, name.split_whitespace()));
+        let near: Vec<&str> = near.collect::<Option<_>>()?;
+        (!near.is_empty()).then(|| near.join(" "))
+    })
 }
 
 fn descriptions(effect: &Effect) -> String {
@@ -115,6 +129,13 @@ mod tests {
             .unwrap_err()
             .to_string();
         assert!(refused.contains(EffectId::Hysteresis.as_str()), "{refused}");
+        for (words, near) in [
+            ("termal", "\"thermal\""),
+            ("thermal lagg", "\"thermal lag\""),
+        ] {
+            let refused = Asked::of(words, [].into_iter()).unwrap_err().to_string();
+            assert!(refused.contains(near), "{refused}");
+        }
         assert!(Asked::of("", [].into_iter()).is_err());
         assert!(
             Asked::of("astrology", [].into_iter())

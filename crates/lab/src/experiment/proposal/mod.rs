@@ -647,6 +647,19 @@ mod tests {
         assert_eq!(down, [0, -1]);
     }
 
+    /// A single axis: `up`, `down` and `level`, as the documentation of positions has them.
+    #[test]
+    fn labels_turn_a_single_axis() {
+        let rows = "up,2.45\ndown,-2.44\nlevel,0.003\nup,2.46\ndown,-2.45\nlevel,0.002\n";
+        let table = of(&format!("position,U [V]\n{rows}"));
+        assert_eq!(table["equations"].as_str(), Some("U = a + b*n"));
+        let of_label = |label: &str| table["positions"]["at"][label][0].as_integer();
+        assert_eq!(
+            ["up", "down", "level"].map(of_label),
+            [Some(1), Some(-1), Some(0)]
+        );
+    }
+
     #[test]
     fn what_is_no_table_is_refused() {
         assert!(proposal("run.csv", "", None, Language::English).is_err());

@@ -8,41 +8,62 @@ use gumption_format::toml::writing::quoted;
 /// The axes, as labels have them.
 const AXES: [char; 3] = ['x', 'y', 'z'];
 
+/// What a label says: which axis (a place among x, y, z; none where there is one only), and what that does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Direction {
+    axis: Option<usize>,
+    sense: Sense,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Sense {
+    Up,
+    Down,
+    Level,
+    Unsaid,
+}
+
 /// What the labels of a column stand for.
 pub(super) struct Positions {
-    /// The labels, each with its axis (a place among x, y, z) and whether that points up, if it says so.
-    of_label: Vec<(String, usize, Option<bool>)>,
+    of_label: Vec<(String, Direction)>,
 }
 
 impl Positions {
-    /// Of a column of which every label says an axis, and may say a sense: `x up`, `X+`, `-z`, `y轴朝下`, `X`.
+    /// Of a column of which every label says an axis, and may say a sense: `x up`, `X+`, `-z`, `y轴朝下`, `X`; or of which
+    /// every label says how the only axis points: `up`, `down`, `level`.
     pub(super) fn of(column: &Column) -> Option<Positions> {
         let Data::Labels(labels) = &column.data else {
             return None;
         };
         let named = labels.levels.iter().filter(|label| !label.is_empty());
-        let of_label = named.map(|label| {
-            let (axis, up) = direction(label)?;
-            Some((label.clone(), axis, up))
-        });
-        let of_label: Option<Vec<_>> = of_label.collect();
-        let found = Positions {
-            of_label: of_label?,
-        };
-        (found.of_label.len() > 1).then_some(found)
+        let of_label = named.map(|label| Some((label.clone(), direction(label)?)));
+        let of_label: Vec<_> = of_label.collect::<Option<_>>()?;
+        let with_axis = of_label.iter().filter(|(_, one)| one.axis.is_some());
+        let is_alike = [0, of_label.len()].contains(&with_axis.count());
+        (is_alike && of_label.len() > 1).then_some(Positions { of_label })
     }
 
     /// Whether every label says a sense: what acts is gravity.
     pub(super) fn are_up_or_down(&self) -> bool {
-        self.of_label.iter().all(|(.., up)| up.is_some())
+        self.of_label
+            .iter()
+            .all(|(_, one)| one.sense != Sense::Unsaid)
     }
 
     /// The axes that occur.
-    pub(super) fn axes(&self) -> Vec<char> {
+    fn places(&self) -> Vec<Option<usize>> {
+        let places = [None, Some(0), Some(1), Some(2)].into_iter();
         let occurs =
-            |(place, _): &(usize, &char)| self.of_label.iter().any(|(_, axis, _)| axis == place);
-        let axes = AXES.iter().enumerate().filter(occurs);
-        axes.map(|(_, axis)| *axis).collect()
+            |place: &Option<usize>| self.of_label.iter().any(|(_, one)| one.axis == *place);
+        places.filter(occurs).collect()
+    }
+
+    /// Their names; nothing where there is one only.
+    pub(super) fn axes(&self) -> Vec<String> {
+        let places = self.places().into_iter();
+        let names =
+            places.map(|place| place.map_or(String::new(), |place| AXES[place].to_string()));
+        names.collect()
     }
 
     /// The table that says what each label stands for, by the names of the axes that occur.
@@ -53,14 +74,16 @@ impl Positions {
         one: &Said,
         language: Language,
     ) -> String {
-        let axes = self.axes();
+        let places = self.places();
         let gives: Vec<String> = names.iter().map(|name| quoted(name)).collect();
-        let at = self.of_label.iter().map(|(label, axis, up)| {
-            let values = axes.iter().map(|name| match (AXES[*axis] == *name, up) {
-                (true, Some(false)) => "-1",
-                (true, _) => "1",
-                (false, _) => "0",
-            });
+        let at = self.of_label.iter().map(|(label, one)| {
+            let values = places
+                .iter()
+                .map(|place| match (one.axis == *place, one.sense) {
+                    (false, _) | (true, Sense::Level) => "0",
+                    (true, Sense::Down) => "-1",
+                    (true, Sense::Up | Sense::Unsaid) => "1",
+                });
             let values: Vec<&str> = values.collect();
             format!("{} = [{}]", quoted(label), values.join(", "))
         });
@@ -85,25 +108,34 @@ pub(super) fn of_stimulus(stimulus: &str) -> Said {
     say!("1: {stimulus} acts along the axis, or about it")
 }
 
-/// The axis of a label, and its sense where it says one.
-fn direction(label: &str) -> Option<(usize, Option<bool>)> {
+/// What a label says of an axis.
+fn direction(label: &str) -> Option<Direction> {
     const UP: [&str; 7] = ["up", "plus", "+", "朝上", "朝天", "上", "正"];
     const DOWN: [&str; 8] = ["down", "minus", "-", "−", "朝下", "朝地", "下", "负"];
+    const LEVEL: [&str; 5] = ["level", "horizontal", "水平", "平放", "平"];
     let label = label.to_lowercase();
-    let without = |words: &[&str]| {
+    let without = |words: &[&str], sense| {
         let word = words.iter().find(|word| label.contains(**word))?;
-        Some(label.replacen(word, "", 1))
+        Some((label.replacen(word, "", 1), sense))
     };
-    let (rest, up) = match (without(&UP), without(&DOWN)) {
-        (Some(rest), None) => (rest, Some(true)),
-        (None, Some(rest)) => (rest, Some(false)),
-        (None, None) => (label.clone(), None),
-        (Some(_), Some(_)) => return None,
+    let said = [
+        without(&UP, Sense::Up),
+        without(&DOWN, Sense::Down),
+        without(&LEVEL, Sense::Level),
+    ];
+    let mut said = said.into_iter().flatten();
+    let (rest, sense) = match (said.next(), said.next()) {
+        (first, None) => first.unwrap_or((label.clone(), Sense::Unsaid)),
+        (_, Some(_)) => return None,
     };
     let letters = rest.replace("axis", "").replace('轴', "");
     let letters = letters.trim_matches(|c: char| !c.is_alphanumeric());
-    let place = AXES.iter().position(|axis| letters == axis.to_string())?;
-    Some((place, up))
+    let axis = AXES.iter().position(|axis| letters == axis.to_string());
+    match (axis, sense) {
+        (Some(_), Sense::Level) | (None, Sense::Unsaid) => None,
+        (None, _) if !letters.is_empty() => None,
+        (axis, sense) => Some(Direction { axis, sense }),
+    }
 }
 
 #[cfg(test)]
@@ -112,20 +144,22 @@ mod tests {
 
     #[test]
     fn labels_say_an_axis_and_a_sense() {
-        for (label, found) in [
-            ("x up", Some((0, Some(true)))),
-            ("X+", Some((0, Some(true)))),
-            ("-z", Some((2, Some(false)))),
-            ("Y_down", Some((1, Some(false)))),
-            ("z轴朝天", Some((2, Some(true)))),
-            ("X", Some((0, None))),
-            ("y轴", Some((1, None))),
-            ("level", None),
-            ("+-x", None),
-            ("up", None),
-            ("P1+", None),
+        for (label, axis, sense) in [
+            ("x up", Some(0), Sense::Up),
+            ("X+", Some(0), Sense::Up),
+            ("-z", Some(2), Sense::Down),
+            ("Y_down", Some(1), Sense::Down),
+            ("z轴朝天", Some(2), Sense::Up),
+            ("X", Some(0), Sense::Unsaid),
+            ("y轴", Some(1), Sense::Unsaid),
+            ("up", None, Sense::Up),
+            ("轴朝下", None, Sense::Down),
+            ("水平", None, Sense::Level),
         ] {
-            assert_eq!(direction(label), found, "{label}");
+            assert_eq!(direction(label), Some(Direction { axis, sense }), "{label}");
+        }
+        for label in ["+-x", "P1+", "x level", "P1", "axis", ""] {
+            assert_eq!(direction(label), None, "{label}");
         }
     }
 }

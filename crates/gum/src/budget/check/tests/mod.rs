@@ -183,12 +183,22 @@ fn a_conversion_that_is_made_twice_is_refused() {
         )
     };
     let dilution = "[constant]\ndilution = 1000\n";
-    for twice in ["1000 * m / V", "m / (V / 1000)", "m / (V * 0.001)", "abs(1000 * m / V)"] {
+    for twice in [
+        "1000 * m / V",
+        "m / (V / 1000)",
+        "m / (V * 0.001)",
+        "abs(1000 * m / V)",
+    ] {
         let found = faults(&text(twice));
         let codes: Vec<&str> = found.iter().map(|(code, _)| *code).collect();
         assert_eq!(codes, ["M0410"], "{twice}");
     }
-    for meant in ["m / V", "1000 '1' * m / V", "m / V * ln(1000)", "m / V * 1000^0.5"] {
+    for meant in [
+        "m / V",
+        "1000 '1' * m / V",
+        "m / V * ln(1000)",
+        "m / V * 1000^0.5",
+    ] {
         assert!(budget(&text(meant)).remarks.is_empty(), "{meant}");
     }
     let named = format!("{}{dilution}", text("dilution * m / V"));

@@ -157,7 +157,7 @@ fn slope(
     })
 }
 
-/// Whether two variants of a candidate are one but for the value of their shape.
+/// Whether two variants of a candidate are one but for the value of their shape: the same law on the same quantities.
 fn differ_in_shape(one: &Variation, other: &Variation) -> bool {
     let symbol = |variation: &Variation| variation.shape.as_ref().map(|shape| shape.symbol);
     let places = |variation: &Variation| -> Vec<(Node, Option<usize>, bool)> {
@@ -166,5 +166,36 @@ fn differ_in_shape(one: &Variation, other: &Variation) -> bool {
             .map(|term| (term.node, term.response, term.tied))
             .collect()
     };
-    symbol(one) == symbol(other) && places(one) == places(other)
+    symbol(one) == symbol(other)
+        && places(one) == places(other)
+        && words(&one.label) == words(&other.label)
+}
+
+/// What a label says beside figures: "anew in each run", "below" a knee.
+fn words(label: &str) -> Vec<&str> {
+    let all = label.split(' ');
+    all.filter(|word| word.parse::<f64>().is_err()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::catalogue::{Modifier, Term};
+
+    #[test]
+    fn shapes_of_another_law_are_no_neighbours() {
+        let law = |label: &str, tau: f64| {
+            let term = Term::new(Node::Output, Modifier::unnamed(vec![tau]));
+            Variation::one(label, term).shaped("τ", tau, "h")
+        };
+        let own = law("τ = 0.5 h", 0.5);
+        assert!(differ_in_shape(&own, &law("τ = 0.6 h", 0.6)));
+        assert!(!differ_in_shape(
+            &own,
+            &law("τ = 0.6 h, anew in each run", 0.6)
+        ));
+        let mut other = law("τ = 0.6 h", 0.6);
+        other.terms[0].response = Some(1);
+        assert!(!differ_in_shape(&own, &other));
+    }
 }

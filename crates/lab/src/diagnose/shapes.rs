@@ -110,7 +110,7 @@ impl Shapes {
             return unknowns;
         };
         for (unknown, variance) in unknowns.iter_mut().zip(beside.diagonal().iter()) {
-            unknown.u = unknown.u.hypot(variance.max(0.0).sqrt());
+            unknown.u = libm::hypot(unknown.u, variance.max(0.0).sqrt());
         }
         unknowns
     }

@@ -212,7 +212,12 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
     }
     let text = &absolute(text);
     let lower = text.to_lowercase();
-    for (whole, keys) in WORDS.iter().filter(|(whole, _)| *whole != Whole::Y) {
+    let is_claim = |whole: Whole| match whole {
+        Whole::Y => false,
+        Whole::Factor => !divides_by_factor(&lower),
+        _ => true,
+    };
+    for (whole, keys) in WORDS.iter().filter(|(whole, _)| is_claim(*whole)) {
         let figure = super::words::figure_after(text, keys);
         let is_factor = |figure: &Printed| factor.as_ref().is_some_and(|k| k.text == figure.text);
         if let Some(figure) = figure.filter(|figure| has(&lower, keys) && !is_factor(figure)) {
@@ -220,6 +225,11 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
         }
     }
     found
+}
+
+/// `u = U/k = 2.4/2`: the calculation of a row, whose k is that of a certificate.
+pub fn divides_by_factor(lower: &str) -> bool {
+    has(lower, &["u/k", "u / k"])
 }
 
 /// The factor of `U = 2·u_c`.
@@ -274,6 +284,10 @@ pub fn assigned(text: &str, name: &str) -> Option<Printed> {
     let mut from = 0;
     while let Some(at) = super::words::symbol_at(text, name, from) {
         from = at + name.len();
+        // `u = U/k = 2.4/2` gives a value to the quotient.
+        if text[..at].trim_end().ends_with('/') {
+            continue;
+        }
         let mut rest = text[from..].trim_start();
         // `u_c(m) = 0.3`
         if let Some(inner) = rest.strip_prefix('(')

@@ -2,6 +2,8 @@
 
 use crate::claim::{Claimed, Row, Understood};
 
+use gumption_core::model::functions;
+
 use super::lines::Line;
 use super::mapping::Mapping;
 use super::{columns, footer, notes, table, words};
@@ -147,9 +149,11 @@ pub(super) fn symbols_of_model(raw: &mut [table::Raw], claimed: &mut Claimed) {
 
 /// An input of the model that no row has and no line gives a value to, where everything else of the model has its row.
 pub(super) fn missing_input(claimed: &Claimed, all: &[&Line]) -> Option<Row> {
-    const FUNCTIONS: [&str; 12] = [
-        "sin", "cos", "tan", "exp", "ln", "log", "lg", "sqrt", "abs", "pi", "arctan", "atan",
-    ];
+    // As laboratories write them, besides those of the model language.
+    const FUNCTIONS: [&str; 5] = ["log", "lg", "pi", "arcsin", "arctan"];
+    let is_function = |word: &&str| {
+        FUNCTIONS.contains(word) || functions().iter().any(|function| function.name == *word)
+    };
     let model = claimed.model.as_deref()?;
     let named = |row: &Row| words::has_symbol(model, &row.symbol);
     if claimed.rows.len() < 2 || !claimed.rows.iter().all(named) {
@@ -159,7 +163,7 @@ pub(super) fn missing_input(claimed: &Claimed, all: &[&Line]) -> Option<Row> {
     let is_name = |word: &&str| {
         word.starts_with(char::is_alphabetic)
             && !word.contains(|c: char| ('\u{4e00}'..='\u{9fff}').contains(&c))
-            && !FUNCTIONS.contains(word)
+            && !is_function(word)
     };
     let known = |word: &&str| {
         let of = |rows: &[Row]| rows.iter().any(|row| row.symbol == *word);
@@ -178,4 +182,34 @@ pub(super) fn missing_input(claimed: &Claimed, all: &[&Line]) -> Option<Row> {
         is_absent: true,
         ..Row::default()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn models_name_rows() {
+        let row = |symbol: &str| Row {
+            symbol: symbol.into(),
+            ..Row::default()
+        };
+        let claimed = Claimed {
+            rows: vec![row("m_S"), row("dm")],
+            ..Claimed::default()
+        };
+        let right = |text: &str| parts(text, &claimed).map(|(_, right)| right);
+        let sum = Some("m_S + dm".to_owned());
+        assert_eq!(
+            parts("Model: m = m_S + dm", &claimed),
+            Some(("m".into(), "m_S + dm".into()))
+        );
+        assert_eq!(right("测量模型：m = m_S + dm"), sum);
+        assert_eq!(right("U = k·u_c"), None);
+        for unit in ["m = m_S + dm  [mg]", "m = m_S + dm (g)"] {
+            assert_eq!(right(unit), sum, "{unit}");
+        }
+        let product = "m_S*2 (dm)";
+        assert_eq!(right(&format!("m = {product}")).as_deref(), Some(product));
+    }
 }

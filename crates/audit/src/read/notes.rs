@@ -166,7 +166,7 @@ fn rule(lower: &str, claimed: &mut Claimed) -> bool {
         .strip_prefix('k')
         .and_then(|rest| rest.trim_start().strip_prefix('='))
         .is_some_and(|rest| rest.trim().parse::<f64>().is_ok());
-    if bare {
+    if bare || footer::divides_by_factor(lower) {
         return false;
     }
     if !about || certificate {
@@ -375,7 +375,11 @@ pub fn is_assigned(text: &str, symbol: &str) -> bool {
     let beside = text
         .split_once(" ; ")
         .filter(|(first, _)| first.trim() == symbol);
+    // `nominal: 1 kg`
+    let named = text.strip_prefix(symbol).map(str::trim_start);
+    let named = named.and_then(|rest| rest.strip_prefix([':', '：']));
     beside.is_some_and(|(_, rest)| leading(rest).is_some())
+        || named.is_some_and(|rest| leading(rest).is_some())
         || symbol_at(text, symbol, 0).is_some_and(|at| {
             text[at + symbol.len()..]
                 .trim_start()
@@ -510,19 +514,5 @@ mod tests {
         assert_eq!(claimed.coverage, Coverage::Fixed(2.0));
         note("m_S 与 dm 的相关系数 r=0.5", Place::default(), &mut claimed);
         assert_eq!(claimed.correlations[0].r, 0.5);
-    }
-
-    #[test]
-    fn models_name_rows() {
-        let claimed = with_rows(&["m_S", "dm"]);
-        assert_eq!(
-            model("Model: m = m_S + dm", &claimed),
-            Some(("m".into(), "m_S + dm".into()))
-        );
-        assert_eq!(
-            model("测量模型：m = m_S + dm", &claimed).unwrap().1,
-            "m_S + dm"
-        );
-        assert_eq!(model("U = k·u_c", &claimed), None);
     }
 }

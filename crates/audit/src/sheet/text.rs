@@ -1,5 +1,8 @@
 //! Texts: separated values, Markdown tables, plain text.
 
+use std::collections::BTreeMap;
+use std::ops::Range;
+
 use gumption_fault::say;
 use gumption_format::csv::western;
 
@@ -197,15 +200,20 @@ pub(super) fn markdown(text: &str) -> Grid {
     let text = BLANKS
         .iter()
         .fold(text.to_owned(), |text, blank| text.replace(blank, " "));
-    let mut rows = Vec::new();
-    for line in text.lines() {
+    let mut rows: Vec<Vec<Cell>> = Vec::new();
+    let mut origins = BTreeMap::new();
+    for (number, line) in text.lines().enumerate() {
         let line = line.trim();
+        // The rule below a head is a line of the file and no row.
+        let row = rows.len();
+        let in_file = |column| ((row, column), (number, column));
         if !is_markdown(line) {
             let plain = line
                 .trim_start_matches(['#', '>', ' '])
                 .trim_start_matches("- ")
                 .trim_start_matches("* ");
             rows.push(vec![Cell::new(&unmarked(plain))]);
+            origins.extend([in_file(0)]);
             continue;
         }
         let inner = line.trim_start_matches('|');
@@ -213,16 +221,16 @@ pub(super) fn markdown(text: &str) -> Grid {
         let rule = inner.chars().all(|c| "-:| ".contains(c)) && inner.contains("--");
         if !rule {
             let hidden = inner.replace("\\|", "\u{1}");
-            rows.push(
-                hidden
-                    .split('|')
-                    .map(|field| Cell::new(&unmarked(&field.replace('\u{1}', "|"))))
-                    .collect(),
-            );
+            let cells = hidden.split('|');
+            let cells = cells.map(|field| Cell::new(&unmarked(&field.replace('\u{1}', "|"))));
+            let cells: Vec<Cell> = cells.collect();
+            origins.extend((0..cells.len()).map(in_file));
+            rows.push(cells);
         }
     }
     Grid {
         rows,
+        origins,
         ..Grid::default()
     }
 }
@@ -244,14 +252,14 @@ fn aligned(text: &str) -> Grid {
             .and_then(|l| l.strip_suffix('"'));
         quoted.map_or(line.to_string(), |inner| inner.replace("\"\"", "\""))
     };
-    let mut widest: Vec<Start> = Vec::new();
+    let mut head: Vec<Span> = Vec::new();
     let row = |line: &str| -> Vec<Cell> {
         let line = bare(line);
-        let starts = starts(&line);
+        let spans = spans(&line);
         let fields = aligned_fields(&line).into_iter().map(Cell::new);
-        let columns = under(&starts, &widest);
-        if starts.is_empty() || starts.len() >= widest.len() {
-            widest = starts;
+        let columns = under(&spans, &head);
+        if spans.is_empty() || columns.is_none() && spans.len() >= head.len() {
+            head = spans;
         }
         let Some(columns) = columns else {
             return fields.collect();
@@ -269,17 +277,21 @@ fn aligned(text: &str) -> Grid {
     }
 }
 
-/// Where a field begins: letters in front of it, and the columns of a terminal that they take.
-#[derive(Clone, Copy)]
-struct Start([usize; 2]);
+/// Where a field begins and ends: by letters, and by the columns of a terminal that they take.
+#[derive(Clone)]
+struct Span([Range<usize>; 2]);
 
-fn starts(line: &str) -> Vec<Start> {
-    let fields = aligned_fields(line);
-    let places = fields.iter().map(|field| {
-        let front = &line[..field.as_ptr() as usize - line.as_ptr() as usize];
-        let wide = front.chars().filter(|c| is_wide(*c)).count();
-        let letters = front.chars().count();
-        Start([letters, letters + wide])
+fn spans(line: &str) -> Vec<Span> {
+    let size = |text: &str| {
+        let wide = text.chars().filter(|c| is_wide(*c)).count();
+        let letters = text.chars().count();
+        [letters, letters + wide]
+    };
+    let fields = aligned_fields(line).into_iter();
+    let places = fields.map(|field| {
+        let front = size(&line[..field.as_ptr() as usize - line.as_ptr() as usize]);
+        let own = size(field);
+        Span([0, 1].map(|how| front[how]..front[how] + own[how]))
     });
     places.collect()
 }
@@ -289,16 +301,48 @@ fn is_wide(c: char) -> bool {
     matches!(c, '\u{1100}'..='\u{115f}' | '\u{2e80}'..='\u{a4cf}' | '\u{ac00}'..='\u{d7a3}' | '\u{f900}'..='\u{faff}' | '\u{fe30}'..='\u{fe6f}' | '\u{ff00}'..='\u{ff60}')
 }
 
-/// Under which fields of the widest line above the fields of a line with gaps begin, where each begins under one.
-fn under(starts: &[Start], widest: &[Start]) -> Option<Vec<usize>> {
-    if starts.len() < 2 || starts.len() >= widest.len() {
+/// Under which fields of the head of its block the fields of a line stand, where each stands under one: a cell may be empty.
+fn under(spans: &[Span], head: &[Span]) -> Option<Vec<usize>> {
+    if spans.len() < 2 || head.len() < 2 {
         return None;
     }
-    let by = |how: usize| -> Option<Vec<usize>> {
-        let place = |start: &Start| widest.iter().position(|above| above.0[how] == start.0[how]);
-        starts.iter().map(place).collect()
+    // A long name may reach below the next head, of which the cell is empty.
+    let begins = |how: usize| -> Option<Vec<usize>> {
+        let is_head = |span: &Span, head: &Span| span.0[how].start == head.0[how].start;
+        let column = |span: &Span| head.iter().position(|head| is_head(span, head));
+        spans.iter().map(column).collect()
     };
-    by(0).or_else(|| by(1))
+    let below = |how: usize| -> Option<Vec<usize>> {
+        let mut columns: Vec<usize> = Vec::new();
+        for span in spans {
+            let column = column_of(&span.0[how], head.iter().map(|head| &head.0[how]))?;
+            // What stands behind the last head has columns of its own.
+            let free = columns.last().map_or(0, |last| last + 1);
+            columns.push(match column == head.len() {
+                true => column.max(free),
+                false => column,
+            });
+        }
+        columns.is_sorted_by(|a, b| a < b).then_some(columns)
+    };
+    let has_gaps = spans.len() < head.len();
+    let begins = [0, 1].into_iter().filter(|_| has_gaps).find_map(begins);
+    begins.or_else(|| [0, 1].into_iter().find_map(below))
+}
+
+/// The place of the only head above a field, or their number where it stands behind all of them.
+fn column_of<'h>(
+    field: &Range<usize>,
+    heads: impl Iterator<Item = &'h Range<usize>> + Clone,
+) -> Option<usize> {
+    let is_above =
+        |(_, head): &(usize, &Range<usize>)| head.start < field.end && field.start < head.end;
+    let mut above = heads.clone().enumerate().filter(is_above);
+    match (above.next(), above.next()) {
+        (Some((column, _)), None) => Some(column),
+        (None, _) if heads.clone().all(|head| head.end <= field.start) => Some(heads.count()),
+        _ => None,
+    }
 }
 
 fn aligned_fields(line: &str) -> Vec<&str> {
@@ -325,5 +369,12 @@ mod tests {
         assert_eq!(texts(&table, 3), ["a", "0.1"]);
         let spaced = guessed("X      u     c\nlength l   0.1   1\n");
         assert_eq!(texts(&spaced, 1), ["length l", "0.1", "1"]);
+        // Numbers end where their heads end, and cells are empty.
+        let gaps = guessed(
+            "Source      Shape         u      c     u_i\nV                       0.012  1.000   0.012\n  readings  t         0.010          0.010\nR           normal    0.003  2.000   0.006  #\n",
+        );
+        assert_eq!(texts(&gaps, 1), ["V", "", "0.012", "1.000", "0.012"]);
+        assert_eq!(texts(&gaps, 2), ["readings", "t", "0.010", "", "0.010"]);
+        assert_eq!(texts(&gaps, 3)[5], "#");
     }
 }

@@ -209,7 +209,7 @@ fn a_standard_uncertainty_below_the_rows_is_that_of_the_whole() {
         assert_eq!(sound, (Verdict::Sound, Vec::new()), "{label}");
         assert_eq!(
             first("sheet.md", &sheet(label, "0,1323", "0,26")),
-            "row-dropped@3",
+            "row-dropped@Wiederholbarkeit",
             "{label}"
         );
     }
@@ -231,4 +231,52 @@ fn limits_of_another_quantity_need_a_coefficient() {
     assert!(rules("0.5 K", "1", "0.2887", "0.291").contains(&86));
     assert!(!rules("0.5 K", "0.575 µm/K", "0.1660", "0.170").contains(&86));
     assert!(!rules("0.5 µm", "1", "0.2887", "0.291").contains(&86));
+}
+
+/// Rows of Markdown are called by their lines in the file, of which one is the rule below the head.
+#[test]
+fn rows_of_markdown_stand_in_lines_of_the_file() {
+    let sheet =
+        "# Budget\n\n| Source | u / mm |\n|---|---|\n| A | 0.03 |\n| B | 0.04 |\n\nu_c = 0.05 mm\n";
+    let grids = crate::sheet::grids("sheet.md", sheet.as_bytes()).expect("a sheet");
+    let claims = crate::read::budgets(&grids, &crate::read::Mapping::default());
+    let lines: Vec<usize> = claims[0].rows.iter().map(|row| row.at.row + 1).collect();
+    assert_eq!(lines, [5, 6]);
+    let u_c = claims[0].footer.u_c.as_ref().expect("u_c");
+    assert_eq!(u_c.at.row + 1, 8);
+}
+
+/// A quantity of the model that a line gives a value to is none that the table lacks.
+#[test]
+fn nominal_values_beside_the_table_are_no_missing_rows() {
+    for nominal in ["nominal: 1 kg", "nominal = 1 kg", "nominal,1,kg"] {
+        is_sound(
+            "sheet.csv",
+            &format!(
+                "Reference weight\nm_R = nominal + c + drift\n{nominal}\nquantity,estimate,unit,u,distribution,c,c·u\n\
+                 c,0.32,mg,0.200,normal,0.001,0.000200\ndrift,0,mg,0.0866,rectangular,0.001,0.0000866\n\
+                 m_R,1000.00032,g,,,,0.000218\n\nU = 0.00044 g (k = 2)\n"
+            ),
+        );
+    }
+}
+
+/// Names of functions are no inputs that the table lacks.
+#[test]
+fn functions_are_no_missing_rows() {
+    is_sound(
+        "sheet.csv",
+        "Sine bar\ntheta = asin(h/L)\nquantity,estimate,unit,u,c,c·u\nh,50,mm,0.01,0.011547,0.00011547\nL,100,mm,0.01,-0.0057735,-0.000057735\n\
+         u_c,0.00012910,rad\nU (k = 2),0.00026,rad\n",
+    );
+}
+
+/// The calculation of a row with the k of its certificate states no rule for that of the result.
+#[test]
+fn a_quotient_by_k_is_no_rule() {
+    is_sound(
+        "sheet.csv",
+        "Error of a voltmeter\nE = V_x - V_s\nquantity,estimate,unit,u,distribution,c,c·u\nV_x,1000.4,mV,0.50,normal,1,0.50\n\
+         V_s,1000.0,mV,1.20,normal,-1,-1.20\nE,0.4,mV,,,,1.30\n\nV_s,B,U/k = 2.4/2\nU = 2.6 mV (k = 2)\n",
+    );
 }

@@ -181,6 +181,8 @@ fn by_line(columns: &[Guess<'_>], language: Language) -> String {
     let mut taken: BTreeSet<String> = columns.iter().map(|guess| guess.name.clone()).collect();
     let of_label = columns.iter();
     let of_label = of_label.filter_map(|guess| Some((guess, Positions::of(guess.column)?)));
+    // Of several outputs, labels without an axis do not say which points up.
+    let of_label = of_label.filter(|(_, found)| found.name_axes() || outputs.len() == 1);
     let timed = set.iter().all(|guess| guess.role == RoleWord::Time);
     let positions = of_label.map(|(guess, positions)| {
         let names = positions.axes().into_iter();

@@ -38,9 +38,10 @@ impl Positions {
         let named = labels.levels.iter().filter(|label| !label.is_empty());
         let of_label = named.map(|label| Some((label.clone(), direction(label)?)));
         let of_label: Vec<_> = of_label.collect::<Option<_>>()?;
-        let with_axis = of_label.iter().filter(|(_, one)| one.axis.is_some());
-        let is_alike = [0, of_label.len()].contains(&with_axis.count());
-        (is_alike && of_label.len() > 1).then_some(Positions { of_label })
+        let found = Positions { of_label };
+        let without_axis = || found.of_label.iter().all(|(_, one)| one.axis.is_none());
+        let is_alike = found.name_axes() || without_axis();
+        (is_alike && found.of_label.len() > 1).then_some(found)
     }
 
     /// Whether every label says a sense: what acts is gravity.
@@ -48,6 +49,11 @@ impl Positions {
         self.of_label
             .iter()
             .all(|(_, one)| one.sense != Sense::Unsaid)
+    }
+
+    /// Whether the labels say which axis they are about.
+    pub(super) fn name_axes(&self) -> bool {
+        self.of_label.iter().all(|(_, one)| one.axis.is_some())
     }
 
     /// The axes that occur.

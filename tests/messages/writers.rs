@@ -98,6 +98,7 @@ const WRITERS: &[Writer] = &[
     ),
     file("plan case.toml -o OUT.md", "--output"),
     careful(file("new OUT.toml", "<PATH>")),
+    careful(file("new -o OUT.toml", "--output")),
     careful(folder(
         "challenge --seed 3 --rig tumble --out OUT",
         "--out",

@@ -332,14 +332,18 @@ impl<'a> Lexer<'a, '_> {
     fn unknown(&mut self, c: char) {
         let span = self.at..self.at + c.len_utf8();
         let help = match c {
-            '°' | '%' | '‰' | 'µ' => {
+            '°' | '%' | '‰' | 'µ' | '℃' | '℉' => {
+                let goes_on = |next: &char| *next == c || next.is_alphabetic();
+                let unit: String = self.rest().chars().take_while(goes_on).collect();
                 let before = self.text[..self.at].trim_end();
                 let digits = before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.');
                 let number = match &before[digits.len()..] {
                     "" => "5",
                     number => number,
                 };
-                say!("a unit stands between single quotes right after its number: `{number} '{c}'`")
+                say!(
+                    "a unit stands between single quotes right after its number: `{number} '{unit}'`"
+                )
             }
             '"' | '`' | '’' | '‘' => {
                 say!("a unit stands between single quotes: `25 'mm'`")

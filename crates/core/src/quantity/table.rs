@@ -482,6 +482,7 @@ mod tests {
             ("l", "L"),
             ("m/s²/√Hz", "m/s^2/sqrt(Hz)"),
             ("％", "%"),
+            ("㎏/㎜", "kg/mm"),
             ("r/min", "rpm"),
             ("ml", "mL"),
             ("ppm/℃", "ppm/K"),

@@ -109,10 +109,15 @@ const LOOK_ALIKES: &[(&[char], &str)] = &[
     (&['％'], "%"),
     (&['∆'], "Δ"), // increment for Greek Delta
     (&['ℓ'], "l"),
+    (&['㎜'], "mm"), // signs of Chinese keyboards
+    (&['㎝'], "cm"),
+    (&['㎞'], "km"),
+    (&['㎎'], "mg"),
+    (&['㎏'], "kg"),
 ];
 
 fn starts_name(c: char) -> bool {
-    c.is_alphabetic() || "°º˚'\"’”′″%‰‱％_$∆℃℉".contains(c)
+    c.is_alphabetic() || "°º˚'\"’”′″%‰‱％_$∆℃℉㎜㎝㎞㎎㎏".contains(c)
 }
 
 fn continues_name(c: char) -> bool {

@@ -20,7 +20,7 @@ pub static HINTS: Hints = Hints {
 };
 
 /// Words that people try, and the keys and words that they mean.
-pub const SYNONYMS: [(&str, &str); 130] = [
+pub const SYNONYMS: [(&str, &str); 131] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),
@@ -111,6 +111,7 @@ pub const SYNONYMS: [(&str, &str); 130] = [
     ("值", "value"),
     ("单位", "unit"),
     ("标准不确定度", "u"),
+    ("不确定度", "u"),
     ("扩展不确定度", "U"),
     ("包含因子", "k"),
     ("包含概率", "p"),
@@ -301,6 +302,9 @@ pub fn unknown_key(key: &str, table: &str, known: &[&'static str]) -> Option<Sai
         )),
         ("[[joint]]", "readings") => Some(say!(
             "the readings stand with each input, in the same order: [input.V] readings = […], [input.I] readings = […]"
+        )),
+        ("[input]", "u_A" | "u_B" | "uA" | "uB" | "A类" | "B类") => Some(say!(
+            "types A and B are components side by side: components = [{{ readings = […] }}, {{ u = 0.02 }}]"
         )),
         ("a CSV column in groups", _) => Some(say!(
             "groups are lists of readings, one for each group: groups = [[…], […]]"

@@ -78,12 +78,29 @@ impl Checker<'_> {
             return None;
         };
         let found = outline(&term.value, &self.units);
-        if found.is_ok_and(|found| !found.needs.iter().any(|(needed, _)| needed == name)) {
+        if let Ok(found) = found
+            && !found.needs.iter().any(|(needed, _)| needed == name)
+        {
             let message = say!("the term of the omitted effect {name} does not have {name}");
-            let help = say!(
-                "{name} is its coefficient: term = \"{name}*({})\"",
-                term.value
-            );
+            let constants = experiment.constants.iter().map(|known| known.name.as_str());
+            let known = symbols
+                .iter()
+                .map(|known| known.name.as_str())
+                .chain(constants);
+            let unknown = found.needs.iter().map(|(needed, _)| needed.as_str());
+            let unknown: Vec<&str> = unknown
+                .filter(|name| known.clone().all(|known| known != *name))
+                .collect();
+            let help = match unknown.as_slice() {
+                // A statement of `model` may define it.
+                [coefficient] if shared.is_none() => {
+                    say!("an effect is called as its coefficient: [omitted.{coefficient}]")
+                }
+                _ => say!(
+                    "{name} is its coefficient: term = \"{name}*({})\"",
+                    term.value
+                ),
+            };
             let fault = Fault::new(TERM, term.span.clone(), message);
             self.faults.push(fault.help(help));
             return None;

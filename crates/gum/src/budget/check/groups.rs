@@ -12,7 +12,7 @@ use super::statement::{ROUNDING, Statement};
 use crate::budget::faults::{NOT_SEMIDEFINITE, UNATTAINABLE};
 use crate::budget::{Component, Group, Law};
 use crate::elimination::is_definite;
-use gumption_core::distribution::{Distribution, StudentT, latent_correlation};
+use gumption_core::distribution::{CopulaError, Distribution, StudentT, latent_correlation};
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
@@ -159,10 +159,23 @@ impl Checker<'_> {
                         latent[(j, i)] = rho;
                     }
                     Err(reason) => {
+                        // No other r would do for what has no standard deviation.
+                        let help = match reason {
+                            CopulaError::NoCorrelation => say!(
+                                "t distributions have no standard deviation for ν ≤ 2: correlate the components that have the cause in common, between = [\"A.calibration\", \"B.calibration\"], or state it as a [source.NAME]"
+                            ),
+                            _ => say!(
+                                "lower the correlation, or state the common cause as a [source.NAME]"
+                            ),
+                        };
                         return self.refuse(
-                            Fault::new(UNATTAINABLE, place.clone(), say!("{} and {} cannot have r = {}", a.name, b.name, show(r)))
-                                .label(reason.said())
-                                .help(say!("lower the correlation, or state the common cause as a [source.NAME]")),
+                            Fault::new(
+                                UNATTAINABLE,
+                                place.clone(),
+                                say!("{} and {} cannot have r = {}", a.name, b.name, show(r)),
+                            )
+                            .label(reason.said())
+                            .help(help),
                         );
                     }
                 }

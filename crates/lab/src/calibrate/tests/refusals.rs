@@ -34,6 +34,15 @@ fn says(toml: &str, csv: &str, words: &[&str]) {
     }
 }
 
+/// An effect whose term has another coefficient is called as that.
+#[test]
+fn omitted_effects_are_called_as_their_coefficients() {
+    let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n2,3\n";
+    let term = |term: &str| format!("{RATE}[omitted.bend]\nterm = \"{term}\"\n");
+    says(&term("h*omega^2"), csv, &["[omitted.h]"]);
+    says(&term("omega^2"), csv, &["bend*(omega^2)"]);
+}
+
 #[test]
 fn faults_of_files_are_told_at_their_places() {
     let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n2,3\n";

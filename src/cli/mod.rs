@@ -183,10 +183,10 @@ mod tests {
 
     #[test]
     fn an_option_that_there_is_not_is_no_value() {
-        let error = arguments::try_parse::<Cli>(["gumption", "new", "-o", "x"]);
+        let error = arguments::try_parse::<Cli>(["gumption", "new", "-x", "x"]);
         let text = arguments::in_english(&error.expect_err("a fault"));
         let text = text.unwrap_or_default();
-        assert!(text.contains("'-o'") && !text.contains("-- -o"), "{text}");
+        assert!(text.contains("'-x'") && !text.contains("-- -x"), "{text}");
         assert!(text.contains("Usage:"), "{text}");
     }
 

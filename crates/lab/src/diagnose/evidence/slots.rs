@@ -397,13 +397,13 @@ mod tests {
     fn the_likeliest_order_gives_the_name() {
         const ROWS: usize = 40;
         let power = |exponent: f64| shape(course(ROWS, |t| libm::pow(t, exponent)));
-        // One variant of the second order fits better than each of the first, and not than all of these.
+        // Half of the second order fits, and is likelier than each quarter of the first, of which all fit.
         let asked = Asked::of(&course(ROWS, |t| 10.0 * t), &white(ROWS))
             .with(
                 Candidate::plain("first", 0),
                 [0.97, 0.98, 1.02, 1.03].map(power).into(),
             )
-            .with(Candidate::plain("second", 0), vec![power(1.0)]);
+            .with(Candidate::plain("second", 0), [1.0, 9.0].map(power).into());
         let examination = asked.examined();
         let named = &examination.slots[0].named;
         assert_eq!(named.len(), 1);

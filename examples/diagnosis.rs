@@ -116,7 +116,8 @@ fn save_tables(options: &Options) -> Result<(), String> {
          powers not looked for), diagnosis-13.md (squares, products and rates of change not carried over to a recording held out; noise the \
          same for all labels), diagnosis-14.md (estimated noise always normal, steps at one value of a stimulus not in the catalogue), \
          diagnosis-15.md (one statistic for all effects beside heavy tails, what is exponential not in the catalogue), \
-         diagnosis-16.md (no law of rounding beside estimated noise).",
+         diagnosis-16.md (no law of rounding beside estimated noise), \
+         diagnosis-17.md (the fresh recording of a rig with another thermometer, wide exponentials and bends below a value not in the catalogue).",
         env!("CARGO_PKG_VERSION")
     );
     std::fs::write(out.join("diagnosis.md"), report(&read(&lines), &made))

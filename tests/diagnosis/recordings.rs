@@ -14,12 +14,13 @@ use crate::common::cases::{folder, gumption, json, named};
 /// A case with what its diagnosis must name: one of these identifiers.
 type Recording = (&'static str, &'static [&'static str]);
 
-const RECORDINGS: [Recording; 11] = [
+const RECORDINGS: [Recording; 12] = [
     ("acoustic_microscope_hsu", &["level-shift"]),
     ("dmm_tempco_1V", &["temperature-lag", "tempco-bias"]),
     ("loadcell_pontius", &["quadratic"]),
     ("mpu9150_tumble", &["cross-axis"]),
     ("oil_drop_millikan", &["mean-free-path"]),
+    ("resistor_copper_compensated", &["temperature-lag"]),
     ("resistor_tc_lag_vhd200", &["temperature-lag"]),
     (
         "resistor_tc_settling_ultrohm",

@@ -1,11 +1,13 @@
 //! Sizes that an effect cannot have: a reversal that is not complete, a change of the scale that leaves nothing of the response, a
-//! shift that is larger than readings can differ, an error of a column beyond all of its values.
+//! shift that is larger than readings can differ; in a model of deviations, an error of a column beyond all of its
+//! values, which is one of the output.
 
 use std::collections::BTreeMap;
 
 use nalgebra::DVector;
 
 use super::candidates::Candidates;
+use super::catalogue::deviations::Deviations;
 use super::catalogue::modifiers::{known, largest, line_through, map2, range};
 use super::catalogue::{FittedModel, Node, Variation};
 use super::confirm::along;
@@ -25,6 +27,10 @@ pub(super) fn missized(
             .map(|(at, size)| (*size, named.covariance[(at, at)].max(0.0).sqrt()))
             .any(|(size, u)| !effect.admits(size, u));
         let fitted = &candidates.fitted;
+        // Elsewhere it may be: in parts that compensate one another, such as copper beside a resistance wire, what one of them
+        // does late is more than what all of them do.
+        let deviations = Deviations::of(fitted);
+        let is_freed = |one: &Variation| deviations.is_some_and(|all| all.frees(fitted, one));
         let is_impossible = |variation: &Variation| {
             let on_scale = variation.terms.iter().any(|term| term.node == Node::Gain);
             let takes_all = || {
@@ -33,7 +39,7 @@ pub(super) fn missized(
             };
             (on_scale && takes_all())
                 || outgrows(fitted, variation, &named.estimate)
-                || leaves_range(fitted, variation, &named.estimate)
+                || (is_freed(variation) && leaves_range(fitted, variation, &named.estimate))
         };
         let first = named.variants.first();
         let first = first.filter(|_| effect.exact.is_none());

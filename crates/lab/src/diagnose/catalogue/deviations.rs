@@ -26,6 +26,15 @@ impl Deviations {
         (given < left).then_some(Deviations { slope })
     }
 
+    /// Whether an effect can act where nothing bounds it, and acts elsewhere.
+    pub(in crate::diagnose) fn frees(
+        self,
+        fitted: &FittedModel<'_>,
+        variation: &Variation,
+    ) -> bool {
+        self.free(fitted, &mut variation.clone())
+    }
+
     /// Lets an effect act where nothing bounds it; whether it acted elsewhere.
     pub(in crate::diagnose) fn free(
         self,

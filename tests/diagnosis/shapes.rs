@@ -92,3 +92,25 @@ fn a_knee_has_an_uncertainty() {
     let u = u_by_slopes(&slopes, sigma);
     assert_known(&found, &[a, b, beta, knee], &u);
 }
+
+/// A delay is one number: its size.
+#[test]
+fn a_delay_has_no_shape_beside_its_size() {
+    let mut noise = Noise(45);
+    let mut rows = "t [s],x [mm],U [V]\n".to_owned();
+    let x = |t: f64| 50.0 * libm::sin(4.4 * t) + 20.0 * libm::sin(11.0 * t);
+    for row in 0..150 {
+        let t = 0.02 * f64::from(row);
+        let u = 0.1 * x(t - 0.07) + 0.01 * noise.normal();
+        let _ = writeln!(rows, "{t:.2},{:.4},{u:.4}", x(t));
+    }
+    let case = "equations = \"U = a + K*x\"\n[columns]\nU = \"output\"\nx = \"stimulus\"\nt = \"time\"\n[diagnosis]\ncatalogue = [\"timing-skew\"]\n";
+    let found = diagnosed("delay", &rows, case);
+    let size = &found["improved"]["coefficients"][0];
+    let off = figure(size, "value") - 0.07;
+    assert!(off.abs() < 3.9 * figure(size, "u") + 1e-3, "{found:#}");
+    assert_eq!(
+        found["improved"]["shapes"].as_array().map(Vec::len),
+        Some(0)
+    );
+}

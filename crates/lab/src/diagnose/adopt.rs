@@ -20,11 +20,27 @@ pub struct Extended {
     pub additions: Vec<Addition>,
     /// The effects that were added.
     pub effects: Vec<Free>,
-    /// Terms with the modifiers of the further columns, in their order, each with the index of its effect.
-    pub(super) columns: Vec<(usize, Term)>,
+    /// The columns that were added.
+    pub(super) columns: Vec<Following>,
+}
+
+/// A column that was added: what effects follow.
+#[derive(Debug)]
+pub(super) struct Following {
+    pub name: String,
+    /// Index of the first effect that follows it.
+    pub effect: usize,
+    /// Its first term that does.
+    pub term: Term,
 }
 
 impl Extended {
+    /// The columns that were added, with the formulas that define them.
+    pub fn definitions(&self) -> impl Iterator<Item = (&str, &str)> {
+        let columns = self.columns.iter();
+        columns.map(|column| (column.name.as_str(), column.term.written().text.as_str()))
+    }
+
     /// Whether an unknown is a coefficient that was added.
     pub(super) fn adds(&self, unknown: &str) -> bool {
         (self.additions.iter()).any(|addition| addition.parameter == unknown)
@@ -93,7 +109,7 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
     let mut additions: Vec<Addition> = Vec::new();
     let texts = (0..case.responses.len()).map(|response| case.equations.text(response));
     let mut equations: Vec<Extending> = texts.map(Extending::of).collect();
-    let mut columns: Vec<(String, usize, &Term)> = Vec::new();
+    let mut columns: Vec<Following> = Vec::new();
     let mut places = effects.iter().enumerate().flat_map(|(effect, free)| {
         let coefficients = free.coefficients.iter();
         coefficients.map(move |coefficient| (effect, *coefficient))
@@ -105,10 +121,14 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
         let written = term.written();
         let column = (!stands_alone(term)).then(|| {
             // Several outputs may follow the same, each by a size of its own.
-            let known = columns.iter().find(|(.., own)| own.written() == written);
-            known.map(|(name, ..)| name.clone()).unwrap_or_else(|| {
+            let known = columns.iter().find(|own| own.term.written() == written);
+            known.map(|own| own.name.clone()).unwrap_or_else(|| {
                 let name = free(&case, "effect", columns.len() + 1);
-                columns.push((name.clone(), effect, term));
+                columns.push(Following {
+                    name: name.clone(),
+                    effect,
+                    term: term.clone(),
+                });
                 name
             })
         });
@@ -145,14 +165,11 @@ pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<E
             });
         }
     }
-    case.columns.extend(columns.iter().map(|(name, _, term)| {
-        let written = term.written();
+    case.columns.extend(columns.iter().map(|column| {
+        let written = column.term.written();
         let data = Data::Numbers(fitted.design.spread(&written.values));
-        Column::new(name, Role::Covariate, &written.unit, data)
+        Column::new(&column.name, Role::Covariate, &written.unit, data)
     }));
-    let columns = columns.into_iter();
-    let columns = columns.map(|(_, effect, term)| (effect, term.clone()));
-    let columns = columns.collect();
     let texts = equations.iter().enumerate();
     let texts = texts.map(|(response, equation)| equation.text(fitted, response));
     let texts: Vec<String> = texts.collect();

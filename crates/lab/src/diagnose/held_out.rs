@@ -4,7 +4,7 @@
 use gumption_core::special::{chi_squared_sf, f_sf};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::adopt::Extended;
+use super::adopt::{Extended, Following};
 use super::adopted::Adopted;
 use super::candidates::Candidates;
 use super::case::Data;
@@ -13,7 +13,7 @@ use super::catalogue::{self, Cell, FittedModel, Pattern, Term, Variation};
 use super::coarse::Coarse;
 use super::confirm;
 use super::design::{Design, Unknown};
-use super::evidence::{Alternative, Examination, Fitted, Slot};
+use super::evidence::{Alternative, Examination, Fitted};
 use super::explanation::CONTENDERS;
 use super::fit::{self, Fit};
 use super::noise::Claimed;
@@ -33,7 +33,7 @@ pub struct HeldOutQuality {
     /// With the adopted physics; `None` if nothing was adopted, or where its course in this recording does
     /// not follow from the columns: that of a jump does only in what was recorded after it.
     pub after: Option<Prediction>,
-    /// By each explanation of a list, the adopted one first.
+    /// By each explanation of a list, the adopted one first; of lists that are not too long.
     pub listed: Vec<Listed>,
 }
 
@@ -195,32 +195,37 @@ fn listed(
     examination: &Examination,
     after: Option<&Prediction>,
 ) -> Vec<Listed> {
+    let Some(found) = &examination.fitted else {
+        return Vec::new();
+    };
     let slots = examination.slots.iter().enumerate();
-    let several = slots.filter(|(_, slot)| slot.named.len() > 1);
-    let of = several.flat_map(|(at, slot)| {
-        let named = slot.named.iter().take(CONTENDERS).enumerate();
+    // Of a longer list nothing is said, as nothing can be said of what is not looked at.
+    let several = slots.filter(|(_, slot)| (2..=CONTENDERS).contains(&slot.named.len()));
+    let adopted = several.filter_map(|(at, slot)| {
+        let first = slot.named.first()?.variants.first()?.atom;
+        found.atoms.contains(&first).then_some((at, slot, first))
+    });
+    let of = adopted.flat_map(|(at, slot, first)| {
+        let named = slot.named.iter().enumerate();
         named.map(move |(place, alternative)| Listed {
             slot: at,
             candidate: alternative.candidate,
             prediction: match place {
                 0 => after.cloned(),
-                _ => in_place(known, candidates, examination, slot, alternative),
+                _ => in_place(known, candidates, (found, first), alternative),
             },
         })
     });
     of.collect()
 }
 
-/// By an explanation in the place of the first of its slot.
+/// By an explanation in the place of an atom that was adopted.
 fn in_place(
     known: &Known<'_>,
     candidates: &Candidates<'_>,
-    examination: &Examination,
-    slot: &Slot,
+    (found, first): (&Fitted, usize),
     alternative: &Alternative,
 ) -> Option<Prediction> {
-    let found = examination.fitted.as_ref()?;
-    let first = slot.named.first()?.variants.first()?.atom;
     let other = alternative.variants.first()?.atom;
     let mut sizes = found.coefficients.as_slice();
     let mut all: Vec<f64> = Vec::new();
@@ -274,7 +279,7 @@ fn improved(
         return None;
     }
     let mut rows = held.rows.clone();
-    for (effect, term) in &extended.columns {
+    for Following { effect, term, .. } in &extended.columns {
         // Both recordings together may have other effects than the first: the same course by another name is the same course.
         let cell = candidates.cell(atoms[*effect]);
         let alike: Vec<&Cell> = others.iter().filter(|other| other.is(cell)).collect();

@@ -47,9 +47,9 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
         let mut outputs = case.responses.iter().zip(&steps);
         let own = outputs.find(|(output, _)| output.observed == Observed::Column(index));
         let step = own.and_then(|(_, step)| *step);
-        let mut additions = adopted.extended.additions.iter();
-        let addition = additions.find(|addition| addition.column.as_ref() == Some(&column.name));
-        let remark = addition.map_or(String::new(), |addition| format!("  # {}", addition.text));
+        let mut definitions = adopted.extended.definitions();
+        let defined = definitions.find(|(name, _)| *name == column.name);
+        let remark = defined.map_or(String::new(), |(_, text)| format!("  # {text}"));
         let (name, entry) = (key(&column.name), entry(column, extended, step));
         text += &format!("{name} = {entry}{remark}\n");
     }

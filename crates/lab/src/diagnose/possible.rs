@@ -20,17 +20,17 @@ pub(super) fn missized(
     examination: &Examination,
     claimed: &Claimed,
 ) -> Vec<usize> {
+    let fitted = &candidates.fitted;
+    // Where an effect stays on a column, it may move it by any amount: in parts that compensate one another, such as copper beside a resistance wire, what one of them
+    // does late is more than what all of them do.
+    let deviations = Deviations::of(fitted);
+    let is_freed = |one: &Variation| deviations.is_some_and(|all| all.frees(fitted, one));
     let wrong = |named: &&Alternative| {
         let effect = candidates.cells[named.candidate].effect;
         let sizes = named.estimate.iter().enumerate();
         let is_other = sizes
             .map(|(at, size)| (*size, named.covariance[(at, at)].max(0.0).sqrt()))
             .any(|(size, u)| !effect.admits(size, u));
-        let fitted = &candidates.fitted;
-        // Elsewhere it may be: in parts that compensate one another, such as copper beside a resistance wire, what one of them
-        // does late is more than what all of them do.
-        let deviations = Deviations::of(fitted);
-        let is_freed = |one: &Variation| deviations.is_some_and(|all| all.frees(fitted, one));
         let is_impossible = |variation: &Variation| {
             let on_scale = variation.terms.iter().any(|term| term.node == Node::Gain);
             let takes_all = || {

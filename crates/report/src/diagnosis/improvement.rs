@@ -44,18 +44,9 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Blo
 
 fn improved_model(adopted: &Adopted) -> Vec<String> {
     let lines = adopted.extended.case.model_lines().into_iter();
-    let mut lines: Vec<String> = lines.map(str::to_owned).collect();
-    for addition in &adopted.extended.additions {
-        let Some(column) = &addition.column else {
-            continue;
-        };
-        let line = format!("{column} = {}", addition.text);
-        // Several outputs may follow the same.
-        if !lines.contains(&line) {
-            lines.push(line);
-        }
-    }
-    lines
+    let definitions = adopted.extended.definitions();
+    let definitions = definitions.map(|(column, text)| format!("{column} = {text}"));
+    lines.map(str::to_owned).chain(definitions).collect()
 }
 
 fn coefficients(adopted: &Adopted, l: Language) -> Table {
@@ -86,7 +77,7 @@ fn coefficients(adopted: &Adopted, l: Language) -> Table {
         let estimated = &shape.estimated;
         table.push(vec![
             estimated.name.as_str().into(),
-            place_of(shape, adopted, l).into(),
+            meaning(shape, adopted, l).into(),
             aligned(estimated.value, estimated.u, 2).into(),
             significant(estimated.u, 2).into(),
             estimated.unit.as_str().into(),
@@ -95,14 +86,23 @@ fn coefficients(adopted: &Adopted, l: Language) -> Table {
     table
 }
 
-/// Where a shape stands in the formulas.
-fn place_of(shape: &Shape, adopted: &Adopted, l: Language) -> String {
+/// What a shape is, and where it stands in the formulas.
+fn meaning(shape: &Shape, adopted: &Adopted, l: Language) -> String {
+    let what = match shape.estimated.name.as_str() {
+        "τ" => l.pick("time constant", "时间常数"),
+        "t₀" => l.pick("time scale", "时间尺度"),
+        "P" => l.pick("period", "周期"),
+        "w" => l.pick("width", "宽度"),
+        "x₀" => l.pick("knee", "拐点"),
+        "x½" => l.pick("value at which half is reached", "达到一半时的值"),
+        _ => l.pick("shape", "形状参数"),
+    };
     let additions = adopted.extended.additions.iter();
     let own = additions.filter(|addition| addition.effect == shape.effect);
     let mut columns: Vec<&str> = own.filter_map(|one| one.column.as_deref()).collect();
     columns.dedup();
     let columns = columns.join(", ");
-    say!("– (in {columns})").in_language(l)
+    say!("– ({what} of {columns})").in_language(l)
 }
 
 /// What the formulas call the signal, where they do.

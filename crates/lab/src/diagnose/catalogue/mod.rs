@@ -156,6 +156,13 @@ pub struct ShapeParameter {
     pub unit: String,
 }
 
+impl ShapeParameter {
+    /// Whether the size of the effect says the same: that of a delay is the delay.
+    pub fn is_size(&self) -> bool {
+        self.symbol == "δ"
+    }
+}
+
 /// What a disturbance follows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modifier {

@@ -439,6 +439,7 @@ fn deviation(all: &[StandIn], name: &Name) -> Option<f64> {
 fn name(pick: &Pick) -> Name {
     Name {
         id: pick.id.to_string(),
+        node: pick.node.clone(),
         along: pick.along.clone(),
         variants: Vec::new(),
         on_scale: None,

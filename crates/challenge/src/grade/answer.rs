@@ -76,7 +76,10 @@ pub enum State {
 pub struct Name {
     /// Stable identifier of the catalogue.
     pub id: String,
-    /// What it follows.
+    /// What it acts on.
+    #[serde(default)]
+    pub node: String,
+    /// What it follows: time, where it is what it acts on that was before.
     #[serde(default)]
     pub along: String,
     /// Variants with their shares, most probable first.

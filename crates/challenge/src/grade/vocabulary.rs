@@ -27,10 +27,10 @@ fn is(name: &Name, accepted: &Accepted) -> bool {
         || name.on_scale.as_ref() == Some(&accepted.id)
         || holds(name, &accepted.id))
         && (accepted.along.is_empty()
-            || accepted
-                .along
-                .iter()
-                .any(|column| mentions(&name.along, column)))
+            || [&name.along, &name.node].iter().any(|place| {
+                let mut columns = accepted.along.iter();
+                columns.any(|column| mentions(place, column))
+            }))
 }
 
 /// Whether a name leaves open that it is an effect in another order.
@@ -42,8 +42,8 @@ fn holds(name: &Name, id: &str) -> bool {
 }
 
 /// Whether a list of columns mentions one.
-fn mentions(along: &str, column: &str) -> bool {
-    along
+fn mentions(columns: &str, column: &str) -> bool {
+    columns
         .split(|c: char| !c.is_alphanumeric())
         .any(|word| word == column)
 }
@@ -70,6 +70,25 @@ mod tests {
         assert!(accepts(&truth, &name("sensitivity", "supply")));
         assert!(!accepts(&truth, &name("sensitivity", "humidity")));
         assert!(!accepts(&TrueEffect::default(), &name("cubic", "head")));
+    }
+
+    /// What follows the past of a column acts on the column along time.
+    #[test]
+    fn a_lag_is_behind_the_column_that_it_acts_on() {
+        let accepted = Accepted {
+            id: "temperature-lag".into(),
+            along: vec!["t".into()],
+        };
+        let truth = TrueEffect {
+            names: vec![accepted],
+            ..TrueEffect::default()
+        };
+        let behind = |node: &str| Name {
+            node: node.into(),
+            ..name("temperature-lag", "time")
+        };
+        assert!(accepts(&truth, &behind("t")));
+        assert!(!accepts(&truth, &behind("temperature")));
     }
 
     #[test]

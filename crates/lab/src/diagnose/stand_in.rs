@@ -19,6 +19,8 @@ const DEPENDENT: f64 = 1e-6;
 pub struct Pick {
     /// Identifier of the catalogue.
     pub id: EffectId,
+    /// What it acts on.
+    pub node: String,
     /// What it follows.
     pub along: String,
 }
@@ -81,6 +83,7 @@ pub fn stand_ins(
         (own.ncols() > 0).then(|| StandIn {
             pick: Pick {
                 id: cell.effect.id,
+                node: cell.place.node.clone(),
                 along: cell.place.along.clone(),
             },
             label: candidates.variation(at).label.clone(),

@@ -26,9 +26,9 @@ pub(super) struct Args {
     /// Seed of the random numbers [default: that of the experiment, else 1]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Say why an effect is not the answer: its identifier, words of its name, or `all`
+    /// Say why an effect is not the answer: its identifier, words of its name, or `all`; may be repeated
     #[arg(long, value_name = "EFFECT")]
-    why: Option<String>,
+    why: Vec<String>,
     /// Write the improved experiment, its recording and the budget of its parameters into this folder
     #[arg(long, value_name = "DIR")]
     improved: Option<PathBuf>,
@@ -62,10 +62,10 @@ pub(super) fn run(args: &Args) -> Outcome {
     if let Some(seed) = args.seed {
         case.settings.seed = seed;
     }
-    if let Some(words) = &args.why
-        && let Err(why) = case.ask(words)
-    {
-        return output::complain(why);
+    for words in &args.why {
+        if let Err(why) = case.ask(words) {
+            return output::complain(why);
+        }
     }
     remarks(&case, args.form.language());
     output::tell_size(case.rows as u64, case.bytes(), args.form.language());

@@ -26,6 +26,21 @@ pub enum Called {
 }
 
 impl Asked {
+    /// Others besides.
+    pub fn add(&mut self, others: Asked) {
+        match (&mut *self, others) {
+            (Asked::Everything, _) | (_, Asked::Nothing) => {}
+            (Asked::These(these), Asked::These(others)) => {
+                for other in others {
+                    if !these.contains(&other) {
+                        these.push(other);
+                    }
+                }
+            }
+            (asked, others) => *asked = others,
+        }
+    }
+
     /// What is meant by `all`, by an identifier of the catalogue, the name of an explanation of the user's own, or by words of the
     /// name or the description of an effect in either language: those that have all of them in the closest of these.
     ///
@@ -100,6 +115,25 @@ fn plain(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn one_may_ask_for_several() {
+        let of = |words: &str| Asked::of(words, [].into_iter()).unwrap();
+        let mut asked = Asked::default();
+        for words in ["temperature-lag", "cubic", "temperature-lag"] {
+            asked.add(of(words));
+        }
+        let both = [EffectId::TemperatureLag, of_id("cubic")].map(Called::Effect);
+        assert_eq!(asked, Asked::These(both.into()));
+        asked.add(Asked::Everything);
+        asked.add(of("cubic"));
+        assert_eq!(asked, Asked::Everything);
+    }
+
+    fn of_id(id: &str) -> EffectId {
+        let effect = effects().iter().find(|effect| effect.id.as_str() == id);
+        effect.unwrap().id
+    }
 
     fn asked(words: &str) -> Vec<Called> {
         match Asked::of(words, ["bending"].into_iter()) {

@@ -253,6 +253,45 @@ fn a_held_out_recording_is_predicted_better_with_the_physics() {
     assert!(rms < 1.3 * 5e-4, "{rms}");
 }
 
+/// A load cell up and down twice, whose noise wanders.
+fn wandering_load_cell(curvature: f64, seed: u64) -> String {
+    let mut noise = Noise(seed);
+    let mut text = "load [kN],deflection [mV],humidity [%],hour [h]\n".to_owned();
+    let mut error = 0.0;
+    for step in 0..80 {
+        let load = 5.0 * f64::from(20 - (step % 40 - 20i32).abs());
+        error = 0.8 * error + 0.6 * noise.normal();
+        let output = 0.01 + 0.02 * load + curvature * load * load + 5e-4 * error;
+        let humidity = 50.0 + noise.normal();
+        let _ = writeln!(
+            text,
+            "{load},{output:.6},{humidity:.2},{:.1}",
+            0.1 * f64::from(step)
+        );
+    }
+    text
+}
+
+/// Of correlated noise nobody knows how the errors of another recording scatter, and no p contradicts: what does not show there is
+/// a likeness.
+#[test]
+fn what_does_not_show_in_another_recording_is_a_likeness() {
+    let state = |name: &str, in_next: f64| {
+        let folder = folder(name);
+        let first = wandering_load_cell(-8e-6, 4);
+        std::fs::write(folder.join("load-cell.csv"), first).expect("written");
+        let next = wandering_load_cell(in_next, 5);
+        std::fs::write(folder.join("next.csv"), next).expect("written");
+        let timed = LOAD_CELL.replace("[noise]", "hour = \"time\"\n[noise]");
+        let found = diagnosed(&folder, &timed);
+        assert_eq!(named(&found), ["quadratic"]);
+        assert!(found["held_out"]["after"]["p"].is_null());
+        found["effects"][0]["state"].as_str().map(str::to_owned)
+    };
+    assert_eq!(state("shown", -8e-6).as_deref(), Some("identified"));
+    assert_eq!(state("absent", 0.0).as_deref(), Some("acts-like"));
+}
+
 /// A load cell that a supply disturbs, in first and second order about 10 V; the supply is `offset` higher.
 fn supplied_load_cell(offset: f64, seed: u64) -> String {
     let mut noise = Noise(seed);

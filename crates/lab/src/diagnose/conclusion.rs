@@ -6,6 +6,7 @@ use super::case::Case;
 use super::catalogue::{EffectId, Term, Variation};
 use super::confirm::Estimated;
 use super::evidence::{self, Against, Alternative, Likeness, Slot, State, Verdict};
+use super::held_out::HeldOutQuality;
 use super::run::Diagnosis;
 
 /// What a diagnosis says, in one sentence.
@@ -195,7 +196,11 @@ impl Diagnosis {
             let cell = &self.cells[candidate];
             (&cell.place, cell.effect.pattern.is_some())
         };
-        evidence::likeness(slot, &self.examination.slots, of)
+        let absent = (self.held_out.as_ref()).is_some_and(HeldOutQuality::is_no_better);
+        match evidence::likeness(slot, &self.examination.slots, of) {
+            Likeness::Form if absent => Likeness::Absent,
+            other => other,
+        }
     }
 
     /// Why the names of a slot are to be taken with care; `None` where they hold.

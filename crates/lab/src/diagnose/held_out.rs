@@ -78,16 +78,19 @@ impl HeldOutQuality {
         (known.len() > 1).then(|| of_slot[only].candidate)
     }
 
-    /// Whether what was adopted does not show here: the errors are larger than chance allows at the level `alpha`, and no
-    /// smaller than without it.
-    pub(super) fn contradicts(&self, alpha: f64) -> bool {
+    /// Whether what was adopted does not show here: the errors are no smaller than without it.
+    pub fn is_no_better(&self) -> bool {
         let squares = |prediction: &Prediction| -> f64 {
             let scaled = prediction.rms.iter().zip(&self.expected);
             scaled.map(|(rms, u)| (rms / u) * (rms / u)).sum()
         };
-        self.after.as_ref().is_some_and(|after| {
-            after.p.is_some_and(|p| p < alpha) && squares(after) >= squares(&self.before)
-        })
+        (self.after.as_ref()).is_some_and(|after| squares(after) >= squares(&self.before))
+    }
+
+    /// Whether it is contradicted: the errors are larger than chance allows at the level `alpha` besides.
+    pub(super) fn contradicts(&self, alpha: f64) -> bool {
+        let after = self.after.as_ref().and_then(|after| after.p);
+        after.is_some_and(|p| p < alpha) && self.is_no_better()
     }
 }
 

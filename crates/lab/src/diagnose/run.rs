@@ -129,10 +129,12 @@ pub fn diagnose(
     let worse = (adopted.as_ref()).is_some_and(|adopted| adopted.predicts_worse(&before));
     let adopted = adopted.filter(|_| !worse);
     let held_out = held_out::held_out(&known, &candidates, &examination, adopted.as_ref());
-    let contradicted = (held_out.as_ref()).is_some_and(|held| held.contradicts(settings.alpha));
     let recurs = (adopted.as_ref()).is_some_and(|adopted| recurs(adopted, &candidates));
-    if worse || (recurs && contradicted) {
+    let against = held_out.as_ref().filter(|_| recurs);
+    if worse || against.is_some_and(|held| held.contradicts(settings.alpha)) {
         examination.withdraw();
+    } else if against.is_some_and(HeldOutQuality::is_no_better) {
+        examination.only_likens();
     }
     let of_improved = |adopted: &Adopted| adopted.fit.unsettled(ModelVersion::Improved);
     let own = adopted.iter().filter_map(of_improved);

@@ -123,6 +123,16 @@ impl Examination {
         }
     }
 
+    /// Makes all names that stand alone say what their effects act like.
+    pub fn only_likens(&mut self) {
+        for slot in &mut self.slots {
+            if slot.state == State::Identified {
+                slot.state = State::Like;
+            }
+        }
+        self.verdict = verdict(&self.slots);
+    }
+
     /// Makes all names tentative.
     pub fn withdraw(&mut self) {
         for slot in &mut self.slots {

@@ -418,7 +418,7 @@ pub fn wrong_type(key: &str, found: &str) -> Option<Said> {
             "two limits are limits = [lower, upper]; a distance from the value, the same on both sides, is half_width = {width}"
         )),
         "range" => Some(say!(
-            "a range has two ends: range = [0, {width}] or range = [{below}, {width}]"
+            "a range has two ends: range = [0, {width}] or range = [{below}, {width}]; the range R of n readings tells their s: pooled = {{ s = R/C, dof = ν }}, of = n, with C and ν for n (2.06 and 2.7 for n = 4)"
         )),
         "readings" => Some(say!(
             "one reading is value = {found}, with its uncertainty beside it; readings = […] are two or more"

@@ -147,6 +147,9 @@ impl Lowering<'_> {
             _ if let Some((first, second)) = product => {
                 say!("a product has its sign: {first} * {second}")
             }
+            near if is_of_uncertainty(name) && !near.is_some_and(is_of_uncertainty) => say!(
+                "an uncertainty is stated at its input and is no quantity of the model; a figure that somebody states is a constant: [constant.{name}]"
+            ),
             Some(near) => say!("did you mean `{near}`?"),
             None if name == "e" => say!("write `exp(1)` for the base of natural logarithms"),
             None => say!(
@@ -163,6 +166,11 @@ impl Lowering<'_> {
             .help(help),
         );
     }
+}
+
+/// Whether a name is that of an uncertainty, `u_x` or `U_lab`, where nothing is so called.
+fn is_of_uncertainty(name: &str) -> bool {
+    name.starts_with("U_") || name.starts_with("u_")
 }
 
 /// The two names of `mg` for `m * g`.

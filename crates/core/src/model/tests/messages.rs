@@ -36,6 +36,7 @@ const CASES: &[(&str, &str, &str, &str, &str)] = &[
     ("25 'mm", "", "M0113", "'mm", "`25 'mm'`"),
     ("aa + bb1", "", "M0201", "aa", "did you mean `a`?"),
     ("omega * a", "", "M0201", "omega", "[input.omega]"),
+    ("a / U_a", "", "M0201", "U_a", "[constant.U_a]"),
     ("ba + 1", "", "M0201", "ba", "a product has its sign: b * a"),
     ("sine(a)", "", "M0202", "sine", "did you mean `sin`?"),
     ("S(a - 7)", "", "M0202", "S", "`S * (…)`"),

@@ -98,6 +98,8 @@ pub enum Factor {
 pub struct Report {
     /// Power of k in U.
     pub power: i32,
+    /// What u_c is multiplied by in the place of k.
+    pub factor: Option<f64>,
     /// A factor of units that does not belong there.
     pub scale: f64,
     /// Whether the CMC is heeded.
@@ -123,6 +125,7 @@ impl Default for Report {
     fn default() -> Self {
         Report {
             power: 1,
+            factor: None,
             scale: 1.0,
             cmc: true,
             down: false,
@@ -143,6 +146,14 @@ pub struct Figures {
     pub k: f64,
     /// Expanded uncertainty, before rounding.
     pub expanded: f64,
+}
+
+impl Report {
+    /// How many times u_c U is.
+    pub fn multiple(&self, k: f64) -> f64 {
+        let of_k = || libm::pow(k, f64::from(self.power));
+        self.factor.unwrap_or_else(of_k)
+    }
 }
 
 impl Line {
@@ -198,7 +209,7 @@ impl Calculation {
             ),
         };
         let k = self.factor.value(self.whole(nu_eff), &parts, u_c);
-        let expanded = libm::pow(k, f64::from(self.report.power)) * u_c;
+        let expanded = self.report.multiple(k) * u_c;
         let floor = cmc.filter(|_| self.report.cmc).unwrap_or(0.0);
         Figures {
             u_c,

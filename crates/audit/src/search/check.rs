@@ -206,8 +206,7 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
         ks.extend(claimed_k.filter(|_| k).map(|k| k.value));
         let report = calculation.report;
         let floor = cmc.filter(|_| report.cmc).unwrap_or(0.0);
-        let product =
-            |k: f64, u: f64| (libm::pow(k, f64::from(report.power)) * u).max(floor) * report.scale;
+        let product = |k: f64, u: f64| (report.multiple(k) * u).max(floor) * report.scale;
         // Who prints too many digits has not rounded to two by the rule.
         let rule = if report.long {
             RoundingStated::Unstated
@@ -251,7 +250,7 @@ pub fn reported(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f6
     let exact = checked.figures;
     let claimed = case.claimed.footer.k.as_ref().filter(|_| checked.k);
     let k = claimed.map_or_else(|| libm::round(100.0 * exact.k) / 100.0, |k| k.value);
-    let ratio = libm::pow(k / exact.k, f64::from(calculation.report.power));
+    let ratio = calculation.report.multiple(k) / calculation.report.multiple(exact.k);
     let floor = case.claimed.cmc.as_ref().filter(|_| calculation.report.cmc);
     let floor = floor.map_or(0.0, |cmc| cmc.value) * calculation.report.scale;
     Figures {

@@ -89,6 +89,8 @@ pub enum Change {
 pub enum Reporting {
     /// Power of k in it.
     Power(i32),
+    /// u_c is multiplied by this in the place of k.
+    Factor(f64),
     /// A factor of units that does not belong there.
     Scale(f64),
     /// The CMC is not heeded.
@@ -187,7 +189,7 @@ impl Act {
             Change::Factor(_) => Group::Factor,
             Change::Result(_) => Group::Result,
             Change::Report(reporting) => match reporting {
-                Reporting::Power(_) => Group::Power,
+                Reporting::Power(_) | Reporting::Factor(_) => Group::Power,
                 Reporting::Scale(_) => Group::Scale,
                 Reporting::BelowCmc => Group::Cmc,
                 Reporting::Down => Group::Rounding,
@@ -219,6 +221,7 @@ impl Act {
             Change::Factor(factor) => to.factor = factor,
             Change::Report(reporting) => match reporting {
                 Reporting::Power(power) => to.report.power = power,
+                Reporting::Factor(factor) => to.report.factor = Some(factor),
                 Reporting::Scale(scale) => to.report.scale = scale,
                 Reporting::BelowCmc => to.report.cmc = false,
                 Reporting::Down => to.report.down = true,

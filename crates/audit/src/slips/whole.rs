@@ -43,6 +43,17 @@ fn by_t(case: &Case<'_>) -> Option<f64> {
     }
 }
 
+/// The usual whole factors but the one that is stated, where one is.
+fn other_multiples(case: &Case<'_>) -> impl Iterator<Item = f64> {
+    let is_stated = case.claimed.footer.k.is_some() || case.claimed.coverage != Coverage::Unstated;
+    let stated = match case.right.factor {
+        Factor::Fixed(k) => Some(k).filter(|_| is_stated),
+        _ => None,
+    };
+    let others = [2.0, 3.0].into_iter();
+    others.filter(move |k| stated.is_some_and(|stated| libm::round(stated) != *k))
+}
+
 /// Degrees of freedom of the rows evaluated from readings.
 fn type_a_freedom(case: &Case<'_>) -> Vec<f64> {
     let rows = case
@@ -158,6 +169,10 @@ pub(super) const SLIPS: &[Slip] = &[
         en: "u_c was reported as U; the coverage factor is missing",
         zh: "把 u_c 当作 U 报告，漏乘包含因子",
         acts: |_| report(Reporting::Power(0)) },
+    Slip { id: "k-other", rule: "2", weight: Error,
+        en: "U is another multiple of u_c than the coverage factor that is stated",
+        zh: "U 是 u_c 的另一倍数，与所述包含因子不符",
+        acts: |case| other_multiples(case).flat_map(|k| report(Reporting::Factor(k))).collect() },
     Slip { id: UNIT_OF_U, rule: "69", weight: Warning,
         en: "U is printed in a unit to which its figure does not belong",
         zh: "U 的数值与所标单位不符",
@@ -173,7 +188,7 @@ pub(super) const SLIPS: &[Slip] = &[
     Slip { id: "rounded-down", rule: "66", weight: Warning,
         en: "U was rounded down against the stated rule",
         zh: "U 违反所述规则被舍去修约",
-        acts: |_| report(Reporting::Down) },
+        acts: |case| if case.claimed.footer.expanded.is_some() { report(Reporting::Down) } else { Vec::new() } },
     Slip { id: "too-many-digits", rule: "63", weight: Error,
         en: "U is printed with more than two significant digits",
         zh: "U 的有效数字多于两位",

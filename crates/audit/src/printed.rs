@@ -184,6 +184,17 @@ impl Printed {
         }
     }
 
+    /// What the digits of a standard uncertainty leave open, as a ratio, where nothing else is stated of it.
+    pub(crate) fn openness(&self) -> f64 {
+        /// Of two digits or more: half a unit in the second one is 5 % at most.
+        const TWO_DIGITS: f64 = 0.05;
+        if self.digits < 2 {
+            0.0
+        } else {
+            self.relative_half().min(TWO_DIGITS)
+        }
+    }
+
     /// Whether it may stand for no uncertainty about it: relative width of its rounding.
     pub(crate) fn relative_half(&self) -> f64 {
         if self.value == 0.0 {

@@ -282,8 +282,12 @@ fn to_y(claimed: &Claimed, row: &Row, from_model: bool) -> f64 {
         return factor;
     }
     let factor = units::factor(&row.unit, y_unit).unwrap_or(1.0);
-    // `1000` between mm and µm: the coefficient is the conversion.
-    let converts = |c: &Printed| c.is_met_by(factor.copysign(c.value));
+    // `1000` between mm and µm: the coefficient is the conversion. So is `100/x` of a ratio x for a result in percent.
+    let of_value = |c: &Printed| {
+        let value = row.value.as_ref().map_or(0.0, |x| x.value.abs());
+        (c.value.abs() * value / factor - 1.0).abs() <= 1e-3
+    };
+    let converts = |c: &Printed| c.is_met_by(factor.copysign(c.value)) || of_value(c);
     match row.c.as_ref().is_some_and(converts) {
         true => 1.0,
         false => factor,

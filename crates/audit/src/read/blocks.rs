@@ -38,6 +38,15 @@ pub(super) fn is_subtotal(grid: &Grid, row: usize) -> bool {
     })
 }
 
+/// Whether the line above a head, of which a blank one may part it, says that its table is of one type of evaluation.
+pub(super) fn is_titled(grid: &Grid, head: usize) -> bool {
+    let above = (0..head).rev().take(2);
+    let mut lines = above.filter(|row| grid.filled(*row).next().is_some());
+    let title = lines.next();
+    let mut cells = title.into_iter().flat_map(|row| grid.filled(row));
+    cells.any(|(_, cell)| has(&cell.text.to_lowercase(), &TYPES))
+}
+
 /// Whether two tables are blocks: nothing of the whole but subtotals stands between them, and these or their titles say
 /// which block each is.
 fn are_blocks(grid: &Grid, first: &Found, next: &Found) -> bool {
@@ -48,11 +57,7 @@ fn are_blocks(grid: &Grid, first: &Found, next: &Found) -> bool {
     };
     let is_row = |row: &usize| first.located.is_row(*row);
     let mut whole = between.clone().filter(|row| !is_row(row) && of_whole(row));
-    let is_titled = |found: &Found| {
-        let above = found.located.head.checked_sub(1);
-        let mut cells = above.into_iter().flat_map(|row| grid.filled(row));
-        cells.any(|(_, cell)| has(&cell.text.to_lowercase(), &TYPES))
-    };
+    let is_titled = |found: &Found| is_titled(grid, found.located.head);
     let told =
         between.clone().any(|row| is_subtotal(grid, row)) || is_titled(first) && is_titled(next);
     told && whole.all(|row| is_subtotal(grid, row))

@@ -100,6 +100,9 @@ pub fn is_relative(label: &str) -> bool {
 
 /// What a cell labels, if it labels a figure of the whole.
 pub fn label(text: &str, measurand: &str) -> Option<Whole> {
+    if is_capital_result(text, measurand) {
+        return Some(Whole::Y);
+    }
     if let Some(whole) = symbol(text) {
         return Some(whole);
     }
@@ -124,6 +127,12 @@ pub fn label(text: &str, measurand: &str) -> Option<Whole> {
     let first = found.min_by_key(|(at, _)| *at)?;
     let short = first.0 <= 12 || text.chars().count() < 40;
     short.then_some(first.1)
+}
+
+/// Whether a text is or begins with the name of a result whose small letter is the coverage factor: a scale factor K.
+pub fn is_capital_result(text: &str, measurand: &str) -> bool {
+    let name = text.split('=').next().unwrap_or_default().trim();
+    name == measurand && name == "K"
 }
 
 /// A figure with a coverage factor in a bracket behind it is an expanded uncertainty: `59 mg (k = 2)`.
@@ -214,7 +223,7 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
     let lower = text.to_lowercase();
     let is_claim = |whole: Whole| match whole {
         Whole::Y => false,
-        Whole::Factor => !divides_by_factor(&lower),
+        Whole::Factor => !divides_by_factor(&lower) && !is_capital_result(text, measurand),
         _ => true,
     };
     for (whole, keys) in WORDS.iter().filter(|(whole, _)| is_claim(*whole)) {

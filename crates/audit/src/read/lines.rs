@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::claim::{Claimed, Understood, Unplaced};
-use crate::printed::Place;
+use crate::printed::{Place, Printed};
 use crate::sheet::Grid;
 
 use super::{footer, notes, result_unit, words};
@@ -61,6 +61,18 @@ pub(super) fn place_lines(all: &[&Line], claimed: &mut Claimed) {
     }
 }
 
+/// Whether a line is a row of another table: of one that holds figures against one another, by how much they differ being
+/// no limit, or of several numbers that nothing is said of.
+fn is_of_other_table(lower: &str) -> bool {
+    const COMPARED: [&str; 4] = ["agrees within", "agrees,", "differs by", "内一致"];
+    let cells: Vec<&str> = lower.split(" ; ").collect();
+    let Some((_, cells)) = cells.split_first().filter(|(_, rest)| rest.len() >= 2) else {
+        return false;
+    };
+    let is_number = |cell: &&str| Printed::parse(cell).is_some_and(|figure| figure.unit.is_empty());
+    words::has(lower, &COMPARED) || cells.len() >= 3 && cells.iter().all(|cell| is_number(&cell))
+}
+
 /// Finds what a line is about: a row, the whole, or nothing that is known.
 fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
     let lower = line.text.to_lowercase();
@@ -71,7 +83,19 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
     {
         return;
     }
-    let whole = notes::note(&line.text, line.at, claimed);
+    if is_of_other_table(&lower) {
+        claimed.unplaced.push(Unplaced {
+            at: line.at,
+            text: line.text.clone(),
+        });
+        return;
+    }
+    let mut cells = line.text.split(" ; ");
+    let is_result = cells.any(|cell| footer::is_capital_result(cell, &claimed.measurand));
+    let whole = match is_result {
+        true => None,
+        false => notes::note(&line.text, line.at, claimed),
+    };
     if let Some(role) = whole {
         claimed.understood.push(Understood {
             at: line.at,

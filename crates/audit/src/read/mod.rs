@@ -83,10 +83,10 @@ pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
             return budgets(&grids, mapping);
         }
     }
-    let (inputs, evaluated): (Vec<Found>, Vec<Found>) = found
-        .iter()
-        .cloned()
-        .partition(|one| found.iter().any(|other| one.states_inputs_of(other)));
+    let (inputs, evaluated): (Vec<Found>, Vec<Found>) = found.iter().cloned().partition(|one| {
+        let mut others = found.iter();
+        others.any(|other| one.states_inputs_of(other) || one.is_list_beside(other, &grids))
+    });
     let evaluated = blocks::joined(&grids, evaluated);
     let outside = |sheet: usize| {
         let of_inputs = |row: usize| {
@@ -114,11 +114,7 @@ pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
         let end = near(Some(i + 1)).map_or(grid.rows.len(), |other| {
             between(grid, one.located.end, other.first_head())
         });
-        let own: Vec<&Found> = inputs
-            .iter()
-            .filter(|input| input.states_inputs_of(one))
-            .collect();
-        let mut claimed = budget(grid, one, start..end, &common, &own, mapping);
+        let mut claimed = budget(grid, one, start..end, &common, &inputs, mapping);
         claimed.relocate(|at| grids.get(at.sheet).map_or(at, |grid| grid.origin(at)));
         claimed
     });
@@ -176,6 +172,23 @@ impl Found {
             .iter()
             .filter(|raw| self.raw.iter().any(|own| own.is_of(raw)));
         2 * shared.count() > other.raw.len()
+    }
+
+    /// Whether this is a list of figures with their u, such as the parameters of a fit, and no budget, since the file has
+    /// one with contributions: nothing below it claims what they come to.
+    fn is_list_beside(&self, other: &Found, grids: &[Grid]) -> bool {
+        let grid = &grids[self.sheet];
+        let until = match other.sheet == self.sheet && other.first_head() > self.located.head {
+            true => other.first_head(),
+            false => grid.rows.len(),
+        };
+        let is_claim = |row: usize| {
+            let mut cells = grid.filled(row).map(|(_, cell)| cell.text.as_str());
+            cells.any(|text| footer::label(text, "").is_some_and(|whole| whole != footer::Whole::Y))
+        };
+        self.located.is_list()
+            && other.located.has_contributions()
+            && !(self.located.head + 1..until).any(is_claim)
     }
 }
 
@@ -258,7 +271,7 @@ fn budget(
     found: &Found,
     bounds: Range<usize>,
     common: &[Line],
-    inputs: &[&Found],
+    inputs: &[Found],
     mapping: &Mapping,
 ) -> Claimed {
     let (sheet, mut located) = (found.sheet, found.located.clone());
@@ -270,8 +283,9 @@ fn budget(
         ..Claimed::default()
     };
     let mut raw = found.raw.clone();
+    let stating = inputs.iter().filter(|input| input.states_inputs_of(found));
     for raw in &mut raw {
-        let of_row = inputs.iter().flat_map(|input| &input.raw);
+        let of_row = stating.clone().flat_map(|input| &input.raw);
         if let Some(input) = of_row.into_iter().find(|input| input.is_of(raw)) {
             raw.absorb(input);
         }
@@ -349,7 +363,10 @@ fn drop_measurand(grid: &Grid, raw: &mut Vec<table::Raw>, claimed: &mut Claimed)
     let Some(place) = named.or_else(closing).or(product) else {
         return;
     };
-    let result = raw.remove(place).row;
+    let closing = raw.remove(place);
+    let absolute = table::absolute(&closing).filter(|_| product == Some(place));
+    let mut result = closing.row;
+    result.u = result.u.or(absolute);
     claimed.rows.remove(place);
     if product == Some(place)
         && let Some(y) = &result.value

@@ -54,7 +54,7 @@ fn parts(text: &str, claimed: &Claimed) -> Option<(String, String)> {
         .next()
         .unwrap_or(right)
         .trim();
-    let right = without_unit(right, claimed);
+    let right = without_unit(before_next(right), claimed);
     let named = claimed
         .rows
         .iter()
@@ -66,7 +66,7 @@ fn parts(text: &str, claimed: &Claimed) -> Option<(String, String)> {
     let short = !left.is_empty() && left.chars().count() <= 24;
     let identifier = short && is_closed && !left.contains([',', '|']);
     // `u_c = sqrt(u1^2 + …)`, `U = k·u_c`, `k = 2` are no models.
-    let of_claim = footer::label(left, "").is_some_and(|whole| whole != footer::Whole::Y);
+    let of_claim = footer::label(left, left).is_some_and(|whole| whole != footer::Whole::Y);
     let about_u = of_claim
         || left.starts_with("u_")
         || left.starts_with("u(")
@@ -79,6 +79,19 @@ fn parts(text: &str, claimed: &Claimed) -> Option<(String, String)> {
         && !about_u
         && crate::printed::leading(right).is_none_or(|(_, rest)| !rest.trim().is_empty()))
     .then(|| (left.to_string(), right.to_string()))
+}
+
+/// A formula without the equations that follow it behind commas: `V_x - V_s, k = 2`.
+fn before_next(formula: &str) -> &str {
+    let mut commas = formula.match_indices(", ");
+    let next = commas.find(|(at, comma)| {
+        let behind = &formula[at + comma.len()..];
+        behind
+            .split(", ")
+            .next()
+            .is_some_and(|part| part.contains('='))
+    });
+    next.map_or(formula, |(at, _)| &formula[..at])
 }
 
 /// A formula without the unit of its value in a bracket behind it: `1000·m·P/V  [mg/L]`.

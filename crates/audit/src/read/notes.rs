@@ -247,6 +247,26 @@ pub fn rule_of_label(text: &str, claimed: &mut Claimed) {
     }
 }
 
+/// The rule that a coverage factor states with its reason: `k = 1.65 (rectangular distribution, dominated by V)`, `k = 1.83
+/// (trapezoidal distribution, dominated by V and R)`, `k = 2 (fixed)`, `k = 2.23 (t-distribution, ν = 10, p = 95 %)`.
+pub fn rule_of_reason(text: &str, claimed: &mut Claimed) {
+    let lower = text.to_lowercase();
+    let is_reason = has(
+        &lower,
+        &["dominat", "fixed", "占优", "主导", "约定值", "固定"],
+    );
+    let k = figure_after(&lower, &["k"]).filter(|k| is_reason && (1.0..5.0).contains(&k.value));
+    if let Some(k) = k.filter(|_| claimed.coverage == Coverage::Unstated) {
+        claimed.coverage = match k.value {
+            1.65 => Coverage::OfRectangle,
+            k => Coverage::Fixed(k),
+        };
+    }
+    if has(&lower, &["t-distribution", "t 分布", "t分布"]) {
+        rule_of_label(text, claimed);
+    }
+}
+
 /// The coverage probability of a line: 0.9545 for `95.45 %`, for `t_95.45(ν_eff)` and for `p = 0.9545`.
 fn probability(lower: &str) -> Option<f64> {
     index_of_t(lower).or_else(|| named_probability(lower))

@@ -472,13 +472,20 @@ fn unit_in(lower: &str, whole: &str) -> String {
             || (c.is_alphabetic() && !c.is_ascii() && !"µΩω°".contains(c))
     });
     let unit = lower[..end.unwrap_or(lower.len())].trim_end_matches('.');
-    let unit = alone(unit);
+    let unit = alone(before_amount(unit));
     // What is left of the whole text has the same length at the end.
     let start = whole.len().checked_sub(lower.len());
     let original = start
         .filter(|_| whole.to_lowercase().len() == whole.len())
         .and_then(|s| whole.get(s..s + unit.len()));
     original.unwrap_or(unit).to_string()
+}
+
+/// A unit in front of an amount that the figure is a part of: `mg` of `0.1 mg/5 g`.
+fn before_amount(unit: &str) -> &str {
+    let parted = unit.split_once('/');
+    let of_amount = parted.filter(|(_, by)| by.starts_with(|c: char| c.is_ascii_digit()));
+    of_amount.map_or(unit, |(unit, _)| unit)
 }
 
 /// A unit of ratios without what it is a ratio of: `%FS`, `ppm×`, `% of reading`.

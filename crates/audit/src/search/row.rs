@@ -228,7 +228,7 @@ fn mismatch(row: &Row, line: &Line) -> Option<Broken> {
         // A coefficient is shown with fewer digits than it was multiplied with, and so is a standard uncertainty of which no
         // more is stated.
         let of_u = match &row.stated {
-            Stated::Standard { u, .. } => u.coarseness(),
+            Stated::Standard { u, .. } => u.openness(),
             _ => 0.0,
         };
         let shown = of_u + row.c.as_ref().map_or(0.0, Printed::coarseness);

@@ -1,5 +1,6 @@
 //! Sheets from text to verdict.
 
+mod columns;
 mod digits;
 mod further;
 mod hands;

@@ -35,11 +35,17 @@ impl Evidence<'_> {
     pub(super) fn figure(&self, keys: &[&str]) -> Option<Printed> {
         let used = self.used.filter(|_| self.full);
         let meant = |figure: &Printed| used.is_none_or(|used| resemble(figure.value, used.value));
-        // `temperature ±0.5 °C` beside 0.6 µm is what the ± column was computed from.
+        // `temperature ±0.5 °C` beside 0.6 µm is what the ± column was computed from. Where only u has a unit, what was
+        // divided for it has the same.
+        let unit_of_u = self.u.map_or("", |u| u.unit.as_str());
         let fits = |figure: &Printed| {
             let open = figure.unit.is_empty() || units::fraction(&figure.unit).is_some();
             let of = |used: &Printed| {
-                used.unit.is_empty() || units::factor(&figure.unit, &used.unit).is_some()
+                let unit = match used.unit.as_str() {
+                    "" => unit_of_u,
+                    unit => unit,
+                };
+                unit.is_empty() || units::factor(&figure.unit, unit).is_some()
             };
             open || used.is_none_or(of)
         };

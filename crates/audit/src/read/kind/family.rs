@@ -36,3 +36,5 @@ pub(super) const RECTANGULAR: &[&str] = &["rect", "rectang", "rechteck", "gleich
 pub(super) const READINGS: &[&str] = &["reading", "measurement", "observation", "repeat", "determination", "indications", "values", "runs", "cycle", "weighing", "deliver", "dispens", "injection", "replicate", "indentation", "impact", "shots", "comparisons", "loadings", "mountings", "aliquots", "次", "messungen", "ablesungen"];
 #[rustfmt::skip]
 pub(super) const MEAN: &[&str] = &["mean of", "average of", "averages of", "means of", "mean over", "m =", "m=", "reported as mean of", "averaged over", "取平均", "mittelwert von", "mittelwert aus"];
+#[rustfmt::skip]
+pub(super) const FIT: &[&str] = &["least squares", "regression", "最小二乘", "回归"];

@@ -3,7 +3,9 @@
 use gumption_core::special::normal_two_sided_quantile;
 
 use crate::claim::{Shape, Stated};
+use crate::printed::{Printed, leading};
 use crate::read::words::{figure_after, has, named_probability, signed_pair};
+use crate::units;
 
 use super::evidence::Evidence;
 use super::family::*;
@@ -127,15 +129,23 @@ pub(super) fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
             || step.text.trim_start().starts_with('±')
             || text.contains(&format!("± {}", step.text))
             || text.contains(&format!("±{}", step.text));
-        let shape = (Shape::Rectangular, true);
-        return Some(if half {
-            Stated::Limits {
+        // `estimated to 1/10 of a division of 20 kPa`
+        let part = part_of_division(text).filter(|_| !half);
+        if half || part.is_some() {
+            return Some(Stated::Limits {
+                half_width: step.scaled(part.unwrap_or(1.0)),
+                shape: Shape::Rectangular,
+                shape_stated: true,
+            });
+        }
+        let twice = e.u.filter(|u| is_of_difference(u, &step));
+        return Some(match twice {
+            Some(_) => Stated::Limits {
                 half_width: step,
-                shape: shape.0,
-                shape_stated: shape.1,
-            }
-        } else {
-            Stated::Step { step }
+                shape: Shape::Triangular,
+                shape_stated: false,
+            },
+            None => Stated::Step { step },
         });
     }
     let used = e.used?.clone();
@@ -172,6 +182,32 @@ pub(super) fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     })
 }
 
+/// Whether u is that of a difference of two indications with this step, √2 times that of one (OIML R 111-1, C.6.4.3).
+fn is_of_difference(u: &Printed, step: &Printed) -> bool {
+    let met = |divisor: f64| {
+        let factor = units::factor(&step.unit, &u.unit).unwrap_or(1.0);
+        (factor * step.value / divisor - u.value).abs() <= u.half_of_digits()
+    };
+    met(Shape::Triangular.divisor()) && !met(libm::sqrt(12.0))
+}
+
+/// The part of a division to which an indication is estimated: `1/10 of a division`, `分度值的 1/5`.
+fn part_of_division(text: &str) -> Option<f64> {
+    let parts = text.match_indices("1/").filter(|(at, _)| {
+        let before = text[..*at].chars().next_back();
+        !before.is_some_and(|c| c.is_ascii_digit() || ".,/".contains(c))
+    });
+    let of = |(at, lead): (usize, &str)| {
+        let rest = &text[at + lead.len()..];
+        let behind = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+        let n: f64 = rest[..rest.len() - behind.len()].parse().ok()?;
+        // `1/10/2026` is a day.
+        let is_part = (3.0..=20.0).contains(&n) && !behind.starts_with('/');
+        is_part.then(|| 1.0 / n)
+    };
+    parts.filter_map(of).next()
+}
+
 pub(super) fn certificate(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     const KEYS: &[&str] = &[
         "expanded uncertainty",
@@ -184,14 +220,12 @@ pub(super) fn certificate(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         "uncertainty",
         "不确定度",
     ];
-    let expanded = e.figure_or_used(KEYS)?;
-    // The number of a certificate may begin with a K, too.
-    let in_words = ["k =", "k=", "coverage factor", "包含因子", "k"]
-        .iter()
-        .find_map(|key| {
-            let k = figure_after(text, &[key])?.value;
-            (1.0..5.0).contains(&k).then_some(k)
-        });
+    let quotient = quotient(e.words);
+    let of_quotient = quotient.as_ref().map(|(expanded, _)| expanded.clone());
+    let expanded = of_quotient.or_else(|| e.figure_or_used(KEYS))?;
+    let below = quotient.map(|(_, k)| k);
+    let in_words = below.or_else(|| coverage_factor(text));
+    let in_words = in_words.or_else(|| coverage_factor(&e.columns.to_lowercase()));
     let head = figure_after(&e.used_head.to_lowercase(), &["k"])
         .map(|k| k.value)
         .filter(|k| (1.0..5.0).contains(k));
@@ -207,6 +241,40 @@ pub(super) fn certificate(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         k,
         k_stated: stated.is_some() || named_probability(text).is_some(),
     })
+}
+
+/// U and k of a calculation that states both, `u(V_s) = U/k = 0.06 mV/2`.
+fn quotient(words: &str) -> Option<(Printed, f64)> {
+    let (_, behind) = words.split_once("U/k")?;
+    let (expanded, behind) = leading(behind.trim_start().strip_prefix('=')?.trim_start())?;
+    let (unit, behind) = behind.split_once('/')?;
+    let (k, behind) = leading(behind.trim_start())?;
+    // Behind the result stands the unit of both.
+    let result = || {
+        behind
+            .trim_start()
+            .strip_prefix('=')
+            .and_then(|rest| leading(rest.trim_start()))
+    };
+    let unit = match unit.trim() {
+        "" => result().map_or("", |(_, unit)| {
+            unit.split_whitespace().next().unwrap_or_default()
+        }),
+        unit => unit,
+    };
+    let unit = Some(unit).filter(|unit| units::parse(unit).is_some());
+    let unit = unit.unwrap_or_default().to_string();
+    (1.0..5.0)
+        .contains(&k.value)
+        .then_some((Printed { unit, ..expanded }, k.value))
+}
+
+/// The k that a text in small letters states.
+fn coverage_factor(text: &str) -> Option<f64> {
+    // The number of a certificate may begin with a K, too.
+    let keys = ["k =", "k=", "coverage factor", "包含因子", "k"];
+    let figures = keys.iter().filter_map(|key| figure_after(text, &[key]));
+    figures.map(|k| k.value).find(|k| (1.0..5.0).contains(k))
 }
 
 pub(super) fn full_width(e: &Evidence<'_>, text: &str) -> Option<Stated> {

@@ -48,6 +48,9 @@ pub(super) fn subject(e: &Evidence<'_>, text: &str) -> Option<Subject> {
         Some(Subject::Step)
     } else if certified && (!reading || first(CERTIFICATE) < first(DEVIATION)) {
         Some(Subject::Certificate)
+    } else if reading && has(text, FIT) {
+        // s is that of the residuals, of which u of a parameter is no simple part.
+        Some(Subject::Standard)
     } else if reading && !(has(text, LIMITS) && first(LIMITS) < first(DEVIATION)) {
         Some(Subject::Readings)
     } else if has(text, CYCLING) && !counts_cycles(text) {
@@ -100,11 +103,15 @@ fn is_step(text: &str, first: &dyn Fn(&[&str]) -> Option<usize>) -> bool {
         "half a step =",
         "half step",
         "1/2",
+        "½",
         "半宽",
         "半个",
     ];
     first(STEP).is_some_and(|at| {
-        let clause = text[at..].split([';', '(', ',']).next().unwrap_or_default();
+        let ends = [';', '(', ','];
+        let begin = text[..at].rfind(ends).map_or(0, |end| end + 1);
+        let end = text[at..].find(ends).map_or(text.len(), |end| at + end);
+        let clause = &text[begin..end];
         first(DEVIATION).is_none_or(|s| at < s)
             && first(CERTIFICATE).is_none_or(|c| at < c)
             && !has(clause, HALF)

@@ -115,6 +115,9 @@ fn footer_row(
                 let found_here = footer::sentence(text, &measurand, place, &mut claimed.footer);
                 found |= !found_here.is_empty();
                 understood(claimed, place, text, found_here.first().copied());
+                if found_here.contains(&Whole::Factor) {
+                    notes::rule_of_reason(text, claimed);
+                }
                 // `U | Expanded uncertainty | k = 2 | 0.056`: U is still open behind its k.
                 let own = footer::label(text, &measurand);
                 if own.is_some_and(|own| found_here.contains(&own)) {

@@ -1,7 +1,9 @@
 //! The head of a table: one line, or two.
 
 use crate::printed::Printed;
+use crate::read::blocks;
 use crate::read::columns::{self, Role};
+use crate::read::footer;
 use crate::read::mapping::Mapping;
 use crate::sheet::Grid;
 use crate::units;
@@ -25,7 +27,8 @@ pub(super) fn head(grid: &Grid, row: usize, mapping: &Mapping) -> Option<Vec<Col
         .map(|(_, text)| text.chars().count())
         .max()
         .unwrap_or(0);
-    if filled.len() < 2 || figures * 3 > filled.len() || longest > 90 {
+    let is_table = filled.len() >= 2 && figures * 3 <= filled.len() && longest <= 90;
+    if !is_table || is_matrix(grid, row) {
         return None;
     }
     let names = |index: usize| names_below(grid, row, index);
@@ -45,6 +48,21 @@ pub(super) fn head(grid: &Grid, row: usize, mapping: &Mapping) -> Option<Vec<Col
     (identity && figure && enough).then_some(columns)
 }
 
+/// Whether the rows below a head are called as its columns are: a matrix of coefficients.
+pub(super) fn is_matrix(grid: &Grid, head: usize) -> bool {
+    let columns: Vec<&str> = grid
+        .filled(head)
+        .map(|(_, cell)| cell.text.as_str())
+        .collect();
+    let rows = (head + 1..grid.rows.len()).filter_map(|row| grid.filled(row).next());
+    let names = |count: usize| rows.clone().map(|(_, cell)| cell.text.as_str()).take(count);
+    // In front of the columns may stand what the figures are.
+    [0, 1].into_iter().any(|front| {
+        let columns = columns.get(front..).unwrap_or_default();
+        columns.len() >= 2 && names(columns.len()).eq(columns.iter().copied())
+    })
+}
+
 /// Whether two heads stand above a list of sources with their uncertainties, and nothing else.
 fn is_list(grid: &Grid, head: usize, columns: &[Column]) -> bool {
     let is_uncertainty = |c: &&Column| match c.role {
@@ -59,13 +77,17 @@ fn is_list(grid: &Grid, head: usize, columns: &[Column]) -> bool {
         let figure = grid.cell(row, figures.index).figure();
         figure.is_some() && grid.filled(row).count() == 2
     };
-    columns.len() == 2 && (head + 1..=head + 2).all(is_entry)
+    // A block of one type of evaluation may have a single source.
+    let entries = if blocks::is_titled(grid, head) { 1 } else { 2 };
+    columns.len() == 2 && (head + 1..=head + entries).all(is_entry)
 }
 
 /// `Contribution %` is the share in the variance where the figures total 100, else the contribution to a relative result.
+/// Beside u and a coefficient, of which it would be computed, it is a contribution only where they give it.
 fn relative_contributions(grid: &Grid, head: usize, columns: &mut [Column]) {
-    let has = |role: Role| columns.iter().any(|c| c.role == role);
-    if has(Role::U) || has(Role::Contribution) {
+    let of = |role: Role| columns.iter().find(|c| c.role == role).map(|c| c.index);
+    let (u, c) = (of(Role::U), of(Role::C));
+    if of(Role::Contribution).is_some() || u.is_some() && c.is_none() {
         return;
     }
     let is_meant = |column: &&mut Column| {
@@ -76,12 +98,21 @@ fn relative_contributions(grid: &Grid, head: usize, columns: &mut [Column]) {
     let Some(column) = columns.iter_mut().find(is_meant) else {
         return;
     };
-    let below = (head + 1..grid.rows.len()).map(|row| grid.cell(row, column.index).figure());
-    let figures: Vec<f64> = below.map_while(|figure| Some(figure?.value)).collect();
-    let total: f64 = figures.iter().sum();
+    let figure = |row: usize, column: usize| Some(grid.cell(row, column).figure()?.value);
+    let rows = head + 1..grid.rows.len();
+    let below = rows.map_while(|row| Some((row, figure(row, column.index)?)));
+    let figures: Vec<(usize, f64)> = below.collect();
+    let total: f64 = figures.iter().map(|(_, figure)| figure).sum();
     // Shares are printed in whole percent, and may miss 100 by half of one each.
     let is_whole = (total - 100.0).abs() <= 0.5 * figures.len() as f64;
-    if figures.len() >= 2 && !is_whole {
+    let made = figures.iter().filter_map(|(row, made)| {
+        let product = (figure(*row, u?)? * figure(*row, c?)?).abs();
+        Some((product - made.abs()).abs() <= 0.05 * made.abs())
+    });
+    let made: Vec<bool> = made.collect();
+    let met = made.iter().filter(|is_met| **is_met).count();
+    let is_computed = u.is_none() || 2 * met > made.len();
+    if figures.len() >= 2 && !is_whole && is_computed {
         (column.role, column.unit) = (Role::Contribution, "%".into());
     }
 }
@@ -166,8 +197,11 @@ fn roles(
         let is_share = |unit: &str| units::fraction(unit).is_some();
         let is_again = of_first.is_some_and(|first| is_share(&first.unit) != is_share(&unit));
         let role = match role {
-            // `u / kPa | u / %`: the same again, as a part of the value.
+            // `u / kPa | u / %`, `u | relative u`: the same again, as a part of the value.
             Role::U if is_again && !unit.is_empty() && !taken(Role::C) => Role::Derived,
+            Role::U if taken(Role::U) && !taken(Role::C) && footer::is_relative(text) => {
+                Role::Derived
+            }
             // `c_i | u_i`: a bare u behind the coefficient is what comes of both.
             Role::U if taken(Role::C) && !contributions && columns::is_bare_u(text) => {
                 Role::Contribution

@@ -47,6 +47,7 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
         if let Some(nominal) = &nominal {
             row.take_part_of(nominal);
         }
+        row.leave_what_is_of_another_unit();
         row.convert_to_one_unit(&y_unit);
     }
     add_absent(claimed);
@@ -251,6 +252,20 @@ impl Row {
         let part = self.part_of(amount);
         if let (Relative::OfValue(fraction), Some(part)) = (self.relative, part) {
             self.relative = Relative::OfFullScale(fraction, part / fraction);
+        }
+    }
+
+    /// u as it stands, where its words have no more than a figure in a unit from which nothing leads to that of u:
+    /// `temperature ±3 °C` beside u in kPa.
+    fn leave_what_is_of_another_unit(&mut self) {
+        let Some((u, figure)) = self.u.clone().zip(self.stated.figure()) else {
+            return;
+        };
+        let is_known = |unit: &str| units::parse(unit).is_some();
+        let is_ratio = units::fraction(&figure.unit).is_some();
+        let leads = is_ratio || units::factor(&figure.unit, &u.unit).is_some();
+        if is_known(&figure.unit) && is_known(&u.unit) && !leads {
+            self.stated = Stated::Standard { u, dof: None };
         }
     }
 

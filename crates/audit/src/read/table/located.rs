@@ -111,6 +111,22 @@ impl Located {
         self.has(Role::U) || self.has(Role::Contribution)
     }
 
+    /// Whether it has a column of what its rows contribute.
+    pub fn has_contributions(&self) -> bool {
+        self.has(Role::Contribution)
+    }
+
+    /// Whether it has u of its rows, and nothing of how they were found or of what they make.
+    pub fn is_list(&self) -> bool {
+        let made = [
+            Role::Used,
+            Role::Divisor,
+            Role::Distribution,
+            Role::Contribution,
+        ];
+        self.has(Role::U) && !made.into_iter().any(|role| self.has(role))
+    }
+
     pub(super) fn has(&self, role: Role) -> bool {
         self.column(role).is_some()
     }

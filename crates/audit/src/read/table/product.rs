@@ -3,22 +3,36 @@
 
 use crate::claim::Row;
 use crate::printed::Printed;
+use crate::units;
 
 use super::rows::Raw;
 
-/// The last row, where its relative uncertainty comes of those of the others and its absolute one does not.
+/// The last row, where its relative uncertainty comes of those of the others, as their root or their sum.
 pub fn product(rows: &[Raw]) -> Option<usize> {
     let (last, others) = rows.split_last()?;
-    let own = relative(&last.row)?;
-    let parts = others
-        .iter()
-        .map(|raw| relative(&raw.row).map(|(part, _)| part));
+    let own = relative(last)?;
+    let parts = others.iter().map(|raw| relative(raw).map(|(part, _)| part));
     let parts: Vec<f64> = parts.collect::<Option<_>>()?;
     let root = libm::sqrt(parts.iter().map(|part| part * part).sum());
+    // The slip of adding them closes a table, too.
+    let sum = parts.iter().sum();
     let (value, half) = own;
     let has_c = rows.iter().any(|raw| raw.row.c.is_some());
-    let is_root = (value - root).abs() <= half + 0.02 * root;
-    (parts.len() > 1 && !has_c && is_root).then_some(others.len())
+    let is_made = |of: f64| (value - of).abs() <= half + 0.02 * of;
+    let closes = [root, sum].into_iter().any(is_made);
+    (parts.len() > 1 && !has_c && closes).then_some(others.len())
+}
+
+/// What the relative uncertainty of a row comes to, of which the column of u has none.
+pub fn absolute(raw: &Raw) -> Option<Printed> {
+    let (figure, y) = raw.relative.as_ref().zip(raw.row.value.as_ref())?;
+    let factor = units::fraction(&figure.unit).unwrap_or(1.0) * y.value.abs();
+    let called = format!("{}·y", figure.as_read());
+    let unit = y.unit.clone();
+    Some(Printed {
+        unit,
+        ..figure.clone().scaled(factor).called(&called)
+    })
 }
 
 /// The coefficients of a product, y/x, of rows that state none.
@@ -36,8 +50,13 @@ pub fn coefficient(result: &Printed, row: &Row) -> Option<Printed> {
     )
 }
 
-/// u/x of a row, and what the digits of u leave open.
-fn relative(row: &Row) -> Option<(f64, f64)> {
+/// u/x of a row, and what its digits leave open: as a column of its own has it, or of u and x.
+fn relative(raw: &Raw) -> Option<(f64, f64)> {
+    if let Some(figure) = &raw.relative {
+        let fraction = units::fraction(&figure.unit).unwrap_or(1.0);
+        return Some((fraction * figure.value, fraction * figure.half));
+    }
+    let row = &raw.row;
     let x = row.value.as_ref().filter(|x| x.value != 0.0)?.value.abs();
     let u = row.u.as_ref().filter(|u| u.value > 0.0)?;
     Some((u.value / x, u.half / x))

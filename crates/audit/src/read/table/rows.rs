@@ -3,7 +3,7 @@
 use crate::claim::{Figure, Row};
 use crate::printed::{Place, Printed};
 use crate::read::columns::{Role, names_factor};
-use crate::read::footer::Whole;
+use crate::read::footer::{self, Whole};
 use crate::read::words::{alone, has};
 use crate::sheet::Grid;
 use crate::units;
@@ -23,6 +23,8 @@ pub struct Raw {
     number: String,
     /// The ± column stands in a table of what is known, apart from the evaluation.
     pub(super) stated_apart: bool,
+    /// u/x, where a column beside u has it.
+    pub(super) relative: Option<Printed>,
 }
 
 /// The rows of a table with their figures.
@@ -52,6 +54,11 @@ pub fn rows(grid: &Grid, sheet: usize, located: &Located) -> Vec<Raw> {
                 .filter_map(|raw| column(&mut raw.row).as_mut())
                 .collect(),
         );
+    }
+    for column in &columns[1..] {
+        let inputs = rows.iter_mut().filter(|raw| raw.is_input());
+        let figures = inputs.filter_map(|raw| column(&mut raw.row).as_mut());
+        whole_figures_have_decimals(figures.filter(|figure| figure.value != 0.0).collect());
     }
     for Raw { row, .. } in &mut rows {
         let figures = [
@@ -107,6 +114,25 @@ fn parts_are_not_counted(rows: &mut [Raw]) {
                 row.c = row.c.take().or_else(|| c.clone());
             }
         }
+    }
+}
+
+/// Who writes `0.577` and `6.1` in a column does not mean 1.4 by `1`: a cell without a format has lost the zeros behind the
+/// point. Figures of one whole digit have as many decimals as the others that have some, if these are more.
+fn whole_figures_have_decimals(column: Vec<&mut Printed>) {
+    let (whole, others): (Vec<&mut Printed>, Vec<&mut Printed>) = column
+        .into_iter()
+        .partition(|figure| figure.half == 0.5 && figure.value < 10.0);
+    let others = others.iter().filter(|figure| figure.half < 0.5);
+    let others: Vec<f64> = others.map(|figure| figure.half).collect();
+    let fewest = others.iter().copied().fold(0.0, f64::max);
+    if others.len() <= whole.len() || fewest <= 0.0 {
+        return;
+    }
+    for figure in whole {
+        let decimals = libm::round(libm::log10(figure.half / fewest)) as usize;
+        figure.half = fewest;
+        figure.digits += decimals;
     }
 }
 
@@ -217,6 +243,7 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
         readings: figure(Role::Readings).map(|n| n.value),
         number: text(Role::Number),
         stated_apart: false,
+        relative: derived(grid, row, located, footer::is_relative),
         row: Row {
             at: Place {
                 sheet,
@@ -233,7 +260,7 @@ fn raw(grid: &Grid, sheet: usize, row: usize, located: &Located, above: &str) ->
             unit: alone(unit_beside(0)).to_string(),
             is_hidden: grid.hidden_rows.contains(&row),
             distribution: text(Role::Distribution),
-            share: share(grid, row, located),
+            share: derived(grid, row, located, is_share),
             formulas: [
                 formula(Role::U, Figure::U),
                 formula(Role::Contribution, Figure::Contribution),
@@ -260,17 +287,25 @@ fn unit_beside<'g>(grid: &'g Grid, row: usize, located: &Located, index: usize) 
     unit.map_or("", |unit| grid.cell(row, *unit).text.trim())
 }
 
-/// The share of a row in the variance, where a column has it.
-fn share(grid: &Grid, row: usize, located: &Located) -> Option<Printed> {
-    let is_share = |head: &str| {
-        let head = head.to_lowercase();
-        has(&head, &["share", "index", "percent"])
-            || head.contains(['%', '％'])
-            || has(&head, &["贡献率", "占比", "百分比"])
-    };
+/// Whether a head of what was computed from others is that of shares in the variance.
+fn is_share(head: &str) -> bool {
+    let lower = head.to_lowercase();
+    let said = has(&lower, &["share", "index", "percent"])
+        || lower.contains(['%', '％'])
+        || has(&lower, &["贡献率", "占比", "百分比"]);
+    said && !footer::is_relative(head)
+}
+
+/// The figure of a row in the first column of what was computed from others whose head is so called.
+fn derived(grid: &Grid, row: usize, located: &Located, is: fn(&str) -> bool) -> Option<Printed> {
     let mut columns = located.columns.iter();
-    let column = columns.find(|c| c.role == Role::Derived && is_share(&c.head))?;
-    Printed::parse(&grid.cell(row, column.index).text)
+    let column = columns.find(|c| c.role == Role::Derived && is(&c.head))?;
+    let figure = Printed::parse(&grid.cell(row, column.index).text)?;
+    let unit = match figure.unit.as_str() {
+        "" => column.unit.clone(),
+        _ => figure.unit.clone(),
+    };
+    Some(Printed { unit, ..figure })
 }
 
 /// Degrees of freedom from here on are as good as infinitely many: spreadsheets write `1E+99`.
@@ -300,6 +335,7 @@ impl Raw {
             readings: None,
             number: String::new(),
             stated_apart: true,
+            relative: None,
         }
     }
 
@@ -398,10 +434,13 @@ impl Raw {
 pub fn closing(rows: &[Raw]) -> Option<usize> {
     let (last, others) = rows.split_last()?;
     let inputs = others.iter().filter(|raw| raw.is_input()).count();
-    if others.len() < 2 || 2 * inputs <= others.len() || last.is_input() {
+    let row = &last.row;
+    // A result that is its only input is called the same.
+    let is_again = others.iter().any(|raw| raw.row.label() == row.label());
+    let few = others.len() < 2 && !is_again && !repeats(row, others);
+    if few || 2 * inputs <= others.len() || last.is_input() {
         return None;
     }
-    let row = &last.row;
     // `u(E)` below names that are no symbols of uncertainties.
     let of_result = |row: &Row| row.label().starts_with("u(") || row.label().starts_with("u_c(");
     let is_symbol = of_result(row) && !others.iter().any(|raw| of_result(&raw.row));
@@ -414,6 +453,16 @@ pub fn closing(rows: &[Raw]) -> Option<usize> {
         .any(|figure| times(figure, others).is_some());
     let closes = has_both || is_made || is_symbol || is_called || is_sum(row, others);
     closes.then_some(others.len())
+}
+
+/// Whether u or the contribution of a row is the contribution of the only other one, which has a coefficient.
+fn repeats(row: &Row, others: &[Raw]) -> bool {
+    let [only] = others else {
+        return false;
+    };
+    let part = row.contribution.as_ref().or(row.u.as_ref());
+    let part = part.map(|part| part.value.abs());
+    only.row.c.is_some() && part.is_some() && part == only.part()
 }
 
 /// Whether a row is called a standard uncertainty, as that of the whole is in short.

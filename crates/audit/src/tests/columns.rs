@@ -1,0 +1,267 @@
+//! What columns and lines hold of which words say it otherwise than their cells, or say it twice.
+
+use super::{answer, first};
+use crate::read::Mapping;
+use crate::{Verdict, audit, read, rules, sheet};
+
+fn is_sound(name: &str, sheet: &str) {
+    assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
+}
+
+/// U is three times u_c, and the sheet says k = 2.
+#[test]
+fn u_is_another_multiple_than_its_k() {
+    let list = |expanded: &str| {
+        format!(
+            "来源,标准不确定度/mV\n校准源,1.204\n分辨力,0.289\n重复性,0.553\n合成标准不确定度,1.356\n\"扩展不确定度 U={expanded} mV，k=2\",\n"
+        )
+    };
+    is_sound("sheet.csv", &list("2.7"));
+    assert_eq!(first("sheet.csv", &list("4.1")), "k-other");
+    let sentence = |expanded: &str| {
+        format!(
+            "Quantity     Estimate    Standard uncertainty   Sensitivity   Contribution\n\
+             t_ref        800.1 °C    1.6 °C                 1.0           1.6 °C\n\
+             dt_hom       0.0 °C      1.5 °C                 1.0           1.5 °C\n\
+             dt_comp      0.0 °C      1.8 °C                 1.0           1.8 °C\n\
+             t_x          800.1 °C                                         2.84 °C\n\n\
+             Expanded uncertainty U = {expanded} °C\n\
+             The reported expanded uncertainty is the standard uncertainty multiplied by the\n\
+             coverage factor k = 2.\n"
+        )
+    };
+    is_sound("sheet.txt", &sentence("5.7"));
+    assert_eq!(first("sheet.txt", &sentence("8.5")), "k-other");
+}
+
+/// A table of QUAM:2012 with u and u/x side by side: the second is no contribution and no share, and closes the table.
+#[test]
+fn relative_uncertainties_stand_beside_absolute_ones() {
+    let english = |c: &str, expanded: &str| {
+        format!(
+            "Quantity,Value,Unit,Standard uncertainty,Relative standard uncertainty\nMass m,0.10028,g,0.00005,0.00050\n\
+             Purity P,0.9999,,0.000058,0.000058\nVolume V,100.0,mL,0.07,0.00070\n{c}\nExpanded uncertainty (k=2),,mg/L,{expanded},\n"
+        )
+    };
+    is_sound(
+        "sheet.csv",
+        &english("Concentration c,1002.7,mg/L,0.86,0.00086", "1.7"),
+    );
+    assert_eq!(
+        first(
+            "sheet.csv",
+            &english("Concentration c,1002.7,mg/L,1.26,0.00126", "2.5")
+        ),
+        "linear-sum"
+    );
+    let chinese = |c: &str, expanded: &str| {
+        format!(
+            "输入量,估计值,单位,标准不确定度,相对标准不确定度/%\n质量 m,0.10028,g,0.00005,0.050\n纯度 P,0.9999,,0.000058,0.0058\n\
+             体积 V,100.0,mL,0.07,0.070\n浓度 c,1002.7,mg/L,,{c}\n扩展不确定度 U (k=2),,mg/L,{expanded},\n"
+        )
+    };
+    is_sound("sheet.csv", &chinese("0.086", "1.7"));
+    assert_eq!(first("sheet.csv", &chinese("0.126", "2.5")), "linear-sum");
+}
+
+/// `Contribution %` beside u and c holds c·u where they give it.
+#[test]
+fn contributions_in_percent_are_no_shares() {
+    let sheet = |timing: &str, u_c: &str| {
+        format!(
+            "No.,Source of uncertainty,Input value,Semi-range,Units,Distribution,Divisor,Standard uncertainty,Sensitivity coeff.,Contribution %\n\
+             1,Weighing,60,0.020,kg,Normal,2,0.010,1.6667,0.0167\n2,Density,998.2,0.05,kg/m3,Rectangular,1.732,0.0289,0.10018,0.0029\n\
+             3,Timing,72,0.05,s,Rectangular,1.732,0.0289,1.3889,{timing}\n4,Buoyancy,1.001,0.00005,1,Rectangular,1.732,0.0000289,99.9,0.0029\n\
+             ,Combined standard uncertainty,,,,,,,,{u_c}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.0401", "0.0436"));
+    let slip = first("sheet.csv", &sheet("0.0289", "0.0336"));
+    assert!(slip.starts_with("c-one@Timing"), "{slip}");
+}
+
+/// Weighing takes the difference of two indications: √2 times the uncertainty of one (OIML R 111-1, C.6.4.3).
+#[test]
+fn a_resolution_may_count_twice() {
+    let sheet = |d: &str, u_c: &str| {
+        format!(
+            "Symbol,Description,Stated,Unit,u,Sensitivity,Contribution (mg)\ndw,\"s of 6 cycles, mean reported\",0.021,mg,0.00857,1,0.00857\n\
+             mr,\"Reference weight, certificate k=2\",0.100,mg,0.0500,1,0.0500\nd,Readability of the comparator 0.10 mg,0.10,mg,{d},1,{d}\n\
+             uc,,,,,,{u_c}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.0408", "0.0651"));
+    is_sound("sheet.csv", &sheet("0.0289", "0.0584"));
+    let slip = first("sheet.csv", &sheet("0.0577", "0.0768"));
+    assert_eq!(slip, "full-width@d");
+}
+
+/// The part of a division to which an indication is estimated, and an influence in a unit of its own.
+#[test]
+fn words_state_more_than_was_used() {
+    let sheet = |u: &str, u_c: &str| {
+        format!(
+            "不确定度来源,符号,类别,数值 a,分布,k,u(xi) /kPa\n重复性（6次读数，单次s）,u1,A,6.1,正态,1,6.1\n\
+             估读误差：分度值 20 kPa 的 1/10,u3,B,2.0,均匀,1.732,{u}\n温度变化 ±3 ℃ 的影响,u4,B,1.2,均匀,1.732,0.693\n\
+             合成标准不确定度 uc,,,,,,{u_c}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("1.155", "6.25"));
+    let slip = first("sheet.csv", &sheet("1.000", "6.22"));
+    assert_eq!(slip, "half-width-by-2@u3");
+}
+
+/// `U/k = 0.8/2` states a k, and so does a column of distributions.
+#[test]
+fn a_factor_stands_below_a_stroke_or_in_a_column() {
+    let asked = |text: &str| {
+        let grids = sheet::grids("sheet.md", text.as_bytes()).unwrap();
+        let claims = read::budgets(&grids, &Mapping::default());
+        let audited = audit(&claims[0]);
+        assert_eq!(audited.verdict, Verdict::Sound, "{text}");
+        rules::findings(&audited.found)
+            .iter()
+            .any(|finding| finding.rule == 16)
+    };
+    let noted = |note: &str| {
+        format!(
+            "{note}\n\n| Quantity | Estimate | u | c | contribution |\n|---|---|---|---|---|\n| G_x | 1415.2 µS/cm | 0.35 | 1 | 0.35 |\n\
+             | G_s | 1413.0 µS/cm | 0.40 | -1 | 0.40 |\n\nu_c = 0.53 µS/cm\n"
+        )
+    };
+    assert!(!asked(&noted(
+        "u(G_s) = U/k = 0.8/2 = 0.4 µS/cm (certificate CRM-22)"
+    )));
+    assert!(!asked(&noted(
+        "u(G_s) = U/k = 0.8/2 = 0.4 µS/cm (certificate CRM-22, U = 0.8 µS/cm, k = 2)"
+    )));
+    assert!(asked(&noted("G_s: certificate CRM-22, U = 0.8 µS/cm")));
+    let column = "| Source | Distribution | Value (µW/W) | Divisor | u_i (µW/W) |\n|---|---|---|---|---|\n\
+         | Reference standard RD-22, certificate | expanded, k = 2 | 80 | 2 | 40.0 |\n| Drift of the reference | rectangular | 40 | 1.732 | 23.1 |\n\
+         | Combined standard uncertainty | | | | 46.2 |\n";
+    assert!(!asked(column));
+}
+
+/// A report of this kind of program has other tables than the budget: parameters of a fit, comparisons, results beside.
+#[test]
+fn other_tables_of_a_report_are_no_budgets() {
+    let report = "Straight line\n\nLeast-squares fit line\n    y = B1 * x\n\n  parameter  estimate  u (fit)\n  B1           2.0744   0.0165\n\n\
+         Uncertainty budget of B1\n  quantity  estimate  unit       u  distribution   ν      c     c·u      %\n  \
+         B1           2.074        0.0165  t (A)         10  1.000  0.0165  100.0\n  B1           2.074        0.0165                10         0.0165  100.0\n\n  \
+         combined standard uncertainty  u_c = 0.0165\n  effective degrees of freedom   ν_eff = 10\n  \
+         coverage factor                k = 2.23 (t-distribution, ν = 10, p = 95 %)\n  expanded uncertainty           U = 0.037\n\n\
+         Where the standard uncertainties come from\n  component  type  how u was found\n  B1         A     least squares, n = 11, s = 3.56753\n\n\
+         Comparison with the claim\n                claimed             obtained\n  B1: |c|·u     0.0165  GUM      0.01653  agrees within 0.0005\n";
+    is_sound("report.txt", report);
+}
+
+/// k that is stated with its reason holds: of a rectangle, and of a trapezoid (EA-4/02, S9 and S10).
+#[test]
+fn a_factor_holds_for_the_reason_that_is_stated() {
+    let sheet = |factor: &str, expanded: &str| {
+        format!(
+            "quantity  estimate  unit        u  distribution  c       c·u\nV_S       100.000  V     0.00100  normal        1.000  0.00100\n\
+             dV_X        0.000  V      0.0289  uniform       1.000   0.0289\ndV_S       0.0000  V     0.00635  uniform       1.000  0.00635\n\n\
+             combined standard uncertainty  u_c = 0.0296 V\ncoverage factor                {factor}\nexpanded uncertainty           U = {expanded} V\n"
+        )
+    };
+    is_sound(
+        "sheet.txt",
+        &sheet(
+            "k = 1.65 (rectangular distribution, dominated by dV_X, p = 95 %)",
+            "0.049",
+        ),
+    );
+    is_sound(
+        "sheet.txt",
+        &sheet(
+            "k = 1.83 (trapezoidal distribution, dominated by dV_X and dV_S, p = 95 %)",
+            "0.054",
+        ),
+    );
+}
+
+/// Blocks of type A and B in Markdown, the first with a single source.
+#[test]
+fn a_block_may_have_a_single_source() {
+    let sheet = |step: &str, u_c: &str| {
+        format!(
+            "# 水表示值误差不确定度\n\nA 类评定\n\n| 来源 | 标准不确定度/% |\n|---|---|\n| 重复性（s=0.14 %，n=3 平均） | 0.081 |\n\n\
+             B 类评定\n\n| 来源 | 标准不确定度/% |\n|---|---|\n| 标准装置 U=0.2 %，k=2 | 0.100 |\n| 分辨力 0.1 % | {step} |\n\
+             | 水温变化 ±0.1 % | 0.058 |\n\n合成标准不确定度 uc = {u_c} %\n"
+        )
+    };
+    is_sound("sheet.md", &sheet("0.029", "0.144"));
+    let slip = first("sheet.md", &sheet("0.058", "0.153"));
+    assert!(slip.starts_with("full-width@"), "{slip}");
+}
+
+/// What is known stands in a column called specification, and of a part of an amount the unit is that of the part.
+#[test]
+fn specifications_are_remarks() {
+    let sheet = |step: &str, u_c: &str| {
+        format!(
+            "Contribution,Type,Specification,Value in MΩ,Divisor,u in MΩ\nHigh-value standard,B,0.5 % of 100 MΩ (limits),0.5,1.732,0.289\n\
+             Voltage coefficient,B,0.1 %,0.1,1.732,0.0577\nResolution,B,digit 0.1 MΩ,{step},1.732,{}\n\
+             Repeatability,A,\"s of 10, single reading\",0.12,1,0.120\nCombined,,,,,{u_c}\n",
+            if step == "0.05" { "0.0289" } else { "0.0577" }
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.05", "0.319"));
+    assert_eq!(
+        first("sheet.csv", &sheet("0.1", "0.323")),
+        "full-width@Resolution"
+    );
+    let weighed = "Source,Relative standard uncertainty (%),Remark\nStandard,0.05,\"certificate U = 0.10 %, k = 2\"\n\
+        Weighing,0.012,±0.1 mg/5 g\nRepeatability,0.09,\"s = 0.22 %, mean of 6 readings\"\nCombined,0.104,\n";
+    is_sound("sheet.csv", weighed);
+}
+
+/// A cell without a format shows 1 for 1.000: beside figures with decimals it is no figure of one digit.
+#[test]
+fn a_whole_figure_has_the_decimals_of_its_column() {
+    let sheet = |u: &str, u_c: &str| {
+        format!(
+            "Source,Half-width,Distribution,Divisor,u\nStandard,2.0,rectangular,1.732,{u}\nReading,2.0,rectangular,1.732,1.155\n\
+             Temperature,1.2,rectangular,1.732,0.693\nRepeatability,6.1,normal,1,6.1\nCombined standard uncertainty,,,,{u_c}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("1.155", "6.35"));
+    assert_eq!(
+        first("sheet.csv", &sheet("1", "6.33")),
+        "half-width-by-2@Standard"
+    );
+}
+
+/// u of two digits was multiplied by its coefficient before it was rounded.
+#[test]
+fn a_contribution_follows_within_the_digits_of_u() {
+    let sheet = "Symbol,Source,u,c,c·u\nn_g,gross,147,0.003417,0.503\na,centring,0.29,1.414,0.408\nb,base,0.20,1,0.20\nu_c,,,,0.678\n";
+    is_sound("sheet.csv", sheet);
+}
+
+/// A scale factor K is no coverage factor, and a matrix of correlations no budget.
+#[test]
+fn a_result_may_be_called_k() {
+    let sheet = "Scale factor\nK = K_fit + d_table + d_daq\n\n\
+        quantity  estimate         u  distribution  c       c·u\nK_fit      1.00000  0.000122  normal        1.000  0.000122\n\
+        d_table    0.00000  0.000100  normal        1.000  0.000100\nd_daq      0.00000  0.000141  uniform       1.000  0.000141\n\n\
+        estimate                       K = 1.00000\ncombined standard uncertainty  u_c = 0.000212\n\
+        coverage factor                k = 2 (fixed, no probability stated)\nexpanded uncertainty           U = 0.00042\n\n\
+        Correlation coefficients  a      b      x0\na                         1.00   -0.90  0.11\nb                         -0.90  1.00   0.20\n\
+        x0                        0.11   0.20   1.00\n";
+    is_sound("sheet.txt", sheet);
+}
+
+/// The second of two results has a single input, and its model stands above the first table.
+#[test]
+fn a_result_of_one_input_closes_its_table() {
+    let sheet = "Y1 = X1\nY2 = X2\n\nBudget of Y1\nquantity  estimate  u     distribution  c      c·u\nX1        1.0       0.50  normal        1.00   0.50\n\
+        Y1        1.0       0.50                              0.50\n\nU = 1.0, k = 2\n\n\
+        Budget of Y2\nquantity  estimate  u     distribution  c      c·u\nX2        3.0       0.20  normal        1.00   0.20\n\
+        Y2        3.0       0.20                              0.20\n\nU = 0.40, k = 2\n";
+    let grids = sheet::grids("sheet.txt", sheet.as_bytes()).unwrap();
+    let claims = read::budgets(&grids, &Mapping::default());
+    let verdicts: Vec<Verdict> = claims.iter().map(|claim| audit(claim).verdict).collect();
+    assert_eq!(verdicts, [Verdict::Sound, Verdict::Sound]);
+}

@@ -73,6 +73,17 @@ fn is_of_other_table(lower: &str) -> bool {
     words::has(lower, &COMPARED) || cells.len() >= 3 && cells.iter().all(|cell| is_number(&cell))
 }
 
+/// Whether the cells of a line name rows each for itself, as the head of another table does.
+fn names_several(text: &str, claimed: &Claimed) -> bool {
+    let named = |cell: &str| {
+        let mut rows = claimed.rows.iter();
+        rows.position(|row| words::has_symbol(cell, &row.symbol))
+    };
+    let mut rows: Vec<usize> = text.split(" ; ").filter_map(named).collect();
+    rows.dedup();
+    rows.len() >= 3
+}
+
 /// Finds what a line is about: a row, the whole, or nothing that is known.
 fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
     let lower = line.text.to_lowercase();
@@ -121,6 +132,7 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
         return;
     }
     let about = row_of_line(&line.text, &lower, claimed);
+    let about = about.filter(|_| !names_several(&line.text, claimed));
     let statement = about.is_none() || footer::label(&line.text, &claimed.measurand).is_some();
     if statement && !words::has(&lower, &["certificate", "证书"]) {
         let found = footer::sentence(

@@ -1,6 +1,7 @@
 //! The model of a budget: where it stands, and what its names say of the rows.
 
 use crate::claim::{Claimed, Row, Understood};
+use crate::printed::Place;
 
 use gumption_core::model::functions;
 
@@ -15,12 +16,13 @@ pub(super) fn find_model(all: &[&Line], claimed: &mut Claimed, mapping: &Mapping
         claimed.model = Some(right.trim().into());
         return;
     }
-    let found = all.iter().find_map(|line| {
+    let equations = all.iter().filter_map(|line| {
         let of_part = line.text.split(" ; ").find_map(|part| parts(part, claimed));
         of_part
             .or_else(|| parts(&line.text, claimed))
             .map(|model| (line.at, line.text.clone(), model))
     });
+    let found = of_result(equations.collect(), claimed);
     if let Some((at, text, (left, right))) = found {
         claimed.understood.push(Understood {
             at,
@@ -30,6 +32,51 @@ pub(super) fn find_model(all: &[&Line], claimed: &mut Claimed, mapping: &Mapping
         claimed.measurand = left;
         claimed.model = Some(right);
     }
+}
+
+/// An equation: where it stands, as it stands, and its two sides.
+type Equation = (Place, String, (String, String));
+
+/// The equation of the result with those of its intermediate quantities put in: of `M = 8·A_C + 5·A_H` and `c = m/(M·V)` the
+/// second. Where none has the left side of another in it, the first.
+fn of_result(mut equations: Vec<Equation>, claimed: &Claimed) -> Option<Equation> {
+    let is_row = |name: &str| claimed.rows.iter().any(|row| row.symbol == name);
+    let uses = |one: &Equation, other: &Equation| {
+        let (name, own) = (&other.2.0, &one.2.0);
+        name != own && !is_row(name) && words::has_symbol(&one.2.1, name)
+    };
+    let is_last = |one: &Equation| {
+        let mut others = equations.iter();
+        equations.iter().any(|other| uses(one, other)) && !others.any(|other| uses(other, one))
+    };
+    let Some(last) = equations.iter().position(is_last) else {
+        return (!equations.is_empty()).then(|| equations.swap_remove(0));
+    };
+    let (at, text, (left, mut right)) = equations.swap_remove(last);
+    // Each is put in once: in a circle of definitions none is the last.
+    for _ in 0..equations.len() {
+        let next = equations
+            .iter()
+            .position(|(_, _, (name, _))| !is_row(name) && words::has_symbol(&right, name));
+        let Some(next) = next else {
+            break;
+        };
+        let (_, _, (name, formula)) = equations.swap_remove(next);
+        right = put_in(&right, &name, &formula);
+    }
+    Some((at, text, (left, right)))
+}
+
+/// A formula with another one, in brackets, in the place of a name.
+fn put_in(formula: &str, name: &str, by: &str) -> String {
+    let mut out = String::new();
+    let mut rest = 0;
+    while let Some(at) = words::symbol_at(formula, name, rest) {
+        out += &formula[rest..at];
+        out += &format!("({by})");
+        rest = at + name.len();
+    }
+    out + &formula[rest..]
 }
 
 /// The model in a line: left side and right side, where the right side names rows.

@@ -303,9 +303,14 @@ fn left_open(case: &Case<'_>, calculation: &Calculation, u_c: f64) -> f64 {
         let printed = [of_u, row.contribution.as_ref().filter(|_| is_only)];
         let widths = printed.into_iter().flatten();
         let widths = widths.map(|figure| figure.half_of_digits() / figure.value.abs());
-        // Of two figures the one with more digits leaves less open.
-        let relative = widths.reduce(f64::min).unwrap_or(0.0);
+        let widths: Vec<f64> = widths.collect();
+        // Of two figures the one with more digits leaves less open; they may lie apart by what the other leaves.
+        let relative = widths.iter().copied().reduce(f64::min).unwrap_or(0.0);
         let contribution = line.contribution();
+        let made = row.contribution.as_ref().filter(|_| is_only);
+        let apart = made.map_or(0.0, |made| ((made.value / contribution).abs() - 1.0).abs());
+        let apart = Some(apart).filter(|apart| *apart <= widths.iter().sum());
+        let relative = relative.max(apart.unwrap_or(0.0));
         if relative.is_finite() {
             contribution * contribution * relative
         } else {

@@ -238,6 +238,10 @@ fn a_whole_figure_has_the_decimals_of_its_column() {
 fn a_contribution_follows_within_the_digits_of_u() {
     let sheet = "Symbol,Source,u,c,c·u\nn_g,gross,147,0.003417,0.503\na,centring,0.29,1.414,0.408\nb,base,0.20,1,0.20\nu_c,,,,0.678\n";
     is_sound("sheet.csv", sheet);
+    // The contribution has more digits than u, and is not in the middle of what u leaves open.
+    let sheet = "quantity,estimate,u,c,c·u\nn_g,2591,50.9,0.03086,1.57\nn_0,41782,204,-0.001543,-0.315\nV,0.5,0.00500,-30.98,-0.155\n\
+        epsilon,0.3,0.0150,-51.64,-0.775\nf,0.6,0.115,-25.82,-2.98\nu_c,,,,3.48\n";
+    is_sound("sheet.csv", sheet);
 }
 
 /// A scale factor K is no coverage factor, and a matrix of correlations no budget.
@@ -264,4 +268,25 @@ fn a_result_of_one_input_closes_its_table() {
     let claims = read::budgets(&grids, &Mapping::default());
     let verdicts: Vec<Verdict> = claims.iter().map(|claim| audit(claim).verdict).collect();
     assert_eq!(verdicts, [Verdict::Sound, Verdict::Sound]);
+}
+
+/// A model in two equations: the first is of a quantity in the second (QUAM:2012, A2).
+#[test]
+fn intermediate_quantities_are_put_in() {
+    let sheet = |c: &str, part: &str, u_c: &str| {
+        format!(
+            "M = 8*A_C + 5*A_H + 4*A_O + A_K\nc = 1000*m*P/(M*V)\n\nsymbol;estimate;u;c;c·u\nm;0.3888;0.00013;0.26270;0.0000342\n\
+             P;1.0;0.00029;0.1021;0.0000296\nA_C;12.0107;0.0046;{c};{part}\nA_H;1.00794;0.00040;-0.0025006;-0.0000010\n\
+             A_O;15.9994;0.00017;-0.0020005;-0.0000003\nA_K;39.0983;0.000058;-0.00050013;-0.0000000\nV;18.64;0.013;-0.005479;-0.0000712\n\
+             u_c;;;;{u_c}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("-0.0040010", "-0.0000184", "0.0000863"));
+    assert_eq!(
+        first(
+            "sheet.csv",
+            &sheet("-0.00050013", "-0.0000023", "0.0000844")
+        ),
+        "c-wrong@A_C"
+    );
 }

@@ -288,10 +288,25 @@ fn to_y(claimed: &Claimed, row: &Row, from_model: bool) -> f64 {
         (c.value.abs() * value / factor - 1.0).abs() <= 1e-3
     };
     let converts = |c: &Printed| c.is_met_by(factor.copysign(c.value)) || of_value(c);
-    match row.c.as_ref().is_some_and(converts) {
+    match row.c.as_ref().is_some_and(converts) || coefficients_convert(claimed) {
         true => 1.0,
         false => factor,
     }
+}
+
+/// Whether the coefficients of most rows in another unit than the result hold the conversion: their contributions are c·u as
+/// it is printed. Of a single row that may be a factor which was lost.
+fn coefficients_convert(claimed: &Claimed) -> bool {
+    let made = |row: &Row| {
+        let factor = units::factor(&row.unit, &claimed.unit).filter(|factor| *factor != 1.0)?;
+        let (u, c) = (row.u.as_ref()?, row.c.as_ref()?);
+        let made = row.contribution.as_ref().filter(|made| made.value != 0.0)?;
+        let ratio = (c.value * u.value / made.value).abs();
+        Some((ratio - 1.0).abs() < (ratio * factor - 1.0).abs())
+    };
+    let made: Vec<bool> = claimed.rows.iter().filter_map(made).collect();
+    let held = made.iter().filter(|held| **held).count();
+    made.len() >= 2 && 2 * held > made.len()
 }
 
 /// The unit that is written behind the coefficient of a row.

@@ -159,9 +159,22 @@ pub fn set(footer: &mut Footer, whole: Whole, figure: Printed) -> bool {
     free
 }
 
+/// U as a statement has it in the place of the one that the sheet computes with more digits, where it is that, rounded.
+fn report(footer: &mut Footer, reported: Printed) {
+    let Some(computed) = footer.expanded.as_ref().filter(|own| own.is_long()) else {
+        return;
+    };
+    let same_unit = computed.unit.is_empty() || computed.unit == reported.unit;
+    let of_it = reported.is_met_within(computed.value, 2.0 * reported.half);
+    if same_unit && of_it && !reported.is_long() {
+        footer.expanded = Some(reported);
+    }
+}
+
 /// Figures inside a sentence: `u_c = 0.027 mm, ν_eff = 35, k = 2, U = 0.054 mm`.
 pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> Vec<Whole> {
     let mut found = Vec::new();
+    let mut stated = None;
     let mut take = |whole: Whole, figure: Printed| {
         if set(footer, whole, figure.at(at)) {
             found.push(whole);
@@ -210,13 +223,12 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
                     ..y
                 },
             );
-            take(
-                Whole::Expanded,
-                Printed {
-                    unit: unit.into(),
-                    ..expanded
-                },
-            );
+            let reported = Printed {
+                unit: unit.into(),
+                ..expanded
+            };
+            take(Whole::Expanded, reported.clone());
+            stated = Some(reported.at(at));
         }
     }
     let text = &absolute(text);
@@ -232,6 +244,9 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
         if let Some(figure) = figure.filter(|figure| has(&lower, keys) && !is_factor(figure)) {
             take(*whole, figure);
         }
+    }
+    if let Some(reported) = stated {
+        report(footer, reported);
     }
     found
 }

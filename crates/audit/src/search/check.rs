@@ -376,10 +376,11 @@ fn freedom(figure: &Printed, nu: f64, calculation: &Calculation, coarse: f64) ->
 
 /// Whether a factor is printed like this. A whole number has been rounded to two decimals before.
 fn factor(figure: &Printed, k: f64) -> bool {
-    let half = if figure.half >= 0.5 {
-        0.005
-    } else {
-        figure.half
+    /// Tables of t have k with two decimals.
+    const TWO_DECIMALS: f64 = 0.005;
+    let half = match figure.half >= 0.5 {
+        true => TWO_DECIMALS,
+        false => figure.half.max(TWO_DECIMALS),
     };
     figure.is_met_within(k, half)
 }

@@ -290,3 +290,34 @@ fn intermediate_quantities_are_put_in() {
         "c-wrong@A_C"
     );
 }
+
+/// A workbook computes U and k with all their digits, and states them rounded.
+#[test]
+fn a_statement_rounds_what_was_computed() {
+    let sheet = |stated: &str| {
+        format!(
+            "symbol;type;half-width;divisor;unit;u;c;c·u;ν\nm_S;normal, k = 2;0.045;2;g;0.0225;1;0.0225;∞\n\
+             dm;pooled standard deviation, mean of 6 cycles;0.12;2.4494897;g;0.0489898;1;0.0489898;30\n\
+             u_c;0.0539096\nk;2.0000024\nU;0.1078192\nreported;m_X = ({stated}) g\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("10000.02 ± 0.11"));
+    let (verdict, _) = answer("sheet.csv", &sheet("10000.02 ± 0.14"));
+    assert!(verdict != Verdict::Sound);
+}
+
+/// Coefficients of results in grams hold the conversion of milligrams, as most rows of the sheet show: 0.002 is twice it.
+#[test]
+fn coefficients_may_hold_the_conversion_of_units() {
+    let sheet = |made: &str, u_c: &str| {
+        format!(
+            "symbol;estimate;unit;u;c;c·u / g\nd;4.31;mg;0.20;0.001;0.000200\nW;0.32;mg;0.200;0.002;{made}\n\
+             b;0;mg;0.0577;0.002;0.000115\nu_c;;;;;{u_c}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.000400", "0.000462"));
+    assert_eq!(
+        first("sheet.csv", &sheet("0.000400", "0.000715")),
+        "linear-sum"
+    );
+}

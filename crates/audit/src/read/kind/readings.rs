@@ -91,6 +91,8 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         has(text, &["equal", "all alike", "相同", "一致"]).then(|| Printed::exact(0.0, "0"))
     })?;
     let pooled = has(text, POOLED).then(|| pooled_freedom(text, n)).flatten();
+    // How many series are behind a pooled s, its words may leave to the column of degrees of freedom.
+    let own = n.filter(|_| pooled.is_some() || !has(text, POOLED));
     // `repeatability, mean of 5`, with u as it stands: it is not said that the figure is that of single readings.
     let m = behind(text, e, n);
     let of_all = |m: f64| n.map_or(e.mean_of.is_none(), |n| n == m);
@@ -116,7 +118,12 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         .or(e.mean_of)
         .or_else(|| squared.filter(|_| unsaid).map(libm::round).filter(possible))
         .unwrap_or(1.0);
-    Some(Stated::Deviation { s, n, m, pooled })
+    Some(Stated::Deviation {
+        s,
+        n: own,
+        m,
+        pooled,
+    })
 }
 
 pub(super) fn range(e: &Evidence<'_>, text: &str) -> Option<Stated> {

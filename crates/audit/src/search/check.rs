@@ -174,7 +174,8 @@ pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]
             factors.push(t(p, nu.value));
         }
     }
-    let k = claimed_k.is_none_or(|figure| factors.iter().any(|k| factor(figure, *k)));
+    let is_fixed = matches!(calculation.factor, Factor::Fixed(_));
+    let k = claimed_k.is_none_or(|figure| factors.iter().any(|k| factor(figure, *k, is_fixed)));
     let expanded = footer.expanded.as_ref().is_none_or(|figure| {
         let figure = unexchanged(figure, calculation, Printout::Expanded);
         // U is made of the u_c that is claimed, where one is.
@@ -374,13 +375,15 @@ fn freedom(figure: &Printed, nu: f64, calculation: &Calculation, coarse: f64) ->
         }
 }
 
-/// Whether a factor is printed like this. A whole number has been rounded to two decimals before.
-fn factor(figure: &Printed, k: f64) -> bool {
-    /// Tables of t have k with two decimals.
+/// Whether a factor is printed like this. A whole number has been rounded to two decimals before, and a rule for a fixed one
+/// states it with no more.
+fn factor(figure: &Printed, k: f64, is_fixed: bool) -> bool {
+    /// Half a unit of the second decimal.
     const TWO_DECIMALS: f64 = 0.005;
     let half = match figure.half >= 0.5 {
         true => TWO_DECIMALS,
-        false => figure.half.max(TWO_DECIMALS),
+        false if is_fixed => figure.half.max(TWO_DECIMALS),
+        false => figure.half,
     };
     figure.is_met_within(k, half)
 }

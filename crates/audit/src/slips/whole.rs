@@ -43,15 +43,20 @@ fn by_t(case: &Case<'_>) -> Option<f64> {
     }
 }
 
-/// The usual whole factors but the one that is stated, where one is.
-fn other_multiples(case: &Case<'_>) -> impl Iterator<Item = f64> {
-    let is_stated = case.claimed.footer.k.is_some() || case.claimed.coverage != Coverage::Unstated;
+/// The usual whole factor, other than the one that is stated, by which U and u_c are apart as they are printed.
+fn other_multiple(case: &Case<'_>) -> Option<f64> {
+    let footer = &case.claimed.footer;
+    let is_stated = footer.k.is_some() || case.claimed.coverage != Coverage::Unstated;
+    let (expanded, u_c) = footer.expanded.as_ref().zip(footer.u_c.as_ref())?;
     let stated = match case.right.factor {
-        Factor::Fixed(k) => Some(k).filter(|_| is_stated),
-        _ => None,
+        Factor::Fixed(k) => Some(k).filter(|_| is_stated)?,
+        _ => return None,
     };
-    let others = [2.0, 3.0].into_iter();
-    others.filter(move |k| stated.is_some_and(|stated| libm::round(stated) != *k))
+    let open =
+        expanded.half_of_digits() / u_c.value + expanded.value / u_c.value * u_c.relative_half();
+    let is_apart = |k: &f64| (expanded.value / u_c.value - k).abs() <= open;
+    let mut others = [2.0, 3.0].into_iter();
+    others.find(|k| libm::round(stated) != *k && is_apart(k))
 }
 
 /// Degrees of freedom of the rows evaluated from readings.
@@ -172,7 +177,7 @@ pub(super) const SLIPS: &[Slip] = &[
     Slip { id: "k-other", rule: "2", weight: Error,
         en: "U is another multiple of u_c than the coverage factor that is stated",
         zh: "U 是 u_c 的另一倍数，与所述包含因子不符",
-        acts: |case| other_multiples(case).flat_map(|k| report(Reporting::Factor(k))).collect() },
+        acts: |case| other_multiple(case).map_or_else(Vec::new, |k| report(Reporting::Factor(k))) },
     Slip { id: UNIT_OF_U, rule: "69", weight: Warning,
         en: "U is printed in a unit to which its figure does not belong",
         zh: "U 的数值与所标单位不符",

@@ -56,7 +56,7 @@ pub(crate) use words::{
 use std::ops::Range;
 
 use crate::claim::{Claimed, Row, Understood};
-use crate::printed::Place;
+use crate::printed::{Place, Printed};
 use crate::sheet::Grid;
 
 use lines::{Line, lines, place_lines};
@@ -323,6 +323,12 @@ fn budget(
     let below = located.head + 1..bounds.end;
     table::of_columns(grid, sheet, &mut claimed);
     table::footers(grid, sheet, &mut located, below, elsewhere, &mut claimed);
+    if claimed.model.is_none()
+        && table::is_product(&raw, &claimed.footer)
+        && let Some(y) = claimed.footer.y.clone()
+    {
+        take_as_product(&y, &mut raw, &mut claimed);
+    }
     claimed.typed = formulas::typed(grid, sheet, &claimed);
     claimed.computed = formulas::is_formula(grid, sheet, &claimed.footer.u_c) == Some(true);
     claimed.stale = formulas::stale(grid, sheet, bounds.clone());
@@ -355,11 +361,30 @@ fn budget(
     claimed
 }
 
+/// Rows without coefficients as factors of a result.
+fn take_as_product(y: &Printed, raw: &mut [table::Raw], claimed: &mut Claimed) {
+    for (raw, row) in raw.iter_mut().zip(&mut claimed.rows) {
+        raw.row.c = table::coefficient(y, row);
+        row.c.clone_from(&raw.row.c);
+    }
+}
+
+/// Whether a row right below one is called the result, or u_c.
+fn is_closed_below(grid: &Grid, row: usize) -> bool {
+    const BELOW: usize = 3;
+    let mut cells = (row + 1..=row + BELOW).filter_map(|row| grid.filled(row).next());
+    cells.any(|(_, cell)| {
+        let label = footer::label(&cell.text, "");
+        matches!(label, Some(footer::Whole::Y | footer::Whole::Combined))
+    })
+}
+
 /// The last row of a table in the form of EA-4/02 is that of the result.
 fn drop_measurand(grid: &Grid, raw: &mut Vec<table::Raw>, claimed: &mut Claimed) {
     let named = raw.iter().position(|raw| raw.is_result(&claimed.measurand));
     let closing = || table::closing(raw);
     let product = table::product(raw).filter(|_| claimed.model.is_none());
+    let product = product.filter(|place| !is_closed_below(grid, raw[*place].row.at.row));
     let Some(place) = named.or_else(closing).or(product) else {
         return;
     };
@@ -371,10 +396,7 @@ fn drop_measurand(grid: &Grid, raw: &mut Vec<table::Raw>, claimed: &mut Claimed)
     if product == Some(place)
         && let Some(y) = &result.value
     {
-        for (raw, row) in raw.iter_mut().zip(&mut claimed.rows) {
-            raw.row.c = table::coefficient(y, row);
-            row.c.clone_from(&raw.row.c);
-        }
+        take_as_product(y, raw, claimed);
     }
     if claimed.measurand.is_empty() {
         claimed.measurand = result.symbol.clone();

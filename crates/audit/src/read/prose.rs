@@ -29,6 +29,9 @@ const HEAD: usize = 48;
 /// A line that says what is known of a quantity, as a row.
 pub fn row(text: &str, at: Place) -> Option<Row> {
     let text = unnumbered(text);
+    if let Some(row) = bracketed(text, at) {
+        return Some(row);
+    }
     let (text, u) = match (result_of(text), concluded(text)) {
         ((_, None), Some((words, u))) if !begins_with_symbol(words) => {
             return of_conclusion(words, u.at(at), at);
@@ -78,6 +81,29 @@ pub fn row(text: &str, at: Place) -> Option<Row> {
         u,
         c,
         words,
+        ..Row::default()
+    })
+}
+
+/// `u1 (reference standard, U = 0.010 kPa, k = 2) = 0.0050 kPa`: what is known stands in the bracket, u behind it.
+fn bracketed(text: &str, at: Place) -> Option<Row> {
+    let (symbol, rest) = text.split_once('(')?;
+    let (words, behind) = rest.rsplit_once(')')?;
+    let u = Printed::parse(behind.trim_start().strip_prefix('=')?.trim())?;
+    let symbol = symbol.trim();
+    let of_row =
+        symbol.starts_with('u') && is_symbol(symbol) && footer::label(symbol, "").is_none();
+    let evidence = Evidence {
+        words,
+        u: Some(&u),
+        ..Evidence::default()
+    };
+    let (stated, _) = kind::stated(&evidence);
+    (of_row && !matches!(stated, Stated::Nothing)).then(|| Row {
+        symbol: symbol.into(),
+        at,
+        words: words.into(),
+        u: Some(u.at(at)),
         ..Row::default()
     })
 }

@@ -375,14 +375,16 @@ fn freedom(figure: &Printed, nu: f64, calculation: &Calculation, coarse: f64) ->
         }
 }
 
-/// Whether a factor is printed like this. A whole number has been rounded to two decimals before, and a rule for a fixed one
-/// states it with no more.
+/// Whether a factor is printed like this. One with two decimals or less has been rounded to two, whatever zeros its cell
+/// adds, and a rule for a fixed one states it with no more.
 fn factor(figure: &Printed, k: f64, is_fixed: bool) -> bool {
     /// Half a unit of the second decimal.
     const TWO_DECIMALS: f64 = 0.005;
+    let hundredths = 100.0 * figure.value;
+    let is_short = (hundredths - libm::round(hundredths)).abs() < 1e-9;
     let half = match figure.half >= 0.5 {
         true => TWO_DECIMALS,
-        false if is_fixed => figure.half.max(TWO_DECIMALS),
+        false if is_fixed || is_short => figure.half.max(TWO_DECIMALS),
         false => figure.half,
     };
     figure.is_met_within(k, half)

@@ -321,3 +321,50 @@ fn coefficients_may_hold_the_conversion_of_units() {
         "linear-sum"
     );
 }
+
+/// The last input of a product may be as uncertain as the others together: the row of the result stands below it.
+#[test]
+fn a_product_is_closed_by_its_result() {
+    let sheet = |u: &str, relative: &str, expanded: &str| {
+        format!(
+            "Description,Value x,u(x),u(x)/x\n\"Mass fraction, ng/g\",12.3,0.25,0.0203\n\"Volume, mL\",50.0,0.06,0.0012\n\
+             \"Mass of sample, g\",0.5021,0.0003,0.0006\nRecovery,0.97,0.02,0.0206\n\"Result, mg/kg\",1.263,{u},{relative}\n\
+             \"Expanded uncertainty, k=2\",,{expanded},\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.037", "0.0290", "0.073"));
+    assert_eq!(
+        first("sheet.csv", &sheet("0.054", "0.0427", "0.11")),
+        "linear-sum"
+    );
+}
+
+/// What is known in a bracket between the symbol of u and its figure.
+#[test]
+fn brackets_say_what_is_known() {
+    let sheet = |u4: &str, u_c: &str, expanded: &str| {
+        format!(
+            "Pressure transducer calibration, 1 MPa\n\nu1 (reference standard, U = 0.010 kPa, k = 2)          = 0.0050 kPa\n\
+             u2 (hysteresis, limits +/- 0.02 kPa)                    = 0.0115 kPa\nu3 (resolution, 0.010 kPa)                              = 0.0029 kPa\n\
+             u4 (repeatability, s = 0.012 kPa, mean of 10 readings)  = {u4} kPa\n\nu_c = {u_c} kPa\nU = {expanded} kPa (k = 2)\n"
+        )
+    };
+    is_sound("sheet.txt", &sheet("0.0038", "0.0134", "0.027"));
+    assert_eq!(
+        first("sheet.txt", &sheet("0.0120", "0.0176", "0.035")),
+        "s-not-mean@u4"
+    );
+}
+
+/// The rule for k stands beside its figure, which a cell shows with a zero more.
+#[test]
+fn a_rule_may_stand_beside_its_factor() {
+    let sheet = |k: &str, expanded: &str| {
+        format!(
+            "分量,来源,类型,ui,νi\nu1,标准曲线拟合（最小二乘，s=0.0035，n=18）,A,0.021,16\nu2,\"标准溶液 U=0.024 mg/L，k=2\",B,0.012,∞\n\
+             u3,重复性 6次测量平均值,A,0.025,5\nuc,,,0.0348,16\nkp,\"p=95%，t分布\",,{k},\nU95,,,{expanded},\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("2.120", "0.074"));
+    assert_eq!(first("sheet.csv", &sheet("2.000", "0.070")), "k2-low-dof");
+}

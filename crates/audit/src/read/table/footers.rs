@@ -148,6 +148,9 @@ fn footer_row(
                     }
                     _ => columns::apart(text).1,
                 };
+            } else if open == Some(Whole::Factor) {
+                // `k | p = 95 %, t-distribution | 2.03`
+                notes::rule_of_label(text, claimed);
             }
             continue;
         }

@@ -28,5 +28,5 @@ pub use footers::{footers, of_columns};
 pub use interpret::interpret;
 pub use locate::locate;
 pub use located::Located;
-pub use product::{absolute, coefficient, product};
+pub use product::{absolute, coefficient, is_product, product};
 pub use rows::{Raw, closing, figures_of_result, rows};

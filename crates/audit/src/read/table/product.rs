@@ -1,7 +1,7 @@
 //! Tables of a product (QUAM:2012, 8.2.6): the relative uncertainty of the last row is the root of the sum of squares of
 //! those above it, although no line states the model.
 
-use crate::claim::Row;
+use crate::claim::{Footer, Row};
 use crate::printed::Printed;
 use crate::units;
 
@@ -11,16 +11,29 @@ use super::rows::Raw;
 pub fn product(rows: &[Raw]) -> Option<usize> {
     let (last, others) = rows.split_last()?;
     let own = relative(last)?;
-    let parts = others.iter().map(|raw| relative(raw).map(|(part, _)| part));
+    let has_c = rows.iter().any(|raw| raw.row.c.is_some());
+    (!has_c && is_made(own, others)?).then_some(others.len())
+}
+
+/// Whether the result below a table is a product of its rows: its relative uncertainty comes of theirs.
+pub fn is_product(rows: &[Raw], footer: &Footer) -> bool {
+    let result = footer.y.as_ref().zip(footer.u_c.as_ref());
+    let Some((y, u_c)) = result.filter(|(y, _)| y.value != 0.0) else {
+        return false;
+    };
+    let own = [u_c.value, u_c.half].map(|figure| figure / y.value.abs());
+    let has_c = rows.iter().any(|raw| raw.row.c.is_some());
+    !has_c && is_made(own.into(), rows) == Some(true)
+}
+
+/// Whether a relative uncertainty, with what its digits leave open, is the root or, by a slip, the sum of those of rows.
+fn is_made((value, half): (f64, f64), of: &[Raw]) -> Option<bool> {
+    let parts = of.iter().map(|raw| relative(raw).map(|(part, _)| part));
     let parts: Vec<f64> = parts.collect::<Option<_>>()?;
     let root = libm::sqrt(parts.iter().map(|part| part * part).sum());
-    // The slip of adding them closes a table, too.
     let sum = parts.iter().sum();
-    let (value, half) = own;
-    let has_c = rows.iter().any(|raw| raw.row.c.is_some());
-    let is_made = |of: f64| (value - of).abs() <= half + 0.02 * of;
-    let closes = [root, sum].into_iter().any(is_made);
-    (parts.len() > 1 && !has_c && closes).then_some(others.len())
+    let is_near = |of: f64| (value - of).abs() <= half + 0.02 * of;
+    Some(parts.len() > 1 && [root, sum].into_iter().any(is_near))
 }
 
 /// What the relative uncertainty of a row comes to, of which the column of u has none.

@@ -70,7 +70,7 @@ fn is_of_other_table(lower: &str) -> bool {
         return false;
     };
     let is_number = |cell: &&str| Printed::parse(cell).is_some_and(|figure| figure.unit.is_empty());
-    words::has(lower, &COMPARED) || cells.len() >= 3 && cells.iter().all(|cell| is_number(&cell))
+    words::has(lower, &COMPARED) || cells.len() >= 3 && cells.iter().all(is_number)
 }
 
 /// Whether the cells of a line name rows each for itself, as the head of another table does.

@@ -117,7 +117,8 @@ fn save_tables(options: &Options) -> Result<(), String> {
          same for all labels), diagnosis-14.md (estimated noise always normal, steps at one value of a stimulus not in the catalogue), \
          diagnosis-15.md (one statistic for all effects beside heavy tails, what is exponential not in the catalogue), \
          diagnosis-16.md (no law of rounding beside estimated noise), \
-         diagnosis-17.md (the fresh recording of a rig with another thermometer, wide exponentials and bends below a value not in the catalogue).",
+         diagnosis-17.md (the fresh recording of a rig with another thermometer, wide exponentials and bends below a value not in the catalogue), \
+         diagnosis-18.md (a thermal lag behind its own stimulus counted as wrong, names identified that do not show in a recording held out).",
         env!("CARGO_PKG_VERSION")
     );
     std::fs::write(out.join("diagnosis.md"), report(&read(&lines), &made))

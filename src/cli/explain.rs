@@ -1,6 +1,7 @@
-//! `gumption explain`: what a distribution, function, profile, key, error code or concept is.
+//! `gumption explain`: what a distribution, function, profile, procedure, effect, key, error code or concept is.
 
 mod keys;
+mod laboratory;
 mod pages;
 
 use super::concepts::CONCEPTS;
@@ -19,8 +20,8 @@ use gumption::{
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// A distribution, function, profile, key, error code (B0101, M0101, U001) or concept; all are
-    /// listed without it
+    /// A distribution, function, profile, procedure, effect, key, error code (B0101, M0101, U001) or
+    /// concept; all are listed without it
     #[arg(value_name = "TOPIC", num_args = 0..)]
     topic: Vec<String>,
     /// Print a whole section (`keys`, `errors` …) as a page of Markdown
@@ -47,6 +48,8 @@ enum Section {
     Distributions,
     Functions,
     Profiles,
+    Procedures,
+    Effects,
     Slips,
     Rules,
     Keys,
@@ -56,11 +59,13 @@ enum Section {
 }
 
 impl Section {
-    const ALL: [Section; 10] = [
+    const ALL: [Section; 12] = [
         Section::Concepts,
         Section::Distributions,
         Section::Functions,
         Section::Profiles,
+        Section::Procedures,
+        Section::Effects,
         Section::Slips,
         Section::Rules,
         Section::Keys,
@@ -76,6 +81,8 @@ impl Section {
             Section::Distributions => "distributions",
             Section::Functions => "functions",
             Section::Profiles => "profiles",
+            Section::Procedures => "procedures",
+            Section::Effects => "effects",
             Section::Slips => "slips",
             Section::Rules => "rules",
             Section::Keys => "keys",
@@ -91,6 +98,8 @@ impl Section {
             Section::Distributions => say!("Distributions"),
             Section::Functions => say!("Functions of the model language"),
             Section::Profiles => say!("Profiles"),
+            Section::Procedures => say!("Procedures of the library"),
+            Section::Effects => say!("Effects that a diagnosis can name"),
             Section::Slips => say!("Slips that an audit can name"),
             Section::Rules => say!("Rules that an audit checks"),
             Section::Keys => say!("Keys of a budget file"),
@@ -104,7 +113,8 @@ impl Section {
     fn is_long(self) -> bool {
         matches!(
             self,
-            Section::Slips
+            Section::Effects
+                | Section::Slips
                 | Section::Rules
                 | Section::Keys
                 | Section::ExperimentKeys
@@ -384,6 +394,8 @@ fn topics(lang: Language) -> Vec<Topic> {
             Language::Chinese => p.zh.to_string(),
         },
     }));
+    topics.extend(laboratory::procedures(lang));
+    topics.extend(laboratory::effects_of_diagnosis(lang));
     topics.extend(audit::slips::slips().map(|slip| Topic {
         section: Section::Slips,
         name: slip.id.to_string(),

@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use gumption::budget;
+use gumption::diagnose::catalogue::Kind;
 use gumption::language::Language;
 use gumption::propagate::{self, MonteCarloChoice, Options};
 
@@ -118,6 +119,27 @@ fn command_line() -> String {
 }
 
 #[test]
+fn what_experiments_name_is_explained() {
+    for procedure in gumption::experiment::procedure::PROCEDURES {
+        let text = gumption(&["explain", procedure.name]);
+        let card = procedure.card();
+        assert!(
+            text.contains(card.statements().next().expect("an equation")),
+            "{text}"
+        );
+    }
+    for effect in gumption::diagnose::catalogue::effects() {
+        if matches!(effect.kind, Kind::Physics | Kind::Record) {
+            let text = gumption(&["explain", effect.id.as_str(), "--lang", "zh"]);
+            assert!(
+                text.contains(&effect.formula.replace(['{', '}'], "")),
+                "{text}"
+            );
+        }
+    }
+}
+
+#[test]
 fn generated_pages_are_fresh() {
     let docs = common::root().join("docs");
     let schema = serde_json::to_string_pretty(&budget::schema()).expect("a schema is JSON") + "\n";
@@ -135,6 +157,7 @@ fn generated_pages_are_fresh() {
         "functions",
         "keys",
         "profiles",
+        "effects",
         "slips",
         "rules",
     ] {

@@ -48,6 +48,13 @@ fn introduction(section: Section) -> Said {
              file. `[conventions]` changes single ones."
             )
         }
+        Section::Procedures => {
+            say!("[procedures.md](../procedures.md) says how to use them, with an example of each.")
+        }
+        Section::Effects => say!(
+            "[Diagnosis](../diagnose.md) looks for them where the columns of an experiment allow it. x stands for the \
+             column or quantity that an effect follows, y for the output, z for another one, p for a parameter."
+        ),
         Section::Slips => {
             say!(
                 "[The audit](../audit.md) says how they are found. Below each stands the Chinese text; numbers are those of \

@@ -39,6 +39,8 @@
 //! that is listed as `[parameter.…]` and `[input.…]` is partly known: its value enters as one more
 //! observation. A parameter that is listed as `[input.…]` only is not estimated, but known.
 
+use serde::Deserialize;
+
 /// A procedure of the library.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Procedure {
@@ -46,6 +48,40 @@ pub struct Procedure {
     pub name: &'static str,
     /// The experiment that it is.
     pub text: &'static str,
+}
+
+/// What a procedure says of itself.
+#[derive(Debug, Clone, Deserialize)]
+pub struct Card {
+    /// In a few words.
+    pub title: String,
+    /// The same in Chinese.
+    pub title_zh: String,
+    /// One paragraph.
+    pub description: String,
+    /// The same in Chinese.
+    pub description_zh: String,
+    /// Document and clause.
+    pub reference: String,
+    #[serde(default)]
+    model: String,
+    equations: Vec<String>,
+}
+
+impl Procedure {
+    /// What it says of itself.
+    pub fn card(&self) -> Card {
+        toml::from_str(self.text).expect("a procedure is part of the program")
+    }
+}
+
+impl Card {
+    /// Statements that all equations see, and these.
+    pub fn statements(&self) -> impl Iterator<Item = &str> {
+        let lines = self.model.lines().map(str::trim);
+        let lines = lines.filter(|line| !line.is_empty());
+        lines.chain(self.equations.iter().map(String::as_str))
+    }
 }
 
 // `PROCEDURES`: every file of `procedures/`, by name.

@@ -24,8 +24,8 @@ pub struct Effect {
     pub prose: Text,
     /// What it adds to the model.
     pub formula: String,
-    /// Sizes that are usual, in words.
-    pub typical: String,
+    /// Sizes that are usual, in words; none where they depend on the instrument.
+    pub typical: Option<Text>,
     /// The upper end of these, where it can be put into a number.
     pub usual: Option<Usual>,
     /// The size that it must have if it is there at all.

@@ -368,3 +368,16 @@ fn a_rule_may_stand_beside_its_factor() {
     is_sound("sheet.csv", &sheet("2.120", "0.074"));
     assert_eq!(first("sheet.csv", &sheet("2.000", "0.070")), "k2-low-dof");
 }
+
+/// Whoever divides s by n means the mean of n: u_c = √((0.05²/10) + 0.01² + (0.005²/3)) mV = 0.0189 mV.
+#[test]
+fn a_divisor_that_is_the_number_of_readings_means_their_mean() {
+    let sheet = "Source,Type,Value,Divisor,u\n\"Repeatability (10 readings, s = 0.050 mV)\",A,0.050 mV,10,0.0050 mV\n\
+                 \"Reference standard (certificate U, k = 2)\",B,0.020 mV,2,0.0100 mV\nResolution,B,0.005 mV,1.732,0.0029 mV\n\
+                 Combined standard uncertainty,,,,0.0115 mV\nExpanded uncertainty (k = 2),,,,0.023 mV\n";
+    assert!(first("sheet.csv", sheet).starts_with("s-over-n"));
+    let grids = sheet::grids("sheet.csv", sheet.as_bytes()).unwrap();
+    let claims = read::budgets(&grids, &Mapping::default());
+    let u_c = audit(&claims[0]).found.right.u_c;
+    assert!((u_c - 0.018_930).abs() < 1e-5, "{u_c}");
+}

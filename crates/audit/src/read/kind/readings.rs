@@ -103,11 +103,12 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     let of_mean = of_mean || unsaid && e.u_is_used();
     let m = m.or(n.filter(|_| computed));
     let by_u = || e.u.map(|u| s.value / u.value).filter(|d| d.is_finite());
-    let squared = e
-        .divisor
-        .or_else(by_u)
+    let divisor = e.divisor.or_else(by_u);
+    let squared = divisor
         .map(|d| d * d)
         .filter(|m| *m > 1.2 && (m - libm::round(*m)).abs() < 0.03 * m);
+    // Whoever divides by the number of readings itself means their mean as well.
+    let by_count = || n.filter(|n| *n > 1.0 && divisor.is_some_and(|d| (d - n).abs() < 0.03 * n));
     // Nothing is stated of how many readings are behind the value: the laboratory's own divisor is all there is, where it
     // is the root of a number of readings that there were.
     let unsaid = !reports_single(text);
@@ -117,6 +118,7 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         .or(m)
         .or(e.mean_of)
         .or_else(|| squared.filter(|_| unsaid).map(libm::round).filter(possible))
+        .or_else(|| by_count().filter(|_| unsaid))
         .unwrap_or(1.0);
     Some(Stated::Deviation {
         s,

@@ -109,6 +109,11 @@ impl Section {
         }
     }
 
+    /// Whether it is what experiments name, and budgets and certificates do not.
+    fn is_of_experiments(self) -> bool {
+        matches!(self, Section::Procedures | Section::Effects)
+    }
+
     /// Whether there are too many topics for the overview to say what each one is.
     fn is_long(self) -> bool {
         matches!(
@@ -147,18 +152,30 @@ pub(super) fn run(args: &Args) -> Outcome {
         .map(|s| listed(s, &topics, lang))
         .into_iter()
         .collect();
-    texts.extend(found(&wanted, &topics).iter().map(|t| t.explained()));
-    if !texts.is_empty() {
-        return output::print(texts.join("\n"));
-    }
-    let speaking = speaking_of(&wanted, &topics);
-    if speaking.is_empty() {
+    let called = found(&wanted, &topics);
+    texts.extend(called.iter().map(|t| t.explained()));
+    // What an effect is called by may be a word of budgets and certificates too: drift, step.
+    let is_effect = |topic: &&Topic| topic.section == Section::Effects;
+    let others = topics.iter();
+    let others = others.filter(|topic| !topic.section.is_of_experiments());
+    let speaking = match texts.is_empty() {
+        true => speaking_of(&wanted, topics.iter()),
+        false if section.is_none() && called.iter().all(is_effect) => speaking_of(&wanted, others),
+        false => Vec::new(),
+    };
+    if texts.is_empty() && speaking.is_empty() {
         return output::complain(unknown(&wanted, &topics));
     }
-    // The words are the user's.
-    let wanted = harmless(&wanted);
-    let head = say!("`{wanted}` is no topic of its own; these speak of it:").in_language(lang);
-    output::print(head + "\n" + &lines(&speaking))
+    if !speaking.is_empty() {
+        // The words are the user's.
+        let wanted = harmless(&wanted);
+        let head = match texts.is_empty() {
+            true => say!("`{wanted}` is no topic of its own; these speak of it:"),
+            false => say!("These speak of `{wanted}` as well:"),
+        };
+        texts.push(head.in_language(lang) + "\n" + &lines(&speaking));
+    }
+    output::print(texts.join("\n"))
 }
 
 /// Whether a part of a topic has a word, as a whole or as the beginning of one.
@@ -166,7 +183,10 @@ type Place<'p> = &'p dyn Fn(&Topic, bool) -> bool;
 
 /// The topics of which the names have the wanted words, else the titles, else the texts; where none has them as whole words, as
 /// the beginnings of words.
-fn speaking_of<'t>(wanted: &str, topics: &'t [Topic]) -> Vec<&'t Topic> {
+fn speaking_of<'t>(
+    wanted: &str,
+    topics: impl Iterator<Item = &'t Topic> + Clone,
+) -> Vec<&'t Topic> {
     let wanted = folded(wanted);
     let is_chinese = !wanted.starts_with(|c: char| c.is_ascii());
     let is_edge = |c: Option<char>| is_chinese || !c.is_some_and(char::is_alphanumeric);
@@ -188,8 +208,9 @@ fn speaking_of<'t>(wanted: &str, topics: &'t [Topic]) -> Vec<&'t Topic> {
         &|topic, whole| has(&topic.title, whole),
         &|topic, whole| has(&topic.text, whole),
     ];
-    let speaking = |place: Place<'_>, whole: bool| -> Vec<&Topic> {
-        topics.iter().filter(|topic| place(topic, whole)).collect()
+    let speaking = |place: Place<'_>, whole: bool| -> Vec<&'t Topic> {
+        let all = topics.clone();
+        all.filter(|topic| place(topic, whole)).collect()
     };
     let mut found = [true, false]
         .into_iter()
@@ -608,7 +629,10 @@ mod tests {
     fn words_are_found_where_they_are_used() {
         let english = topics(Language::English);
         let names = |word: &str| -> Vec<&str> {
-            let speaking = speaking_of(word, &english).into_iter();
+            let budgets = english
+                .iter()
+                .filter(|topic| !topic.section.is_of_experiments());
+            let speaking = speaking_of(word, budgets).into_iter();
             speaking.map(|topic| topic.name.as_str()).collect()
         };
         assert!(names("Drift").contains(&"rule-36"));
@@ -617,7 +641,7 @@ mod tests {
         // What is turned is no test uncertainty ratio.
         assert_eq!(names("TUR"), ["conformity"]);
         let chinese = topics(Language::Chinese);
-        assert!(!speaking_of("漂移", &chinese).is_empty());
+        assert!(!speaking_of("漂移", chinese.iter()).is_empty());
     }
 
     #[test]

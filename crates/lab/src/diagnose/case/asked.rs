@@ -119,20 +119,15 @@ mod tests {
     #[test]
     fn one_may_ask_for_several() {
         let of = |words: &str| Asked::of(words, [].into_iter()).unwrap();
+        let both = [EffectId::TemperatureLag, EffectId::Cubic];
         let mut asked = Asked::default();
-        for words in ["temperature-lag", "cubic", "temperature-lag"] {
-            asked.add(of(words));
+        for id in both.iter().chain(&both) {
+            asked.add(of(id.as_str()));
         }
-        let both = [EffectId::TemperatureLag, of_id("cubic")].map(Called::Effect);
-        assert_eq!(asked, Asked::These(both.into()));
+        assert_eq!(asked, Asked::These(both.map(Called::Effect).into()));
         asked.add(Asked::Everything);
-        asked.add(of("cubic"));
+        asked.add(of(EffectId::Cubic.as_str()));
         assert_eq!(asked, Asked::Everything);
-    }
-
-    fn of_id(id: &str) -> EffectId {
-        let effect = effects().iter().find(|effect| effect.id.as_str() == id);
-        effect.unwrap().id
     }
 
     fn asked(words: &str) -> Vec<Called> {

@@ -6,7 +6,6 @@ use super::case::Case;
 use super::catalogue::{EffectId, Term, Variation};
 use super::confirm::Estimated;
 use super::evidence::{self, Against, Alternative, Likeness, Slot, State, Verdict};
-use super::held_out::HeldOutQuality;
 use super::run::Diagnosis;
 
 /// What a diagnosis says, in one sentence.
@@ -196,9 +195,8 @@ impl Diagnosis {
             let cell = &self.cells[candidate];
             (&cell.place, cell.effect.pattern.is_some())
         };
-        let absent = (self.held_out.as_ref()).is_some_and(HeldOutQuality::is_no_better);
         match evidence::likeness(slot, &self.examination.slots, of) {
-            Likeness::Form if absent => Likeness::Absent,
+            Likeness::Form if self.absent => Likeness::Absent,
             other => other,
         }
     }

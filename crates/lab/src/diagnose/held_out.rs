@@ -79,7 +79,7 @@ impl HeldOutQuality {
     }
 
     /// Whether what was adopted does not show here: the errors are no smaller than without it.
-    pub fn is_no_better(&self) -> bool {
+    pub(super) fn is_no_better(&self) -> bool {
         let squares = |prediction: &Prediction| -> f64 {
             let scaled = prediction.rms.iter().zip(&self.expected);
             scaled.map(|(rms, u)| (rms / u) * (rms / u)).sum()

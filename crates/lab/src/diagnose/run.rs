@@ -50,6 +50,8 @@ pub struct Diagnosis {
     pub omitted: Vec<Omitted>,
     /// How well the held-out recording is predicted, if the case names one.
     pub held_out: Option<HeldOutQuality>,
+    /// Whether what was adopted would be there in the held-out recording and does not show in it.
+    pub absent: bool,
     /// For each slot, where something is adopted, what it costs each unknown that the slot has several
     /// explanations.
     pub choices: Vec<Vec<f64>>,
@@ -131,9 +133,11 @@ pub fn diagnose(
     let held_out = held_out::held_out(&known, &candidates, &examination, adopted.as_ref());
     let recurs = (adopted.as_ref()).is_some_and(|adopted| recurs(adopted, &candidates));
     let against = held_out.as_ref().filter(|_| recurs);
-    if worse || against.is_some_and(|held| held.contradicts(settings.alpha)) {
+    let contradicted = against.is_some_and(|held| held.contradicts(settings.alpha));
+    let absent = against.is_some_and(HeldOutQuality::is_no_better);
+    if worse || contradicted {
         examination.withdraw();
-    } else if against.is_some_and(HeldOutQuality::is_no_better) {
+    } else if absent {
         examination.only_likens();
     }
     let of_improved = |adopted: &Adopted| adopted.fit.unsettled(ModelVersion::Improved);
@@ -169,6 +173,7 @@ pub fn diagnose(
         separating,
         accounts,
         held_out,
+        absent,
         choices,
         steady: candidates.fitted.is_steady(),
         cells: candidates.cells,

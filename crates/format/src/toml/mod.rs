@@ -5,6 +5,7 @@ pub mod faults;
 mod file;
 mod lists;
 mod matrix;
+mod numbers;
 mod places;
 mod spelled;
 mod strings;

@@ -6,9 +6,11 @@ use serde_json::{Value, json};
 use toml::de::{DeFloat, DeInteger, DeValue};
 
 use super::faults::{AMOUNT, NOT_FINITE, NOT_WHOLE, QUOTED_NUMBER, WRONG_TYPE};
+use super::numbers::{
+    of_concise, of_plus_minus, parted_by_plus_minus, without_comma, without_sign,
+};
 use super::spelled::{sexagesimal, spelled};
 use super::strings::StringMap;
-use super::syntax::{of_concise, of_plus_minus, parted_by_plus_minus, without_comma, without_sign};
 use super::table::{FromToml, Raw, Reader};
 use gumption_core::calendar::Day;
 use gumption_fault::{Fault, Said, say};

@@ -1,0 +1,129 @@
+//! Numbers and amounts as people write them, and as TOML wants them.
+
+use gumption_fault::{Said, say};
+
+/// Whether a value without quotes is numbers with operators between them.
+pub(super) fn is_calculation(text: &str) -> bool {
+    let text = text.trim();
+    let sign = |c: char| c.is_ascii_digit() || "+-*/^(). eE".contains(c);
+    let operator = text
+        .trim_start_matches(['+', '-'])
+        .contains(['*', '/', '^', '+', '-', '(']);
+    text.chars().all(sign) && operator && text.ends_with(|c: char| c.is_ascii_digit() || c == ')')
+}
+
+/// What a quotient of two numbers is.
+pub(super) fn quotient(text: &str) -> Option<f64> {
+    let (dividend, divisor) = text.split_once('/')?;
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    Some(number(dividend)? / number(divisor)?).filter(|result| result.is_finite())
+}
+
+/// The value of the concise notation 12.50(3) of a value with its standard uncertainty (GUM 7.2.2).
+pub(super) fn concise(text: &str) -> Option<&str> {
+    let (number, digits) = text.trim().strip_suffix(')')?.split_once('(')?;
+    let all_digits = !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit() || c == '.');
+    (all_digits && number.parse::<f64>().is_ok()).then_some(number)
+}
+
+/// What is written in place of the concise notation.
+pub(super) fn of_concise(number: &str) -> Said {
+    say!(
+        "the value and its uncertainty have keys of their own: value = \"{number} …\" and u = …; the digits in brackets are in units of the last digit"
+    )
+}
+
+/// What stands in front of ± and behind it, also where keyboards have none: `1.00 +/- 0.05`.
+pub(super) fn parted_by_plus_minus(text: &str) -> Option<(&str, &str)> {
+    let parts = ["±", "+/-", "+-"]
+        .iter()
+        .find_map(|sign| text.split_once(sign))?;
+    Some((parts.0.trim(), parts.1.trim()))
+}
+
+/// How to mend limits that are written with their sign.
+pub(super) fn without_sign(amount: &str) -> Said {
+    let quotes = match amount.parse::<f64>() {
+        Ok(_) => "",
+        Err(_) => "\"",
+    };
+    say!("leave out the ±, which the key says: {quotes}{amount}{quotes}")
+}
+
+/// What is written in place of a value with ± and its uncertainty, which may stand in a bracket in front of their unit.
+pub(super) fn of_plus_minus(number: &str, rest: &str) -> Said {
+    let (number, rest) = match number.strip_prefix(['(', '（']) {
+        Some(number) => (number.trim(), rest.replacen([')', '）'], "", 1)),
+        None => (number, rest.to_owned()),
+    };
+    let (value, uncertainty) = (as_stated(number, &rest), as_stated(&rest, number));
+    say!(
+        "the value and its uncertainty have keys of their own: value = {value}, and u = {uncertainty}, half_width = {uncertainty} or certificate = {{ U = {uncertainty}, k = 2 }}, whichever it is"
+    )
+}
+
+/// An amount as a file states it: a bare number with the unit of the other one, if that has any.
+fn as_stated(text: &str, other: &str) -> String {
+    match (text.parse::<f64>(), amount(other)) {
+        (Ok(_), Some((_, unit))) => format!("\"{text} {unit}\""),
+        (Ok(_), None) => text.to_owned(),
+        (Err(_), _) => format!("\"{text}\""),
+    }
+}
+
+/// What to write for a number with a comma, between `quotes`: a decimal point, or nothing where the comma
+/// may part thousands.
+pub(super) fn without_comma(number: &str, quotes: &str) -> Said {
+    let number = &number.replace('，', ",");
+    let point = number.replacen(',', ".", 1);
+    let behind = number.split_once(',').map_or("", |(_, behind)| behind);
+    let places = behind.bytes().take_while(u8::is_ascii_digit).count();
+    let joined = number.replace(',', "");
+    // No thousand begins with a nought.
+    let is_decimal = places != 3 || number.trim_start_matches(['-', '+']).starts_with('0');
+    if is_decimal {
+        say!("write a decimal point: {quotes}{point}{quotes}")
+    } else if behind[places..].starts_with(['.', ',']) {
+        say!("write it without commas: {quotes}{joined}{quotes}")
+    } else {
+        say!(
+            "write {quotes}{joined}{quotes}, or {quotes}{point}{quotes} if the comma is a decimal one"
+        )
+    }
+}
+
+/// Two numbers with nothing but blanks between them.
+pub(super) fn two_numbers(text: &str) -> Option<(&str, &str)> {
+    let (first, second) = text.split_once([' ', '\t'])?;
+    let second = second.trim_start();
+    let is_number = |text: &str| {
+        text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
+            && text.parse::<f64>().is_ok()
+    };
+    (is_number(first) && is_number(second)).then_some((first, second))
+}
+
+/// Number and unit of an amount that was written without quotes.
+pub(super) fn amount(text: &str) -> Option<(&str, &str)> {
+    let end = text
+        .char_indices()
+        .take_while(|(_, c)| c.is_ascii_digit() || "+-._".contains(*c))
+        .map(|(at, c)| at + c.len_utf8())
+        .last()?;
+    let (number, unit) = text.split_at(end);
+    let unit = unit.trim();
+    let plausible = number.parse::<f64>().is_ok() && !unit.is_empty() && !unit.contains(' ');
+    plausible.then_some((number, unit))
+}
+
+/// How an amount is written that stands without quotes.
+pub(super) fn quoted(number: &str, unit: &str) -> Said {
+    let share: Option<f64> = number.parse().ok().filter(|_| unit == "%");
+    match share {
+        Some(share) => say!(
+            "write \"{number} {unit}\" for a relative amount, and {} where a fraction is wanted",
+            share / 100.0
+        ),
+        None => say!("write \"{number} {unit}\""),
+    }
+}

@@ -1,0 +1,433 @@
+//! What was meant where the parser stopped.
+
+use std::ops::Range;
+
+use gumption_fault::libraries::of_toml;
+use gumption_fault::{Fault, Said, say};
+
+use super::places::{bare, calculation_at, line_of, word_at};
+use crate::toml::faults::TOML_SYNTAX;
+use crate::toml::numbers::{
+    amount, concise, is_calculation, of_concise, of_plus_minus, parted_by_plus_minus, quoted,
+    quotient, two_numbers, without_comma, without_sign,
+};
+use crate::toml::spelled::spelled;
+
+/// Words that people try, and the key that they mean.
+pub type Synonyms = [(&'static str, &'static str)];
+
+/// The fault that an error of the parser is to a person.
+pub(super) fn fault(error: &toml::de::Error, text: &str, synonyms: &Synonyms) -> Fault {
+    let end = text.len();
+    let span = error.span().unwrap_or(end..end);
+    let of_signs = decimal_comma(&span, text).or_else(|| foreign_sign(&span, text));
+    of_signs.unwrap_or_else(|| Stop::at(span, error.message(), text).fault(synonyms))
+}
+
+/// How the parser says that a key needs quotes.
+pub(super) const UNQUOTED: &str = "invalid unquoted key";
+
+/// Where the parser stopped, and why.
+struct Stop<'a> {
+    text: &'a str,
+    span: Range<usize>,
+    /// What stands there.
+    marked: &'a str,
+    message: &'a str,
+}
+
+impl<'a> Stop<'a> {
+    fn at(span: Range<usize>, message: &'a str, text: &'a str) -> Self {
+        // Of `0.5/1.732` the parser takes the beginning for a number, and marks the rest.
+        let span = match message.contains("invalid float") {
+            true => calculation_at(&span, text),
+            false => span,
+        };
+        Stop {
+            text,
+            marked: text.get(span.clone()).unwrap_or_default(),
+            span,
+            message,
+        }
+    }
+
+    fn says(&self, words: &str) -> bool {
+        self.message.contains(words)
+    }
+
+    fn refused(&self, message: Said, label: Said) -> Fault {
+        Fault::new(TOML_SYNTAX, self.span.clone(), message).label(label)
+    }
+
+    fn fault(&self, synonyms: &Synonyms) -> Fault {
+        self.repeated()
+            .or_else(|| self.nothing())
+            .or_else(|| self.placeholder())
+            .or_else(|| self.number())
+            .or_else(|| self.key(synonyms))
+            .or_else(|| self.text())
+            .or_else(|| self.open_list())
+            .or_else(|| self.no_equals_sign())
+            .or_else(|| self.decimal_point())
+            .or_else(|| self.several())
+            .unwrap_or_else(|| {
+                let message = of_toml(self.message);
+                let message = say!("not well-formed TOML: {message}");
+                self.refused(message, say!("not understood here"))
+            })
+    }
+
+    fn repeated(&self) -> Option<Fault> {
+        if !self.says("duplicate key") {
+            return None;
+        }
+        let line = self.text[line_of(self.span.start, self.text)].trim();
+        let help = match line.starts_with('[') {
+            true => of_second_header(line, &self.text[..self.span.start]),
+            false => {
+                say!("a key can be stated once in a table; several components stand in a list")
+            }
+        };
+        let message = say!("`{marked}` is stated a second time", marked = self.marked);
+        Some(self.refused(message, say!("stated before")).help(help))
+    }
+
+    /// No value behind an equals sign.
+    fn nothing(&self) -> Option<Fault> {
+        (self.says(NO_QUOTES) && self.marked.is_empty()).then(|| {
+            let message = say!("there is nothing behind the `=`");
+            self.refused(message, say!("expected a value")).help(say!(
+                "write a number, or a text in quotes; remove the line if there is nothing to say"
+            ))
+        })
+    }
+
+    /// The dots of an example, copied.
+    fn placeholder(&self) -> Option<Fault> {
+        matches!(self.marked, "…" | "..." | "……").then(|| {
+            let message = say!(
+                "`{marked}` stands for what only you know",
+                marked = self.marked
+            );
+            self.refused(message, say!("expected a number or a text in quotes"))
+                .help(say!("write what it is in its place, or leave the key out"))
+        })
+    }
+
+    /// A value without quotes that is a number to people.
+    fn number(&self) -> Option<Fault> {
+        if !self.says(NO_QUOTES) && !self.says("invalid float") {
+            return None;
+        }
+        let marked = self.marked;
+        let number = |message: Said, help: Said| {
+            let fault = self.refused(message, say!("expected a number"));
+            Some(fault.help(help))
+        };
+        let spelling = || say!("`{marked}` is not how a number is written in TOML");
+        let of_two = || say!("`{marked}` is a value with its uncertainty");
+        if let Some((value, unit)) = spelled(marked) {
+            let help = match unit.as_str() {
+                "" => say!("write {number}", number = value),
+                unit => quoted(&value, unit),
+            };
+            return number(spelling(), help);
+        }
+        if let Some(value) = concise(marked) {
+            return number(of_two(), of_concise(value));
+        }
+        match parted_by_plus_minus(marked) {
+            Some(("", amount)) => return number(spelling(), without_sign(amount)),
+            Some((value, rest)) => return number(of_two(), of_plus_minus(value, rest)),
+            None => {}
+        }
+        if is_calculation(marked) {
+            let help = match quotient(marked) {
+                Some(result) => say!("write {result}; formulas stand in a `model`"),
+                None => say!("write the number that it gives; formulas stand in a `model`"),
+            };
+            let message = say!("`{marked}` is a calculation, and a value is a number");
+            return number(message, help);
+        }
+        self.before_something()
+    }
+
+    /// A number with something behind it: a remark, another number, a unit.
+    fn before_something(&self) -> Option<Fault> {
+        let marked = self.marked;
+        if let Some((value, remark)) = marked.split_once("//") {
+            let (value, remark) = (value.trim(), remark.trim());
+            let value = match value.starts_with('.') {
+                true => format!("0{value}"),
+                false => value.to_owned(),
+            };
+            let message = say!("`//` begins no remark in TOML");
+            let fault = self.refused(message, say!("expected `#`"));
+            return Some(fault.help(say!("write {value}  # {remark}")));
+        }
+        if let Some((first, second)) = two_numbers(marked) {
+            let message = say!("`{marked}` is two numbers");
+            let fault = self.refused(message, say!("expected a comma between them"));
+            return Some(fault.help(say!("write {first}, {second} in a list")));
+        }
+        let (number, unit) = amount(marked)?;
+        let message = say!("`{marked}` needs quotes");
+        let fault = self.refused(message, say!("an amount with a unit is a text"));
+        Some(fault.help(quoted(number, unit)))
+    }
+
+    fn key(&self, synonyms: &Synonyms) -> Option<Fault> {
+        (self.says(UNQUOTED) && !self.marked.is_empty()).then(|| {
+            let span = word_at(&self.span, self.text);
+            let marked = self.text.get(span.clone()).unwrap_or_default();
+            unquoted_key(span, marked, self.text, synonyms)
+        })
+    }
+
+    /// A text without its quotes, or with a backslash between them.
+    fn text(&self) -> Option<Fault> {
+        if self.says(NO_QUOTES) {
+            let marked = self.marked;
+            let message = say!("`{marked}` is no number, and a text needs quotes");
+            let fault = self.refused(message, say!("expected a number or a text in quotes"));
+            let marked = marked.replace('"', "'");
+            return Some(fault.help(say!("write \"{}\" for the text", marked)));
+        }
+        if self.says("string, expected") {
+            let message = say!("the text is not closed");
+            let fault = self.refused(message, say!("expected the closing quote"));
+            return Some(fault.help(say!("add the quote at the end of the text")));
+        }
+        (self.says("escape") || self.says("unicode")).then(|| {
+            let message = say!("a backslash in a text between double quotes begins an escape");
+            self.refused(message, say!("no escape")).help(say!(
+                "put the text between single quotes, '…', which take a backslash as it is; paths may have `/` as well"
+            ))
+        })
+    }
+
+    fn open_list(&self) -> Option<Fault> {
+        let is_open = self.says("unclosed array")
+            || self.says("unclosed inline table")
+            || self.says(NO_COMMA) && begins_entry(&self.text[self.span.start..]);
+        is_open.then(|| {
+            let bracket = if self.says("array") { "]" } else { "}" };
+            let message = say!("the list is not closed by `{bracket}`");
+            self.refused(message, say!("expected `,` or `{bracket}`"))
+        })
+    }
+
+    fn no_equals_sign(&self) -> Option<Fault> {
+        if !self.says("key with no value") {
+            return None;
+        }
+        let written = self.text[line_of(self.span.start, self.text)].trim();
+        let (key, help) = match written.split_once(':') {
+            Some((key, value)) if !key.contains(['"', '\'', '=', '#']) => {
+                let (key, value) = (key.trim(), in_quotes(value.trim()));
+                (key, say!("write an equals sign: {key} = {value}"))
+            }
+            _ => (
+                written,
+                say!("write `key = value`; a remark stands behind `#`"),
+            ),
+        };
+        let message = say!("`{key}` has no `=` and no value");
+        Some(self.refused(message, say!("expected `=`")).help(help))
+    }
+
+    fn decimal_point(&self) -> Option<Fault> {
+        (self.says("invalid mantissa") || self.says("expected digits")).then(|| {
+            let help = match self.text[calculation_at(&self.span, self.text)].trim() {
+                number if number.starts_with('.') => say!("write 0{number}"),
+                number if number.ends_with('.') => say!("write {number}0"),
+                _ => say!("write for example 0.5 or 5.0"),
+            };
+            let message = say!("a number needs digits before and behind its decimal point");
+            self.refused(message, say!("a digit is missing")).help(help)
+        })
+    }
+
+    /// Values side by side with nothing between them.
+    fn several(&self) -> Option<Fault> {
+        if self.says("unexpected key or value") && self.says("newline") {
+            let help = match bare_list(&self.text[line_of(self.span.start, self.text)]) {
+                Some(list) => say!("a list stands between square brackets: [{list}]"),
+                None => say!(
+                    "write each key on a line of its own; several on one line stand between braces: {{ value = 1, u = 0.1 }}"
+                ),
+            };
+            let message = say!("something stands behind the value");
+            let fault = self.refused(message, say!("expected the end of the line"));
+            return Some(fault.help(help));
+        }
+        self.says(NO_COMMA).then(|| {
+            let message = say!("a comma is missing between two members of the list");
+            let fault = self.refused(message, say!("expected a comma in front of it"));
+            fault.help(say!("write a comma behind the member that stands before"))
+        })
+    }
+}
+
+/// How the parser says that a value is none that it knows, and that a member of a list follows another.
+const NO_QUOTES: &str = "string values must be quoted";
+const NO_COMMA: &str = "missing comma between array elements";
+
+/// A key with other letters than TOML takes without quotes: a name, or a key of the program in other words.
+fn unquoted_key(span: Range<usize>, marked: &str, text: &str, synonyms: &Synonyms) -> Fault {
+    let in_header = text[line_of(span.start, text)]
+        .trim_start()
+        .starts_with('[');
+    let meant = synonyms.iter().find(|(word, _)| *word == marked);
+    let first = in_header && text[..span.start].ends_with('[');
+    let help = match meant {
+        Some((_, key)) if first => Some(say!("the table is [{key}]")),
+        Some((_, key)) if !in_header => Some(say!("the key is `{key}`")),
+        _ => None,
+    };
+    if let Some(help) = help {
+        return Fault::new(TOML_SYNTAX, span, say!("`{marked}` is no key of the file"))
+            .label(say!("another word for a key"))
+            .help(help);
+    }
+    Fault::new(
+        TOML_SYNTAX,
+        span,
+        say!("`{marked}` needs quotes where it is a key"),
+    )
+    .label(say!("only A-Z a-z 0-9 _ - may stand without quotes here"))
+    .help(say!(
+        "write \"{marked}\", also behind a dot: [input.\"{marked}\"]; formulas use the name without quotes"
+    ))
+}
+
+/// What to write for a header that stands a second time: tables of one name are a list, or one of them is another.
+fn of_second_header(line: &str, before: &str) -> Said {
+    let name = line
+        .trim_start_matches('[')
+        .split(']')
+        .next()
+        .unwrap_or(line);
+    let (single, listed) = (format!("[{name}]"), format!("[[{name}]]"));
+    let stood = |header: &str| before.lines().any(|line| line.trim().starts_with(header));
+    match line.starts_with(&listed) {
+        true => say!(
+            "of several tables each has the header {listed}: write so for the first {single}, too"
+        ),
+        false if stood(&listed) => {
+            say!("of several tables each has the header {listed}: write so here, too")
+        }
+        false if name.contains('.') => say!(
+            "a table has one header: put these keys below the first {single}, or give this one another name"
+        ),
+        false => say!("a table has one header: put these keys below the first {single}"),
+    }
+}
+
+/// Whether a text begins with a header of a table, or with a key and its equals sign: no member of a list.
+fn begins_entry(text: &str) -> bool {
+    let of_name = |c: char| c.is_alphanumeric() || "_-.".contains(c);
+    let inside = text.trim_start_matches('[');
+    let behind = inside.trim_start_matches(of_name).trim_start();
+    let is_named = inside.starts_with(char::is_alphabetic);
+    let is_header = inside.len() < text.len() && behind.starts_with(']');
+    is_named && (is_header || inside.len() == text.len() && behind.starts_with('='))
+}
+
+/// The members of a list that stands behind its key without brackets: numbers, or texts in quotes.
+fn bare_list(line: &str) -> Option<&str> {
+    let (_, list) = line.split_once('=')?;
+    let list = list.split('#').next().unwrap_or_default().trim();
+    let is_member = |member: &str| {
+        let member = member.trim();
+        let is_text = member.len() >= 2 && member.starts_with('"') && member.ends_with('"');
+        is_text || member.parse::<f64>().is_ok()
+    };
+    let is_list = list.contains(',') && list.split(',').all(is_member);
+    is_list.then_some(list)
+}
+
+/// A value with the quotes that a text needs.
+fn in_quotes(value: &str) -> String {
+    let is_other = value.parse::<f64>().is_ok()
+        || value.starts_with(['"', '\'', '[', '{'])
+        || matches!(value, "true" | "false" | "");
+    match is_other {
+        true => value.to_owned(),
+        false => format!("\"{}\"", value.replace('"', "'")),
+    }
+}
+
+/// A sign of a Chinese keyboard or of a word processor where TOML has its own: `｛`, `“`, `，`.
+fn foreign_sign(span: &Range<usize>, text: &str) -> Option<Fault> {
+    let line = line_of(span.start, text);
+    // At the end of a line a semicolon closes a statement of other languages, and is too much here.
+    let in_list = |at: usize| text[line.start..at].contains(['{', '[']);
+    let (at, sign, meant) = bare(line.clone(), text).find_map(|(at, sign)| {
+        let (_, meant) = FOREIGN.iter().find(|(foreign, _)| *foreign == sign)?;
+        (in_list(at) || !matches!(sign, ';' | '；')).then_some((at, sign, meant))
+    })?;
+    Some(
+        Fault::new(
+            TOML_SYNTAX,
+            at..at + sign.len_utf8(),
+            say!("`{sign}` is not the sign that the file needs"),
+        )
+        .label(say!("expected `{meant}`"))
+        .help(say!(
+            "write `{meant}`, and the like for other such signs on the line; only texts in straight quotes may hold them"
+        )),
+    )
+}
+
+/// Signs that look like those of TOML, and those.
+const FOREIGN: [(char, &str); 18] = [
+    ('“', "\""),
+    ('”', "\""),
+    ('„', "\""),
+    ('＂', "\""),
+    ('‘', "'"),
+    ('’', "'"),
+    ('｛', "{"),
+    ('｝', "}"),
+    ('［', "["),
+    ('］', "]"),
+    ('【', "["),
+    ('】', "]"),
+    ('＝', "="),
+    ('，', ","),
+    (';', ","),
+    ('；', ","),
+    ('。', "."),
+    ('　', " "),
+];
+
+/// `value = 0,3888`, where the parser stops at the comma or behind it.
+fn decimal_comma(span: &Range<usize>, text: &str) -> Option<Fault> {
+    let line = line_of(span.start, text);
+    let digits = |c: char| c.is_ascii_digit();
+    let of_number = |c: char| c.is_ascii_digit() || ".eE+-".contains(c);
+    let commas = bare(line.clone(), text).filter(|(_, c)| matches!(c, ',' | '，'));
+    let number = commas
+        .map(|(at, comma)| {
+            let before = text[line.start..at].trim_end_matches(digits).len() + line.start;
+            let from = at + comma.len_utf8();
+            let behind = text[from..line.end].trim_start_matches(of_number).len();
+            (before, at, from, line.end - behind)
+        })
+        .find(|(start, at, from, end)| {
+            let alone = text[line.start..*start]
+                .trim_end_matches(['+', '-', ' ', '\t'])
+                .ends_with('=');
+            let followed = text[*from..*end].starts_with(digits);
+            let spaces = text[*end..line.end].len() - text[*end..line.end].trim_start().len();
+            alone && start < at && followed && (*start..=end + spaces).contains(&span.start)
+        });
+    let (start, _, _, end) = number?;
+    let number = &text[start..end];
+    Some(
+        Fault::new(TOML_SYNTAX, start..end, say!("`{number}` has a comma"))
+            .label(say!("expected a decimal point"))
+            .help(without_comma(number, "")),
+    )
+}

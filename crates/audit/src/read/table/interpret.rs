@@ -6,7 +6,7 @@ use crate::read::kind::{self, Evidence};
 use crate::read::words::{self, has};
 use crate::units;
 
-use super::rows::Raw;
+use super::raw::Raw;
 
 /// Turns words and columns of each row into what is known of it, and its figures into one unit.
 pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {

@@ -11,8 +11,8 @@ use crate::sheet::Grid;
 use crate::units;
 
 use super::content::{by_content, nameless_figures};
-use super::footers::labels_across;
 use super::head::{head, is_matrix, line_above, second_line};
+use super::labels;
 use super::located::Located;
 use super::pages::joined;
 
@@ -57,7 +57,7 @@ fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
     for row in (located.end..grid.rows.len()).filter(|row| !grid.left_out.contains(row)) {
         // A row with the symbol A and a unit may look like a head.
         let repeated = figures(grid, row, located) == 0 && head(grid, row, mapping).is_some();
-        if repeated || is_matrix(grid, row) || labels_across(grid, row, "") {
+        if repeated || is_matrix(grid, row) || labels::are_across(grid, row, "") {
             break;
         }
         match what(grid, row, located, strange == 0) {

@@ -8,25 +8,37 @@
 //! | `locate` | where a table stands, and which rows are its rows |
 //! | `pages` | tables that go on on the next page |
 //! | `relative` | figures of the whole that are relative to the result |
-//! | `rows` | its rows with their figures |
+//! | `line` | one row, as it stands on the sheet |
+//! | `raw` | a row with what is needed to interpret it |
+//! | `rows` | all rows with their figures |
+//! | `closing` | the row of the result, which closes a table |
 //! | `product` | tables of a product, by their relative uncertainties |
 //! | `footers` | the claimed figures of the whole |
+//! | `footer_row` | one row of them |
+//! | `labels` | labels side by side, with their figures in the row below |
 //! | `interpret` | what is known of each row |
 
+mod closing;
 mod content;
+mod footer_row;
 mod footers;
 mod head;
 mod interpret;
+mod labels;
+mod line;
 mod locate;
 mod located;
 mod pages;
 mod product;
+mod raw;
 mod relative;
 mod rows;
 
+pub use closing::{closing, figures_of_result};
 pub use footers::{footers, of_columns};
 pub use interpret::interpret;
 pub use locate::locate;
 pub use located::Located;
 pub use product::{absolute, coefficient, is_product, product};
-pub use rows::{Raw, closing, figures_of_result, rows};
+pub use raw::Raw;
+pub use rows::rows;

@@ -5,8 +5,9 @@ use crate::read::footer::{self, Whole};
 use crate::read::words::has;
 use crate::sheet::Grid;
 
+use super::closing::closing;
 use super::located::Located;
-use super::rows::{closing, rows};
+use super::rows::rows;
 
 /// Tables of which one goes on with the rows of another, as one.
 pub(super) fn joined(grid: &Grid, found: Vec<Located>) -> Vec<Located> {

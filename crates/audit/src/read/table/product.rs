@@ -5,7 +5,7 @@ use crate::claim::{Footer, Row};
 use crate::printed::Printed;
 use crate::units;
 
-use super::rows::Raw;
+use super::raw::Raw;
 
 /// The last row, where its relative uncertainty comes of those of the others, as their root or their sum.
 pub fn product(rows: &[Raw]) -> Option<usize> {

@@ -1,0 +1,208 @@
+//! One row of a table, as it stands on the sheet.
+
+use crate::claim::{Figure, Row};
+use crate::printed::{self, Place, Printed};
+use crate::read::columns::{Role, names_factor};
+use crate::read::footer;
+use crate::read::words::{alone, has};
+use crate::sheet::Grid;
+use crate::units;
+
+use super::located::{Column, Located};
+use super::raw::{Raw, positive};
+
+/// A row of the sheet that is one of a table.
+#[derive(Clone, Copy)]
+pub(super) struct Line<'a> {
+    grid: &'a Grid,
+    sheet: usize,
+    row: usize,
+    located: &'a Located,
+}
+
+impl<'a> Line<'a> {
+    pub(super) fn new(grid: &'a Grid, sheet: usize, row: usize, located: &'a Located) -> Self {
+        Line {
+            grid,
+            sheet,
+            row,
+            located,
+        }
+    }
+
+    /// Its figures; `above` is the name of the row above, which holds where there is none.
+    pub(super) fn raw(self, above: &str) -> Raw {
+        let (symbol, name) = self.called(above);
+        let (used, remark) = self.used();
+        let head = |role: Role| self.located.column(role).map(|c| c.head.as_str());
+        let formulas = [
+            (Role::U, Figure::U),
+            (Role::Contribution, Figure::Contribution),
+        ];
+        let formula = |(role, figure)| Some((figure, self.formula(role)?));
+        Raw {
+            columns_text: [self.text(Role::Distribution), self.text(Role::Type)].join(" ; "),
+            used_head: head(Role::Used).unwrap_or_default().to_string(),
+            divisor_is_factor: head(Role::Divisor).is_some_and(names_factor),
+            readings: self.figure(Role::Readings).map(|n| n.value),
+            number: self.text(Role::Number),
+            stated_apart: false,
+            relative: self.derived(footer::is_relative),
+            row: Row {
+                at: self.place(self.grid.filled(self.row).next().map_or(0, |(i, _)| i)),
+                value: self.figure(Role::Value),
+                used: used.map(positive),
+                divisor: self.figure(Role::Divisor),
+                u: self.figure(Role::U).map(positive),
+                c: self.figure(Role::C),
+                contribution: self.figure(Role::Contribution),
+                dof: self.figure(Role::Dof).map(as_infinite),
+                unit: alone(self.unit_beside(0)).to_string(),
+                is_hidden: self.grid.hidden_rows.contains(&self.row),
+                distribution: self.text(Role::Distribution),
+                share: self.derived(is_share),
+                formulas: formulas.into_iter().filter_map(formula).collect(),
+                words: self.words(&symbol, &name, remark),
+                symbol,
+                name,
+                ..Row::default()
+            },
+        }
+    }
+
+    fn place(self, column: usize) -> Place {
+        Place {
+            sheet: self.sheet,
+            row: self.row,
+            column,
+        }
+    }
+
+    fn text_in(self, column: &Column) -> &'a str {
+        self.grid.cell(self.row, column.index).text.as_str()
+    }
+
+    /// What stands in the columns of a role.
+    fn text(self, role: Role) -> String {
+        let columns = self.located.columns.iter().filter(|c| c.role == role);
+        let texts = columns.map(|column| self.text_in(column));
+        let texts: Vec<&str> = texts.filter(|text| !text.is_empty()).collect();
+        texts.join("; ")
+    }
+
+    fn figure(self, role: Role) -> Option<Printed> {
+        let column = self.located.column(role)?;
+        let cell = self.grid.cell(self.row, column.index);
+        let mut figure = cell.figure()?.at(self.place(column.index));
+        if figure.unit.is_empty() {
+            figure.unit.clone_from(&column.unit);
+        }
+        if figure.unit.is_empty() && matches!(role, Role::Value | Role::Used | Role::U) {
+            figure.unit = self.unit_beside(column.index).to_string();
+        }
+        figure.unit = alone(&figure.unit).to_string();
+        let is_power = units::power_of_ten(&figure.unit).is_some();
+        if units::parse(&figure.unit).is_none() && !is_power && role != Role::C {
+            figure.unit.clear();
+        }
+        Some(figure)
+    }
+
+    fn formula(self, role: Role) -> Option<String> {
+        let column = self.located.column(role)?;
+        self.grid.cell(self.row, column.index).formula.clone()
+    }
+
+    /// Its symbol and its name. `Mass of the standard m_S` in a column of quantities is a name, `d_acquisition` is not.
+    fn called(self, above: &str) -> (String, String) {
+        const LONGEST: usize = 12;
+        let (symbol, name) = (self.text(Role::Symbol), self.text(Role::Name));
+        if symbol.is_empty() && name.is_empty() {
+            return (symbol, above.to_string());
+        }
+        let is_identifier =
+            symbol.contains('_') && symbol.chars().all(|c| c.is_alphanumeric() || c == '_');
+        let is_long = symbol.contains(' ') || symbol.chars().count() > LONGEST && !is_identifier;
+        match name.is_empty() && is_long {
+            true => (String::new(), symbol),
+            false => (symbol, name),
+        }
+    }
+
+    /// The figure that is known, and what its cell says beside it: `0.0060 (s of 10 readings, mean reported)`.
+    fn used(self) -> (Option<Printed>, &'a str) {
+        let column = self.located.column(Role::Used);
+        let text = column.map_or("", |column| self.text_in(column));
+        let bracketed = printed::leading(text);
+        let bracketed = bracketed.filter(|(_, behind)| behind.trim_start().starts_with('('));
+        let remark = match &bracketed {
+            Some((_, behind)) if units::parse(behind.trim().trim_matches(['(', ')'])).is_none() => {
+                *behind
+            }
+            _ if Printed::parse(text).is_none() => text,
+            _ => "",
+        };
+        let in_front = || {
+            let column = column?.index;
+            let unit = self.unit_beside(column).to_string();
+            let (figure, _) = bracketed?;
+            Some(Printed { unit, ..figure }.at(self.place(column)))
+        };
+        (self.figure(Role::Used).or_else(in_front), remark)
+    }
+
+    /// Everything that it says in words.
+    fn words(self, symbol: &str, name: &str, remark: &str) -> String {
+        let remarks = self.text(Role::Remark);
+        let said = [name, &remarks, remark];
+        let said: Vec<&str> = said.into_iter().filter(|text| !text.is_empty()).collect();
+        let said = said.join("; ");
+        match name.is_empty() {
+            true => [symbol, &said].join("; "),
+            false => said,
+        }
+    }
+
+    /// The unit that the columns of units have for a figure: of several the one behind it, else the last in front of it.
+    fn unit_beside(self, index: usize) -> &'a str {
+        let units = self.located.columns.iter().filter(|c| c.role == Role::Unit);
+        let mut units: Vec<usize> = units.map(|c| c.index).collect();
+        units.sort_unstable();
+        let behind = units.iter().find(|unit| **unit == index + 1);
+        let in_front = || units.iter().rev().find(|unit| **unit < index);
+        let unit = behind.or_else(in_front).or(units.first());
+        unit.map_or("", |unit| self.grid.cell(self.row, *unit).text.trim())
+    }
+
+    /// The figure in the first column of what was computed from others whose head is so called.
+    fn derived(self, is: fn(&str) -> bool) -> Option<Printed> {
+        let mut columns = self.located.columns.iter();
+        let column = columns.find(|c| c.role == Role::Derived && is(&c.head))?;
+        let figure = Printed::parse(self.text_in(column))?;
+        let unit = match figure.unit.as_str() {
+            "" => column.unit.clone(),
+            _ => figure.unit.clone(),
+        };
+        Some(Printed { unit, ..figure })
+    }
+}
+
+/// Whether a head of what was computed from others is that of shares in the variance.
+fn is_share(head: &str) -> bool {
+    let lower = head.to_lowercase();
+    let said = has(&lower, &["share", "index", "percent"])
+        || lower.contains(['%', '％'])
+        || has(&lower, &["贡献率", "占比", "百分比"]);
+    said && !footer::is_relative(head)
+}
+
+/// Degrees of freedom from here on are as good as infinitely many: spreadsheets write `1E+99`.
+fn as_infinite(dof: Printed) -> Printed {
+    const MANY: f64 = 1e5;
+    let value = if dof.value >= MANY {
+        f64::INFINITY
+    } else {
+        dof.value
+    };
+    Printed { value, ..dof }
+}

@@ -9,7 +9,8 @@ use crate::calculate::{Calculation, Case, Figures, Printout};
 use crate::claim::RoundingStated;
 use crate::printed::Printed;
 
-use super::check::{Checked, unexchanged};
+use super::check::Checked;
+use super::met::unexchanged;
 
 /// How far about a figure its neighbourhood reaches at most, in logarithms on either side: a figure that has nothing to
 /// do with slips is known to a factor of two, as what it should be is known.

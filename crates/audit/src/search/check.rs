@@ -1,9 +1,13 @@
 //! A calculation held against the claimed figures of the whole.
 
+use std::iter;
+
 use crate::calculate::{Calculation, Case, Combined, Factor, Figures, Freedom, Printout, t};
-use crate::claim::{RoundingStated, Stated};
+use crate::claim::{RoundingStated, Row, Stated};
 use crate::printed::Printed;
 use crate::slips::{Act, Change};
+
+use super::met::{factor, freedom, is_rounded, unexchanged};
 
 /// Which claimed figures a calculation gives; true where none is claimed.
 #[derive(Debug, Clone, Copy)]
@@ -105,130 +109,186 @@ impl Act {
 
 /// Holds a calculation against the claim. `printed` are the contributions that the rows print.
 pub fn check(case: &Case<'_>, calculation: &Calculation, printed: &[Option<f64>]) -> Checked {
-    let cmc = case.claimed.cmc.as_ref().map(|cmc| cmc.value);
-    let exact = calculation.figures(&[], cmc);
-    let any_printed = printed.iter().any(Option::is_some)
-        && !matches!(calculation.combined, Combined::Rounded(_));
-    let mut of = vec![exact];
-    if any_printed {
-        of.push(calculation.figures(printed, cmc));
-    }
-    let mut rows = case.claimed.rows.iter();
-    if (!any_printed || rows.all(|row| row.contribution.is_none()))
-        && let Some(coefficients) = with_claimed_coefficients(case, calculation)
-    {
-        of.push(coefficients.figures(&[], cmc));
-    }
-    let footer = &case.claimed.footer;
-    let claimed_u = footer
-        .u_c
-        .as_ref()
-        .map(|figure| unexchanged(figure, calculation, Printout::Combined));
-    // Coefficients that no model gives are known as they are shown.
-    let shown = |row: &crate::claim::Row| row.c.as_ref().map_or(0.0, Printed::coarseness);
-    let coarse = match case.derivatives {
-        Some(_) => 0.0,
-        None => case.claimed.rows.iter().map(shown).fold(0.0, f64::max),
-    };
-    let open = left_open(case, calculation, exact.u_c);
-    let u_c = claimed_u.as_ref().is_none_or(|figure| {
-        let half = figure.half_of_digits() + coarse * figure.value + open;
-        of.iter().any(|f| figure.is_met_within(f.u_c, half))
-    });
-    let rooted = Calculation {
-        combined: Combined::Root,
-        ..calculation.clone()
-    };
-    // Where u_c is the sum of squares, or made of rounded contributions, ν_eff may have been found from what was there
-    // before.
-    let is_after = matches!(
-        calculation.combined,
-        Combined::Squares | Combined::Rounded(_)
-    );
-    let before = is_after.then(|| rooted.figures(&[], cmc));
-    let nu_eff = footer.nu_eff.as_ref().is_none_or(|figure| {
-        let mut all = of.iter().chain(&before);
-        // Where it was found from u_c as it is printed, that enters with its fourth power.
-        let of_printed_u = |f: &Figures| {
-            let ratio = claimed_u.as_ref().filter(|_| u_c).map(|u| u.value / f.u_c);
-            ratio.map(|ratio| f.nu_eff * libm::pow(ratio, 4.0))
-        };
-        all.any(|f| {
-            let found = [Some(f.nu_eff), of_printed_u(f)];
-            let mut found = found.into_iter().flatten();
-            let coarse = coarse.max(open / exact.u_c);
-            found.any(|nu| freedom(figure, nu, calculation, coarse))
-        })
-    });
-    let mut factors: Vec<f64> = of.iter().chain(&before).map(|f| f.k).collect();
-    let claimed_k = footer.k.as_ref();
-    if let Some(nu) = footer.nu_eff.as_ref().filter(|_| nu_eff) {
-        let looked_up = Calculation {
-            freedom: Freedom::Given(nu.value),
-            lines: Vec::new(),
-            correlations: Vec::new(),
+    Held::new(case, calculation, printed).checked()
+}
+
+/// A calculation beside a claim.
+struct Held<'a> {
+    case: &'a Case<'a>,
+    calculation: &'a Calculation,
+    /// What it gives without rounding.
+    exact: Figures,
+    /// What it gives from the contributions as they are printed, where they are.
+    of_printed: Option<Figures>,
+    /// What it gives with the coefficients that the laboratory rounded.
+    of_coefficients: Option<Figures>,
+    /// What it gives as the root of a sum of squares, where u_c is the sum itself, or made of rounded contributions: ν_eff may
+    /// have been found from what was there before.
+    of_root: Option<Figures>,
+    /// u_c as it is claimed.
+    u_c: Option<Printed>,
+    /// By how much, relatively, figures may differ because the coefficients are known as they are shown.
+    coarse: f64,
+    /// By how much u_c may differ because the sheet computed with more digits than it states.
+    open: f64,
+}
+
+impl<'a> Held<'a> {
+    fn new(case: &'a Case<'_>, calculation: &'a Calculation, printed: &[Option<f64>]) -> Self {
+        let cmc = case.claimed.cmc.as_ref().map(|cmc| cmc.value);
+        let exact = calculation.figures(&[], cmc);
+        let any_printed = printed.iter().any(Option::is_some)
+            && !matches!(calculation.combined, Combined::Rounded(_));
+        let mut rows = case.claimed.rows.iter();
+        let is_bare = !any_printed || rows.all(|row| row.contribution.is_none());
+        let own = || with_claimed_coefficients(case, calculation);
+        let coefficients = is_bare.then(own).flatten();
+        let rooted = || Calculation {
+            combined: Combined::Root,
             ..calculation.clone()
         };
-        if let Factor::StudentT(p) = calculation.factor {
+        let is_after = matches!(
+            calculation.combined,
+            Combined::Squares | Combined::Rounded(_)
+        );
+        let u_c = case.claimed.footer.u_c.as_ref();
+        Held {
+            case,
+            calculation,
+            exact,
+            of_printed: any_printed.then(|| calculation.figures(printed, cmc)),
+            of_coefficients: coefficients.map(|own| own.figures(&[], cmc)),
+            of_root: is_after.then(|| rooted().figures(&[], cmc)),
+            u_c: u_c.map(|figure| unexchanged(figure, calculation, Printout::Combined)),
+            coarse: coarseness(case),
+            open: left_open(case, calculation, exact.u_c),
+        }
+    }
+
+    fn checked(&self) -> Checked {
+        let u_c = self.meets_u_c();
+        let nu_eff = self.meets_freedom(u_c);
+        let factors = self.factors(nu_eff);
+        let k = self.meets_factor(&factors);
+        Checked {
+            u_c,
+            nu_eff,
+            k,
+            expanded: self.meets_expanded(u_c, &factors, k),
+            figures: self.exact,
+            of_printed: self.of_printed.or(self.of_coefficients),
+            open: self.open + self.coarse * self.exact.u_c,
+        }
+    }
+
+    /// Everything that the calculation gives.
+    fn all(&self) -> impl Iterator<Item = &Figures> {
+        let others = [&self.of_printed, &self.of_coefficients];
+        iter::once(&self.exact).chain(others.into_iter().flatten())
+    }
+
+    fn is_near_u_c(&self, figure: &Printed, u_c: f64) -> bool {
+        let half = figure.half_of_digits() + self.coarse * figure.value + self.open;
+        figure.is_met_within(u_c, half)
+    }
+
+    fn meets_u_c(&self) -> bool {
+        let is_met = |figure: &Printed| self.all().any(|f| self.is_near_u_c(figure, f.u_c));
+        self.u_c.as_ref().is_none_or(is_met)
+    }
+
+    fn meets_freedom(&self, meets_u_c: bool) -> bool {
+        let coarse = self.coarse.max(self.open / self.exact.u_c);
+        // Where it was found from u_c as it is printed, that enters with its fourth power.
+        let of_printed_u = |f: &Figures| {
+            let ratio = self.u_c.as_ref().filter(|_| meets_u_c);
+            ratio.map(|u| f.nu_eff * libm::pow(u.value / f.u_c, 4.0))
+        };
+        let is_met = |figure: &Printed| {
+            let found = self.all().chain(&self.of_root);
+            let mut found = found
+                .flat_map(|f| [Some(f.nu_eff), of_printed_u(f)])
+                .flatten();
+            found.any(|nu| freedom(figure, nu, self.calculation, coarse))
+        };
+        self.case.claimed.footer.nu_eff.as_ref().is_none_or(is_met)
+    }
+
+    /// The coverage factors that belong to it; of the claimed ν_eff, too, where that is met.
+    fn factors(&self, meets_freedom: bool) -> Vec<f64> {
+        let mut factors: Vec<f64> = self.all().chain(&self.of_root).map(|f| f.k).collect();
+        let claimed = self.case.claimed.footer.nu_eff.as_ref();
+        if let Some(nu) = claimed.filter(|_| meets_freedom)
+            && let Factor::StudentT(p) = self.calculation.factor
+        {
+            let looked_up = Calculation {
+                freedom: Freedom::Given(nu.value),
+                lines: Vec::new(),
+                correlations: Vec::new(),
+                ..self.calculation.clone()
+            };
             factors.push(looked_up.figures(&[], None).k);
             factors.push(t(p, nu.value));
         }
+        factors
     }
-    let is_fixed = matches!(calculation.factor, Factor::Fixed(_));
-    let k = claimed_k.is_none_or(|figure| factors.iter().any(|k| factor(figure, *k, is_fixed)));
-    let expanded = footer.expanded.as_ref().is_none_or(|figure| {
-        let figure = unexchanged(figure, calculation, Printout::Expanded);
-        // U is made of the u_c that is claimed, where one is.
-        let fits = |f: &&Figures| {
-            let near = |figure: &Printed| {
-                figure.is_met_within(
-                    f.u_c,
-                    figure.half_of_digits() + coarse * figure.value + open,
-                )
-            };
-            claimed_u.as_ref().is_none_or(|figure| !u_c || near(figure))
+
+    fn meets_factor(&self, factors: &[f64]) -> bool {
+        let is_fixed = matches!(self.calculation.factor, Factor::Fixed(_));
+        let is_met = |figure: &Printed| factors.iter().any(|k| factor(figure, *k, is_fixed));
+        self.case.claimed.footer.k.as_ref().is_none_or(is_met)
+    }
+
+    fn meets_expanded(&self, meets_u_c: bool, factors: &[f64], meets_factor: bool) -> bool {
+        let Some(figure) = &self.case.claimed.footer.expanded else {
+            return true;
         };
-        let mut us: Vec<f64> = of.iter().filter(fits).map(|f| f.u_c).collect();
-        if claimed_u.is_none() && open > 0.0 {
-            us.extend([exact.u_c - open, exact.u_c + open]);
-        }
-        // Of what is rounded up, the rounded u_c is no part.
-        let again = u_c && case.claimed.rounding != RoundingStated::Up;
-        let printed = [claimed_u.as_ref(), footer.u_c.as_ref()];
-        us.extend(
-            printed
-                .into_iter()
-                .flatten()
-                .filter(|_| again)
-                .map(|figure| figure.value),
-        );
-        let mut ks = factors.clone();
+        let figure = unexchanged(figure, self.calculation, Printout::Expanded);
+        let claimed_k = self.case.claimed.footer.k.as_ref();
+        let mut ks = factors.to_vec();
         ks.extend(factors.iter().map(|k| libm::round(100.0 * k) / 100.0));
-        ks.extend(claimed_k.filter(|_| k).map(|k| k.value));
-        let report = calculation.report;
-        let floor = cmc.filter(|_| report.cmc).unwrap_or(0.0);
+        ks.extend(claimed_k.filter(|_| meets_factor).map(|k| k.value));
+        let us = self.u_of_expanded(meets_u_c);
+        let report = self.calculation.report;
+        let cmc = self.case.claimed.cmc.as_ref().filter(|_| report.cmc);
+        let floor = cmc.map_or(0.0, |cmc| cmc.value);
         let product = |k: f64, u: f64| (report.multiple(k) * u).max(floor) * report.scale;
         // Who prints too many digits has not rounded to two by the rule.
         let rule = if report.long {
             RoundingStated::Unstated
         } else {
-            case.claimed.rounding
+            self.case.claimed.rounding
         };
-        let rounded = |x: f64| is_rounded(&figure, x, rule, report.down);
-        let long = figure.is_long();
-        long == report.long
-            && ks
-                .iter()
-                .any(|k| us.iter().any(|u| rounded(product(*k, *u))))
-    });
-    Checked {
-        u_c,
-        nu_eff,
-        k,
-        expanded,
-        figures: exact,
-        of_printed: of.get(1).copied(),
-        open: open + coarse * exact.u_c,
+        let is_rounded = |x: f64| is_rounded(&figure, x, rule, report.down);
+        let is_of = |k: &f64| us.iter().any(|u| is_rounded(product(*k, *u)));
+        figure.is_long() == report.long && ks.iter().any(is_of)
+    }
+
+    /// The standard uncertainties of which U may be made: of the u_c that is claimed, where one is.
+    fn u_of_expanded(&self, meets_u_c: bool) -> Vec<f64> {
+        let fits = |f: &&Figures| {
+            let claimed = self.u_c.as_ref().filter(|_| meets_u_c);
+            claimed.is_none_or(|figure| self.is_near_u_c(figure, f.u_c))
+        };
+        let mut us: Vec<f64> = self.all().filter(fits).map(|f| f.u_c).collect();
+        if self.u_c.is_none() && self.open > 0.0 {
+            us.extend([self.exact.u_c - self.open, self.exact.u_c + self.open]);
+        }
+        // Of what is rounded up, the rounded u_c is no part.
+        if meets_u_c && self.case.claimed.rounding != RoundingStated::Up {
+            let printed = [self.u_c.as_ref(), self.case.claimed.footer.u_c.as_ref()];
+            us.extend(printed.into_iter().flatten().map(|figure| figure.value));
+        }
+        us
+    }
+}
+
+/// Coefficients that no model gives are known as they are shown.
+fn coarseness(case: &Case<'_>) -> f64 {
+    let shown = |row: &Row| row.c.as_ref().map_or(0.0, Printed::coarseness);
+    match case.derivatives {
+        Some(_) => 0.0,
+        None => case.claimed.rows.iter().map(shown).fold(0.0, f64::max),
     }
 }
 
@@ -320,96 +380,4 @@ fn left_open(case: &Case<'_>, calculation: &Calculation, u_c: f64) -> f64 {
     });
     let square: f64 = open.sum();
     if u_c > 0.0 { square / u_c } else { 0.0 }
-}
-
-/// The figure as it was before two of its digits were exchanged.
-pub fn unexchanged(figure: &Printed, calculation: &Calculation, which: Printout) -> Printed {
-    match calculation.report.exchanged {
-        Some((place, pair)) if place == which => {
-            let own = Printed::parse(&figure.text).map_or(figure.value, |p| p.value.abs());
-            let scale = if own == 0.0 { 1.0 } else { figure.value / own };
-            let found = crate::slips::exchanged_digits(&figure.text)
-                .into_iter()
-                .find(|(p, _)| *p == pair);
-            Printed {
-                value: found.map_or(figure.value, |(_, x)| x * scale),
-                ..figure.clone()
-            }
-        }
-        _ => figure.clone(),
-    }
-}
-
-/// Whether ν_eff, cut to a whole number or printed with decimals, is what is claimed. Beyond a hundred the fourth
-/// powers of rounded contributions decide nothing.
-fn freedom(figure: &Printed, nu: f64, calculation: &Calculation, coarse: f64) -> bool {
-    const MANY: f64 = 100.0;
-    if nu.is_infinite() || figure.value.is_infinite() {
-        // From a thousand on k has the two decimals of the normal distribution.
-        return nu >= 10.0 * MANY && figure.value >= 10.0 * MANY;
-    }
-    let whole = figure.half >= 0.5;
-    let cut = match calculation.freedom {
-        Freedom::Up => libm::ceil(nu),
-        _ => libm::floor(nu * (1.0 + 1e-9)).max(1.0),
-    };
-    // Coefficients are known as they are shown, and enter with their fourth powers.
-    let same = (nu - figure.value).abs() <= 4.0 * coarse * nu;
-    let raised = whole && !same && figure.value == libm::ceil(nu);
-    let near = nu >= MANY
-        && !raised
-        && calculation.freedom != Freedom::Up
-        && (nu - figure.value).abs() <= 0.01 * nu;
-    // A figure that is rounded to the nearest, where k is the same for either, is shown and not used.
-    let k = |nu: f64| match calculation.factor {
-        Factor::StudentT(p) => libm::round(100.0 * t(p, nu)),
-        _ => 0.0,
-    };
-    let unused = whole && (nu - figure.value).abs() <= 0.5 && k(figure.value) == k(cut);
-    near || same
-        || unused
-        || if whole {
-            figure.value == cut
-        } else {
-            figure.is_met_by(nu) && calculation.freedom != Freedom::Up || figure.value == cut
-        }
-}
-
-/// Whether a factor is printed like this. One with two decimals or less has been rounded to two, whatever zeros its cell
-/// adds, and a rule for a fixed one states it with no more.
-fn factor(figure: &Printed, k: f64, is_fixed: bool) -> bool {
-    /// Half a unit of the second decimal.
-    const TWO_DECIMALS: f64 = 0.005;
-    let hundredths = 100.0 * figure.value;
-    let is_short = (hundredths - libm::round(hundredths)).abs() < 1e-9;
-    let half = match figure.half >= 0.5 {
-        true => TWO_DECIMALS,
-        false if is_fixed || is_short => figure.half.max(TWO_DECIMALS),
-        false => figure.half,
-    };
-    figure.is_met_within(k, half)
-}
-
-/// Whether `x` is rounded to the figure by the rule of the sheet.
-fn is_rounded(figure: &Printed, x: f64, rule: RoundingStated, down: bool) -> bool {
-    // Two digits of a whole number may have zeros behind them: 2300.
-    let places = libm::floor(libm::log10(figure.value.max(1.0))) - 1.0;
-    let zeros = figure.half >= 0.5 && figure.digits <= 2 && places > 0.0;
-    let half = if zeros {
-        0.5 * libm::exp10(places)
-    } else {
-        figure.half
-    };
-    let tolerance = 1e-6 * half + 1e-9 * x.abs();
-    let above = figure.value - x;
-    let nearest = above.abs() <= half + tolerance;
-    let up = above >= -tolerance && above < 2.0 * half + tolerance;
-    let cut = above < -tolerance && above > -2.0 * half - tolerance;
-    match (down, rule) {
-        (false, RoundingStated::Up) => up,
-        (false, RoundingStated::Nearest) => nearest,
-        (false, RoundingStated::Unstated) => nearest || up,
-        (true, RoundingStated::Up) => cut,
-        (true, _) => cut && !nearest,
-    }
 }

@@ -1,0 +1,98 @@
+//! Whether a printed figure is met.
+
+use crate::calculate::{Calculation, Factor, Freedom, Printout, t};
+use crate::claim::RoundingStated;
+use crate::printed::Printed;
+use crate::slips::exchanged_digits;
+
+/// The figure as it was before two of its digits were exchanged.
+pub fn unexchanged(figure: &Printed, calculation: &Calculation, which: Printout) -> Printed {
+    match calculation.report.exchanged {
+        Some((place, pair)) if place == which => {
+            let own = Printed::parse(&figure.text).map_or(figure.value, |p| p.value.abs());
+            let scale = if own == 0.0 { 1.0 } else { figure.value / own };
+            let found = exchanged_digits(&figure.text)
+                .into_iter()
+                .find(|(p, _)| *p == pair);
+            Printed {
+                value: found.map_or(figure.value, |(_, x)| x * scale),
+                ..figure.clone()
+            }
+        }
+        _ => figure.clone(),
+    }
+}
+
+/// Whether ν_eff, cut to a whole number or printed with decimals, is what is claimed. Beyond a hundred the fourth
+/// powers of rounded contributions decide nothing.
+pub(super) fn freedom(figure: &Printed, nu: f64, calculation: &Calculation, coarse: f64) -> bool {
+    const MANY: f64 = 100.0;
+    if nu.is_infinite() || figure.value.is_infinite() {
+        // From a thousand on k has the two decimals of the normal distribution.
+        return nu >= 10.0 * MANY && figure.value >= 10.0 * MANY;
+    }
+    let whole = figure.half >= 0.5;
+    let cut = match calculation.freedom {
+        Freedom::Up => libm::ceil(nu),
+        _ => libm::floor(nu * (1.0 + 1e-9)).max(1.0),
+    };
+    // Coefficients are known as they are shown, and enter with their fourth powers.
+    let same = (nu - figure.value).abs() <= 4.0 * coarse * nu;
+    let raised = whole && !same && figure.value == libm::ceil(nu);
+    let near = nu >= MANY
+        && !raised
+        && calculation.freedom != Freedom::Up
+        && (nu - figure.value).abs() <= 0.01 * nu;
+    // A figure that is rounded to the nearest, where k is the same for either, is shown and not used.
+    let k = |nu: f64| match calculation.factor {
+        Factor::StudentT(p) => libm::round(100.0 * t(p, nu)),
+        _ => 0.0,
+    };
+    let unused = whole && (nu - figure.value).abs() <= 0.5 && k(figure.value) == k(cut);
+    near || same
+        || unused
+        || if whole {
+            figure.value == cut
+        } else {
+            figure.is_met_by(nu) && calculation.freedom != Freedom::Up || figure.value == cut
+        }
+}
+
+/// Whether a factor is printed like this. One with two decimals or less has been rounded to two, whatever zeros its cell
+/// adds, and a rule for a fixed one states it with no more.
+pub(super) fn factor(figure: &Printed, k: f64, is_fixed: bool) -> bool {
+    /// Half a unit of the second decimal.
+    const TWO_DECIMALS: f64 = 0.005;
+    let hundredths = 100.0 * figure.value;
+    let is_short = (hundredths - libm::round(hundredths)).abs() < 1e-9;
+    let half = match figure.half >= 0.5 {
+        true => TWO_DECIMALS,
+        false if is_fixed || is_short => figure.half.max(TWO_DECIMALS),
+        false => figure.half,
+    };
+    figure.is_met_within(k, half)
+}
+
+/// Whether `x` is rounded to the figure by the rule of the sheet.
+pub(super) fn is_rounded(figure: &Printed, x: f64, rule: RoundingStated, down: bool) -> bool {
+    // Two digits of a whole number may have zeros behind them: 2300.
+    let places = libm::floor(libm::log10(figure.value.max(1.0))) - 1.0;
+    let zeros = figure.half >= 0.5 && figure.digits <= 2 && places > 0.0;
+    let half = if zeros {
+        0.5 * libm::exp10(places)
+    } else {
+        figure.half
+    };
+    let tolerance = 1e-6 * half + 1e-9 * x.abs();
+    let above = figure.value - x;
+    let nearest = above.abs() <= half + tolerance;
+    let up = above >= -tolerance && above < 2.0 * half + tolerance;
+    let cut = above < -tolerance && above > -2.0 * half - tolerance;
+    match (down, rule) {
+        (false, RoundingStated::Up) => up,
+        (false, RoundingStated::Nearest) => nearest,
+        (false, RoundingStated::Unstated) => nearest || up,
+        (true, RoundingStated::Up) => cut,
+        (true, _) => cut && !nearest,
+    }
+}

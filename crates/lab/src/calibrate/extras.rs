@@ -11,7 +11,7 @@ use crate::experiment::words::words;
 use gumption_core::equations::{EquationText, Equations, Quantity};
 use gumption_core::model::{Symbol, outline};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, Said, say};
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 impl Checker<'_> {
@@ -66,86 +66,26 @@ impl Checker<'_> {
         symbols: &[Quantity],
         shared: &Option<EquationText<'_>>,
     ) -> Option<Omitted> {
-        let fault =
-            |message: Said, help: Said| Fault::new(TERM, entry.key.clone(), message).help(help);
-        let Some(term) = &entry.value.term else {
-            if !entry.value.refused {
-                self.faults.push(fault(
-                    say!("the omitted effect {name} has no `term`"),
-                    say!("write what it adds to the equation: term = \"k2*omega^2\""),
-                ));
-            }
-            return None;
-        };
-        let found = outline(&term.value, &self.units);
-        if let Ok(found) = found
-            && !found.needs.iter().any(|(needed, _)| needed == name)
-        {
-            let message = say!("the term of the omitted effect {name} does not have {name}");
-            let constants = experiment.constants.iter().map(|known| known.name.as_str());
-            let known = symbols
-                .iter()
-                .map(|known| known.name.as_str())
-                .chain(constants);
-            let unknown = found.needs.iter().map(|(needed, _)| needed.as_str());
-            let unknown: Vec<&str> = unknown
-                .filter(|name| known.clone().all(|known| known != *name))
-                .collect();
-            let help = match unknown.as_slice() {
-                // A statement of `model` may define it.
-                [coefficient] if shared.is_none() => {
-                    say!("an effect is called as its coefficient: [omitted.{coefficient}]")
-                }
-                _ => say!(
-                    "{name} is its coefficient: term = \"{name}*({})\"",
-                    term.value
-                ),
-            };
-            let fault = Fault::new(TERM, term.span.clone(), message);
-            self.faults.push(fault.help(help));
-            return None;
-        }
-        let responses = experiment.equations.responses();
-        let constants = &experiment.constants;
-        let response = match &entry.value.response {
-            Some(stated) => responses.iter().position(|r| r.name == stated.value),
-            None if responses.len() == 1 => Some(0),
-            None => None,
-        };
-        let Some(response) = response else {
-            let known: Vec<&str> = responses.iter().map(|r| r.name.as_str()).collect();
-            self.faults.push(fault(
-                say!("to which equation does the omitted effect {name} belong?"),
-                say!("write response = \"…\" with one of {}", known.join(", ")),
-            ));
-            return None;
-        };
+        let term = self.term_of(name, entry, experiment, symbols, shared)?;
+        let response = self.response_of(name, entry, experiment)?;
+        let (responses, constants) = (experiment.equations.responses(), &experiment.constants);
         let result = &responses[response];
+        let others = symbols.iter().filter(|s| s.name != result.name);
+        let known = constants.iter().cloned();
+        let known: Vec<Symbol> = known.chain(others.cloned().map(symbol)).collect();
         let line = format!("{} = {}", result.name, term.value);
-        let known: Vec<Symbol> = constants
-            .iter()
-            .cloned()
-            .chain(
-                symbols
-                    .iter()
-                    .filter(|s| s.name != result.name)
-                    .cloned()
-                    .map(symbol),
-            )
-            .collect();
         let unit = match (&entry.value.unit, &entry.value.like) {
             (Some(text), _) => self.unit(text)?,
             (None, Some(like)) => self.unit_like(like, &known, responses)?,
             (None, None) => {
                 let before = shared.as_ref().map_or("", |shared| shared.text);
                 let outline = outline(&format!("{before}\n{line}"), &self.units).ok();
-                let open = [name.to_owned()];
-                outline
-                    .and_then(|o| {
-                        let units = o.parameter_units(&open, &known, &result.unit, &self.units);
-                        units.into_iter().next().flatten()
-                    })
-                    .unwrap_or_else(Unit::one)
+                let of_coefficient = outline.and_then(|outline| {
+                    let open = [name.to_owned()];
+                    let units = outline.parameter_units(&open, &known, &result.unit, &self.units);
+                    units.into_iter().next().flatten()
+                });
+                of_coefficient.unwrap_or_else(Unit::one)
             }
         };
         let typical = match &entry.value.typical {
@@ -158,14 +98,9 @@ impl Checker<'_> {
             text: &line,
             at: term.span.clone(),
         };
-        let compiled = Equations::compile_after(
-            shared.as_ref(),
-            &[text],
-            &all,
-            responses,
-            constants,
-            &self.units,
-        );
+        let (shared, text) = (shared.as_ref(), [text]);
+        let compiled =
+            Equations::compile_after(shared, &text, &all, responses, constants, &self.units);
         match compiled {
             Ok(equation) => Some(Omitted {
                 name: name.to_owned(),
@@ -177,13 +112,86 @@ impl Checker<'_> {
                 equation,
             }),
             Err(faults) => {
-                let placed = faults
-                    .into_iter()
-                    .map(|fault| fault.moved(|_| term.span.clone()));
-                self.faults.extend(placed);
+                let faults = faults.into_iter();
+                self.faults
+                    .extend(faults.map(|fault| fault.moved(|_| term.span.clone())));
                 None
             }
         }
+    }
+
+    /// What an omitted effect adds to its equation; it has the coefficient that it is called after.
+    fn term_of<'e>(
+        &mut self,
+        name: &str,
+        entry: &'e Stated<OmittedTable>,
+        experiment: &Experiment,
+        symbols: &[Quantity],
+        shared: &Option<EquationText<'_>>,
+    ) -> Option<&'e Stated<String>> {
+        let Some(term) = entry.value.term.as_deref() else {
+            if !entry.value.refused {
+                let message = say!("the omitted effect {name} has no `term`");
+                let fault = Fault::new(TERM, entry.key.clone(), message);
+                self.faults.push(fault.help(say!(
+                    "write what it adds to the equation: term = \"k2*omega^2\""
+                )));
+            }
+            return None;
+        };
+        let Ok(outline) = outline(&term.value, &self.units) else {
+            // What is wrong with it is told where it is compiled.
+            return Some(term);
+        };
+        if outline.needs.iter().any(|(needed, _)| needed == name) {
+            return Some(term);
+        }
+        let constants = experiment.constants.iter().map(|known| known.name.as_str());
+        let known = symbols.iter().map(|known| known.name.as_str());
+        let known = known.chain(constants);
+        let unknown = outline.needs.iter().map(|(needed, _)| needed.as_str());
+        let unknown: Vec<&str> = unknown
+            .filter(|name| known.clone().all(|known| known != *name))
+            .collect();
+        let help = match unknown.as_slice() {
+            // A statement of `model` may define it.
+            [coefficient] if shared.is_none() => {
+                say!("an effect is called as its coefficient: [omitted.{coefficient}]")
+            }
+            _ => say!(
+                "{name} is its coefficient: term = \"{name}*({})\"",
+                term.value
+            ),
+        };
+        let message = say!("the term of the omitted effect {name} does not have {name}");
+        let fault = Fault::new(TERM, term.span.clone(), message);
+        self.faults.push(fault.help(help));
+        None
+    }
+
+    /// The equation to which an omitted effect belongs.
+    fn response_of(
+        &mut self,
+        name: &str,
+        entry: &Stated<OmittedTable>,
+        experiment: &Experiment,
+    ) -> Option<usize> {
+        let responses = experiment.equations.responses();
+        let response = match &entry.value.response {
+            Some(stated) => responses.iter().position(|r| r.name == stated.value),
+            None if responses.len() == 1 => Some(0),
+            None => None,
+        };
+        if response.is_none() {
+            let known: Vec<&str> = responses.iter().map(|r| r.name.as_str()).collect();
+            let message = say!("to which equation does the omitted effect {name} belong?");
+            let fault = Fault::new(TERM, entry.key.clone(), message);
+            self.faults.push(fault.help(say!(
+                "write response = \"…\" with one of {}",
+                known.join(", ")
+            )));
+        }
+        response
     }
 
     /// Functions of the parameters.

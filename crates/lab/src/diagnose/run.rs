@@ -121,25 +121,18 @@ pub fn diagnose(
     };
     let before = confirm::quality(&design, &fit, &claimed);
     let unknowns = estimates(&design, &fit, &claimed);
-    let (adopted, no_fit) = match adopt_named(&candidates, &mut examination, &claimed) {
-        Ok(adopted) => (adopted, None),
-        Err(why) => {
-            let (model, trouble) = (ModelVersion::Improved, Trouble::NoFit(why));
-            (None, Some(Unsettled { model, trouble }))
-        }
-    };
-    let worse = (adopted.as_ref()).is_some_and(|adopted| adopted.predicts_worse(&before));
-    let adopted = adopted.filter(|_| !worse);
-    let held_out = held_out::held_out(&known, &candidates, &examination, adopted.as_ref());
-    let recurs = (adopted.as_ref()).is_some_and(|adopted| recurs(adopted, &candidates));
-    let against = held_out.as_ref().filter(|_| recurs);
-    let contradicted = against.is_some_and(|held| held.contradicts(settings.alpha));
-    let absent = against.is_some_and(HeldOutQuality::is_no_better);
-    if worse || contradicted {
-        examination.withdraw();
-    } else if absent {
-        examination.only_likens();
-    }
+    let Adoption {
+        adopted,
+        no_fit,
+        held_out,
+        absent,
+    } = Adoption::of(
+        &known,
+        &candidates,
+        &mut examination,
+        &before,
+        settings.alpha,
+    );
     let of_improved = |adopted: &Adopted| adopted.fit.unsettled(ModelVersion::Improved);
     let own = adopted.iter().filter_map(of_improved);
     let unsettled = fit.unsettled(ModelVersion::Declared).into_iter();
@@ -181,6 +174,53 @@ pub fn diagnose(
         fit,
         noise: claimed,
     })
+}
+
+/// The model with the named effects in it, held against the declared one.
+struct Adoption {
+    adopted: Option<Adopted>,
+    /// Why the named effects could not be fitted.
+    no_fit: Option<Unsettled>,
+    held_out: Option<HeldOutQuality>,
+    /// Whether what was adopted would be there in the held-out recording and does not show in it.
+    absent: bool,
+}
+
+impl Adoption {
+    /// Fits the named effects, and takes from the examination what neither the fit nor the recording held out bears out.
+    fn of(
+        known: &Known<'_>,
+        candidates: &Candidates<'_>,
+        examination: &mut Examination,
+        before: &Quality,
+        alpha: f64,
+    ) -> Self {
+        let (adopted, no_fit) = match adopt_named(candidates, examination, known.claimed) {
+            Ok(adopted) => (adopted, None),
+            Err(why) => {
+                let (model, trouble) = (ModelVersion::Improved, Trouble::NoFit(why));
+                (None, Some(Unsettled { model, trouble }))
+            }
+        };
+        let worse = (adopted.as_ref()).is_some_and(|adopted| adopted.predicts_worse(before));
+        let adopted = adopted.filter(|_| !worse);
+        let held_out = held_out::held_out(known, candidates, examination, adopted.as_ref());
+        let recurs = (adopted.as_ref()).is_some_and(|adopted| recurs(adopted, candidates));
+        let against = held_out.as_ref().filter(|_| recurs);
+        let contradicted = against.is_some_and(|held| held.contradicts(alpha));
+        let absent = against.is_some_and(HeldOutQuality::is_no_better);
+        if worse || contradicted {
+            examination.withdraw();
+        } else if absent {
+            examination.only_likens();
+        }
+        Adoption {
+            adopted,
+            no_fit,
+            held_out,
+            absent,
+        }
+    }
 }
 
 /// Whether every effect that is adopted would be there in another recording.

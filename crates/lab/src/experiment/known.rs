@@ -1,9 +1,17 @@
-//! An input or a reading before its check.
+//! Inputs and readings with their units, before their check.
 
+use super::checker::Checker;
+use super::faults::{KEY, STATE_INPUT};
+use super::names::{Kind, Names};
+use super::source::entries;
 use super::tables::KnownTable;
+use gumption_core::equations::Quantity;
+use gumption_core::model::{Role, Symbol};
 use gumption_core::quantity::Unit;
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Stated;
-use gumption_gum::budget::tables::InputTable;
+use gumption_gum::budget::tables::{ConstantEntry, InputTable};
+use smol_str::SmolStr;
 
 /// A quantity before its check.
 pub(crate) struct Known<'t> {
@@ -34,4 +42,174 @@ impl Known<'_> {
         let table = self.table();
         table.components.is_none() && table.component.present.is_empty()
     }
+}
+
+/// All inputs and readings with their units.
+pub(crate) fn all<'t>(
+    checker: &mut Checker<'t>,
+    names: &Names,
+    columns: &[Quantity],
+) -> Option<Vec<Known<'t>>> {
+    let before = checker.faults.len();
+    let mut all = inputs(checker, names, columns)?;
+    for (name, entry) in entries(&checker.source.table.reading) {
+        all.extend(reading(checker, names, columns, (name.as_str(), entry)));
+    }
+    for one in &all {
+        refuse_foreign_keys(checker, one);
+    }
+    (checker.faults.len() == before).then_some(all)
+}
+
+fn inputs<'t>(
+    checker: &mut Checker<'t>,
+    names: &Names,
+    columns: &[Quantity],
+) -> Option<Vec<Known<'t>>> {
+    let source = checker.source;
+    let mut symbols: Vec<Symbol> = columns.iter().map(column_symbol).collect();
+    symbols.extend(constants(checker));
+    let mut inputs = Vec::new();
+    for (name, entry) in entries(&source.table.input) {
+        if names.kind(name) == Some(Kind::Constant) {
+            continue;
+        }
+        let required = entry.value.required.as_ref();
+        let is_listed = source.listed.inputs.contains(name.as_str())
+            || source.listed.parameters.contains(name.as_str());
+        if required.is_some_and(|stated| stated.value) && !is_listed {
+            let fault = state_input(name, entry, source.procedure.as_deref());
+            checker.faults.push(fault);
+            continue;
+        }
+        let unit = match (&entry.value.input.unit, &entry.value.like) {
+            (Some(text), _) => checker.unit(text)?,
+            (None, Some(like)) => checker.unit_like(like, &symbols, &[])?,
+            (None, None) => Unit::one(),
+        };
+        symbols.push(column_symbol(&Quantity {
+            name: name.to_string(),
+            unit: unit.clone(),
+        }));
+        inputs.push(Known {
+            name,
+            entry,
+            unit,
+            factor: 1.0,
+            is_reading: false,
+        });
+    }
+    Some(inputs)
+}
+
+/// Readings have the unit of differences of their column; a plan has none, but knows their errors.
+fn reading<'t>(
+    checker: &mut Checker<'t>,
+    names: &Names,
+    columns: &[Quantity],
+    (name, entry): (&'t str, &'t Stated<KnownTable>),
+) -> Option<Known<'t>> {
+    let column = columns.iter().find(|column| column.name == *name);
+    let planned = || {
+        let mut responses = names.responses.iter();
+        let is_response = responses.any(|response| response == name);
+        is_response.then(|| checker.planned_unit(name).unwrap_or_else(Unit::one))
+    };
+    let own = column.map(|column| column.unit.difference());
+    let Some(own) = own.or_else(planned) else {
+        let known: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
+        let message = say!("no equation uses readings of {name}");
+        let fault = Fault::new(KEY, entry.key.clone(), message)
+            .label(say!("expected a column of the equations"))
+            .help(say!("the columns are {}", known.join(", ")));
+        checker.faults.push(fault);
+        return None;
+    };
+    let stated = entry.value.input.unit.as_ref();
+    let unit = match stated {
+        Some(text) => checker.unit(text)?,
+        None => own.clone(),
+    };
+    let Some(conversion) = unit.difference().conversion_to(&own) else {
+        let place = stated.map_or(entry.key.clone(), |text| text.span.clone());
+        let message = say!("{name} is in {}, not in {}", own.symbol, unit.symbol);
+        let fault = Fault::new(KEY, place, message);
+        let fault = fault.label(say!("expected {} or a unit like it", own.symbol));
+        checker.faults.push(fault);
+        return None;
+    };
+    Some(Known {
+        name,
+        entry,
+        unit,
+        factor: conversion.apply(1.0) - conversion.apply(0.0),
+        is_reading: true,
+    })
+}
+
+/// Keys of a budget's inputs that have no meaning in an experiment.
+fn refuse_foreign_keys(checker: &mut Checker<'_>, one: &Known<'_>) {
+    let mut refuse = |place: &std::ops::Range<usize>, message: Said, help: Said| {
+        let fault = Fault::new(KEY, place.clone(), message).label(say!("no meaning here"));
+        checker.faults.push(fault.help(help));
+    };
+    if let Some(values) = &one.table().values {
+        refuse(
+            &values.key,
+            say!("{} is not a vector", one.name),
+            say!("quantities that differ from point to point are columns"),
+        );
+    }
+    if let Some(from) = &one.table().from {
+        refuse(
+            &from.key,
+            say!("results of other budgets are not taken here"),
+            say!("state its value, and its uncertainty as certificate = {{ U = …, k = 2 }}"),
+        );
+    }
+}
+
+/// Constants as far as their units can be read; their check tells what is wrong with the others.
+fn constants(checker: &Checker<'_>) -> Vec<Symbol> {
+    let entries = entries(&checker.source.table.constant).iter();
+    let symbol = |(name, entry): &(SmolStr, Stated<ConstantEntry>)| {
+        let table = &entry.value.0;
+        let own = table.unit.as_ref().map(|text| text.value.as_str());
+        let amount = table
+            .value
+            .as_ref()
+            .and_then(|value| value.value.unit.as_ref());
+        let text = own.or(amount.map(|(text, _)| text.as_str()));
+        let unit = text.map_or(Some(Unit::one()), |text| checker.units.parse(text).ok())?;
+        Some(column_symbol(&Quantity {
+            name: name.to_string(),
+            unit,
+        }))
+    };
+    entries.filter_map(symbol).collect()
+}
+
+fn column_symbol(quantity: &Quantity) -> Symbol {
+    Symbol {
+        name: quantity.name.as_str().into(),
+        unit: quantity.unit.clone(),
+        role: Role::Input(0),
+    }
+}
+
+fn state_input(
+    name: &str,
+    entry: &Stated<KnownTable>,
+    procedure: Option<&Stated<String>>,
+) -> Fault {
+    let place = procedure.map_or(entry.key.clone(), |stated| stated.span.clone());
+    let what = entry.value.input.description.as_ref();
+    let what = what.map_or(String::new(), |text| format!(" ({})", text.value));
+    let unit = entry.value.input.unit.as_ref();
+    let unit = unit.map_or(String::new(), |text| format!(", unit = \"{}\"", text.value));
+    Fault::new(STATE_INPUT, place, say!("the procedure needs {name}{what}"))
+        .label(say!("needs it"))
+        .help(say!(
+            "add [input.{name}] with value = …{unit} and its uncertainty; if it is known exactly, [constant] {name} = \"… unit\""
+        ))
 }

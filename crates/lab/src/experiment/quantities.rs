@@ -6,14 +6,13 @@
 use super::checker::Checker;
 use super::components;
 use super::doubt::{Doubt, Input, Prior};
-use super::faults::{KEY, STATE_INPUT};
-use super::known::Known;
-use super::names::{Kind, Names};
+use super::faults::KEY;
+use super::known::{self, Known};
+use super::names::Names;
 use super::source::entries;
-use super::tables::{KnownTable, SharedTable};
+use super::tables::SharedTable;
 use super::words::words;
 use gumption_core::equations::Quantity;
-use gumption_core::model::{Role, Symbol};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::{Amount, Named, OneOrMany, Slot, Stated};
@@ -38,7 +37,7 @@ pub(crate) struct Doubts {
 
 /// Checks `[input]`, `[reading]` and `[constant]`.
 pub(crate) fn of(checker: &mut Checker<'_>, names: &Names, columns: &[Quantity]) -> Option<Doubts> {
-    let known = known(checker, names, columns)?;
+    let known = known::all(checker, names, columns)?;
     let tables = tables(checker, &known);
     let readings = known.iter().filter(|one| one.is_reading);
     let readings: Vec<String> = readings.map(Known::own_name).collect();
@@ -114,178 +113,6 @@ pub(crate) fn of(checker: &mut Checker<'_>, names: &Names, columns: &[Quantity])
         .collect();
     doubts.doubts = components::of(checker, &stated, &known, &inputs)?;
     Some(doubts)
-}
-
-/// All inputs and readings with their units.
-fn known<'t>(
-    checker: &mut Checker<'t>,
-    names: &Names,
-    columns: &[Quantity],
-) -> Option<Vec<Known<'t>>> {
-    let before = checker.faults.len();
-    let source = checker.source;
-    let mut symbols: Vec<Symbol> = columns.iter().map(column_symbol).collect();
-    symbols.extend(constants(checker));
-    let mut all = Vec::new();
-    for (name, entry) in entries(&source.table.input) {
-        if names.kind(name) == Some(Kind::Constant) {
-            continue;
-        }
-        if entry
-            .value
-            .required
-            .as_ref()
-            .is_some_and(|stated| stated.value)
-            && !source.listed.inputs.contains(name.as_str())
-            && !source.listed.parameters.contains(name.as_str())
-        {
-            checker
-                .faults
-                .push(state_input(name, entry, source.procedure.as_deref()));
-            continue;
-        }
-        let unit = match (&entry.value.input.unit, &entry.value.like) {
-            (Some(text), _) => checker.unit(text)?,
-            (None, Some(like)) => checker.unit_like(like, &symbols, &[])?,
-            (None, None) => Unit::one(),
-        };
-        symbols.push(column_symbol(&Quantity {
-            name: name.to_string(),
-            unit: unit.clone(),
-        }));
-        all.push(Known {
-            name,
-            entry,
-            unit,
-            factor: 1.0,
-            is_reading: false,
-        });
-    }
-    for (name, entry) in entries(&source.table.reading) {
-        let column = columns.iter().find(|column| column.name == *name);
-        // A plan has no readings, but knows their errors.
-        let planned = || {
-            names
-                .responses
-                .iter()
-                .any(|response| name == response)
-                .then(|| checker.planned_unit(name).unwrap_or_else(Unit::one))
-        };
-        let Some(own) = column
-            .map(|column| column.unit.difference())
-            .or_else(planned)
-        else {
-            let known: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
-            checker.faults.push(
-                Fault::new(
-                    KEY,
-                    entry.key.clone(),
-                    say!("no equation uses readings of {name}"),
-                )
-                .label(say!("expected a column of the equations"))
-                .help(say!("the columns are {}", known.join(", "))),
-            );
-            continue;
-        };
-        let stated = entry.value.input.unit.as_ref();
-        let unit = match stated {
-            Some(text) => checker.unit(text)?,
-            None => own.clone(),
-        };
-        let Some(conversion) = unit.difference().conversion_to(&own) else {
-            let place = stated.map_or(entry.key.clone(), |text| text.span.clone());
-            checker.faults.push(
-                Fault::new(
-                    KEY,
-                    place,
-                    say!("{name} is in {}, not in {}", own.symbol, unit.symbol),
-                )
-                .label(say!("expected {} or a unit like it", own.symbol)),
-            );
-            continue;
-        };
-        all.push(Known {
-            name,
-            entry,
-            unit,
-            factor: conversion.apply(1.0) - conversion.apply(0.0),
-            is_reading: true,
-        });
-    }
-    for one in &all {
-        if let Some(values) = &one.table().values {
-            checker.faults.push(
-                Fault::new(
-                    KEY,
-                    values.key.clone(),
-                    say!("{} is not a vector", one.name),
-                )
-                .label(say!("no meaning here"))
-                .help(say!(
-                    "quantities that differ from point to point are columns"
-                )),
-            );
-        }
-        if let Some(from) = &one.table().from {
-            checker.faults.push(
-                Fault::new(
-                    KEY,
-                    from.key.clone(),
-                    say!("results of other budgets are not taken here"),
-                )
-                .label(say!("no meaning here"))
-                .help(say!(
-                    "state its value, and its uncertainty as certificate = {{ U = …, k = 2 }}"
-                )),
-            );
-        }
-    }
-    (checker.faults.len() == before).then_some(all)
-}
-
-/// Constants as far as their units can be read; their check tells what is wrong with the others.
-fn constants(checker: &Checker<'_>) -> Vec<Symbol> {
-    let entries = entries(&checker.source.table.constant).iter();
-    let symbol = |(name, entry): &(SmolStr, Stated<ConstantEntry>)| {
-        let table = &entry.value.0;
-        let own = table.unit.as_ref().map(|text| text.value.as_str());
-        let amount = table
-            .value
-            .as_ref()
-            .and_then(|value| value.value.unit.as_ref());
-        let text = own.or(amount.map(|(text, _)| text.as_str()));
-        let unit = text.map_or(Some(Unit::one()), |text| checker.units.parse(text).ok())?;
-        Some(column_symbol(&Quantity {
-            name: name.to_string(),
-            unit,
-        }))
-    };
-    entries.filter_map(symbol).collect()
-}
-
-fn column_symbol(quantity: &Quantity) -> Symbol {
-    Symbol {
-        name: quantity.name.as_str().into(),
-        unit: quantity.unit.clone(),
-        role: Role::Input(0),
-    }
-}
-
-fn state_input(
-    name: &str,
-    entry: &Stated<KnownTable>,
-    procedure: Option<&Stated<String>>,
-) -> Fault {
-    let place = procedure.map_or(entry.key.clone(), |stated| stated.span.clone());
-    let what = entry.value.input.description.as_ref();
-    let what = what.map_or(String::new(), |text| format!(" ({})", text.value));
-    let unit = entry.value.input.unit.as_ref();
-    let unit = unit.map_or(String::new(), |text| format!(", unit = \"{}\"", text.value));
-    Fault::new(STATE_INPUT, place, say!("the procedure needs {name}{what}"))
-        .label(say!("needs it"))
-        .help(say!(
-            "add [input.{name}] with value = …{unit} and its uncertainty; if it is known exactly, [constant] {name} = \"… unit\""
-        ))
 }
 
 /// The quantities as the check of a budget's quantities reads them.

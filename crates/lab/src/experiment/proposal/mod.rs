@@ -9,25 +9,25 @@ mod asked;
 mod centrifuge;
 mod field;
 mod guess;
+mod line;
 mod positions;
 mod roles;
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use gumption_core::model::{is_reserved, names};
 use gumption_core::quantity::{UnitTable, show};
 use gumption_fault::language::Language;
 use gumption_fault::{Rejection, Said, say};
-use gumption_format::csv::{Column, Data, Recording};
+use gumption_format::csv::{Data, Recording};
 use gumption_format::toml::writing::{key, quoted};
 
 use super::entries::RoleWord;
 use super::procedure::Procedure;
 use asked::by_procedure;
-use guess::Guess;
-use positions::{Positions, of_gravity, of_stimulus};
-use roles::{followed, goes_around, is_kin, roles, stretches};
+use guess::{Guess, identifier};
+use line::{Lines, by_line};
+use roles::{roles, stretches};
 
 /// Rows from which on a recording has to say whether they are samples or averages.
 const MANY: usize = 100;
@@ -49,7 +49,7 @@ pub fn proposal(
     let columns = guessed(&table);
     let body = match procedure {
         Some(procedure) => by_procedure(procedure, &columns, language),
-        None => by_line(&columns, language),
+        None => without_procedure(&columns, language),
     };
     let rows = table.rows();
     let proposed = say!(
@@ -96,41 +96,6 @@ fn guessed(table: &Recording) -> Vec<Guess<'_>> {
 
 // ---- the text --------------------------------------------------------------------------------------------------
 
-/// A name that equations can write, and none of those that are taken.
-fn identifier(name: &str, taken: &mut BTreeSet<String>) -> String {
-    let letter = |c: char| {
-        if c.is_alphanumeric() || c == '_' {
-            c
-        } else {
-            '_'
-        }
-    };
-    let letters: String = name.chars().map(letter).collect();
-    let letters = letters.trim_matches('_').to_owned();
-    let is_name = |name: &str| {
-        let found = names(name);
-        let [(found, _)] = found.as_slice() else {
-            return false;
-        };
-        found == name && !is_reserved(name)
-    };
-    let candidates = [
-        letters.clone(),
-        format!("{letters}_"),
-        format!("c_{letters}"),
-    ];
-    let first = candidates.into_iter().find(|name| is_name(name));
-    let first = first.unwrap_or_else(|| "column".to_owned());
-    let numbered = (2..).map(|number| format!("{first}_{number}"));
-    let found = std::iter::once(first.clone()).chain(numbered);
-    let name = found
-        .into_iter()
-        .find(|name| !taken.contains(name))
-        .unwrap_or(first);
-    taken.insert(name.clone());
-    name
-}
-
 /// The recording: samples in dwells where values or labels stay, else rows that count by themselves.
 fn source(file: &str, columns: &[Guess<'_>], rows: usize) -> String {
     let file = quoted(file);
@@ -142,7 +107,7 @@ fn source(file: &str, columns: &[Guess<'_>], rows: usize) -> String {
         Data::Numbers(numbers) => guess.role == RoleWord::Position && is_dwell(stretches(numbers)),
     });
     let stepped = columns.iter().filter(|guess| match &guess.column.data {
-        Data::Numbers(numbers) => is_set(guess.role) && is_dwell(stretches(numbers)),
+        Data::Numbers(numbers) => guess.is_set() && is_dwell(stretches(numbers)),
         Data::Labels(_) => false,
     });
     let stepped: Vec<String> = stepped.map(|guess| quoted(&guess.name)).collect();
@@ -157,105 +122,17 @@ fn source(file: &str, columns: &[Guess<'_>], rows: usize) -> String {
     }
 }
 
-fn is_set(role: RoleWord) -> bool {
-    matches!(role, RoleWord::Stimulus | RoleWord::Angle)
-}
-
-/// For each output a straight line along what is set; along its other axes, too. Around with an angle it is a wave.
-fn by_line(columns: &[Guess<'_>], language: Language) -> String {
-    let of = |role| columns.iter().filter(move |guess| guess.role == role);
-    let outputs: Vec<&Guess<'_>> = of(RoleWord::Output).collect();
-    let mut set: Vec<&Guess<'_>> = columns.iter().filter(|guess| is_set(guess.role)).collect();
-    // What differs from position to position is no drift.
-    if set.is_empty() && of(RoleWord::Position).next().is_none() {
-        set.extend(of(RoleWord::Time));
-    }
-    let columns_set = set.iter().map(|guess| guess.column);
-    let best = outputs
-        .first()
-        .and_then(|output| followed(output.column, columns_set));
-    let best = set.get(best.unwrap_or(0)).copied();
-    let is_along = |guess: &&Guess<'_>| {
-        best.is_some_and(|best| best.name == guess.name || is_kin(best.column, guess.column))
-    };
-    let mut taken: BTreeSet<String> = columns.iter().map(|guess| guess.name.clone()).collect();
-    let of_label = columns.iter();
-    let of_label = of_label.filter_map(|guess| Some((guess, Positions::of(guess.column)?)));
-    // Of several outputs, labels without an axis do not say which points up.
-    let of_label = of_label.filter(|(_, found)| found.name_axes() || outputs.len() == 1);
-    let timed = set.iter().all(|guess| guess.role == RoleWord::Time);
-    let positions = of_label.map(|(guess, positions)| {
-        let names = positions.axes().into_iter();
-        let names = names.map(|axis| identifier(&format!("n{axis}"), &mut taken));
-        (guess, positions, names.collect::<Vec<String>>())
-    });
-    let (along, positions) = match (positions.into_iter().next(), best) {
-        // Gravity acts along the axes, or what is set does.
-        (Some((guess, positions, names)), _) if timed && positions.are_up_or_down() => {
-            let table = positions.table(&guess.name, &names, &of_gravity(), language);
-            (names.into_iter().map(|name| (name, None)).collect(), table)
-        }
-        (Some((guess, positions, names)), Some(best)) if !timed && outputs.len() > 1 => {
-            let one = of_stimulus(&best.name);
-            let table = positions.table(&guess.name, &names, &one, language);
-            let along = names.iter().map(|name| format!("{}*{name}", best.name));
-            (along.map(|along| (along, None)).collect(), table)
-        }
-        _ if timed && field::is_constant(&outputs) => (Vec::new(), String::new()),
-        (None, Some(best)) if centrifuge::is_one(&outputs, best) => {
-            let along = centrifuge::acceleration(best, columns);
-            (vec![(along, None)], String::new())
-        }
-        _ => {
-            let along = set.iter().copied().filter(is_along);
-            let along = along.map(|guess| (guess.name.clone(), Some(guess.column)));
-            (along.collect(), String::new())
-        }
-    };
-    let along: Vec<(String, Option<&Column>)> = along;
-    let along_axes = along.len() > 1;
-    // Numbered: a name that is nearly that of a column would be taken for a slip of the pen.
-    let equations = outputs.iter().zip(1..).map(|(output, number)| {
-        let number = match outputs.len() {
-            1 => String::new(),
-            _ => number.to_string(),
-        };
-        let mut coefficient = |name: String| identifier(&name, &mut taken);
-        let constant = coefficient(format!("a{number}"));
-        let terms = along.iter().zip(1..).map(|((along, column), axis)| {
-            let slope = coefficient(match along_axes {
-                true => format!("b{number}{axis}"),
-                false => format!("b{number}"),
-            });
-            match column.is_some_and(|column| goes_around(output.column, column)) {
-                true => {
-                    let across = coefficient(format!("c{number}"));
-                    format!(" + {slope}*sin({along}) + {across}*cos({along})")
-                }
-                false => format!(" + {slope}*{along}"),
-            }
-        });
-        let terms: String = terms.collect();
-        format!("{} = {constant}{terms}", output.name)
-    });
-    let equations: Vec<String> = equations.map(|equation| quoted(&equation)).collect();
-    let equations = match equations.as_slice() {
-        [] => {
-            let why = say!("no column looks like an output").in_language(language);
-            format!("# equations = \"y = a + b*x\"   # {why}")
-        }
-        [one] => format!("equations = {one}"),
-        several => format!("equations = [\n    {},\n]", several.join(",\n    ")),
-    };
-    let field = match (outputs.as_slice(), along.is_empty()) {
-        ([x, y, z], true) => field::equation(x, y, z, language),
-        _ => String::new(),
-    };
+/// The equations without a procedure, and the columns.
+fn without_procedure(columns: &[Guess<'_>], language: Language) -> String {
+    let Lines {
+        equations,
+        positions,
+    } = by_line(columns, language);
     let columns: String = columns
         .iter()
         .map(|guess| declared(guess, language))
         .collect();
-    format!("{equations}\n{field}\n[columns]\n{columns}{positions}")
+    format!("{equations}\n[columns]\n{columns}{positions}")
 }
 
 fn declared(guess: &Guess<'_>, language: Language) -> String {

@@ -5,7 +5,7 @@ use gumption::fault::catalogue::told;
 use gumption::fault::{Between, Said, say};
 use gumption::language::Language;
 
-use super::{Section, Topic};
+use super::topic::{Section, Topic};
 
 /// Tables in the order in which a reader meets them, by the first part of their path.
 const ORDER: [&str; 21] = [

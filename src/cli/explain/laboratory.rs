@@ -5,7 +5,7 @@ use gumption::experiment::procedure::{PROCEDURES, Procedure};
 use gumption::fault::say;
 use gumption::language::Language;
 
-use super::{Section, Topic};
+use super::topic::{Section, Topic};
 
 /// Every procedure.
 pub(super) fn procedures(lang: Language) -> impl Iterator<Item = Topic> {

@@ -1,7 +1,7 @@
 //! The same topics as pages of Markdown, for `docs/reference`.
 
 use super::keys::{KeyTable, tables};
-use super::{Section, Topic};
+use super::topic::{Section, Topic};
 use gumption::budget::KeyRow;
 use gumption::fault::catalogue::told;
 use gumption::fault::{Said, say};

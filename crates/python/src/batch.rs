@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use gumption_fault::Rejection;
+use gumption_fault::language::Language;
 use gumption_format::csv;
 use gumption_format::files::write::Replacing;
 use gumption_format::files::{Files, Growing};
 use gumption_gum::batch::{self, Lot, Plan};
-use gumption_gum::budget::BatchFile;
+use gumption_gum::budget::{BatchFile, Profile};
 use gumption_gum::propagate::Progress;
 use gumption_report::batch::{Columns, Lines, ResultColumn, Results, Table, Values};
 use numpy::IntoPyArray;
@@ -73,8 +74,11 @@ impl Rows<'_> {
 /// Columns of results: arrays, or lists of texts; nothing for texts that are all empty.
 type Found = Vec<(String, Option<Py<PyAny>>)>;
 
-/// Evaluates a budget for every row of a table; gives the columns of results, or nothing where these go into a file; and how
-/// many rows there were, and how many of them have no result.
+/// The columns of results, or nothing where these went into a file; how many rows there were, and how many of them have no
+/// result.
+type Evaluated = (Option<Found>, u64, u64);
+
+/// Evaluates a budget for every row of a table.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn batch_of(
@@ -87,44 +91,70 @@ pub(crate) fn batch_of(
     keep: Vec<String>,
     progress: Option<Py<PyAny>>,
     language: &str,
-) -> PyResult<(Option<Found>, u64, u64)> {
+) -> PyResult<Evaluated> {
     let language = spoken(language)?;
-    let profile = settings.profile()?;
-    let read = AtomicU64::new(0);
     let plan = Plan {
         monte_carlo: settings.monte_carlo().then(|| settings.wanted()),
         threads: settings.threads(),
         keep,
         progress: Progress::default(),
     };
-    let rows = Rows::of(&mut table)?;
-    let reading = Reading {
-        read: &read,
-        length: rows.length().max(1) as f64,
-        evaluations: plan.progress.clone(),
-    };
     let (shares, contributions) = more;
-    let columns = Columns {
-        shares,
-        contributions,
-        seeds: plan.monte_carlo.is_some(),
+    let batch = Batch {
+        source: &source,
+        profile: settings.profile()?,
+        rows: Rows::of(&mut table)?,
+        columns: Columns {
+            shares,
+            contributions,
+            seeds: plan.monte_carlo.is_some(),
+            language,
+        },
+        plan,
+        read: AtomicU64::new(0),
         language,
     };
-    let refused = |rejection: Rejection| Unmade::from(rejection).raised(py, language);
-    let Some((path, replace)) = output else {
+    match output {
+        None => batch.into_columns(py, progress.as_ref()),
+        Some((path, replace)) => {
+            let replacing = match replace {
+                true => Replacing::Anything,
+                false => Replacing::Own,
+            };
+            let sink = Growing::begin(&path, replacing);
+            let sink = sink.map_err(|why| unwritten(why, language))?;
+            batch.into_file(py, progress.as_ref(), sink)
+        }
+    }
+}
+
+/// A budget and the rows for which it is evaluated.
+struct Batch<'a> {
+    source: &'a Source,
+    profile: Option<&'static Profile>,
+    rows: Rows<'a>,
+    plan: Plan,
+    columns: Columns,
+    /// Bytes of the table, or rows, that were read.
+    read: AtomicU64,
+    language: Language,
+}
+
+impl Batch<'_> {
+    fn into_columns(self, py: Python<'_>, progress: Option<&Py<PyAny>>) -> PyResult<Evaluated> {
+        let columns = self.columns;
         let work = |files: Files<'_>, path: &Path| {
-            let file = BatchFile::open(files, path, profile)?;
+            let file = BatchFile::open(files, path, self.profile)?;
             let mut results = Results::of(columns, &file);
             let add = |values: &mut Values, row: &Lot<'_>| columns.add_values(values, row);
-            rows.evaluate(&file, &plan, add, |values, done| {
-                read.store(done, Ordering::Relaxed);
+            self.rows.evaluate(&file, &self.plan, add, |values, done| {
+                self.read.store(done, Ordering::Relaxed);
                 results.add(values);
                 ControlFlow::Continue(())
             })?;
             Ok(results)
         };
-        let results = watched(py, progress.as_ref(), &reading, || source.with(work))?;
-        let (found, count) = results.map_err(refused)?.end();
+        let (found, count) = self.watched(py, progress, work)?.end();
         let column = |(name, column)| {
             let column = match column {
                 ResultColumn::Numbers(numbers) => {
@@ -136,37 +166,55 @@ pub(crate) fn batch_of(
             Ok((name, column))
         };
         let found = found.into_iter().map(column).collect::<PyResult<_>>()?;
-        return Ok((Some(found), count.rows, count.failed));
-    };
-    let replacing = match replace {
-        true => Replacing::Anything,
-        false => Replacing::Own,
-    };
-    let sink = Growing::begin(&path, replacing);
-    let mut sink = sink.map_err(|why| unwritten(why, language))?;
-    let mut trouble = None;
-    let work = |files: Files<'_>, path: &Path| {
-        let file = BatchFile::open(files, path, profile)?;
-        let mut results = Table::of(columns, &file);
-        let add = |lines: &mut Lines, row: &Lot<'_>| columns.add(lines, row);
-        rows.evaluate(&file, &plan, add, |lines, done| {
-            read.store(done, Ordering::Relaxed);
-            match sink.add(&results.add(lines)) {
-                Ok(()) => ControlFlow::Continue(()),
-                Err(why) => {
-                    trouble = Some(why);
-                    ControlFlow::Break(())
+        Ok((Some(found), count.rows, count.failed))
+    }
+
+    fn into_file(
+        self,
+        py: Python<'_>,
+        progress: Option<&Py<PyAny>>,
+        mut sink: Growing,
+    ) -> PyResult<Evaluated> {
+        let columns = self.columns;
+        let mut trouble = None;
+        let work = |files: Files<'_>, path: &Path| {
+            let file = BatchFile::open(files, path, self.profile)?;
+            let mut results = Table::of(columns, &file);
+            let add = |lines: &mut Lines, row: &Lot<'_>| columns.add(lines, row);
+            self.rows.evaluate(&file, &self.plan, add, |lines, done| {
+                self.read.store(done, Ordering::Relaxed);
+                match sink.add(&results.add(lines)) {
+                    Ok(()) => ControlFlow::Continue(()),
+                    Err(why) => {
+                        trouble = Some(why);
+                        ControlFlow::Break(())
+                    }
                 }
-            }
-        })?;
-        Ok(results)
-    };
-    let results = watched(py, progress.as_ref(), &reading, || source.with(work))?;
-    let (left, count) = results.map_err(refused)?.end();
-    let written = match trouble {
-        Some(why) => Err(why),
-        None => sink.add(&left).and_then(|()| sink.finish()),
-    };
-    written.map_err(|why| unwritten(why, language))?;
-    Ok((None, count.rows, count.failed))
+            })?;
+            Ok(results)
+        };
+        let (left, count) = self.watched(py, progress, work)?.end();
+        let written = match trouble {
+            Some(why) => Err(why),
+            None => sink.add(&left).and_then(|()| sink.finish()),
+        };
+        written.map_err(|why| unwritten(why, self.language))?;
+        Ok((None, count.rows, count.failed))
+    }
+
+    /// What the work gives, watched by Python: its progress is told, and an interrupt ends it.
+    fn watched<T: Send>(
+        &self,
+        py: Python<'_>,
+        progress: Option<&Py<PyAny>>,
+        work: impl FnOnce(Files<'_>, &Path) -> Result<T, Rejection> + Send,
+    ) -> PyResult<T> {
+        let reading = Reading {
+            read: &self.read,
+            length: self.rows.length().max(1) as f64,
+            evaluations: self.plan.progress.clone(),
+        };
+        let found = watched(py, progress, &reading, || self.source.with(work))?;
+        found.map_err(|rejection| Unmade::from(rejection).raised(py, self.language))
+    }
 }

@@ -1,6 +1,6 @@
 //! Slips, as they happen in a working.
 
-use super::laboratory::{Budget, Rounding, Rule};
+use super::laboratory::{Budget, Item, Rounding, Rule};
 use super::quantity::{Divisor, Known, RANGE};
 use super::words::plain;
 use super::working::{Factor, Nu, Sum, Working, exchanged};
@@ -26,130 +26,126 @@ impl Slip {
 
 /// All that can happen to a budget.
 pub(super) fn possible(budget: &Budget) -> Vec<Slip> {
-    let mut all = Vec::new();
-    for (i, item) in budget.items.iter().enumerate() {
-        let row = Some(i);
-        let mut here = |id| all.push(Slip { id, row, way: 0 });
-        if item.contained {
-            here("res-and-rep");
-            continue;
-        }
-        match item.known {
-            Known::Certificate(_, k) => {
-                here("cert-undivided");
-                here("cert-by-root3");
-                here("ref-missing");
-                if k != 2.0 {
-                    here("cert-k-2");
-                }
-            }
-            Known::Limits(_) => ["half-width-by-2", "root3-missing", "half-again", "triangle"]
-                .into_iter()
-                .for_each(&mut here),
-            Known::Width(_) => ["full-width", "half-width-by-2", "root3-missing"]
-                .into_iter()
-                .for_each(&mut here),
-            Known::Step(_) => ["full-width", "root3-missing"]
-                .into_iter()
-                .for_each(&mut here),
-            Known::Triangle(_) => here("tri-by-root3"),
-            Known::Cycle(_) => here("arcsine-as-rect"),
-            Known::Uneven(..) => here("asym-max"),
-            Known::Scatter(_, n, m) => {
-                if m > 1 {
-                    here("s-not-mean");
-                    here("s-over-n");
-                }
-                if n != m {
-                    here("s-wrong-m");
-                }
-                here("population-sd");
-                here("dof-n");
-            }
-            Known::Pooled(_, _, _, m) => {
-                here("pooled-dof");
-                if m > 1 {
-                    here("s-not-mean");
-                }
-            }
-            Known::Spread(..) => here("range-C"),
-            Known::Alike(..) => here("zero-scatter"),
-            Known::OfReading(_) => ["percent-ppm", "rel-abs"].into_iter().for_each(&mut here),
-            Known::OfScale(..) => {
-                here("percent-ppm");
-                here("rel-abs");
-                if item.blank.estimate != 0.0 {
-                    here("fs-reading");
-                }
-            }
-        }
-        here("row-dropped");
-        if (item.slope.abs() - 1.0).abs() > 0.02 {
-            here("c-one");
-            here("c-wrong");
-        }
-        if item.blank.unit == "°" {
-            here("degrees");
-        }
-        if item.known.figure().is_some_and(|x| x != 0.0) && item.blank.unit != "1" {
-            all.extend((0..2).map(|way| Slip {
-                id: "prefix",
-                row,
-                way,
-            }));
-        }
-        if item
-            .known
-            .figure()
-            .is_some_and(|x| two_digits(&plain(x, 2)))
-        {
-            all.push(Slip {
-                id: "input-transposed",
-                row,
-                way: 0,
-            });
-        }
-        all.push(Slip {
-            id: "hard-coded",
-            row,
-            way: 0,
-        });
+    let items = budget.items.iter().enumerate();
+    let mut all: Vec<Slip> = items
+        .flat_map(|(row, item)| of_item(item).into_iter().map(move |slip| (row, slip)))
+        .map(|(row, (id, way))| Slip {
+            id,
+            row: Some(row),
+            way,
+        })
+        .collect();
+    let of_whole = of_whole(budget).into_iter();
+    all.extend(
+        of_whole.flat_map(|(id, ways)| (0..ways).map(move |way| Slip { id, row: None, way })),
+    );
+    all
+}
+
+/// What can happen in a row, each slip in each of its ways.
+fn of_item(item: &Item) -> Vec<(&'static str, usize)> {
+    if item.contained {
+        return vec![("res-and-rep", 0)];
     }
-    let mut add = |id, row, ways: usize| all.extend((0..ways).map(|way| Slip { id, row, way }));
-    [
-        "linear-sum",
-        "squares-not-rooted",
-        "intermediates-rounded",
-        "k-forgotten",
-        "rounded-down",
-        "digits-transposed",
-    ]
-    .into_iter()
-    .for_each(|id| add(id, None, 1));
-    add("too-many-digits", None, 2);
-    add("U-unit", None, 1);
+    let once = |id| (id, 0);
+    let mut all: Vec<_> = of_known(item).into_iter().map(once).collect();
+    all.push(once("row-dropped"));
+    if (item.slope.abs() - 1.0).abs() > 0.02 {
+        all.extend(["c-one", "c-wrong"].map(once));
+    }
+    if item.blank.unit == "°" {
+        all.push(once("degrees"));
+    }
+    let figure = item.known.figure();
+    if figure.is_some_and(|x| x != 0.0) && item.blank.unit != "1" {
+        all.extend((0..2).map(|way| ("prefix", way)));
+    }
+    if figure.is_some_and(|x| two_digits(&plain(x, 2))) {
+        all.push(once("input-transposed"));
+    }
+    all.push(once("hard-coded"));
+    all
+}
+
+/// What can happen to what is known.
+fn of_known(item: &Item) -> Vec<&'static str> {
+    let mut all = Vec::new();
+    match item.known {
+        Known::Certificate(_, k) => {
+            all.extend(["cert-undivided", "cert-by-root3", "ref-missing"]);
+            if k != 2.0 {
+                all.push("cert-k-2");
+            }
+        }
+        Known::Limits(_) => {
+            all.extend(["half-width-by-2", "root3-missing", "half-again", "triangle"]);
+        }
+        Known::Width(_) => all.extend(["full-width", "half-width-by-2", "root3-missing"]),
+        Known::Step(_) => all.extend(["full-width", "root3-missing"]),
+        Known::Triangle(_) => all.push("tri-by-root3"),
+        Known::Cycle(_) => all.push("arcsine-as-rect"),
+        Known::Uneven(..) => all.push("asym-max"),
+        Known::Scatter(_, n, m) => {
+            if m > 1 {
+                all.extend(["s-not-mean", "s-over-n"]);
+            }
+            if n != m {
+                all.push("s-wrong-m");
+            }
+            all.extend(["population-sd", "dof-n"]);
+        }
+        Known::Pooled(_, _, _, m) => {
+            all.push("pooled-dof");
+            if m > 1 {
+                all.push("s-not-mean");
+            }
+        }
+        Known::Spread(..) => all.push("range-C"),
+        Known::Alike(..) => all.push("zero-scatter"),
+        Known::OfReading(_) => all.extend(["percent-ppm", "rel-abs"]),
+        Known::OfScale(..) => {
+            all.extend(["percent-ppm", "rel-abs"]);
+            if item.blank.estimate != 0.0 {
+                all.push("fs-reading");
+            }
+        }
+    }
+    all
+}
+
+/// What can happen between the rows and the statement, and in how many ways.
+fn of_whole(budget: &Budget) -> Vec<(&'static str, usize)> {
+    let mut all = vec![
+        ("linear-sum", 1),
+        ("squares-not-rooted", 1),
+        ("intermediates-rounded", 1),
+        ("k-forgotten", 1),
+        ("rounded-down", 1),
+        ("digits-transposed", 1),
+        ("too-many-digits", 2),
+        ("U-unit", 1),
+    ];
     if budget.correlation.is_some() {
-        ["sign-lost", "corr-ignored", "corr-one"]
-            .into_iter()
-            .for_each(|id| add(id, None, 1));
+        all.extend([("sign-lost", 1), ("corr-ignored", 1), ("corr-one", 1)]);
     }
     match budget.rule {
         Rule::Student(_) => {
-            ["k2-low-dof", "veff-up", "k-of-typeA", "k-level"]
-                .into_iter()
-                .for_each(|id| add(id, None, 1));
-            let finite = |item: &super::laboratory::Item| {
-                !item.contained && item.known.right(0.0).nu.is_finite()
-            };
-            if budget.items.iter().any(finite) {
-                add("veff-wrong", None, 2);
+            all.extend([
+                ("k2-low-dof", 1),
+                ("veff-up", 1),
+                ("k-of-typeA", 1),
+                ("k-level", 1),
+            ]);
+            let is_finite = |item: &Item| !item.contained && item.known.right(0.0).nu.is_finite();
+            if budget.items.iter().any(is_finite) {
+                all.push(("veff-wrong", 2));
             }
         }
-        Rule::Rectangle => add("k2-rect", None, 1),
-        Rule::Two => add("k-twice", None, 1),
+        Rule::Rectangle => all.push(("k2-rect", 1)),
+        Rule::Two => all.push(("k-twice", 1)),
     }
     if budget.cmc.is_some() {
-        add("below-cmc", None, 1);
+        all.push(("below-cmc", 1));
     }
     all
 }

@@ -35,15 +35,7 @@ fn both(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationErro
     let settings = options.monte_carlo.settings(budget);
     let linear = gum::linearise(budget)?;
     let second_order = second_order::evaluate(budget, &linear);
-    if let Some((measurand, error)) =
-        resolution::unresolved_estimate(budget, &linear, &second_order)
-    {
-        let output = budget.model.outputs().get(measurand);
-        return Err(EvaluationError::Unresolved {
-            measurand: output.map(|output| output.name.clone()).unwrap_or_default(),
-            error,
-        });
-    }
+    require_resolution(budget, &linear, &second_order)?;
     if options.progress.is_stopped() {
         return Err(EvaluationError::Stopped);
     }
@@ -69,16 +61,15 @@ fn both(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationErro
             let (scales, outcome) = (scales(&gums), monte_carlo.as_ref());
             monte_carlo::indices(drawn, settings.seed, &scales, outcome, options.threads)
         });
-    let all = second_order.as_slice();
     let mut results: Vec<MeasurandResult> = gums
         .into_iter()
-        .zip(all)
+        .zip(&second_order)
         .enumerate()
-        .map(|(measurand, (gum, second_order))| {
+        .map(|(measurand, (gum, of_second))| {
             let outputs = monte_carlo.as_ref().map(|mc| &mc.outputs);
-            let cancels = resolution::cancels(&linear, all, measurand);
+            let cancels = resolution::cancels(&linear, &second_order, measurand);
             let found = outputs.and_then(|outputs| outputs.get(measurand));
-            both_methods(gum, second_order, found.filter(|_| !cancels))
+            both_methods(gum, of_second, found.filter(|_| !cancels))
         })
         .collect();
     let run = monte_carlo.as_ref().map(|outcome| outcome.run.clone());
@@ -159,6 +150,23 @@ fn on_the_turn(budget: &Budget, linear: &Linear) -> Option<Budget> {
     Some(Budget {
         model,
         ..budget.clone()
+    })
+}
+
+/// Estimates whose digits are lost where the model takes large numbers from one another are none.
+fn require_resolution(
+    budget: &Budget,
+    linear: &Linear,
+    second_order: &[SecondOrderOutcome],
+) -> Result<(), EvaluationError> {
+    let unresolved = resolution::unresolved_estimate(budget, linear, second_order);
+    let Some((measurand, error)) = unresolved else {
+        return Ok(());
+    };
+    let output = budget.model.outputs().get(measurand);
+    Err(EvaluationError::Unresolved {
+        measurand: output.map(|output| output.name.clone()).unwrap_or_default(),
+        error,
     })
 }
 

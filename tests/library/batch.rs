@@ -160,6 +160,51 @@ fn cell<'r>(
     &row[at.unwrap_or_else(|| panic!("no {head} in {heads:?}"))]
 }
 
+/// Readings in columns of their own, some of them missing and in another unit, are the list that they make; a column is no list
+/// beside it, and has a unit like that of its input.
+#[test]
+fn readings_in_columns_of_their_own_are_a_list() {
+    let budget = written(ANY);
+    let evaluate = |table: &str| run(&budget, table, &plan(None, 1));
+    let (listed, _) =
+        evaluate("label;V.repeatability.readings\na;[1.5, 2.25, 1.75]\nb;[1.25, 1.5]\n")
+            .expect("a batch");
+    let (apart, _) = evaluate(
+        "label;V.repeatability.readings.1;V.repeatability.readings.3 [mV];V.repeatability.readings.2\na;1.5;1750;2.25\nb;1.25;1500;\n",
+    )
+    .expect("a batch");
+    assert_eq!(listed, apart);
+    let (scaled, _) =
+        evaluate("label;V.repeatability.readings [mV]\na;[1500, 2250, 1750]\nb;[1250, 1500]\n")
+            .expect("a batch");
+    assert_eq!(listed, scaled);
+    for (table, message) in [
+        (
+            "label;V.repeatability.readings.1 [ohm]\na;1\n",
+            "no unit like V",
+        ),
+        (
+            "label;V.repeatability.readings;V.repeatability.readings.1\na;[1, 2];3\n",
+            "two columns set the same",
+        ),
+        ("label;V_1;V_2\na;1;2\n", "V.readings.1, V.readings.2"),
+    ] {
+        let refused = evaluate(table).expect_err("no batch").render(false);
+        assert!(refused.contains(message), "{refused}");
+    }
+}
+
+/// Where readings of several inputs were taken together, none of them is left out by itself.
+#[test]
+fn a_missing_reading_does_not_shift_those_of_others() {
+    let budget = "[measurand.P]\nmodel = \"V * I\"\n[input.V]\nreadings = [1, 2]\n[input.I]\nreadings = [1, 2]\n[[joint]]\ninputs = [\"V\", \"I\"]\n";
+    let heads = "V.readings.1,V.readings.2,V.readings.3,I.readings.1,I.readings.2,I.readings.3";
+    let table = format!("label,{heads}\na,1,2,3,4,5,7\nb,1,,3,4,5,\n");
+    let (found, count) = run(budget, &table, &plan(None, 1)).expect("a batch");
+    assert_eq!((count.rows, count.failed), (2, 1), "{found}");
+    assert!(found.contains("a reading of V is missing"), "{found}");
+}
+
 #[test]
 fn a_row_is_the_budget_with_the_row_written_into_it() {
     let rows: Vec<String> = ROWS.iter().map(|(row, _)| row.join(";")).collect();

@@ -101,7 +101,8 @@ impl<'f> BatchFile<'f> {
         let in_table = |faults| Rejection::new(table, sheet.text(), faults);
         let place = |at| sheet.place(sheet.header(), at);
         let names_one = |name: &str| series::names_one(&file, name);
-        let columns = Columns::of(sheet, place, names_one).map_err(in_table)?;
+        let of_readings = |name: &str| series::unit_of_readings(&file, name);
+        let columns = Columns::of(sheet, place, names_one, of_readings).map_err(in_table)?;
         let mut faults = Vec::new();
         let kept = kept(keep, sheet, &columns.names, &mut faults);
         let names = columns.names.iter().enumerate();

@@ -7,9 +7,9 @@ use toml::de::DeValue;
 
 use super::cell::Entry;
 use super::check::Origin;
-use super::faults::CSV;
+use super::faults::{CSV, SERIES};
 use super::series::LABEL;
-use gumption_core::quantity::UnitTable;
+use gumption_core::quantity::{Conversion, Unit, UnitTable};
 use gumption_fault::{Fault, Rejection, say};
 use gumption_format::csv::{
     Heading, OVERLOAD, Row, RowFields, Sheet, mend_of_number, overload, text_of, two_decimal_signs,
@@ -22,7 +22,18 @@ use gumption_lanes::twice::TENS;
 pub(super) struct Columns {
     /// Their names without their units.
     pub names: Vec<Stated<String>>,
-    units: Vec<Option<String>>,
+    units: Vec<HeadUnit>,
+}
+
+/// What the head of a column says of the numbers below it.
+#[derive(Debug)]
+enum HeadUnit {
+    /// They are in the unit that the budget states.
+    OfBudget,
+    /// They are amounts in this unit.
+    Amounts(String),
+    /// They are readings, which a budget has as numbers in the unit of their input.
+    Readings(Conversion),
 }
 
 /// A table: names of columns, and fields as a budget writes them.
@@ -46,14 +57,16 @@ pub(super) enum Written {
 
 impl Columns {
     /// Those of a table; `place` says where each is named, `names_one` whether the budget has something of that name,
-    /// which then has no unit behind it: `pH_s` is no pH in seconds.
+    /// which then has no unit behind it: `pH_s` is no pH in seconds; `of_readings` the unit in which it has the readings that a
+    /// column of that name sets.
     ///
     /// # Errors
-    /// Units in the headers that are not known, in places of the table.
+    /// Units in the headers that are not known, or are none of the readings, in places of the table.
     pub fn of(
         sheet: &Sheet<'_>,
         place: impl Fn(usize) -> Range<usize>,
         names_one: impl Fn(&str) -> bool,
+        of_readings: impl Fn(&str) -> Option<Unit>,
     ) -> Result<Columns, Vec<Fault>> {
         let known = UnitTable::default();
         let mut columns = Columns {
@@ -66,15 +79,23 @@ impl Columns {
                 true => Heading::plain(name),
                 false => Heading::read(name, &known),
             });
-            match &heading.unit {
-                Ok(unit) => columns
-                    .units
-                    .push(unit.as_ref().map(|unit| unit.symbol.clone())),
-                Err(error) => {
-                    let here = sheet.place(sheet.header(), at);
-                    faults.push(heading.unknown_unit(error, &here));
+            let here = || sheet.place(sheet.header(), at);
+            let own = of_readings(&heading.name);
+            columns.units.push(match (&heading.unit, own) {
+                (Ok(None), _) => HeadUnit::OfBudget,
+                (Ok(Some(unit)), None) => HeadUnit::Amounts(unit.symbol.clone()),
+                (Ok(Some(unit)), Some(own)) => match unit.conversion_to(&own) {
+                    Some(conversion) => HeadUnit::Readings(conversion),
+                    None => {
+                        faults.push(no_unit_of_readings(&heading.name, unit, &own, here()));
+                        HeadUnit::OfBudget
+                    }
+                },
+                (Err(error), _) => {
+                    faults.push(heading.unknown_unit(error, &here()));
+                    HeadUnit::OfBudget
                 }
-            }
+            });
             columns.names.push(Stated {
                 value: heading.name,
                 span: place(at),
@@ -94,7 +115,7 @@ impl Columns {
             .map(|((unit, name), field)| match name.value == LABEL {
                 // `10,5 V` as a name stays as it is.
                 true if field.parse::<f64>().is_err() => Written::Text(field.to_owned()),
-                _ => written(field, unit.as_deref(), sheet),
+                _ => written(field, unit, sheet),
             })
             .collect()
     }
@@ -106,13 +127,14 @@ impl Points {
         named: &Stated<String>,
         origin: Origin<'_>,
         names_one: impl Fn(&str) -> bool,
+        of_readings: impl Fn(&str) -> Option<Unit>,
         faults: &mut Vec<Fault>,
     ) -> Option<Points> {
         let path = origin.directory.join(&named.value);
         let shown = path.display().to_string();
         let files = origin.files;
         let found = text_of(files.files, &path, &shown).and_then(|text| {
-            Points::of(&text, named, &names_one)
+            Points::of(&text, named, &names_one, &of_readings)
                 .map_err(|faults| Rejection::new(&shown, &text, faults))
         });
         found
@@ -132,10 +154,11 @@ impl Points {
         text: &str,
         named: &Stated<String>,
         names_one: &dyn Fn(&str) -> bool,
+        of_readings: &dyn Fn(&str) -> Option<Unit>,
     ) -> Result<Points, Vec<Fault>> {
         let sheet = Sheet::new(text).map_err(|fault| vec![*fault])?;
         let sheet = sheet.above_units(&UnitTable::default());
-        let columns = Columns::of(&sheet, |_| named.span.clone(), names_one)?;
+        let columns = Columns::of(&sheet, |_| named.span.clone(), names_one, of_readings)?;
         let mut rows = Vec::new();
         let is_value = |at: usize| columns.names[at].value != LABEL;
         let mut faults: Vec<Fault> = two_decimal_signs(&sheet, is_value).into_iter().collect();
@@ -210,7 +233,7 @@ fn moved<'p>(value: DeValue<'p>, place: &impl Fn(Range<usize>) -> Range<usize>) 
 }
 
 /// A field as a budget writes it: a number with the unit of its column, where that states one.
-fn written(field: &str, unit: Option<&str>, sheet: &Sheet) -> Written {
+fn written(field: &str, unit: &HeadUnit, sheet: &Sheet) -> Written {
     let comma = sheet.has_decimal_commas() && field.matches(',').count() == 1;
     let plain = match comma {
         true => field.replace(',', "."),
@@ -221,19 +244,67 @@ fn written(field: &str, unit: Option<&str>, sheet: &Sheet) -> Written {
         .ok()
         .filter(|number| number.is_finite());
     match (number, unit) {
-        (Some(_), Some(unit)) => Written::Text(format!("{plain} {unit}")),
+        (Some(_), HeadUnit::Amounts(unit)) => Written::Text(format!("{plain} {unit}")),
+        (Some(number), HeadUnit::Readings(conversion)) => {
+            Written::Value(format!("{:?}", conversion.apply(number)))
+        }
         // TOML has no +1, .5 and 5.: the shortest form of the number then.
-        (Some(number), None) if !is_toml_number(&plain) && DeValue::parse(&plain).is_err() => {
+        (Some(number), HeadUnit::OfBudget)
+            if !is_toml_number(&plain) && DeValue::parse(&plain).is_err() =>
+        {
             Written::Value(format!("{number:?}"))
         }
-        (Some(_), None) => Written::Value(plain),
-        (None, _) if field.starts_with('[') => Written::Value(field.to_owned()),
+        (Some(_), HeadUnit::OfBudget) => Written::Value(plain),
+        (None, _) if field.starts_with('[') => Written::Value(match unit {
+            HeadUnit::OfBudget => field.to_owned(),
+            HeadUnit::Amounts(unit) => each_number(field, &|number| format!("\"{number} {unit}\"")),
+            HeadUnit::Readings(conversion) => each_number(field, &|number| {
+                let converted = number.parse().map(|number| conversion.apply(number));
+                converted.map_or(number.to_owned(), |number| format!("{number:?}"))
+            }),
+        }),
         // `0,1 %` beside `0,1`.
         (None, _) if comma && is_amount(&plain) && mend_of_number(field).is_none() => {
             Written::Text(plain)
         }
         (None, _) => Written::Text(field.to_owned()),
     }
+}
+
+/// A list in which every number is written anew, also of the lists in it.
+fn each_number(list: &str, write: &dyn Fn(&str) -> String) -> String {
+    let Ok(parsed) = DeValue::parse(list) else {
+        return list.to_owned();
+    };
+    let mut numbers = Vec::new();
+    places_of_numbers(&parsed, &mut numbers);
+    let (mut text, mut end) = (String::new(), 0);
+    for (place, number) in numbers {
+        text.push_str(&list[end..place.start]);
+        text.push_str(&write(&number));
+        end = place.end;
+    }
+    text + &list[end..]
+}
+
+fn places_of_numbers(value: &Raw<'_>, found: &mut Vec<(Range<usize>, String)>) {
+    match value.get_ref() {
+        DeValue::Array(list) => list.iter().for_each(|item| places_of_numbers(item, found)),
+        DeValue::Integer(number) => found.push((value.span(), number.to_string())),
+        DeValue::Float(number) => found.push((value.span(), number.to_string())),
+        _ => {}
+    }
+}
+
+fn no_unit_of_readings(name: &str, unit: &Unit, own: &Unit, here: Range<usize>) -> Fault {
+    let message = say!(
+        "{name} is in {}, which is no unit like {}",
+        unit.symbol,
+        own.symbol
+    );
+    Fault::new(SERIES, here, message)
+        .label(say!("expected {} or a unit like it", own.symbol))
+        .help(say!("readings are converted to the unit of their input"))
 }
 
 /// Whether a text is a number and a unit behind a blank.
@@ -370,6 +441,21 @@ fn digits(text: &[u8], before: u64) -> Option<(u64, &[u8])> {
 mod tests {
     use super::*;
 
+    /// A unit in the head holds for the members of a list as well: readings are converted, other numbers are amounts.
+    #[test]
+    fn lists_have_the_unit_of_their_head() {
+        let table = "label;V.readings [mV];X.limits [mm]\na;[1010, 1.5e3];[-1, 2.5]\n";
+        let sheet = Sheet::new(table).expect("a table");
+        let volt = UnitTable::default().parse("V").expect("a unit");
+        let of_readings = |name: &str| (name == "V.readings").then(|| volt.clone());
+        let columns = Columns::of(&sheet, |_| 0..0, |_| false, of_readings).expect("columns");
+        let mut found = Vec::new();
+        let visited = sheet.visit(|row| found.extend(columns.written(row, &sheet)));
+        visited.expect("rows");
+        let texts: Vec<&str> = found.iter().map(Written::text).collect();
+        assert_eq!(texts, ["a", "[1.01, 1.5]", r#"["-1 mm", "2.5 mm"]"#]);
+    }
+
     #[test]
     fn values_are_no_overloads_and_have_one_decimal_sign() {
         let named = Stated {
@@ -378,7 +464,7 @@ mod tests {
             key: 0..0,
         };
         let refused = |text: &str| {
-            let found = Points::of(text, &named, &|_| false);
+            let found = Points::of(text, &named, &|_| false, &|_| None);
             let places = |faults: Vec<Fault>| faults.into_iter().map(|fault| fault.span);
             let refused = found.err().map(places).into_iter().flatten();
             refused
@@ -394,7 +480,7 @@ mod tests {
     fn amounts_may_have_decimal_commas_as_numbers_have() {
         let text = "label;V;V.u\n10,5 V;1,5;0,1 %\n";
         let sheet = Sheet::new(text).expect("names");
-        let columns = Columns::of(&sheet, |_| 0..0, |_| false).expect("columns");
+        let columns = Columns::of(&sheet, |_| 0..0, |_| false, |_| None).expect("columns");
         let row = sheet.rows().next().expect("a row").expect("fields");
         let written = columns.written(&row, &sheet);
         let texts: Vec<&str> = written.iter().map(Written::text).collect();
@@ -407,7 +493,7 @@ mod tests {
         let sheet = Sheet::new(text).expect("names");
         let sheet = sheet.above_units(&UnitTable::default());
         let is_input = |name: &str| ["R", "pH_s"].contains(&name);
-        let columns = Columns::of(&sheet, |_| 0..0, is_input).expect("columns");
+        let columns = Columns::of(&sheet, |_| 0..0, is_input, |_| None).expect("columns");
         let rows: Vec<_> = sheet.rows().map(|row| row.expect("fields")).collect();
         let written = columns.written(&rows[0], &sheet);
         let texts: Vec<&str> = written.iter().map(Written::text).collect();

@@ -213,7 +213,9 @@ fn read_variants(
     let stated = file.series.as_ref();
     let named = stated.and_then(|stated| stated.value.file.as_ref());
     let names_one = |name: &str| series::names_one(&table, name);
-    let points = named.map(|named| Points::read(named, origin, names_one, &mut reader.faults));
+    let of_readings = |name: &str| series::unit_of_readings(&table, name);
+    let points =
+        named.map(|named| Points::read(named, origin, names_one, of_readings, &mut reader.faults));
     let series = match (stated, &points) {
         (Some(stated), None) => series::series(&table, stated, None, &mut reader.faults),
         (Some(stated), Some(Some(points))) => {

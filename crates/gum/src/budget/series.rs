@@ -6,6 +6,7 @@
 mod columns;
 mod heads;
 mod places;
+mod readings;
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -17,13 +18,14 @@ use super::cell::Entry;
 use super::faults::SERIES;
 use super::points::Points;
 use super::tables::SeriesTable;
-use columns::OWNERS;
+use columns::{OWNERS, numbered};
 use gumption_fault::{Fault, say};
 use gumption_format::toml::{Raw, Stated};
 use heads::Heads;
 use places::{leave_out, set};
 
 pub(super) use columns::{Column, LABEL, column, names_one, set_twice, targets};
+pub(super) use readings::unit_of_readings;
 
 /// Where a row stands, and its cells under the heads of their columns.
 type WrittenRow<'t> = (std::ops::Range<usize>, Vec<(Stated<Entry>, Raw<'t>)>);
@@ -200,12 +202,20 @@ pub(super) fn variant<'t>(
     for ((target, name), (cell, raw)) in targets.iter().zip(names).zip(cells) {
         match target {
             Some(Column::Label) => variant.label = Some(label(&cell.value)),
+            // All of a list together, below.
+            Some(Column::Path(path)) if numbered(path).is_some() => {}
+            Some(Column::Path(path)) if is_left_out(&cell.value, path) && is_element(path) => {
+                faults.push(missing_element(name, cell));
+            }
             Some(Column::Path(path)) if is_left_out(&cell.value, path) => {
                 leave_out(&mut variant.table, path);
             }
             Some(Column::Path(path)) => set(&mut variant.table, path, name, cell, raw, faults),
             Some(Column::Kept) | None => {}
         }
+    }
+    for list in readings::readings(names, targets, cells) {
+        list.write(&mut variant.table, faults);
     }
     variant
 }
@@ -224,6 +234,24 @@ fn is_left_out(cell: &Entry, path: &[String]) -> bool {
         Entry::Number(number) => *number == 0.0 && deviation && owned,
         Entry::List => false,
     }
+}
+
+/// Whether a path leads to an element of a list: an end of limits, a value of a vector.
+fn is_element(path: &[String]) -> bool {
+    let [.., list, element] = path else {
+        return false;
+    };
+    element.parse::<usize>().is_ok() && list != "components"
+}
+
+fn missing_element(name: &Stated<String>, cell: &Stated<Entry>) -> Fault {
+    let message = say!(
+        "{} is missing, and no element of a list is left out",
+        name.value
+    );
+    Fault::new(SERIES, cell.span.clone(), message)
+        .label(say!("an empty cell"))
+        .help(say!("state it in every row"))
 }
 
 fn incomplete(stated: &Stated<SeriesTable>) -> Fault {
@@ -341,14 +369,34 @@ inputs."V.scatter" = { u = 0.5 }
     #[test]
     fn an_element_of_a_list_is_named_by_its_place() {
         let found = rows(
-            r#""V.components.1.readings.3", "claim.k", "claim.2.inputs.\"V.scatter\".u""#,
-            "[3, 2, 0.58], [6, 3, 1.53]",
+            r#""V.components.2.certificate.U", "claim.k", "claim.2.inputs.\"V.scatter\".u""#,
+            "[0.3, 2, 0.58], [0.5, 3, 1.53]",
         );
-        assert!((found[1].components[1].u - (7.0f64 / 3.0).sqrt()).abs() < 1e-12);
+        assert_eq!(found[1].components[2].u, 0.25);
         let factor = found[1].claims[0].figure(&Figure::CoverageFactor);
         assert_eq!(factor, Some(3.0));
         assert_eq!(found[1].claims[1].figures[0].value, 1.53);
-        assert!(message(r#""V.components.1.readings.4""#, "[1]").contains("the list has 3"));
+        assert!(message(r#""V.components.3.u""#, "[1]").contains("the list has 2"));
+    }
+
+    /// The readings of a row are those of its columns, in the order of their numbers: none of the file, and none for an empty cell.
+    #[test]
+    fn readings_stand_in_columns_of_their_own() {
+        let columns = r#""V.scatter.readings.2", "V.scatter.readings.1", "V.scatter.readings.4""#;
+        let found = rows(columns, r#"[1, 2, 6], [5, 3, ""], [4, 4, 1]"#);
+        let u = |row: usize| found[row].components[1].u;
+        let s_over_root_n = |readings: &[f64]| {
+            let n = readings.len() as f64;
+            let mean = readings.iter().sum::<f64>() / n;
+            let squares: f64 = readings.iter().map(|x| (x - mean) * (x - mean)).sum();
+            (squares / (n - 1.0) / n).sqrt()
+        };
+        for (row, readings) in [&[2.0, 1.0, 6.0][..], &[3.0, 5.0], &[4.0, 4.0, 1.0]]
+            .into_iter()
+            .enumerate()
+        {
+            assert!((u(row) - s_over_root_n(readings)).abs() < 1e-12, "{row}");
+        }
     }
 
     #[test]
@@ -429,5 +477,13 @@ rows = [["a", 295.65, 600], ["b", "296 K", "0.9 K"]]
         );
         assert!(message(r#""X.value.deeper""#, "[1]").contains("goes beyond a number"));
         assert!(message(r#""X""#, "[\"much\"]").contains("where a number is expected"));
+        assert!(message(r#""X.limits.1""#, "[\"\"]").contains("no element of a list is left out"));
+        assert!(
+            message(
+                r#""V.scatter.readings", "V.scatter.readings.1""#,
+                "[[1, 2], 3]"
+            )
+            .contains("two columns set the same")
+        );
     }
 }

@@ -44,7 +44,7 @@ pub(in crate::budget) fn set_twice(
     let all = names.iter().zip(targets).enumerate();
     let twice = all.filter_map(|(at, (name, target))| {
         let sets = |other: &Option<Column>| {
-            !matches!(target, None | Some(Column::Kept)) && other == target
+            !matches!(target, None | Some(Column::Kept)) && (other == target || is_list_of(other, target))
         };
         let first = targets[..at].iter().position(sets)?;
         let fault = Fault::new(
@@ -63,11 +63,36 @@ pub(in crate::budget) fn set_twice(
                 .label(say!("the second"))
                 .related(names[first].span.clone(), say!("the first")),
         };
-        Some(fault.help(say!(
-            "leave one of them out, or give it the name of what it holds"
-        )))
+        let are_readings = matches!(target, Some(Column::Path(path)) if path.last().is_some_and(|key| key == READINGS));
+        Some(fault.help(match are_readings {
+            true => say!(
+                "readings in columns of their own are numbered: {name}.1, {name}.2, …",
+                name = name.value
+            ),
+            false => say!("leave one of them out, or give it the name of what it holds"),
+        }))
     });
     twice.collect()
+}
+
+/// The key of readings.
+pub(super) const READINGS: &str = "readings";
+
+/// The place of the list and the number of the reading, where a column sets one.
+pub(super) fn numbered(path: &[String]) -> Option<(&[String], usize)> {
+    let (number, list) = path.split_last()?;
+    let number = number.parse().ok().filter(|number| *number > 0)?;
+    (list.last()? == READINGS).then_some((list, number))
+}
+
+/// Whether one sets the readings of which the other sets one.
+fn is_list_of(one: &Option<Column>, other: &Option<Column>) -> bool {
+    let (Some(Column::Path(one)), Some(Column::Path(other))) = (one, other) else {
+        return false;
+    };
+    let is_within =
+        |list: &[String], path: &[String]| numbered(path).is_some_and(|(of, _)| of == list);
+    is_within(one, other) || is_within(other, one)
 }
 
 /// The place that a column names: `label`, an input or a constant, or a path such as `X.dof`,
@@ -211,6 +236,13 @@ fn unknown_column(file: &DeTable<'_>, name: &Stated<String>, path: &[String]) ->
         }
         None => {}
     }
+    if let [alone] = path
+        && let Some(input) = numbered_input(file, alone)
+    {
+        return fault.help(say!(
+            "readings of {input} in columns of their own are {input}.readings.1, {input}.readings.2, …"
+        ));
+    }
     let known = known_names(file, path.len());
     match nearest(&path[0], known.iter().map(String::as_str)) {
         Some(near) => {
@@ -228,6 +260,14 @@ fn unknown_column(file: &DeTable<'_>, name: &Stated<String>, path: &[String]) ->
             ),
         }),
     }
+}
+
+/// The input of which a column is the next in a number of them: `V1`, `V_2`, `V 3`.
+fn numbered_input<'c>(file: &DeTable<'_>, column: &'c str) -> Option<&'c str> {
+    let name = column.trim_end_matches(|c: char| c.is_ascii_digit());
+    let input = name.trim_end_matches(['_', ' ', '-', '#']);
+    let is_numbered = name.len() < column.len();
+    (is_numbered && entry(file, "input", input).is_some()).then_some(input)
 }
 
 /// What a path of so many parts may begin with.

@@ -53,13 +53,22 @@ impl Heads {
     ) -> Vec<(Stated<Entry>, Raw<'t>)> {
         let mut cells: Vec<_> = cells.collect();
         for ((cell, raw), unit) in cells.iter_mut().zip(&self.units) {
-            if let (Some(unit), Some(number)) = (unit, digits(raw)) {
-                let amount = format!("{number} {unit}");
-                cell.value = Entry::Text(amount.clone());
-                *raw.get_mut() = DeValue::String(amount.into());
+            let Some(unit) = unit else { continue };
+            if let Some(number) = digits(raw) {
+                cell.value = Entry::Text(format!("{number} {unit}"));
             }
+            in_unit(raw, unit);
         }
         cells
+    }
+}
+
+/// Numbers as amounts in a unit, also those of a list.
+fn in_unit(value: &mut Raw<'_>, unit: &str) {
+    if let Some(number) = digits(value) {
+        *value.get_mut() = DeValue::String(format!("{number} {unit}").into());
+    } else if let DeValue::Array(list) = value.get_mut() {
+        list.iter_mut().for_each(|item| in_unit(item, unit));
     }
 }
 

@@ -203,3 +203,47 @@ fn nothing_is_larger_than_the_readings() {
         assert!(size.abs() < 4.0, "{found}");
     }
 }
+
+/// A converter at voltages in an order of no meaning; codes that are means of many readings, with an error by the code.
+fn codes(seed: u64, error: impl Fn(u32) -> f64) -> String {
+    let mut noise = Noise(seed);
+    let mut rows = "V [V],code\n".to_owned();
+    for row in 0..120_u32 {
+        let volts = 0.05 + f64::from((row * 37) % 120) / 12.1;
+        let ideal = 2.0 + 409.5 * volts;
+        let code = (ideal + 0.5).floor() as u32;
+        let _ = writeln!(
+            rows,
+            "{volts:.5},{:.2}",
+            ideal + error(code) + 0.25 * noise.normal()
+        );
+    }
+    rows
+}
+
+#[test]
+fn a_bit_of_a_converter_has_a_weight_of_its_own() {
+    let case = "equations = \"code = offset + gain*V\"\n[columns]\nV = \"stimulus\"\ncode = \"output\"\n[noise]\nu = 0.25\n";
+    let is_set = |code: u32, bit: u32| f64::from(code >> bit & 1);
+    for (bit, label) in [(10, "bit of 1024"), (8, "bit of 256")] {
+        let rows = codes(u64::from(bit), |code| 1.5 * is_set(code, bit));
+        let found = diagnosed("bit", &rows, case);
+        assert_eq!(named_apart(&found), [["bit-weight"]], "{found}");
+        let named = &found["effects"][0]["named"][0];
+        assert_eq!(named["variants"][0]["label"], label);
+    }
+    // The uppermost changes once: a step at one value, whatever makes it.
+    let rows = codes(3, |code| 1.5 * is_set(code, 11));
+    let found = diagnosed("uppermost bit", &rows, case);
+    assert_eq!(named_apart(&found)[0][0], "transition", "{found}");
+    // Several are one effect, with an error for each.
+    let rows = codes(4, |code| {
+        1.5 * is_set(code, 11) - 1.0 * is_set(code, 10) + 0.8 * is_set(code, 9)
+            - 0.9 * is_set(code, 8)
+    });
+    let found = diagnosed("bits", &rows, case);
+    assert!(
+        named_apart(&found)[0].contains(&"bit-weight".to_owned()),
+        "{found}"
+    );
+}

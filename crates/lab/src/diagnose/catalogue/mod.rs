@@ -21,7 +21,7 @@
 //! | `exponentials` | what grows or dies away along a column |
 //! | `deviations` | the same where the model is of errors, and no scale bounds its changes |
 //! | `heating`, `waves` | power of the signal, what repeats |
-//! | `readout` | rounding and slips, readings that stand still |
+//! | `readout`, `bits` | rounding and slips, readings that stand still, weights of the bits of a converter |
 //! | `angles`, `fields` | errors of angles; what stays in the laboratory while the sensor turns |
 //! | `finer` | values between those of the grids |
 //! | `generics` | competitors without a name |
@@ -29,6 +29,7 @@
 mod absorbed;
 mod angles;
 mod axes;
+mod bits;
 mod building;
 mod conditions;
 pub(super) mod deviations;
@@ -385,6 +386,7 @@ pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     cells.extend(angles::cells(fitted));
     cells.extend(rows::cells(fitted));
     cells.extend(readout::cells(fitted));
+    cells.extend(bits::cells(fitted));
     let depths = fitted.numeric().into_iter();
     cells.extend(depths.filter_map(|column| conditions::stem(fitted, column)));
     cells.extend(heating::cells(fitted));

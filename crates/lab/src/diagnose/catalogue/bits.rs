@@ -1,109 +1,163 @@
 //! Weights of the bits of a converter: where the output has a bit of its code set, it is off by the error of that bit.
 
-use super::building::{HIGHER, added, plain};
-use super::fitted::FittedModel;
+use super::building::{HIGHER, on_node, on_output, plain};
+use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, five_digits, map, range};
 use super::sharp::best;
-use super::{Cell, EffectId, Variation};
-use crate::diagnose::case::Observed;
+use super::{Cell, EffectId, Modifier, Term, Variation};
+use crate::diagnose::case::{Observed, Role};
 use crate::diagnose::resolution::{Steps, steps};
 
-/// Cells of the outputs that may be those of converters.
+/// Cells of the outputs that may be those of converters, and of stimuli that are their codes.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let responses = 0..fitted.case().responses.len();
-    responses
-        .filter_map(|response| cell(fitted, response))
-        .collect()
+    let explicit = responses.filter(|response| !fitted.is_implicit(*response));
+    let outputs = explicit.filter_map(|response| of_output(fitted, response));
+    let stimuli = fitted.used(Role::Stimulus);
+    let codes = stimuli.filter_map(|column| of_codes(fitted, column));
+    outputs.chain(codes).collect()
 }
 
-/// Each bit by itself, and all that can be seen, each with an error of its own.
-fn cell(fitted: &FittedModel<'_>, response: usize) -> Option<Cell> {
-    if fitted.is_implicit(response) || fitted.design.blocks.len() < fitted.rows() {
-        return None;
-    }
-    let weights = weights(fitted, response);
-    let alone = weights.iter().filter(|bit| bit.edges > 1);
-    let mut variants: Vec<Variation> = alone.map(|bit| bit.variation(fitted, response)).collect();
-    if variants.is_empty() {
-        return None;
-    }
-    if weights.len() > 1 {
-        let each = weights.iter().map(|bit| bit.variation(fitted, response));
-        let terms = each.flat_map(|variation| variation.terms).collect();
-        variants.push(Variation::of("each bit its own", terms));
-    }
-    let name = &fitted.case().responses[response].name;
-    let mut cell = plain(fitted, EffectId::BitWeight, name, variants);
-    cell.words.y.clone_from(name);
+fn of_output(fitted: &FittedModel<'_>, response: usize) -> Option<Cell> {
+    let output = &fitted.case().responses[response];
+    let codes = Codes {
+        name: &output.name,
+        unit: output.unit.after_number(),
+        values: &fitted.fit.linear.values[response],
+        base: base(fitted, response)?,
+    };
+    let added = |modifier: Modifier| on_output(modifier).on(response);
+    let mut cell = plain(
+        fitted,
+        EffectId::BitWeight,
+        &output.name,
+        codes.variants(fitted, &added),
+    );
+    cell.words.y.clone_from(&output.name);
     cell.odds = HIGHER;
-    Some(cell)
+    (!cell.variants.is_empty()).then_some(cell)
 }
 
-/// A bit by its weight, in the unit of the output.
+/// Where the codes are the stimulus, as in a table of the errors of a converter.
+fn of_codes(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
+    let (values, label) = (fitted.numbers(column), fitted.label(column));
+    let is_code = |x: &f64| *x >= 0.0 && x.fract() == 0.0;
+    let recorded = &fitted.design.recording().columns[column];
+    if !recorded.unit.is_one() || !recorded.numbers()?.iter().all(is_code) {
+        return None;
+    }
+    let codes = Codes {
+        name: label,
+        unit: String::new(),
+        values,
+        base: Base::least(1.0),
+    };
+    let variants = codes.variants(fitted, &on_output);
+    let (id, node) = (EffectId::BitWeight, Node::Output);
+    let mut cell = on_node(fitted, id, label, node, variants);
+    cell.words.y = label.to_owned();
+    cell.odds = HIGHER;
+    (!cell.variants.is_empty()).then_some(cell)
+}
+
+/// What is taken for codes.
+struct Codes<'c> {
+    name: &'c str,
+    unit: String,
+    values: &'c [f64],
+    base: Base,
+}
+
+impl Codes<'_> {
+    /// Each bit by itself, and all that can be seen, each with an error of its own; but for the uppermost: all of them in
+    /// proportion to their weights are the code, so that its error is one of the scale and of the others.
+    fn variants(
+        &self,
+        fitted: &FittedModel<'_>,
+        term: &dyn Fn(Modifier) -> Term,
+    ) -> Vec<Variation> {
+        let bits = self.bits(fitted, term);
+        let alone = bits.iter().filter(|bit| bit.edges > 1);
+        let mut variants: Vec<Variation> = alone
+            .map(|bit| Variation::one(bit.label(self), term(bit.modifier(self))))
+            .collect();
+        if bits.len() > 2 {
+            let terms = bits.iter().skip(1).map(|bit| term(bit.modifier(self)));
+            variants.push(Variation::of("each bit its own", terms.collect()));
+        }
+        variants
+    }
+
+    /// The bits that the recording can show: they change within the codes, and between two changes there are rows. One change is
+    /// a step at one value, whatever makes it.
+    fn bits(&self, fitted: &FittedModel<'_>, term: &dyn Fn(Modifier) -> Term) -> Vec<Bit> {
+        /// Observations from one change to the next, at least: of fewer, a mean of rows on both sides of a change may be the only one.
+        const FEWEST: f64 = 2.0;
+        let (least, most) = range(self.values);
+        if most <= least {
+            return Vec::new();
+        }
+        let base = &self.base;
+        let span = libm::log2((most - least) / base.weight);
+        let observations = fitted.design.blocks.len() as f64;
+        // From the bit that changes once or twice down to the one whose changes follow one another too closely.
+        let highest = span.ceil() as i32;
+        let lowest = (span - libm::log2(observations / FEWEST)).ceil() as i32;
+        let lowest = if base.is_least { lowest.max(0) } else { lowest };
+        let lattice = |before: f64| -> Vec<Bit> {
+            let bit = |power: i32| {
+                let weight = five_digits(base.weight * libm::exp2(f64::from(power)));
+                let place = |y: f64| ((y + before) / weight).floor();
+                Bit {
+                    weight,
+                    before,
+                    edges: (place(most) - place(least)) as usize,
+                }
+            };
+            let bits = (lowest..=highest).rev().map(bit);
+            bits.filter(|bit| bit.edges > 0).collect()
+        };
+        let lattices: Vec<Vec<Bit>> = base.zeros().into_iter().map(lattice).collect();
+        let tried = lattices.iter().enumerate();
+        let tried = tried.flat_map(|(at, bits)| bits.iter().map(move |bit| (at, bit)));
+        let tried: Vec<(usize, &Bit)> = tried.collect();
+        let mut terms = tried.iter().map(|(_, bit)| term(bit.modifier(self)));
+        let best = best(fitted, &mut terms).map_or(0, |best| tried[best].0);
+        lattices.into_iter().nth(best).unwrap_or_default()
+    }
+}
+
+/// A bit by its weight, in the unit of the codes.
 struct Bit {
     weight: f64,
     /// How far before a multiple of its weight it changes.
     before: f64,
-    /// How often it changes over the values of the output.
+    /// How often it changes over the codes.
     edges: usize,
 }
 
 impl Bit {
-    fn variation(&self, fitted: &FittedModel<'_>, response: usize) -> Variation {
-        let model = &fitted.fit.linear.values[response];
+    fn label(&self, codes: &Codes<'_>) -> String {
+        format!("bit of {} {}", figure(self.weight), codes.unit)
+    }
+
+    /// 1 where it is set.
+    fn modifier(&self, codes: &Codes<'_>) -> Modifier {
         let (weight, before) = (self.weight, self.before);
-        let is_set = map(model, |y| ((y + before) / weight).floor().rem_euclid(2.0));
-        let output = &fitted.case().responses[response];
+        let is_set = map(codes.values, |y| {
+            ((y + before) / weight).floor().rem_euclid(2.0)
+        });
         let name = match before {
-            0.0 => output.name.clone(),
-            ..0.0 => format!("({} - {})", output.name, figure(-before)),
-            _ => format!("({} + {})", output.name, figure(before)),
+            0.0 => codes.name.to_owned(),
+            ..0.0 => format!("({} - {})", codes.name, figure(-before)),
+            _ => format!("({} + {})", codes.name, figure(before)),
         };
         let (one, two) = (figure(weight), figure(2.0 * weight));
-        let text = format!("(floor({name}/{one}) - 2*floor({name}/{two}))");
-        let label = format!("bit of {one} {}", output.unit.after_number());
-        Variation::one(label, added(fitted, response, is_set, text))
+        Modifier::number(
+            is_set,
+            format!("(floor({name}/{one}) - 2*floor({name}/{two}))"),
+        )
     }
-}
-
-/// The bits that the recording can show: they change within the values of the output, and between two changes there are rows.
-/// One change is a step at one value, whatever makes it.
-fn weights(fitted: &FittedModel<'_>, response: usize) -> Vec<Bit> {
-    /// Fewer rows on average from one change to the next are those of anything.
-    const ROWS: f64 = 4.0;
-    let model = &fitted.fit.linear.values[response];
-    let (least, most) = range(model);
-    let Some(base) = base(fitted, response).filter(|_| most > least) else {
-        return Vec::new();
-    };
-    let span = libm::log2((most - least) / base.weight);
-    let rows = fitted.rows() as f64;
-    // From the bit that changes once or twice down to the one whose changes follow one another too closely.
-    let highest = span.ceil() as i32;
-    let lowest = (span - libm::log2(rows / ROWS)).ceil() as i32;
-    let lowest = if base.is_least { lowest.max(0) } else { lowest };
-    let bits = |before: f64| -> Vec<Bit> {
-        let bit = |power: i32| {
-            let weight = five_digits(base.weight * libm::exp2(f64::from(power)));
-            let place = |y: f64| ((y + before) / weight).floor();
-            Bit {
-                weight,
-                before,
-                edges: (place(most) - place(least)) as usize,
-            }
-        };
-        let bits = (lowest..=highest).rev().map(bit);
-        bits.filter(|bit| bit.edges > 0).collect()
-    };
-    let lattices: Vec<Vec<Bit>> = base.zeros().into_iter().map(bits).collect();
-    let tried = lattices.iter().enumerate();
-    let tried = tried.flat_map(|(at, bits)| bits.iter().map(move |bit| (at, bit)));
-    let tried: Vec<(usize, &Bit)> = tried.collect();
-    let mut terms = tried
-        .iter()
-        .flat_map(|(_, bit)| bit.variation(fitted, response).terms);
-    let best = best(fitted, &mut terms).map_or(0, |best| tried[best].0);
-    lattices.into_iter().nth(best).unwrap_or_default()
 }
 
 /// A weight of which those of all bits are powers of two.
@@ -114,6 +168,13 @@ struct Base {
 }
 
 impl Base {
+    fn least(weight: f64) -> Base {
+        Base {
+            weight,
+            is_least: true,
+        }
+    }
+
     /// How far before a multiple of their weights bits may change, the likeliest first. A code holds for half a step about it;
     /// errors of a few steps move the zero that is fitted as well.
     fn zeros(&self) -> Vec<f64> {
@@ -129,17 +190,13 @@ impl Base {
 fn base(fitted: &FittedModel<'_>, response: usize) -> Option<Base> {
     let case = fitted.case();
     let output = &case.responses[response];
-    let least = |weight: f64| Base {
-        weight,
-        is_least: true,
-    };
     if output.unit.is_one() {
-        return Some(least(1.0));
+        return Some(Base::least(1.0));
     }
     let Observed::Column(column) = output.observed else {
         return None;
     };
-    let stated = case.columns[column].resolution.map(least);
+    let stated = case.columns[column].resolution.map(Base::least);
     let full = || {
         case.columns[column].full_scale.map(|weight| Base {
             weight,
@@ -148,7 +205,7 @@ fn base(fitted: &FittedModel<'_>, response: usize) -> Option<Base> {
     };
     let shown = || {
         let Steps { step, .. } = steps(&fitted.design.observed(response))?;
-        (!is_decimal(step)).then(|| least(step))
+        (!is_decimal(step)).then(|| Base::least(step))
     };
     stated.or_else(shown).or_else(full)
 }

@@ -247,3 +247,42 @@ fn a_bit_of_a_converter_has_a_weight_of_its_own() {
         "{found}"
     );
 }
+
+/// A load cell on which weights are set down: each step swings as the step response of the second order does.
+#[test]
+fn a_load_that_is_set_down_rings() {
+    let steps = [(10.0, 5.0), (25.0, 5.0), (40.0, -8.0), (60.0, 4.0)];
+    let (period, damping) = (1.7, 0.12);
+    let angular = TAU / period;
+    let decay = damping * angular / libm::sqrt(1.0 - damping * damping);
+    let answer = |since: f64| {
+        let swing = libm::cos(angular * since) + decay / angular * libm::sin(angular * since);
+        1.0 - libm::exp(-decay * since) * swing
+    };
+    let mut noise = Noise(61);
+    let mut rows = "t [s],F [N],U [mV]\n".to_owned();
+    for row in 0..400 {
+        let t = 0.2 * f64::from(row);
+        // The force of a row acts since the row before it.
+        let set = steps.iter().filter(|(at, _)| t > at + 0.1);
+        let (force, shown) = set.fold((0.0, 0.0), |(force, shown), (at, step)| {
+            (force + step, shown + step * answer(t - at))
+        });
+        let shown = 0.9 * force + 0.1 * shown;
+        let _ = writeln!(
+            rows,
+            "{t:.1},{force},{:.5}",
+            0.3 + 2.0 * shown + 0.02 * noise.normal()
+        );
+    }
+    let case = "equations = \"U = a + b*F\"\n[columns]\nt = \"time\"\nF = \"stimulus\"\nU = \"output\"\n[noise]\nu = \"20 µV\"\n";
+    let found = diagnosed("ringing", &rows, case);
+    assert_eq!(named_apart(&found), [["ringing"]], "{found}");
+    assert!((size(&found, 0) - 0.1).abs() < 0.005, "{found}");
+    let label = &found["effects"][0]["named"][0]["variants"][0]["label"];
+    let label = label.as_str().unwrap_or_default();
+    let number = |word: &str| word.parse::<f64>().ok();
+    let found = label.split_whitespace().find_map(number);
+    let is_right = found.is_some_and(|found| (found / period - 1.0).abs() < 0.005);
+    assert!(is_right && label.ends_with("damping ratio 0.12"), "{label}");
+}

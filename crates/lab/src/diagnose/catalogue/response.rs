@@ -33,6 +33,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         cells.extend(inverse(fitted, *column));
         cells.extend(super::limits::cells(fitted, *column));
         cells.extend(dynamics(fitted, *column));
+        cells.extend(super::ringing::ringing(fitted, *column));
         cells.extend(super::history::cells(fitted, *column));
     }
     cells.extend(super::limits::of_outputs(fitted, &direct));

@@ -64,6 +64,18 @@ pub(super) fn sharpened(
     grid
 }
 
+/// The value about one that was found with which a term explains the residuals best: between it divided and multiplied by a ratio.
+pub(super) fn sharpest(
+    fitted: &FittedModel<'_>,
+    (found, ratio): (f64, f64),
+    term: &dyn Fn(f64) -> Term,
+) -> f64 {
+    let near = vec![found / ratio, found, found * ratio];
+    let near = sharpened(fitted, near, term);
+    let mut terms = near.iter().map(|value| term(*value));
+    best(fitted, &mut terms).map_or(found, |at| near[at])
+}
+
 /// The best of many terms, where an effect of this kind shows at all.
 pub(super) fn best(
     fitted: &FittedModel<'_>,

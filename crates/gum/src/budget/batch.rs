@@ -121,7 +121,7 @@ impl<'f> BatchFile<'f> {
             target
         };
         let targets: Vec<Option<Column>> = names.map(target).collect();
-        faults.extend(series::set_twice(&columns.names, &targets));
+        faults.extend(series::set_twice(&file, &columns.names, &targets));
         let sets = |at: usize| matches!(targets[at], Some(Column::Path(_)));
         faults.extend(csv::two_decimal_signs(sheet, sets));
         if !faults.is_empty() {

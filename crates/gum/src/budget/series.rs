@@ -15,6 +15,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::cell::Entry;
+use super::check::states_estimate;
 use super::faults::SERIES;
 use super::points::Points;
 use super::tables::SeriesTable;
@@ -22,7 +23,7 @@ use columns::{OWNERS, numbered};
 use gumption_fault::{Fault, say};
 use gumption_format::toml::{Raw, Stated};
 use heads::Heads;
-use places::{leave_out, set};
+use places::{COMPONENTS, leave_out, set};
 
 pub(super) use columns::{Column, LABEL, column, names_one, set_twice, targets};
 pub(super) use readings::unit_of_readings;
@@ -199,6 +200,9 @@ pub(super) fn variant<'t>(
         label: None,
         table: file.clone(),
     };
+    let mut left_out: Vec<&[String]> = Vec::new();
+    let mut estimates: Vec<&[String]> = Vec::new();
+    let mut missing = Vec::new();
     for ((target, name), (cell, raw)) in targets.iter().zip(names).zip(cells) {
         match target {
             Some(Column::Label) => variant.label = Some(label(&cell.value)),
@@ -208,16 +212,59 @@ pub(super) fn variant<'t>(
                 faults.push(missing_element(name, cell));
             }
             Some(Column::Path(path)) if is_left_out(&cell.value, path) => {
-                leave_out(&mut variant.table, path);
+                left_out.push(path);
+                if is_value(path) {
+                    missing.push((path, name, cell));
+                }
             }
-            Some(Column::Path(path)) => set(&mut variant.table, path, name, cell, raw, faults),
+            Some(Column::Path(path)) => {
+                set(&mut variant.table, path, name, cell, raw, faults);
+                estimates.extend(gives_estimate(path).then_some(path.as_slice()));
+            }
             Some(Column::Kept) | None => {}
         }
     }
     for list in readings::readings(names, targets, cells) {
-        list.write(&mut variant.table, faults);
+        let place = list.place();
+        match list.write(&mut variant.table, faults) {
+            true => estimates.push(place),
+            false => left_out.push(place),
+        }
     }
+    leave_out(&mut variant.table, &left_out);
+    // What the budget says of an input in general, such as readings that tell its repeatability, gives no value of the row.
+    let is_of_budget = |path: &[String]| {
+        let of_row = estimates.iter().any(|given| given[..2] == path[..2]);
+        !of_row && columns::has_estimate(&variant.table, path)
+    };
+    let missing = missing.into_iter().filter(|(path, ..)| is_of_budget(path));
+    faults.extend(missing.map(|(_, name, cell)| missing_value(name, cell)));
     variant
+}
+
+/// Whether a column sets the value of an input or a constant.
+fn is_value(path: &[String]) -> bool {
+    match path {
+        [owner, _, key] => OWNERS.contains(&owner.as_str()) && key == "value",
+        [owner, _] => OWNERS.contains(&owner.as_str()),
+        _ => false,
+    }
+}
+
+/// Whether a column gives its row an estimate, as readings do.
+fn gives_estimate(path: &[String]) -> bool {
+    // As a text it is the shape of limits that stand beside it.
+    let (keys, shape) = (path.get(2..).unwrap_or_default(), "distribution");
+    keys.iter().any(|key| key != shape && states_estimate(key))
+}
+
+fn missing_value(name: &Stated<String>, cell: &Stated<Entry>) -> Fault {
+    let message = say!("the value of {} is missing", name.value);
+    Fault::new(SERIES, cell.span.clone(), message)
+        .label(say!("an empty cell"))
+        .help(say!(
+            "state it in every row: what the budget states, such as readings, gives no value of this row"
+        ))
 }
 
 /// Whether a cell leaves out what its column names: an empty one, and an uncertainty of zero.
@@ -241,7 +288,7 @@ fn is_element(path: &[String]) -> bool {
     let [.., list, element] = path else {
         return false;
     };
-    element.parse::<usize>().is_ok() && list != "components"
+    element.parse::<usize>().is_ok() && list != COMPONENTS
 }
 
 fn missing_element(name: &Stated<String>, cell: &Stated<Entry>) -> Fault {

@@ -55,6 +55,7 @@ use gumption_core::quantity::UnitTable;
 use gumption_fault::{Fault, Said};
 use gumption_format::toml::Slot;
 pub(super) use plain::Plain;
+pub(super) use ways::{states_estimate, states_uncertainty};
 
 /// One evaluation: the file itself, or with the values of a row of its series in place.
 pub(super) struct Variant {

@@ -162,6 +162,16 @@ static MODIFIERS: [(&str, Said); 20] = [
     ),
 ];
 
+/// Whether a key states an uncertainty, alone or with others.
+pub(in crate::budget) fn states_uncertainty(key: &str) -> bool {
+    key == "minus" || Way::of(key).is_some()
+}
+
+/// Whether what stands under a key determines the estimate by itself.
+pub(in crate::budget) fn states_estimate(key: &str) -> bool {
+    Way::of(key).is_some_and(Way::locates)
+}
+
 /// The ways in which a component states its uncertainty, with their keys; one, where nothing is wrong.
 pub(super) fn stated_ways(
     table: &ComponentTable,

@@ -3,6 +3,8 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::places::{COMPONENTS, resolved};
+use crate::budget::check::states_estimate;
 use crate::budget::faults::{SERIES, UNKNOWN_NAME};
 use crate::budget::tables::FileTable;
 use gumption_fault::{Fault, nearest, say};
@@ -32,19 +34,27 @@ pub(in crate::budget) fn targets(
 ) -> Vec<Option<Column>> {
     let targets = names.iter().map(|name| column(file, name, faults));
     let targets: Vec<Option<Column>> = targets.collect();
-    faults.extend(set_twice(names, &targets));
+    faults.extend(set_twice(file, names, &targets));
     targets
 }
 
 /// Columns that set what another sets already: which of them counts would be a guess.
 pub(in crate::budget) fn set_twice(
+    file: &DeTable<'_>,
     names: &[Stated<String>],
     targets: &[Option<Column>],
 ) -> Vec<Fault> {
-    let all = names.iter().zip(targets).enumerate();
+    // A component may be called by its name and by its number.
+    let resolved = |target: &Option<Column>| match target {
+        Some(Column::Path(path)) => Some(Column::Path(resolved(file, path))),
+        Some(Column::Label) => Some(Column::Label),
+        Some(Column::Kept) | None => None,
+    };
+    let targets: Vec<Option<Column>> = targets.iter().map(resolved).collect();
+    let all = names.iter().zip(&targets).enumerate();
     let twice = all.filter_map(|(at, (name, target))| {
         let sets = |other: &Option<Column>| {
-            !matches!(target, None | Some(Column::Kept)) && (other == target || is_list_of(other, target))
+            target.is_some() && (other == target || is_list_of(other, target))
         };
         let first = targets[..at].iter().position(sets)?;
         let fault = Fault::new(
@@ -328,6 +338,25 @@ pub(super) fn entry<'a, 't>(file: &'a DeTable<'t>, owner: &str, name: &str) -> O
         DeValue::Table(table) => table.get(name),
         _ => None,
     }
+}
+
+/// Whether the file states an estimate of the input that a path begins with by something else than its value.
+pub(super) fn has_estimate(file: &DeTable<'_>, path: &[String]) -> bool {
+    let locates = |table: &DeTable<'_>| {
+        let mut entries = table.iter();
+        entries.any(|(key, value)| match key.get_ref().as_ref() {
+            "distribution" => matches!(value.get_ref(), DeValue::Table(_)),
+            key => states_estimate(key),
+        })
+    };
+    let input = path.split_first().and_then(|(owner, rest)| {
+        let input = entry(file, owner, rest.first()?)?;
+        input.get_ref().as_table()
+    });
+    let listed = input.and_then(|input| input.get(COMPONENTS)?.get_ref().as_array());
+    let mut components = listed.into_iter().flat_map(|list| list.iter());
+    input.is_some_and(locates)
+        || components.any(|entry| entry.get_ref().as_table().is_some_and(locates))
 }
 
 /// Where an entry states the values of a vector.

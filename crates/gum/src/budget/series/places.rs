@@ -1,13 +1,19 @@
 //! Puts a cell in the place of a file that its column means, or leaves out what stands there.
 
+use std::collections::BTreeSet;
+
 use toml::Spanned;
-use toml::de::{DeString, DeTable, DeValue};
+use toml::de::{DeArray, DeString, DeTable, DeValue};
 
 use crate::budget::cell::Entry;
+use crate::budget::check::states_uncertainty;
 use crate::budget::faults::{SERIES, UNKNOWN_NAME};
 use gumption_fault::{Fault, Said, say};
 use gumption_format::csv;
 use gumption_format::toml::{Raw, Stated, amount_parts};
+
+/// The key of the reasons for doubt of an input.
+pub(super) const COMPONENTS: &str = "components";
 
 /// Puts the cell of a row in its place, and makes the tables that lead there.
 pub(super) fn set<'t>(
@@ -43,46 +49,124 @@ pub(super) fn set<'t>(
     }
 }
 
-/// Takes out a key, or the component of a list to which it belongs.
-pub(super) fn leave_out(table: &mut DeTable<'_>, path: &[String]) {
-    let Some((first, rest)) = path.split_first() else {
+/// Takes out what the paths name; a component of a list as a whole where nothing states its uncertainty any more. All of them
+/// together, as an entry that goes would change the numbers of those behind it.
+pub(super) fn leave_out(table: &mut DeTable<'_>, paths: &[&[String]]) {
+    let places: Vec<Vec<String>> = paths.iter().map(|path| resolved(table, path)).collect();
+    for place in &places {
+        if let Some((key, owner)) = place.split_last()
+            && let Some(owner) = table_at(table, owner)
+        {
+            owner.remove(key.as_str());
+        }
+    }
+    let components: BTreeSet<(&[String], usize)> =
+        places.iter().filter_map(|place| component(place)).collect();
+    for (list, number) in components.into_iter().rev() {
+        let is_named = places.iter().any(|place| {
+            let whole = place.split_last();
+            whole.is_some_and(|(entry, of)| of == list && entry.parse() == Ok(number))
+        });
+        let entry = [list, &[number.to_string()]].concat();
+        let is_stated = table_at(table, &entry).is_some_and(|entry| states_something(entry));
+        if is_named || !is_stated {
+            remove_entry(table, list, number);
+        }
+    }
+}
+
+/// The list of components that a path leads through, and the number of the one in it.
+fn component(path: &[String]) -> Option<(&[String], usize)> {
+    let at = path.iter().position(|key| key == COMPONENTS)? + 1;
+    let number = path.get(at)?.parse().ok()?;
+    Some((&path[..at], number))
+}
+
+/// Whether a component states an uncertainty in some way.
+fn states_something(component: &DeTable<'_>) -> bool {
+    component.iter().any(|(key, value)| {
+        let table = match value.get_ref() {
+            DeValue::Table(table) => Some(table),
+            _ => None,
+        };
+        let has = |key: &str| table.is_some_and(|table| table.contains_key(key));
+        match key.get_ref().as_ref() {
+            // Behind another way it is where that comes from.
+            "certificate" => has("U") || has("dcc"),
+            // As a text it is the shape of limits that stand beside it.
+            "distribution" => table.is_some(),
+            key => states_uncertainty(key),
+        }
+    })
+}
+
+fn remove_entry(table: &mut DeTable<'_>, list: &[String], number: usize) {
+    let Some((key, owner)) = list.split_last() else {
         return;
     };
-    let key = named_component(table, first);
-    let path: Vec<String> = key.into_iter().chain(rest.iter().cloned()).collect();
-    let Some((first, rest)) = path.split_first() else {
-        return;
+    let owner = table_at(table, owner);
+    if let Some(DeValue::Array(list)) =
+        owner.and_then(|owner| owner.get_mut(key.as_str()).map(Spanned::get_mut))
+    {
+        let kept = list.iter().zip(1..).filter(|(_, other)| *other != number);
+        *list = kept.map(|(entry, _)| entry.clone()).collect();
+    }
+}
+
+/// The table to which a path without names leads.
+fn table_at<'v, 't>(table: &'v mut DeTable<'t>, path: &[String]) -> Option<&'v mut DeTable<'t>> {
+    let Some((key, rest)) = path.split_first() else {
+        return Some(table);
     };
-    let Some((next, below)) = rest.split_first() else {
-        table.remove(first.as_str());
-        return;
-    };
-    match table.get_mut(first.as_str()).map(Spanned::get_mut) {
-        Some(DeValue::Table(inner)) => leave_out(inner, rest),
-        Some(DeValue::Array(list)) => {
-            let named = list.iter().position(|entry| is_called(entry, next));
-            let numbered = next
-                .parse::<usize>()
-                .ok()
-                .and_then(|number| number.checked_sub(1));
-            let place = named.or(numbered).filter(|place| *place < list.len());
-            match (place, first == "components") {
-                (Some(place), true) => {
-                    let kept = list.iter().enumerate().filter(|(other, _)| *other != place);
-                    *list = kept.map(|(_, entry)| entry.clone()).collect();
-                }
-                // Without a number the first of several claims is meant.
-                (place, _) => {
-                    let below = if place.is_some() { below } else { rest };
-                    if let Some(DeValue::Table(inner)) =
-                        list.get_mut(place.unwrap_or(0)).map(Spanned::get_mut)
-                    {
-                        leave_out(inner, below);
-                    }
-                }
+    match table.get_mut(key.as_str())?.get_mut() {
+        DeValue::Table(inner) => table_at(inner, rest),
+        DeValue::Array(list) => {
+            let (number, rest) = rest.split_first()?;
+            let index = number.parse::<usize>().ok()?.checked_sub(1)?;
+            match list.get_mut(index)?.get_mut() {
+                DeValue::Table(inner) => table_at(inner, rest),
+                _ => None,
             }
         }
-        _ => {}
+        _ => None,
+    }
+}
+
+/// The path with the number in its list of every entry that it names, or that it means by naming none.
+pub(super) fn resolved(table: &DeTable<'_>, path: &[String]) -> Vec<String> {
+    let Some((first, rest)) = path.split_first() else {
+        return Vec::new();
+    };
+    let mut keys = named_component(table, first);
+    keys.extend_from_slice(rest);
+    let mut found = vec![keys.remove(0)];
+    found.extend(match table.get(found[0].as_str()).map(Spanned::get_ref) {
+        Some(DeValue::Table(inner)) => resolved(inner, &keys),
+        Some(DeValue::Array(list)) => match entry_of(list, &keys) {
+            Some((index, rest)) => {
+                let below = match list.get(index).map(Spanned::get_ref) {
+                    Some(DeValue::Table(inner)) => resolved(inner, rest),
+                    _ => rest.to_vec(),
+                };
+                [vec![(index + 1).to_string()], below].concat()
+            }
+            None => keys,
+        },
+        _ => keys,
+    });
+    found
+}
+
+/// The entry of a list that a path begins with, by its number or its name, and the rest of the path.
+fn entry_of<'p>(list: &DeArray<'_>, path: &'p [String]) -> Option<(usize, &'p [String])> {
+    let (first, rest) = path.split_first()?;
+    match first.parse::<usize>() {
+        Ok(number) => number.checked_sub(1).map(|index| (index, rest)),
+        Err(_) => match list.iter().position(|entry| is_called(entry, first)) {
+            Some(index) => Some((index, rest)),
+            // Without a number the first of several claims is meant.
+            None => Some((0, path)),
+        },
     }
 }
 
@@ -114,13 +198,13 @@ fn set_in_table<'t>(
 
 /// `V.calibration` is the component of that name in the list of V's components.
 fn named_component(table: &DeTable<'_>, key: &str) -> Vec<String> {
-    let listed = match table.get("components").map(Spanned::get_ref) {
+    let listed = match table.get(COMPONENTS).map(Spanned::get_ref) {
         Some(DeValue::Array(list)) if !table.contains_key(key) => {
             list.iter().any(|entry| is_called(entry, key))
         }
         _ => false,
     };
-    let prefix = listed.then(|| "components".to_string());
+    let prefix = listed.then(|| COMPONENTS.to_string());
     prefix.into_iter().chain([key.to_string()]).collect()
 }
 
@@ -167,14 +251,7 @@ fn set_in_value<'t>(
         DeValue::Table(table) => set_in_table(table, first, rest, name, cell),
         DeValue::Array(list) => {
             let count = list.len();
-            let chosen = match first.parse::<usize>() {
-                Ok(number) => number.checked_sub(1).map(|index| (index, rest)),
-                Err(_) => match list.iter().position(|entry| is_called(entry, first)) {
-                    Some(index) => Some((index, rest)),
-                    // Without a number the first of several claims is meant.
-                    None => Some((0, path)),
-                },
-            };
+            let chosen = entry_of(list, path);
             let Some((entry, rest)) =
                 chosen.and_then(|(index, rest)| Some((list.get_mut(index)?, rest)))
             else {
@@ -198,5 +275,101 @@ fn set_in_value<'t>(
             "the column \"{}\" goes beyond a number or text of the file, at `{first}`",
             name.value
         )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use crate::budget::{Budget, read};
+
+    const FILE: &str = r#"
+[measurand.Y]
+model = "X + V"
+[input.X]
+value = 1
+components = [
+  { u = 0.1 },
+  { name = "cal", certificate = { U = 0.4, k = 2, dof = 8 }, reference = "C-1" },
+  { half_width = 0.3, distribution = "triangular", dof = 12 },
+]
+[input.V]
+components = [{ name = "scatter", readings = [1, 2, 3], pooled = { s = 0.5, dof = 30 } }]
+"#;
+
+    fn read_with(columns: &str, cells: &str) -> Result<Vec<Budget>, String> {
+        let file = format!("{FILE}[series]\ncolumns = [{columns}]\nrows = [{cells}]\n");
+        let loaded =
+            read(&file, "budget.toml", Path::new("")).map_err(|refused| refused.render(false))?;
+        Ok(loaded.rows.into_iter().map(|row| row.budget).collect())
+    }
+
+    /// u and ν of each component of the first row.
+    fn components(columns: &str, cells: &str) -> Vec<(f64, f64)> {
+        let found = read_with(columns, cells).expect("budgets");
+        let components = found[0].components.iter();
+        components.map(|one| (one.u, one.dof)).collect()
+    }
+
+    /// What is left of a component still states it: an empty cell for ν, for a shape or for a pooled s is no missing component.
+    #[test]
+    fn a_component_stays_as_long_as_something_states_it() {
+        let columns = r#""X.cal.certificate.dof", "X.components.3.distribution", "X.components.3.dof", "V.scatter.pooled""#;
+        let inf = f64::INFINITY;
+        let expected = [
+            (0.1, inf),
+            (0.2, inf),
+            (0.3 / 3f64.sqrt(), inf),
+            (1.0 / 3f64.sqrt(), 2.0),
+        ];
+        let found = components(columns, r#"["", "", "", ""]"#);
+        for (found, expected) in found.iter().zip(expected) {
+            assert!(
+                (found.0 - expected.0).abs() < 1e-12 && found.1 == expected.1,
+                "{found:?}"
+            );
+        }
+        assert_eq!(found.len(), 4);
+        let without_k = read_with(r#""X.cal.certificate.k""#, r#"[""]"#).expect_err("no k");
+        assert!(without_k.contains("k"), "{without_k}");
+    }
+
+    /// An entry that is left out takes its other columns with it, and none of those behind it.
+    #[test]
+    fn entries_keep_their_numbers() {
+        let columns = r#""X.components.1.u", "X.components.1.dof", "X.cal.certificate.U", "X.components.3.half_width""#;
+        let found = components(columns, r#"["", "", 0.8, 0.6]"#);
+        let u: Vec<f64> = found.iter().map(|(u, _)| *u).collect();
+        let expected = [0.4, 0.6 / 6f64.sqrt(), 0.5 / 3f64.sqrt()];
+        assert_eq!(u.len(), 3);
+        assert!(
+            u.iter()
+                .zip(expected)
+                .all(|(u, expected)| (u - expected).abs() < 1e-12),
+            "{u:?}"
+        );
+        assert_eq!(components(columns, r#"["", "", 0, 0.6]"#).len(), 2);
+    }
+
+    #[test]
+    fn a_component_is_set_once_however_it_is_called() {
+        let columns = r#""X.cal.certificate.U", "X.components.2.certificate.U""#;
+        let twice = read_with(columns, "[0.4, 0.5]").expect_err("two columns");
+        assert!(twice.contains("two columns set the same"), "{twice}");
+    }
+
+    /// Readings of the budget tell the repeatability of each row, and the value of none.
+    #[test]
+    fn a_value_is_not_that_of_the_budget() {
+        let missing = read_with(r#""V""#, r#"[2.5], [""]"#).expect_err("no value");
+        assert!(missing.contains("the value of V is missing"), "{missing}");
+        let of_row = read_with(r#""V", "V.scatter.readings""#, r#"["", [4, 5, 6]]"#);
+        assert_eq!(of_row.expect("a budget")[0].inputs[1].estimate, 5.0);
+        let columns = r#""V", "V.scatter.readings.1", "V.scatter.readings.2""#;
+        let of_row = read_with(columns, r#"["", 4, 6]"#).expect("a budget");
+        assert_eq!(of_row[0].inputs[1].estimate, 5.0);
+        let missing = read_with(columns, r#"["", "", ""]"#).expect_err("nothing of V");
+        assert!(missing.contains("V has no"), "{missing}");
     }
 }

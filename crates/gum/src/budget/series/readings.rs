@@ -7,7 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::columns::{Column, READINGS, column, entry, numbered};
-use super::places::{leave_out, set};
+use super::places::set;
 use crate::budget::cell::Entry;
 use crate::budget::faults::SERIES;
 use gumption_core::quantity::{Unit, UnitTable};
@@ -83,9 +83,14 @@ pub(super) fn readings<'a, 't>(
     lists
 }
 
-impl<'t> Readings<'_, 't> {
-    /// Puts them into the file, in the order of their numbers.
-    pub fn write(mut self, file: &mut DeTable<'t>, faults: &mut Vec<Fault>) {
+impl<'a, 't> Readings<'a, 't> {
+    /// The place of the list in the file.
+    pub fn place(&self) -> &'a [String] {
+        self.list
+    }
+
+    /// Puts them into the file, in the order of their numbers; whether there are any.
+    pub fn write(mut self, file: &mut DeTable<'t>, faults: &mut Vec<Fault>) -> bool {
         if let (Some(cell), Some(others)) = (self.is_missing, self.taken_with(file)) {
             let message = say!("a reading of {} is missing", self.list[1]);
             let fault = Fault::new(SERIES, cell.span.clone(), message);
@@ -97,11 +102,11 @@ impl<'t> Readings<'_, 't> {
                         "leave out the whole observation: in every list the readings of one observation have the same place"
                     )),
             );
-            return;
+            return true;
         }
         self.given.sort_by_key(|(number, _)| *number);
         let Some((_, first)) = self.given.first() else {
-            return leave_out(file, self.list);
+            return false;
         };
         let span = first.span();
         let list = self.given.iter().map(|(_, raw)| (*raw).clone());
@@ -112,6 +117,7 @@ impl<'t> Readings<'_, 't> {
             key: span,
         };
         set(file, self.list, self.name, &cell, &list, faults);
+        true
     }
 
     /// Where the budget says that readings of this input and of others were taken together.

@@ -134,10 +134,10 @@ impl Points {
                             .iter()
                             .map(|average| average.map_or(f64::NAN, |average| average.mean))
                             .collect(),
-                        averages: averages
-                            .into_iter()
-                            .collect::<Option<_>>()
-                            .unwrap_or_default(),
+                        averages: match averages.iter().any(Option::is_some) {
+                            true => averages,
+                            false => Vec::new(),
+                        },
                     });
                 }
                 Data::Labels(labels) => {

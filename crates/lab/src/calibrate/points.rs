@@ -88,8 +88,8 @@ pub struct PointColumn {
     pub unit: Unit,
     /// One value for each point; NaN where it is missing.
     pub values: Vec<f64>,
-    /// Where each value is the average of a dwell: its statistics. Empty otherwise.
-    pub averages: Vec<Average>,
+    /// Where values are averages of dwells: the statistics of each, of which a missing one has none. Empty otherwise.
+    pub averages: Vec<Option<Average>>,
 }
 
 impl Points {

@@ -202,7 +202,7 @@ fn known_u(stack: &Stack<'_>, samples: bool) -> Vec<f64> {
             .sum();
         let column = campaign.points.column(name);
         let sampled = column
-            .and_then(|column| column.averages.get(*point))
+            .and_then(|column| column.averages.get(*point)?.as_ref())
             .filter(|_| samples);
         (stated + sampled.map_or(0.0, |average| average.u * average.u)).sqrt()
     };
@@ -405,8 +405,9 @@ fn of_samples(stack: &Stack<'_>, gain: &Gain) -> Vec<Cause> {
         let target = Target::Reading(column.name.clone());
         let mut effects = gain.by_errors(stack, &target, &Scope::Each);
         let points = effects.ncols();
+        // Without an average a point has no value, and nothing of it acts.
         for (mut effect, average) in effects.column_iter_mut().zip(&column.averages) {
-            effect *= average.u;
+            effect *= average.map_or(0.0, |average| average.u);
         }
         Cause {
             origin: Origin::Samples {
@@ -417,7 +418,7 @@ fn of_samples(stack: &Stack<'_>, gain: &Gain) -> Vec<Cause> {
                 .averages
                 .iter()
                 .take(points)
-                .map(|average| average.dof)
+                .map(|average| average.map_or(f64::INFINITY, |average| average.dof))
                 .collect(),
             distribution: None,
             evaluation: Evaluation::TypeA,

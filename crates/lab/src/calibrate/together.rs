@@ -80,13 +80,15 @@ impl PointColumn {
         for rows in groups {
             let sum: f64 = rows.iter().map(|row| self.values[*row]).sum();
             column.values.push(sum / rows.len() as f64);
-            let parts: Option<Vec<Average>> = rows
+            if self.averages.is_empty() {
+                continue;
+            }
+            let parts = rows
                 .iter()
-                .map(|row| self.averages.get(*row).copied())
-                .collect();
-            column
-                .averages
-                .extend(parts.and_then(|parts| Average::of_averages(&parts)));
+                .map(|row| self.averages.get(*row).copied().flatten());
+            let parts: Option<Vec<Average>> = parts.collect();
+            let average = parts.and_then(|parts| Average::of_averages(&parts));
+            column.averages.push(average);
         }
         column
     }

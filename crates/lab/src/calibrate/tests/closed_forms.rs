@@ -547,3 +547,33 @@ average = "none"
         );
     }
 }
+
+/// A dwell of which one sample is left has no average; the samples of the others tell the scatter all the same.
+#[test]
+fn a_missing_average_leaves_the_scatter_of_the_others() {
+    let toml = r#"
+equations = ["U = K*n + b"]
+noise.from = "dwells"
+[parameter]
+K = {}
+b = {}
+[positions]
+column = "position"
+gives = ["n"]
+at = { "up" = [1], "down" = [-1] }
+[recording]
+file = "run.csv"
+dwells = ["position"]
+[columns]
+time = "time"
+"#;
+    let readings = "up,1.1 up,1.3 down,-1.0 down,-1.2 up, up,1.5 down,-1.3 down,-1.1";
+    let rows = readings.split(' ').enumerate();
+    let rows: String = rows.map(|(at, row)| format!("{at},{row}\n")).collect();
+    let campaign = campaign(toml, &format!("time [s],position,U [mV]\n{rows}"));
+    let found = calibrate(&campaign).expect("coefficients");
+    let k = &found.figures.coefficients[0];
+    // Half the difference of one mean and of the mean of two, each of two samples with u = 0.1.
+    near(k.value, (1.2 + 1.15) / 2.0, 1e-9);
+    near(k.u, 0.05 * (1.0 + 0.5_f64).sqrt(), 1e-9);
+}

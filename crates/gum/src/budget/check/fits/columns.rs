@@ -245,9 +245,10 @@ impl Checker<'_> {
         Some(common)
     }
 
-    /// Variances 1/w.
+    /// Variances 1/w, of weights that may stand in a column with a unit of its own.
     fn fit_weights(&mut self, column: &Column<'_>, stated: &Stated<Numbers>) -> Option<Vec<f64>> {
-        let weights = self.numbers(stated, None)?;
+        let unit = column.unit.powr(-2, 1);
+        let weights = self.numbers(stated, unit.as_ref())?;
         if weights.len() != column.values.len() {
             return self.refuse(
                 Fault::new(

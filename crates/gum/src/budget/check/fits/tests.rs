@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::budget::{Budget, FitDoubt, Law, Rejection, read};
+use crate::budget::{Budget, Files, FitDoubt, Law, Rejection, load_from, read};
 
 fn budget(text: &str) -> Result<Budget, Rejection> {
     let mut loaded = read(text, "test.toml", Path::new(""))?;
@@ -379,4 +379,28 @@ fn a_bad_start_is_called_that() {
     let text = refused.expect_err("e^1800").render(false);
     assert!(text.contains("these start values are bad ones"), "{text}");
     assert!(text.contains("b = 0.5"), "{text}");
+}
+
+/// Weights of a file are in the unit of their column, and in 1/unit² of the values where it has none; in another unit they are none.
+#[test]
+fn weights_have_a_unit() {
+    let budget = "[fit.line]\nmodel = \"y = a + b*x\"\n[fit.line.data]\n\
+        x = { values = [-1, 0, 1], unit = \"s\" }\n\
+        y = { values = [1.0, 2.5, 3.0], unit = \"m\", weights = { file = \"w.csv\", column = \"w\" } }\n";
+    let with = |table: &str| {
+        let library = [("b.toml", budget.as_bytes()), ("w.csv", table.as_bytes())];
+        load_from(Files::Library(&library), Path::new("b.toml"), None)
+    };
+    for table in ["w\n4\n4\n4\n", "w [1/cm^2]\n4e-4\n4e-4\n4e-4\n"] {
+        let mut loaded = with(table).unwrap_or_else(|refused| panic!("{}", refused.render(false)));
+        let fit = &loaded.rows.remove(0).budget.fits[0];
+        close(fit.parameters[0].u, 0.5 / 3.0_f64.sqrt());
+        close(fit.parameters[1].u, 0.5 / 2.0_f64.sqrt());
+    }
+    let refused = with("w [1/cm]\n4\n4\n4\n").expect_err("no unit of weights");
+    assert!(
+        refused.render(false).contains("no unit like"),
+        "{}",
+        refused.render(false)
+    );
 }

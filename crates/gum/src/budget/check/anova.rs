@@ -36,6 +36,16 @@ struct Request<'c> {
     place: Range<usize>,
 }
 
+/// A reading of which nothing tells the group: those of several groups would be taken for one.
+fn no_label(file: &str, line: usize, column: &Stated<String>) -> Fault {
+    let message = say!("line {line} of {file} has no {}", column.value);
+    Fault::new(GROUPS, column.span.clone(), message)
+        .label(say!("tells the group of each reading"))
+        .help(say!(
+            "write the label into every line, also where it is that of the line above"
+        ))
+}
+
 impl Checker<'_> {
     /// The component that readings in groups state.
     pub(super) fn grouped(
@@ -252,12 +262,18 @@ impl Checker<'_> {
         let columns: Vec<_> = std::iter::once((&**column, decimals(column, Some(unit))))
             .chain(names.iter().map(labels))
             .collect();
-        let table = self.csv(file, &columns)?;
-        let (readings, names_of) = table.columns.split_first()?;
+        let found = self.csv(file, &columns)?;
+        let (readings, names_of) = found.columns.split_first()?;
         let level = |column: Option<&Column>, row: usize| match column.map(|column| &column.data) {
             Some(Data::Labels(labels)) => labels.text(row).to_owned(),
             _ => String::new(),
         };
+        for (name, labels) in names.iter().zip(names_of) {
+            let nameless = |row: &usize| level(Some(labels), *row).is_empty();
+            if let Some(row) = (0..found.rows()).find(nameless) {
+                return self.refuse(no_label(&file.value, found.line(row), name));
+            }
+        }
         let mut groups: Labelled<Labelled<Vec<Dd>>> = Vec::new();
         for (row, reading) in readings.decimals.iter().flatten().enumerate() {
             let group = entry(&mut groups, level(names_of.first(), row));

@@ -730,3 +730,59 @@ fn without_parquet_it_is_said_how_to_have_it() {
         }
     }
 }
+
+/// Contributions stand below the components that they are of: a row that leaves out another component than the first one has no
+/// column for what it has in its place.
+#[test]
+fn contributions_stand_below_their_components() {
+    let component = |name: &str, u: u8| format!("{{ name = \"{name}\", u = {u} }}");
+    let components = [component("p", 1), component("q", 2), component("r", 3)].join(", ");
+    let budget = format!("[measurand.y]\nmodel = \"a\"\n[input.a]\ncomponents = [{components}]\n");
+    let table = "label,a,a.p.u,a.q.u\nw,10,-1,2\nx,10,,2\ny,10,1,\nz,10,,4\n";
+    let (text, count) = run(&budget, table, &plan(None, 1)).expect("a batch");
+    assert_eq!((count.rows, count.failed), (4, 2), "{text}");
+    let found = cells(&text);
+    let figure = |row: usize, head: &str| cell(&found, &found.1[row], head).parse::<f64>();
+    for (row, q) in [(1, 2.0), (3, 4.0)] {
+        assert_eq!(figure(row, "contribution(y, a.q)"), Ok(q));
+        assert_eq!(figure(row, "contribution(y, a.r)"), Ok(3.0));
+    }
+    let why = cell(&found, &found.1[2], "error");
+    assert!(
+        why.contains("nothing for the column contribution(y, a.q)"),
+        "{why}"
+    );
+
+    let files = [("budget.toml", budget.as_bytes())];
+    let file = BatchFile::open(Files::Library(&files), Path::new("budget.toml"), None);
+    let file = file.expect("a budget");
+    let wanted = Columns {
+        shares: true,
+        contributions: true,
+        seeds: false,
+        language: Language::English,
+    };
+    let mut results = Results::of(wanted, &file);
+    batch::run(
+        &file,
+        (table.as_bytes(), "table.csv"),
+        &plan(None, 1),
+        |values, row| wanted.add_values(values, row),
+        |values, _| {
+            results.add(values);
+            ControlFlow::Continue(())
+        },
+    )
+    .expect("a batch");
+    let (columns, counted) = results.end();
+    assert_eq!(counted, count);
+    for (at, (head, column)) in columns.iter().enumerate() {
+        let ResultColumn::Numbers(numbers) = column else {
+            continue;
+        };
+        for (row, number) in numbers.iter().enumerate() {
+            let written = found.1[row][at].parse().unwrap_or(f64::NAN);
+            assert_eq!(number.to_bits(), f64::to_bits(written), "{head}, row {row}");
+        }
+    }
+}

@@ -5,13 +5,12 @@ mod values;
 
 use super::rows::{Cell, Head};
 use super::{Report, remarks, rows};
-use gumption_core::model::Output;
 use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection};
 use gumption_gum::batch::{BLOCK, Evaluated, Failed, Found, Lot, Several};
 use gumption_gum::budget::{BatchFile, Budget};
 use gumption_gum::propagate::{RowFigures, Verdict};
-use shape::{nothing, of_another_length};
+use shape::{Shapes, misfit, nothing};
 use std::borrow::Cow;
 use values::Given;
 
@@ -21,8 +20,8 @@ pub use values::{ResultColumn, Results, Values};
 /// Lines of some rows, made by whoever evaluated them.
 #[derive(Debug, Default)]
 pub struct Lines {
-    /// The names of the columns, where a row has told them.
-    heads: Option<Vec<Head>>,
+    /// The columns that rows have.
+    shapes: Shapes,
     /// The heads of what is kept.
     kept: Option<Vec<String>>,
     /// The lines of those that have results, the labels of the others with what is kept of them.
@@ -35,8 +34,8 @@ struct Line {
     /// Where its label ends in the text with what is kept of it, and where the line does.
     label: usize,
     end: usize,
-    /// How many cells it has; or why there are none.
-    cells: Result<usize, String>,
+    /// Which columns it has; or why there are none.
+    shape: Result<usize, String>,
     rejected: bool,
 }
 
@@ -55,7 +54,7 @@ impl Lines {
     pub(super) fn push(&mut self, label: &str, found: Result<Figures, String>) {
         push_field(&mut self.text, label);
         let label = self.text.len();
-        let cells = found.map(
+        let shape = found.map(
             |Figures {
                  heads,
                  numbers,
@@ -69,14 +68,13 @@ impl Lines {
                 Cell::Text(&findings).push(&mut self.text);
                 // There is no error.
                 self.text.extend_from_slice(b",\n");
-                self.heads.get_or_insert(heads);
-                numbers.len() + 3
+                self.shapes.of_heads(heads)
             },
         );
         self.lines.push(Line {
             label,
             end: self.text.len(),
-            cells,
+            shape,
             rejected: false,
         });
     }
@@ -87,12 +85,19 @@ impl Columns {
     /// the findings, and the error of a row that has no result.
     pub fn add(self, lines: &mut Lines, rows: &Lot<'_>) {
         match rows {
-            Lot::One(row) => self.add_line(lines, row),
-            Lot::Several(rows) => rows.each(|row| self.add_line(lines, row)),
+            Lot::One(row) => {
+                let shape = row.found.as_ref().ok();
+                let shape = shape.map(|(budget, _)| lines.shapes.of_budget(self, budget));
+                self.add_line(lines, row, shape.unwrap_or_default());
+            }
+            Lot::Several(rows) => {
+                let shape = lines.shapes.of_budget(self, rows.budget);
+                rows.each(|row| self.add_line(lines, row, shape));
+            }
         }
     }
 
-    fn add_line(self, lines: &mut Lines, row: &Evaluated<'_>) {
+    fn add_line(self, lines: &mut Lines, row: &Evaluated<'_>, shape: usize) {
         let text = &mut lines.text;
         match row.label {
             Some(label) => push_field(text, label),
@@ -106,17 +111,14 @@ impl Columns {
         }
         let label = text.len();
         let mut rejected = false;
-        let cells = match &row.found {
+        let shape = match &row.found {
             Ok((budget, found)) => {
-                lines.heads.get_or_insert_with(|| self.heads(budget));
-                let mut cells = 1;
                 rejected = self.cells(budget, found, |cell| {
-                    cells += 1;
                     text.push(b',');
                     cell.push(text);
                 });
                 text.push(b'\n');
-                Ok(cells)
+                Ok(shape)
             }
             Err(failed) => Err(why(failed, self.language)),
         };
@@ -127,7 +129,7 @@ impl Columns {
         lines.lines.push(Line {
             label,
             end: text.len(),
-            cells,
+            shape,
             rejected,
         });
     }
@@ -145,7 +147,7 @@ impl Columns {
         let Several {
             budget, figures, ..
         } = rows;
-        values.heads.get_or_insert_with(|| self.heads(budget));
+        let shape = values.shapes.of_budget(self, budget);
         values.keep_all(rows);
         let measurands = 0..budget.model.outputs().len();
         let numbers = measurands.clone().flat_map(|one| {
@@ -177,7 +179,7 @@ impl Columns {
         columns.push(Given::Texts(None));
         let labels = rows.labels().map(|all| all.map(Cow::into_owned).collect());
         columns.insert(0, Given::Texts(labels));
-        values.add_columns(figures.count(), columns);
+        values.add_columns(shape, figures.count(), columns);
     }
 
     fn add_row(self, values: &mut Values, row: &Evaluated<'_>) {
@@ -185,41 +187,14 @@ impl Columns {
         values.keep(row.kept);
         match &row.found {
             Ok((budget, found)) => {
-                values.heads.get_or_insert_with(|| self.heads(budget));
-                values.add(|give| {
+                let shape = values.shapes.of_budget(self, budget);
+                values.add(Some(shape), |give| {
                     give(label);
                     self.cells(budget, found, give)
                 });
             }
             Err(failed) => values.add_failed(label, &why(failed, self.language)),
         }
-    }
-
-    /// The heads of the columns that rows of this budget have.
-    fn heads(self, budget: &Budget) -> Vec<Head> {
-        let mut heads = rows::heads(budget);
-        if self.shares {
-            let share = |output: &Output| {
-                let name = output.name.clone();
-                let inputs = budget.inputs.iter();
-                inputs.map(move |input| Head::numbers(format!("share({name}, {})", input.name)))
-            };
-            heads.extend(budget.model.outputs().iter().flat_map(share));
-        }
-        if self.contributions {
-            let contribution = |output: &Output| {
-                let (name, unit) = (output.name.clone(), output.unit.difference());
-                let components = budget.components.iter();
-                components.map(move |one| {
-                    let head = format!("contribution({name}, {})", one.name);
-                    Head::numbers(rows::in_unit(head, &unit))
-                })
-            };
-            heads.extend(budget.model.outputs().iter().flat_map(contribution));
-        }
-        heads.extend(self.seeds.then(|| Head::numbers("seed".into())));
-        heads.extend(["findings", "error"].map(Head::texts));
-        heads
     }
 
     /// Gives the cells behind the label; tells whether an item does not conform.
@@ -370,13 +345,14 @@ impl Table {
 
     /// The bytes that these lines add, as comma-separated values.
     pub fn add(&mut self, mut lines: Lines) -> Vec<u8> {
-        self.heads = self.heads.take().or(lines.heads.take());
+        self.heads = self.heads.take().or_else(|| lines.shapes.first());
         self.kept = self.kept.take().or(lines.kept.take());
         let Some(heads) = &self.heads else {
             self.waiting.push(lines);
             return Vec::new();
         };
-        let is_good = |line: &Line| line.cells.as_ref().is_ok_and(|cells| *cells == heads.len());
+        let fits = lines.shapes.fits(heads);
+        let is_good = |line: &Line| line.shape.as_ref().is_ok_and(|shape| fits[*shape]);
         if self.headed && lines.lines.iter().all(is_good) {
             self.count.rows += lines.lines.len() as u64;
             let rejected = lines.lines.iter().filter(|line| line.rejected);
@@ -394,18 +370,19 @@ impl Table {
         }
         let waiting = std::mem::take(&mut self.waiting);
         for lines in waiting.into_iter().chain([lines]) {
+            let fits = lines.shapes.fits(heads);
             let mut start = 0;
             for line in lines.lines {
                 let (label, whole) = (&lines.text[start..line.label], &lines.text[start..line.end]);
                 start = line.end;
                 self.count.rows += 1;
                 self.count.rejected += u64::from(line.rejected);
-                let why = match line.cells {
-                    Ok(cells) if cells == heads.len() => {
+                let why = match line.shape {
+                    Ok(shape) if fits[shape] => {
                         text.extend_from_slice(whole);
                         continue;
                     }
-                    Ok(cells) => of_another_length(cells, heads),
+                    Ok(shape) => misfit(lines.shapes.heads(shape), heads),
                     Err(why) => why,
                 };
                 self.count.failed += 1;
@@ -424,7 +401,7 @@ impl Table {
             return (Vec::new(), self.count);
         }
         let head = Lines {
-            heads: Some(nothing()),
+            shapes: Shapes::from(nothing()),
             ..Lines::default()
         };
         (self.add(head), self.count)

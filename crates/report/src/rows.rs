@@ -35,7 +35,7 @@ pub fn rows(rows: &[Report<'_>]) -> Result<Vec<u8>, csv::Error> {
 }
 
 /// The head of a column.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Head {
     pub name: String,
     /// Whether there are numbers below it, and not texts.

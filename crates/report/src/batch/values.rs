@@ -1,6 +1,6 @@
 //! Results as columns.
 
-use super::shape::{Columns, Count, nothing, of_another_length};
+use super::shape::{Columns, Count, Shapes, misfit, nothing};
 use crate::rows::{Cell, Head};
 use gumption_gum::batch::{BLOCK, Several};
 use gumption_gum::budget::BatchFile;
@@ -10,16 +10,17 @@ use std::borrow::Cow;
 #[derive(Debug, Default)]
 pub struct Values {
     /// As of `Lines`.
-    pub(super) heads: Option<Vec<Head>>,
+    pub(super) shapes: Shapes,
     /// What is kept of them, below its heads.
     kept: Vec<(String, Vec<String>)>,
     stretches: Vec<Stretch>,
 }
 
-/// Rows that have equally many cells, as columns: the first are their labels, the last the errors of those among them that
-/// have no result.
+/// Rows of one shape, as columns: the first are their labels, the last the errors of those among them that have no result.
 #[derive(Debug, Default)]
 struct Stretch {
+    /// Nothing where no row has a result.
+    shape: Option<usize>,
     columns: Vec<ResultColumn>,
     count: Count,
 }
@@ -58,11 +59,12 @@ impl Values {
     }
 
     /// Adds so many rows, with a column for each of their cells.
-    pub(super) fn add_columns(&mut self, count: usize, columns: Vec<Given<'_>>) {
-        let fits = |last: &Stretch| last.columns.len() == columns.len();
+    pub(super) fn add_columns(&mut self, shape: usize, count: usize, columns: Vec<Given<'_>>) {
+        let fits = |last: &Stretch| last.shape == Some(shape);
         if !self.stretches.last().is_some_and(fits) {
             let empty = columns.iter().map(|_| ResultColumn::Texts(None));
             self.stretches.push(Stretch {
+                shape: Some(shape),
                 columns: empty.collect(),
                 count: Count::default(),
             });
@@ -77,12 +79,21 @@ impl Values {
     }
 
     /// Adds a row, of which `cells` gives the cells and tells whether an item does not conform.
-    pub(super) fn add(&mut self, cells: impl Fn(&mut dyn FnMut(Cell<'_>)) -> bool) {
-        let added = self.stretches.last_mut().map(|last| last.add(&cells));
-        if added != Some(true) {
-            let mut stretch = Stretch::default();
-            stretch.add(&cells);
-            self.stretches.push(stretch);
+    pub(super) fn add(
+        &mut self,
+        shape: Option<usize>,
+        cells: impl Fn(&mut dyn FnMut(Cell<'_>)) -> bool,
+    ) {
+        match self.stretches.last_mut().filter(|last| last.shape == shape) {
+            Some(last) => last.add(cells),
+            None => {
+                let mut stretch = Stretch {
+                    shape,
+                    ..Stretch::default()
+                };
+                stretch.add(cells);
+                self.stretches.push(stretch);
+            }
         }
     }
 
@@ -90,7 +101,7 @@ impl Values {
         let why = Cell::Text(why);
         match self.stretches.last_mut() {
             Some(last) => last.add_failed(label, why),
-            None => self.add(|give| {
+            None => self.add(None, |give| {
                 give(label);
                 give(why);
                 false
@@ -100,9 +111,9 @@ impl Values {
 }
 
 impl Stretch {
-    /// Adds a row; false, and nothing is added, where it has another number of cells than those before it.
-    fn add(&mut self, cells: impl Fn(&mut dyn FnMut(Cell<'_>)) -> bool) -> bool {
-        let Stretch { columns, count } = self;
+    /// Adds a row.
+    fn add(&mut self, cells: impl Fn(&mut dyn FnMut(Cell<'_>)) -> bool) {
+        let Stretch { columns, count, .. } = self;
         let row = count.rows as usize;
         let mut at = 0;
         let rejected = cells(&mut |cell| {
@@ -114,15 +125,8 @@ impl Stretch {
             }
             at += 1;
         });
-        let fits = at == columns.len();
-        match fits {
-            true => {
-                count.rows += 1;
-                count.rejected += u64::from(rejected);
-            }
-            false => columns.iter_mut().for_each(|column| column.cut(row)),
-        }
-        fits
+        count.rows += 1;
+        count.rejected += u64::from(rejected);
     }
 
     fn add_failed(&mut self, label: Cell<'_>, why: Cell<'_>) {
@@ -134,18 +138,22 @@ impl Stretch {
         self.count.rows += 1;
     }
 
-    /// As many columns as these heads: where it has others, its rows have labels and errors alone.
-    fn below(self, heads: &[Head]) -> Vec<ResultColumn> {
-        let Stretch { mut columns, count } = self;
-        let cells = columns.len();
-        if cells == heads.len() {
+    /// The columns with these heads: where it has others, its rows have labels and errors alone.
+    fn below(self, heads: &[Head], shapes: &Shapes) -> Vec<ResultColumn> {
+        let Stretch {
+            shape,
+            mut columns,
+            count,
+        } = self;
+        let own = shape.map_or(&[][..], |shape| shapes.heads(shape));
+        if own == heads {
             return columns;
         }
         let mut errors = columns.pop().map_or(Vec::new(), ResultColumn::texts);
         errors.resize(count.rows as usize, String::new());
         for error in errors.iter_mut().filter(|error| error.is_empty()) {
-            // A vector of another length, or an assessment more.
-            *error = of_another_length(cells, heads);
+            // A component less, a vector of another length, an assessment more.
+            *error = misfit(own, heads);
         }
         columns.truncate(1);
         columns.extend(heads[2..].iter().map(ResultColumn::below));
@@ -186,8 +194,8 @@ impl Results {
     }
 
     /// Adds rows.
-    pub fn add(&mut self, mut values: Values) {
-        self.heads = self.heads.take().or(values.heads.take());
+    pub fn add(&mut self, values: Values) {
+        self.heads = self.heads.take().or_else(|| values.shapes.first());
         if self.kept.is_empty() {
             let heads = values.kept.iter().map(|(head, _)| head.clone());
             self.kept = heads.map(|head| (head, Vec::new())).collect();
@@ -202,17 +210,17 @@ impl Results {
                 texts.extend(added);
             }
             for stretch in values.stretches {
-                self.add_below(stretch);
+                self.add_below(stretch, &values.shapes);
             }
         }
     }
 
     /// Adds rows below the heads that are there.
-    fn add_below(&mut self, stretch: Stretch) {
+    fn add_below(&mut self, stretch: Stretch, shapes: &Shapes) {
         let at = self.rows();
         self.count.rows += stretch.count.rows;
         self.count.rejected += stretch.count.rejected;
-        let added = stretch.below(self.heads.as_deref().unwrap_or_default());
+        let added = stretch.below(self.heads.as_deref().unwrap_or_default(), shapes);
         if let Some(ResultColumn::Texts(Some(errors))) = added.last() {
             let failed = errors.iter().filter(|error| !error.is_empty());
             self.count.failed += failed.count() as u64;
@@ -248,7 +256,7 @@ impl Results {
     pub fn end(mut self) -> (Vec<(String, ResultColumn)>, Count) {
         // A table without rows has columns, too.
         self.add(Values {
-            heads: Some(nothing()),
+            shapes: Shapes::from(nothing()),
             ..Values::default()
         });
         (self.take(), self.count)
@@ -292,15 +300,6 @@ impl ResultColumn {
         match self {
             ResultColumn::Numbers(numbers) => numbers.resize(rows, f64::NAN),
             ResultColumn::Texts(Some(texts)) => texts.resize(rows, String::new()),
-            ResultColumn::Texts(None) => {}
-        }
-    }
-
-    /// Makes it no longer than this.
-    fn cut(&mut self, rows: usize) {
-        match self {
-            ResultColumn::Numbers(numbers) => numbers.truncate(rows),
-            ResultColumn::Texts(Some(texts)) => texts.truncate(rows),
             ResultColumn::Texts(None) => {}
         }
     }

@@ -132,3 +132,53 @@ fn the_table_is_no_document() {
     assert!(!good && why.contains("no file no.toml"), "{why}");
     assert!(said(&["--recordings", "empty"]).contains("no CSV file in the folder empty"));
 }
+
+/// Figures stand below the units of the first recording: those of one in other units are converted, and one of another quantity
+/// has no place there.
+#[test]
+fn recordings_in_other_units_are_converted() {
+    let folder = cases::folder("recordings-units");
+    let put = |name: &str, text: &str| std::fs::write(folder.join(name), text).expect("written");
+    let rates = [-100.0_f64, -50.0, 0.0, 50.0, 100.0];
+    let volts = [-0.2, -0.1, 0.0001, 0.1002, 0.2];
+    let recording = |heads: &str, rate: f64, output: f64| {
+        let rows = rates.iter().zip(volts);
+        let rows = rows.map(|(x, y)| format!("{},{}\n", x * rate, y * output));
+        format!("{heads}\n{}", rows.collect::<String>())
+    };
+    put("a.csv", &recording("omega [deg/s],U [mV]", 1.0, 1e3));
+    put("b.csv", &recording("omega [°/s],U [V]", 1.0, 1.0));
+    put(
+        "c.csv",
+        &recording("omega [rad/s],U [mV]", std::f64::consts::PI / 180.0, 1e3),
+    );
+    put("d.csv", &recording("omega [m/s],U [mV]", 1.0, 1e3));
+    put(
+        "gyro.toml",
+        "recording = { file = \"a.csv\", average = \"none\" }\nequations = \"U = K*omega + b\"\n",
+    );
+    let output = crate::common::program()
+        .current_dir(&folder)
+        .args(["calibrate", "gyro.toml", "--lang", "en", "--recordings"])
+        .args(["a.csv", "b.csv", "c.csv", "d.csv"])
+        .output()
+        .expect("the program runs");
+    assert_eq!(output.status.code(), Some(1));
+    let table = String::from_utf8(output.stdout).expect("text");
+    let sheet = Sheet::new(&table).expect("heads");
+    let rows: Vec<Row> = sheet.rows().map(|row| row.expect("a row")).collect();
+    let rows: Vec<Vec<&str>> = rows.iter().map(|row| row.fields().collect()).collect();
+    let last = rows[0].len() - 1;
+    for other in &rows[1..3] {
+        assert_eq!(other[last], "", "{table}");
+        for at in 1..last - 1 {
+            let [one, other]: [f64; 2] =
+                [rows[0][at], other[at]].map(|x| x.parse().expect("a number"));
+            assert!((one - other).abs() <= 1e-9 * one.abs(), "{at}: {table}");
+        }
+    }
+    assert!(
+        rows[3][last].contains("nothing for the column K [mV·s/deg]"),
+        "{table}"
+    );
+}

@@ -183,10 +183,10 @@ pub(crate) fn calibrate_each(
     language: &str,
 ) -> PyResult<(String, u64)> {
     let language = spoken(language)?;
-    let columns = RecordingColumns { shares, language };
     let share = Share::default();
     let found = watched(py, progress.as_ref(), &share, || {
         source.with(calibrations::is_experiment)?;
+        let mut columns = RecordingColumns::new(shares, language);
         let mut table = Table::default();
         let mut text = Vec::new();
         for (at, (label, recording)) in recordings.iter().enumerate() {
@@ -194,7 +194,7 @@ pub(crate) fn calibrate_each(
                 .with(|files, experiment| calibrations::of_recording(files, experiment, recording));
             let found = found.as_ref().map(|(campaign, found)| (campaign, found));
             let mut lines = Lines::default();
-            report::recording(&mut lines, label, found, columns);
+            report::recording(&mut lines, label, found, &mut columns);
             text.extend(table.add(lines));
             if share
                 .at((at + 1) as f64 / recordings.len() as f64)

@@ -32,17 +32,19 @@ pub(super) fn run(args: &Args) -> Outcome {
         Ok(sink) => sink,
         Err(outcome) => return outcome,
     };
-    let columns = RecordingColumns {
-        shares: args.shares,
-        language,
-    };
+    let mut columns = RecordingColumns::new(args.shares, language);
     let mut table = Table::default();
     let steps = Steps::shown(say!("calibration"));
     for (at, recording) in recordings.iter().enumerate() {
         let mut lines = Lines::default();
         let found = calibrate::of_recording(Files::Disk, &args.file, recording);
         let found = found.as_ref().map(|(campaign, found)| (campaign, found));
-        report::recording(&mut lines, &calibrate::label(recording), found, columns);
+        report::recording(
+            &mut lines,
+            &calibrate::label(recording),
+            found,
+            &mut columns,
+        );
         if let Err(why) = sink.add(&table.add(lines)) {
             return output::complain(why);
         }

@@ -117,7 +117,7 @@ const LETTERED: &[&str] = &[
 const INDICES: &[&str] = &["s", "m", "h", "N", "A"];
 
 impl Heading {
-    /// Reads `name [unit]`, `name (unit)`, `name/unit`, `name_unit` or a name alone; brackets and solidus may
+    /// Reads `name [unit]`, `name (unit)`, `name/unit`, `name in unit`, `name_unit` or a name alone; brackets and solidus may
     /// be those of a Chinese keyboard, `位移（mm）`.
     ///
     /// Round brackets and a solidus may also be part of a name (`T (oven)`, `U/U0`); they hold a
@@ -125,7 +125,12 @@ impl Heading {
     pub fn read(text: &str, units: &UnitTable) -> Heading {
         let text = text.trim();
         let bracketed = last_group(text, SQUARE).map(|place| (place, Certain::Yes));
-        let other = || last_group(text, ROUND).or_else(|| after_solidus(text));
+        let is_unit = |unit: &Range<usize>| as_written(&text[unit.clone()], units).is_ok();
+        let in_words = || after_in(text).filter(|(_, unit)| is_unit(unit));
+        let other = || {
+            let round = last_group(text, ROUND);
+            round.or_else(in_words).or_else(|| after_solidus(text))
+        };
         let place = bracketed.or_else(|| other().map(|place| (place, Certain::No)));
         let Some(((name, unit), certain)) = place else {
             return by_ending(text, units);
@@ -232,6 +237,12 @@ fn last_group(text: &str, (open, close): Brackets) -> Option<(&str, Range<usize>
     None
 }
 
+/// In words, `U in mV`: everything behind the last `in`.
+fn after_in(text: &str) -> Option<(&str, Range<usize>)> {
+    let (name, unit) = text.rsplit_once(" in ")?;
+    Some((name, text.len() - unit.len()..text.len()))
+}
+
 /// The quotient notation `a/m`: everything behind the first solidus.
 fn after_solidus(text: &str) -> Option<(&str, Range<usize>)> {
     let (at, solidus) = text.char_indices().find(|(_, c)| SOLIDUS.contains(c))?;
@@ -303,6 +314,8 @@ mod tests {
         assert_eq!(parts("a (m/(s·s))"), pair("a", "m/(s·s)"));
         assert_eq!(parts("T / °C"), pair("T", "°C"));
         assert_eq!(parts("a/(m/s^2)"), pair("a", "m/s^2"));
+        assert_eq!(parts("U in mV"), pair("U", "mV"));
+        assert_eq!(parts("Weg in m/s"), pair("Weg", "m/s"));
         assert_eq!(parts("oven_degC"), pair("oven", "°C"));
         assert_eq!(parts("温度 [°C]"), pair("温度", "°C"));
         assert_eq!(parts("时间（min）"), pair("时间", "min"));
@@ -348,6 +361,7 @@ mod tests {
             "T (oven)",
             "温度（室内）",
             "U/U0",
+            "change in load",
             "channel_A",
             "acc_x_g",
             "t_min",

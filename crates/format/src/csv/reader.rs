@@ -6,7 +6,9 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::column_unit::unit_of;
-use super::doubts::{Sign, may_mark_thousands, mend_of_overload, not_a, same_name, two_signs};
+use super::doubts::{
+    Sign, may_mark_thousands, mend_of_overload, not_a, same_name, summary, two_signs,
+};
 use super::encoding::{NoText, Undecodable, decode};
 use super::faults::{NO_COLUMN, NOT_A_NUMBER, NOT_UTF8, UNIT_CLASH, UNREADABLE};
 use super::field::{Field, Instant, is_like_a_time, is_overload, mend};
@@ -100,6 +102,9 @@ impl Recording {
         });
         faults.extend(visited.err().unwrap_or_default());
         faults.extend(two_decimal_signs(&sheet, &headings, &drafts));
+        if faults.is_empty() {
+            faults.extend(summary(&sheet));
+        }
         for draft in &mut drafts {
             draft.settle_clock(units.parse("s").ok());
             faults.extend(draft.take_faults());

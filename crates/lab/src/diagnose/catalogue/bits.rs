@@ -35,7 +35,7 @@ fn of_output(fitted: &FittedModel<'_>, response: usize) -> Option<Cell> {
     );
     cell.words.y.clone_from(&output.name);
     cell.odds = HIGHER;
-    (!cell.variants.is_empty()).then_some(cell)
+    Some(cell)
 }
 
 /// Where the codes are the stimulus, as in a table of the errors of a converter.
@@ -57,7 +57,7 @@ fn of_codes(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let mut cell = on_node(fitted, id, label, node, variants);
     cell.words.y = label.to_owned();
     cell.odds = HIGHER;
-    (!cell.variants.is_empty()).then_some(cell)
+    Some(cell)
 }
 
 /// What is taken for codes.

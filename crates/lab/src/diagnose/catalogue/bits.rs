@@ -33,7 +33,6 @@ fn of_output(fitted: &FittedModel<'_>, response: usize) -> Option<Cell> {
         &output.name,
         codes.variants(fitted, &added),
     );
-    cell.words.y.clone_from(&output.name);
     cell.odds = HIGHER;
     Some(cell)
 }
@@ -55,7 +54,6 @@ fn of_codes(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let variants = codes.variants(fitted, &on_output);
     let (id, node) = (EffectId::BitWeight, Node::Output);
     let mut cell = on_node(fitted, id, label, node, variants);
-    cell.words.y = label.to_owned();
     cell.odds = HIGHER;
     Some(cell)
 }
@@ -186,7 +184,7 @@ impl Base {
     }
 }
 
-/// Codes count from 1; other outputs say their resolution, show it, or say their full scale.
+/// Codes have steps of 1; other outputs say their step, show it, or say their full scale.
 fn base(fitted: &FittedModel<'_>, response: usize) -> Option<Base> {
     let case = fitted.case();
     let output = &case.responses[response];

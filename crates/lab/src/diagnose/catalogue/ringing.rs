@@ -1,6 +1,6 @@
 //! Ringing: the output follows a step of the input as a body on a spring does, and swings about the new value.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use super::building::{HIGHER, cell};
 use super::fitted::{FittedModel, Node};
@@ -96,8 +96,7 @@ impl Swing {
                 return 0.0;
             }
             distance -= x[row] - x[row - 1];
-            let phase = (angular * gap) % (2.0 * PI);
-            let (sine, cosine) = (libm::sin(phase), libm::cos(phase));
+            let (sine, cosine) = (libm::sin(angular * gap), libm::cos(angular * gap));
             let (left, own) = (libm::exp(-decay * gap), decay / angular * sine);
             (distance, speed) = (
                 left * (distance * (cosine + own) + speed * sine / angular),
@@ -111,6 +110,8 @@ impl Swing {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
 
     /// The step response of the second order: 1 − e^(−ζωt)·(cos ω_d t + ζω/ω_d sin ω_d t), of which the overshoot is e^(−πζ/√(1−ζ²)).

@@ -143,6 +143,28 @@ fn run(budget: &str, table: &str, plan: &Plan) -> Result<(String, Count), Reject
     Ok((String::from_utf8(out).expect("text"), count))
 }
 
+/// The results of a table in memory, as columns.
+fn in_columns(
+    file: &BatchFile<'_>,
+    table: &gumption::csv::Columns<'_>,
+    plan: &Plan,
+    wanted: Columns,
+) -> (Vec<(String, ResultColumn)>, Count) {
+    let mut results = Results::of(wanted, file);
+    batch::run_columns(
+        file,
+        ([Ok(table)], "table"),
+        plan,
+        |values, row| wanted.add_values(values, row),
+        |values, _| {
+            results.add(values);
+            ControlFlow::Continue(())
+        },
+    )
+    .expect("a batch");
+    results.end()
+}
+
 /// The names of the columns, and each row.
 fn cells(table: &str) -> (Vec<String>, Vec<Vec<String>>) {
     let sheet = Sheet::new(table).expect("a table");
@@ -457,19 +479,8 @@ fn columns_in_memory_give_what_a_file_gives() {
         seeds: false,
         language: Language::English,
     };
-    let mut results = Results::of(wanted, &file);
-    batch::run_columns(
-        &file,
-        ([Ok(columns.expect("equal lengths"))], "table"),
-        &plan(None, 3),
-        |values, row| wanted.add_values(values, row),
-        |values, _| {
-            results.add(values);
-            ControlFlow::Continue(())
-        },
-    )
-    .expect("a batch");
-    let (found, counted) = results.end();
+    let columns = columns.expect("equal lengths");
+    let (found, counted) = in_columns(&file, &columns, &plan(None, 3), wanted);
     assert_eq!(counted, count);
     assert!(count.failed > 30 && count.rows == rows as u64, "{count:?}");
     let heads: Vec<&str> = found.iter().map(|(head, _)| head.as_str()).collect();
@@ -668,19 +679,7 @@ fn columns_that_are_kept_go_through() {
     ];
     let in_memory = gumption::csv::Columns::new(columns_of).expect("a table");
     keeping.keep.remove(0);
-    let mut results = Results::of(columns, &file);
-    batch::run_columns(
-        &file,
-        ([Ok(&in_memory)], "table"),
-        &keeping,
-        |values, row| columns.add_values(values, row),
-        |values, _| {
-            results.add(values);
-            ControlFlow::Continue(())
-        },
-    )
-    .expect("a batch");
-    let (found, _) = results.end();
+    let (found, _) = in_columns(&file, &in_memory, &keeping, columns);
     assert_eq!(found[1], ("type".into(), ResultColumn::Texts(Some(types))));
 
     let refusal = |keep: &str| {
@@ -762,19 +761,12 @@ fn contributions_stand_below_their_components() {
         seeds: false,
         language: Language::English,
     };
-    let mut results = Results::of(wanted, &file);
-    batch::run(
-        &file,
-        (table.as_bytes(), "table.csv"),
-        &plan(None, 1),
-        |values, row| wanted.add_values(values, row),
-        |values, _| {
-            results.add(values);
-            ControlFlow::Continue(())
-        },
-    )
-    .expect("a batch");
-    let (columns, counted) = results.end();
+    let (heads, rows) = cells(table);
+    let column = |at: usize| rows.iter().map(|row| row[at].clone()).collect();
+    let heads = heads.into_iter().enumerate();
+    let columns = heads.map(|(at, head)| (head, Cells::Texts(column(at))));
+    let in_memory = gumption::csv::Columns::new(columns.collect()).expect("a table");
+    let (columns, counted) = in_columns(&file, &in_memory, &plan(None, 1), wanted);
     assert_eq!(counted, count);
     for (at, (head, column)) in columns.iter().enumerate() {
         let ResultColumn::Numbers(numbers) = column else {

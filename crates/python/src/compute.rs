@@ -187,7 +187,7 @@ pub(crate) fn calibrate_each(
     let found = watched(py, progress.as_ref(), &share, || {
         source.with(calibrations::is_experiment)?;
         let mut columns = RecordingColumns::new(shares, language);
-        let mut table = Table::default();
+        let mut table = Table::new(language);
         let mut text = Vec::new();
         for (at, (label, recording)) in recordings.iter().enumerate() {
             let found = source

@@ -324,6 +324,8 @@ fn described(fault: &Fault, language: Language) -> String {
 /// The table of a batch, which grows by lines; nothing of it is kept but what the first line needs.
 #[derive(Debug, Default)]
 pub struct Table {
+    /// In which it is said why a row has no place.
+    language: Language,
     heads: Option<Vec<Head>>,
     kept: Option<Vec<String>>,
     /// Whether they are written.
@@ -339,6 +341,14 @@ impl Table {
     pub fn of(columns: Columns, file: &BatchFile<'_>) -> Table {
         Table {
             heads: file.alone().map(|budget| columns.heads(&budget)),
+            ..Table::new(columns.language)
+        }
+    }
+
+    /// Nothing is in it yet. Its columns are those of the first row that has a result.
+    pub fn new(language: Language) -> Table {
+        Table {
+            language,
             ..Table::default()
         }
     }
@@ -382,7 +392,9 @@ impl Table {
                         text.extend_from_slice(whole);
                         continue;
                     }
-                    Ok(shape) => misfit(lines.shapes.heads(shape), heads),
+                    Ok(shape) => {
+                        misfit(lines.shapes.heads(shape), heads).in_language(self.language)
+                    }
                     Err(why) => why,
                 };
                 self.count.failed += 1;

@@ -33,7 +33,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         Err(outcome) => return outcome,
     };
     let mut columns = RecordingColumns::new(args.shares, language);
-    let mut table = Table::default();
+    let mut table = Table::new(language);
     let steps = Steps::shown(say!("calibration"));
     for (at, recording) in recordings.iter().enumerate() {
         let mut lines = Lines::default();

@@ -3,6 +3,7 @@
 use crate::rows::{self, Head};
 use gumption_core::model::Output;
 use gumption_fault::language::Language;
+use gumption_fault::{Said, say};
 use gumption_gum::budget::Budget;
 
 /// What the lines hold beside what is reported.
@@ -35,21 +36,25 @@ pub(super) fn nothing() -> Vec<Head> {
 }
 
 /// Why a row with these columns has no place below the heads of a table.
-pub(super) fn misfit(found: &[Head], heads: &[Head]) -> String {
+pub(super) fn misfit(found: &[Head], heads: &[Head]) -> Said {
     let without = |one: &[Head], other: &[Head]| {
         let mut missing = one.iter().filter(|head| !other.contains(head));
         missing.next().map(|head| head.name.clone())
     };
-    let (nothing, more) = (without(heads, found), without(found, heads));
-    let says = [
-        nothing.map(|name| format!("nothing for the column {name}")),
-        more.map(|name| format!("a figure for which there is no column, {name}")),
-    ];
-    let says: Vec<String> = says.into_iter().flatten().collect();
-    format!(
-        "the row has {}: all rows of a table have the columns of the first",
-        says.join(", and ")
-    )
+    match (without(heads, found), without(found, heads)) {
+        (Some(column), Some(figure)) => say!(
+            "the row has nothing for the column {column}, and a figure for which there is no column, {figure}: all rows of a table have the columns of the first"
+        ),
+        (Some(column), None) => say!(
+            "the row has nothing for the column {column}: all rows of a table have the columns of the first"
+        ),
+        (None, Some(figure)) => say!(
+            "the row has a figure for which there is no column, {figure}: all rows of a table have the columns of the first"
+        ),
+        (None, None) => say!(
+            "the row has its columns in another order: all rows of a table have the columns of the first"
+        ),
+    }
 }
 
 /// The columns that rows have: a row that leaves out a component has another column of contributions than one that leaves out

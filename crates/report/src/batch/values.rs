@@ -2,6 +2,7 @@
 
 use super::shape::{Columns, Count, Shapes, misfit, nothing};
 use crate::rows::{Cell, Head};
+use gumption_fault::language::Language;
 use gumption_gum::batch::{BLOCK, Several};
 use gumption_gum::budget::BatchFile;
 use std::borrow::Cow;
@@ -139,7 +140,7 @@ impl Stretch {
     }
 
     /// The columns with these heads: where it has others, its rows have labels and errors alone.
-    fn below(self, heads: &[Head], shapes: &Shapes) -> Vec<ResultColumn> {
+    fn below(self, heads: &[Head], shapes: &Shapes, language: Language) -> Vec<ResultColumn> {
         let Stretch {
             shape,
             mut columns,
@@ -153,7 +154,7 @@ impl Stretch {
         errors.resize(count.rows as usize, String::new());
         for error in errors.iter_mut().filter(|error| error.is_empty()) {
             // A component less, a vector of another length, an assessment more.
-            *error = misfit(own, heads);
+            *error = misfit(own, heads).in_language(language);
         }
         columns.truncate(1);
         columns.extend(heads[2..].iter().map(ResultColumn::below));
@@ -174,6 +175,8 @@ pub enum ResultColumn {
 /// The results of a batch as columns, which grow by rows.
 #[derive(Debug, Default)]
 pub struct Results {
+    /// In which it is said why a row has no place.
+    language: Language,
     heads: Option<Vec<Head>>,
     columns: Vec<ResultColumn>,
     /// What is kept of the rows.
@@ -188,6 +191,7 @@ impl Results {
     /// Nothing is in them yet. Columns are as of `Table::of`.
     pub fn of(columns: Columns, file: &BatchFile<'_>) -> Results {
         Results {
+            language: columns.language,
             heads: file.alone().map(|budget| columns.heads(&budget)),
             ..Results::default()
         }
@@ -220,7 +224,8 @@ impl Results {
         let at = self.rows();
         self.count.rows += stretch.count.rows;
         self.count.rejected += stretch.count.rejected;
-        let added = stretch.below(self.heads.as_deref().unwrap_or_default(), shapes);
+        let heads = self.heads.as_deref().unwrap_or_default();
+        let added = stretch.below(heads, shapes, self.language);
         if let Some(ResultColumn::Texts(Some(errors))) = added.last() {
             let failed = errors.iter().filter(|error| !error.is_empty());
             self.count.failed += failed.count() as u64;

@@ -71,34 +71,46 @@ pub(super) fn two_signs(
         ))
 }
 
-/// Lines at the end that sum up the rows above, such as their mean: in a column in which all of those have numbers they have a word. Taken for rows they
-/// would count as readings, also where that column is not read.
+/// Lines at the end that sum up the rows above, such as their mean: in a column in which all of those have numbers they have a word.
+/// Taken for rows they would count as readings, also where that column is not read.
 pub(super) fn summary(sheet: &Sheet<'_>) -> Option<Fault> {
+    let last = sheet.rows().filter_map(Result::ok).last()?;
+    let words = last.fields().enumerate();
+    let mut words = words.filter(|(_, text)| is_word(text));
+    words.find_map(|(column, _)| summary_in(sheet, column))
+}
+
+/// The same by the words of one column.
+fn summary_in(sheet: &Sheet<'_>, column: usize) -> Option<Fault> {
     /// Rows above of which numbers are no accident, and lines that sum up at most.
     const ROWS: usize = 3;
     const LINES: usize = 5;
-    let rows = || sheet.rows().filter_map(Result::ok);
-    let is_word =
-        |text: &str| text.contains(char::is_alphabetic) && !text.contains(char::is_numeric);
-    let last = rows().last()?;
-    let words = last.fields().enumerate().filter(|(_, text)| is_word(text));
-    let columns: Vec<usize> = words.map(|(column, _)| column).collect();
-    columns.into_iter().find_map(|column| {
-        let is_number = |row: &Row<'_>| number(row.field(column), sheet).is_some_and(f64::is_finite);
-        let numbers = rows().take_while(is_number).count();
-        let mut rest = rows().skip(numbers);
-        let first = rest.next()?;
-        let are_words = is_word(first.field(column)) && rest.all(|row| is_word(row.field(column)));
-        let lines = rows().count() - numbers;
-        (numbers >= ROWS && lines <= LINES && are_words).then(|| {
-            let head = sheet.header().field(column);
-            let word = first.field(column);
-            let message = say!("line {}, column \"{head}\": \"{word}\" where all rows above have a number", first.line);
-            Fault::new(NOT_A_NUMBER, sheet.place(&first, column), message)
-                .label(say!("does this line sum up the rows above?"))
-                .help(say!("delete it: what sums up rows is none of them; if it is one, leave this field empty"))
-        })
-    })
+    let mut rows = sheet.rows().filter_map(Result::ok);
+    let is_number = |row: &Row<'_>| number(row.field(column), sheet).is_some_and(f64::is_finite);
+    let mut numbers = 0;
+    let first = rows.by_ref().find(|row| {
+        numbers += 1;
+        !is_number(row)
+    })?;
+    let mut lines = rows.by_ref().take(LINES);
+    let are_words = is_word(first.field(column)) && lines.all(|row| is_word(row.field(column)));
+    if numbers <= ROWS || !are_words || rows.next().is_some() {
+        return None;
+    }
+    let (head, word) = (sheet.header().field(column), first.field(column));
+    let message = say!(
+        "line {}, column \"{head}\": \"{word}\" where all rows above have a number",
+        first.line
+    );
+    let fault = Fault::new(NOT_A_NUMBER, sheet.place(&first, column), message);
+    let fault = fault.label(say!("does this line sum up the rows above?"));
+    Some(fault.help(say!(
+        "delete it: what sums up rows is none of them; if it is one, leave this field empty"
+    )))
+}
+
+fn is_word(text: &str) -> bool {
+    text.contains(char::is_alphabetic) && !text.contains(char::is_numeric)
 }
 
 /// Columns of numbers that are written with two decimal signs.

@@ -260,7 +260,8 @@ fn written(field: &str, unit: &HeadUnit, sheet: &Sheet) -> Written {
             HeadUnit::Amounts(unit) => each_number(field, &|number| format!("\"{number} {unit}\"")),
             HeadUnit::Readings(conversion) => each_number(field, &|number| {
                 let converted = number.parse().map(|number| conversion.apply(number));
-                converted.map_or(number.to_owned(), |number| format!("{number:?}"))
+                // What is no decimal number is refused as a text.
+                converted.map_or(format!("\"{number}\""), |number| format!("{number:?}"))
             }),
         }),
         // `0,1 %` beside `0,1`.
@@ -276,23 +277,20 @@ fn each_number(list: &str, write: &dyn Fn(&str) -> String) -> String {
     let Ok(parsed) = DeValue::parse(list) else {
         return list.to_owned();
     };
-    let mut numbers = Vec::new();
-    places_of_numbers(&parsed, &mut numbers);
     let (mut text, mut end) = (String::new(), 0);
-    for (place, number) in numbers {
+    for place in places_of_numbers(&parsed) {
         text.push_str(&list[end..place.start]);
-        text.push_str(&write(&number));
+        text.push_str(&write(&list[place.clone()].replace('_', "")));
         end = place.end;
     }
     text + &list[end..]
 }
 
-fn places_of_numbers(value: &Raw<'_>, found: &mut Vec<(Range<usize>, String)>) {
+fn places_of_numbers(value: &Raw<'_>) -> Vec<Range<usize>> {
     match value.get_ref() {
-        DeValue::Array(list) => list.iter().for_each(|item| places_of_numbers(item, found)),
-        DeValue::Integer(number) => found.push((value.span(), number.to_string())),
-        DeValue::Float(number) => found.push((value.span(), number.to_string())),
-        _ => {}
+        DeValue::Array(list) => list.iter().flat_map(places_of_numbers).collect(),
+        DeValue::Integer(_) | DeValue::Float(_) => vec![value.span()],
+        _ => Vec::new(),
     }
 }
 
@@ -444,7 +442,7 @@ mod tests {
     /// A unit in the head holds for the members of a list as well: readings are converted, other numbers are amounts.
     #[test]
     fn lists_have_the_unit_of_their_head() {
-        let table = "label;V.readings [mV];X.limits [mm]\na;[1010, 1.5e3];[-1, 2.5]\n";
+        let table = "label;V.readings [mV];X.limits [mm]\na;[1_010, 1.5e3, 0x10];[-1, 2.5]\n";
         let sheet = Sheet::new(table).expect("a table");
         let volt = UnitTable::default().parse("V").expect("a unit");
         let of_readings = |name: &str| (name == "V.readings").then(|| volt.clone());
@@ -453,7 +451,10 @@ mod tests {
         let visited = sheet.visit(|row| found.extend(columns.written(row, &sheet)));
         visited.expect("rows");
         let texts: Vec<&str> = found.iter().map(Written::text).collect();
-        assert_eq!(texts, ["a", "[1.01, 1.5]", r#"["-1 mm", "2.5 mm"]"#]);
+        assert_eq!(
+            texts,
+            ["a", r#"[1.01, 1.5, "0x10"]"#, r#"["-1 mm", "2.5 mm"]"#]
+        );
     }
 
     #[test]

@@ -190,6 +190,43 @@ fn noise_that_jumps_is_not_taken_for_noise_that_wanders() {
     assert_eq!(found["verdict"], "none", "{}", found["statement"]);
 }
 
+/// A load cell beside which the humidity rises and falls slowly: nobody claims the noise, and this much of its effect may be noise that
+/// wanders as well.
+#[test]
+fn what_may_be_noise_that_wanders_has_its_name_if_rows_are_independent() {
+    let found = |per_percent: f64, name: &str| {
+        let mut noise = Noise(21);
+        let mut rows = "load [kN],U [mV],humidity [%],t [h]\n".to_owned();
+        let (mut humidity, mut slow) = (50.0, 0.0);
+        for row in 0..80 {
+            let load = f64::from(row * 37 % 80);
+            slow = 0.9 * slow + 0.3 * noise.normal();
+            humidity += 0.2 * slow;
+            let output = 0.1 * load + per_percent * (humidity - 50.0) + 0.01 * noise.normal();
+            let t = 0.02 * f64::from(row);
+            let _ = writeln!(rows, "{load},{output:.5},{humidity:.2},{t}");
+        }
+        let case = "equations = \"U = U0 + S*load\"\n[columns]\nU = \"output\"\nload = \"stimulus\"\nhumidity = \"covariate\"\nt = \"time\"\n";
+        diagnosed(name, &rows, case)
+    };
+    let open = found(0.006, "independent");
+    assert_eq!(open["verdict"], "none", "{}", open["statement"]);
+    let instead = &open["if_independent"];
+    assert!(
+        named(instead)[0].iter().any(|id| id == "sensitivity"),
+        "{instead}"
+    );
+    let statement = open["statement"].as_str().unwrap_or_default();
+    assert!(statement.contains("sensitivity of the output to humidity"));
+    // What is seen beside noise that wanders needs no such condition.
+    let seen = found(0.012, "remembering");
+    assert!(
+        named(&seen)[0].iter().any(|id| id == "sensitivity"),
+        "{seen}"
+    );
+    assert_eq!(seen["if_independent"], Value::Null);
+}
+
 #[test]
 fn a_pendulum_swings_slower_with_the_square_of_its_amplitude() {
     let mut noise = Noise(7);

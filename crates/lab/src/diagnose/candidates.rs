@@ -22,6 +22,16 @@ use super::reduced::reduced;
 /// λ from which on it matters that the parameter of an effect lies between the steps of its grid.
 const CLEAR: f64 = 15.0;
 
+/// What noise alone makes of a recording, held against effects.
+pub(super) struct Against {
+    /// Probability that effects gain as much by noise alone.
+    pub(super) p: f64,
+    /// The noise as it is then: without effects where these do not gain more, else with the best one.
+    pub(super) likeliest: Claimed,
+    /// Logarithm of the probability of all that noise alone may be, but for a constant.
+    pub(super) alone: f64,
+}
+
 /// Candidates, asked of a recording.
 pub(super) struct Candidates<'f> {
     pub(super) fitted: FittedModel<'f>,
@@ -116,9 +126,8 @@ impl<'f> Candidates<'f> {
         (number, atom)
     }
 
-    /// Whether effects beat noise that is correlated, or that grows with the reading: the probability that they gain as much
-    /// by noise alone, and the noise as it is then, without effects where these do not, else with the best one. `spreads` are
-    /// the standard uncertainties that it may have, `found` the logarithm of the evidence for all effects that were found.
+    /// Whether effects beat noise that is correlated, or that grows with the reading. `spreads` are the standard uncertainties that
+    /// it may have, `found` the logarithm of the evidence for all effects that were found.
     ///
     /// # Errors
     /// When the recording does not determine the parameters.
@@ -128,7 +137,7 @@ impl<'f> Candidates<'f> {
         spreads: &[Claimed],
         settings: &evidence::Settings,
         found: f64,
-    ) -> Result<(f64, Claimed), Refusal> {
+    ) -> Result<Against, Refusal> {
         let (design, fit) = (self.fitted.design, self.fitted.fit);
         let (mut seen, mut laws) = (Vec::new(), Vec::new());
         for spread in spreads {
@@ -147,9 +156,13 @@ impl<'f> Candidates<'f> {
         let likeliest = (laws.iter()).max_by(|a, b| most(a).total_cmp(&most(b)));
         let claimed = likeliest.map(|(spread, laws, range)| spread.likeliest(laws, of(range)));
         let claimed = claimed.unwrap_or_else(|| spreads[0].clone());
-        Ok(match contest.p <= settings.alpha {
-            true => (contest.p, claimed),
-            false => (contest.p, claimed.with_tails(design, fit)),
+        Ok(Against {
+            p: contest.p,
+            likeliest: match contest.p <= settings.alpha {
+                true => claimed,
+                false => claimed.with_tails(design, fit),
+            },
+            alone: evidence::log_sum(contest.alone.iter().copied()),
         })
     }
 

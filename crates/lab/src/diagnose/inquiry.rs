@@ -56,6 +56,15 @@ pub(super) struct Answer {
     pub examination: Examination,
 }
 
+/// What is found if the errors of rows are independent of each other, where noise that wanders stands in the answer.
+#[derive(Debug)]
+pub struct IfIndependent {
+    /// What is found then.
+    pub examination: Examination,
+    /// How many times as likely its likeliest explanation is as all noise that remembers.
+    pub odds: f64,
+}
+
 /// The declared model at the parameters of a fit with effects in it, as the catalogue sees it.
 struct Beside {
     /// What that fit leaves and what its effects do along their slopes are the residuals: the whole is as good as it is when it is
@@ -73,6 +82,8 @@ pub(super) struct Inquiry<'i> {
     declared: Declared<'i>,
     /// The declared model where its slopes were taken, as the catalogue sees it.
     fit: &'i Fit,
+    /// What is found in place of noise that wanders if rows are independent.
+    pub if_independent: Option<IfIndependent>,
     /// What the noise may be, where it is open how it is correlated or whether it grows.
     courses: Option<Courses>,
     progress: &'i dyn Fn(f64) -> ControlFlow<()>,
@@ -105,6 +116,7 @@ impl<'i> Inquiry<'i> {
             settings,
             declared,
             fit,
+            if_independent: None,
             courses,
             progress,
         };
@@ -118,6 +130,8 @@ impl<'i> Inquiry<'i> {
         inquiry.sharpen()?;
         inquiry.look_for_unsteady_noise()?;
         inquiry.tell_rounding();
+        let wanders = inquiry.found_nothing() && inquiry.answer.claimed.wanders();
+        inquiry.if_independent.take_if(|_| !wanders);
         Ok(inquiry)
     }
 
@@ -144,14 +158,15 @@ impl<'i> Inquiry<'i> {
     /// Noise and effects are estimated in turn: what an effect explains is no noise. Where noise may explain as well what an
     /// effect does, the two are begun with in turn, and the likelier end stays.
     fn compete(&mut self, mut starts: Vec<Claimed>) -> Result<(), Failure> {
+        let mut of_noise = None;
         if let Some(courses) = &self.courses {
             let found = self.answer.examination.score;
-            let (p, likeliest) =
-                (self.candidates).against(courses, &starts, &self.settings, found)?;
-            self.settings.by_noise = p;
-            match p > self.settings.alpha {
-                true => starts = vec![likeliest],
-                false if likeliest.correlated.is_some() => starts.push(likeliest),
+            let against = (self.candidates).against(courses, &starts, &self.settings, found)?;
+            self.settings.by_noise = against.p;
+            of_noise = Some(against.alone);
+            match against.p > self.settings.alpha {
+                true => starts = vec![against.likeliest],
+                false if against.likeliest.correlated.is_some() => starts.push(against.likeliest),
                 false => {}
             }
         }
@@ -174,6 +189,8 @@ impl<'i> Inquiry<'i> {
         if atoms != self.candidates.atoms.len() {
             // What cannot have its size with one noise was left out: atoms have other numbers now.
             self.answer = self.asked(self.answer.claimed.clone(), 0.7, 0.7)?;
+        } else if let Some(of_noise) = of_noise {
+            self.if_independent = begun.instead_of(of_noise, self.settings.alpha);
         }
         self.answer.examination.doubted(self.settings.by_noise);
         Ok(())
@@ -471,6 +488,21 @@ impl Answer {
         let slots = &self.examination.slots;
         let open = slots.iter().filter(|slot| !slot.is_explained());
         (open.count(), slots.len())
+    }
+
+    /// What is found with independent errors, in place of noise alone with this logarithm of its probability: where every effect has
+    /// a name that holds, and is at least `alpha` times as likely. If it is what made the recording, noise alone is likelier than that
+    /// by chance in a share of `alpha` at most (Markov's inequality).
+    fn instead_of(self, of_noise: f64, alpha: f64) -> Option<IfIndependent> {
+        let odds = libm::exp(self.log_posterior() - of_noise);
+        let is_named = match self.examination.verdict {
+            Verdict::Identified | Verdict::Like | Verdict::Ambiguous => true,
+            Verdict::None | Verdict::Partly | Verdict::Unexplained => false,
+        };
+        (is_named && odds >= alpha).then_some(IfIndependent {
+            examination: self.examination,
+            odds,
+        })
     }
 
     /// Logarithm of its probability, but for a constant.

@@ -110,6 +110,7 @@ pub use failure::Failure;
 pub use fit::{ModelVersion, NoFit, Trouble, Unsettled};
 pub use held_out::{HeldOutQuality, Listed, Prediction};
 pub use improved::improved;
+pub use inquiry::IfIndependent;
 pub use noise::Claimed;
 pub use noise_correlation::{Correlated, Memory};
 pub use noise_growth::{Growth, Quantity};

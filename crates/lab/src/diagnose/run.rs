@@ -15,7 +15,7 @@ use super::explanation::{self, Separating};
 use super::failure::Failure;
 use super::fit::{Fit, ModelVersion, Trouble, Unsettled};
 use super::held_out::{self, HeldOutQuality};
-use super::inquiry::{Answer, Declared, Inquiry};
+use super::inquiry::{Answer, Declared, IfIndependent, Inquiry};
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
 use super::prolonged::{Known, Recorded};
@@ -34,6 +34,9 @@ pub struct Diagnosis {
     pub located: Vec<(evidence::Cell, Located)>,
     /// Whether the readings hardly vary: effects on the output and on the scale are then one.
     pub steady: bool,
+    /// What is found in place of noise that wanders if the errors of rows are independent; `None` where that is no matter, or out of
+    /// the question.
+    pub if_independent: Option<IfIndependent>,
     /// The noise that was used.
     pub noise: Claimed,
     /// Names and values of the unknowns of the declared model, with their standard uncertainties.
@@ -107,6 +110,7 @@ pub fn diagnose(
         candidates,
         answer,
         settings,
+        if_independent,
         ..
     } = inquiry;
     let Answer {
@@ -156,6 +160,7 @@ pub fn diagnose(
     let atoms = atoms.map(|atom| (atom.candidate, atom.variant)).collect();
     Ok(Diagnosis {
         examination,
+        if_independent,
         located,
         unknowns,
         before,

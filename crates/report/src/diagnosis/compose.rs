@@ -3,7 +3,7 @@
 use crate::figures::with_unit;
 use crate::language::Language;
 use crate::number::{NONE, aligned, significant};
-use crate::phrase::{section, table};
+use crate::phrase::{paragraph, section, table};
 use gumption_fault::say;
 use gumption_format::document::{
     Block,
@@ -16,7 +16,7 @@ use gumption_lab::diagnose::{Diagnosis, Doubt};
 use super::labels::spoken;
 use super::names::{Names, quantity};
 use super::noise::noise;
-use super::statement::verdict;
+use super::statement::statement;
 use super::words::{chance, p_found, probability, unsettled};
 use super::{accounts, improvement, listed, open};
 
@@ -24,13 +24,14 @@ use super::{accounts, improvement, listed, open};
 pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
     let mut blocks = vec![
         Block::Title(case.title.clone()),
-        Block::Statement(vec![verdict(diagnosis, l)]),
+        Block::Statement(vec![statement(diagnosis, l)]),
     ];
     let doubtful = diagnosis.unsettled.iter();
     blocks.extend(doubtful.map(|one| Block::Paragraph(unsettled(case, one, l))));
     blocks.push(Block::Fields(fields(case, diagnosis, l)));
     blocks.extend(located(diagnosis, l));
     blocks.extend(slots(case, diagnosis, l));
+    blocks.extend(if_independent(case, diagnosis, l));
     blocks.extend(improvement::blocks(case, diagnosis, l));
     blocks.extend(improvement::parameters(diagnosis, l));
     blocks.extend(open::lines(diagnosis, l));
@@ -141,6 +142,35 @@ fn slots(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
             before = introduction;
         }
         blocks.extend(named(case, diagnosis, slot, names));
+    }
+    blocks
+}
+
+/// What stands in place of noise that wanders if rows are independent.
+fn if_independent(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
+    let Some(found) = &diagnosis.if_independent else {
+        return Vec::new();
+    };
+    let names = Names::of_diagnosis(diagnosis, l);
+    let mut blocks = vec![
+        section(
+            l,
+            "What it is if successive rows are independent",
+            "若相邻各行相互独立，则为何者",
+        ),
+        paragraph(
+            l,
+            "This recording does not tell it from noise that wanders. The same settings again in another order would, or a recording at rest below [noise] at_rest, which shows whether the noise wanders.",
+            "本记录无法将其与游走的噪声区分。换一种次序重复同样的设定即可区分；或在 [noise] at_rest 中给出静止记录，它能显示噪声是否游走。",
+        ),
+    ];
+    for slot in &found.examination.slots {
+        for alternative in &slot.named {
+            let title = headline(diagnosis, alternative, slot, names);
+            blocks.push(Block::Paragraph(title));
+            let formula = names.formula(case, diagnosis, alternative);
+            blocks.push(Block::Formula(vec![formula]));
+        }
     }
     blocks
 }

@@ -11,15 +11,16 @@ use gumption_lab::diagnose::evidence::{
     Verdict, Worth,
 };
 use gumption_lab::diagnose::{
-    Account, Addition, Adopted, ByLabel, Claimed, Diagnosis, Extra, Growth, HeldOutQuality, Listed,
-    ModelVersion, Prediction, Quality, Quantity, Separating, Shape, Standing, Trouble, Unsettled,
+    Account, Addition, Adopted, ByLabel, Claimed, Diagnosis, Extra, Growth, HeldOutQuality,
+    IfIndependent, Listed, ModelVersion, Prediction, Quality, Quantity, Separating, Shape,
+    Standing, Trouble, Unsettled,
 };
 
 use super::accounts::nowhere;
 use super::names::Names;
 use super::noise::{noise, unclaimed_steps};
 use super::parts::{ByUnknown, EstimateForm, MeasureForm, OmittedForm, by_unknown};
-use super::statement::verdict;
+use super::statement::statement;
 use super::words::{measure, unsettled};
 
 /// More places are of no use to anybody.
@@ -41,8 +42,8 @@ form! {
             Verdict::Partly => "partly",
             Verdict::Unexplained => "unexplained",
         },
-        /// The verdict in one sentence.
-        statement: String = verdict(d, names.l),
+        /// The verdict in a sentence, with what else it may be where noise that wanders stands in it.
+        statement: String = statement(d, names.l),
         /// Equations of the declared model.
         model: &'a [String] = &case.model,
         /// The noise that was used.
@@ -61,6 +62,8 @@ form! {
         located: Vec<LocatedForm<'a>> = d.located.iter().take(PLACES).map(LocatedForm::of).collect(),
         /// One for each effect found.
         effects: Vec<EffectForm<'a>> = all(&d.examination.slots, |one| EffectForm::of(one, case, d, names)),
+        /// What is found in place of noise that wanders if successive rows are independent; null where that is no matter, or out of the question.
+        if_independent: Option<IfIndependentForm<'a>> = d.if_independent.as_ref().map(|found| IfIndependentForm::of(found, case, d, names)),
         /// Fits on which a reader should not rely.
         unsettled_fits: Vec<UnsettledForm> = all(&d.unsettled, |one| UnsettledForm::of(one, case, names.l)),
         /// Probability that an effect without a name is there.
@@ -254,6 +257,14 @@ form! {
         unnamed_share: Number = Number(slot.generic_share),
         /// The family with the greatest probability.
         family: Option<FamilyForm<'a>> = slot.family.as_ref().map(FamilyForm::of),
+    }
+
+    /// What is found in place of noise that wanders if successive rows are independent.
+    IfIndependentForm<'a> of (found: &'a IfIndependent, case: &'a Case, d: &'a Diagnosis, names: Names<'a>) {
+        /// How many times as likely its likeliest explanation is as all noise that remembers.
+        odds: Number = Number(found.odds),
+        /// One for each effect found.
+        effects: Vec<EffectForm<'a>> = all(&found.examination.slots, |one| EffectForm::of(one, case, d, names)),
     }
 
     /// A fit on which a reader should not rely.

@@ -1,6 +1,7 @@
 //! The verdict of a diagnosis in one sentence.
 
 use crate::language::Language;
+use crate::number::significant;
 use gumption_fault::say;
 use gumption_lab::diagnose::evidence::{Alternative, Slot};
 use gumption_lab::diagnose::{Conclusion, Diagnosis};
@@ -8,8 +9,21 @@ use gumption_lab::diagnose::{Conclusion, Diagnosis};
 use super::names::Names;
 use super::words::chance;
 
+/// The verdict, with what else it may be where noise that wanders stands in it.
+pub(super) fn statement(diagnosis: &Diagnosis, l: Language) -> String {
+    let names = Names::of_diagnosis(diagnosis, l);
+    let verdict = verdict(diagnosis, l);
+    let Some(found) = &diagnosis.if_independent else {
+        return verdict;
+    };
+    let slots = found.examination.slots.iter();
+    let list = joined(slots.map(|slot| slot_name(diagnosis, slot, names)), l);
+    let odds = significant(found.odds, 2);
+    say!("{verdict} Or successive rows are independent, and the model leaves out, {odds} times as likely: {list}.").in_language(l)
+}
+
 /// The verdict in one sentence.
-pub(super) fn verdict(diagnosis: &Diagnosis, l: Language) -> String {
+fn verdict(diagnosis: &Diagnosis, l: Language) -> String {
     let names = Names::of_diagnosis(diagnosis, l);
     let list = |slots: &[&Slot]| {
         let names = slots.iter().map(|slot| slot_name(diagnosis, slot, names));

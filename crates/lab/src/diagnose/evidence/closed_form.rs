@@ -159,7 +159,7 @@ pub fn maximum(values: &[f64]) -> f64 {
 }
 
 /// log Σ exp xᵢ; −∞ for none.
-pub(super) fn log_sum(values: impl Iterator<Item = f64> + Clone) -> f64 {
+pub fn log_sum(values: impl Iterator<Item = f64> + Clone) -> f64 {
     let top = values.clone().fold(f64::NEG_INFINITY, f64::max);
     if top == f64::NEG_INFINITY {
         return top;

@@ -97,7 +97,7 @@ mod unsteady;
 
 pub use against::{Against, Beside, Instead, against};
 pub use baseline::{Baseline, Prior, Spread};
-pub use closed_form::maximum;
+pub use closed_form::{log_sum, maximum};
 pub use contest::{Contest, Course, contest};
 pub use departure::LIKENESS;
 pub use directions::{TRACE, all, determined, inverse, left, left_beside, side_by_side, span};

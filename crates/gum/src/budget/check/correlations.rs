@@ -1,7 +1,6 @@
 //! Correlation coefficients, and the joint distributions of correlated components.
 
 use std::collections::{HashMap, HashSet};
-use std::ops::Range;
 use std::rc::Rc;
 
 use super::checker::Checker;
@@ -9,7 +8,7 @@ use super::draft::show;
 use super::fits::Fitted;
 use super::groups::connected;
 use super::register::Register;
-use super::statement::{Pair, ROUNDING, Statement};
+use super::statement::{Pair, ROUNDING, Side, Statement};
 use crate::budget::faults::{
     CORRELATION_TWICE, MISSING_KEY, NOT_A_CORRELATION, PAIR_TWICE, SELF_PAIR, UNKNOWN_NAME,
 };
@@ -19,22 +18,9 @@ use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
 use gumption_format::toml::faults::WRONG_TYPE;
 
-/// Pairs of quantities that one statement correlates: with their places, matrices and factor they take some 250 bytes each,
-/// a gibibyte together.
+/// Pairs of quantities that one statement correlates: with their places, matrices and factor they take some 160 bytes each,
+/// two thirds of a gibibyte together.
 const MOST_PAIRS: usize = 1 << 22;
-
-/// One side of a correlation: components with their shares of the side's standard uncertainty.
-pub(super) struct Side {
-    name: Rc<str>,
-    /// Where the file names it.
-    span: Range<usize>,
-    members: Vec<(usize, f64)>,
-    /// Standard uncertainty of the side's own components.
-    own: f64,
-    /// Standard uncertainty with all causes.
-    total: f64,
-    place: Option<usize>,
-}
 
 impl Checker<'_> {
     /// The groups of correlated components.
@@ -124,15 +110,15 @@ impl Checker<'_> {
                 )),
             );
         }
-        let sides: Vec<Option<Side>> = between
+        let sides: Vec<Option<Rc<Side>>> = between
             .value
             .iter()
-            .map(|name| self.side(name, register))
+            .map(|name| self.side(name, register).map(Rc::new))
             .collect();
         if !self.is_coefficient(r) {
             return None;
         }
-        let sides: Vec<Side> = sides.into_iter().collect::<Option<_>>()?;
+        let sides: Vec<Rc<Side>> = sides.into_iter().collect::<Option<_>>()?;
         let mut statements = Vec::with_capacity(pairs);
         for (index, second) in sides.iter().enumerate() {
             for first in &sides[..index] {
@@ -167,8 +153,8 @@ impl Checker<'_> {
     /// A statement about two quantities.
     pub(super) fn pair(
         &mut self,
-        a: &Side,
-        b: &Side,
+        a: &Rc<Side>,
+        b: &Rc<Side>,
         r: &Stated<f64>,
         register: &Register,
     ) -> Option<Statement> {
@@ -190,9 +176,14 @@ impl Checker<'_> {
             );
         }
         let common = register.covariance(a.place, b.place);
-        let product = a.own * b.own;
-        let (scale, offset) = (a.total * b.total / product, -common / product);
-        let own = scale * r.value + offset;
+        let statement = Statement {
+            sides: [Rc::clone(a), Rc::clone(b)],
+            r: r.value,
+            coefficient: r.span.clone(),
+            offset: -common / (a.own * b.own),
+            whole: 2,
+        };
+        let own = statement.scale() * r.value + statement.offset;
         if !own.is_finite() {
             return self.refuse(
                 Fault::new(
@@ -231,28 +222,7 @@ impl Checker<'_> {
                 )),
             );
         }
-        let mut pairs = a
-            .members
-            .iter()
-            .flat_map(|(m, v)| b.members.iter().map(move |(n, w)| (*m, *n, v * w)));
-        let pair = pairs.next()?;
-        let place = a.span.start..r.span.end.max(b.span.end);
-        let place = if place.start < r.span.start {
-            r.span.clone()
-        } else {
-            place
-        };
-        Some(Statement {
-            names: [a.name.clone(), b.name.clone()],
-            r: r.value,
-            coefficient: r.span.clone(),
-            place,
-            scale,
-            offset,
-            pair,
-            further: pairs.collect(),
-            whole: 2,
-        })
+        Some(statement)
     }
 
     /// What is behind a name of a correlation statement.
@@ -316,7 +286,7 @@ impl Checker<'_> {
             .map(|index| (*index, u(index) / own))
             .collect();
         Some(Side {
-            name: name.value.as_str().into(),
+            name: name.value.clone(),
             span: name.span.clone(),
             members,
             own,
@@ -327,9 +297,13 @@ impl Checker<'_> {
 
     /// Reports pairs that are stated more than once.
     fn twice(&mut self, statements: &[Statement]) {
+        let pairs = || statements.iter().flat_map(Statement::pairs).map(ordered);
+        // A matrix states them in their order.
+        if pairs().is_sorted_by(|one, next| one < next) {
+            return;
+        }
         // Of millions of pairs a sorted list takes a fraction of the memory of a map.
-        let pairs = statements.iter().flat_map(Statement::pairs);
-        let mut pairs: Vec<(usize, usize)> = pairs.map(ordered).collect();
+        let mut pairs: Vec<(usize, usize)> = pairs().collect();
         pairs.sort_unstable();
         if pairs.windows(2).all(|two| two[0] != two[1]) {
             return;
@@ -343,15 +317,15 @@ impl Checker<'_> {
                 first.entry(ordered(pair)).or_insert(later);
             }
             if let Some(earlier) = earlier {
-                let [a, b] = &later.names;
+                let [a, b] = later.names();
                 self.report(
                     Fault::new(
                         PAIR_TWICE,
-                        later.place.clone(),
+                        later.place(),
                         say!("the correlation of {a} and {b} is stated twice"),
                     )
                     .label(say!("second statement"))
-                    .related(earlier.place.clone(), say!("first statement"))
+                    .related(earlier.place(), say!("first statement"))
                     .help(say!("leave out one")),
                 );
             }
@@ -367,13 +341,13 @@ impl Checker<'_> {
         for statement in statements {
             let taken = statement
                 .pairs()
-                .flat_map(|(a, b, _)| [*a, *b])
+                .flat_map(|(a, b, _)| [a, b])
                 .find(|index| joint.contains(index));
             if let Some(component) = taken.and_then(|index| register.components.get(index)) {
                 self.report(
                     Fault::new(
                         CORRELATION_TWICE,
-                        statement.place.clone(),
+                        statement.place(),
                         say!("{} is already in a [[joint]] statement", component.name),
                     )
                     .label(say!("correlated again here"))
@@ -387,8 +361,8 @@ impl Checker<'_> {
 }
 
 /// The components of a pair, whichever is named first. A matrix states them in this order.
-fn ordered((a, b, _): &Pair) -> (usize, usize) {
-    (*a.max(b), *a.min(b))
+fn ordered((a, b, _): Pair) -> (usize, usize) {
+    (a.max(b), a.min(b))
 }
 
 fn unknown(name: &Stated<String>, register: &Register) -> Fault {

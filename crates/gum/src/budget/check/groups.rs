@@ -26,7 +26,7 @@ impl Checker<'_> {
         let places = places(&members);
         let own: Vec<&Statement> = statements
             .iter()
-            .filter(|s| s.pairs().any(|(a, ..)| place(&places, *a).is_some()))
+            .filter(|s| s.pairs().any(|(a, ..)| place(&places, a).is_some()))
             .collect();
         let r: Vec<f64> = own.iter().map(|statement| statement.r).collect();
         let correlation = matrix(&members, &own, &r);
@@ -45,9 +45,7 @@ impl Checker<'_> {
                 None => return self.refuse(contradiction(&members, &own, &r, smallest)),
             },
         };
-        let place = own
-            .first()
-            .map_or(0..0, |statement| statement.place.clone());
+        let place = own.first().map_or(0..0, |statement| statement.place());
         self.join(members, correlation, register, &place)
     }
 
@@ -58,10 +56,10 @@ impl Checker<'_> {
         for statement in statements {
             let half = self.half_of(statement.r, statement.coefficient.clone());
             for (a, b, share) in statement.pairs() {
-                let (Some(i), Some(j)) = (place(&places, *a), place(&places, *b)) else {
+                let (Some(i), Some(j)) = (place(&places, a), place(&places, b)) else {
                     continue;
                 };
-                let half = (half * statement.scale * share).abs();
+                let half = (half * statement.scale() * share).abs();
                 halves[(i, j)] = half;
                 halves[(j, i)] = half;
             }
@@ -225,7 +223,7 @@ pub(super) fn connected(
     };
     let stated = statements
         .iter()
-        .flat_map(|statement| statement.pairs().map(|(a, b, _)| (*a, *b)));
+        .flat_map(|statement| statement.pairs().map(|(a, b, _)| (a, b)));
     let related = families
         .iter()
         .flat_map(|family| family.windows(2).map(|pair| (pair[0], pair[1])));
@@ -253,9 +251,9 @@ fn matrix(members: &[usize], statements: &[&Statement], r: &[f64]) -> DMatrix<f6
     let places = places(members);
     let mut matrix = DMatrix::identity(members.len(), members.len());
     for (statement, r) in statements.iter().zip(r) {
-        let own = statement.scale * r + statement.offset;
+        let own = statement.scale() * r + statement.offset;
         for (a, b, weight) in statement.pairs() {
-            if let (Some(i), Some(j)) = (place(&places, *a), place(&places, *b)) {
+            if let (Some(i), Some(j)) = (place(&places, a), place(&places, b)) {
                 matrix[(i, j)] = own * weight;
                 matrix[(j, i)] = own * weight;
             }
@@ -309,10 +307,10 @@ fn contradiction(members: &[usize], statements: &[&Statement], r: &[f64], smalle
     });
     let best = mends.min_by(|a, b| a.2.total_cmp(&b.2));
     let blamed = best.map_or(r.len() - 1, |(index, ..)| index);
-    let [a, b] = &statements[blamed].names;
+    let [a, b] = statements[blamed].names();
     let mut fault = Fault::new(
         NOT_SEMIDEFINITE,
-        statements[blamed].place.clone(),
+        statements[blamed].place(),
         say!("these correlation coefficients cannot occur together"),
     )
     .label(say!(
@@ -324,9 +322,10 @@ fn contradiction(members: &[usize], statements: &[&Statement], r: &[f64], smalle
         .enumerate()
         .filter(|(index, _)| *index != blamed)
     {
+        let [first, second] = other.names();
         fault = fault.related(
-            other.place.clone(),
-            say!("r({}, {}) = {}", other.names[0], other.names[1], r[index]),
+            other.place(),
+            say!("r({}, {}) = {}", first, second, r[index]),
         );
     }
     match best {
@@ -353,7 +352,7 @@ fn alike(statements: &[&Statement], r: &[f64], smallest: f64) -> Option<Fault> {
     let least = -1.0 / (n as f64 - 1.0);
     let fault = Fault::new(
         NOT_SEMIDEFINITE,
-        first.place.clone(),
+        first.place(),
         say!(
             "{n} quantities cannot have r = {} with one another",
             r.first()?

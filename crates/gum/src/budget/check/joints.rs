@@ -1,16 +1,16 @@
 //! `[[joint]]`: simultaneous readings, covariance matrices, correlation matrices.
 
 use std::collections::HashSet;
+use std::rc::Rc;
 
 use nalgebra::DMatrix;
 
 use super::checker::Checker;
-use super::correlations::Side;
 use super::draft::{Draft, Kind, Location, show};
 use super::groups::negative_eigenvalue;
 use super::nearest::within_rounding;
 use super::register::{Register, no_such_input};
-use super::statement::Statement;
+use super::statement::{Side, Statement};
 use super::type_a::{mean_and_squares, student};
 use crate::budget::faults::{CORRELATION_TWICE, JOINT, MODIFIER, NOT_SEMIDEFINITE, TWO_WAYS};
 use crate::budget::tables::{FileTable, JointTable};
@@ -374,15 +374,18 @@ impl Checker<'_> {
             }
         }
         let correlated = |i: usize| (0..inputs.len()).any(|j| j != i && coefficient(i, j) != 0.0);
-        let sides: Vec<Option<Side>> = inputs
+        let sides: Vec<Option<Rc<Side>>> = inputs
             .iter()
             .enumerate()
             .map(|(i, (place, name))| {
                 let own = correlated(i).then(|| register.own(*place))?;
                 self.side_of(name, &own, Some(*place), register)
+                    .map(Rc::new)
             })
             .collect();
         let before = |i: usize| (0..i).filter(move |j| coefficient(i, *j) != 0.0);
+        // Growing would copy all of them, time and again.
+        statements.reserve((0..sides.len()).map(|i| before(i).count()).sum());
         for (i, second) in sides.iter().enumerate() {
             for j in before(i) {
                 let r = rows[i].stated(j);

@@ -286,3 +286,34 @@ fn a_load_that_is_set_down_rings() {
     let is_right = found.is_some_and(|found| (found / period - 1.0).abs() < 0.005);
     assert!(is_right && label.ends_with("damping ratio 0.12"), "{label}");
 }
+
+/// An amplifier on square waves of several heights: up to 2 V it follows between two readings, above it goes along a ramp.
+#[test]
+fn an_output_may_follow_at_a_limited_rate() {
+    let rate = 9.0;
+    let mut noise = Noise(62);
+    let mut rows = "t [ms],x [V],y [V]\n".to_owned();
+    let mut follows = 2.0;
+    for row in 0..480 {
+        let height = f64::from(1 + row / 60 % 4) * 2.0;
+        let x = if row / 30 % 2 == 0 { height } else { -height };
+        // In fine steps of time, from the row before on.
+        for _ in 0..1000 {
+            let left: f64 = x - follows;
+            follows += left.clamp(-rate * 2e-4, rate * 2e-4);
+        }
+        let shown = 0.1 + 2.0 * follows + 5e-3 * noise.normal();
+        let _ = writeln!(rows, "{:.1},{x},{shown:.5}", 0.2 * f64::from(row));
+    }
+    let case = "equations = \"y = a + b*x\"\n[columns]\nt = \"time\"\nx = \"stimulus\"\ny = \"output\"\n[noise]\nu = \"5 mV\"\n";
+    let found = diagnosed("slewing", &rows, case);
+    assert_eq!(named_apart(&found), [["slewing"]], "{found}");
+    assert!((size(&found, 0) - 1.0).abs() < 0.005, "{found}");
+    let label = &found["effects"][0]["named"][0]["variants"][0]["label"];
+    let words = label.as_str().unwrap_or_default().split_whitespace();
+    let found = words.flat_map(str::parse::<f64>).next();
+    assert!(
+        found.is_some_and(|found| (found / rate - 1.0).abs() < 0.002),
+        "{label}"
+    );
+}

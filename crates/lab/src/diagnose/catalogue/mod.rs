@@ -13,7 +13,7 @@
 //! | `absorbed` | what the parameters take away from a regressor |
 //! | `sharp` | grids of time constants and knees, with the best value exactly |
 //! | `fitted` | the fitted model: slopes of the nodes, and which columns can be what |
-//! | `response`, `powers`, `limits`, `history`, `ringing` | what a stimulus does otherwise than declared |
+//! | `response`, `powers`, `limits`, `history`, `ringing`, `slewing` | what a stimulus does otherwise than declared |
 //! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
 //! | `axes` | the same where the model holds a constant against several columns, and between outputs |
 //! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
@@ -53,6 +53,7 @@ mod response;
 mod ringing;
 mod rows;
 mod sharp;
+mod slewing;
 mod time;
 mod user;
 mod waves;

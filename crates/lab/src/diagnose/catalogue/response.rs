@@ -34,6 +34,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         cells.extend(super::limits::cells(fitted, *column));
         cells.extend(dynamics(fitted, *column));
         cells.extend(super::ringing::ringing(fitted, *column));
+        cells.extend(super::slewing::slewing(fitted, *column));
         cells.extend(super::history::cells(fitted, *column));
     }
     cells.extend(super::limits::of_outputs(fitted, &direct));

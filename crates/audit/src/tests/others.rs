@@ -261,3 +261,14 @@ fn a_factor_of_a_thousand_may_sit_in_the_coefficient() {
     let slip = first("sheet.csv", table);
     assert!(slip == "c-one@a" || slip == "prefix@a", "{slip}");
 }
+
+/// A recording that was taken for a budget is refused in a time that grows with its length, not with the square of it: ten times
+/// the lines of which each was once held against all below it for half a minute.
+#[test]
+fn a_long_recording_is_refused_soon() {
+    let recording = format!("a,b\n{}", "1,2\n".repeat(100_000));
+    let grids = sheet::grids("recording.csv", recording.as_bytes()).unwrap();
+    let start = std::time::Instant::now();
+    assert!(read::budgets(&grids, &read::Mapping::default()).is_empty());
+    assert!(start.elapsed().as_secs() < 300, "{:?}", start.elapsed());
+}

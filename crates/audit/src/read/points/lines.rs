@@ -29,6 +29,10 @@ pub(super) fn parted(grid: &Grid, head: usize) -> Option<Vec<Grid>> {
         columns.iter().partition(|column| column.whole.is_none());
     let unit = &sources.first()?.unit;
     let one_unit = sources.iter().all(|source| source.unit == *unit);
+    // Asked before the rows are read: each line of a long recording would else be held against all that follow it.
+    if sources.len() < 2 || !one_unit || whole.is_empty() {
+        return None;
+    }
     let rows = rows_below(grid, head);
     let fits = |row: &&usize| is_sum(grid, **row, &sources, &whole);
     // That one row alone is a sum may be chance where its heads do not say what it is of.
@@ -36,7 +40,7 @@ pub(super) fn parted(grid: &Grid, head: usize) -> Option<Vec<Grid>> {
     let fewest = if are_said { 1 } else { 2 };
     let sums = rows.iter().filter(fits).count();
     let are_sums = sums >= fewest && 2 * sums > rows.len();
-    if sources.len() < 2 || !one_unit || !are_sums {
+    if !are_sums {
         return None;
     }
     let part = |row: &usize| {

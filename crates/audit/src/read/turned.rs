@@ -10,10 +10,10 @@ const FEWEST: usize = 4;
 
 /// The sheet with such a table the usual way round; as it is where there is none.
 pub fn upright(grid: &Grid) -> Grid {
-    let Some((start, end)) = (0..grid.rows.len()).find_map(|start| heads_below(grid, start)) else {
+    let Some((start, end, first)) = (0..grid.rows.len()).find_map(|start| heads_below(grid, start))
+    else {
         return grid.clone();
     };
-    let first = grid.filled(start).next().map_or(0, |(column, _)| column);
     let width = (start..end)
         .map(|row| grid.rows[row].len())
         .max()
@@ -42,23 +42,32 @@ pub fn upright(grid: &Grid) -> Grid {
 }
 
 /// Rows from here on that begin with heads of different columns, one of which names a quantity and one of which is a
-/// figure of its uncertainty.
-fn heads_below(grid: &Grid, start: usize) -> Option<(usize, usize)> {
-    let mut roles: Vec<Role> = Vec::new();
-    let mut end = start;
+/// figure of its uncertainty, and the column of these heads.
+fn heads_below(grid: &Grid, start: usize) -> Option<(usize, usize, usize)> {
+    let (first, _) = grid.filled(start).next()?;
+    // Names of the quantities side by side, and nothing in the corner before them.
+    let corner = grid.filled(start + 1).next();
+    let corner = corner
+        .map(|(column, _)| column)
+        .filter(|column| *column < first);
+    let (mut roles, mut end) = match corner {
+        Some(_) if are_names(grid, start) => (vec![Role::Name], start + 1),
+        _ => (Vec::new(), start),
+    };
+    let heads = if end > start {
+        corner.unwrap_or(first)
+    } else {
+        first
+    };
     while let Some((column, cell)) = grid.filled(end).next() {
         let Some((role, _)) = columns::role(&cell.text) else {
             break;
         };
-        let same_column = grid
-            .filled(start)
-            .next()
-            .is_some_and(|(first, _)| first == column);
         // A figure of the whole stands alone behind its label.
         let is_whole = grid.filled(end).count() == 2
             && grid.filled(start).count() > 2
             && footer::label(&cell.text, "").is_some();
-        if !same_column || is_whole || roles.contains(&role) || grid.filled(end).count() < 2 {
+        if column != heads || is_whole || roles.contains(&role) || grid.filled(end).count() < 2 {
             break;
         }
         roles.push(role);
@@ -74,7 +83,12 @@ fn heads_below(grid: &Grid, start: usize) -> Option<(usize, usize)> {
     let across_roles: Vec<Role> = across_roles.collect();
     let is_usual = (is_head(&across_roles) || is_head_of_summary(&across_roles))
         && words(across.into_iter()) > words(below);
-    (roles.len() >= FEWEST && is_head(&roles) && !is_usual).then_some((start, end))
+    (roles.len() >= FEWEST && is_head(&roles) && !is_usual).then_some((start, end, heads))
+}
+
+/// Whether a row holds names alone.
+fn are_names(grid: &Grid, row: usize) -> bool {
+    grid.filled(row).all(|(_, cell)| cell.figure().is_none())
 }
 
 /// Whether heads name a quantity and a figure of its uncertainty.

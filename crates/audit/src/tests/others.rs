@@ -272,3 +272,19 @@ fn a_long_recording_is_refused_soon() {
     assert!(read::budgets(&grids, &read::Mapping::default()).is_empty());
     assert!(start.elapsed().as_secs() < 300, "{:?}", start.elapsed());
 }
+
+/// Names of the quantities side by side below an empty corner, and below them what is known of each.
+#[test]
+fn a_turned_table_may_have_an_empty_corner() {
+    let sheet = |u_c: &str, expanded: &str| {
+        format!(
+            ",Reference,Resolution,Repeatability,u_c,U (k=2)\nLimits / Pa,0.50,0.208,0.09,,\n\
+             Divisor,2,1.732,1,,\nu / Pa,0.25,0.12,0.09,{u_c},{expanded}\n"
+        )
+    };
+    is_sound("turned.csv", &sheet("0.29", "0.58"));
+    assert_eq!(
+        first("turned.csv", &sheet("0.28", "0.56")),
+        "row-dropped@Repeatability"
+    );
+}

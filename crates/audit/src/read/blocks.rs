@@ -3,13 +3,8 @@
 use crate::sheet::Grid;
 
 use super::Found;
-use super::footer::{self, Whole};
+use super::footer::{self, TYPES, Whole};
 use super::words::has;
-
-/// Names of the two types of evaluation.
-const TYPES: [&str; 8] = [
-    "type a", "type b", "type-a", "type-b", "a类", "b类", "a 类", "b 类",
-];
 
 /// Tables that are blocks of one budget, as one: with the rows of all, and the figures of the whole below the last.
 pub(super) fn joined(grids: &[Grid], found: Vec<Found>) -> Vec<Found> {

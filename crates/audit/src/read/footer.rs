@@ -98,6 +98,11 @@ pub fn is_relative(label: &str) -> bool {
     divided == Some(true) || RELATIVE.iter().any(|word| label.contains(word))
 }
 
+/// Names of the two types of evaluation.
+pub(super) const TYPES: [&str; 8] = [
+    "type a", "type b", "type-a", "type-b", "a类", "b类", "a 类", "b 类",
+];
+
 /// What a cell labels, if it labels a figure of the whole.
 pub fn label(text: &str, measurand: &str) -> Option<Whole> {
     if is_capital_result(text, measurand) {
@@ -110,12 +115,20 @@ pub fn label(text: &str, measurand: &str) -> Option<Whole> {
         return Some(Whole::Y);
     }
     let lower = absolute(&text.to_lowercase());
-    // `Sum u(m_X)`, `Total u`, `Total u_c`.
-    let total = ["sum ", "total ", "合计 "]
+    // `Sum u(m_X)`, `Total u`, `Total u_c`; `Total type A` of a block.
+    let total = ["sum ", "sum of ", "total ", "total of ", "合计 "]
         .iter()
-        .find_map(|word| lower.strip_prefix(word));
-    if total.is_some_and(|rest| {
-        matches!(rest, "u" | "uc") || rest.starts_with("u(") || rest.starts_with("u_")
+        .filter_map(|word| lower.strip_prefix(word))
+        .chain(
+            [" total", " sum", "合计"]
+                .iter()
+                .filter_map(|word| lower.strip_suffix(word)),
+        );
+    if total.into_iter().any(|rest| {
+        matches!(rest, "u" | "uc")
+            || rest.starts_with("u(")
+            || rest.starts_with("u_")
+            || TYPES.contains(&rest.trim())
     }) {
         return Some(Whole::Combined);
     }

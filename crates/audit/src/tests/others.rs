@@ -288,3 +288,19 @@ fn a_turned_table_may_have_an_empty_corner() {
         "row-dropped@Repeatability"
     );
 }
+
+/// `Total type A` is no source.
+#[test]
+fn a_total_of_a_type_is_a_subtotal() {
+    let sheet = |total_a: &str, total_b: &str| {
+        format!(
+            "Type A evaluation,,\nSource,Details,u (mm)\nRepeatability,10 readings,0.030\n\
+             Reproducibility,3 operators,0.020\n{total_a},,0.036\n\
+             Type B evaluation,,\nSource,Details,u (mm)\nRing gauge,U=0.05 mm k=2,0.025\n\
+             Temperature,±0.04 mm rect.,0.023\n{total_b},,0.034\n\
+             Combined standard uncertainty,,0.050\nExpanded uncertainty k=2,,0.099\n"
+        )
+    };
+    is_sound("blocks.csv", &sheet("Total type A", "Total type B"));
+    is_sound("blocks.csv", &sheet("Type A total", "Type B total"));
+}

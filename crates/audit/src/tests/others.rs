@@ -304,3 +304,19 @@ fn a_total_of_a_type_is_a_subtotal() {
     is_sound("blocks.csv", &sheet("Total type A", "Total type B"));
     is_sound("blocks.csv", &sheet("Type A total", "Type B total"));
 }
+
+/// Forms whose list of distributions has one called `Resolution` mean u = step/√12 by it.
+#[test]
+fn a_distribution_called_resolution_is_of_the_whole_step() {
+    let sheet = |u: &str, u_c: &str, expanded: &str| {
+        format!(
+            "Uncertainty Contributor\tTolerance\tDistribution\tStd Unc\tUnits\n\
+             Reference Standard\t0.80\tNormal, k=2\t0.400\tg\nTemperature\t0.40\tRectangular\t0.231\tg\n\
+             UUT Resolution\t0.5\tResolution\t{u}\tg\n\nCombined Uncertainty\t{u_c}\tg\n\
+             Coverage Factor\t2.00\nExpanded Uncertainty\t{expanded}\tg\n"
+        )
+    };
+    is_sound("form.tsv", &sheet("0.144", "0.484", "0.97"));
+    let slip = first("form.tsv", &sheet("0.289", "0.545", "1.1"));
+    assert_eq!(slip, "full-width@UUT Resolution");
+}

@@ -171,8 +171,10 @@ pub(super) fn step(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         .divisor
         .is_some_and(|d| (d - libm::sqrt(3.0)).abs() < 0.01);
     let head = e.used_head.to_lowercase();
+    // Forms that call the distribution itself `resolution` mean the whole step by it, u = step/√12.
+    let of_steps = !by_root3 && has(&e.columns.to_lowercase(), &["resolution", "分辨力"]);
     let half = by_root3 && [head.as_str(), text].iter().any(|words| has(words, HALF));
-    let whole = by_twice_root3 || !e.full && !half;
+    let whole = by_twice_root3 || of_steps || !e.full && !half;
     Some(if whole {
         Stated::Step { step: used }
     } else {

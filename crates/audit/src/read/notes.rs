@@ -425,7 +425,14 @@ pub fn absent(text: &str, at: Place, claimed: &Claimed) -> Option<Row> {
     if whole.u_c.is_some() {
         return None;
     }
-    let is_missing = !row.symbol.is_empty()
+    // `Known: t_ref, certificate …` is about a row; where a model has the symbol, the model decides.
+    let about_row = claimed.model.is_none()
+        && claimed
+            .rows
+            .iter()
+            .any(|other| !other.symbol.is_empty() && has_symbol(text, &other.symbol));
+    let is_missing = !about_row
+        && !row.symbol.is_empty()
         && claimed
             .model
             .as_deref()

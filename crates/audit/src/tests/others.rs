@@ -320,3 +320,20 @@ fn a_distribution_called_resolution_is_of_the_whole_step() {
     let slip = first("form.tsv", &sheet("0.289", "0.545", "1.1"));
     assert_eq!(slip, "full-width@UUT Resolution");
 }
+
+/// A line below the table that speaks of one of its rows is no further input.
+#[test]
+fn a_line_about_a_row_is_none_of_its_own() {
+    let sheet = |expanded: &str| {
+        format!(
+            "Quantity;Estimate;Standard uncertainty;Distribution;Sensitivity;Contribution\n\
+             t_ref;100,02 °C;0,0600 °C;normal;1;0,0600 °C\n\
+             δt_drift;0 °C;0,0289 °C;rectangular;1;0,0289 °C\n\
+             δt_res;0 °C;0,00577 °C;rectangular;1;0,00577 °C\n\
+             t_x;100,02 °C;;;;0,067 °C\nExpanded uncertainty U (k = 2);;;;;{expanded} °C\n\n\
+             Known: t_ref certificate U = 0,12 °C (k = 2); drift ±0,05 °C; resolution 0,02 °C\n"
+        )
+    };
+    is_sound("known.csv", &sheet("0,13"));
+    assert_eq!(first("known.csv", &sheet("0,067")), "k-forgotten");
+}

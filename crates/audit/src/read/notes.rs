@@ -189,27 +189,6 @@ fn rule(lower: &str, claimed: &mut Claimed) -> bool {
     if claimed.coverage != Coverage::Unstated {
         return false;
     }
-    let student = has(
-        lower,
-        &[
-            "student",
-            "t-distribution",
-            "t distribution",
-            "t分布",
-            "t 分布",
-            "t(",
-            "t_p",
-            "t_95",
-            "t95",
-            "t-table",
-            "t table",
-            "t值",
-            "t factor",
-            "from t",
-            "t-factor",
-            "t 值",
-        ],
-    );
     let by_freedom = has(
         lower,
         &["effective degrees", "ν_eff", "veff", "νeff", "有效自由度"],
@@ -217,7 +196,7 @@ fn rule(lower: &str, claimed: &mut Claimed) -> bool {
     // `ν_eff = 35, k = 2, U = 0.05` claims figures and states no rule.
     let statement = footer::states_figures(lower);
     let regardless = has(lower, &["regardless", "k = 2 is used", "不论"]);
-    if (student || by_freedom && !statement) && !regardless {
+    if (names_student(lower) || by_freedom && !statement) && !regardless {
         claimed.coverage = Coverage::StudentT(probability(lower).unwrap_or(0.95));
         return true;
     }
@@ -262,9 +241,46 @@ pub fn rule_of_reason(text: &str, claimed: &mut Claimed) {
             k => Coverage::Fixed(k),
         };
     }
-    if has(&lower, &["t-distribution", "t 分布", "t分布"]) {
+    if names_student(&lower) {
         rule_of_label(text, claimed);
     }
+}
+
+/// Whether a text says that k is a quantile of t.
+fn names_student(lower: &str) -> bool {
+    let by_words = has(
+        lower,
+        &[
+            "student",
+            "t-distribution",
+            "t distribution",
+            "t分布",
+            "t 分布",
+            "t(",
+            "t_p",
+            "t_95",
+            "t95",
+            "t-table",
+            "t table",
+            "t值",
+            "t factor",
+            "from t",
+            "t-factor",
+            "t 值",
+        ],
+    );
+    by_words || bracket_behind(lower, "k").is_some_and(|why| has(why, &["t", "student"]))
+}
+
+/// What stands in round brackets behind the figure of a key: `t, 95 %` in `k = 2.31 (t, 95 %)`.
+fn bracket_behind<'t>(lower: &'t str, key: &str) -> Option<&'t str> {
+    lower.match_indices(key).find_map(|(at, _)| {
+        let is_name = !lower[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_');
+        let figure = lower[at + key.len()..].trim_start().strip_prefix('=')?;
+        let (_, behind) = leading(figure.trim_start()).filter(|_| is_name)?;
+        let inside = behind.trim_start().strip_prefix(['(', '（'])?;
+        Some(inside.split([')', '）']).next().unwrap_or(inside))
+    })
 }
 
 /// The coverage probability of a line: 0.9545 for `95.45 %`, for `t_95.45(ν_eff)` and for `p = 0.9545`.

@@ -337,3 +337,22 @@ fn a_line_about_a_row_is_none_of_its_own() {
     is_sound("known.csv", &sheet("0,13"));
     assert_eq!(first("known.csv", &sheet("0,067")), "k-forgotten");
 }
+
+/// `k = 2.31 (t, 95 %)`: the bracket says where k comes from, and 1.96 does not come from there.
+#[test]
+fn a_bracket_behind_k_is_its_rule() {
+    let sheet = |k: &str, expanded: &str| {
+        format!(
+            "Quantity X_i | Estimate | u(x_i) | ν_i | c_i | u_i(y)\n\
+             Repeatability, s = 0.054 mm, n = 5 | 12.413 mm | 0.024 mm | 4 | 1 | 0.024 mm\n\
+             Standard | 0 mm | 0.015 mm | ∞ | 1 | 0.015 mm\n\
+             Resolution ±0.01 mm | 0 mm | 0.0058 mm | ∞ | 1 | 0.0058 mm\n\n\
+             u_c = 0.029 mm, ν_eff = 8, k = {k} (t, 95 %), U = {expanded} mm\n"
+        )
+    };
+    is_sound("t.txt", &sheet("2.31", "0.067"));
+    assert_eq!(
+        answer("t.txt", &sheet("1.96", "0.057")).0,
+        Verdict::Unexplained
+    );
+}

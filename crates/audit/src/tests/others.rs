@@ -356,3 +356,20 @@ fn a_bracket_behind_k_is_its_rule() {
         Verdict::Unexplained
     );
 }
+
+/// `u_c / N` in the column of sources, its figure below the limits, is the whole and no further source.
+#[test]
+fn a_combined_uncertainty_may_have_its_unit_behind_it() {
+    let sheet = |label: &str, drift: &str| {
+        format!(
+            "Source,Divisor,± (N)\nReference transducer,2,0.006\nRepeatability,1,0.004\n\
+             Resolution,√3,{drift}\n{label},,0.0058\nU (k = 2) / N,,0.012\n"
+        )
+    };
+    for label in ["u_c / N", "u_c (N)", "u_c", "uc [N]"] {
+        is_sound("sheet.csv", &sheet(label, "0.005"));
+    }
+    // A voltage U and a stiffness k are sources.
+    let voltage = "Source,± (V),Divisor,u (V)\nU / V,0.2,2,0.10\nDrift,0.12,√3,0.069\nCombined,,,0.12\nExpanded (k = 2),,,0.24\n";
+    is_sound("voltage.csv", voltage);
+}

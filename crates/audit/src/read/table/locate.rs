@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::printed::Printed;
-use crate::read::columns::Role;
+use crate::read::columns::{self, Role};
 use crate::read::footer;
 use crate::read::mapping::Mapping;
 use crate::read::words::has;
@@ -88,10 +88,14 @@ fn figures(grid: &Grid, row: usize, located: &Located) -> usize {
     Role::ALL.iter().filter(is_figure).count()
 }
 
-/// `U` of `U (k = 2)`.
-fn without_condition(label: &str) -> &str {
+/// Whether a text is the symbol of a figure of the whole: `u_c / N`, `U (k = 2)`. A `U / V` may be a voltage, and a `k / (N/m)`
+/// a stiffness; u_c has the unit of the result.
+fn is_symbol_of_whole(label: &str) -> bool {
     let condition = label.split_once('(').filter(|(_, rest)| rest.contains('='));
-    condition.map_or(label, |(name, _)| name).trim()
+    let name = condition.map_or(label, |(name, _)| name).trim();
+    let combined = columns::apart(name).0;
+    matches!(combined.as_str(), "u_c" | "uc" | "u(c)" | "u_c(y)")
+        || matches!(name, "U" | "k" | "ν_eff" | "νeff")
 }
 
 enum What {
@@ -149,10 +153,7 @@ fn what(grid: &Grid, row: usize, located: &Located, joined: bool) -> What {
                 || lower.starts_with("erweiterte")
                 || lower.starts_with("sum u(")
                 || lower.starts_with("扩展不确定度")
-                || matches!(
-                    without_condition(t),
-                    "u_c" | "uc" | "u(c)" | "U" | "k" | "u_c(y)" | "ν_eff" | "νeff"
-                )
+                || is_symbol_of_whole(t)
         });
     // Of `Expanded uncertainty | k = | 2 | 0.6` the factor stands where the others have a coefficient.
     let factor = located.column(Role::C).is_some_and(|c| {

@@ -324,8 +324,7 @@ fn budget(
     table::of_columns(grid, sheet, &mut claimed);
     table::footers(grid, sheet, &mut located, below, elsewhere, &mut claimed);
     if claimed.model.is_none()
-        && table::is_product(&raw, &claimed.footer)
-        && let Some(y) = claimed.footer.y.clone()
+        && let Some(y) = table::result(&raw, &claimed.footer)
     {
         take_as_product(&y, &mut raw, &mut claimed);
     }

@@ -373,3 +373,28 @@ fn a_combined_uncertainty_may_have_its_unit_behind_it() {
     let voltage = "Source,± (V),Divisor,u (V)\nU / V,0.2,2,0.10\nDrift,0.12,√3,0.069\nCombined,,,0.12\nExpanded (k = 2),,,0.24\n";
     is_sound("voltage.csv", voltage);
 }
+
+/// QUAM:2012, 8.2.6, without the result: u/x side by side with u of grams and millilitres, and u_c in percent of them.
+#[test]
+fn relative_uncertainties_are_combined_where_u_c_is_relative() {
+    let sheet = |u_c: &str, expanded: &str| {
+        format!(
+            "Source,Value,u(x),Relative standard uncertainty (%)\nPurity,0.9999,0.000058,0.0058\n\
+             Mass,10.028 mg,0.005 mg,0.050\nVolume,50.0 mL,0.035 mL,0.070\n\
+             Combined relative standard uncertainty,,,{u_c}\n\
+             Expanded relative uncertainty (k=2),,,{expanded}\n"
+        )
+    };
+    is_sound("relative.csv", &sheet("0.086", "0.17"));
+    assert_eq!(first("relative.csv", &sheet("0.12", "0.24")), "linear-sum");
+    assert_eq!(
+        first("relative.csv", &sheet("0.086", "0.086")),
+        "k-forgotten"
+    );
+    let fraction = sheet("0.00086", "0.0017")
+        .replace(" (%)", "")
+        .replace("0.0058\n", "0.000058\n")
+        .replace("0.050\n", "0.00050\n")
+        .replace("0.070\n", "0.00070\n");
+    is_sound("relative.csv", &fraction);
+}

@@ -39,6 +39,6 @@ pub use footers::{footers, of_columns};
 pub use interpret::interpret;
 pub use locate::locate;
 pub use located::Located;
-pub use product::{absolute, coefficient, is_product, product};
+pub use product::{absolute, coefficient, product, result};
 pub use raw::Raw;
 pub use rows::rows;

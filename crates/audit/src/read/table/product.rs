@@ -15,15 +15,38 @@ pub fn product(rows: &[Raw]) -> Option<usize> {
     (!has_c && is_made(own, others)?).then_some(others.len())
 }
 
-/// Whether the result below a table is a product of its rows: its relative uncertainty comes of theirs.
-pub fn is_product(rows: &[Raw], footer: &Footer) -> bool {
-    let result = footer.y.as_ref().zip(footer.u_c.as_ref());
-    let Some((y, u_c)) = result.filter(|(y, _)| y.value != 0.0) else {
-        return false;
+/// The result below a table that is a product of its rows: its relative uncertainty comes of theirs. Where the sheet states
+/// no result, and u_c as relative as the figures of its rows, the result is the whole that they are parts of.
+pub fn result(rows: &[Raw], footer: &Footer) -> Option<Printed> {
+    let u_c = footer.u_c.as_ref()?;
+    let has_c = rows.iter().any(|raw| raw.row.c.is_some());
+    let y = match &footer.y {
+        Some(y) => y.clone(),
+        None => whole(rows, u_c)?,
     };
     let own = [u_c.value, u_c.half].map(|figure| figure / y.value.abs());
-    let has_c = rows.iter().any(|raw| raw.row.c.is_some());
-    !has_c && is_made(own.into(), rows) == Some(true)
+    let made = y.value != 0.0 && !has_c && is_made(own.into(), rows) == Some(true);
+    made.then_some(y)
+}
+
+/// What relative figures are parts of, `100 %`, where all rows have them in one unit and u_c has no other.
+fn whole(rows: &[Raw], u_c: &Printed) -> Option<Printed> {
+    let first = rows.first()?.relative.as_ref()?;
+    let alike = |raw: &Raw| {
+        raw.relative
+            .as_ref()
+            .is_some_and(|own| own.unit == first.unit)
+    };
+    let is_relative = u_c.unit.is_empty() || u_c.unit == first.unit;
+    let (value, unit) = match units::fraction(&first.unit) {
+        Some(fraction) => (1.0 / fraction, first.unit.clone()),
+        None => (1.0, String::new()),
+    };
+    (is_relative && rows.iter().all(alike)).then(|| Printed {
+        value,
+        unit,
+        ..u_c.clone()
+    })
 }
 
 /// Whether a relative uncertainty, with what its digits leave open, is the root or, by a slip, the sum of those of rows.

@@ -468,6 +468,9 @@ mod tests {
     fn laboratory_spellings_are_read() {
         for (a, b) in [
             ("℃", "°C"),
+            ("ｍＶ", "mV"),
+            ("％ＲＨ", "%RH"),
+            ("ｍm2", "mm^2"),
             ("degC", "°C"),
             ("\u{2126}", "Ω"),
             ("ohm", "Ω"),

@@ -86,13 +86,19 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, UnitError> {
 /// A name with one spelling for the characters that look alike or were coded twice in Unicode.
 pub(super) fn unified(name: &str) -> String {
     let mut result = String::with_capacity(name.len());
-    for c in name.chars() {
+    for c in name.chars().map(half_width) {
         match LOOK_ALIKES.iter().find(|(from, _)| from.contains(&c)) {
             Some((_, to)) => result.push_str(to),
             None => result.push(c),
         }
     }
     result
+}
+
+/// The letter or sign that a full-width one of a Chinese keyboard stands for: `Ｖ`, `％`.
+fn half_width(c: char) -> char {
+    let plain = u32::from(c).checked_sub(0xfee0).and_then(char::from_u32);
+    plain.filter(char::is_ascii_graphic).unwrap_or(c)
 }
 
 /// Characters and the spelling that stands for all of them.
@@ -106,7 +112,6 @@ const LOOK_ALIKES: &[(&[char], &str)] = &[
     (&['º', '˚'], "°"), // masculine ordinal and ring above for the degree sign
     (&['\'', '’', 'ʹ'], "′"),
     (&['"', '”', 'ʺ'], "″"),
-    (&['％'], "%"),
     (&['∆'], "Δ"), // increment for Greek Delta
     (&['ℓ'], "l"),
     (&['㎜'], "mm"), // signs of Chinese keyboards

@@ -358,6 +358,10 @@ impl<'a> Lexer<'a, '_> {
             '&' | '!' => say!("write `and`, `or`, `not`"),
             '.' => say!("write the decimal point between digits, as in `0.5`"),
             '\\' => say!("formulas are written as `a / b`, `sqrt(x)` and `x^2`, not in LaTeX"),
+            '\u{ff01}'..='\u{ff5e}' => {
+                let symbol = char::from_u32(u32::from(c) - 0xfee0).unwrap_or(c);
+                say!("write `{symbol}`")
+            }
             _ => say!("remove it"),
         };
         self.faults.push(

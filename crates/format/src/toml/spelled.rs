@@ -118,19 +118,20 @@ fn digits(text: &str) -> (&str, &str) {
     text.split_at(end)
 }
 
-/// An angle in degrees, minutes and seconds, `45°00′03.5″`, as a number of degrees, and where its degree sign is.
+/// An angle in degrees, minutes and seconds, `45°00′03.5″` or `45度00分03.5秒`, as a number of degrees, and where its degree
+/// sign is.
 pub(super) fn sexagesimal(text: &str) -> Option<(f64, Range<usize>)> {
-    let start = text.find(['°', 'º', '˚'])?;
+    let start = text.find(['°', 'º', '˚', '度'])?;
     let sign = text[start..].chars().next()?;
     let behind = start + sign.len_utf8();
-    let (minutes, seconds) = text[behind..].split_once(['′', '\'', '’'])?;
+    let (minutes, seconds) = text[behind..].split_once(['′', '\'', '’', '分'])?;
     let (minus, degrees) = match text[..start].trim().strip_prefix(['-', '−']) {
         Some(degrees) => (-1.0, degrees),
         None => (1.0, &text[..start]),
     };
     let seconds = match seconds.trim() {
         "" => 0.0,
-        written => below_sixty(written.strip_suffix(['″', '"', '”'])?)?,
+        written => below_sixty(written.strip_suffix(['″', '"', '”', '秒'])?)?,
     };
     let degrees = unsigned(degrees).filter(|degrees| degrees.fract() == 0.0)?;
     let total = degrees * 3600.0 + below_sixty(minutes)? * 60.0 + seconds;
@@ -177,13 +178,17 @@ mod tests {
             ("45°00′36″", 45.01),
             ("-0° 0' 36.0\"", -0.01),
             ("−1º30’00”", -1.5),
+            ("45度00分36秒", 45.01),
+            ("45度30分", 45.5),
         ] {
             let (found, sign) = sexagesimal(text).expect(text);
             assert_eq!(found, degrees, "{text}");
-            assert!(["°", "º"].contains(&&text[sign]));
+            assert!(["°", "º", "度"].contains(&&text[sign]));
         }
         for text in [
             "45°",
+            "20摄氏度",
+            "3度30",
             "45.5°30′",
             "1°60′",
             "1°30′5",

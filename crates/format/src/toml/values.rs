@@ -113,7 +113,7 @@ impl FromToml for f64 {
             }
             (None, DeValue::String(text)) if split_amount(text).is_some() => {
                 let help = split_amount(text).map(|(number, unit)| {
-                    say!("write {number} alone: a number stands here, and its unit `{}` has a key of its own", &text[unit])
+                    say!("write {number} alone: a number stands here, and its unit `{}` has a key of its own", unit_of(text, &unit))
                 });
                 reader.wrong_type_with(value, say!("a number"), help)
             }
@@ -314,7 +314,7 @@ impl FromToml for Amount {
                 Some(Amount {
                     number,
                     // The sign of a Chinese keyboard.
-                    unit: Some((text[unit].replace('％', "%"), place)),
+                    unit: Some((unit_of(text, &unit).replace('％', "%"), place)),
                 })
             }
             None => reader.refuse(unreadable_amount(value, text)),
@@ -328,7 +328,15 @@ impl FromToml for Amount {
 
 /// Number and unit of a text such as `25 µV`.
 pub fn amount_parts(text: &str) -> Option<(f64, &str)> {
-    split_amount(text).map(|(number, unit)| (number, &text[unit]))
+    split_amount(text).map(|(number, unit)| (number, unit_of(text, &unit)))
+}
+
+/// The unit that stands there: that of an angle in minutes and seconds is the degree, however it is written.
+fn unit_of<'t>(text: &'t str, place: &Range<usize>) -> &'t str {
+    match sexagesimal(text) {
+        Some(_) => "°",
+        None => &text[place.clone()],
+    }
 }
 
 /// The number at the beginning of a text, and where its unit is.
@@ -473,5 +481,18 @@ impl FromToml for Cell {
 
     fn schema() -> Value {
         json!({ "type": ["number", "string"] })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::amount_parts;
+
+    #[test]
+    fn an_angle_in_minutes_and_seconds_is_in_degrees() {
+        for text in ["45°00′36″", "45º00’36”", "45度00分36秒"] {
+            assert_eq!(amount_parts(text), Some((45.01, "°")), "{text}");
+        }
+        assert_eq!(amount_parts("36 ″"), Some((36.0, "″")));
     }
 }

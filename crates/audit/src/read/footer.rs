@@ -278,12 +278,18 @@ fn multiple_of_u(text: &str) -> Option<Printed> {
     })
 }
 
-/// Whether u_c is what a figure in front of this is multiplied with, also without a sign: `2u_c`.
+/// Whether u_c is what a figure in front of this is multiplied with, also without a sign: `2u_c`. A bare u behind a blank
+/// begins what is said next: `k = 2 u = 0.5`.
 fn names_u(behind: &str) -> bool {
-    let behind = behind.trim_start_matches([' ', '·', '⋅', '×', '*', 'x']);
-    ["u_c", "uc", "u("]
+    let gap = behind.trim_start();
+    let sign = ["·", "⋅", "×", "*", "x ", "times ", "\\cdot", "\\times"]
         .iter()
-        .any(|name| behind.starts_with(name))
+        .find_map(|sign| gap.strip_prefix(sign));
+    let name = sign.unwrap_or(gap).trim_start();
+    let is_alone = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+    ["u_c", "uc", "u("].iter().any(|own| name.starts_with(own))
+        || (sign.is_some() || gap.len() == behind.len())
+            && name.strip_prefix('u').is_some_and(is_alone)
 }
 
 /// Whether a line, in small letters, says what u_c, ν_eff or U are.
@@ -392,12 +398,12 @@ fn outside_brackets(text: &str) -> Option<usize> {
     None
 }
 
-/// Whether a text is a product and no sentence: `k·u_c`, and not `k·u_c with k`.
+/// Whether a text is a product and no sentence: `k·u_c` and `k \cdot u_c`, and not `k·u_c with k`.
 fn is_formula(text: &str) -> bool {
     let word = |part: &str| {
         part.chars().count() >= 3
             && part.chars().all(|c| c.is_ascii_alphabetic())
-            && part != "sqrt"
+            && !["sqrt", "cdot", "times"].contains(&part)
             && !super::columns::is_unit(part)
     };
     let chinese = |c: char| ('\u{4e00}'..='\u{9fff}').contains(&c);

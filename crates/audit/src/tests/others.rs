@@ -398,3 +398,28 @@ fn relative_uncertainties_are_combined_where_u_c_is_relative() {
         .replace("0.070\n", "0.00070\n");
     is_sound("relative.csv", &fraction);
 }
+
+/// `U = 2 · u = 1.3 mg`: however the product is written, U is what it comes to.
+#[test]
+fn expanded_uncertainty_is_the_end_of_its_chain() {
+    for chain in [
+        "U = 2 · u = 1.5 mg",
+        "U = 2·u_c = 1.5 mg",
+        "U = 2 x u = 1.5 mg",
+        "U = 2 times u_c = 1.5 mg",
+        "U = 2u = 1.5 mg",
+        r"$U = 2 \cdot u = 1.5$ mg",
+        r"$U = 2 \times u_c = 1.5$ mg",
+    ] {
+        let sheet = format!(
+            "| Quantity | u(x_i) | c_i | u_i(y) |\n|---|---|---|---|\n| m_s | 0.60 mg | 1 | 0.60 mg |\n\
+             | Δm | 0.35 mg | 1 | 0.35 mg |\n| δm_b | 0.29 mg | -1 | -0.29 mg |\n\nu_c = 0.75 mg\n\n{chain}\n"
+        );
+        is_sound("chain.md", &sheet);
+        assert_eq!(
+            first("chain.md", &sheet.replace("1.5", "0.75")),
+            "k-forgotten",
+            "{chain}"
+        );
+    }
+}

@@ -423,3 +423,17 @@ fn expanded_uncertainty_is_the_end_of_its_chain() {
         );
     }
 }
+
+/// A row of the result whose figure is the plain sum of the contributions is that of the result, and no further source.
+#[test]
+fn a_result_may_be_the_sum_of_its_contributions() {
+    let sheet = |u_c: &str, expanded: &str| {
+        format!(
+            "| Quantity | u(x_i) | c_i | u_i(y) |\n|---|---|---|---|\n| m_s | 0.60 mg | 1 | 0.60 mg |\n\
+             | Δm | 0.35 mg | 1 | 0.35 mg |\n| δm_b | 0.29 mg | -1 | -0.29 mg |\n\
+             | m | | | {u_c} mg |\n\nU = {expanded} mg (k = 2)\n"
+        )
+    };
+    is_sound("result.md", &sheet("0.75", "1.5"));
+    assert_eq!(first("result.md", &sheet("1.24", "2.5")), "linear-sum");
+}

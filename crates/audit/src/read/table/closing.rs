@@ -27,7 +27,8 @@ pub fn closing(rows: &[Raw]) -> Option<usize> {
         .into_iter()
         .flatten()
         .any(|figure| times(figure, others).is_some());
-    let closes = has_both || is_made || is_symbol || is_called || is_sum(row, others);
+    let is_plain = is_made || is_added(row, others);
+    let closes = has_both || is_plain || is_symbol || is_called || is_sum(row, others);
     closes.then_some(others.len())
 }
 
@@ -69,6 +70,13 @@ fn is_sum(row: &Row, others: &[Raw]) -> bool {
     }
     let first = row.value.as_ref();
     first.is_some_and(|value| value.value != 0.0 && rest < 0.5 * largest && near(value))
+}
+
+/// Whether the contribution of a row is the plain sum of those of others, which is no way to u_c, but a usual slip.
+fn is_added(row: &Row, others: &[Raw]) -> bool {
+    let sum: f64 = others.iter().filter_map(Raw::part).sum();
+    let own = row.contribution.as_ref().filter(|_| row.u.is_none());
+    others.len() > 1 && own.is_some_and(|own| own.is_met_within(sum, own.half_of_digits()))
 }
 
 /// How many times the root of the sum of squares of other rows a figure is: once for u_c, k times for U.

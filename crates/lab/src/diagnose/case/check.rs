@@ -166,9 +166,10 @@ impl Checker<'_> {
                 self.faults.push(
                     Fault::new(MISSING, 0..0, say!("the experiment has no `{key}`"))
                         .label(say!("missing in this file"))
-                        .help(match key == "equations" && file.model.is_some() {
-                            true => say!("`model` holds statements that all equations see; the equation of an output is written equations = \"y = a + b * x\""),
-                            false => say!("add for example {example}"),
+                        .help(match key {
+                            "equations" if file.model.is_some() => say!("`model` holds statements that all equations see; the equation of an output is written equations = \"y = a + b * x\""),
+                            "recording" => say!("add for example {example}; before there are readings, `gumption plan` says what a [schedule] would tell"),
+                            _ => say!("add for example {example}"),
                         }),
                 );
             }

@@ -287,7 +287,7 @@ fn a_load_that_is_set_down_rings() {
     assert!(is_right && label.ends_with("damping ratio 0.12"), "{label}");
 }
 
-/// An amplifier on square waves of several heights: up to 2 V it follows between two readings, above it goes along a ramp.
+/// An amplifier on square waves of several heights, the steps of which are ramps of 3 to 9 readings.
 #[test]
 fn an_output_may_follow_at_a_limited_rate() {
     let rate = 9.0;

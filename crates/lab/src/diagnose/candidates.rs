@@ -22,14 +22,14 @@ use super::reduced::reduced;
 /// λ from which on it matters that the parameter of an effect lies between the steps of its grid.
 const CLEAR: f64 = 15.0;
 
-/// What noise alone makes of a recording, held against effects.
-pub(super) struct Against {
+/// Noise alone, held against effects.
+pub(super) struct NoiseAlone {
     /// Probability that effects gain as much by noise alone.
     pub(super) p: f64,
     /// The noise as it is then: without effects where these do not gain more, else with the best one.
     pub(super) likeliest: Claimed,
     /// Logarithm of the probability of all that noise alone may be, but for a constant.
-    pub(super) alone: f64,
+    pub(super) log_posterior: f64,
 }
 
 /// Candidates, asked of a recording.
@@ -137,7 +137,7 @@ impl<'f> Candidates<'f> {
         spreads: &[Claimed],
         settings: &evidence::Settings,
         found: f64,
-    ) -> Result<Against, Refusal> {
+    ) -> Result<NoiseAlone, Refusal> {
         let (design, fit) = (self.fitted.design, self.fitted.fit);
         let (mut seen, mut laws) = (Vec::new(), Vec::new());
         for spread in spreads {
@@ -156,13 +156,13 @@ impl<'f> Candidates<'f> {
         let likeliest = (laws.iter()).max_by(|a, b| most(a).total_cmp(&most(b)));
         let claimed = likeliest.map(|(spread, laws, range)| spread.likeliest(laws, of(range)));
         let claimed = claimed.unwrap_or_else(|| spreads[0].clone());
-        Ok(Against {
+        Ok(NoiseAlone {
             p: contest.p,
             likeliest: match contest.p <= settings.alpha {
                 true => claimed,
                 false => claimed.with_tails(design, fit),
             },
-            alone: evidence::log_sum(contest.alone.iter().copied()),
+            log_posterior: evidence::log_sum(contest.alone.iter().copied()),
         })
     }
 

@@ -161,12 +161,12 @@ impl<'i> Inquiry<'i> {
         let mut of_noise = None;
         if let Some(courses) = &self.courses {
             let found = self.answer.examination.score;
-            let against = (self.candidates).against(courses, &starts, &self.settings, found)?;
-            self.settings.by_noise = against.p;
-            of_noise = Some(against.alone);
-            match against.p > self.settings.alpha {
-                true => starts = vec![against.likeliest],
-                false if against.likeliest.correlated.is_some() => starts.push(against.likeliest),
+            let noise = (self.candidates).against(courses, &starts, &self.settings, found)?;
+            self.settings.by_noise = noise.p;
+            of_noise = Some(noise.log_posterior);
+            match noise.p > self.settings.alpha {
+                true => starts = vec![noise.likeliest],
+                false if noise.likeliest.correlated.is_some() => starts.push(noise.likeliest),
                 false => {}
             }
         }

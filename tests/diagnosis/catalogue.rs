@@ -190,6 +190,38 @@ fn noise_that_jumps_is_not_taken_for_noise_that_wanders() {
     assert_eq!(found["verdict"], "none", "{}", found["statement"]);
 }
 
+/// A torque sensor in both senses of turning. Wandering of its scale changes sign with the torque and is an error of its slope;
+/// wandering of its zero is neither.
+#[test]
+fn a_scale_that_wanders_is_not_taken_for_noise_that_wanders() {
+    let found = |wandering: &dyn Fn(f64) -> f64, name: &str| {
+        let mut noise = Noise(33);
+        let mut rows = "M [N m],U [mV],t [h]\n".to_owned();
+        let mut slow = 0.0;
+        for row in 0..80 {
+            let torque = f64::from(row * 37 % 81 - 40);
+            slow = 0.8 * slow + 0.6 * noise.normal();
+            let output = 0.02 * torque + wandering(torque) * slow + 2e-4 * noise.normal();
+            let _ = writeln!(rows, "{torque},{output:.6},{}", 0.02 * f64::from(row));
+        }
+        let case = "equations = \"U = U0 + S*M\"\n[columns]\nU = \"output\"\nM = \"stimulus\"\nt = \"time\"\n";
+        diagnosed(name, &rows, case)
+    };
+    let of_slope = |found: &Value| found["parameters"][1]["u"].as_f64().unwrap_or_default();
+    let scale = found(&|torque| 4e-5 * torque, "scale-wanders");
+    assert_eq!(scale["verdict"], "unexplained", "{}", scale["statement"]);
+    assert_eq!(scale["effects"][0]["unnamed"][0]["id"], "wandering-scale");
+    let zero = found(&|_| 1e-3, "zero-wanders");
+    assert_eq!(zero["verdict"], "none", "{}", zero["statement"]);
+    // The mean of 80 readings of a scale that keeps 0.8 from row to row, in closed form: the effective number of readings.
+    let (n, kept) = (80.0, 0.8_f64);
+    let weighed = |lag: i32| (1.0 - f64::from(lag) / n) * kept.powi(lag);
+    let effective = n / (1.0 + 2.0 * (1..80).map(weighed).sum::<f64>());
+    let expected = 4e-5 / effective.sqrt();
+    let ratio = of_slope(&scale) / expected;
+    assert!((0.5..2.0).contains(&ratio), "{ratio}");
+}
+
 /// A load cell beside which the humidity rises and falls slowly: nobody claims the noise, and this much of its effect may be noise that
 /// wanders as well.
 #[test]

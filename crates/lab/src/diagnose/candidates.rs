@@ -140,7 +140,14 @@ impl<'f> Candidates<'f> {
     ) -> Result<NoiseAlone, Refusal> {
         let (design, fit) = (self.fitted.design, self.fitted.fit);
         let (mut seen, mut laws) = (Vec::new(), Vec::new());
+        // Of the noise that is the same everywhere the scale wanders.
+        let shifts = courses.of_kind(|memory| !memory.is_of_scale());
         for spread in spreads {
+            let courses = if spread.is_spread_out() {
+                &shifts
+            } else {
+                courses
+            };
             let own = spread.laws(design, fit, courses);
             let first = seen.len();
             seen.extend(spread.seen_with(design, fit, &own)?);
@@ -154,7 +161,8 @@ impl<'f> Candidates<'f> {
         let of = |range: &Range<usize>| &log_posterior[range.clone()];
         let most = |(_, _, range): &&_| evidence::maximum(of(range));
         let likeliest = (laws.iter()).max_by(|a, b| most(a).total_cmp(&most(b)));
-        let claimed = likeliest.map(|(spread, laws, range)| spread.likeliest(laws, of(range)));
+        let claimed =
+            likeliest.map(|(spread, laws, range)| spread.likeliest(design, fit, laws, of(range)));
         let claimed = claimed.unwrap_or_else(|| spreads[0].clone());
         Ok(NoiseAlone {
             p: contest.p,

@@ -21,12 +21,15 @@ use super::failure::Failure;
 use super::fit::{self, Fit};
 use super::noise::{self, Claimed};
 use super::noise_correlation::Courses;
+use super::noise_scale::Scales;
 use super::possible;
 use super::regions;
 use super::resolution::u_of_step;
 
 /// So often the values about the parameter of an effect are brought closer together.
 const REFINEMENTS: u8 = 3;
+/// Two tests of what the noise is, each with half of the probability of a false alarm.
+const OF_NOISE: f64 = 0.5;
 /// So often noise and effects are estimated in turn.
 const TURNS: u8 = 3;
 
@@ -86,6 +89,8 @@ pub(super) struct Inquiry<'i> {
     pub if_independent: Option<IfIndependent>,
     /// What the noise may be, where it is open how it is correlated or whether it grows.
     courses: Option<Courses>,
+    /// Where they hold scales that wander: probability at most of noise that looks as much like one.
+    scale_by_chance: Option<f64>,
     progress: &'i dyn Fn(f64) -> ControlFlow<()>,
 }
 
@@ -107,9 +112,23 @@ impl<'i> Inquiry<'i> {
         let answer = ask(&mut candidates, claimed.clone(), &settings, &part)?;
         // What the model leaves out may look like noise that grows.
         let plain = noise::plain(design, fit, &claimed);
-        let courses = Courses::of(&candidates.fitted)
+        let fitted = &candidates.fitted;
+        let courses = Courses::of(fitted)
             .or_else(|| (claimed.is_estimated()).then(|| Courses::white(design.observations())))
             .filter(|_| claimed.correlated.is_none());
+        let scales = Scales::of(fitted).zip(courses.as_ref());
+        let of_scale = match scales.filter(|_| claimed.is_estimated() && claimed.rounding.is_none())
+        {
+            Some((scales, shifts)) => {
+                let laws = scales.laws();
+                let p = scales.by_chance(&laws, design, fit, &claimed, shifts)?;
+                Some((p, laws))
+            }
+            None => None,
+        };
+        let of_scale = of_scale.filter(|(p, _)| *p <= OF_NOISE * settings.alpha);
+        let (scale_by_chance, scales) = of_scale.unzip();
+        let courses = courses.map(|courses| courses.or(scales.unwrap_or_default()));
         let mut inquiry = Inquiry {
             candidates,
             answer,
@@ -118,6 +137,7 @@ impl<'i> Inquiry<'i> {
             fit,
             if_independent: None,
             courses,
+            scale_by_chance,
             progress,
         };
         // So may the rounding of the readings, where the claim is without it.
@@ -362,7 +382,7 @@ impl<'i> Inquiry<'i> {
         Ok(())
     }
 
-    /// What nobody claims may be anything: where nothing was found, whether the noise changes.
+    /// What nobody claims may be anything: where nothing was found, whether the noise is of the scale, or changes.
     fn look_for_unsteady_noise(&mut self) -> Result<(), Failure> {
         let claimed = &self.answer.claimed;
         let is_unclaimed = claimed.wanders() || claimed.is_estimated();
@@ -373,21 +393,33 @@ impl<'i> Inquiry<'i> {
             return Ok(());
         };
         let (design, fit) = (self.declared.seen, self.fit);
+        if let Some(p) = self.scale_by_chance {
+            let cell = generics::wandering_scale(&self.candidates.fitted);
+            self.answer.claimed = claimed.of_scale(design, fit, courses)?;
+            self.answer.baseline = baseline(design, fit, &self.answer.claimed)?;
+            self.unnamed(cell, p / OF_NOISE);
+            return Ok(());
+        }
         let laws = claimed.laws(design, fit, courses);
         if claimed.rounding.is_some() || laws.may_jump() {
             return Ok(());
         }
         let seen = claimed.seen_with(design, fit, &laws)?;
-        // Two tests, each with half of the probability of a false alarm.
-        let alpha = 0.5 * self.settings.alpha;
         let noise = claimed.noise(design, fit);
+        let alpha = OF_NOISE * self.settings.alpha;
         let p = evidence::unsteadiness(&seen, &noise, self.settings.seed, alpha)?;
         if p <= alpha {
-            let cells = &mut self.candidates.cells;
-            self.answer.examination.unnamed(cells.len(), 2.0 * p);
-            cells.push(generics::unsteady(&self.candidates.fitted));
+            let cell = generics::unsteady(&self.candidates.fitted);
+            self.unnamed(cell, p / OF_NOISE);
         }
         Ok(())
+    }
+
+    /// Something is there, with this probability of as much by chance, of which no more is known than this.
+    fn unnamed(&mut self, cell: Cell, p: f64) {
+        let cells = &mut self.candidates.cells;
+        self.answer.examination.unnamed(cells.len(), p);
+        cells.push(cell);
     }
 
     /// Whether something that was found may be an effect.

@@ -81,6 +81,7 @@ mod noise_growth;
 mod noise_labels;
 mod noise_laws;
 mod noise_rounding;
+mod noise_scale;
 mod omitted;
 mod parts;
 mod plan;

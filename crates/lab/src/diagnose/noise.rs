@@ -178,7 +178,7 @@ impl Claimed {
     }
 
     /// Whether it grows with the reading, or differs from label to label.
-    fn is_spread_out(&self) -> bool {
+    pub(super) fn is_spread_out(&self) -> bool {
         self.growth.iter().any(Option::is_some) || self.by_label.iter().any(Option::is_some)
     }
 
@@ -285,7 +285,7 @@ pub fn refined(
         let laws = left.laws(design, fit, courses);
         if let Ok(seen) = left.seen_with(design, fit, &laws) {
             let likely: Vec<f64> = seen.iter().map(evidence::Course::log_posterior).collect();
-            left = left.likeliest(&laws, &likely);
+            left = left.likeliest(design, fit, &laws, &likely);
         }
     }
     left.with_tails(design, fit)
@@ -660,6 +660,13 @@ pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
 fn has_stimulus(case: &Case) -> bool {
     let is_applied = |role: Role| matches!(role, Role::Stimulus | Role::Angle);
     case.columns.iter().any(|column| is_applied(column.role))
+}
+
+impl Claimed {
+    /// Estimated noise as it is where it is the same everywhere.
+    pub(super) fn even(&self, design: &Design<'_>, fit: &Fit) -> Claimed {
+        plain(design, fit, self).unwrap_or_else(|| self.uncorrelated())
+    }
 }
 
 /// Estimated noise that is the same everywhere, where it seems not to be: what is uneven may be something else.

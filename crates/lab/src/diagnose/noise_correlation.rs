@@ -22,13 +22,13 @@ use super::reduced::reduced;
 /// Fewer degrees of freedom cannot tell white from correlated noise.
 const LEAST: usize = 8;
 /// Matrices that stand for the posterior distribution.
-const DRAWS: usize = 16;
+pub(super) const DRAWS: usize = 16;
 /// Noise is taken for white unless it is so with less than this probability: what is stated of it has to be true. What is open
 /// is in the draws.
 const DOUBT: f64 = 0.05;
 /// Shares of the variance that is remembered. All of it would make rows of the same moment one; beside a random walk over the
 /// whole recording the last leaves white noise of less than the steps of the walk in up to 400 rows.
-const SHARES: [f64; 4] = [0.3, 0.6, 0.95, 0.995];
+pub(super) const SHARES: [f64; 4] = [0.3, 0.6, 0.95, 0.995];
 /// Ratio of successive time constants: between two of them no recording tells.
 const RATIO: f64 = 3.0;
 /// Time constants at most.
@@ -86,6 +86,13 @@ pub enum Memory {
         /// Share of the variance.
         share: f64,
     },
+    /// This share of the mean variance is of the scale, which is forgotten.
+    OfScale {
+        /// Share of the mean variance.
+        share: f64,
+        /// Time constant; `None` where it is forgotten over all times alike.
+        time_constant: Option<f64>,
+    },
 }
 
 /// What the noise of a recording may be.
@@ -101,14 +108,22 @@ pub(super) struct Courses {
 pub(super) fn laws(observations: usize) -> usize {
     match observations > MOST_COMPARED {
         true => 1,
-        // On the response, and on the readings of a norm.
+        // On the response, and on its scale or the readings of a norm.
         false => 1 + 2 * SHARES.len() * (CONSTANTS + 1),
     }
 }
 
-impl Courses {
-    /// For a recording with a time or an order.
-    pub(super) fn of(fitted: &FittedModel<'_>) -> Option<Courses> {
+/// How what wanders through the rows of a recording may be forgotten.
+pub(super) struct Wandering {
+    /// When the rows were read.
+    times: Vec<f64>,
+    /// Time constants.
+    constants: Vec<f64>,
+}
+
+impl Wandering {
+    /// For a recording with a time or an order, and rows that tell.
+    pub(super) fn of(fitted: &FittedModel<'_>) -> Option<Wandering> {
         let design = fitted.design;
         let count = design.observations();
         let freedom = count.saturating_sub(design.unknowns.len());
@@ -119,35 +134,59 @@ impl Courses {
         let times = design.reduced(&fitted.clock.values);
         let span = fitted.clock.span();
         let interval = span / times.len() as f64;
-        let constants = super::catalogue::modifiers::grid(interval, span, RATIO, CONSTANTS);
-        let fading = constants.iter().flat_map(|time_constant| {
+        (interval > 0.0).then(|| Wandering {
+            constants: super::catalogue::modifiers::grid(interval, span, RATIO, CONSTANTS),
+            times,
+        })
+    }
+
+    /// All that are compared.
+    pub(super) fn laws(&self) -> Vec<Memory> {
+        let fading = self.constants.iter().flat_map(|time_constant| {
             SHARES.map(|share| Memory::Fading {
                 share,
                 time_constant: *time_constant,
             })
         });
         let flicker = SHARES.map(|share| Memory::Flicker { share });
-        let wandering: Vec<Memory> = fading.chain(flicker).collect();
+        fading.chain(flicker).collect()
+    }
+
+    /// Rows.
+    pub(super) fn rows(&self) -> usize {
+        self.times.len()
+    }
+
+    /// The part of the variance that a law has in common to two different rows.
+    pub(super) fn in_common(&self, law: Memory, i: usize, j: usize) -> f64 {
+        law.correlation((self.times[i] - self.times[j]).abs(), &self.constants)
+    }
+}
+
+impl Courses {
+    /// For a recording with a time or an order.
+    pub(super) fn of(fitted: &FittedModel<'_>) -> Option<Courses> {
+        let wandering = Wandering::of(fitted)?;
+        let responses = fitted.design.case.responses.len();
         let matrix = |law: Memory, in_common: Option<&DMatrix<f64>>| {
-            let of = |apart: f64| law.correlation(apart, &constants);
-            let size = times.len();
             let rows = |i: usize, j: usize| match i == j {
                 true => 1.0,
                 false => {
                     let share = in_common.map_or(1.0, |in_common| in_common[(i, j)]);
-                    share * of((times[i] - times[j]).abs())
+                    share * wandering.in_common(law, i, j)
                 }
             };
+            let size = wandering.rows();
             let own = DMatrix::from_fn(size, size, rows);
-            let whole = of_all(&own, design.case.responses.len());
-            (law, Arc::new(Correlation::new(whole)))
+            (law, Arc::new(Correlation::new(of_all(&own, responses))))
         };
         // What wanders is the response, or each of the readings of which it is the length.
         let readings = Norm::of(fitted).map(|norm| norm.in_common(fitted));
         let wherever = std::iter::once(None).chain(readings.iter().map(Some));
-        let each = wherever.flat_map(|own| wandering.iter().map(move |law| (*law, own)));
+        let wanders = wandering.laws();
+        let each = wherever.flat_map(|own| wanders.iter().map(move |law| (*law, own)));
         let laws = std::iter::once((Memory::White, None)).chain(each);
-        (interval > 0.0).then(|| Courses {
+        Some(Courses {
             unit: fitted.time_unit(),
             all: laws.map(|(law, own)| matrix(law, own)).collect(),
         })
@@ -185,6 +224,21 @@ impl Courses {
         courses
     }
 
+    /// These, and others.
+    pub(super) fn or(mut self, others: Vec<(Memory, Arc<Correlation>)>) -> Courses {
+        self.all.extend(others);
+        self
+    }
+
+    /// Those of some laws.
+    pub(super) fn of_kind(&self, is_kind: impl Fn(Memory) -> bool) -> Courses {
+        let all = self.all.iter().filter(|(memory, _)| is_kind(*memory));
+        Courses {
+            unit: self.unit.clone(),
+            all: all.cloned().collect(),
+        }
+    }
+
     /// A recording seen with each of them, as the noise with such a correlation; `fit` is of any model with the same rows.
     ///
     /// # Errors
@@ -204,8 +258,9 @@ impl Courses {
         self.all.iter().enumerate().map(course).collect()
     }
 
-    /// The correlation with these logarithms of the probability of each course; `None` where it is white without doubt.
-    pub(super) fn likely(&self, log_posterior: &[f64]) -> Option<Correlated> {
+    /// With these logarithms of the probability of each course the one that is taken for the noise, and those that stand for what is
+    /// open; `None` where it is white without doubt.
+    pub(super) fn likely(&self, log_posterior: &[f64]) -> Option<(usize, Vec<usize>)> {
         let top = log_posterior
             .iter()
             .copied()
@@ -213,20 +268,25 @@ impl Courses {
         let weights: Vec<f64> = (log_posterior.iter()).map(|l| libm::exp(l - top)).collect();
         let places: Vec<usize> = (0..weights.len()).collect();
         let drawn = in_proportion(&places, &weights, DRAWS);
-        if drawn.iter().all(|at| **at == 0) {
+        let is_white = |at: &usize| self.all[*at].0 == Memory::White;
+        if drawn.iter().all(|at| is_white(at)) {
             return None;
         }
         let whole: f64 = weights.iter().sum();
-        let best = match weights[0] > DOUBT * whole {
-            true => 0,
-            false => weights.iter().position(|weight| *weight >= 1.0)?,
-        };
-        let whole = |at: &usize| Arc::clone(&self.all[*at].1);
-        let draws = drawn.into_iter().map(whole).collect();
-        Some(self.correlated(best, draws))
+        let may_be_white = |at: &usize| is_white(at) && weights[*at] > DOUBT * whole;
+        let white = places.iter().copied().find(may_be_white);
+        let best = white.or_else(|| weights.iter().position(|weight| *weight >= 1.0))?;
+        Some((best, drawn.into_iter().copied().collect()))
     }
 
-    fn correlated(&self, at: usize, draws: Vec<Arc<Correlation>>) -> Correlated {
+    /// The law of one of them, and its matrix.
+    pub(super) fn law(&self, at: usize) -> (Memory, &Arc<Correlation>) {
+        let (memory, correlation) = &self.all[at];
+        (*memory, correlation)
+    }
+
+    /// The noise with one of the courses, and with matrices that are as likely as they occur.
+    pub(super) fn correlated(&self, at: usize, draws: Vec<Arc<Correlation>>) -> Correlated {
         Correlated {
             correlation: Arc::clone(&self.all[at].1),
             draws,
@@ -236,13 +296,18 @@ impl Courses {
         }
     }
 
-    /// White noise is as likely beforehand as all that fades together, and as rounding of readings that come in steps.
+    /// White noise is as likely beforehand as all shifts that fade together, as all scales that do, and as rounding of readings that
+    /// come in steps.
     fn log_prior(&self, at: usize) -> f64 {
         let memory = self.all[at].0;
-        let is_rounded = |memory: Memory| memory == Memory::Rounded;
-        let is_alike = |(other, _): &&(Memory, Arc<Correlation>)| {
-            other.fades() == memory.fades() && is_rounded(*other) == is_rounded(memory)
+        let kind = |memory: Memory| {
+            (
+                memory.fades(),
+                memory == Memory::Rounded,
+                memory.is_of_scale(),
+            )
         };
+        let is_alike = |(other, _): &&(Memory, Arc<Correlation>)| kind(*other) == kind(memory);
         -libm::log(self.all.iter().filter(is_alike).count() as f64)
     }
 }
@@ -261,13 +326,28 @@ fn of_all(own: &DMatrix<f64>, responses: usize) -> DMatrix<f64> {
 impl Memory {
     /// Whether rows have in common what is near in time.
     pub fn fades(self) -> bool {
-        matches!(self, Memory::Fading { .. } | Memory::Flicker { .. })
+        !matches!(self, Memory::White | Memory::Claimed | Memory::Rounded)
+    }
+
+    /// Whether it is the scale that fades.
+    pub fn is_of_scale(self) -> bool {
+        matches!(self, Memory::OfScale { .. })
+    }
+
+    /// The part of the variance that is remembered.
+    pub(super) fn share(self) -> f64 {
+        match self {
+            Memory::White | Memory::Claimed | Memory::Rounded => 0.0,
+            Memory::Fading { share, .. }
+            | Memory::Flicker { share }
+            | Memory::OfScale { share, .. } => share,
+        }
     }
 
     /// Correlation of two different rows.
     fn correlation(self, apart: f64, constants: &[f64]) -> f64 {
         match self {
-            Memory::White | Memory::Claimed | Memory::Rounded => 0.0,
+            Memory::White | Memory::Claimed | Memory::Rounded | Memory::OfScale { .. } => 0.0,
             Memory::Fading {
                 share,
                 time_constant,

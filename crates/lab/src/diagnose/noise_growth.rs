@@ -71,6 +71,13 @@ impl Spread {
         level: 1.0,
     };
 
+    /// With this part of the mean square in proportion to the square of these values.
+    pub fn of(share: f64, values: &[f64]) -> Spread {
+        let squares: f64 = values.iter().map(|x| x * x).sum();
+        let level = (squares / values.len() as f64).sqrt();
+        Spread { share, level }
+    }
+
     /// Standard uncertainty at a modelled value, relative to that at the root mean square of all.
     pub fn at(&self, value: f64) -> f64 {
         let part = value / self.level;

@@ -3,13 +3,15 @@
 
 use std::sync::Arc;
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
+use super::catalogue::signal;
 use super::design::Design;
-use super::evidence::{self, Refusal};
+use super::evidence::{self, Correlation, Refusal};
 use super::fit::Fit;
 use super::noise::Claimed;
-use super::noise_correlation::Courses;
+use super::noise_correlation::{Correlated, Courses, Memory};
+use super::noise_growth::{Quantity, Spread};
 use super::noise_rounding::{self, Rounded, Rounding};
 use super::reduced::reduced;
 use gumption_core::special::chi_squared_sf;
@@ -54,24 +56,109 @@ impl Claimed {
         fit: &Fit,
         laws: &Laws,
     ) -> Result<Vec<evidence::Course>, Refusal> {
-        let with = |correlated| self.with(correlated).noise(design, fit);
+        let even = self.even(design, fit);
+        let with = |correlated: Option<Correlated>| {
+            let memory = correlated.as_ref().map(|correlated| correlated.memory);
+            let own = match memory.is_some_and(Memory::is_of_scale) {
+                true => &even,
+                false => self,
+            };
+            own.with(correlated).noise(design, fit)
+        };
         laws.courses.seen(design, fit, &with)
     }
 
     /// With the law that has the greatest of these logarithms of the probability, and with the doubt that the others leave.
-    pub(super) fn likeliest(&self, laws: &Laws, log_posterior: &[f64]) -> Claimed {
-        let correlated = laws.courses.likely(log_posterior);
-        let is_chosen = |one: &&Rounded| match (&one.correlated, &correlated) {
-            (Some(one), Some(chosen)) => Arc::ptr_eq(&one.correlation, &chosen.correlation),
-            _ => false,
+    pub(super) fn likeliest(
+        &self,
+        design: &Design<'_>,
+        fit: &Fit,
+        laws: &Laws,
+        log_posterior: &[f64],
+    ) -> Claimed {
+        let Some((best, drawn)) = laws.courses.likely(log_posterior) else {
+            return self.uncorrelated();
+        };
+        let (memory, correlation) = laws.courses.law(best);
+        if memory.is_of_scale() {
+            return self.taken_for_scale(design, fit, &laws.courses, (best, &drawn));
+        }
+        let is_chosen = |one: &&Rounded| {
+            let own = one.correlated.as_ref();
+            own.is_some_and(|own| Arc::ptr_eq(&own.correlation, correlation))
         };
         let rounded = laws.rounded.iter().find(is_chosen);
         let rounding = rounded.map(|one| one.rounding.clone());
         let rounding = rounding.or_else(|| self.rounding.clone());
+        let even = self.even(design, fit);
+        let relative = even.u.component_div(&self.u);
+        let draw = |at: usize| match laws.courses.law(at) {
+            (memory, own) if memory.is_of_scale() => multiplied(own, &relative),
+            (_, own) => Arc::clone(own),
+        };
+        let draws = drawn.into_iter().map(draw).collect();
         Claimed {
-            correlated,
+            correlated: Some(laws.courses.correlated(best, draws)),
             rounding,
             ..self.clone()
+        }
+    }
+
+    /// With the likeliest of the scales that wander.
+    ///
+    /// # Errors
+    /// When the recording does not determine the parameters.
+    pub(super) fn of_scale(
+        &self,
+        design: &Design<'_>,
+        fit: &Fit,
+        courses: &Courses,
+    ) -> Result<Claimed, Refusal> {
+        let laws = Laws {
+            courses: courses.of_kind(Memory::is_of_scale),
+            rounded: Vec::new(),
+        };
+        let seen = self.seen_with(design, fit, &laws)?;
+        let likely: Vec<f64> = seen.iter().map(evidence::Course::log_posterior).collect();
+        Ok(self.likeliest(design, fit, &laws, &likely))
+    }
+
+    /// With one of the courses, in which the scale wanders: all noise that grows with the signal is that. Those that are drawn are
+    /// relative to it.
+    fn taken_for_scale(
+        &self,
+        design: &Design<'_>,
+        fit: &Fit,
+        courses: &Courses,
+        (best, drawn): (usize, &[usize]),
+    ) -> Claimed {
+        let even = self.even(design, fit);
+        let (memory, correlation) = courses.law(best);
+        let factors = correlation.matrix().diagonal().map(f64::sqrt);
+        let u = even.u.component_mul(&factors);
+        let over_own = factors.map(|factor| 1.0 / factor);
+        let draw = |at: &usize| match courses.law(*at) {
+            (memory, own) if memory.is_of_scale() => multiplied(own, &over_own),
+            (_, own) => multiplied(own, &self.u.component_div(&u)),
+        };
+        let correlated = Correlated {
+            correlation: multiplied(correlation, &over_own),
+            ..courses.correlated(best, drawn.iter().map(draw).collect())
+        };
+        let responses = 0..design.case.responses.len();
+        let growth = |response: usize| {
+            let signal = design.reduced(&signal(design, fit, response));
+            let unit = design.case.responses[response].unit.typeset();
+            let mean = even.u[response * design.blocks.len()];
+            let spread = Spread::of(memory.share(), &signal);
+            Some(spread.growth(Quantity::Signal, mean, unit))
+        };
+        Claimed {
+            correlated: Some(correlated),
+            growth: responses.clone().map(growth).collect(),
+            by_label: responses.map(|_| None).collect(),
+            u,
+            ..even
         }
     }
 
@@ -104,4 +191,12 @@ impl Claimed {
         };
         responses.map(p).collect()
     }
+}
+
+/// A matrix with every row and every column multiplied by a factor of its own.
+fn multiplied(correlation: &Correlation, factors: &DVector<f64>) -> Arc<Correlation> {
+    let matrix = correlation.matrix();
+    let element = |i: usize, j: usize| matrix[(i, j)] * factors[i] * factors[j];
+    let size = factors.len();
+    Arc::new(Correlation::new(DMatrix::from_fn(size, size, element)))
 }

@@ -133,6 +133,18 @@ fn memory(claimed: &Claimed, l: Language) -> String {
             say!("; successive rows are correlated: about {share} % of the variance flickers (1/f)")
                 .in_language(l)
         }
+        Memory::OfScale {
+            time_constant: Some(time_constant),
+            ..
+        } => {
+            let (time, unit) = (significant(time_constant, 2), &correlated.unit);
+            say!("; what grows is the scale, which wanders: it fades with τ ≈ {time} {unit}")
+                .in_language(l)
+        }
+        Memory::OfScale {
+            time_constant: None,
+            ..
+        } => say!("; what grows is the scale, which wanders: it flickers (1/f)").in_language(l),
     }
 }
 

@@ -71,6 +71,12 @@ pub(in crate::diagnose) fn unsteady(fitted: &FittedModel<'_>) -> Cell {
     generic(fitted, id, Node::Output, &along, &[&[]])
 }
 
+/// What wanders like noise, in proportion to the signal.
+pub(in crate::diagnose) fn wandering_scale(fitted: &FittedModel<'_>) -> Cell {
+    let (id, along) = (EffectId::WanderingScale, fitted.along_time());
+    generic(fitted, id, Node::Gain, &along, &[&[]])
+}
+
 /// A feature: what it multiplies, and the variance of its coefficient relative to the others.
 type Feature = (Modifier, f64);
 

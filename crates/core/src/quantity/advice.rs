@@ -7,7 +7,7 @@ use super::builtin::{PREFIXES, Prefixes, UNITS};
 use super::chinese::by_chinese_name;
 use super::faults::{UNKNOWN_UNIT, UnitError};
 use super::syntax::NamedTerm;
-use gumption_fault::{Said, nearest, say};
+use gumption_fault::{Between, Said, nearest, say};
 
 /// A unit that a space or a bracket has torn in two, so that it would be a product: `deg C`, `dB(A)`.
 pub(super) fn torn(terms: &[NamedTerm]) -> Option<UnitError> {
@@ -85,10 +85,11 @@ pub(super) fn for_unknown<'a>(
             ),
         },
         [known] => say!("write `{known}`"),
-        several => say!(
-            "write `{}`: upper and lower case matter",
-            several.join("` or `")
-        ),
+        several => {
+            let names = several.iter().map(|name| format!("`{name}`"));
+            let either = Said::row(Between::Or, names);
+            say!("write {either}: upper and lower case matter")
+        }
     }
 }
 

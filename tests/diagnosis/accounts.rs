@@ -122,6 +122,16 @@ fn beside_a_model_that_agrees_nothing_is_seen() {
         (detectable / (6.0 * of_noise) - 1.0).abs() < 1e-9,
         "{square}"
     );
+    // All that follows a column, and nothing else.
+    let found = json(
+        &folder,
+        &["diagnose", "case.toml", "--json", "--why", "T"],
+    );
+    let along = found["accounts"].as_array().unwrap();
+    assert!(along.len() > 2, "{found}");
+    assert!(along.iter().all(|one| one["standing"] == "not-seen"));
+    assert_eq!(accounts(&found, "tempco-bias").len(), 1);
+    assert!(accounts(&found, "quadratic").is_empty());
     // There is no time to follow, and no angle.
     let found = json(
         &folder,

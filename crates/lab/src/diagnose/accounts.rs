@@ -12,6 +12,8 @@ pub enum Account {
     LeftOut(EffectId),
     /// Nothing in the case is what it acts on.
     NothingToActOn(EffectId),
+    /// Nothing in the catalogue follows this column.
+    NothingAlong(String),
     /// The noise holds it.
     OfNoise(EffectId),
     /// A candidate that would have a size which it cannot have.
@@ -48,6 +50,14 @@ pub(super) fn accounts(
                 let is_own = |cell: &Cell| cell.effect.kind == Kind::Own && cell.words.x == *name;
                 let own = effects().iter().find(|effect| effect.kind == Kind::Own);
                 (own, considered(&is_own))
+            }
+            Called::Along(column) => {
+                let follows = |cell: &Cell| [&cell.words.x, &cell.words.z].contains(&column);
+                let accounts = considered(&follows);
+                return match accounts.is_empty() {
+                    true => vec![Account::NothingAlong(column.clone())],
+                    false => accounts,
+                };
             }
         };
         let is_noise = |effect: &Effect| {

@@ -72,6 +72,9 @@ impl Teller<'_> {
                 )
                 .in_language(l)
             }
+            Account::NothingAlong(column) => {
+                say!("{column}: nothing in the catalogue follows it in this case.").in_language(l)
+            }
             Account::OfNoise(id) => {
                 let name = nowhere(*id, l);
                 say!("{name}: a part of the noise, where the line of the noise tells it.")
@@ -110,7 +113,10 @@ impl Teller<'_> {
                     table.push(cells.map(Into::into).collect());
                     continue;
                 }
-                Account::LeftOut(_) | Account::NothingToActOn(_) | Account::OfNoise(_) => continue,
+                Account::LeftOut(_)
+                | Account::NothingToActOn(_)
+                | Account::NothingAlong(_)
+                | Account::OfNoise(_) => continue,
             };
             let figures = against.instead.as_ref().map(|instead| {
                 [

@@ -92,14 +92,16 @@ form! {
 
     /// Why an effect is not the answer.
     AccountForm<'a> of (account: &'a Account, case: &'a Case, d: &'a Diagnosis, names: Names<'a>) {
-        /// Identifier of the catalogue.
+        /// Identifier of the catalogue; of a column that nothing follows its name.
         id: &'a str = match account {
+            Account::NothingAlong(column) => column,
             Account::LeftOut(id) | Account::NothingToActOn(id) | Account::OfNoise(id) => id.as_str(),
             Account::Impossible(cell) => names.cell(*cell).effect.id.as_str(),
             Account::Considered(against) => names.cell(against.candidate).effect.id.as_str(),
         },
         /// Name.
         name: String = match account {
+            Account::NothingAlong(column) => column.clone(),
             Account::LeftOut(id) | Account::NothingToActOn(id) | Account::OfNoise(id) => nowhere(*id, names.l),
             Account::Impossible(cell) => names.full(*cell),
             Account::Considered(against) => names.full(against.candidate),
@@ -107,7 +109,7 @@ form! {
         /// `named`, `tentative`, `absorbed`, `excluded`, `less-likely`, `not-seen`, `impossible`, `of-noise`, `left-out` or `nothing-to-act-on`.
         standing: &'static str = match account {
             Account::LeftOut(_) => "left-out",
-            Account::NothingToActOn(_) => "nothing-to-act-on",
+            Account::NothingToActOn(_) | Account::NothingAlong(_) => "nothing-to-act-on",
             Account::OfNoise(_) => "of-noise",
             Account::Impossible(_) => "impossible",
             Account::Considered(against) => match d.standing(against) {

@@ -23,6 +23,8 @@ pub enum Called {
     Effect(EffectId),
     /// An explanation of the user's own, by its name.
     Own(String),
+    /// All that follow a column, by its name.
+    Along(String),
 }
 
 impl Asked {
@@ -41,19 +43,29 @@ impl Asked {
         }
     }
 
-    /// What is meant by `all`, by an identifier of the catalogue, the name of an explanation of the user's own, or by words of the
-    /// name or the description of an effect in either language: those that have all of them in the closest of these.
+    /// What is meant by `all`, by an identifier of the catalogue, the name of an explanation of the user's own or of a column, or by
+    /// words of the name or the description of an effect in either language: those that have all of them in the closest of these.
     ///
     /// # Errors
     /// Nothing is called so, with what may have been meant.
-    pub fn of<'o>(words: &str, own: impl Iterator<Item = &'o str>) -> Result<Asked, Said> {
+    pub fn of<'o>(
+        words: &str,
+        own: impl Iterator<Item = &'o str>,
+        columns: impl Iterator<Item = &'o str>,
+    ) -> Result<Asked, Said> {
         let wanted = plain(words);
         let wanted = wanted.trim();
         if ["all", "全部"].contains(&wanted) {
             return Ok(Asked::Everything);
         }
-        if let Some(own) = own.into_iter().find(|own| plain(own) == wanted) {
-            return Ok(Asked::These(vec![Called::Own(own.to_owned())]));
+        let own = own.map(|own| Called::Own(own.to_owned()));
+        let columns = columns.map(|column| Called::Along(column.to_owned()));
+        let is_meant = |called: &Called| match called {
+            Called::Own(name) | Called::Along(name) => plain(name) == wanted,
+            Called::Effect(_) => false,
+        };
+        if let Some(called) = own.chain(columns).find(is_meant) {
+            return Ok(Asked::These(vec![called]));
         }
         let known = effects().iter();
         let known = known.filter(|effect| matches!(effect.kind, Kind::Physics | Kind::Record));
@@ -116,9 +128,14 @@ fn plain(text: &str) -> String {
 mod tests {
     use super::*;
 
+    /// In a case without explanations of its own, and without columns.
+    fn alone(words: &str) -> Result<Asked, Said> {
+        Asked::of(words, [].into_iter(), [].into_iter())
+    }
+
     #[test]
     fn one_may_ask_for_several() {
-        let of = |words: &str| Asked::of(words, [].into_iter()).unwrap();
+        let of = |words: &str| alone(words).unwrap();
         let both = [EffectId::TemperatureLag, EffectId::Cubic];
         let mut asked = Asked::default();
         for id in both.iter().chain(&both) {
@@ -131,7 +148,7 @@ mod tests {
     }
 
     fn asked(words: &str) -> Vec<Called> {
-        match Asked::of(words, ["bending"].into_iter()) {
+        match Asked::of(words, ["bending"].into_iter(), ["T", "humidity"].into_iter()) {
             Ok(Asked::These(these)) => these,
             other => panic!("{words}: {other:?}"),
         }
@@ -144,17 +161,18 @@ mod tests {
         assert_eq!(asked("Thermal lag"), lag);
         assert_eq!(asked("热滞后"), lag);
         assert_eq!(asked("Bending"), [Called::Own("bending".to_owned())]);
+        assert_eq!(asked("humidity"), [Called::Along("humidity".to_owned())]);
         // The identifier goes before names that have it in them.
         let cube = EffectId::Cubic;
         assert_eq!(asked(cube.as_str()), [Called::Effect(cube)]);
         assert!(asked("temperature").len() > 3);
         assert!(asked("dead zone").contains(&Called::Effect(EffectId::ZeroStep)));
-        assert_eq!(Asked::of("ALL", [].into_iter()), Ok(Asked::Everything));
+        assert_eq!(alone("ALL"), Ok(Asked::Everything));
     }
 
     #[test]
     fn what_nobody_knows_is_refused() {
-        let refused = Asked::of("hystersis", [].into_iter())
+        let refused = alone("hystersis")
             .unwrap_err()
             .to_string();
         assert!(refused.contains(EffectId::Hysteresis.as_str()), "{refused}");
@@ -162,12 +180,12 @@ mod tests {
             ("termal", "\"thermal\""),
             ("thermal lagg", "\"thermal lag\""),
         ] {
-            let refused = Asked::of(words, [].into_iter()).unwrap_err().to_string();
+            let refused = alone(words).unwrap_err().to_string();
             assert!(refused.contains(near), "{refused}");
         }
-        assert!(Asked::of("", [].into_iter()).is_err());
+        assert!(alone("").is_err());
         assert!(
-            Asked::of("astrology", [].into_iter())
+            alone("astrology")
                 .unwrap_err()
                 .to_string()
                 .contains("--why all")

@@ -239,13 +239,14 @@ pub enum Blocks {
 }
 
 impl Case {
-    /// Asks for an account of effects, by any name, beside those that were asked for.
+    /// Asks for an account of effects, by any name or by the column that they follow, beside those that were asked for.
     ///
     /// # Errors
     /// The catalogue has no such effect, with what may have been meant.
     pub fn ask(&mut self, words: &str) -> Result<(), Said> {
         let own = self.candidates.iter().map(|own| own.name.as_str());
-        self.settings.asked.add(Asked::of(words, own)?);
+        let columns = self.columns.iter().map(|column| column.name.as_str());
+        self.settings.asked.add(Asked::of(words, own, columns)?);
         Ok(())
     }
 }

@@ -211,6 +211,11 @@ fn a_scale_that_wanders_is_not_taken_for_noise_that_wanders() {
     let scale = found(&|torque| 4e-5 * torque, "scale-wanders");
     assert_eq!(scale["verdict"], "unexplained", "{}", scale["statement"]);
     assert_eq!(scale["effects"][0]["unnamed"][0]["id"], "wandering-scale");
+    assert!(
+        scale["noise"]["origin"]
+            .as_str()
+            .is_some_and(|origin| origin.contains("the scale, which wanders"))
+    );
     let zero = found(&|_| 1e-3, "zero-wanders");
     assert_eq!(zero["verdict"], "none", "{}", zero["statement"]);
     // The mean of 80 readings of a scale that keeps 0.8 from row to row, in closed form: the effective number of readings.

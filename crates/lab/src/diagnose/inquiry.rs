@@ -148,10 +148,13 @@ impl<'i> Inquiry<'i> {
         inquiry.begin(starts.collect())?;
         inquiry.linearise_again()?;
         inquiry.sharpen()?;
+        let is_noise = inquiry.found_nothing();
         inquiry.look_for_unsteady_noise()?;
-        inquiry.tell_rounding();
-        let wanders = inquiry.found_nothing() && inquiry.answer.claimed.wanders();
+        let claimed = &inquiry.answer.claimed;
+        let is_told = inquiry.found_nothing() || claimed.is_of_scale();
+        let wanders = is_noise && is_told && claimed.wanders();
         inquiry.if_independent.take_if(|_| !wanders);
+        inquiry.tell_rounding();
         Ok(inquiry)
     }
 

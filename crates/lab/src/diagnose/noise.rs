@@ -171,6 +171,12 @@ impl Claimed {
         correlated.is_some_and(|one| one.memory.fades())
     }
 
+    /// Whether what wanders is the scale.
+    pub fn is_of_scale(&self) -> bool {
+        let correlated = self.correlated.as_ref();
+        correlated.is_some_and(|one| one.memory.is_of_scale())
+    }
+
     /// Whether it is left open that successive rows are correlated, though the recording does not show it.
     pub fn may_be_correlated(&self) -> bool {
         let correlated = self.correlated.as_ref();

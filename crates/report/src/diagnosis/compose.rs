@@ -158,11 +158,18 @@ fn if_independent(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Block>
             "What it is if successive rows are independent",
             "若相邻各行相互独立，则为何者",
         ),
-        paragraph(
-            l,
-            "This recording does not tell it from noise that wanders. The same settings again in another order would, or a recording at rest below [noise] at_rest, which shows whether the noise wanders.",
-            "本记录无法将其与游走的噪声区分。换一种次序重复同样的设定即可区分；或在 [noise] at_rest 中给出静止记录，它能显示噪声是否游走。",
-        ),
+        match diagnosis.noise.is_of_scale() {
+            true => paragraph(
+                l,
+                "This recording does not tell it from a scale that wanders. The same settings again in another order would, or a recording of one large input that is held still, which shows whether the scale wanders.",
+                "本记录无法将其与游走的标度区分。换一种次序重复同样的设定即可区分；或保持一个较大的输入不变进行记录，它能显示标度是否游走。",
+            ),
+            false => paragraph(
+                l,
+                "This recording does not tell it from noise that wanders. The same settings again in another order would, or a recording at rest below [noise] at_rest, which shows whether the noise wanders.",
+                "本记录无法将其与游走的噪声区分。换一种次序重复同样的设定即可区分；或在 [noise] at_rest 中给出静止记录，它能显示噪声是否游走。",
+            ),
+        },
     ];
     for slot in &found.examination.slots {
         for alternative in &slot.named {

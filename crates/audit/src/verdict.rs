@@ -1,7 +1,8 @@
 //! What an audit comes to.
 
+use crate::calculate::Figures;
 use crate::claim::Claimed;
-use crate::search::{Found, search};
+use crate::search::{Found, Gap, search};
 
 /// Verdict on a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -14,7 +15,7 @@ pub enum Verdict {
     WithEffect,
     /// Figures that do not follow, and no slip that gives them.
     Unexplained,
-    /// Nothing to compute from, or nothing claimed.
+    /// Nothing to compute from, nothing claimed, or nothing that leads from a row to the result.
     NotRecomputed,
 }
 
@@ -25,16 +26,27 @@ pub struct Audit<'a> {
     pub verdict: Verdict,
     /// What was found.
     pub found: Found<'a>,
+    /// Rows from which nothing leads to the result, where the claim cannot be recomputed for that.
+    pub missing: Vec<usize>,
+}
+
+impl Audit<'_> {
+    /// The right figures, as far as the sheet states what they need.
+    pub fn recomputed(&self) -> Option<Figures> {
+        self.missing.is_empty().then_some(self.found.right)
+    }
 }
 
 /// Audits a claim.
 pub fn audit(claimed: &Claimed) -> Audit<'_> {
     let found = search(claimed);
+    let missing = missing(&found);
     let footer = &claimed.footer;
     let nothing = claimed.rows.is_empty() || found.right.u_c <= 0.0;
     let unclaimed = footer.u_c.is_none() && footer.expanded.is_none();
     let silent = found.gaps.is_empty() && found.explanations.is_empty();
-    let verdict = if nothing || unclaimed && (silent || claimed.computes_nothing()) {
+    let is_open = nothing || unclaimed && (silent || claimed.computes_nothing());
+    let verdict = if is_open || !missing.is_empty() {
         Verdict::NotRecomputed
     } else {
         match found.explanations.first() {
@@ -44,5 +56,19 @@ pub fn audit(claimed: &Claimed) -> Audit<'_> {
             None => Verdict::Unexplained,
         }
     };
-    Audit { verdict, found }
+    Audit {
+        verdict,
+        found,
+        missing,
+    }
+}
+
+/// Rows from which nothing leads to the result, where that leaves the claim open: nothing explains it, and no figure of a row
+/// departs.
+fn missing(found: &Found<'_>) -> Vec<usize> {
+    let is_of_row = |gap: &Gap| matches!(gap, Gap::Row(..));
+    match found.explanations.is_empty() && !found.gaps.iter().any(is_of_row) {
+        true => found.case.without_way(),
+        false => Vec::new(),
+    }
 }

@@ -11,6 +11,7 @@ mod calculation;
 mod case;
 mod known;
 mod model;
+mod way;
 
 pub use calculation::{
     Calculation, Combined, Factor, Figures, Freedom, Line, Printout, Report, Ties, dominates, t,

@@ -125,6 +125,28 @@ pub(super) fn derivative(seen: &Seen<'_>) -> Vec<Hit> {
 /// A standard uncertainty in the unit of another quantity than the result, which is its contribution as it stands: kelvins
 /// in a sum of nanometres.
 pub(super) fn without_coefficient(seen: &Seen<'_>) -> Vec<Hit> {
+    let mut hits = printed_as_it_stands(seen);
+    hits.extend(summed_as_it_stands(seen));
+    hits
+}
+
+/// The same where u_c alone shows it: it is the root of the sum of squares of the figures, whatever they are in.
+fn summed_as_it_stands(seen: &Seen<'_>) -> Vec<Hit> {
+    let u_c = seen.laboratory.figures(&[], None).u_c;
+    let claimed = seen.claimed.footer.u_c.as_ref();
+    if !claimed.is_some_and(|claimed| !far(claimed, u_c, 0.01)) {
+        return Vec::new();
+    }
+    let hit = |i: usize| {
+        let (row, of_result) = (&seen.claimed.rows[i], &seen.claimed.unit);
+        let u = seen.laboratory.lines[i].u;
+        let numbers = format!("u = {u:.3} {}, u_c = {u_c:.4} {of_result}", row.unit);
+        Hit::of(Some(i), numbers.trim_end().to_owned())
+    };
+    seen.case.without_way().into_iter().map(hit).collect()
+}
+
+fn printed_as_it_stands(seen: &Seen<'_>) -> Vec<Hit> {
     let of_result = &seen.claimed.unit;
     let Some(result) = units::parse(of_result) else {
         return Vec::new();
@@ -317,7 +339,7 @@ pub(super) fn hidden(seen: &Seen<'_>) -> Vec<Hit> {
 
 /// A step of indication that stands in an earlier row already, where neither row says that it is of another reading or
 /// instrument.
-pub(super) fn step_again(seen: &Seen<'_>) -> Vec<Hit> {
+fn step_again(seen: &Seen<'_>) -> Vec<Hit> {
     let steps: Vec<(usize, &Row, &Printed)> = rows(seen)
         .filter_map(|(at, row, _)| match &row.stated {
             Stated::Step { step } if !has(&row.words.to_lowercase(), APART) => {
@@ -358,3 +380,60 @@ const APART: &[&str] = &[
     "起",
     "止",
 ];
+
+pub(super) fn counted_again(seen: &Seen<'_>) -> Vec<Hit> {
+    let mut hits = listed_again(seen);
+    let steps = step_again(seen).into_iter();
+    let others = steps.filter(|step| hits.iter().all(|hit| hit.row != step.row));
+    let others: Vec<Hit> = others.collect();
+    hits.extend(others);
+    hits
+}
+
+/// A source that stands in the list again, by its name and with every figure.
+fn listed_again(seen: &Seen<'_>) -> Vec<Hit> {
+    let is_again = |(i, row): (usize, &Row)| {
+        let mut above = rows(seen).take_while(|(j, ..)| *j < i);
+        above.any(|(_, other, _)| is_repeated(row, other))
+    };
+    let again = rows(seen).filter(|(i, row, _)| is_again((*i, row)));
+    let hit = |(i, row, line): (usize, &Row, &Line)| {
+        let mut without = seen.laboratory.clone();
+        without.lines[i].counted = false;
+        let cmc = seen.claimed.cmc.as_ref().map(|cmc| cmc.value);
+        Hit {
+            row: Some(i),
+            numbers: format!("{}: u_i(y) = {:.3}", row.label(), line.contribution().abs()),
+            corrected: Some(without.figures(&[], cmc).expanded),
+        }
+    };
+    again.map(hit).collect()
+}
+
+/// Whether two rows have one name and the same figures, and some uncertainty among them.
+fn is_repeated(row: &Row, other: &Row) -> bool {
+    let called = |row: &Row| [&row.symbol, &row.name].map(|name| name.trim().to_lowercase());
+    let figures = |row: &Row| {
+        let figures = [
+            &row.value,
+            &row.used,
+            &row.divisor,
+            &row.u,
+            &row.c,
+            &row.contribution,
+        ];
+        figures.map(|figure| {
+            figure
+                .as_ref()
+                .map(|figure| (figure.value, figure.unit.clone()))
+        })
+    };
+    let is_nothing = |figure: &Option<Printed>| figure.as_ref().is_none_or(|f| f.value == 0.0);
+    let is_uncertain = [&row.used, &row.u, &row.contribution]
+        .into_iter()
+        .any(|f| !is_nothing(f));
+    is_uncertain
+        && !row.label().is_empty()
+        && called(row) == called(other)
+        && figures(row) == figures(other)
+}

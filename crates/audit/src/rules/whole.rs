@@ -432,7 +432,11 @@ pub(super) fn units_of_result(seen: &Seen<'_>) -> Vec<Hit> {
     let Some(expanded) = &seen.claimed.footer.expanded else {
         return Vec::new();
     };
-    let percent = crate::units::fraction(&expanded.unit).is_some();
+    // `0.06 %·100 g`: as it is printed, and of what the audit took it.
+    let printed = expanded.as_read().split('·').next();
+    let printed = printed.and_then(Printed::parse).map(|figure| figure.unit);
+    let is_percent = |unit: &str| crate::units::fraction(unit).is_some();
+    let percent = is_percent(&expanded.unit) || printed.is_some_and(|unit| is_percent(&unit));
     let other = percent && crate::units::fraction(&seen.claimed.unit).is_none();
     when(other, || {
         format!("U = {}, y: {}", expanded.as_read(), seen.claimed.unit)

@@ -1,5 +1,6 @@
 //! The machine form of an audit, with the neutral answer form in it.
 
+use gumption_audit::calculate::Figures;
 use gumption_audit::{Audit, Verdict};
 use gumption_format::machine::{Machine, Number, record};
 
@@ -131,8 +132,8 @@ impl AuditJson {
             file: file.rsplit(['/', '\\']).next().unwrap_or(file).to_string(),
             verdict: worst.map_or("not recomputed", |audit| verdict(audit.verdict)),
             candidates: worst.map(candidates).unwrap_or_default(),
-            u_c: Number(worst.map_or(f64::NAN, |audit| audit.found.right.u_c)),
-            expanded: Number(worst.map_or(f64::NAN, |audit| audit.found.right.expanded)),
+            u_c: right(worst, |right| right.u_c),
+            expanded: right(worst, |right| right.expanded),
             budgets: audits.iter().map(budget).collect(),
         }
     }
@@ -145,6 +146,12 @@ fn verdict(verdict: Verdict) -> &'static str {
         Verdict::Unexplained => "unexplained",
         Verdict::NotRecomputed => "not recomputed",
     }
+}
+
+/// A figure that is right, where it could be computed.
+fn right(audit: Option<&Audit<'_>>, figure: fn(&Figures) -> f64) -> Number {
+    let right = audit.and_then(Audit::recomputed);
+    Number(right.as_ref().map_or(f64::NAN, figure))
 }
 
 fn candidates(audit: &Audit<'_>) -> Vec<Vec<String>> {
@@ -169,10 +176,10 @@ fn budget(audit: &Audit<'_>) -> BudgetJson {
         candidates: candidates(audit),
         sentences: words::verdict(audit, Language::English),
         unit: claimed.unit.clone(),
-        u_c: Number(found.right.u_c),
-        nu_eff: Number(found.right.nu_eff),
+        u_c: right(Some(audit), |right| right.u_c),
+        nu_eff: right(Some(audit), |right| right.nu_eff),
         k: Number(found.right.k),
-        expanded: Number(found.right.expanded),
+        expanded: right(Some(audit), |right| right.expanded),
         untold: found.untold.iter().map(|act| act.id(&found.case)).collect(),
         gaps: found
             .gaps

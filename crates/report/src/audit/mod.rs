@@ -4,6 +4,7 @@ mod form;
 mod plot;
 mod words;
 
+use gumption_audit::calculate::Figures;
 use gumption_audit::claim::Claimed;
 use gumption_audit::printed::Printed;
 use gumption_audit::rules::{self, Bearing, Finding};
@@ -157,44 +158,40 @@ fn shown(figure: Option<&Printed>) -> String {
 }
 
 fn figures(audit: &Audit<'_>, language: Language) -> Vec<KeyFigure> {
-    let (claimed, right) = (audit.found.case.claimed, audit.found.right);
+    let claimed = audit.found.case.claimed;
+    let right = |figure: fn(&Figures) -> String| {
+        audit.recomputed().as_ref().map_or(NONE.to_string(), figure)
+    };
     let pick = |en: &str, zh: &str| language.pick(en, zh).to_string();
     // What is stated in the unit of the right figure beside it needs no unit.
     let in_its_unit = |figure: &Printed| match figure.unit.as_str() {
         unit if unit.is_empty() || unit == claimed.unit => figure.as_read().to_string(),
         _ => figure.with_unit(),
     };
-    let figure = |name: &str, stated: Option<&Printed>, right: String, unit: &str| KeyFigure {
+    let figure = |name: &str, stated: Option<&Printed>, right: String| KeyFigure {
         name: name.to_string(),
         value: format!(
             "{right} ({} {})",
             pick("claimed", "声称"),
             stated.map_or(NONE.to_string(), in_its_unit)
         ),
-        unit: unit.to_string(),
+        unit: String::new(),
     };
     let footer = &claimed.footer;
-    let mut all = vec![figure(
-        "u_c",
-        footer.u_c.as_ref(),
-        with_unit(significant(right.u_c, 4), &claimed.unit),
-        "",
-    )];
-    if footer.nu_eff.is_some() || right.nu_eff < 1e5 {
-        all.push(figure(
-            "ν_eff",
-            footer.nu_eff.as_ref(),
-            freedom(right.nu_eff),
-            "",
-        ));
+    let in_unit = |text: String| match text == NONE {
+        true => text,
+        false => with_unit(text, &claimed.unit),
+    };
+    let k = significant(audit.found.right.k, 3);
+    let u_c = in_unit(right(|right| significant(right.u_c, 4)));
+    let expanded = in_unit(right(|right| significant(right.expanded, 3)));
+    let mut all = vec![figure("u_c", footer.u_c.as_ref(), u_c)];
+    if footer.nu_eff.is_some() || audit.found.right.nu_eff < 1e5 {
+        let nu_eff = right(|right| freedom(right.nu_eff));
+        all.push(figure("ν_eff", footer.nu_eff.as_ref(), nu_eff));
     }
-    all.push(figure("k", footer.k.as_ref(), significant(right.k, 3), ""));
-    all.push(figure(
-        "U",
-        footer.expanded.as_ref(),
-        with_unit(significant(right.expanded, 3), &claimed.unit),
-        "",
-    ));
+    all.push(figure("k", footer.k.as_ref(), k));
+    all.push(figure("U", footer.expanded.as_ref(), expanded));
     all
 }
 
@@ -265,10 +262,15 @@ fn rows(audit: &Audit<'_>, language: Language) -> Table {
     ]);
     for (i, (row, line)) in case.claimed.rows.iter().zip(&case.right.lines).enumerate() {
         let mark = if is_marked(audit, i) { "◀" } else { "" };
-        let contribution = if line.counted {
-            significant(line.contribution().abs(), 3)
-        } else {
-            language.pick("not counted", "不计").to_string()
+        let is_open = audit.missing.contains(&i);
+        let contribution = match line.counted {
+            true if is_open => NONE.to_string(),
+            true => significant(line.contribution().abs(), 3),
+            false => language.pick("not counted", "不计").to_string(),
+        };
+        let c = match is_open {
+            true => NONE.to_string(),
+            false => significant(line.c, 4),
         };
         let is_untold = audit.found.takes_freedom() && row.leaves_freedom_open();
         let dof = if is_untold {
@@ -281,7 +283,7 @@ fn rows(audit: &Audit<'_>, language: Language) -> Table {
             words::stated(row, language).into(),
             significant(line.u, 3).into(),
             shown(row.u.as_ref()).into(),
-            significant(line.c, 4).into(),
+            c.into(),
             contribution.into(),
             shown(row.contribution.as_ref()).into(),
             dof.into(),

@@ -138,6 +138,7 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
             }
             sentences
         }
+        Verdict::NotRecomputed if !audit.missing.is_empty() => vec![missing(audit, language)],
         Verdict::NotRecomputed if found.right.u_c > 0.0 => {
             let k = significant(found.right.k, 3);
             vec![say!("Nothing is claimed that could be held against a calculation. From what is stated, U is {right_u} with k = {k}.").in_language(language)]
@@ -147,6 +148,22 @@ pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
             "无法重新计算：表中没有可以理解的、带有数值和声称值的不确定度预算。",
         ).to_string()],
     }
+}
+
+/// What a claim lacks that cannot be recomputed: what leads from some rows to the result.
+fn missing(audit: &Audit<'_>, language: Language) -> String {
+    let claimed = audit.found.case.claimed;
+    let row = |i: &usize| {
+        let row = &claimed.rows[*i];
+        format!("{} [{}]", place(row, *i, language), row.unit)
+    };
+    let rows: Vec<String> = audit.missing.iter().map(row).collect();
+    let rows = rows.join(language.semicolon());
+    match claimed.unit.as_str() {
+        "" => say!("Not recomputed: the rows are in units of several quantities, and neither sensitivity coefficients c_i, contributions u_i(y) nor a model with the estimates lead to the result. They are missing for: {rows}."),
+        unit => say!("Not recomputed: nothing leads to the result in {unit} from these rows, for which a sensitivity coefficient c_i, a contribution u_i(y) or a model with the estimates is missing: {rows}."),
+    }
+    .in_language(language)
 }
 
 /// What departs where U is printed as claimed: u_c, or neither.

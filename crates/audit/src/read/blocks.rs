@@ -26,11 +26,13 @@ pub(super) fn joined(grids: &[Grid], found: Vec<Found>) -> Vec<Found> {
 
 /// Whether a row is the sum of a block alone.
 pub(super) fn is_subtotal(grid: &Grid, row: usize) -> bool {
-    let mut texts = grid.filled(row).map(|(_, cell)| cell.text.to_lowercase());
-    texts.any(|text| {
-        let of_type = has(&text, &TYPES) && footer::label(&text, "") == Some(Whole::Combined);
-        of_type || has(&text, &["subtotal", "sub-total", "小计"])
-    })
+    let mut cells = grid.filled(row);
+    cells.any(|(_, cell)| footer::is_subtotal(&cell.text) || is_total_of_type(&cell.text))
+}
+
+/// Whether a text labels what the contributions of one type come to.
+fn is_total_of_type(text: &str) -> bool {
+    has(&text.to_lowercase(), &TYPES) && footer::label(text, "") == Some(Whole::Combined)
 }
 
 /// Whether the line above a head, of which a blank one may part it, says that its table is of one type of evaluation.

@@ -103,6 +103,19 @@ pub(super) const TYPES: [&str; 8] = [
     "type a", "type b", "type-a", "type-b", "a类", "b类", "a 类", "b 类",
 ];
 
+/// Whether a text labels what some of the rows come to, which is neither a source nor a figure of the whole.
+pub fn is_subtotal(text: &str) -> bool {
+    const WORDS: [&str; 6] = [
+        "subtotal",
+        "sub-total",
+        "sub total",
+        "小计",
+        "zwischensumme",
+        "sous-total",
+    ];
+    has(&text.to_lowercase(), &WORDS)
+}
+
 /// What a cell labels, if it labels a figure of the whole.
 pub fn label(text: &str, measurand: &str) -> Option<Whole> {
     if is_capital_result(text, measurand) {
@@ -271,11 +284,20 @@ pub fn divides_by_factor(lower: &str) -> bool {
 
 /// The factor of `U = 2·u_c`.
 fn multiple_of_u(text: &str) -> Option<Printed> {
-    let mut right = text.split('=').skip(1);
-    right.find_map(|right| {
-        let (factor, behind) = leading(right)?;
-        ((1.0..5.0).contains(&factor.value) && names_u(behind)).then_some(factor)
+    let sides: Vec<&str> = text.split('=').collect();
+    let mut pairs = sides.windows(2);
+    pairs.find_map(|sides| {
+        let name = sides[0].trim_end();
+        let (factor, behind) = leading(sides[1])?;
+        let of_u = names_u(behind) || name.ends_with('U') && is_u_alone(behind);
+        ((1.0..5.0).contains(&factor.value) && of_u).then_some(factor)
     })
+}
+
+/// Whether nothing but u stands behind a factor, up to an equals sign: `U = 2 u = 1.3 mg`, where u is no unit of mass.
+fn is_u_alone(behind: &str) -> bool {
+    let own = behind.split('=').next().unwrap_or_default();
+    own.trim() == "u"
 }
 
 /// Whether u_c is what a figure in front of this is multiplied with, also without a sign: `2u_c`. A bare u behind a blank
@@ -346,7 +368,9 @@ pub fn assigned(text: &str, name: &str) -> Option<Printed> {
             .or_else(|| rest.strip_prefix(':'))
         {
             let right = right.trim_start();
+            let is_factor = |behind: &str| name == "U" && is_u_alone(behind);
             if let Some((figure, behind)) = leading(right)
+                && !is_factor(behind)
                 && !super::words::starts_product(behind.trim_start())
                 && !super::words::starts_quotient(behind.trim_start())
                 && !names_u(behind)

@@ -6,7 +6,7 @@ use crate::claim::{Claimed, Understood, Unplaced};
 use crate::printed::{Place, Printed};
 use crate::sheet::Grid;
 
-use super::{footer, notes, result_unit, words};
+use super::{footer, notes, result_unit, words, wrapped};
 
 /// A line of text beside a table.
 #[derive(Debug, Clone)]
@@ -23,19 +23,31 @@ pub(super) fn lines(
     used: impl Fn(usize) -> bool,
 ) -> Vec<Line> {
     let outside = rows.filter(|row| !used(*row));
-    outside
-        .filter_map(|row| {
-            let cells: Vec<&str> = grid
-                .filled(row)
-                .map(|(_, cell)| cell.text.as_str())
-                .collect();
-            let (column, _) = grid.filled(row).next()?;
-            Some(Line {
-                text: cells.join(" ; "),
+    let mut lines: Vec<Line> = Vec::new();
+    let mut last: Option<usize> = None;
+    for row in outside {
+        let cells: Vec<&str> = grid
+            .filled(row)
+            .map(|(_, cell)| cell.text.as_str())
+            .collect();
+        let Some((column, _)) = grid.filled(row).next() else {
+            continue;
+        };
+        let is_below = last.is_some_and(|last| last + 1 == row && cells.len() == 1);
+        last = Some(row).filter(|_| cells.len() == 1);
+        let text = cells.join(" ; ");
+        match lines
+            .last_mut()
+            .filter(|above| is_below && wrapped::goes_on(&above.text, &text))
+        {
+            Some(above) => above.text = format!("{} {text}", above.text),
+            None => lines.push(Line {
+                text,
                 at: Place { sheet, row, column },
-            })
-        })
-        .collect()
+            }),
+        }
+    }
+    lines
 }
 
 /// Lines beside a table: each to the whole, or to the row that it is about.

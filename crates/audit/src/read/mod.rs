@@ -5,6 +5,7 @@
 //! | `beside` | tables side by side |
 //! | `blanks` | tables whose columns stand one blank apart |
 //! | `blocks` | tables that are blocks of one budget |
+//! | `by_type` | tables with a column of figures for each type of evaluation |
 //! | `columns` | what a column is, by its head |
 //! | `table` | where a table stands, and its rows |
 //! | `kind` | what is known of a quantity, by the words for it |
@@ -22,10 +23,12 @@
 //! | `simulated` | statements of Monte Carlo |
 //! | `turned` | tables whose rows and columns are exchanged |
 //! | `words` | words and figures in texts |
+//! | `wrapped` | sentences that go on in the next line |
 
 mod beside;
 mod blanks;
 mod blocks;
+mod by_type;
 mod columns;
 mod converter;
 mod footer;
@@ -43,6 +46,7 @@ mod simulated;
 mod table;
 mod turned;
 mod words;
+mod wrapped;
 
 pub use columns::Role;
 pub(crate) use footer::Whole;
@@ -67,7 +71,8 @@ use table::Located;
 pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
     let parts = grids.iter().flat_map(beside::parted);
     let parts = parts.flat_map(|part| points::parted(&part));
-    let grids: Vec<Grid> = parts.map(|part| turned::upright(&part)).collect();
+    let upright = parts.map(|part| turned::upright(&part));
+    let grids: Vec<Grid> = upright.map(|grid| by_type::joined(&grid)).collect();
     let mut found: Vec<Found> = Vec::new();
     for (sheet, grid) in grids.iter().enumerate() {
         let tables = table::locate(grid, mapping).into_iter();
@@ -159,7 +164,13 @@ impl Found {
     /// Rows above its last block that are no text, and subtotals: no figures of the whole.
     fn is_of_block(&self, grid: &Grid, row: usize) -> bool {
         let in_block = self.above.iter().any(|block| block.is_used(row));
-        in_block || !self.above.is_empty() && blocks::is_subtotal(grid, row)
+        in_block || self.has_blocks(grid) && blocks::is_subtotal(grid, row)
+    }
+
+    /// Whether its rows are blocks, each with its table, or in one table with subtotals between them.
+    fn has_blocks(&self, grid: &Grid) -> bool {
+        let mut inside = (0..grid.rows.len()).filter(|row| self.located.is_inside(*row));
+        !self.above.is_empty() || inside.any(|row| blocks::is_subtotal(grid, row))
     }
 
     /// Whether this table says what is known of the rows that another one evaluates.

@@ -126,35 +126,34 @@ fn what(grid: &Grid, row: usize, located: &Located, joined: bool) -> What {
             && footer::label(&cell.text, "").is_some()
             && Printed::parse(&cell.text).is_none()
     });
+    let called = [Role::Symbol, Role::Name, Role::Number].map(text);
     let inputs = figure(Role::Used) || figure(Role::C);
     let explained = !text(Role::Distribution).is_empty()
         && !text(Role::Distribution).to_lowercase().contains("k")
         || text(Role::Type).len() == 1;
-    let strong = [text(Role::Symbol), text(Role::Name), text(Role::Number)]
-        .iter()
-        .any(|t| {
-            let lower = t.to_lowercase();
-            has(
-                &lower,
-                &[
-                    "combined",
-                    "kombinierte",
-                    "composée",
-                    "élargie",
-                    "expanded uncertainty u",
-                    "effective degrees",
-                    "coverage factor",
-                    "合成标准不确定度",
-                    "合成不确定度",
-                    "有效自由度",
-                    "包含因子",
-                ],
-            ) || lower.starts_with("expanded u")
-                || lower.starts_with("erweiterte")
-                || lower.starts_with("sum u(")
-                || lower.starts_with("扩展不确定度")
-                || is_symbol_of_whole(t)
-        });
+    let strong = called.iter().any(|t| {
+        let lower = t.to_lowercase();
+        has(
+            &lower,
+            &[
+                "combined",
+                "kombinierte",
+                "composée",
+                "élargie",
+                "expanded uncertainty u",
+                "effective degrees",
+                "coverage factor",
+                "合成标准不确定度",
+                "合成不确定度",
+                "有效自由度",
+                "包含因子",
+            ],
+        ) || lower.starts_with("expanded u")
+            || lower.starts_with("erweiterte")
+            || lower.starts_with("sum u(")
+            || lower.starts_with("扩展不确定度")
+            || is_symbol_of_whole(t)
+    });
     // Of `Expanded uncertainty | k = | 2 | 0.6` the factor stands where the others have a coefficient.
     let factor = located.column(Role::C).is_some_and(|c| {
         let in_front = grid.filled(row).filter(|(column, _)| *column < c.index);
@@ -162,7 +161,8 @@ fn what(grid: &Grid, row: usize, located: &Located, joined: bool) -> What {
         label.and_then(|text| footer::label(text, "")) == Some(footer::Whole::Factor)
     });
     let coefficient = figure(Role::C) && !factor;
-    if labelled && (strong && !coefficient || !inputs && !explained) {
+    let is_subtotal = called.iter().any(|text| footer::is_subtotal(text));
+    if is_subtotal || labelled && (strong && !coefficient || !inputs && !explained) {
         return What::Footer;
     }
     let told = joined && !text(Role::Remark).is_empty() && grid.filled(row).count() >= 2;

@@ -62,6 +62,12 @@ impl Located {
         self.used.contains(&row)
     }
 
+    /// Whether a row of the sheet stands between rows of the budget.
+    pub fn is_inside(&self, row: usize) -> bool {
+        let last = self.rows.last().copied().unwrap_or(0);
+        (self.head + 1..last).contains(&row)
+    }
+
     /// Whether a row of the sheet is a row of the budget.
     pub fn is_row(&self, row: usize) -> bool {
         self.rows.contains(&row)

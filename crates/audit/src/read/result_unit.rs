@@ -2,6 +2,7 @@
 
 use crate::claim::{Claimed, Row};
 use crate::printed::Printed;
+use crate::units;
 
 use super::words;
 
@@ -13,9 +14,18 @@ pub(super) fn unit_of_result(claimed: &Claimed) -> String {
     let mut stated = figures.chain([&footer.y]).flatten();
     let unit = stated
         .find_map(unit_of)
-        .or_else(|| unit_of_plain_rows(claimed));
+        .or_else(|| unit_of_plain_rows(claimed))
+        .or_else(|| unit_of_shares(claimed));
     unit.or_else(|| unit_of(footer.expanded.as_ref()?))
         .unwrap_or_default()
+}
+
+/// The unit of rows that are all in one relative unit, and have no coefficients: what they come to is in it, too.
+fn unit_of_shares(claimed: &Claimed) -> Option<String> {
+    let unit = &claimed.rows.first()?.unit;
+    let is_of_it = |row: &Row| &row.unit == unit && row.c.is_none() && row.value.is_none();
+    let are_shares = units::fraction(unit).is_some() && claimed.rows.iter().all(is_of_it);
+    are_shares.then(|| unit.clone())
 }
 
 /// The unit of rows whose contribution is printed with the figure of u, by a coefficient of 1: U may be in another one.
@@ -35,7 +45,7 @@ fn unit_of_plain_rows(claimed: &Claimed) -> Option<String> {
     let first = units.first()?;
     // A single row is enough to tell a unit from a multiple of it.
     let expanded = claimed.footer.expanded.as_ref();
-    let is_multiple = expanded.is_some_and(|u| crate::units::factor(&u.unit, first).is_some());
+    let is_multiple = expanded.is_some_and(|u| units::factor(&u.unit, first).is_some());
     let enough = units.len() >= 2 || is_multiple;
     (enough && units.iter().all(|unit| unit == first)).then(|| first.clone())
 }

@@ -2,6 +2,7 @@
 
 mod columns;
 mod digits;
+mod forms;
 mod further;
 mod hands;
 mod layouts;

@@ -7,6 +7,7 @@ use crate::read::words::{self, has};
 use crate::units;
 
 use super::raw::Raw;
+use super::relative::settle_by_amount;
 
 /// Turns words and columns of each row into what is known of it, and its figures into one unit.
 pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
@@ -51,6 +52,7 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
         row.convert_to_one_unit(&y_unit);
     }
     add_absent(claimed);
+    settle_by_amount(claimed);
     for figure in [
         &mut claimed.footer.u_c,
         &mut claimed.footer.expanded,

@@ -336,6 +336,17 @@ impl Claimed {
         roles.any(|role| role == OF_MONTE_CARLO)
     }
 
+    /// Takes correlations of pairs that have none yet: what is said again is one correlation all the same.
+    pub(crate) fn correlate(&mut self, found: Vec<Correlation>) {
+        for new in found {
+            let is_pair =
+                |old: &Correlation| [(old.a, old.b), (old.b, old.a)].contains(&(new.a, new.b));
+            if !self.correlations.iter().any(is_pair) {
+                self.correlations.push(new);
+            }
+        }
+    }
+
     /// Whether the cell of a figure holds something else than its formula gives.
     pub(crate) fn is_stale(&self, figure: &Printed) -> bool {
         self.stale.iter().any(|cell| cell.at == figure.at)

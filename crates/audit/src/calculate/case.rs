@@ -124,11 +124,17 @@ fn in_unit_of_result(claimed: &Claimed, known: &Differentiated) -> Vec<f64> {
 }
 
 /// How ν_eff is to be found. Where no row tells its degrees of freedom, one that is stated cannot be computed again: it is taken
-/// as it stands, if it is not below what one degree in each open row would give.
+/// as it stands, if it is not below what one degree in each open row would give. So is one of correlated readings, for which
+/// the formula of Welch and Satterthwaite does not hold (JCGM 100, G.4.1).
 fn freedom(claimed: &Claimed, welch: &Calculation) -> Freedom {
     let Some(stated) = &claimed.footer.nu_eff else {
         return Freedom::Welch;
     };
+    let is_few = |row: usize| welch.lines[row].dof.is_finite();
+    let mut pairs = claimed.correlations.iter();
+    if pairs.any(|pair| pair.r != 0.0 && is_few(pair.a) && is_few(pair.b)) {
+        return Freedom::Given(stated.value);
+    }
     let rows = || welch.lines.iter().zip(&claimed.rows);
     let is_told = |(line, _): (&Line, &Row)| line.counted && line.dof.is_finite();
     if rows().any(is_told) {

@@ -2,11 +2,13 @@
 
 use std::ops::Range;
 
-use crate::claim::{Claimed, Understood, Unplaced};
+use gumption_core::model::functions;
+
+use crate::claim::{Claimed, Row, Understood, Unplaced};
 use crate::printed::{Place, Printed};
 use crate::sheet::Grid;
 
-use super::{footer, notes, result_unit, words, wrapped};
+use super::{footer, notes, prose, result_unit, words, wrapped};
 
 /// A line of text beside a table.
 #[derive(Debug, Clone)]
@@ -70,6 +72,22 @@ pub(super) fn place_lines(all: &[&Line], claimed: &mut Claimed) {
         .find_map(|line| notes::mean_of(&line.text, claimed));
     if claimed.unit.is_empty() {
         claimed.unit = result_unit::unit_of_result(claimed);
+    }
+}
+
+/// Takes correlations of these rows from lines beside other tables of the sheet, which several budgets may have in common.
+pub(super) fn place_correlations<'l>(all: impl Iterator<Item = &'l Line>, claimed: &mut Claimed) {
+    for line in all {
+        let found = notes::correlation(&line.text, claimed).filter(|found| !found.is_empty());
+        let Some(found) = found else {
+            continue;
+        };
+        claimed.correlate(found);
+        claimed.understood.push(Understood {
+            at: line.at,
+            text: line.text.clone(),
+            role: "correlation",
+        });
     }
 }
 
@@ -165,7 +183,7 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
     }
     if let Some(row) = about {
         of_row[row].push_str("; ");
-        of_row[row].push_str(&line.text);
+        of_row[row].push_str(from_its_sentence(&line.text, &claimed.rows[row]));
         claimed.understood.push(Understood {
             at: line.at,
             text: line.text.clone(),
@@ -177,6 +195,59 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
             text: line.text.clone(),
         });
     }
+}
+
+/// What a text says from the sentence on that names a row: those in front of it are about something else.
+fn from_its_sentence<'t>(text: &'t str, row: &Row) -> &'t str {
+    let mut sentences = prose::sentences(text);
+    let own = sentences.find(|sentence| named_at(sentence, row).is_some());
+    let start = own.and_then(|own| text.find(own));
+    start.map_or(text, |start| &text[start..])
+}
+
+/// Where a text names a row by its symbol. What a function is of is not what is said of its
+/// argument: `atan2(x2, x1) has a standard uncertainty of 10 rad`.
+fn named_at(text: &str, row: &Row) -> Option<usize> {
+    let mut from = 0;
+    while let Some(at) = words::symbol_at(text, &row.symbol, from) {
+        if !is_argument(&text[..at]) {
+            return Some(at);
+        }
+        from = at + row.symbol.len();
+    }
+    None
+}
+
+/// Where a text in small letters has a name that is not the beginning of a term: `standard` is none in `standard uncertainty`.
+fn called_at(lower: &str, name: &str) -> Option<usize> {
+    const TERMS: [&str; 3] = [
+        "standard uncertainty",
+        "standard deviation",
+        "combined standard",
+    ];
+    let is_term = |at: usize| {
+        let mut terms = TERMS.iter().filter(|term| term.len() > name.len());
+        terms.any(|term| {
+            let mut places = lower
+                .match_indices(term)
+                .map(|(start, _)| start..start + term.len());
+            places.any(|place| place.contains(&at))
+        })
+    };
+    let mut places = lower.match_indices(name).map(|(at, _)| at);
+    places.find(|at| !is_term(*at))
+}
+
+/// Whether the brackets of a function are open behind a text.
+fn is_argument(front: &str) -> bool {
+    let open = front
+        .rfind('(')
+        .filter(|open| !front[*open..].contains(')'));
+    let word = open.map(|open| {
+        let start = front[..open].rfind(|c: char| !c.is_ascii_alphanumeric());
+        &front[start.map_or(0, |start| start + 1)..open]
+    });
+    word.is_some_and(|word| functions().iter().any(|function| function.name == word))
 }
 
 /// The row whose remark refers to the footnote that a line is: `[2] …`, `2) …`, `Note 2: …`, `注2：…`.
@@ -234,19 +305,17 @@ fn row_of_line(text: &str, lower: &str, claimed: &Claimed) -> Option<usize> {
     if let Some(row) = footnote(text, claimed) {
         return Some(row);
     }
-    let symbol = (0..claimed.rows.len())
-        .filter_map(|row| Some((words::symbol_at(text, &claimed.rows[row].symbol, 0)?, row)))
+    let rows = || claimed.rows.iter().enumerate();
+    let symbol = rows()
+        .filter_map(|(i, row)| Some((named_at(text, row)?, i)))
         .min();
     let name = || {
-        (0..claimed.rows.len())
-            .filter_map(|row| {
-                let name = claimed.rows[row].name.to_lowercase();
-                (name.chars().count() >= 3)
-                    .then(|| lower.find(&name))
-                    .flatten()
-                    .map(|at| (at, row))
-            })
-            .min()
+        let named = rows().filter_map(|(i, row)| {
+            let name = row.name.to_lowercase();
+            let at = called_at(lower, &name).filter(|_| name.chars().count() >= 3)?;
+            Some((at, i))
+        });
+        named.min()
     };
     symbol.or_else(name).map(|(_, row)| row)
 }

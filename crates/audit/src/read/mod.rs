@@ -259,7 +259,7 @@ fn told(all: &[Line], rows: Vec<(usize, Row)>, mapping: &Mapping) -> Claimed {
             .unwrap_or_default(),
         ..Claimed::default()
     };
-    find_model(&others, &mut claimed, mapping);
+    find_model(&others, None, &mut claimed, mapping);
     symbols_of_model(&mut raw, &mut claimed);
     place_lines(&others, &mut claimed);
     simulated::set_aside(&mut claimed);
@@ -326,9 +326,13 @@ fn budget(
     }
     find_model(
         &first.iter().chain(common).collect::<Vec<_>>(),
+        table::symbol_of_result(&raw),
         &mut claimed,
         mapping,
     );
+    if claimed.measurand.is_empty() {
+        claimed.measurand = titled_result(grid, found, &raw).unwrap_or_default();
+    }
     drop_measurand(grid, &mut raw, &mut claimed);
     symbols_of_model(&mut raw, &mut claimed);
     let below = located.head + 1..bounds.end;
@@ -348,6 +352,11 @@ fn budget(
     let own = own(&located);
     let all: Vec<&Line> = own.iter().chain(common).collect();
     place_lines(&all, &mut claimed);
+    if claimed.correlations.is_empty() {
+        let above = lines(grid, sheet, 0..bounds.start, elsewhere);
+        let below = lines(grid, sheet, bounds.end..grid.rows.len(), elsewhere);
+        lines::place_correlations(above.iter().chain(&below), &mut claimed);
+    }
     let missing = missing_input(&claimed, &all);
     // Some sheets have their result in front of the table.
     if claimed.footer.u_c.is_none() && claimed.footer.expanded.is_none() {
@@ -369,6 +378,13 @@ fn budget(
     }
     claimed.rows.extend(missing);
     claimed
+}
+
+/// The symbol of the last row, where the line above the head calls the table after it: `Uncertainty budget of R`.
+fn titled_result(grid: &Grid, found: &Found, raw: &[table::Raw]) -> Option<String> {
+    let symbol = table::symbol_of_result(raw)?;
+    let (_, title) = grid.filled(found.first_head().checked_sub(1)?).next()?;
+    has_symbol(&title.text, symbol).then(|| symbol.to_owned())
 }
 
 /// Rows without coefficients as factors of a result.

@@ -9,7 +9,13 @@ use super::lines::Line;
 use super::mapping::Mapping;
 use super::{columns, footer, notes, table, words};
 
-pub(super) fn find_model(all: &[&Line], claimed: &mut Claimed, mapping: &Mapping) {
+/// Finds the model of the result, which the table may call by its symbol.
+pub(super) fn find_model(
+    all: &[&Line],
+    result: Option<&str>,
+    claimed: &mut Claimed,
+    mapping: &Mapping,
+) {
     if let Some(model) = &mapping.model {
         let (left, right) = model.split_once('=').unwrap_or(("y", model));
         claimed.measurand = left.trim().into();
@@ -17,12 +23,13 @@ pub(super) fn find_model(all: &[&Line], claimed: &mut Claimed, mapping: &Mapping
         return;
     }
     let equations = all.iter().filter_map(|line| {
-        let of_part = line.text.split(" ; ").find_map(|part| parts(part, claimed));
+        let parts = |text: &str| parts(text, result, claimed);
+        let of_part = line.text.split(" ; ").find_map(parts);
         of_part
-            .or_else(|| parts(&line.text, claimed))
+            .or_else(|| parts(&line.text))
             .map(|model| (line.at, line.text.clone(), model))
     });
-    let found = of_result(equations.collect(), claimed);
+    let found = of_result(equations.collect(), result, claimed);
     if let Some((at, text, (left, right))) = found {
         claimed.understood.push(Understood {
             at,
@@ -38,8 +45,12 @@ pub(super) fn find_model(all: &[&Line], claimed: &mut Claimed, mapping: &Mapping
 type Equation = (Place, String, (String, String));
 
 /// The equation of the result with those of its intermediate quantities put in: of `M = 8·A_C + 5·A_H` and `c = m/(M·V)` the
-/// second. Where none has the left side of another in it, the first.
-fn of_result(mut equations: Vec<Equation>, claimed: &Claimed) -> Option<Equation> {
+/// second. Where none has the left side of another in it, the first. Of several results it is the one that the table is of.
+fn of_result(
+    mut equations: Vec<Equation>,
+    result: Option<&str>,
+    claimed: &Claimed,
+) -> Option<Equation> {
     let is_row = |name: &str| claimed.rows.iter().any(|row| row.symbol == name);
     let uses = |one: &Equation, other: &Equation| {
         let (name, own) = (&other.2.0, &one.2.0);
@@ -49,7 +60,10 @@ fn of_result(mut equations: Vec<Equation>, claimed: &Claimed) -> Option<Equation
         let mut others = equations.iter();
         equations.iter().any(|other| uses(one, other)) && !others.any(|other| uses(other, one))
     };
-    let Some(last) = equations.iter().position(is_last) else {
+    let named = equations
+        .iter()
+        .position(|one| Some(one.2.0.as_str()) == result);
+    let Some(last) = named.or_else(|| equations.iter().position(is_last)) else {
         return (!equations.is_empty()).then(|| equations.swap_remove(0));
     };
     let (at, text, (left, mut right)) = equations.swap_remove(last);
@@ -79,8 +93,8 @@ fn put_in(formula: &str, name: &str, by: &str) -> String {
     out + &formula[rest..]
 }
 
-/// The model in a line: left side and right side, where the right side names rows.
-fn parts(text: &str, claimed: &Claimed) -> Option<(String, String)> {
+/// The model in a line: left side and right side, where the left side is the result of the table or the right side names rows.
+fn parts(text: &str, result: Option<&str>, claimed: &Claimed) -> Option<(String, String)> {
     let (left, right) = text.split_once('=')?;
     let left = left.rsplit([':', '\u{ff1a}']).next().unwrap_or(left).trim();
     let left = left.rsplit(char::is_whitespace).next().unwrap_or(left);
@@ -107,7 +121,8 @@ fn parts(text: &str, claimed: &Claimed) -> Option<(String, String)> {
         .iter()
         .filter(|row| notes::names_of(row).any(|name| words::has_symbol(right, name)))
         .count();
-    let enough = named >= 2 || named == 1 && claimed.rows.len() <= 2;
+    let is_few = claimed.rows.len() <= 2 || result == Some(left);
+    let enough = named >= 2 || named == 1 && is_few;
     // `… is 0.2 N (k = 2), giving …` is a sentence.
     let is_closed = left.matches('(').count() == left.matches(')').count();
     let short = !left.is_empty() && left.chars().count() <= 24;
@@ -121,11 +136,14 @@ fn parts(text: &str, claimed: &Claimed) -> Option<(String, String)> {
         || is_coefficient(left, claimed)
         || left.starts_with('∂')
         || left.starts_with('ν');
-    (enough
-        && identifier
-        && !about_u
-        && crate::printed::leading(right).is_none_or(|(_, rest)| !rest.trim().is_empty()))
-    .then(|| (left.to_string(), right.to_string()))
+    (enough && identifier && !about_u && !is_amount(right))
+        .then(|| (left.to_string(), right.to_string()))
+}
+
+/// Whether a right side is a number, or one with its unit: `s_r = 0.2 V` is no model of a voltage V.
+fn is_amount(right: &str) -> bool {
+    let behind = crate::printed::leading(right).map(|(_, rest)| rest.trim());
+    behind.is_some_and(|rest| rest.is_empty() || columns::is_unit(rest))
 }
 
 /// A formula without the equations that follow it behind commas: `V_x - V_s, k = 2`.
@@ -258,10 +276,10 @@ mod tests {
             rows: vec![row("m_S"), row("dm")],
             ..Claimed::default()
         };
-        let right = |text: &str| parts(text, &claimed).map(|(_, right)| right);
+        let right = |text: &str| parts(text, None, &claimed).map(|(_, right)| right);
         let sum = Some("m_S + dm".to_owned());
         assert_eq!(
-            parts("Model: m = m_S + dm", &claimed),
+            parts("Model: m = m_S + dm", None, &claimed),
             Some(("m".into(), "m_S + dm".into()))
         );
         assert_eq!(right("测量模型：m = m_S + dm"), sum);

@@ -40,10 +40,8 @@ pub fn note(text: &str, at: Place, claimed: &mut Claimed) -> Option<&'static str
             return Some("CMC");
         }
     }
-    if (has(&lower, &["correlat", "相关"]) || lower.starts_with("r(") || lower.contains(" r("))
-        && let Some(correlation) = correlation(text, &lower, claimed)
-    {
-        claimed.correlations.extend(correlation);
+    if let Some(correlation) = correlation(text, claimed) {
+        claimed.correlate(correlation);
         return Some("correlation");
     }
     let role = rule(&lower, claimed).then_some("rule for k");
@@ -306,7 +304,13 @@ fn index_of_t(lower: &str) -> Option<f64> {
 }
 
 /// Correlations of a line; none in it where it says that there is none.
-fn correlation(text: &str, lower: &str, claimed: &Claimed) -> Option<Vec<Correlation>> {
+pub fn correlation(text: &str, claimed: &Claimed) -> Option<Vec<Correlation>> {
+    let lower = text.to_lowercase();
+    let is_of_it =
+        has(&lower, &["correlat", "相关"]) || lower.starts_with("r(") || lower.contains(" r(");
+    if !is_of_it {
+        return None;
+    }
     let none = [
         "uncorrelated",
         "not correlated",
@@ -337,7 +341,7 @@ fn correlation(text: &str, lower: &str, claimed: &Claimed) -> Option<Vec<Correla
     }
     // What is parted by commas may belong together: `a, b: r = 0.5`.
     let whole = said.join(",");
-    self::pairs(&whole, claimed).or_else(|| has(lower, &none).then(Vec::new))
+    self::pairs(&whole, claimed).or_else(|| has(&lower, &none).then(Vec::new))
 }
 
 /// The pairs of rows that a clause names, with its coefficient.

@@ -377,6 +377,10 @@ pub fn sole_figure(text: &str) -> Option<Printed> {
         if level || crate::units::parse(&unit).is_none() {
             continue;
         }
+        // `u itself is uncertain by about 24 %` (JCGM 100, E.4.3)
+        if has(&lower[..start], &["uncertain by", "不确定度本身", "u 本身"]) {
+            continue;
+        }
         let front = lower[..start].trim_end().strip_suffix('+');
         if found.is_some() || front.is_some_and(ends_term) {
             return None;
@@ -638,7 +642,7 @@ fn is_article(behind: &str) -> bool {
         .chars()
         .take_while(char::is_ascii_alphabetic)
         .collect();
-    word.len() >= 2 && !matches!(word.as_str(), "and" | "is" | "are" | "was")
+    !word.is_empty() && !matches!(word.as_str(), "and" | "is" | "are" | "was")
 }
 
 #[cfg(test)]

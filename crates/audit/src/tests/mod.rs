@@ -8,6 +8,7 @@ mod hands;
 mod layouts;
 mod others;
 mod points;
+mod several;
 mod statements;
 mod strangers;
 

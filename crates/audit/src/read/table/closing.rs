@@ -32,6 +32,15 @@ pub fn closing(rows: &[Raw]) -> Option<usize> {
     closes.then_some(others.len())
 }
 
+/// The symbol of the last row, where it may be that of the result: it has nothing of what most others have.
+pub fn symbol_of_result(rows: &[Raw]) -> Option<&str> {
+    let (last, others) = rows.split_last()?;
+    let inputs = others.iter().filter(|raw| raw.is_input()).count();
+    let is_open = 2 * inputs > others.len() && !last.is_input();
+    let symbol = last.row.symbol.as_str();
+    (is_open && !symbol.is_empty()).then_some(symbol)
+}
+
 /// Whether u or the contribution of a row is the contribution of the only other one, which has a coefficient.
 fn repeats(row: &Row, others: &[Raw]) -> bool {
     let [only] = others else {

@@ -164,6 +164,10 @@ impl Reading<'_> {
     }
 
     fn words(&mut self, place: Place, text: &str) {
+        // A kelvin in the column of units is no coverage factor.
+        if self.around.role(place.column) == Some(Role::Unit) && columns::is_unit(text) {
+            return;
+        }
         if let Some(figure) = footer::with_factor(text) {
             self.take(Whole::Expanded, figure.at(place), text);
         }

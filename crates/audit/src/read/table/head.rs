@@ -55,6 +55,8 @@ pub(super) fn is_matrix(grid: &Grid, head: usize) -> bool {
         .map(|(_, cell)| cell.text.as_str())
         .collect();
     let rows = (head + 1..grid.rows.len()).filter_map(|row| grid.filled(row).next());
+    // A rule below the head is no row.
+    let rows = rows.filter(|(_, cell)| cell.text.contains(char::is_alphanumeric));
     let names = |count: usize| rows.clone().map(|(_, cell)| cell.text.as_str()).take(count);
     // In front of the columns may stand what the figures are.
     [0, 1].into_iter().any(|front| {

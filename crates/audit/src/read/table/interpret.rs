@@ -157,7 +157,8 @@ fn add_absent(claimed: &mut Claimed) {
     }
 }
 
-fn not_counted(words: &str) -> Option<String> {
+/// What words say, if they say that a row is not to be counted.
+pub(super) fn not_counted(words: &str) -> Option<String> {
     let lower = words.to_lowercase();
     let of_clause = |lower: &str| {
         let said = has(

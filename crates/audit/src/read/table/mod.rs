@@ -34,7 +34,7 @@ mod raw;
 mod relative;
 mod rows;
 
-pub use closing::{closing, figures_of_result};
+pub use closing::{closing, figures_of_result, symbol_of_result};
 pub use footers::{footers, of_columns};
 pub use interpret::interpret;
 pub use locate::locate;

@@ -1,10 +1,13 @@
 //! The rows of a table with their figures.
 
+use std::ops::Range;
+
 use crate::claim::Row;
 use crate::printed::Printed;
 use crate::sheet::Grid;
 use crate::units;
 
+use super::interpret::not_counted;
 use super::line::Line;
 use super::located::Located;
 use super::raw::Raw;
@@ -12,14 +15,21 @@ use super::raw::Raw;
 /// The rows of a table with their figures.
 pub fn rows(grid: &Grid, sheet: usize, located: &Located) -> Vec<Raw> {
     let mut above = String::new();
+    let mut last = located.head;
+    let mut contained = None;
     let mut rows: Vec<Raw> = located
         .rows
         .iter()
         .map(|&row| {
-            let raw = Line::new(grid, sheet, row, located).raw(&above);
+            let mut raw = Line::new(grid, sheet, row, located).raw(&above);
             if !raw.row.name.is_empty() {
                 above.clone_from(&raw.row.name);
             }
+            if let Some(heading) = heading(grid, last + 1..row) {
+                contained = not_counted(heading);
+            }
+            raw.row.not_counted.clone_from(&contained);
+            last = row;
             raw
         })
         .collect();
@@ -56,6 +66,13 @@ pub fn rows(grid: &Grid, sheet: usize, located: &Located) -> Vec<Raw> {
     }
     parts_are_not_counted(&mut rows);
     rows
+}
+
+/// The last line between two rows of a table, which is about those below it: `Shared sources (already contained above)`, or a rule.
+fn heading(grid: &Grid, between: Range<usize>) -> Option<&str> {
+    let lines = between.rev().filter_map(|row| grid.filled(row).next());
+    let mut texts = lines.map(|(_, cell)| cell.text.as_str());
+    texts.next()
 }
 
 /// Rows 1.1 and 1.2, or u_11 and u_12, below a row 1 that is the root of the sum of their squares, or the larger of them,

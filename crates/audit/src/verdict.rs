@@ -2,7 +2,8 @@
 
 use crate::calculate::Figures;
 use crate::claim::Claimed;
-use crate::search::{Found, Gap, search};
+use crate::search::{Explanation, Found, Gap, search};
+use crate::slips::Act;
 
 /// Verdict on a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -39,8 +40,12 @@ impl Audit<'_> {
 
 /// Audits a claim.
 pub fn audit(claimed: &Claimed) -> Audit<'_> {
-    let found = search(claimed);
+    let mut found = search(claimed);
     let missing = missing(&found);
+    if !missing.is_empty() {
+        // What sums of several quantities come to explains nothing.
+        found.explanations.clear();
+    }
     let footer = &claimed.footer;
     let nothing = claimed.rows.is_empty() || found.right.u_c <= 0.0;
     let unclaimed = footer.u_c.is_none() && footer.expanded.is_none();
@@ -63,12 +68,18 @@ pub fn audit(claimed: &Claimed) -> Audit<'_> {
     }
 }
 
-/// Rows from which nothing leads to the result, where that leaves the claim open: nothing explains it, and no figure of a row
-/// departs.
+/// Rows from which nothing leads to the result, where that leaves the claim open: no figure of a row departs, and nothing
+/// explains the claim but slips elsewhere.
 fn missing(found: &Found<'_>) -> Vec<usize> {
     let is_of_row = |gap: &Gap| matches!(gap, Gap::Row(..));
-    match found.explanations.is_empty() && !found.gaps.iter().any(is_of_row) {
-        true => found.case.without_way(),
-        false => Vec::new(),
+    if found.gaps.iter().any(is_of_row) {
+        return Vec::new();
+    }
+    let rows = found.case.without_way();
+    let is_about_them = |act: &Act| act.row.is_some_and(|row| rows.contains(&row));
+    let explains = |best: &Explanation| best.acts.is_empty() || best.acts.iter().any(is_about_them);
+    match found.explanations.first().is_some_and(explains) {
+        true => Vec::new(),
+        false => rows,
     }
 }

@@ -134,9 +134,11 @@ fn is_of_whole(grid: &Grid, row: usize) -> bool {
 
 /// What the figures of both types are: what was divided, where a divisor or what it gave stands in a column of its own.
 fn head_of_both(grid: &Grid, head: usize, unit: &str) -> String {
-    let mut roles = grid
+    let holds_figures = |column: usize| grid.cell(head + 1, column).figure().is_some();
+    let figures = grid
         .filled(head)
-        .filter_map(|(_, cell)| Some(columns::role(&cell.text)?.0));
+        .filter(|(column, _)| holds_figures(*column));
+    let mut roles = figures.filter_map(|(_, cell)| Some(columns::role(&cell.text)?.0));
     let divided = roles.any(|role| matches!(role, Role::Divisor | Role::U | Role::Contribution));
     let name = if divided { "Value ±" } else { "u(x_i)" };
     match unit {

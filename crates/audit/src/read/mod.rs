@@ -20,6 +20,7 @@
 //! | `mapping` | what a user says of a sheet |
 //! | `points` | sheets with a budget for each calibration point |
 //! | `prose` | budgets without a table |
+//! | `series` | readings beside a table |
 //! | `simulated` | statements of Monte Carlo |
 //! | `turned` | tables whose rows and columns are exchanged |
 //! | `words` | words and figures in texts |
@@ -42,6 +43,7 @@ mod notes;
 mod points;
 mod prose;
 mod result_unit;
+mod series;
 mod simulated;
 mod table;
 mod turned;
@@ -52,6 +54,7 @@ pub use columns::Role;
 pub(crate) use footer::Whole;
 pub use mapping::Mapping;
 pub(crate) use points::are_several;
+pub(crate) use series::{listed, series};
 pub(crate) use simulated::MONTE_CARLO;
 pub(crate) use words::{
     count_before, figure_after, figures_with_units, has, has_symbol, symbol_at,
@@ -247,16 +250,15 @@ fn told(all: &[Line], rows: Vec<(usize, Row)>, mapping: &Mapping) -> Claimed {
         .filter(|i| rows.iter().all(|(row, _)| row != i))
         .map(|i| &all[i])
         .collect();
+    let first = rows.first().map_or(0, |(row, _)| *row);
+    let title = all[..first].first().map(|line| line.text.clone());
     let mut raw: Vec<table::Raw> = rows
         .into_iter()
         .map(|(_, row)| table::Raw::told(row))
         .collect();
     let mut claimed = Claimed {
         rows: raw.iter().map(|raw| raw.row.clone()).collect(),
-        title: others
-            .first()
-            .map(|line| line.text.clone())
-            .unwrap_or_default(),
+        title: title.unwrap_or_default(),
         ..Claimed::default()
     };
     find_model(&others, None, &mut claimed, mapping);

@@ -69,6 +69,7 @@ pub fn row(text: &str, at: Place) -> Option<Row> {
     };
     let (stated, _) = kind::stated(&Evidence {
         words: &words,
+        u: u.as_ref(),
         ..Evidence::default()
     });
     let c = coefficient(&words).map(|c| c.at(at));

@@ -4,7 +4,7 @@ use gumption_core::special::{chi_squared_upper_quantile, f_quantile};
 
 use crate::claim::Stated;
 use crate::printed::{Printed, leading};
-use crate::read::{MONTE_CARLO, count_before, figure_after};
+use crate::read::{MONTE_CARLO, count_before, figure_after, listed, series};
 use crate::units;
 
 use super::{Hit, Seen, shown};
@@ -19,36 +19,6 @@ fn texts<'s>(seen: &'s Seen<'_>) -> impl Iterator<Item = (Option<usize>, &'s str
 fn has(text: &str, keys: &[&str]) -> bool {
     let lower = text.to_lowercase();
     keys.iter().any(|key| lower.contains(key))
-}
-
-/// Numbers behind one another in a text, with nothing but marks, `and` and one unit between them; the longest such run.
-fn listed(text: &str) -> Vec<f64> {
-    let mut longest: Vec<f64> = Vec::new();
-    let mut run: Vec<f64> = Vec::new();
-    let mut rest = text;
-    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
-        let signed = rest[..start].ends_with('-');
-        let start = start - usize::from(signed);
-        let between =
-            rest[..start].trim_matches(|c: char| c.is_whitespace() || ",;、[(".contains(c));
-        let joins = between.is_empty()
-            || matches!(between, "and" | "和" | "及")
-            || units::parse(between.trim_end_matches([',', ';', '、', ' '])).is_some();
-        let Some((figure, behind)) = leading(&rest[start..]) else {
-            break;
-        };
-        if !joins {
-            run.clear();
-        }
-        run.push(figure.value);
-        if run.len() > longest.len() {
-            longest.clone_from(&run);
-        }
-        // A number has at least its first digit.
-        let used = rest.len() - behind.len();
-        rest = &rest[used.max(start + 1)..];
-    }
-    longest
 }
 
 /// Variances that were pooled, of which the largest is an outlier of Cochran's test at 1 % (ISO 5725-2, 7.3.3).
@@ -79,33 +49,6 @@ pub(super) fn unequal_variances(seen: &Seen<'_>) -> Vec<Hit> {
     rows.filter_map(hit).collect()
 }
 
-/// Readings that a line lists, or that stand in lines below one another.
-fn series(seen: &Seen<'_>) -> Vec<Vec<f64>> {
-    const READINGS: [&str; 6] = [
-        "reading",
-        "raw data",
-        "observations",
-        "读数",
-        "测得值",
-        "测量值",
-    ];
-    let told = texts(seen).filter(|(_, text)| has(text, &READINGS));
-    let mut all: Vec<Vec<f64>> = told.map(|(_, text)| listed(text)).collect();
-    let (mut below, mut open) = (Vec::new(), false);
-    for line in seen.claimed.words.lines() {
-        let last = line.rsplit(" ; ").next().and_then(Printed::parse);
-        match last.filter(|_| open && line.starts_with(|c: char| c.is_ascii_digit() || c == '-')) {
-            Some(figure) => below.push(figure.value),
-            None => {
-                all.push(std::mem::take(&mut below));
-                open = has(line, &READINGS);
-            }
-        }
-    }
-    all.push(below);
-    all
-}
-
 /// Readings of which each is like the one before: the correlation at lag 1 is beyond two of its standard deviations.
 pub(super) fn autocorrelation(seen: &Seen<'_>) -> Vec<Hit> {
     /// Of fewer the correlation at lag 1 cannot be so large, or only by a step from one level to another.
@@ -120,7 +63,8 @@ pub(super) fn autocorrelation(seen: &Seen<'_>) -> Vec<Hit> {
         let is_like = readings.len() >= FEWEST && square > 0.0 && r > bound;
         is_like.then(|| Hit::of(None, format!("r₁ = {r:.2} > 2/√{n} = {bound:.2}")))
     };
-    let all = series(seen).into_iter();
+    let told = texts(seen).map(|(_, text)| text);
+    let all = series(told, &seen.claimed.words).into_iter();
     all.filter_map(of).take(1).collect()
 }
 
@@ -368,12 +312,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lists_intervals_and_dates_are_read() {
-        assert_eq!(
-            listed("5 series: 0.10, 0.12 and 0.45 mV"),
-            [0.10, 0.12, 0.45]
-        );
-        assert_eq!(listed("s of 10 readings, mean of 4"), [10.0]);
+    fn intervals_and_dates_are_read() {
         let ends = |text: &str| interval(text).map(|(a, b)| (a.value, b.value, b.unit));
         assert_eq!(
             ends("[99.98, 100.02]"),

@@ -79,6 +79,10 @@ fn types_may_have_columns_of_their_own() {
     let sheet = "Source,Type A / mV,Type B / mV,Divisor,u / mV\nReadings,0.12,,1,0.12\nCalibrator (U; k = 2),,0.50,2,0.25\n\
                  Display ±0.3 mV,,0.30,2,0.15\nCombined,,,,0.315\nExpanded (k = 2),,,,0.63\n";
     assert_eq!(first("sheet.csv", sheet), "half-width-by-2@Display ±0.3 mV");
+    // 0.040 + 0.030 + 0.025 + 0.029 = 0.124
+    let added = "| Contribution | Type A (N·m) | Type B (N·m) |\n|---|---|---|\n| Repeatability | 0.040 | |\n| Reproducibility | 0.030 | |\n\
+                 | Standard | | 0.025 |\n| Resolution | | 0.029 |\n\nu_c = 0.124 N·m\nU = 0.25 N·m, k = 2\n";
+    assert_eq!(first("sheet.md", added), "linear-sum");
 }
 
 #[test]
@@ -159,5 +163,77 @@ fn rows_of_several_quantities_need_coefficients() {
     assert_eq!(
         rows.map(|one| one.row).collect::<Vec<_>>(),
         [Some(0), Some(1), Some(2)]
+    );
+}
+
+/// s of five readings stands above the table, and their mean is the result: u of the row is s/√5.
+#[test]
+fn readings_above_the_table_are_held_against_its_row() {
+    let sheet = |said: &str, u: &str, u_c: &str| {
+        format!(
+            "Calibration of a caliper at 100 mm\n{said}\n\nSource              Type   Distribution   u (mm)\n\
+             Repeatability       A      normal         {u}\nGauge block         B      normal         0.0010\n\
+             Resolution 0.01 mm  B      rectangular    0.0029\n\nCombined standard uncertainty: u_c = {u_c} mm\n"
+        )
+    };
+    for said in [
+        "Readings (mm): 100.02, 100.05, 100.01, 100.04, 100.03\nMean 100.030 mm",
+        "Mean value 100.030 mm, standard deviation s = 0.0158 mm, n = 5",
+        "Mean                 100.030 mm\nStandard deviation   0.0158 mm\nn                    5",
+        "平均值 100.030 mm，标准偏差 s = 0.0158 mm，n = 5",
+    ] {
+        is_sound("sheet.txt", &sheet(said, "0.0071", "0.0077"));
+        assert_eq!(
+            first("sheet.txt", &sheet(said, "0.0158", "0.0161")),
+            "s-not-mean@Repeatability",
+            "{said}"
+        );
+        assert_eq!(
+            first("sheet.txt", &sheet(said, "0.0032", "0.0044")),
+            "s-over-n@Repeatability",
+            "{said}"
+        );
+    }
+    // Nothing is said of a mean: a single reading may be what is reported.
+    is_sound(
+        "sheet.txt",
+        &sheet(
+            "Standard deviation s = 0.0158 mm, n = 5",
+            "0.0158",
+            "0.0161",
+        ),
+    );
+}
+
+/// The statement below the rows is no title, and a row may end in its u alone.
+#[test]
+fn stories_end_in_their_statement() {
+    let story = |expanded: &str| {
+        format!(
+            "The reference flask has U = 0.08 mL (k = 2).\nThe temperature is within ±0.05 mL.\n\
+             The standard deviation of the mean of six fillings is 0.02 mL.\n\
+             The combined standard uncertainty is u_c = 0.053 mL, and the expanded uncertainty U = {expanded} mL (k = 2).\n"
+        )
+    };
+    is_sound("sheet.txt", &story("0.11"));
+    assert_eq!(first("sheet.txt", &story("0.16")), "k-other");
+    is_sound(
+        "sheet.txt",
+        "频率计校准结果的不确定度评定\n1. 标准器引入的不确定度：证书给出 U = 0.02 Hz，k = 2，则 u1 = 0.02/2 = 0.010 Hz\n\
+         2. 分辨力引入的不确定度：分辨力 0.01 Hz，均匀分布，u2 = 0.005/√3 = 0.0029 Hz\n\
+         3. 重复性引入的不确定度：10 次测量的平均值标准差 u3 = 0.004 Hz\n合成标准不确定度 uc = √(u1²+u2²+u3²) = 0.0112 Hz\n\
+         扩展不确定度 U = k·uc = 2×0.0112 = 0.022 Hz (k=2)\n",
+    );
+}
+
+/// Sums of several quantities explain nothing, whatever figures they meet: 0.0004² + 0.0021² + 0.02² = 4.05·10⁻⁴.
+#[test]
+fn sums_of_several_quantities_explain_nothing() {
+    let sheet = "Uncertainty budget for the density of a liquid\nQuantity,Value,Unit,Standard uncertainty\nMass of liquid,24.9512,g,0.0004\n\
+                 Volume of pyknometer,25.0123,mL,0.0021\nTemperature,20.02,°C,0.02\nDensity,0.99756,g/mL,0.000088\n\
+                 Expanded uncertainty (k=2),,g/mL,0.00018\n";
+    assert_eq!(
+        answer("sheet.csv", sheet),
+        (Verdict::NotRecomputed, Vec::new())
     );
 }

@@ -3,6 +3,7 @@
 use crate::claim::{Claimed, Relative, Row, Stated};
 use crate::printed::Printed;
 use crate::read::kind::{self, Evidence};
+use crate::read::series;
 use crate::read::words::{self, has};
 use crate::units;
 
@@ -33,6 +34,8 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
         (row.stated, row.relative) = kind::stated(&evidence);
         row.not_counted = row.not_counted.take().or_else(|| not_counted(&row.words));
     }
+    let columns = raw.iter().map(|raw| raw.columns_text.as_str());
+    series::settle(columns.zip(&mut claimed.rows), &claimed.words);
     for row in &mut claimed.rows {
         if let Some(amount) = named_whole(&row.words) {
             row.take_part_of(&amount);

@@ -4,6 +4,7 @@ use gumption_core::quantity::Unit;
 
 use crate::claim::{Claimed, Coverage, Row, Stated};
 use crate::printed::Printed;
+use crate::read::probability_of_factor;
 use crate::units;
 
 use super::calculation::{Calculation, Combined, Factor, Freedom, Line, Report};
@@ -174,6 +175,7 @@ pub fn factors(claimed: &Claimed) -> Vec<Factor> {
             if let Some(k) = usual {
                 rules.insert(0, Factor::Fixed(k));
             }
+            rules.extend(probability_of_factor(&claimed.words).map(Factor::StudentT));
             rules
         }
     }

@@ -156,8 +156,8 @@ const WORDS: &[(Role, How, &[&str])] = &[
     (Role::Readings, How::Is, &["n", "readings", "次数"]),
     (Role::Type, How::Has, &["评定方法", "评定类别", "evaluation", "a/b", "类别", "typea", "评定类型", "typeof", "a类/b类"]),
     (Role::Type, How::Is, &["type", "类型", "评定", "method", "eval.", "a,b"]),
-    (Role::Remark, How::Has, &["bemerkung", "remarque", "remark", "note", "comment", "备注", "说明", "information", "依据", "howknown", "basis", "evidence", "whatisknown", "已知", "信息", "statement", "注", "details", "data", "justification", "reference", "specification", "技术指标"]),
-    (Role::Used, How::Has, &["±", "variationsbreite", "variabilitätsintervall", "spannweite", "halbbreite", "halbweite", "demi-étendue", "demi-largeur", "demi-intervalle", "half-width", "halfwidth", "半宽", "limit", "误差限", "expanded", "扩展不确定度", "a(half", "tolerance", "允差", "interval", "区间", "uncertaintyvalue", "不确定度值", "valueofuncertainty", "spread", "stated", "极限", "given", "最大允许", "+/-"]),
+    (Role::Remark, How::Has, &["bemerkung", "angabe", "hinweis", "remarque", "remark", "note", "comment", "备注", "说明", "information", "依据", "howknown", "basis", "evidence", "whatisknown", "已知", "信息", "statement", "注", "details", "data", "justification", "reference", "specification", "技术指标"]),
+    (Role::Used, How::Has, &["±", "estimateofuncertainty", "uncertaintyestimate", "variationsbreite", "variabilitätsintervall", "spannweite", "halbbreite", "halbweite", "demi-étendue", "demi-largeur", "demi-intervalle", "half-width", "halfwidth", "半宽", "limit", "误差限", "expanded", "扩展不确定度", "a(half", "tolerance", "允差", "interval", "区间", "uncertaintyvalue", "不确定度值", "valueofuncertainty", "spread", "stated", "极限", "given", "最大允许", "+/-"]),
     (Role::Used, How::Is, &["uncertainty", "unsicherheit", "incertitude", "a", "ai", "不确定度", "unc.", "unc", "accuracy", "error", "δ", "figure", "known", "数值", "magnitude", "a/u/s", "a,u,s", "size", "amount", "a或u", "u或a", "a/u", "u/a", "a,u", "半宽a或u", "aoru", "uora", "limit/u", "极限值/u"]),
     (Role::Unit, How::Is, &["unit", "units", "einheit", "unité", "单位", "[unit]", "计量单位"]),
     (Role::Unit, How::Begins, &["unitof"]),
@@ -285,7 +285,7 @@ pub fn apart(head: &str) -> (String, String) {
     }
     for mark in [", ", " in ", " / ", "/"] {
         if let Some((name, unit)) = head.split_once(mark)
-            && (name.chars().count() > 1 || mark == " in ")
+            && (name.chars().count() > 1 || mark == " in " || matches!(name, "u" | "U"))
             && is_unit(unit.trim_matches(['(', ')', ' ', '/']))
         {
             return (

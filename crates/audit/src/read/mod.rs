@@ -53,6 +53,7 @@ mod wrapped;
 pub use columns::Role;
 pub(crate) use footer::Whole;
 pub use mapping::Mapping;
+pub(crate) use notes::probability_of_factor;
 pub(crate) use points::are_several;
 pub(crate) use series::{listed, series};
 pub(crate) use simulated::MONTE_CARLO;
@@ -213,10 +214,11 @@ fn prose(all: &[Line], mapping: &Mapping) -> Option<Claimed> {
         .enumerate()
         .filter_map(|(i, line)| Some((i, prose::row(&line.text, line.at)?)))
         .collect();
-    // What stands in front of a list of symbols is its title, and notes.
+    // What stands in front of a list of symbols, and comes to no u, is its title, and notes.
     let has_symbol = |(_, row): &(usize, Row)| !row.symbol.is_empty();
+    let is_item = |row: &(usize, Row)| has_symbol(row) || row.1.u.is_some();
     if rows.iter().filter(|row| has_symbol(row)).count() >= 2 {
-        let first = rows.iter().position(has_symbol).unwrap_or(0);
+        let first = rows.iter().position(is_item).unwrap_or(0);
         rows.drain(..first);
     }
     if rows.len() < 2 {

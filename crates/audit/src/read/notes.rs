@@ -281,6 +281,12 @@ fn bracket_behind<'t>(lower: &'t str, key: &str) -> Option<&'t str> {
     })
 }
 
+/// The coverage probability that a sheet states behind its k: `k = 2.92 (99 %)`.
+pub(crate) fn probability_of_factor(words: &str) -> Option<f64> {
+    let mut lines = words.lines().map(str::to_lowercase);
+    lines.find_map(|line| named_probability(bracket_behind(&line, "k")?))
+}
+
 /// The coverage probability of a line: 0.9545 for `95.45 %`, for `t_95.45(ν_eff)` and for `p = 0.9545`.
 fn probability(lower: &str) -> Option<f64> {
     index_of_t(lower).or_else(|| named_probability(lower))

@@ -6,6 +6,7 @@
 //! | `functions` | the functions of spreadsheets that budgets are computed with |
 //! | `hidden` | which rows and columns of a workbook in Open XML are hidden |
 //! | `open_document` | the same of a sheet in OpenDocument, and what its numbers show |
+//! | `ruled` | tables of a page whose head has a rule below it |
 //! | `shown` | numbers by what their cells show |
 //! | `stale` | formulas that give another figure than their cells hold |
 //! | `uncached` | formulas of which the file keeps no value |
@@ -14,6 +15,7 @@
 mod functions;
 mod hidden;
 mod open_document;
+mod ruled;
 mod shown;
 mod stale;
 mod text;

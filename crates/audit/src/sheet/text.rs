@@ -6,6 +6,7 @@ use std::ops::Range;
 use gumption_fault::say;
 use gumption_format::csv::western;
 
+use super::ruled::{has_rules, widened};
 use super::{Cell, Grid, Unreadable};
 
 /// UTF-8, UTF-16 with its mark, GBK, or the code page of Western Europe.
@@ -25,6 +26,9 @@ pub(crate) fn decoded(bytes: &[u8]) -> Result<String, Unreadable> {
 pub(super) fn guessed(text: &str) -> Grid {
     if text.lines().filter(|line| is_markdown(line)).count() >= 2 {
         return markdown(text);
+    }
+    if has_rules(text) && !text.contains(['|', '\t']) {
+        return aligned(&widened(text));
     }
     // Strokes between the cells, without any at the edges.
     if text
@@ -49,7 +53,7 @@ pub(super) fn guessed(text: &str) -> Grid {
     let separators = ['\t', ';', '|', ','];
     let mut best = (widths(&|line| aligned_fields(line).len()), None);
     for separator in separators.into_iter().rev() {
-        if separator == ',' && is_punctuation(text) {
+        if separator == ',' && !has_quoted_fields(text) && is_punctuation(text) {
             continue;
         }
         let count = widths(&|line| fields(line, separator).len());
@@ -104,11 +108,30 @@ fn full_width(text: &str, best: usize) -> Option<Grid> {
     of('；').or_else(|| of('，'))
 }
 
+/// Whether several lines have a field in quotes with a comma in it: nothing but separated values has.
+fn has_quoted_fields(text: &str) -> bool {
+    let is_quoted = |line: &&str| {
+        let mut quoted = line.split('"').skip(1).step_by(2);
+        line.contains(",\"") && quoted.any(|field| field.contains(','))
+    };
+    text.lines().filter(is_quoted).count() >= 2
+}
+
+/// The lines that have as many commas as most lines with three fields or more: a title and a statement have commas of their own.
+fn usual_lines(text: &str) -> impl Iterator<Item = &str> {
+    let count = |line: &str| fields(line, ',').len();
+    let mut counts: Vec<usize> = text.lines().map(count).filter(|n| *n >= 3).collect();
+    counts.sort_unstable();
+    let usual = counts.chunk_by(|a, b| a == b).max_by_key(|same| same.len());
+    let usual = usual.map_or(0, |same| same[0]);
+    text.lines().filter(move |line| count(line) == usual)
+}
+
 /// Whether commas are those of sentences and numbers, and part no fields: some have a blank behind them and some have
 /// none, or all stand between digits.
 fn is_punctuation(text: &str) -> bool {
     let (mut all, mut blank, mut inside) = (0_usize, 0_usize, 0_usize);
-    for line in text.lines() {
+    for line in usual_lines(text) {
         let mut quoted = false;
         let mut before = ' ';
         let mut chars = line.chars().peekable();
@@ -297,7 +320,7 @@ fn spans(line: &str) -> Vec<Span> {
 }
 
 /// Letters of Chinese, Japanese and Korean take two columns.
-fn is_wide(c: char) -> bool {
+pub(super) fn is_wide(c: char) -> bool {
     matches!(c, '\u{1100}'..='\u{115f}' | '\u{2e80}'..='\u{a4cf}' | '\u{ac00}'..='\u{d7a3}' | '\u{f900}'..='\u{faff}' | '\u{fe30}'..='\u{fe6f}' | '\u{ff00}'..='\u{ff60}')
 }
 

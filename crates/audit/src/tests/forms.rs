@@ -237,3 +237,75 @@ fn sums_of_several_quantities_explain_nothing() {
         (Verdict::NotRecomputed, Vec::new())
     );
 }
+
+/// Figures below `Details` that no divisor gives u of are remarks; the ± column is called an estimate of uncertainty.
+#[test]
+fn details_with_figures_are_no_limits() {
+    is_sound(
+        "sheet.csv",
+        "Contribution,Details,Estimate of uncertainty,Units,Distribution,Divisor,Std unc\nReference resistor,Cert no. 2024-118,0.8,mΩ,Normal,2,0.40\n\
+         Bridge ratio,0.2 ppm spec,0.35,mΩ,Rectangular,1.732,0.202\nOil bath,0.01,0.12,mΩ,Rectangular,1.732,0.069\n\
+         Scatter,12 readings,0.15,mΩ,Normal,1,0.15\nCombined standard uncertainty,,,,,,0.478\nExpanded uncertainty k=2,,,,,,0.96\n",
+    );
+}
+
+/// Heads and labels in short, and words of a column whose head says nothing.
+#[test]
+fn short_heads_and_labels_are_known() {
+    let chinese = |u: &str, whole: [&str; 2]| {
+        format!(
+            "来源,信息,除数,u/mm\n分辨力,分度值 0.02 mm,1.732,{u}\n量块,\"证书 U=0.001 mm, k=2\",2,0.0005\n重复性,\"s=0.008 mm\",1,0.008\n\
+             合成标准不确定度,,,{}\n扩展不确定度 k=2,,,{}\n",
+            whole[0], whole[1]
+        )
+    };
+    is_sound("sheet.csv", &chinese("0.0058", ["0.0099", "0.020"]));
+    assert_eq!(
+        first("sheet.csv", &chinese("0.0115", ["0.0140", "0.028"])),
+        "full-width@分辨力"
+    );
+    let german = "Einflussgröße;Angabe;Teiler;u / mm\nReferenz;Kalibrierschein U = 0,010 mm, k = 2;1;0,010\nAuflösung;±0,005 mm;1,732;0,0029\n\
+                  Wiederholbarkeit;s = 0,004 mm;1;0,004\nKombinierte Standardunsicherheit;;;0,0112\nErweiterte Unsicherheit (k=2);;;0,022\n";
+    assert_eq!(first("sheet.csv", german), "cert-undivided@Referenz");
+    let list = "Beitrag,Standardunsicherheit (mm)\nMassstab,0.006\nTemperatur,0.004\nAblesung,0.005\nkombiniert,0.0088\nerweitert U,0.0088\nk,2\n";
+    assert_eq!(first("sheet.csv", list), "k-forgotten");
+}
+
+/// JCGM 100, H.1: k of 99 % for 16 degrees of freedom, said in a bracket.
+#[test]
+fn the_level_may_stand_behind_k() {
+    let sheet = |statement: &str| {
+        format!(
+            "End gauge\n\nSource                          u          c          |c|u (nm)   ν\nCalibration of the standard     25 nm      1          25          18\n\
+             Measured difference             9.7 nm     1          9.7         25.6\nDifference of temperatures      0.029 K    575 nm/K   16.7        2\n\
+             u_c                                                   31.6\n{statement}\n"
+        )
+    };
+    is_sound(
+        "sheet.txt",
+        &sheet("ν_eff = 16, U99 = 92 nm, k = 2.92 (99 %)"),
+    );
+    assert_eq!(
+        first(
+            "sheet.txt",
+            &sheet("ν_eff = 16, U95 = 92 nm, k = 2.92 (95 %)")
+        ),
+        "k-level"
+    );
+}
+
+/// Items of a list that end in u are rows, with or without a symbol; commas of a title part no fields.
+#[test]
+fn titles_and_items_are_told_apart() {
+    is_sound(
+        "sheet.md",
+        "Uncertainty of an RTD at 0 °C\n\n* Ice point realisation: ±0.005 °C, rectangular → 0.0029 °C\n* Bridge: U = 0.004 °C (k = 2) → 0.0020 °C\n\
+         * Self-heating: limits ±0.003 °C → 0.0017 °C\n* Repeatability: s of mean 0.0015 °C → 0.0015 °C\n\n\
+         Combined: 0.0042 °C. Expanded (k = 2): 0.0084 °C\n",
+    );
+    is_sound(
+        "sheet.csv",
+        "Flow meter, 100 L/min, air\nSource,Specification,u (L/min)\nMeter accuracy,\"±5 L/min, rectangular\",2.887\n\
+         Reference,\"U = 0.5 L/min, k = 2\",0.250\nRepeatability,\"s = 0.40 L/min, mean of 1\",0.40\nCombined standard uncertainty,,2.925\n",
+    );
+}

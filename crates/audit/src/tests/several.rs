@@ -142,3 +142,18 @@ fn a_matrix_below_a_rule_is_no_budget() {
                 y                         0.53  0.88  1.00\n";
     assert_eq!(claims(text).len(), 1);
 }
+
+/// A table whose columns are one blank apart, with rules: a sum of 0.3 mm and of 0.4 mm with c = 2.
+#[test]
+fn tables_with_rules_may_have_narrow_columns() {
+    is_sound(
+        "Length of a bar, with commas, as sentences have them\n\n\
+         quantity         estimate unit     u distribution ν     c  c·u     %\n\
+         ----------------------------------------------------------------------\n\
+         length              400.0 mm   0.300 normal (B)   ∞ 1.000 0.30  36.0 #\n\
+         position of the stop  0.0 mm   0.200 uniform (B)  ∞ 2.000 0.40  64.0 ##\n\
+         ----------------------------------------------------------------------\n\
+         L                   400.0 mm   0.500              ∞       0.50 100.0\n\n\
+         U = 1.0 mm, k = 2\n",
+    );
+}

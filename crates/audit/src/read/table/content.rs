@@ -51,7 +51,9 @@ pub(super) fn by_content(grid: &Grid, located: &mut Located) {
             {
                 other.1 = Role::Used;
             }
-        } else if (is_name(role) || matches!(role, Role::Remark | Role::Type))
+        } else if (is_name(role)
+            || role == Role::Type
+            || role == Role::Remark && may_be_used(grid, located, index))
             && cells.mostly(is_figure)
             && other_name
         {
@@ -82,6 +84,11 @@ fn is_figure(text: &str) -> bool {
 
 fn is_words(text: &str) -> bool {
     !is_figure(text) && text.chars().count() >= 8 && !text.starts_with(|c: char| c.is_ascii_digit())
+}
+
+/// Words, or what they come to without any: `s = 0.004 mm`.
+fn is_statement(text: &str) -> bool {
+    is_words(text) || text.contains('=')
 }
 
 impl Cells<'_> {
@@ -162,7 +169,7 @@ fn nameless_words(grid: &Grid, located: &mut Located) {
         let head = grid.cell(located.head, index).text.clone();
         let in_front = |index: usize| located.columns.iter().all(|c| index <= c.index);
         let short = |text: &str| !text.is_empty() && text.chars().count() <= 8 && !is_figure(text);
-        let role = if cells.mostly(is_words) {
+        let role = if cells.mostly(is_statement) {
             Role::Remark
         } else if !located.has(Role::Symbol)
             && !located.has(Role::Type)
@@ -243,6 +250,14 @@ impl Made {
             || units::factor(units[0], units[1]) == Some(1.0);
         let product = a.value * c.map_or(1.0, |c| c.value);
         alike.then_some((product.abs(), made.value.abs()))
+    }
+}
+
+/// Whether the figures of a column are what the laboratory went on with: by its divisors, where it has some.
+fn may_be_used(grid: &Grid, located: &Located, index: usize) -> bool {
+    match located.has(Role::Divisor) && located.is_evaluated() {
+        true => gives_u(grid, located, index),
+        false => may_be_divided(grid, located, index),
     }
 }
 

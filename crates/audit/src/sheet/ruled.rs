@@ -1,0 +1,126 @@
+//! Tables of a page whose head has a rule below it: their columns are what no line crosses, also where they are one blank apart.
+
+use super::text::is_wide;
+
+/// Whether a text has tables with rules, as reports print them.
+pub(super) fn has_rules(text: &str) -> bool {
+    text.lines().filter(|line| is_rule(line)).count() >= 2
+}
+
+/// Whether a line is drawn and not written.
+fn is_rule(line: &str) -> bool {
+    const SHORTEST: usize = 10;
+    let line = line.trim();
+    let is_drawn = |c: char| matches!(c, '-' | '=' | '_' | '─' | '━' | '═' | '+' | ' ');
+    line.chars().count() >= SHORTEST && line.chars().all(is_drawn)
+}
+
+/// The text with two blanks between columns that are one blank apart.
+pub(super) fn widened(text: &str) -> String {
+    let mut lines: Vec<Vec<char>> = text.lines().map(columns).collect();
+    let rules: Vec<bool> = text.lines().map(is_rule).collect();
+    let is_blank = |line: &[char]| line.iter().all(|c| *c == ' ');
+    let mut at = 1;
+    while at < lines.len() {
+        let is_head = rules[at] && !rules[at - 1] && !is_blank(&lines[at - 1]);
+        if !is_head {
+            at += 1;
+            continue;
+        }
+        let end = (at..lines.len())
+            .find(|row| is_blank(&lines[*row]))
+            .unwrap_or(lines.len());
+        let rows = (at + 1..end).filter(|row| !rules[*row] && words(&lines[*row]) >= FEWEST);
+        let rows: Vec<usize> = rows.collect();
+        let body: Vec<&[char]> = rows.iter().map(|row| lines[*row].as_slice()).collect();
+        for gap in narrow_gaps(&lines[at - 1], &body).into_iter().rev() {
+            for row in [at - 1].iter().chain(&rows) {
+                if gap < lines[*row].len() {
+                    lines[*row].insert(gap, ' ');
+                }
+            }
+        }
+        at = end;
+    }
+    let written = |line: &Vec<char>| line.iter().filter(|c| **c != BEHIND).collect::<String>();
+    lines.iter().map(written).collect::<Vec<_>>().join("\n")
+}
+
+/// Fewest words of a row: a heading between rows crosses columns.
+const FEWEST: usize = 3;
+
+/// What stands behind a wide letter, which takes two columns.
+const BEHIND: char = '\0';
+
+/// A line by the columns of a terminal.
+fn columns(line: &str) -> Vec<char> {
+    let of = |c: char| [Some(c), is_wide(c).then_some(BEHIND)];
+    line.chars().flat_map(of).flatten().collect()
+}
+
+fn words(line: &[char]) -> usize {
+    let text: String = line.iter().collect();
+    text.split_whitespace().count()
+}
+
+/// Columns of a single blank in every line, with something on both sides in half of the rows. Columns are as wide as what stands
+/// in them: where any two are farther apart, all are, and a single blank is one between words.
+fn narrow_gaps(head: &[char], body: &[&[char]]) -> Vec<usize> {
+    let filled = |line: &[char], column: usize| line.get(column).is_some_and(|c| *c != ' ');
+    let width = body
+        .iter()
+        .map(|line| line.len())
+        .fold(head.len(), usize::max);
+    let is_free =
+        |column: usize| !filled(head, column) && body.iter().all(|line| !filled(line, column));
+    let free: Vec<bool> = (0..width).map(is_free).collect();
+    let end = head.iter().rposition(|c| *c != ' ').unwrap_or(0);
+    let begin = free.iter().position(|free| !free).unwrap_or(0);
+    // A rule below a title is no table.
+    let are_apart = body.is_empty() || (begin..end).any(|column| free[column] && free[column + 1]);
+    if are_apart {
+        return Vec::new();
+    }
+    // What stands between a gap and the next one, to the left or to the right.
+    let left = |gap: usize| (0..gap).rev().take_while(|column| !free[*column]);
+    let right = |gap: usize| (gap + 1..width).take_while(|column| !free[*column]);
+    let parts = |gap: usize| {
+        let both = body.iter().filter(|line| {
+            left(gap).any(|column| filled(line, column))
+                && right(gap).any(|column| filled(line, column))
+        });
+        2 * both.count() >= body.len()
+    };
+    let is_narrow = |gap: &usize| free[*gap] && parts(*gap);
+    (begin + 1..end).filter(is_narrow).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_of_one_blank_are_parted() {
+        let text = "quantity         estimate unit      u distribution      c\n\
+                    ------------------------------------------------------\n\
+                    L_0             400.00021 mm    0.022 normal (B)   -1000\n\
+                    \x20   repeatability         mm    0.350 t (B)            2\n\
+                    t                  20.350 °C    0.061 uniform (B)  -4.60\n\
+                    ------------------------------------------------------\n\
+                    Shared sources (contained above)\n";
+        assert!(has_rules(text));
+        let wide = widened(text);
+        let lines: Vec<&str> = wide.lines().collect();
+        assert_eq!(
+            lines[0],
+            "quantity         estimate  unit      u  distribution      c"
+        );
+        assert_eq!(
+            lines[2],
+            "L_0             400.00021  mm    0.022  normal (B)   -1000"
+        );
+        assert_eq!(lines[6], "Shared sources (contained above)");
+        let apart = "Source   Standard deviation  n\n------------------------------\na        0.1                 5\nb        0.2                 6\n";
+        assert_eq!(widened(apart), apart.trim_end());
+    }
+}

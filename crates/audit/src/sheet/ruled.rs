@@ -30,7 +30,7 @@ pub(super) fn widened(text: &str) -> String {
         let end = (at..lines.len())
             .find(|row| is_blank(&lines[*row]))
             .unwrap_or(lines.len());
-        let rows = (at + 1..end).filter(|row| !rules[*row] && words(&lines[*row]) >= FEWEST);
+        let rows = (at + 1..end).filter(|row| !rules[*row] && has_figures(&lines[*row]));
         let rows: Vec<usize> = rows.collect();
         let body: Vec<&[char]> = rows.iter().map(|row| lines[*row].as_slice()).collect();
         for gap in narrow_gaps(&lines[at - 1], &body).into_iter().rev() {
@@ -46,9 +46,6 @@ pub(super) fn widened(text: &str) -> String {
     lines.iter().map(written).collect::<Vec<_>>().join("\n")
 }
 
-/// Fewest words of a row: a heading between rows crosses columns.
-const FEWEST: usize = 3;
-
 /// What stands behind a wide letter, which takes two columns.
 const BEHIND: char = '\0';
 
@@ -58,9 +55,9 @@ fn columns(line: &str) -> Vec<char> {
     line.chars().flat_map(of).flatten().collect()
 }
 
-fn words(line: &[char]) -> usize {
-    let text: String = line.iter().collect();
-    text.split_whitespace().count()
+/// Whether a line is a row: a heading between rows has no figures, and crosses columns.
+fn has_figures(line: &[char]) -> bool {
+    line.iter().any(char::is_ascii_digit)
 }
 
 /// Columns of a single blank in every line, with something on both sides in half of the rows. Columns are as wide as what stands
@@ -113,11 +110,11 @@ mod tests {
         let lines: Vec<&str> = wide.lines().collect();
         assert_eq!(
             lines[0],
-            "quantity         estimate  unit      u  distribution      c"
+            "quantity         estimate  unit      u  distribution       c"
         );
         assert_eq!(
             lines[2],
-            "L_0             400.00021  mm    0.022  normal (B)   -1000"
+            "L_0             400.00021  mm    0.022  normal (B)    -1000"
         );
         assert_eq!(lines[6], "Shared sources (contained above)");
         let apart = "Source   Standard deviation  n\n------------------------------\na        0.1                 5\nb        0.2                 6\n";

@@ -98,23 +98,27 @@ mod tests {
 
     #[test]
     fn columns_of_one_blank_are_parted() {
-        let text = "quantity         estimate unit      u distribution      c\n\
-                    ------------------------------------------------------\n\
-                    L_0             400.00021 mm    0.022 normal (B)   -1000\n\
-                    \x20   repeatability         mm    0.350 t (B)            2\n\
-                    t                  20.350 °C    0.061 uniform (B)  -4.60\n\
-                    ------------------------------------------------------\n\
+        let text = "quantity           estimate unit     u distribution     c\n\
+                    ----------------------------------------------------------\n\
+                    L_0               400.00021 mm   0.022 normal (B)   -1000\n\
+                    \x20   repeatability           mm   0.350 t (B)            2\n\
+                    t                    20.350 °C   0.061 uniform (B)  -4.60\n\
+                    ----------------------------------------------------------\n\
                     Shared sources (contained above)\n";
         assert!(has_rules(text));
         let wide = widened(text);
         let lines: Vec<&str> = wide.lines().collect();
         assert_eq!(
             lines[0],
-            "quantity         estimate  unit      u  distribution       c"
+            "quantity            estimate  unit      u  distribution      c"
         );
         assert_eq!(
             lines[2],
-            "L_0             400.00021  mm    0.022  normal (B)    -1000"
+            "L_0                400.00021  mm    0.022  normal (B)    -1000"
+        );
+        assert_eq!(
+            lines[3],
+            "    repeatability             mm    0.350  t (B)             2"
         );
         assert_eq!(lines[6], "Shared sources (contained above)");
         let apart = "Source   Standard deviation  n\n------------------------------\na        0.1                 5\nb        0.2                 6\n";

@@ -1,7 +1,5 @@
 //! Tables of a page whose head has a rule below it: their columns are what no line crosses, also where they are one blank apart.
 
-use super::text::is_wide;
-
 /// Whether a text has tables with rules, as reports print them.
 pub(super) fn has_rules(text: &str) -> bool {
     text.lines().filter(|line| is_rule(line)).count() >= 2
@@ -53,6 +51,11 @@ const BEHIND: char = '\0';
 fn columns(line: &str) -> Vec<char> {
     let of = |c: char| [Some(c), is_wide(c).then_some(BEHIND)];
     line.chars().flat_map(of).flatten().collect()
+}
+
+/// Letters of Chinese, Japanese and Korean take two columns.
+pub(super) fn is_wide(c: char) -> bool {
+    matches!(c, '\u{1100}'..='\u{115f}' | '\u{2e80}'..='\u{a4cf}' | '\u{ac00}'..='\u{d7a3}' | '\u{f900}'..='\u{faff}' | '\u{fe30}'..='\u{fe6f}' | '\u{ff00}'..='\u{ff60}')
 }
 
 /// Whether a line is a row: a heading between rows has no figures, and crosses columns.

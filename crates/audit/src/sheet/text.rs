@@ -6,7 +6,7 @@ use std::ops::Range;
 use gumption_fault::say;
 use gumption_format::csv::western;
 
-use super::ruled::{has_rules, widened};
+use super::ruled::{has_rules, is_wide, widened};
 use super::{Cell, Grid, Unreadable};
 
 /// UTF-8, UTF-16 with its mark, GBK, or the code page of Western Europe.
@@ -317,11 +317,6 @@ fn spans(line: &str) -> Vec<Span> {
         Span([0, 1].map(|how| front[how]..front[how] + own[how]))
     });
     places.collect()
-}
-
-/// Letters of Chinese, Japanese and Korean take two columns.
-pub(super) fn is_wide(c: char) -> bool {
-    matches!(c, '\u{1100}'..='\u{115f}' | '\u{2e80}'..='\u{a4cf}' | '\u{ac00}'..='\u{d7a3}' | '\u{f900}'..='\u{faff}' | '\u{fe30}'..='\u{fe6f}' | '\u{ff00}'..='\u{ff60}')
 }
 
 /// Under which fields of the head of its block the fields of a line stand, where each stands under one: a cell may be empty.

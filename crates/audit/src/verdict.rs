@@ -3,7 +3,6 @@
 use crate::calculate::Figures;
 use crate::claim::Claimed;
 use crate::search::{Explanation, Found, Gap, search};
-use crate::slips::Act;
 
 /// Verdict on a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -43,8 +42,9 @@ pub fn audit(claimed: &Claimed) -> Audit<'_> {
     let mut found = search(claimed);
     let missing = missing(&found);
     if !missing.is_empty() {
-        // What sums of several quantities come to explains nothing.
+        // What sums of several quantities come to explains nothing, and departs from nothing.
         found.explanations.clear();
+        found.gaps.clear();
     }
     let footer = &claimed.footer;
     let nothing = claimed.rows.is_empty() || found.right.u_c <= 0.0;
@@ -69,15 +69,17 @@ pub fn audit(claimed: &Claimed) -> Audit<'_> {
 }
 
 /// Rows from which nothing leads to the result, where that leaves the claim open: no figure of a row departs, and nothing
-/// explains the claim but slips elsewhere.
+/// explains the claim but slips that leave some of them in the sum.
 fn missing(found: &Found<'_>) -> Vec<usize> {
     let is_of_row = |gap: &Gap| matches!(gap, Gap::Row(..));
     if found.gaps.iter().any(is_of_row) {
         return Vec::new();
     }
     let rows = found.case.without_way();
-    let is_about_them = |act: &Act| act.row.is_some_and(|row| rows.contains(&row));
-    let explains = |best: &Explanation| best.acts.is_empty() || best.acts.iter().any(is_about_them);
+    let is_about =
+        |best: &Explanation, row: &usize| best.acts.iter().any(|act| act.row == Some(*row));
+    let explains =
+        |best: &Explanation| best.acts.is_empty() || rows.iter().all(|row| is_about(best, row));
     match found.explanations.first().is_some_and(explains) {
         true => Vec::new(),
         false => rows,

@@ -1,5 +1,6 @@
 //! Tables with a column of figures for each type of evaluation: `Type A (µm) | Type B (µm)`.
 
+use crate::printed::Printed;
 use crate::sheet::{Cell, Grid};
 
 use super::columns::{self, Role};
@@ -62,6 +63,7 @@ impl Types {
         };
         made.origins.clear();
         let end = self.rows(grid, head).last().map_or(head, |row| row + 1);
+        let mut squares = [0.0; 2];
         for row in 0..grid.rows.len() {
             let figures = match (head + 1..end).contains(&row) {
                 true => self.figures(grid, row),
@@ -70,9 +72,13 @@ impl Types {
             match figures.as_slice() {
                 [] => self.push(&mut made, grid, row, None),
                 // What each type comes to is no figure of the whole.
-                [_, _] if is_of_whole(grid, row) => self.push(&mut made, grid, row, Some(None)),
+                [_, _] if is_of_whole(grid, row) || self.are_roots(grid, row, squares) => {
+                    self.push(&mut made, grid, row, Some(None));
+                }
                 all => {
-                    for (of_type, _) in all {
+                    for (of_type, cell) in all {
+                        let figure = cell.figure().map_or(0.0, |figure| figure.value);
+                        squares[*of_type] += figure * figure;
                         self.push(&mut made, grid, row, Some(Some(*of_type)));
                     }
                 }
@@ -85,6 +91,16 @@ impl Types {
             }
         }
         made
+    }
+
+    /// Whether the figures of a row are what both types above it come to.
+    fn are_roots(&self, grid: &Grid, row: usize, squares: [f64; 2]) -> bool {
+        let mut figures = self.figures(grid, row).into_iter();
+        figures.all(|(of_type, cell)| {
+            let root = libm::sqrt(squares[of_type]);
+            let is_root = |figure: Printed| figure.is_met_within(root, 2.0 * figure.half);
+            root > 0.0 && cell.figure().is_some_and(is_root)
+        })
     }
 
     /// Adds a row of the sheet: as it is, or with the figure of one type, or of none.

@@ -100,7 +100,7 @@ impl Cell {
     /// A cell of a text.
     pub fn new(text: &str) -> Cell {
         Cell {
-            text: crate::printed::clean(text).trim().to_string(),
+            text: unquoted(crate::printed::clean(text).trim()),
             ..Cell::default()
         }
     }
@@ -124,6 +124,28 @@ impl Cell {
     pub fn is_empty(&self) -> bool {
         self.text.is_empty()
     }
+}
+
+/// A text without the quotes about its amounts: `U = "3e-6 kg"` as files of programs have it. An inch has no quote in front.
+fn unquoted(text: &str) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some((front, behind)) = rest.split_once('"') {
+        let inner = behind.split_once('"');
+        let amount = inner.filter(|(inner, _)| Printed::parse(inner).is_some());
+        out += front;
+        match amount {
+            Some((inner, behind)) => {
+                out += inner;
+                rest = behind;
+            }
+            None => {
+                out.push('"');
+                rest = behind;
+            }
+        }
+    }
+    out + rest
 }
 
 impl Grid {
@@ -197,4 +219,19 @@ pub fn grids(name: &str, bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
         "tsv" => text::separated(&text, '\t'),
         _ => text::guessed(&text),
     }])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn amounts_in_quotes_are_amounts() {
+        assert_eq!(
+            Cell::new("U = \"3e-6 kg\", k = 2").text,
+            "U = 3e-6 kg, k = 2"
+        );
+        assert_eq!(Cell::new("class \"F1\" of 2").text, "class \"F1\" of 2");
+        assert_eq!(Cell::new("pipe 3\" and 4\"").text, "pipe 3\" and 4\"");
+    }
 }

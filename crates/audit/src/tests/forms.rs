@@ -83,6 +83,12 @@ fn types_may_have_columns_of_their_own() {
     let added = "| Contribution | Type A (N·m) | Type B (N·m) |\n|---|---|---|\n| Repeatability | 0.040 | |\n| Reproducibility | 0.030 | |\n\
                  | Standard | | 0.025 |\n| Resolution | | 0.029 |\n\nu_c = 0.124 N·m\nU = 0.25 N·m, k = 2\n";
     assert_eq!(first("sheet.md", added), "linear-sum");
+    // What each type comes to is no source, whatever it is called.
+    is_sound(
+        "sheet.csv",
+        "Source,Type A,Type B\nRepeatability,0.30,\nStandard,,0.40\nResolution,,0.12\nTotal,0.30,0.418\n\
+         Combined standard uncertainty (mm),0.514,\nExpanded uncertainty k=2 (mm),1.0,\n",
+    );
 }
 
 #[test]
@@ -107,6 +113,10 @@ fn a_multiple_of_u_is_no_mass() {
                 | buoyancy | 0.50 | 1 | 0.50 |\n\nm = 100.0017 g, ";
     is_sound("sheet.md", &format!("{rows}U = 2 u = 1.3 mg\n"));
     is_sound("sheet.md", &format!("{rows}U = 3 u = 1.9 mg\n"));
+    // √(1.5² + 0.4²) = 1.55
+    let quoted = "Mass of a sample\nm_S: certificate, U = \"3e-6 kg\", k = 2\ndm: s of the mean of 10 readings u = \"4e-7 kg\"\n\
+                  u_c = 1.55e-6 kg\nU = 2 u = 3.1e-6 kg\n";
+    is_sound("sheet.txt", quoted);
 }
 
 /// U in µV below rows in ppm is a part of the 10 V that are measured; in percent above rows in mV the other way round.
@@ -149,7 +159,7 @@ fn rows_of_several_quantities_need_coefficients() {
     let claims = read::budgets(&grids, &Mapping::default());
     let audited = audit(&claims[0]);
     assert_eq!(audited.missing, [0, 1, 2]);
-    assert!(audited.recomputed().is_none());
+    assert!(audited.recomputed().is_none() && audited.found.gaps.is_empty());
     // 0.1·0.01, 0.06·0.0289, 0.002·0.289: √(1² + 1.73² + 0.58²)·10⁻³ = 0.00208
     is_sound(
         "sheet.csv",
@@ -234,6 +244,13 @@ fn sums_of_several_quantities_explain_nothing() {
                  Expanded uncertainty (k=2),,g/mL,0.00018\n";
     assert_eq!(
         answer("sheet.csv", sheet),
+        (Verdict::NotRecomputed, Vec::new())
+    );
+    // Leaving out the force leaves the temperature in the sum.
+    let partial = "Source,u,Unit,c\nLength,0.002,mm,1\nTemperature,0.1,°C,\nForce,0.5,N,\nCombined standard uncertainty (mm),0.0045,,\n\
+                   Expanded uncertainty (k=2) (mm),0.009,,\n";
+    assert_eq!(
+        answer("sheet.csv", partial),
         (Verdict::NotRecomputed, Vec::new())
     );
 }

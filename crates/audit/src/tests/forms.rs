@@ -326,3 +326,18 @@ fn titles_and_items_are_told_apart() {
          Reference,\"U = 0.5 L/min, k = 2\",0.250\nRepeatability,\"s = 0.40 L/min, mean of 1\",0.40\nCombined standard uncertainty,,2.925\n",
     );
 }
+
+/// 1 % of the full scale of 500 L/min, and 0.5 % of the reading of 100 L/min: each row has its own whole.
+#[test]
+fn percentages_are_of_the_range_or_of_the_reading() {
+    let sheet = |meter: &str, u_c: &str| {
+        format!(
+            "Flow meter, full scale 500 L/min, reading 100 L/min\nSource,Specification,u (L/min)\n\
+             Meter accuracy,\"±1 % of full scale, rectangular\",{meter}\nReference,\"U = 0.5 % of reading, k = 2\",0.250\n\
+             Repeatability,s = 0.40 L/min,0.40\nCombined standard uncertainty,,{u_c}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("2.887", "2.925"));
+    let wrong = first("sheet.csv", &sheet("0.577", "0.745"));
+    assert!(wrong.ends_with("@Meter accuracy"), "{wrong}");
+}

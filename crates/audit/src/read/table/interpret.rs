@@ -47,9 +47,14 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
         }
     }
     let nominal = nominal(claimed);
+    let (range, amounts) = (range(claimed), amounts(claimed));
     for row in &mut claimed.rows {
-        if let Some(nominal) = &nominal {
-            row.take_part_of(nominal);
+        let own = match has(&row.words.to_lowercase(), RANGE) {
+            true => range.as_ref(),
+            false => amounts.iter().find(|amount| row.shows(amount, 1.0)),
+        };
+        if let Some(whole) = own.or(nominal.as_ref()) {
+            row.take_part_of(whole);
         }
         row.leave_what_is_of_another_unit();
         row.convert_to_one_unit(&y_unit);
@@ -89,24 +94,15 @@ fn named_whole(words: &str) -> Option<Printed> {
 /// own u shows in one row at least that it took it, if need be with a wrong power of ten.
 fn nominal(claimed: &Claimed) -> Option<Printed> {
     let amounts = amounts(claimed);
-    let shows = |row: &Row, amount: &Printed, ratio: f64| {
-        let (u, part) = row.made().zip(row.part_of(amount))?;
-        let (stated, _) = row.stated.standard()?;
-        Some(u.is_met_within(stated * part * ratio, u.half_of_digits() + 0.01 * u.value))
-    };
     let is_taken = |amount: &&Printed| {
         let mut rows = claimed.rows.iter();
-        rows.any(|row| shows(row, amount, 1.0) == Some(true))
+        rows.any(|row| row.shows(amount, 1.0))
     };
     // A range is another whole than the value.
     let is_missed = |amount: &&Printed| {
         let of_value = |row: &&Row| !has(&row.words.to_lowercase(), RANGE);
         let mut rows = claimed.rows.iter().filter(of_value);
-        rows.any(|row| {
-            units::MISSED
-                .iter()
-                .any(|ratio| shows(row, amount, *ratio) == Some(true))
-        })
+        rows.any(|row| units::MISSED.iter().any(|ratio| row.shows(amount, *ratio)))
     };
     let found = amounts
         .iter()
@@ -133,6 +129,13 @@ fn amounts(claimed: &Claimed) -> Vec<Printed> {
     let texts = [&claimed.title, &claimed.words].into_iter();
     let named = texts.flat_map(|text| words::figures_with_units(text));
     claimed.footer.y.iter().cloned().chain(named).collect()
+}
+
+/// The range that the title or a line names: `full scale 500 L/min`.
+fn range(claimed: &Claimed) -> Option<Printed> {
+    let lines = claimed.words.lines();
+    let mut texts = [claimed.title.as_str()].into_iter().chain(lines);
+    texts.find_map(|text| words::figure_after(text, RANGE))
 }
 
 /// Words for what a percentage may be of that is not the value.
@@ -234,6 +237,15 @@ impl Row {
             }
             _ => None,
         }
+    }
+
+    /// Whether u shows that the percentage of the row is of this amount, if need be times a wrong power of ten.
+    fn shows(&self, amount: &Printed, ratio: f64) -> bool {
+        let made = self.made().zip(self.part_of(amount));
+        let made = made.zip(self.stated.standard());
+        made.is_some_and(|((u, part), (stated, _))| {
+            u.is_met_within(stated * part * ratio, u.half_of_digits() + 0.01 * u.value)
+        })
     }
 
     /// What a unit of an amount that is stated without an estimate is in the unit of u, where u is the share of this amount.

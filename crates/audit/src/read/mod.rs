@@ -356,7 +356,7 @@ fn budget(
     let own = own(&located);
     let all: Vec<&Line> = own.iter().chain(common).collect();
     place_lines(&all, &mut claimed);
-    if claimed.correlations.is_empty() {
+    if claimed.correlations.is_empty() && !is_root_of_parts(&claimed) {
         let above = lines(grid, sheet, 0..bounds.start, elsewhere);
         let below = lines(grid, sheet, bounds.end..grid.rows.len(), elsewhere);
         lines::place_correlations(above.iter().chain(&below), &mut claimed);
@@ -382,6 +382,23 @@ fn budget(
     }
     claimed.rows.extend(missing);
     claimed
+}
+
+/// Whether u_c, or U by its k, is the root of the sum of squares of what the rows state: then nothing is correlated here.
+fn is_root_of_parts(claimed: &Claimed) -> bool {
+    let part = |row: &Row| {
+        let c = row.c.as_ref().map_or(1.0, |c| c.value);
+        let of_u = row.u.as_ref().map(|u| c * u.value);
+        row.contribution.as_ref().map(|part| part.value).or(of_u)
+    };
+    let counted = claimed.rows.iter().filter(|row| row.not_counted.is_none());
+    let root = libm::sqrt(counted.filter_map(part).map(|part| part * part).sum());
+    let footer = &claimed.footer;
+    let k = footer.k.as_ref().map_or(2.0, |k| k.value);
+    let is_met = |figure: &Printed, x: f64| figure.is_met_within(x, 2.0 * figure.half);
+    let by_u = footer.u_c.as_ref().map(|u_c| is_met(u_c, root));
+    let by_expanded = || footer.expanded.as_ref().map(|u| is_met(u, k * root));
+    by_u.or_else(by_expanded) == Some(true)
 }
 
 /// The symbol of the last row, where the line above the head calls the table after it: `Uncertainty budget of R`.

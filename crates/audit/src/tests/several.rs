@@ -157,3 +157,20 @@ fn tables_with_rules_may_have_narrow_columns() {
          U = 1.0 mm, k = 2\n",
     );
 }
+
+/// A correlation below the second point is of the second point, where the first has none in its sum.
+#[test]
+fn points_have_correlations_of_their_own() {
+    let point = |statement: &str| {
+        format!(
+            "Source  Symbol  u / mm  c  u_i / mm\nOne     a1      0.40    1  0.40\nOther   b1      0.30    1  0.30\n\n{statement}\n\n\n"
+        )
+    };
+    is_sound(
+        &[
+            point("u_c = 0.50 mm\nU = 1.0 mm (k = 2)"),
+            point("r(a1, b1) = 0.5\nu_c = 0.608 mm\nU = 1.2 mm (k = 2)"),
+        ]
+        .concat(),
+    );
+}

@@ -134,7 +134,7 @@ pub(super) fn without_coefficient(seen: &Seen<'_>) -> Vec<Hit> {
 fn summed_as_it_stands(seen: &Seen<'_>) -> Vec<Hit> {
     let u_c = seen.laboratory.figures(&[], None).u_c;
     let claimed = seen.claimed.footer.u_c.as_ref();
-    if !claimed.is_some_and(|claimed| !far(claimed, u_c, 0.01)) {
+    if claimed.is_none_or(|claimed| far(claimed, u_c, 0.01)) {
         return Vec::new();
     }
     let hit = |i: usize| {

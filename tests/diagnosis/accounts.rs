@@ -123,10 +123,7 @@ fn beside_a_model_that_agrees_nothing_is_seen() {
         "{square}"
     );
     // All that follows a column, and nothing else.
-    let found = json(
-        &folder,
-        &["diagnose", "case.toml", "--json", "--why", "T"],
-    );
+    let found = json(&folder, &["diagnose", "case.toml", "--json", "--why", "T"]);
     let along = found["accounts"].as_array().unwrap();
     assert!(along.len() > 2, "{found}");
     assert!(along.iter().all(|one| one["standing"] == "not-seen"));

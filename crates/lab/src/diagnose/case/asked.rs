@@ -148,7 +148,11 @@ mod tests {
     }
 
     fn asked(words: &str) -> Vec<Called> {
-        match Asked::of(words, ["bending"].into_iter(), ["T", "humidity"].into_iter()) {
+        match Asked::of(
+            words,
+            ["bending"].into_iter(),
+            ["T", "humidity"].into_iter(),
+        ) {
             Ok(Asked::These(these)) => these,
             other => panic!("{words}: {other:?}"),
         }
@@ -172,9 +176,7 @@ mod tests {
 
     #[test]
     fn what_nobody_knows_is_refused() {
-        let refused = alone("hystersis")
-            .unwrap_err()
-            .to_string();
+        let refused = alone("hystersis").unwrap_err().to_string();
         assert!(refused.contains(EffectId::Hysteresis.as_str()), "{refused}");
         for (words, near) in [
             ("termal", "\"thermal\""),

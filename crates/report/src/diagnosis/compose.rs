@@ -204,7 +204,11 @@ fn introduction(doubt: &Doubt<'_>, names: Names<'_>) -> String {
     };
     let places = places.iter().map(|one| {
         let (name, p) = (names.plain(one.candidate), chance(one.probability));
-        l.with_aside(&name, &format!("{p} %"))
+        // What a test of the noise shows has no rivals that share a probability with it.
+        match one.variants.is_empty() {
+            true => name,
+            false => l.with_aside(&name, &format!("{p} %")),
+        }
     });
     let places = places.collect::<Vec<_>>().join(l.semicolon());
     let tentative = match resembles {

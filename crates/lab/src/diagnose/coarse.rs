@@ -142,7 +142,7 @@ mod tests {
 
     use super::super::case::Purpose;
     use super::super::catalogue::{FittedModel, Modifier, Node, Term, modifiers::late};
-    use super::super::noise;
+    use super::super::settled;
     use super::*;
 
     const CASE: &str = "recording = 'r.csv'\nequations = 'U = U0 + s*x'\n\
@@ -167,7 +167,7 @@ mod tests {
 
     fn fitted(case: &Case) -> (Design<'_>, Fit) {
         let design = Design::new(case);
-        let (fit, _) = noise::settle(&design).unwrap();
+        let (fit, _) = settled::settle(&design).unwrap();
         (design, fit)
     }
 

@@ -19,12 +19,13 @@ use super::evidence::{
 };
 use super::failure::Failure;
 use super::fit::{self, Fit};
-use super::noise::{self, Claimed};
+use super::noise::Claimed;
 use super::noise_correlation::Courses;
 use super::noise_scale::Scales;
 use super::possible;
 use super::regions;
 use super::resolution::u_of_step;
+use super::settled;
 
 /// So often the values about the parameter of an effect are brought closer together.
 const REFINEMENTS: u8 = 3;
@@ -111,7 +112,7 @@ impl<'i> Inquiry<'i> {
         let part = part(progress, 0.0, 0.4);
         let answer = ask(&mut candidates, claimed.clone(), &settings, &part)?;
         // What the model leaves out may look like noise that grows.
-        let plain = noise::plain(design, fit, &claimed);
+        let plain = settled::plain(design, fit, &claimed);
         let fitted = &candidates.fitted;
         let courses = Courses::of(fitted)
             .or_else(|| (claimed.is_estimated()).then(|| Courses::white(design.observations())))
@@ -169,7 +170,7 @@ impl<'i> Inquiry<'i> {
             Some(courses) if self.found_nothing() => {
                 let Declared { design, fit, .. } = self.declared;
                 let answer = &mut self.answer;
-                answer.claimed = noise::refined(design, fit, &starts[0], Some(courses));
+                answer.claimed = settled::refined(design, fit, &starts[0], Some(courses));
                 answer.baseline = baseline(design, fit, &answer.claimed)?;
                 Ok(())
             }
@@ -357,7 +358,7 @@ impl<'i> Inquiry<'i> {
             return None;
         }
         let claimed = match self.is_open() {
-            true => noise::refined(&with_effects, &refit, claimed, self.courses.as_ref()),
+            true => settled::refined(&with_effects, &refit, claimed, self.courses.as_ref()),
             false => claimed.clone(),
         };
         Some(Beside { base, claimed })
@@ -500,7 +501,7 @@ impl<'i> Inquiry<'i> {
     fn noise_beside(&self, answer: &Answer) -> Claimed {
         let (claimed, courses) = (&answer.claimed, self.courses.as_ref());
         (self.candidates).of_adopted(&answer.examination, claimed, |design, fit| {
-            noise::refined(design, fit, claimed, courses)
+            settled::refined(design, fit, claimed, courses)
         })
     }
 }

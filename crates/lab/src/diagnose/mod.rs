@@ -25,13 +25,14 @@
 //! | `blocks` | rows that are averaged together |
 //! | `coarse` | the same for the catalogue: a few means in every block of a long recording |
 //! | `fit` | the declared model fitted to the recording |
-//! | `noise` | what is claimed about the noise, or estimated |
+//! | `noise`, `noise_claims` | what is known about the noise of every row; what the case claims about it |
 //! | `replicates`, `noise_growth`, `noise_labels`, `noise_correlation` | noise from rows that agree; noise that grows with the reading, differs from label to label, or is correlated in time |
 //! | [`catalogue`] | the effects, and what they do to the rows of a case |
 //! | `candidates` | cells and recording as matrices, asked of `evidence` |
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
 //! | `possible` | sizes that an effect cannot have |
 //! | `reduced` | a recording reduced to its residuals |
+//! | `settled` | a model fitted, with the noise that is claimed or that it leaves |
 //! | `inquiry` | the recording asked in stages, noise and effects in turn |
 //! | `run` | a diagnosis from end to end |
 //! | `adopt` | the model with effects in it: its equations, its fit |
@@ -76,6 +77,7 @@ mod held_out;
 mod improved;
 mod inquiry;
 mod noise;
+mod noise_claims;
 mod noise_correlation;
 mod noise_growth;
 mod noise_labels;
@@ -93,6 +95,7 @@ mod replicates;
 pub(crate) mod resolution;
 mod result;
 mod run;
+mod settled;
 mod shapes;
 mod simulate;
 mod size;

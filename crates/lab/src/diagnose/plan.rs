@@ -16,9 +16,10 @@ use super::explanation::Explanation;
 use super::extra::extras;
 use super::failure::Failure;
 use super::fit::Fit;
-use super::noise::{self, Claimed};
+use super::noise::Claimed;
 use super::omitted::{self, Omitted};
 use super::prolonged::{Known, Recorded, examined};
+use super::settled;
 use super::size;
 use super::typical::{self, Unified};
 
@@ -162,7 +163,7 @@ fn step(progress: &dyn Fn(f64) -> ControlFlow<()>, share: f64) -> Result<(), Fai
 /// outputs; where these are not recorded, at one.
 fn assumed(design: &Design<'_>) -> Result<(Fit, Claimed, Vec<String>), Failure> {
     if design.case.is_recorded()
-        && let Ok((fit, claimed)) = noise::settle_spread_out(design)
+        && let Ok((fit, claimed)) = settled::settle_spread_out(design)
     {
         let known = Claimed {
             dof: f64::INFINITY,
@@ -170,7 +171,7 @@ fn assumed(design: &Design<'_>) -> Result<(Fit, Claimed, Vec<String>), Failure> 
         };
         return Ok((fit, known, Vec::new()));
     }
-    let (fit, claimed) = noise::stated(design)?;
+    let (fit, claimed) = settled::stated(design)?;
     let open = (design.unknowns.iter()).filter(|unknown| unknown.stated().is_none());
     let open = open.map(|unknown| unknown.name.clone()).collect();
     Ok((fit, claimed, open))

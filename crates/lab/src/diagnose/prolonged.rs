@@ -10,7 +10,8 @@ use super::coarse::Coarse;
 use super::design::Design;
 use super::evidence::Baseline;
 use super::fit::{self, Fit};
-use super::noise::{self, Claimed};
+use super::noise::Claimed;
+use super::settled;
 
 /// What is known of a case before a further measurement: a model, fitted to its recording, and the noise.
 pub(super) struct Known<'k> {
@@ -124,7 +125,7 @@ pub(super) fn noise_of(
 ) -> Claimed {
     match &known.design.case.noise {
         NoiseClaim::Stated { .. } | NoiseClaim::AtRest { .. } | NoiseClaim::PerRow { .. } => {
-            let planned = noise::planned(design, fit);
+            let planned = settled::planned(design, fit);
             planned.rounded_like(design, fit, known.claimed)
         }
         NoiseClaim::Estimated | NoiseClaim::Replicates(_) => {

@@ -16,9 +16,10 @@ use super::failure::Failure;
 use super::fit::{Fit, ModelVersion, Trouble, Unsettled};
 use super::held_out::{self, HeldOutQuality};
 use super::inquiry::{Answer, Declared, IfIndependent, Inquiry};
-use super::noise::{self, Claimed};
+use super::noise::Claimed;
 use super::omitted::{self, Omitted};
 use super::prolonged::{Known, Recorded};
+use super::settled;
 use super::size;
 
 /// Everything that a diagnosis found.
@@ -92,7 +93,7 @@ pub fn diagnose(
 ) -> Result<Diagnosis, Failure> {
     size::fits_into_memory(case)?;
     let design = Design::new(case);
-    let (fit, claimed) = noise::settle_spread_out(&design)?;
+    let (fit, claimed) = settled::settle_spread_out(&design)?;
     let white = baseline(&design, &fit, &claimed)?;
     let coarse = Coarse::of(&design, &fit);
     let declared = Declared {

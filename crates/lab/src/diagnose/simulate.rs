@@ -7,7 +7,8 @@ use nalgebra::DVector;
 use super::case::{Blocks, Case, Column, Data, Observed};
 use super::design::Design;
 use super::fit::{Fit, NoFit};
-use super::noise::{self, Claimed};
+use super::noise::Claimed;
+use super::settled;
 use super::{chance, confirm};
 use crate::recording::Heading;
 use gumption_core::quantity::UnitTable;
@@ -99,8 +100,8 @@ pub fn simulate(case: &Case, seed: u64) -> Result<Simulation, NoFit> {
     by_row.averaging.settle = 0;
     let design = Design::new(&by_row);
     let (fit, claimed) = match case.is_recorded() {
-        true => noise::settle_spread_out(&design)?,
-        false => noise::stated(&design)?,
+        true => settled::settle_spread_out(&design)?,
+        false => settled::stated(&design)?,
     };
     let band = half_widths(&design, &fit, &claimed);
     let errors = drawn(&claimed, case, seed);

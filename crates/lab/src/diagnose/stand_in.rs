@@ -9,7 +9,7 @@ use super::catalogue::{EffectId, FittedModel};
 use super::design::Design;
 use super::evidence::{self, Atom, Shape};
 use super::failure::Failure;
-use super::noise;
+use super::settled;
 
 /// A direction of which less than this (squared) is left adds nothing.
 const DEPENDENT: f64 = 1e-6;
@@ -55,7 +55,7 @@ pub fn stand_ins(
     if design.observations() != trace.len() {
         return Ok(Vec::new());
     }
-    let (fit, claimed) = noise::settle(&design)?;
+    let (fit, claimed) = settled::settle(&design)?;
     let baseline = baseline(&design, &fit, &claimed)?;
     let candidates = Candidates::new(FittedModel::new(&design, &fit), &claimed, &baseline);
     let column = |of: &DVector<f64>| DMatrix::from_columns(std::slice::from_ref(of));

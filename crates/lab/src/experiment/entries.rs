@@ -110,9 +110,9 @@ words! {
         /// Which row came first, where there is no time.
         Order "order",
         /// Runs, series, days, mounts: what was repeated as a whole.
-        Run "run" | "series" | "mount",
-        /// Instruments, operators, specimens: what has no order.
-        Factor "factor" | "operator" | "instrument",
+        Run "run" | "series" | "mount" | "day",
+        /// Instruments, operators, specimens, units: what has no order.
+        Factor "factor" | "operator" | "instrument" | "specimen" | "unit" | "label",
         /// Positions, poses, points.
         Position "position" | "pose",
         /// Axes of a sensor.

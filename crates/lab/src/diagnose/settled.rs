@@ -1,0 +1,224 @@
+//! A model settled: fitted, with the noise that is claimed or that it leaves.
+
+use nalgebra::DVector;
+
+use super::case::{Case, Origin, Role};
+use super::catalogue::signal;
+use super::design::Design;
+use super::evidence;
+use super::fit::{self, Fit, NoFit};
+use super::noise::Claimed;
+use super::noise_claims::{claimed, counts};
+use super::noise_correlation::Courses;
+use super::noise_growth::{self, DRAWS, Likely, Quantity, Spread};
+use super::noise_labels::{self, ByLabel};
+use super::noise_rounding;
+
+/// Fits the declared model with the noise that is claimed, or with that of its residuals.
+///
+/// # Errors
+/// When the model cannot be fitted.
+pub fn settle(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
+    let case = design.case;
+    let first = claimed(design, None);
+    let unit = DVector::from_element(design.observations(), 1.0);
+    let rough = fit::fit(design, first.as_ref().map_or(&unit, |claimed| &claimed.u))?;
+    let claimed = match first {
+        // The effect of uncertain columns needs the slopes of the model.
+        Some(first) if case.columns.iter().all(|column| column.u.is_none()) => first,
+        _ => claimed(design, Some(&rough)).unwrap_or_else(|| estimated(design, &rough)),
+    };
+    let fit = fit::near(design, &claimed.u, rough.unknowns.clone())?;
+    let claimed = match claimed.is_estimated() {
+        true => estimated(design, &fit),
+        false => {
+            let rounded = noise_rounding::certain(design, &fit, claimed.before_rounding());
+            claimed.rounded(rounded)
+        }
+    };
+    Ok((fit, claimed))
+}
+
+/// The noise that a model with effects in it leaves: where it is estimated its size and its growth with the reading, and
+/// its correlation where that is open.
+pub fn refined(
+    design: &Design<'_>,
+    fit: &Fit,
+    claimed: &Claimed,
+    courses: Option<&Courses>,
+) -> Claimed {
+    let mut left = if claimed.is_estimated() {
+        spread_out(design, fit)
+    } else {
+        let rounding = claimed.rounding.clone();
+        let rounded = rounding.map(|own| noise_rounding::beside(design, fit, own));
+        claimed.clone().rounded(rounded)
+    };
+    // What readings have in common by their rounding is its correlation.
+    if let Some(courses) = courses.filter(|_| left.rounding.is_none()) {
+        let laws = left.laws(design, fit, courses);
+        if let Ok(seen) = left.seen_with(design, fit, &laws) {
+            let likely: Vec<f64> = seen.iter().map(evidence::Course::log_posterior).collect();
+            left = left.likeliest(design, fit, &laws, &likely);
+        }
+    }
+    left.with_tails(design, fit)
+}
+
+/// The model at the values that the case states, or at one where it states none, with the noise that it
+/// claims, or with one where that needs data.
+///
+/// # Errors
+/// When the model has no finite value there.
+pub fn stated(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
+    let fit = fit::at(design, design.stated_or(1.0));
+    let mut values = fit.linear.values.iter().flatten();
+    if !values.all(|value| value.is_finite()) || !fit.jacobian.iter().all(|x| x.is_finite()) {
+        return Err(NoFit::NoStart);
+    }
+    let claimed = planned(design, &fit);
+    Ok((fit, claimed))
+}
+
+/// The noise without data: what is claimed, or one.
+pub fn planned(design: &Design<'_>, fit: &Fit) -> Claimed {
+    let one = DVector::from_element(design.observations(), 1.0);
+    claimed(design, Some(fit)).unwrap_or(Claimed::plain(one, f64::INFINITY, Origin::Unknown))
+}
+
+/// As [`settle`]; noise that is estimated, and grows with the reading or differs from label to label, weights the fit.
+///
+/// # Errors
+/// When the model cannot be fitted.
+pub fn settle_spread_out(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
+    let (fit, claimed) = settle(design)?;
+    if !claimed.is_estimated() {
+        return Ok((fit, claimed));
+    }
+    let seen = spread_out(design, &fit);
+    if !seen.is_spread_out() {
+        return Ok((fit, claimed));
+    }
+    let Ok(weighted) = fit::from(design, &seen.u, fit.unknowns.clone()) else {
+        return Ok((fit, seen));
+    };
+    let claimed = spread_out(design, &weighted);
+    Ok((weighted, claimed))
+}
+
+/// The noise that a model leaves, where it grows with the reading or differs from label to label.
+pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
+    let mut claimed = estimated(design, fit);
+    let blocks = design.blocks.len();
+    let mut draws = vec![claimed.u.clone(); DRAWS];
+    for response in 0..design.case.responses.len() {
+        let rows = response * blocks;
+        let values = design.reduced(&fit.linear.values[response]);
+        let own = fit.residuals.rows(rows, blocks).into_owned();
+        let plain = claimed.u.rows(rows, blocks).into_owned();
+        let by_label = noise_labels::estimate(design, &values, &own);
+        let even = DVector::from_element(blocks, 1.0);
+        let scales = by_label.as_ref().map_or(&even, |labels| &labels.best);
+        let errors = own.component_div(scales);
+        let readings = [
+            (Quantity::Reading, values),
+            (
+                Quantity::Signal,
+                design.reduced(&signal(design, fit, response)),
+            ),
+        ];
+        let grown = |(_, y): &(_, Vec<f64>)| noise_growth::estimate(design, response, y, &errors);
+        let each = readings.iter().map(|reading| (reading, grown(reading)));
+        // What effects add to a constant is no signal.
+        let each = each.take(if has_stimulus(design.case) { 2 } else { 1 });
+        let gain = |likely: &Option<Likely>| likely.as_ref().map_or(0.0, |likely| likely.gain);
+        // Of equals the first.
+        let ((with, values), likely) = each
+            .reduce(|a, b| if gain(&b.1) > gain(&a.1) { b } else { a })
+            .unwrap_or((&readings[0], None));
+        let spread = |scales: &DVector<f64>, spread: &Spread| {
+            let factors = values.iter().map(|value| spread.at(*value));
+            let factors = DVector::from_iterator(blocks, factors).component_mul(scales);
+            let u = plain.component_mul(&factors);
+            let scale = scale(design, &own.component_div(&u));
+            u * scale
+        };
+        for (at, draw) in draws.iter_mut().enumerate() {
+            let scales = by_label.as_ref().map_or(&even, |labels| &labels.draws[at]);
+            let grown = likely.as_ref().and_then(|likely| likely.draws.get(at));
+            let u = spread(scales, grown.unwrap_or(&Spread::CONSTANT));
+            draw.rows_mut(rows, blocks).copy_from(&u);
+        }
+        let best = likely
+            .as_ref()
+            .map_or(Spread::CONSTANT, |likely| likely.best);
+        let u = spread(scales, &best);
+        claimed.u.rows_mut(rows, blocks).copy_from(&u);
+        let unit = || design.case.responses[response].unit.typeset();
+        // Of the mean label, where growth is 1.
+        let mean = u[0] / best.at(values[0]) / scales[0] * scales.mean();
+        (claimed.growth).push(likely.map(|_| best.growth(*with, mean, unit())));
+        claimed.by_label.push(by_label.as_ref().map(|labels| {
+            ByLabel {
+                column: design.case.columns[labels.column].name.clone(),
+                unit: unit(),
+                mean,
+                factors: (labels.labels.iter())
+                    .map(|(label, u)| (label.clone(), u / scales.mean()))
+                    .collect(),
+            }
+        }));
+    }
+    if claimed.is_spread_out() {
+        claimed.draws = draws;
+    }
+    claimed
+}
+
+/// Whether something is applied, to which an output answers.
+fn has_stimulus(case: &Case) -> bool {
+    let is_applied = |role: Role| matches!(role, Role::Stimulus | Role::Angle);
+    case.columns.iter().any(|column| is_applied(column.role))
+}
+
+impl Claimed {
+    /// Estimated noise as it is where it is the same everywhere.
+    pub(super) fn even(&self, design: &Design<'_>, fit: &Fit) -> Claimed {
+        plain(design, fit, self).unwrap_or_else(|| self.uncorrelated())
+    }
+}
+
+/// Estimated noise that is the same everywhere, where it seems not to be: what is uneven may be something else.
+pub fn plain(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Option<Claimed> {
+    let uneven = claimed.is_estimated() && claimed.is_spread_out();
+    uneven.then(|| estimated(design, fit))
+}
+
+/// Root mean square of the residuals of one response, which share the degrees of freedom of all.
+fn scale(design: &Design<'_>, residuals: &DVector<f64>) -> f64 {
+    let observations = design.observations() as f64;
+    let freedom = (observations - design.unknowns.len() as f64).max(1.0);
+    (residuals.norm_squared() / (residuals.len() as f64 * freedom / observations)).sqrt()
+}
+
+/// One standard uncertainty for each response, from the residuals.
+fn estimated(design: &Design<'_>, fit: &Fit) -> Claimed {
+    let blocks = design.blocks.len();
+    let mut u = DVector::zeros(design.observations());
+    for response in 0..design.case.responses.len() {
+        let own = fit.residuals.rows(response * blocks, blocks).into_owned();
+        let s = scale(design, &own);
+        // A perfect fit leaves nothing; any positive number serves.
+        let s = if s > 0.0 { s } else { f64::MIN_POSITIVE.sqrt() };
+        u.rows_mut(response * blocks, blocks).fill(s);
+    }
+    let counts = counts(design.case);
+    if counts.iter().any(|n| *n != counts[0]) {
+        let mean = counts.iter().sum::<f64>() / counts.len() as f64;
+        let reduced = design.reduced(&counts);
+        for (at, u) in u.iter_mut().enumerate() {
+            *u *= (mean / reduced[at % blocks]).sqrt();
+        }
+    }
+    Claimed::plain(u, 0.0, Origin::Estimated)
+}

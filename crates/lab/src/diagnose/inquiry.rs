@@ -19,6 +19,7 @@ use super::evidence::{
 };
 use super::failure::Failure;
 use super::fit::{self, Fit};
+use super::further;
 use super::noise::Claimed;
 use super::noise_correlation::Courses;
 use super::noise_scale::Scales;
@@ -186,7 +187,7 @@ impl<'i> Inquiry<'i> {
         if let Some(courses) = &self.courses {
             let found = self.answer.examination.score;
             let noise = (self.candidates).against(courses, &starts, &self.settings, found)?;
-            self.settings.by_noise = noise.p;
+            self.settings.by_noise.insert(0, noise.p);
             of_noise = Some(noise.log_posterior);
             match noise.p > self.settings.alpha {
                 true => starts = vec![noise.likeliest],
@@ -194,7 +195,8 @@ impl<'i> Inquiry<'i> {
                 false => {}
             }
         }
-        let stands = self.settings.by_noise <= self.settings.alpha;
+        let by_noise = self.settings.by_noise.get(&0).copied();
+        let stands = by_noise.is_none_or(|p| p <= self.settings.alpha);
         let (begun, share) = (self.answer.clone(), 0.3 / starts.len() as f64);
         let (mut best, mut atoms) = (f64::NEG_INFINITY, self.candidates.atoms.len());
         for (at, start) in starts.into_iter().enumerate() {
@@ -216,7 +218,9 @@ impl<'i> Inquiry<'i> {
         } else if let Some(of_noise) = of_noise {
             self.if_independent = begun.instead_of(of_noise, self.settings.alpha);
         }
-        self.answer.examination.doubted(self.settings.by_noise);
+        if let Some(p) = by_noise {
+            self.answer.examination.doubted(p);
+        }
         Ok(())
     }
 
@@ -229,12 +233,39 @@ impl<'i> Inquiry<'i> {
                 break;
             }
             let before = atoms(&answer.examination);
-            answer = self.asked(then, from, to)?;
+            answer = self.asked_as_likely(then, &answer, from, to)?;
             if atoms(&answer.examination) == before {
                 break;
             }
         }
         Ok(answer)
+    }
+
+    /// What is found with the noise that effects leave. Where that is fewer, and less likely than what was found before, further
+    /// ones are held against the noise beside these: with doubt about the noise they stand out less than they gain.
+    fn asked_as_likely(
+        &mut self,
+        noise: Claimed,
+        before: &Answer,
+        from: f64,
+        to: f64,
+    ) -> Result<Answer, Failure> {
+        let mut then = self.asked(noise.clone(), from, to)?;
+        while let Some(courses) = &self.courses
+            && then.found() < before.found()
+            && then.log_posterior() < before.log_posterior()
+            && !self.settings.by_noise.contains_key(&then.found())
+        {
+            let gain = before.examination.score - then.examination.score;
+            let beside = (&then.examination, &then.claimed);
+            let p = further::by_chance(&self.candidates, beside, courses, &self.settings, gain)?;
+            if p > self.settings.alpha {
+                break;
+            }
+            self.settings.by_noise.insert(then.found(), p);
+            then = self.asked(noise.clone(), from, to)?;
+        }
+        Ok(then)
     }
 
     /// Takes the slopes of the model anew beside what was found in it, and beside the effect that alone explains most, where the
@@ -517,6 +548,12 @@ impl Answer {
                 Ordering::Equal => likelier,
                 Ordering::Greater => false,
             }
+    }
+
+    /// How many effects with names are in the model that was found.
+    fn found(&self) -> usize {
+        let fitted = self.examination.fitted.as_ref();
+        fitted.map_or(0, |fitted| fitted.atoms.len())
     }
 
     /// How many effects have no explanation, and how many there are.

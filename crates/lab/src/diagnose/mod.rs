@@ -33,6 +33,7 @@
 //! | `possible` | sizes that an effect cannot have |
 //! | `reduced` | a recording reduced to its residuals |
 //! | `settled` | a model fitted, with the noise that is claimed or that it leaves |
+//! | `further` | whether a further effect gains more than noise alone gives it |
 //! | `inquiry` | the recording asked in stages, noise and effects in turn |
 //! | `run` | a diagnosis from end to end |
 //! | `adopt` | the model with effects in it: its equations, its fit |
@@ -73,6 +74,7 @@ mod extra;
 mod failure;
 pub mod faults;
 mod fit;
+mod further;
 mod held_out;
 mod improved;
 mod inquiry;

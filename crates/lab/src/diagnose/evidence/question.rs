@@ -1,5 +1,7 @@
 //! What is asked: candidates, their atoms, settings.
 
+use std::collections::BTreeMap;
+
 use nalgebra::DMatrix;
 
 use super::baseline::Baseline;
@@ -113,9 +115,10 @@ pub struct Settings {
     pub seed: u64,
     /// Draws of each simulated null distribution.
     pub draws: usize,
-    /// Probability that correlated noise alone gives effects as much as they gain here, where it is a rival: no effect is
-    /// found unless that is small as well.
-    pub by_noise: f64,
+    /// Where noise that may be correlated or grow is a rival of effects, for so many of them that were found: probability that it
+    /// alone gives further ones as much as they gain here. Each recording of that test chooses its noise anew, so that no other
+    /// test, with one noise for all, is asked whether there is one.
+    pub by_noise: BTreeMap<usize, f64>,
 }
 
 impl Default for Settings {
@@ -125,7 +128,7 @@ impl Default for Settings {
             alpha: 0.01,
             seed: 1,
             draws: 4000,
-            by_noise: 0.0,
+            by_noise: BTreeMap::new(),
         }
     }
 }

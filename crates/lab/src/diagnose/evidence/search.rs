@@ -79,9 +79,8 @@ pub(super) fn search(
         };
         let with_pairs = (level == 0).then_some(&pairs);
         let mut outcome = detection::test(space, &best, FORM, with_pairs, simulated);
-        if level == 0 {
-            outcome.p = outcome.p.max(space.question.settings.by_noise);
-        }
+        let by_noise = space.question.settings.by_noise.get(&level);
+        outcome.p = by_noise.copied().unwrap_or(outcome.p);
         let Some(strongest) = outcome.strongest else {
             search.complete = Some(best.blocks);
             break;

@@ -354,3 +354,40 @@ fn noise_may_grow_about_the_zero_of_the_output() {
         assert!(origin(&found).contains("(y − y₀)"), "{}", origin(&found));
     }
 }
+
+/// A pressure transducer with a bend at 4.5 MPa, whose scale follows the ambient pressure, which walks.
+fn transducer(seed: u64) -> String {
+    let mut noise = Noise(seed);
+    for _ in 0..20 {
+        noise.uniform();
+    }
+    let mut text = "t [h],p [MPa],ambient [hPa],U [mV]\n".to_owned();
+    let mut ambient = 0.0;
+    for row in 0..63_i32 {
+        ambient += 0.35 * noise.normal();
+        let p = f64::from((row % 14).min(14 - row % 14));
+        let true_reading = 0.4 + 10.0 * p + 0.008 * (p - 4.5).max(0.0) + 7e-4 * p * ambient;
+        let reading = true_reading + 0.0045 * noise.normal();
+        let _ = writeln!(
+            text,
+            "{:.2},{p},{:.3},{reading:.5}",
+            0.03 * f64::from(row),
+            1013.0 + ambient
+        );
+    }
+    text
+}
+
+/// Two effects look like a scale that wanders as long as each is looked for alone; what both explain is no noise.
+#[test]
+fn a_second_effect_is_held_against_noise_beside_the_first() {
+    let case = "equations = \"U = a + b*p\"\n[columns]\nt = \"time\"\np = \"stimulus\"\nambient = \"covariate\"\nU = \"output\"\n";
+    for (seed, effects) in [(3, 1), (5, 1), (9, 2), (15, 2)] {
+        let found = diagnosed_with("two-beside-noise", &transducer(seed), case);
+        let names = named(&found);
+        assert!(names.contains(&"kink".to_owned()), "{seed}: {names:?}");
+        let scale = names.contains(&"sensitivity-scale".to_owned());
+        assert!(scale || effects == 1, "{seed}: {names:?}");
+        assert!(found["effects"].as_array().map_or(0, Vec::len) >= effects);
+    }
+}

@@ -14,6 +14,7 @@ pub mod faults;
 mod print;
 mod rounded;
 mod show;
+mod square;
 mod superscript;
 mod symbol;
 mod syntax;

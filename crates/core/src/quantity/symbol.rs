@@ -157,10 +157,12 @@ fn read(symbol: &str) -> Vec<(String, i32)> {
         Ok(parsed) => parsed
             .terms
             .into_iter()
-            // The user's own spelling is kept.
             .map(|term| {
+                // The user's own spelling is kept, where it is one of the name: `㎡` is that of `m` with its power.
+                let spelt = symbol.get(term.span);
+                let spelt = spelt.filter(|spelt| unified(spelt) == term.name);
                 (
-                    symbol.get(term.span).map_or(term.name, str::to_owned),
+                    spelt.map_or(term.name.clone(), str::to_owned),
                     term.exponent,
                 )
             })
@@ -210,6 +212,8 @@ mod tests {
     fn equal_names_merge_across_spellings() {
         assert_eq!(composed(&[("μm", 1), ("µm", 1)]), "μm^2");
         assert_eq!(composed(&[("ppm/℃", 1), ("K", 1)]), "ppm");
+        assert_eq!(composed(&[("㎡", 1), ("㎜", 1), ("㎨", 2)]), "m^4·㎜/s^4");
+        assert_eq!(composed(&[("㎏", 1), ("kg", -1)]), "1");
         assert_eq!(composed(&[("mA", 1), ("V", -1), ("mA", -1), ("V", 1)]), "1");
     }
 

@@ -7,6 +7,7 @@ use std::str::CharIndices;
 use gumption_fault::say;
 
 use super::faults::{MALFORMED_UNIT, UnitError};
+use super::square;
 
 /// A token and its place.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,6 +68,15 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, UnitError> {
                 let end = chars.peek().map_or(text.len(), |(next, _)| *next);
                 Kind::Name(unified(&text[start..end]))
             }
+            _ if let Some(unit) = square::written_out(c) => {
+                let here = start..start + c.len_utf8();
+                let parts = tokens(unit)?.into_iter();
+                result.extend(parts.map(|part| Token {
+                    span: here.clone(),
+                    ..part
+                }));
+                continue;
+            }
             _ => {
                 let span = start..start + c.len_utf8();
                 let help = say!("units are written as in `m/s^2`, `µV/(V·K)` or `°/√h`");
@@ -87,8 +97,10 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, UnitError> {
 pub(super) fn unified(name: &str) -> String {
     let mut result = String::with_capacity(name.len());
     for c in name.chars().map(half_width) {
-        match LOOK_ALIKES.iter().find(|(from, _)| from.contains(&c)) {
-            Some((_, to)) => result.push_str(to),
+        let alike = LOOK_ALIKES.iter().find(|(from, _)| from.contains(&c));
+        let alike = alike.map(|(_, to)| *to);
+        match alike.or_else(|| square::written_out(c)) {
+            Some(to) => result.push_str(to),
             None => result.push(c),
         }
     }
@@ -114,15 +126,10 @@ const LOOK_ALIKES: &[(&[char], &str)] = &[
     (&['"', '”', 'ʺ'], "″"),
     (&['∆'], "Δ"), // increment for Greek Delta
     (&['ℓ'], "l"),
-    (&['㎜'], "mm"), // signs of Chinese keyboards
-    (&['㎝'], "cm"),
-    (&['㎞'], "km"),
-    (&['㎎'], "mg"),
-    (&['㎏'], "kg"),
 ];
 
 fn starts_name(c: char) -> bool {
-    c.is_alphabetic() || "°º˚'\"’”′″%‰‱％_$∆℃℉㎜㎝㎞㎎㎏".contains(c)
+    c.is_alphabetic() || "°º˚'\"’”′″%‰‱％_$∆℃℉".contains(c) || square::name(c).is_some()
 }
 
 fn continues_name(c: char) -> bool {
@@ -191,6 +198,23 @@ mod tests {
             .map(|t| t.span)
             .collect();
         assert_eq!(spans, [0..3, 3..4, 4..7, 7..8]);
+    }
+
+    #[test]
+    fn a_unit_in_one_sign_has_its_parts_where_it_stands() {
+        let kinds = |text: &str| -> Vec<Kind> {
+            let tokens = tokens(text).unwrap();
+            assert!(
+                tokens
+                    .iter()
+                    .all(|token| text.get(token.span.clone()).is_some())
+            );
+            tokens.into_iter().map(|token| token.kind).collect()
+        };
+        assert_eq!(kinds("N/㎡"), kinds("N/m²"));
+        assert_eq!(kinds("㎏·㎨"), kinds("kg·(m/s²)"));
+        assert_eq!(names("㎜Hg ㎜2"), ["mmHg", "mm2"]);
+        assert_eq!(tokens("V/㎡").unwrap()[3].span, 2..5);
     }
 
     #[test]

@@ -19,7 +19,6 @@ use crate::propagate::{
     self, BlockFigures, Evaluation, EvaluationError, MonteCarloChoice, Options, Progress,
     RowEvaluation, parallel_map,
 };
-use gumption_core::quantity::UnitTable;
 use gumption_fault::say;
 use gumption_fault::{Fault, Rejection};
 use gumption_format::csv::faults::NO_HEADER;
@@ -67,7 +66,7 @@ pub fn run<T: Default + Send>(
     let first = pieces.next().unwrap_or_else(empty).map_err(refused)?;
     let head = Sheet::new(&first.text)
         .map_err(|fault| Rejection::new(table, &first.text, vec![*fault]))?
-        .above_units(&UnitTable::default());
+        .above_units(&file.units());
     let batch = file.batch(&head, table, &plan.keep)?;
     let mut run = Run::new(&batch, plan, &head);
     let mut work = |sheet: &Sheet<'_>, read: u64| {

@@ -10,10 +10,12 @@ use super::check::{Origin, Variant};
 use super::faults::{SERIES, UNKNOWN_NAME};
 use super::open_files::OpenFiles;
 use super::pattern::Pattern;
-use super::points::{Columns, plain_number};
+use super::plain_number::plain_number;
+use super::points::Columns;
 use super::reader::{checked, open_files, read_under, tables, text_of};
-use super::series::{self, Column};
+use super::series::{self, Column, Ground};
 use super::{Budget, Files, Profile, Row, hints::HINTS};
+use gumption_core::quantity::UnitTable;
 use gumption_fault::{Fault, Rejection, nearest, say};
 use gumption_format::csv::faults::NO_COLUMN;
 use gumption_format::csv::{self, Sheet};
@@ -64,6 +66,12 @@ impl<'f> BatchFile<'f> {
         (loaded.rows.len() == 1).then(|| loaded.rows.swap_remove(0).budget)
     }
 
+    /// The units of the program and of the budget.
+    pub fn units(&self) -> UnitTable {
+        let (file, _) = document(&self.text, HINTS.synonyms);
+        Ground::of(file.get_ref()).units().clone()
+    }
+
     fn directory(&self) -> &Path {
         self.path.parent().unwrap_or_else(|| Path::new(""))
     }
@@ -100,9 +108,7 @@ impl<'f> BatchFile<'f> {
         }
         let in_table = |faults| Rejection::new(table, sheet.text(), faults);
         let place = |at| sheet.place(sheet.header(), at);
-        let names_one = |name: &str| series::names_one(&file, name);
-        let of_readings = |name: &str| series::unit_of_readings(&file, name);
-        let columns = Columns::of(sheet, place, names_one, of_readings).map_err(in_table)?;
+        let columns = Columns::of(sheet, place, &Ground::of(&file)).map_err(in_table)?;
         let mut faults = Vec::new();
         let kept = kept(keep, sheet, &columns.names, &mut faults);
         let names = columns.names.iter().enumerate();

@@ -25,6 +25,7 @@ mod fit;
 pub mod hints;
 mod open_files;
 mod pattern;
+mod plain_number;
 mod points;
 mod profile;
 pub mod quantities;

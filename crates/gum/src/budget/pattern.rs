@@ -13,7 +13,7 @@ use std::ops::Range;
 use super::Budget;
 use super::check::Plain;
 use super::components::{Component, Owner};
-use super::points::{next_number, plain_number};
+use super::plain_number::{next_number, plain_number};
 use super::rows::Rows;
 use super::series::Column;
 use super::tables::{ComponentTable, FileTable, InputTable};

@@ -13,7 +13,7 @@ use super::faults::UNUSED;
 use super::hints::HINTS;
 use super::open_files::OpenFiles;
 use super::points::Points;
-use super::series;
+use super::series::{self, Ground};
 use super::tables::FileTable;
 use gumption_fault::language::Language;
 use gumption_fault::{Fault, Rejection, Said, say};
@@ -211,16 +211,12 @@ fn read_variants(
     let place = (name, reader.file);
     let file = tables(&table, profile, &mut reader);
     let stated = file.series.as_ref();
-    let named = stated.and_then(|stated| stated.value.file.as_ref());
-    let names_one = |name: &str| series::names_one(&table, name);
-    let of_readings = |name: &str| series::unit_of_readings(&table, name);
-    let points =
-        named.map(|named| Points::read(named, origin, names_one, of_readings, &mut reader.faults));
+    let points = stated.and_then(|stated| {
+        let budget = (reader.file, origin);
+        Points::of_series(stated, &Ground::of(&table), budget, &mut reader.faults)
+    });
     let series = match (stated, &points) {
-        (Some(stated), None) => series::series(&table, stated, None, &mut reader.faults),
-        (Some(stated), Some(Some(points))) => {
-            series::series(&table, stated, Some(points), &mut reader.faults)
-        }
+        (Some(stated), Some(points)) => series::series(&table, stated, points, &mut reader.faults),
         _ => None,
     };
     let repetitions = stated.and_then(|stated| stated.value.repetitions.as_ref());

@@ -8,10 +8,8 @@ mod heads;
 mod places;
 mod readings;
 
-use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::cell::Entry;
@@ -22,26 +20,25 @@ use super::tables::SeriesTable;
 use columns::{OWNERS, numbered};
 use gumption_fault::{Fault, say};
 use gumption_format::toml::{Raw, Stated};
-use heads::Heads;
 use places::{COMPONENTS, leave_out, set};
 
-pub(super) use columns::{Column, LABEL, column, names_one, set_twice, targets};
-pub(super) use readings::unit_of_readings;
+pub(super) use columns::{Column, LABEL, column, set_twice, targets};
+pub(super) use heads::{Ground, HeadUnit};
 
 /// Where a row stands, and its cells under the heads of their columns.
-type WrittenRow<'t> = (std::ops::Range<usize>, Vec<(Stated<Entry>, Raw<'t>)>);
+pub(super) type WrittenRow<'t> = (std::ops::Range<usize>, Vec<(Stated<Entry>, Raw<'t>)>);
 
 /// The rows of a series. The file with a row in place is made when it is asked for: those of all rows together are some
 /// thousand times as large as the table.
-pub(super) struct Series<'a, 't> {
+pub(super) struct Series<'t> {
     /// Without the series: it would be copied for each of its rows.
     file: DeTable<'t>,
-    columns: Cow<'a, [Stated<String>]>,
+    columns: &'t [Stated<String>],
     targets: Vec<Option<Column>>,
     rows: Vec<WrittenRow<'t>>,
 }
 
-impl<'t> Series<'_, 't> {
+impl<'t> Series<'t> {
     /// The file with each row in place.
     pub fn variants(&self) -> impl ExactSizeIterator<Item = Variant<'t>> {
         let rows = self.rows.iter();
@@ -49,7 +46,7 @@ impl<'t> Series<'_, 't> {
         rows.map(move |(_, cells)| {
             // What can be wrong with them has been looked for.
             let mut faults = Vec::new();
-            let mut row = variant(&self.file, &self.columns, &self.targets, cells, &mut faults);
+            let mut row = variant(&self.file, self.columns, &self.targets, cells, &mut faults);
             if let Some((column, unit)) = &naming {
                 row.label = Some(amount(&cells[*column].0.value, unit));
             }
@@ -110,51 +107,17 @@ pub(super) struct Variant<'t> {
 }
 
 /// The rows of the series of a file; nothing where it is faulty.
-pub(super) fn series<'a, 't>(
-    file: &'a DeTable<'t>,
-    stated: &'a Stated<SeriesTable>,
-    points: Option<&'t Points>,
+pub(super) fn series<'t>(
+    file: &DeTable<'t>,
+    stated: &Stated<SeriesTable>,
+    points: &'t Points,
     faults: &mut Vec<Fault>,
-) -> Option<Series<'a, 't>>
-where
-    't: 'a,
-{
+) -> Option<Series<'t>> {
     let before = faults.len();
     let table = &stated.value;
-    let (columns, rows): (Cow<'a, [Stated<String>]>, Vec<WrittenRow<'t>>) =
-        match (points, &table.columns, &table.rows) {
-            (Some(points), None, None) => {
-                let names = points.columns.names.as_slice();
-                let rows = points.rows().map(|cells| (names[0].span.clone(), cells));
-                (Cow::Borrowed(names), rows.collect())
-            }
-            (None, Some(columns), Some(rows)) => {
-                let heads = Heads::of(&columns.value, faults);
-                let rows = rows_of_file(file, &rows.value, &heads);
-                (Cow::Owned(heads.names), rows)
-            }
-            (Some(_), ..) => {
-                faults.push(
-                    Fault::new(
-                        SERIES,
-                        stated.span.clone(),
-                        say!("the rows of the series are stated twice"),
-                    )
-                    .label(say!("in a file and here"))
-                    .help(say!(
-                        "the first line of `file` names the columns: leave out `columns` and `rows`"
-                    )),
-                );
-                return None;
-            }
-            _ => {
-                if !table.refused {
-                    faults.push(incomplete(stated));
-                }
-                return None;
-            }
-        };
-    let targets = targets(file, &columns, faults);
+    let columns = points.columns.names.as_slice();
+    let rows: Vec<WrittenRow<'t>> = points.rows().collect();
+    let targets = targets(file, columns, faults);
     if rows.is_empty() {
         faults.push(
             Fault::new(SERIES, stated.span.clone(), say!("the series has no rows"))
@@ -178,7 +141,7 @@ where
             });
             continue;
         }
-        variant(&alone, &columns, &targets, cells, faults);
+        variant(&alone, columns, &targets, cells, faults);
     }
     (faults.len() == before).then_some(Series {
         file: alone,
@@ -299,46 +262,6 @@ fn missing_element(name: &Stated<String>, cell: &Stated<Entry>) -> Fault {
     Fault::new(SERIES, cell.span.clone(), message)
         .label(say!("an empty cell"))
         .help(say!("state it in every row"))
-}
-
-fn incomplete(stated: &Stated<SeriesTable>) -> Fault {
-    let missing = if stated.value.columns.is_none() {
-        "columns"
-    } else {
-        "rows"
-    };
-    Fault::new(
-        SERIES,
-        stated.span.clone(),
-        say!("the series has no `{missing}`"),
-    )
-    .label(say!("`{missing}` is missing"))
-}
-
-/// The rows that the file states: their places, and their cells as read and as the file has them.
-fn rows_of_file<'t>(
-    file: &DeTable<'t>,
-    rows: &[Stated<Vec<Stated<Entry>>>],
-    heads: &Heads,
-) -> Vec<WrittenRow<'t>> {
-    let raw = match file.get("series").map(Spanned::get_ref) {
-        Some(DeValue::Table(series)) => series.get("rows").map(Spanned::get_ref),
-        _ => None,
-    };
-    let Some(DeValue::Array(raw)) = raw else {
-        return Vec::new();
-    };
-    let raw = raw.iter().filter_map(|row| match row.get_ref() {
-        DeValue::Array(cells) => Some(cells),
-        _ => None,
-    });
-    rows.iter()
-        .zip(raw)
-        .map(|(row, raw)| {
-            let cells = row.value.iter().cloned().zip(raw.iter().cloned());
-            (row.span.clone(), heads.over(cells))
-        })
-        .collect()
 }
 
 fn label(cell: &Entry) -> String {
@@ -509,6 +432,46 @@ rows = [["a", 295.65, 600], ["b", "296 K", "0.9 K"]]
         let refused = read(&unknown, "budget.toml", Path::new("")).expect_err("no unit");
         let place = refused.faults[0].span.clone();
         assert_eq!((&unknown[place], refused.faults.len()), ("parsec", 1));
+    }
+
+    /// Lists of numbers have no units of their own: those under a head with a unit are converted to that of their quantity.
+    #[test]
+    fn a_head_may_state_the_unit_of_lists() {
+        let file = r#"
+[unit]
+lsb = "0.5 mV"
+[measurand.Y]
+model = "sum(X) + V + W"
+unit = "mV"
+[input.X]
+unit = "mV"
+values = [1, 2]
+[input.V]
+unit = "V"
+[input.W]
+unit = "V"
+[series]
+columns = ["X [V]", "X.u [µV]", "V.readings [lsb]", "W.groups [mV]"]
+rows = [[[0.003, 0.004], 5, [1_000, 1002, 1e3], [[1, 2], [3, 4]]]]
+"#;
+        let loaded = read(file, "budget.toml", Path::new("")).expect("a budget");
+        let budget = &loaded.rows[0].budget;
+        let close = |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-12, "{found}");
+        let estimates: Vec<f64> = budget.inputs.iter().map(|input| input.estimate).collect();
+        let thirds = (1000.0 + 1002.0 + 1000.0) / 3.0;
+        for (found, wanted) in estimates.into_iter().zip([3.0, 4.0, thirds * 5e-4, 2.5e-3]) {
+            close(found, wanted);
+        }
+        close(budget.components[0].u, 5e-3);
+        // s = 2/√3 of the readings, over √3.
+        close(budget.components[2].u, 2.0 / 3.0 * 5e-4);
+        let refused = file.replace("V.readings [lsb]", "V.readings [kg]");
+        let refused = read(&refused, "budget.toml", Path::new("")).expect_err("no unit");
+        assert!(
+            refused
+                .render(false)
+                .contains("V.readings is in kg, which is no unit like V")
+        );
     }
 
     #[test]

@@ -135,21 +135,15 @@ pub(in crate::budget) fn column(
             continue;
         };
         path.insert(0, owner.to_string());
-        if path.len() > 2 {
-            return Some(Column::Path(path));
-        }
-        if let Some(values) = values(entry) {
-            faults.push(
-                Fault::new(SERIES, name.span.clone(), say!("{wanted} is a vector"))
-                    .label(say!("a column sets one number"))
-                    .related(values, say!("its values"))
-                    .help(say!("name an element: \"{wanted}.values.1\"")),
-            );
-            return None;
-        }
-        // A constant may be a bare number.
-        if matches!(entry.get_ref(), DeValue::Table(_)) {
-            path.push("value".into());
+        let table = entry.get_ref().as_table();
+        let is_vector = table.is_some_and(|table| table.contains_key("values"));
+        let is_element = |key: &String| key.parse::<usize>().is_ok();
+        match path.get(2) {
+            None if is_vector => path.push("values".into()),
+            Some(key) if is_vector && is_element(key) => path.insert(2, "values".into()),
+            // A constant may be a bare number or list.
+            None if table.is_some() => path.push("value".into()),
+            _ => {}
         }
         return Some(Column::Path(path));
     }
@@ -312,19 +306,14 @@ fn segments(path: &str) -> Vec<String> {
     parts
 }
 
-/// Whether a file has an input, a constant or a source of this name, or one whose uncertainty it writes as `u(V)`: that is no u in
-/// volt.
-pub(in crate::budget) fn names_one(file: &DeTable<'_>, name: &str) -> bool {
-    is_owned(file, name) || uncertainty(file, name).is_some()
-}
-
-fn is_owned(file: &DeTable<'_>, name: &str) -> bool {
+/// Whether a file has an input, a constant or a source of this name.
+pub(super) fn is_owned(file: &DeTable<'_>, name: &str) -> bool {
     let mut owners = OWNERS.iter();
     owners.any(|owner| entry(file, owner, name).is_some())
 }
 
 /// The letter and the input of `u(V)`, `U(V)` or `u_V`.
-fn uncertainty<'c>(file: &DeTable<'_>, column: &'c str) -> Option<(&'c str, &'c str)> {
+pub(super) fn uncertainty<'c>(file: &DeTable<'_>, column: &'c str) -> Option<(&'c str, &'c str)> {
     let (letter, rest) = column.split_at_checked(1)?;
     let inside = rest
         .strip_prefix('(')
@@ -357,16 +346,6 @@ pub(super) fn has_estimate(file: &DeTable<'_>, path: &[String]) -> bool {
     let mut components = listed.into_iter().flat_map(|list| list.iter());
     input.is_some_and(locates)
         || components.any(|entry| entry.get_ref().as_table().is_some_and(locates))
-}
-
-/// Where an entry states the values of a vector.
-fn values(entry: &Raw<'_>) -> Option<std::ops::Range<usize>> {
-    match entry.get_ref() {
-        DeValue::Table(table) => table
-            .get_key_value("values")
-            .map(|(key, _)| key.span().clone()),
-        _ => None,
-    }
 }
 
 #[cfg(test)]

@@ -24,7 +24,12 @@ pub(super) fn set<'t>(
     raw: &Raw<'t>,
     faults: &mut Vec<Fault>,
 ) {
-    if let (Entry::Text(text), Some("value")) = (&cell.value, path.last().map(String::as_str)) {
+    let text = match &cell.value {
+        Entry::Text(text) => Some(text.clone()),
+        Entry::Number(number) => (!number.is_finite()).then(|| number.to_string()),
+        Entry::List => None,
+    };
+    if let (Some(text), Some("value")) = (&text, path.last().map(String::as_str)) {
         let mend = csv::mend_of_number(text);
         if mend.is_some() || amount_parts(text).is_none() {
             let mend = mend.unwrap_or_else(|| say!("leave it empty if the value is missing"));

@@ -6,41 +6,12 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::columns::{Column, READINGS, column, entry, numbered};
+use super::columns::{Column, numbered};
 use super::places::set;
 use crate::budget::cell::Entry;
 use crate::budget::faults::SERIES;
-use gumption_core::quantity::{Unit, UnitTable};
 use gumption_fault::{Fault, say};
-use gumption_format::toml::{Raw, Stated, amount_parts};
-
-/// The unit in which a budget has the readings that a column of this name sets; nothing of other columns, and where it is not
-/// known.
-pub(in crate::budget) fn unit_of_readings(file: &DeTable<'_>, name: &str) -> Option<Unit> {
-    let name = Stated {
-        value: name.to_owned(),
-        span: 0..0,
-        key: 0..0,
-    };
-    let Some(Column::Path(path)) = column(file, &name, &mut Vec::new()) else {
-        return None;
-    };
-    let list = numbered(&path).map_or(path.as_slice(), |(list, _)| list);
-    let [owner, input, .., last] = list else {
-        return None;
-    };
-    let DeValue::Table(stated) = entry(file, owner, input)?.get_ref() else {
-        return None;
-    };
-    let text = |key: &str| match stated.get(key).map(Spanned::get_ref) {
-        Some(DeValue::String(text)) => Some(text.as_ref()),
-        _ => None,
-    };
-    let of_value = || text("value").and_then(|text| Some(amount_parts(text)?.1));
-    let unit = text("unit").or_else(of_value).unwrap_or("1");
-    let unit = (last == READINGS).then(|| UnitTable::default().parse(unit));
-    unit?.ok()
-}
+use gumption_format::toml::{Raw, Stated};
 
 /// Readings of one list, on the way from their columns into the file.
 pub(super) struct Readings<'a, 't> {

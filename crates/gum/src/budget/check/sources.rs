@@ -239,6 +239,11 @@ impl Checker<'_> {
                         true => say!(
                             "add relative = true if it is a relative error of the value, else the sensitivity: sensitivity = \"… {sensitivity}\""
                         ),
+                        false if let Some(stated) = &entry.table.sensitivity => say!(
+                            "it is the change of {} per unit of the source, in {sensitivity}: sensitivity = \"{} {sensitivity}\"",
+                            context.owner,
+                            stated.value.number
+                        ),
                         false => say!("add the sensitivity: sensitivity = \"… {sensitivity}\""),
                     }
                 }),

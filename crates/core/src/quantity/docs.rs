@@ -70,7 +70,7 @@ which you state them.
 - A product behind a solidus, as in `W/m·K`, is refused because it is read in two ways.
 - A power needs its sign: `m^2`, not `m2`. A product needs its sign too: `N·m`, not `Nm`.
 - `µ` may be either of the two characters that look like this, or `u`. `℃`, the ohm sign, and the
-  signs of a Chinese keyboard such as `（` and `％` are read as well.
+  signs of a Chinese keyboard such as `（`, `％`, `㎡` and `㎃` are read as well.
 - A quantity of dimension one has the unit `1`. An empty unit is an error.
 
 ## Prefixes

@@ -12,7 +12,7 @@ use super::identify::{Alias, Identifiability, alias};
 use super::limits::{Limit, limits};
 use super::pattern::{Pattern, patterns};
 use super::residual::Residual;
-use super::scatter::{ResponseScatter, Scatters, weights};
+use super::scatter::{ResponseScatter, Scatters, known_u, weights};
 use super::signs::reversed;
 use super::stack::{Readings, Row, Stack};
 use super::swaps::swapped;
@@ -268,7 +268,7 @@ fn solved(stack: &Stack<'_>) -> Result<(Solution, Vec<f64>, Scatters), Trouble> 
     let mut u = weights(stack)?;
     let couples = stack.readings() < stack.rows.len() && stack.campaign.weights == Weights::Equal;
     if couples {
-        first_scale(stack, &mut u);
+        u = beside_known_values(stack, u);
     }
     let mut rounds = 0;
     loop {
@@ -294,17 +294,35 @@ fn solved(stack: &Stack<'_>) -> Result<(Solution, Vec<f64>, Scatters), Trouble> 
     }
 }
 
-/// Readings that count much, for the first round.
-fn first_scale(stack: &Stack<'_>, u: &mut [f64]) {
+/// Standard uncertainties of readings of equal weight, for the first round: as the known errors of the readings of each response
+/// are in the mean; where there are none, readings that count much.
+fn beside_known_values(stack: &Stack<'_>, mut u: Vec<f64>) -> Vec<f64> {
     let size = stack
         .observed
         .iter()
         .fold(0.0_f64, |most, value| most.max(value.abs()));
-    for (row, u) in stack.rows.iter().zip(u) {
-        if matches!(row, Row::Reading { .. }) {
-            *u = 1e-4 * size.max(f64::MIN_POSITIVE);
+    let known = known_u(stack, true);
+    let of = |response: usize| {
+        let rows = stack.rows.iter().zip(&known);
+        let own = rows.filter_map(|(row, u)| match row {
+            Row::Reading { response: own, .. } => (*own == response).then_some(u * u),
+            Row::Prior { .. } => None,
+        });
+        let squares: Vec<f64> = own.collect();
+        let mean = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+        match mean > 0.0 {
+            true => mean,
+            false => 1e-4 * size.max(f64::MIN_POSITIVE),
+        }
+    };
+    let responses = 0..stack.campaign.experiment.equations.responses().len();
+    let means: Vec<f64> = responses.map(of).collect();
+    for (row, u) in stack.rows.iter().zip(&mut u) {
+        if let Row::Reading { response, .. } = row {
+            *u = means[*response];
         }
     }
+    u
 }
 
 /// Coefficients with their covariance from the causes.

@@ -183,7 +183,7 @@ pub(super) fn weights(stack: &Stack<'_>) -> Result<Vec<f64>, Trouble> {
 
 /// Standard uncertainty of each reading by itself: stated errors of each reading, and its samples if
 /// wanted. Zero where nothing is known.
-fn known_u(stack: &Stack<'_>, samples: bool) -> Vec<f64> {
+pub(super) fn known_u(stack: &Stack<'_>, samples: bool) -> Vec<f64> {
     let campaign = stack.campaign;
     let of_row = |row: &Row| {
         let Row::Reading { point, response } = row else {

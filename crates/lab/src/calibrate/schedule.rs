@@ -33,7 +33,10 @@ pub(super) fn scheduled(checker: &mut Checker<'_>, names: &Names) -> Option<Poin
                     ),
                 )
                 .label(say!("expected {first}"))
-                .related(place.clone(), say!("the first column")),
+                .related(place.clone(), say!("the first column"))
+                .help(say!(
+                    "each key of [schedule] is a column with one value for each point; points that are measured again are listed again"
+                )),
             );
             continue;
         }

@@ -322,3 +322,30 @@ fn dates_with_the_month_in_doubt_are_refused_once() {
         assert!(told.contains(mend), "{told}");
     }
 }
+
+/// Parameters without a start enter linearly once what is stated of the others holds: a known error that two scale factors share
+/// asks for none, and leaves them where straight lines have them.
+#[test]
+fn a_known_error_asks_for_no_start_of_the_others() {
+    let mut noise = Noise(41);
+    let mut rows = "omega [deg/s],U [mV],V [mV]\n".to_owned();
+    let (mut squares, mut products) = (0.0, [0.0; 2]);
+    for row in 0..15 {
+        let omega = f64::from(row % 5) * 50.0 - 100.0;
+        let (u, v) = (
+            2.0 * omega + 0.3 + 0.02 * noise.normal(),
+            1.5 * omega - 0.2 + 0.02 * noise.normal(),
+        );
+        let _ = writeln!(rows, "{omega},{u:.9},{v:.9}");
+        squares += omega * omega;
+        products = [products[0] + omega * u, products[1] + omega * v];
+    }
+    let case = "equations = [\"U = K*omega*(1 + e) + b\", \"V = L*omega*(1 + e) + c\"]\n[columns]\nU = \"output\"\nV = \"output\"\nomega = \"stimulus\"\n[input.e]\nu = 1e-4\n[noise]\nu = \"0.02 mV\"\n";
+    let found = diagnosed_with("shared-scale", &rows, case);
+    for (name, sum) in ["K", "L"].into_iter().zip(products) {
+        let all = parameters(&found);
+        let own = all.iter().find(|(own, ..)| own == name);
+        let slope = own.expect("a scale factor").2;
+        assert!((slope - sum / squares).abs() < 1e-7, "{name} = {slope}");
+    }
+}

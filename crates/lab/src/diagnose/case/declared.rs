@@ -52,11 +52,13 @@ impl Checker<'_> {
                 return None;
             }
         };
-        let places: Vec<usize> = (0..parameters.len()).collect();
+        // From what is stated of the others, one step leads to all in which the equations are linear.
+        let open = parameters.iter().enumerate();
+        let open = open.filter(|(_, p)| p.start.is_none() && p.prior.is_none());
+        let open: Vec<usize> = open.map(|(place, _)| place).collect();
         // A search may begin anywhere if there are few unknowns and starts at least for some.
-        let open = parameters.iter().filter(|p| p.start.is_none()).count();
-        if !equations.are_affine_in(&places) && open > 3 {
-            self.no_start(&parameters);
+        if !equations.are_affine_in(&open) && open.len() > 3 {
+            self.no_start(open.iter().map(|place| &parameters[*place]));
         }
         Some(Declared {
             parameters,
@@ -84,8 +86,13 @@ impl Checker<'_> {
         let found = columns.iter().position(|column| column.name == name);
         let Some(at) = found.filter(|at| !matches!(columns[*at].data, Data::Labels(_))) else {
             let fault = Fault::new(LEFT_SIDE, place, say!("{name} was not observed"));
-            return self
-                .refuse(fault.label(say!("neither a column of the recording nor exactly known")));
+            let fault = fault.label(say!("neither a column of the recording nor exactly known"));
+            return self.refuse(match observed {
+                Of::Input(_) => fault.help(say!(
+                    "a diagnosis takes what stands on the left as exact: list {name} below [constant]; `calibrate` has the uncertainty of an input there"
+                )),
+                _ => fault,
+            });
         };
         if columns[at].role == RoleWord::Output {
             return Some(Observed::Column(at));
@@ -98,9 +105,8 @@ impl Checker<'_> {
         )
     }
 
-    fn no_start(&mut self, parameters: &[Parameter]) {
-        let missing = parameters.iter().filter(|p| p.start.is_none());
-        let example = missing.map(|p| format!("{} = {{ start = … }}", p.name));
+    fn no_start<'p>(&mut self, open: impl Iterator<Item = &'p Parameter>) {
+        let example = open.map(|p| format!("{} = {{ start = … }}", p.name));
         let example = example.collect::<Vec<String>>().join(", ");
         let equations = self.source.table.equations.as_ref();
         let place = equations.map_or(0..0, |list| list.span.clone());

@@ -215,3 +215,63 @@ fn formulas_add_where_an_origin_is_below_zero() {
         "{text}"
     );
 }
+
+/// A term whose parts fit together is one of quantities: the sine is that of the angle, whatever unit it is recorded in.
+#[test]
+fn an_own_term_is_one_of_quantities() {
+    let mut noise = Noise(35);
+    let mut rows = "phi [°],U [mV]\n".to_owned();
+    for row in 0..48 {
+        let phi = f64::from(row % 24) * 15.0;
+        let wave = libm::sin((phi + 30.0).to_radians());
+        let _ = writeln!(
+            rows,
+            "{phi},{:.6}",
+            0.1 + 0.02 * wave + 5e-4 * noise.normal()
+        );
+    }
+    let case = "equations = \"U = a\"\n[columns]\nU = \"output\"\nphi = \"covariate\"\n[noise]\nu = \"0.0005 mV\"\n[diagnosis]\ncatalogue = [\"user\"]\n[omitted.wave]\nterm = \"wave * sin(phi + 30 '°')\"\n";
+    let found = diagnosed("own-term", &rows, case);
+    let (_, unit, size) = first(&found);
+    assert_eq!(unit, "mV", "{found:#}");
+    assert!((size - 0.02).abs() < 1e-3, "{found:#}");
+}
+
+/// A usual size is an amount: the same in every unit, that of its own `unit` among them.
+#[test]
+fn a_usual_size_is_converted() {
+    let mut noise = Noise(36);
+    let mut rows = "omega [deg/s],U [mV]\n".to_owned();
+    for row in 0..20 {
+        let omega = f64::from(row % 5) * 50.0 - 100.0;
+        let _ = writeln!(
+            rows,
+            "{omega},{:.6}",
+            0.3 + 2.0 * omega + 0.1 * noise.normal()
+        );
+    }
+    let shift = |typical: &str| {
+        let case = format!(
+            "equations = \"U = K*omega + b\"\n[columns]\nU = \"output\"\nomega = \"stimulus\"\n[omitted.k2]\nterm = \"k2*omega^2\"\n{typical}\n"
+        );
+        let found = diagnosed("usual-size", &rows, &case);
+        let lines = found["omitted"]
+            .as_array()
+            .expect("effects that may be there");
+        let own = lines.iter().find(|line| line["id"] == "user");
+        own.expect("the own effect")["usual_shift"]
+            .as_f64()
+            .expect("a shift")
+    };
+    // 10⁻⁶ mV/(°/s)² at 100 °/s; a radian is 180/π degrees.
+    let in_radians = 1e-6 * (180.0 / std::f64::consts::PI).powi(2);
+    for typical in [
+        "typical = 1e-6".to_owned(),
+        "typical = \"1e-3 µV*s^2/deg^2\"".to_owned(),
+        "unit = \"µV*s^2/deg^2\"\ntypical = 1e-3".to_owned(),
+        format!("typical = \"{in_radians} mV*s^2/rad^2\""),
+    ] {
+        let found = shift(&typical);
+        assert!((found - 0.01).abs() < 1e-9, "{typical}: {found}");
+    }
+}

@@ -3,6 +3,7 @@
 use super::campaign::{FunctionResult, Omitted};
 use crate::experiment::Experiment;
 use crate::experiment::checker::Checker;
+use crate::experiment::coefficient::without_coefficient;
 use crate::experiment::faults::{RESULT, TERM};
 use crate::experiment::source::entries;
 use crate::experiment::symbols::{equation_text, quantity, symbol};
@@ -66,7 +67,7 @@ impl Checker<'_> {
         symbols: &[Quantity],
         shared: &Option<EquationText<'_>>,
     ) -> Option<Omitted> {
-        let term = self.term_of(name, entry, experiment, symbols, shared)?;
+        let term = self.term_of(name, entry, experiment, symbols)?;
         let response = self.response_of(name, entry, experiment)?;
         let (responses, constants) = (experiment.equations.responses(), &experiment.constants);
         let result = &responses[response];
@@ -127,7 +128,6 @@ impl Checker<'_> {
         entry: &'e Stated<OmittedTable>,
         experiment: &Experiment,
         symbols: &[Quantity],
-        shared: &Option<EquationText<'_>>,
     ) -> Option<&'e Stated<String>> {
         let Some(term) = entry.value.term.as_deref() else {
             if !entry.value.refused {
@@ -139,34 +139,17 @@ impl Checker<'_> {
             }
             return None;
         };
-        let Ok(outline) = outline(&term.value, &self.units) else {
-            // What is wrong with it is told where it is compiled.
-            return Some(term);
-        };
-        if outline.needs.iter().any(|(needed, _)| needed == name) {
-            return Some(term);
-        }
-        let constants = experiment.constants.iter().map(|known| known.name.as_str());
-        let known = symbols.iter().map(|known| known.name.as_str());
-        let known = known.chain(constants);
-        let unknown = outline.needs.iter().map(|(needed, _)| needed.as_str());
-        let unknown: Vec<&str> = unknown
-            .filter(|name| known.clone().all(|known| known != *name))
-            .collect();
-        let help = match unknown.as_slice() {
-            // A statement of `model` may define it.
-            [coefficient] if shared.is_none() => {
-                say!("an effect is called as its coefficient: [omitted.{coefficient}]")
+        let constants = experiment.constants.iter();
+        let constants = constants.map(|known| known.name.to_string());
+        let known = symbols.iter().map(|known| known.name.clone());
+        let known: Vec<String> = known.chain(constants).collect();
+        match without_coefficient(self, name, term, &known) {
+            Some(fault) => {
+                self.faults.push(fault);
+                None
             }
-            _ => say!(
-                "{name} is its coefficient: term = \"{name}*({})\"",
-                term.value
-            ),
-        };
-        let message = say!("the term of the omitted effect {name} does not have {name}");
-        let fault = Fault::new(TERM, term.span.clone(), message);
-        self.faults.push(fault.help(help));
-        None
+            None => Some(term),
+        }
     }
 
     /// The equation to which an omitted effect belongs.

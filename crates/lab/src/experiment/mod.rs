@@ -19,6 +19,7 @@
 pub(crate) mod at_rest;
 mod checked;
 pub(crate) mod checker;
+pub(crate) mod coefficient;
 pub(crate) mod columns;
 pub(crate) mod components;
 mod doubt;

@@ -277,7 +277,7 @@ table! {
     OmittedTable "[omitted]" {
         /// The term that it would add to the equation, linear in its own name: `k2*omega^2`.
         term: String,
-        /// In place of `term`: what it adds per unit of its size, a formula of columns, parameters and constants taken as numbers.
+        /// In place of `term`: what it adds per unit of its size, a formula of columns, parameters and constants; they count as numbers where their units do not fit together.
         formula: String,
         /// With `formula`: the parameter, stimulus or output that it changes; the output if left out.
         node: String,

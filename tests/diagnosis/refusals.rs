@@ -212,3 +212,47 @@ fn what_only_a_calibration_uses_is_remarked_on() {
         assert!(said.contains(key), "{said}");
     }
 }
+
+/// A part that is wrong is told with its mend, by the command that uses it and by those that only read it.
+#[test]
+fn parts_that_are_wrong_are_told_with_their_mend() {
+    let folder = folder("parts");
+    let with = |part: &str| format!("{CASE}{part}\n");
+    let listed = |name: &str| with(&format!("[parameter]\n{name} = {{}}\nb = {{}}"));
+    for (case, hints) in [
+        (
+            with("[omitted.k2]\nterm = \"k3*x^2\""),
+            ["does not have k2", "[omitted.k3]"],
+        ),
+        (
+            with("[omitted.k2]\nterm = \"k2*exp(x/20)\"\ntypical = \"1 µV\""),
+            ["D0111", "expected a plain number"],
+        ),
+        (
+            with("[omitted.k2]\nterm = \"k2*x^2\"\ntypical = \"1 µV\""),
+            ["cannot be converted", "mV/kN^2"],
+        ),
+        (
+            listed("c"),
+            ["no equation uses the parameter c", "the equations have a"],
+        ),
+        (
+            CASE.replace("\"output\"", "{ role = \"output\", range = [10, -10] }"),
+            ["the least and the greatest value", "the smaller one first"],
+        ),
+        (
+            CASE.replace(
+                "equations = \"y = a + b * x\"",
+                "procedure = \"gyro-scalefactor\"",
+            ),
+            ["there is no procedure", "did you mean"],
+        ),
+    ] {
+        let (good, text) = &said(&folder, &case, &recording(|_, _| None))[0];
+        assert!(!good, "{case}");
+        for hint in hints {
+            assert!(text.contains(hint), "{hint} is missing in\n{text}");
+        }
+        assert_eq!(text.matches("error[").count(), 1, "{text}");
+    }
+}

@@ -216,7 +216,10 @@ fn read_variants(
         Points::of_series(stated, &Ground::of(&table), budget, &mut reader.faults)
     });
     let series = match (stated, &points) {
-        (Some(stated), Some(points)) => series::series(&table, stated, points, &mut reader.faults),
+        (Some(stated), Some(points)) => {
+            let rows = (points.columns.names.as_slice(), points.rows().collect());
+            series::series(&table, stated, rows, &mut reader.faults)
+        }
         _ => None,
     };
     let repetitions = stated.and_then(|stated| stated.value.repetitions.as_ref());

@@ -15,7 +15,6 @@ use toml::de::{DeTable, DeValue};
 use super::cell::Entry;
 use super::check::states_estimate;
 use super::faults::SERIES;
-use super::points::Points;
 use super::tables::SeriesTable;
 use columns::{OWNERS, numbered};
 use gumption_fault::{Fault, say};
@@ -106,17 +105,15 @@ pub(super) struct Variant<'t> {
     pub table: DeTable<'t>,
 }
 
-/// The rows of the series of a file; nothing where it is faulty.
+/// The rows of the series of a file, below its columns; nothing where it is faulty.
 pub(super) fn series<'t>(
     file: &DeTable<'t>,
     stated: &Stated<SeriesTable>,
-    points: &'t Points,
+    (columns, rows): (&'t [Stated<String>], Vec<WrittenRow<'t>>),
     faults: &mut Vec<Fault>,
 ) -> Option<Series<'t>> {
     let before = faults.len();
     let table = &stated.value;
-    let columns = points.columns.names.as_slice();
-    let rows: Vec<WrittenRow<'t>> = points.rows().collect();
     let targets = targets(file, columns, faults);
     if rows.is_empty() {
         faults.push(

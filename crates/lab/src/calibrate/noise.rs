@@ -12,7 +12,7 @@ use crate::experiment::source::entries;
 use crate::experiment::{Act, Doubt, Experiment, Observed, Purpose, Scope, Target};
 use gumption_core::distribution::{Distribution, Normal};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, say};
+use gumption_fault::{Fault, nearest, say};
 use gumption_format::toml::Stated;
 use gumption_gum::budget::Evaluation;
 
@@ -182,7 +182,14 @@ fn replicates(
             let Some(own) = label(row).or_else(|| number(row)) else {
                 let message = say!("the experiment has no column {}", column.value);
                 let fault = Fault::new(NOISE, column.span.clone(), message);
-                return checker.refuse(fault.label(say!("expected a column of the recording")));
+                let fault = fault.label(say!("expected a column of the recording"));
+                let labels = points.labels.iter().map(|(name, _)| name.as_str());
+                let numbers = points.columns.iter().map(|column| column.name.as_str());
+                let near = nearest(&column.value, labels.chain(numbers));
+                return checker.refuse(match near {
+                    Some(near) => fault.help(say!("did you mean \"{near}\"?")),
+                    None => fault.help(say!("declare it below [columns]")),
+                });
             };
             key.push(own);
         }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::checker::Checker;
 use super::entries::RoleWord;
-use super::faults::{LABELS, UNKNOWN_SYMBOL};
+use super::faults::{KEY, LABELS, UNKNOWN_SYMBOL};
 use super::labels::label_columns;
 use super::names::{Kind, Names};
 use super::purpose::Purpose;
@@ -185,6 +185,8 @@ impl<'s> Checker<'s> {
             }
             return None;
         }
+        self.faults
+            .extend(table.range.as_deref().and_then(no_range));
         let role = stated.unwrap_or_else(|| names.role(name));
         let is_there = is_there(headings, header);
         // What a procedure can use need not be there, nor what a plan is to predict.
@@ -308,6 +310,20 @@ impl<'s> Checker<'s> {
 }
 
 /// A column of which the file says nothing itself.
+/// What is wrong with the least and the greatest value that an instrument can give.
+fn no_range(stated: &Stated<Vec<Stated<f64>>>) -> Option<Fault> {
+    match stated.value.as_slice() {
+        [least, greatest] if least.value < greatest.value => None,
+        _ => {
+            let message =
+                say!("a range is the least and the greatest value that the instrument can give");
+            let fault = Fault::new(KEY, stated.span.clone(), message);
+            let fault = fault.label(say!("expected two numbers, the smaller one first"));
+            Some(fault.help(say!("write for example range = [-10, 10]")))
+        }
+    }
+}
+
 fn plain<'t>(name: &str, names: &Names, content: Content) -> Column<'t> {
     Column {
         name: name.to_owned(),

@@ -243,8 +243,15 @@ impl Checker<'_> {
         let mut faults = Vec::new();
         for (place, parameter) in parameters.iter().enumerate() {
             if !used(columns.len() + place) {
-                let at = place_of(entries(&self.source.table.parameter), &parameter.name);
-                faults.push(unused(&parameter.name, at, say!("parameter")));
+                let name = &parameter.name;
+                let at = place_of(entries(&self.source.table.parameter), name);
+                let fault = unused(name, at, say!("parameter"));
+                faults.push(match self.unlisted().as_slice() {
+                    [one] => fault.help(say!(
+                        "the equations have {one}, which nothing lists: write {name} there, or list {one} in place of {name}"
+                    )),
+                    _ => fault,
+                });
             }
         }
         for (place, input) in inputs.iter().enumerate() {
@@ -256,6 +263,17 @@ impl Checker<'_> {
             }
         }
         self.faults.extend(faults);
+    }
+
+    /// Parameters that the equations name and nobody lists.
+    fn unlisted(&self) -> Vec<&str> {
+        let table = &self.source.table;
+        let equations = || table.equations.iter().flat_map(|list| &list.value.0);
+        let parameters = entries(&table.parameter).iter();
+        let inferred = parameters.filter(|(_, entry)| {
+            equations().any(|equation| equation.span.contains(&entry.key.start))
+        });
+        inferred.map(|(name, _)| name.as_str()).collect()
     }
 
     /// Parameters that should have the same sign. Those of a procedure may have become inputs.

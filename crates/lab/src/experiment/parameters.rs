@@ -76,7 +76,9 @@ impl Checker<'_> {
     fn prior(&mut self, name: &str, table: &ParameterTable, unit: &Unit) -> Option<Option<Prior>> {
         let Some(value) = &table.value else {
             return match &table.u {
-                Some(u) => self.refuse(without(name, u, "`u`", "`value`")),
+                Some(u) => self.refuse(without(name, u, "`u`", "`value`").help(say!(
+                    "state `value`, from which it is so uncertain; the noise of readings is stated below [noise] or [reading]"
+                ))),
                 None => Some(None),
             };
         };

@@ -161,7 +161,9 @@ impl Checker<'_> {
             (recording, "recording", "recording = \"readings.csv\""),
             (equations, "equations", "equations = \"y = a + b * x\""),
         ] {
-            let stated = file.present.iter().any(|(name, _)| *name == key);
+            let states = |name: &str| file.present.iter().any(|(other, _)| *other == name);
+            // Of a procedure that is not known it is told that it is not.
+            let stated = states(key) || key == "equations" && states("procedure");
             if !present && !stated {
                 self.faults.push(
                     Fault::new(MISSING, 0..0, say!("the experiment has no `{key}`"))

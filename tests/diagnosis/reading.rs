@@ -349,3 +349,30 @@ fn a_known_error_asks_for_no_start_of_the_others() {
         assert!((slope - sum / squares).abs() < 1e-7, "{name} = {slope}");
     }
 }
+
+/// An error that all readings of an output share is in the parameters: its zero is that of the voltmeter.
+#[test]
+fn a_common_error_of_an_output_is_in_the_parameters() {
+    let mut noise = Noise(43);
+    let mut rows = "omega [deg/s],U [mV]\n".to_owned();
+    for row in 0..20 {
+        let omega = f64::from(row % 5) * 50.0 - 100.0;
+        let _ = writeln!(
+            rows,
+            "{omega},{:.9}",
+            2.0 * omega + 0.3 + 0.02 * noise.normal()
+        );
+    }
+    let case = "equations = \"U = K*omega + b\"\n[columns]\nU = \"output\"\nomega = \"stimulus\"\n[reading.U]\ncomponents = [ { u = 0.02 }, { name = \"zero\", source = \"zero\" } ]\n[source.zero]\nunit = \"µV\"\nu = 30\n[noise]\nfrom = \"stated\"\n";
+    let found = diagnosed_with("common-of-output", &rows, case);
+    let all = found["parameters"].as_array().expect("parameters");
+    let u = |name: &str| {
+        let own = all.iter().find(|one| one["name"] == name);
+        own.expect("a parameter")["u"].as_f64().expect("u")
+    };
+    // σ²/n beside the common error; the scale factor has none of it, σ²/Σω².
+    let expected = (0.02_f64.powi(2) / 20.0 + 0.03_f64.powi(2)).sqrt();
+    assert!((u("b") / expected - 1.0).abs() < 0.02, "{found:#}");
+    let expected = 0.02 / 100_000.0_f64.sqrt();
+    assert!((u("K") / expected - 1.0).abs() < 0.02, "{found:#}");
+}

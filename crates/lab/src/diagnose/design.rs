@@ -232,6 +232,22 @@ impl<'c> Design<'c> {
         values
     }
 
+    /// Whether a response is read in a column.
+    fn reads(&self, response: usize, column: usize) -> bool {
+        matches!(self.case.responses[response].observed, Observed::Column(own) if own == column)
+    }
+
+    /// The error that all readings of a response share: what the equation gives is its reading with the error taken away, as a
+    /// stimulus is.
+    fn common_error(&self, response: usize, unknowns: &DVector<f64>) -> f64 {
+        let known = self.unknowns.iter().zip(unknowns.iter());
+        let own = known.filter(|(unknown, _)| match unknown.kind {
+            UnknownKind::CommonError(column) => self.reads(response, column),
+            UnknownKind::Parameter(_) => false,
+        });
+        own.map(|(_, value)| value).sum()
+    }
+
     /// The model and its slopes in every row.
     pub fn linear(&self, unknowns: &DVector<f64>) -> Linear {
         let (rows, symbols) = (self.case.rows, self.case.symbols());
@@ -244,8 +260,8 @@ impl<'c> Design<'c> {
         for row in 0..rows {
             let values = self.symbols(row, unknowns);
             for response in 0..responses {
-                linear.values[response][row] =
-                    self.case.equations.at(response, &values, &mut slopes);
+                let given = self.case.equations.at(response, &values, &mut slopes);
+                linear.values[response][row] = given - self.common_error(response, unknowns);
                 for used in self.case.equations.uses(response) {
                     linear.slopes[response][(row, *used)] = slopes[*used];
                 }
@@ -269,7 +285,9 @@ impl<'c> Design<'c> {
                     }
                     for (index, unknown) in self.unknowns.iter().enumerate() {
                         if let UnknownKind::CommonError(column) = unknown.kind {
-                            jacobian[(at, index)] += weight * slopes[(*row, parameters + column)];
+                            let of_reading = f64::from(u8::from(self.reads(response, column)));
+                            let slope = slopes[(*row, parameters + column)] - of_reading;
+                            jacobian[(at, index)] += weight * slope;
                         }
                     }
                 }

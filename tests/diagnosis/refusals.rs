@@ -221,6 +221,13 @@ fn parts_that_are_wrong_are_told_with_their_mend() {
     let listed = |name: &str| with(&format!("[parameter]\n{name} = {{}}\nb = {{}}"));
     for (case, hints) in [
         (
+            CASE.replace("\"covariate\"", "\"output\""),
+            [
+                "no equation gives the output room",
+                "\"covariate\" is a condition",
+            ],
+        ),
+        (
             with("[omitted.k2]\nterm = \"k3*x^2\""),
             ["does not have k2", "[omitted.k3]"],
         ),

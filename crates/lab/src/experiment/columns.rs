@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::checker::Checker;
 use super::entries::RoleWord;
-use super::faults::{KEY, LABELS, UNKNOWN_SYMBOL};
+use super::faults::{KEY, LABELS, UNKNOWN_SYMBOL, UNUSED};
 use super::labels::label_columns;
 use super::names::{Kind, Names};
 use super::purpose::Purpose;
@@ -191,6 +191,10 @@ impl<'s> Checker<'s> {
         let is_there = is_there(headings, header);
         // What a procedure can use need not be there, nor what a plan is to predict.
         let base = self.source.is_base(&entry.key);
+        let is_given = names.responses.iter().any(|given| given == name);
+        let said = table.role.as_ref().filter(|_| !base && !is_given);
+        self.faults
+            .extend(said.and_then(|said| without_equation(name, said)));
         let offered = base && named.is_none();
         let awaited = self.purpose == Purpose::Plan
             && (role == RoleWord::Output || names.only_left.iter().any(|left| left == name));
@@ -310,6 +314,18 @@ impl<'s> Checker<'s> {
 }
 
 /// A column of which the file says nothing itself.
+/// What is wrong with an output that no equation gives: as a condition it would be looked at.
+fn without_equation(name: &str, role: &Stated<RoleWord>) -> Option<Fault> {
+    let message = say!("no equation gives the output {name}");
+    let fault = Fault::new(UNUSED, role.span.clone(), message);
+    let fault = fault.label(say!("an output stands on the left of an equation"));
+    (role.value == RoleWord::Output).then(|| {
+        fault.help(say!(
+            "write the equation of {name}, or say what else it is: \"covariate\" is a condition that was recorded"
+        ))
+    })
+}
+
 /// What is wrong with the least and the greatest value that an instrument can give.
 fn no_range(stated: &Stated<Vec<Stated<f64>>>) -> Option<Fault> {
     match stated.value.as_slice() {

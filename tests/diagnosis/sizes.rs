@@ -232,8 +232,8 @@ fn an_own_term_is_one_of_quantities() {
     }
     let case = "equations = \"U = a\"\n[columns]\nU = \"output\"\nphi = \"covariate\"\n[noise]\nu = \"0.0005 mV\"\n[diagnosis]\ncatalogue = [\"user\"]\n[omitted.wave]\nterm = \"wave * sin(phi + 30 '°')\"\n";
     let found = diagnosed("own-term", &rows, case);
-    let (_, unit, size) = first(&found);
-    assert_eq!(unit, "mV", "{found:#}");
+    let (text, unit, size) = first(&found);
+    assert_eq!((text, unit), ("(sin(phi + 30 '°'))", "mV"), "{found:#}");
     assert!((size - 0.02).abs() < 1e-3, "{found:#}");
 }
 

@@ -144,8 +144,22 @@ fn with_size_one(term: &str, size: &str) -> String {
         .and_then(|text| text.strip_prefix('*'))
         .map(str::trim_start);
     // The first factor of a product alone: 1*a + b keeps its one.
-    let is_product = |text: &&str| !text.contains(['+', '-']);
-    factor.filter(is_product).unwrap_or(text).to_owned()
+    let factor = factor.filter(|text| !is_sum(text));
+    factor.unwrap_or(text).to_owned()
+}
+
+/// Whether a formula is a sum, whatever stands in its parentheses and in the quotes of its units.
+fn is_sum(text: &str) -> bool {
+    let (mut depth, mut is_quoted) = (0_usize, false);
+    text.chars().any(|c| {
+        match c {
+            '\'' => is_quoted = !is_quoted,
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        depth == 0 && !is_quoted && matches!(c, '+' | '-')
+    })
 }
 
 /// A usual size, as a number in the unit of what the formula is multiplied by; where that is not known, a plain number.

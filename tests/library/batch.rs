@@ -511,6 +511,11 @@ fn what_no_row_can_mend_is_refused() {
     for nameless in ["x,\n1,\n", ",x\n0,1\n"] {
         assert!(refused(budget, nameless).contains("a column has no name"));
     }
+    let summed = refused(budget, "label,x\n1,1.1\n2,1.3\n3,1.4\nmean,1.26667\n");
+    assert!(
+        summed.contains("means of those of all rows above"),
+        "{summed}"
+    );
     assert!(refused(&budget.replace("0.1", "0.1\nhalf = 1"), "x\n1\n").contains("half"));
     let series = format!("{budget}[series]\ncolumns = [\"x\"]\nrows = [[1]]\n");
     assert!(refused(&series, "x\n1\n").contains("a series of its own"));

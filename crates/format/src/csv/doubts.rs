@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::faults::{NOT_A_NUMBER, SAME_NAME};
-use super::field::{Field, OVERLOAD, is_overload, number};
-use super::sheet::{Row, Sheet};
+use super::field::{Field, OVERLOAD, is_overload};
+use super::sheet::Sheet;
 use gumption_fault::{Fault, Said, say};
 
 /// How the decimals of a column are written.
@@ -69,48 +69,6 @@ pub(super) fn two_signs(
         .help(say!(
             "write all numbers of a table with one decimal sign, and without marks of thousands"
         ))
-}
-
-/// Lines at the end that sum up the rows above, such as their mean: in a column in which all of those have numbers they have a word.
-/// Taken for rows they would count as readings, also where that column is not read.
-pub(super) fn summary(sheet: &Sheet<'_>) -> Option<Fault> {
-    let last = sheet.rows().filter_map(Result::ok).last()?;
-    let words = last.fields().enumerate();
-    let mut words = words.filter(|(_, text)| is_word(text));
-    words.find_map(|(column, _)| summary_in(sheet, column))
-}
-
-/// The same by the words of one column.
-fn summary_in(sheet: &Sheet<'_>, column: usize) -> Option<Fault> {
-    /// Rows above of which numbers are no accident, and lines that sum up at most.
-    const ROWS: usize = 3;
-    const LINES: usize = 5;
-    let mut rows = sheet.rows().filter_map(Result::ok);
-    let is_number = |row: &Row<'_>| number(row.field(column), sheet).is_some_and(f64::is_finite);
-    let mut numbers = 0;
-    let first = rows.by_ref().find(|row| {
-        numbers += 1;
-        !is_number(row)
-    })?;
-    let mut lines = rows.by_ref().take(LINES);
-    let are_words = is_word(first.field(column)) && lines.all(|row| is_word(row.field(column)));
-    if numbers <= ROWS || !are_words || rows.next().is_some() {
-        return None;
-    }
-    let (head, word) = (sheet.header().field(column), first.field(column));
-    let message = say!(
-        "line {}, column \"{head}\": \"{word}\" where all rows above have a number",
-        first.line
-    );
-    let fault = Fault::new(NOT_A_NUMBER, sheet.place(&first, column), message);
-    let fault = fault.label(say!("does this line sum up the rows above?"));
-    Some(fault.help(say!(
-        "delete it: what sums up rows is none of them; if it is one, leave this field empty"
-    )))
-}
-
-fn is_word(text: &str) -> bool {
-    text.contains(char::is_alphabetic) && !text.contains(char::is_numeric)
 }
 
 /// Columns of numbers that are written with two decimal signs.
@@ -181,28 +139,5 @@ mod tests {
         assert_eq!(signs("a;b\n1.5;2\n3;2,5\n", 0), None);
         assert_eq!(signs("a;b\n01.03.2026;2,5\n", 9), None);
         assert_eq!(signs("a,b\n1.5,2\n", 9), None);
-    }
-
-    #[test]
-    fn what_sums_up_rows_is_none_of_them() {
-        let found = |text: &str| {
-            summary(&Sheet::new(text).expect("a table")).map(|fault| text[fault.span].to_owned())
-        };
-        assert_eq!(
-            found("n,V\n1,1.0\n2,1.1\n3,1.2\nmean,1.1\n").as_deref(),
-            Some("mean")
-        );
-        assert_eq!(
-            found("n;V\n1;1,0\n2;1,1\n3;1,2\n平均;1,1\n标准差;0,1\n").as_deref(),
-            Some("平均")
-        );
-        for rows in [
-            "n,V\n1,1.0\n2,1.1\n3,1.2\n,1.1\n",
-            "n,V\nA,1.0\nB,1.1\n3,1.2\nC,1.1\n",
-            "n,V\n1,1.0\n2,1.1\n3,1.2\n4a,1.1\n",
-            "n,V\n1,1.0\nmean,1.1\n",
-        ] {
-            assert_eq!(found(rows), None, "{rows}");
-        }
     }
 }

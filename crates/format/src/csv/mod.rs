@@ -45,6 +45,7 @@ mod reader;
 mod request;
 mod sheet;
 mod size;
+mod summary;
 mod units_line;
 
 pub use columns::{Cells, Columns};
@@ -57,6 +58,7 @@ pub use pieces::{Piece, Pieces};
 pub use reader::{headings, open, text_of};
 pub use request::{Content, Request};
 pub use sheet::{BadRow, Row, RowFields, Sheet};
+pub use summary::mean_of_rows;
 
 use std::collections::BTreeSet;
 

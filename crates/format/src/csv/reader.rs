@@ -6,9 +6,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::column_unit::unit_of;
-use super::doubts::{
-    Sign, may_mark_thousands, mend_of_overload, not_a, same_name, summary, two_signs,
-};
+use super::doubts::{Sign, may_mark_thousands, mend_of_overload, not_a, same_name, two_signs};
 use super::encoding::{NoText, Undecodable, decode};
 use super::faults::{NO_COLUMN, NOT_A_NUMBER, NOT_UTF8, UNIT_CLASH, UNREADABLE};
 use super::field::{Field, Instant, is_like_a_time, is_overload, mend};
@@ -16,6 +14,7 @@ use super::heading::Heading;
 use super::request::{Content, Request};
 use super::sheet::{Row, SHOWN, Sheet};
 use super::size::{fits_as_columns, fits_as_text};
+use super::summary::summary;
 use super::{Column, Data, Labels, Recording};
 use crate::files::Files;
 use gumption_core::quantity::{Unit, UnitTable};

@@ -130,6 +130,7 @@ impl<'f> BatchFile<'f> {
         faults.extend(series::set_twice(&file, &columns.names, &targets));
         let sets = |at: usize| matches!(targets[at], Some(Column::Path(_)));
         faults.extend(csv::two_decimal_signs(sheet, sets));
+        faults.extend(csv::mean_of_rows(sheet, sets));
         if !faults.is_empty() {
             return Err(in_table(faults));
         }

@@ -1,0 +1,158 @@
+//! Lines at the end of a table that sum up the rows above.
+
+use super::faults::NOT_A_NUMBER;
+use super::field::number;
+use super::sheet::{Row, Sheet};
+use gumption_core::quantity::Decimal;
+use gumption_fault::{Fault, say};
+
+/// Rows above of which numbers are no accident, and lines that sum up at most.
+const ROWS: usize = 3;
+const LINES: usize = 5;
+
+/// Lines at the end that sum up the rows above, such as their mean: in a column in which all of those have numbers they have a word.
+/// Taken for rows they would count as readings, also where that column is not read.
+pub(super) fn summary(sheet: &Sheet<'_>) -> Option<Fault> {
+    let last = sheet.rows().filter_map(Result::ok).last()?;
+    let words = last.fields().enumerate();
+    let mut words = words.filter(|(_, text)| is_word(text));
+    words.find_map(|(column, _)| summary_in(sheet, column))
+}
+
+/// The same by the words of one column.
+fn summary_in(sheet: &Sheet<'_>, column: usize) -> Option<Fault> {
+    let mut rows = sheet.rows().filter_map(Result::ok);
+    let is_number = |row: &Row<'_>| number(row.field(column), sheet).is_some_and(f64::is_finite);
+    let mut numbers = 0;
+    let first = rows.by_ref().find(|row| {
+        numbers += 1;
+        !is_number(row)
+    })?;
+    let mut lines = rows.by_ref().take(LINES);
+    let are_words = is_word(first.field(column)) && lines.all(|row| is_word(row.field(column)));
+    if numbers <= ROWS || !are_words || rows.next().is_some() {
+        return None;
+    }
+    let (head, word) = (sheet.header().field(column), first.field(column));
+    let message = say!(
+        "line {}, column \"{head}\": \"{word}\" where all rows above have a number",
+        first.line
+    );
+    let fault = Fault::new(NOT_A_NUMBER, sheet.place(&first, column), message);
+    let fault = fault.label(say!("does this line sum up the rows above?"));
+    Some(fault.help(say!(
+        "delete it: what sums up rows is none of them; if it is one, leave this field empty"
+    )))
+}
+
+/// A line at the end whose numbers are the means of those above, in a table of which each row is something of its own: where no
+/// column but those of numbers tells its rows apart, it has a word in one of the others.
+pub fn mean_of_rows(sheet: &Sheet<'_>, has_numbers: impl Fn(usize) -> bool) -> Option<Fault> {
+    /// By chance a row is so rarely the mean of the others.
+    const RARE: f64 = 0.001;
+    let (numbers, names): (Vec<usize>, Vec<usize>) =
+        (0..sheet.header().len()).partition(|at| has_numbers(*at));
+    let word = |row: &Row<'_>| names.iter().copied().find(|at| is_word(row.field(*at)));
+    let last = sheet.rows().filter_map(Result::ok).last()?;
+    word(&last)?;
+    let rows: Vec<Row<'_>> = sheet.rows().filter_map(Result::ok).collect();
+    let first = rows.len().saturating_sub(LINES).max(ROWS);
+    let is_mean = |at: &usize| {
+        let (above, own) = (&rows[..*at], &rows[*at]);
+        rows[*at..].iter().all(|row| word(row).is_some())
+            && chance(above, own, &numbers, sheet).is_some_and(|chance| chance < RARE)
+    };
+    let own = &rows[(first..rows.len()).find(is_mean)?];
+    let column = word(own)?;
+    let message = say!(
+        "line {}, \"{}\": its numbers are the means of those of all rows above",
+        own.line,
+        own.field(column)
+    );
+    let fault = Fault::new(NOT_A_NUMBER, sheet.place(own, column), message);
+    let fault = fault.label(say!("does this line sum up the rows above?"));
+    Some(fault.help(say!(
+        "delete it: what sums up rows is none of them; if it is one, give it a name with a number"
+    )))
+}
+
+/// How likely numbers anywhere between those above are their means to the digits that a row has; nothing where its numbers are not.
+fn chance(above: &[Row<'_>], own: &Row<'_>, columns: &[usize], sheet: &Sheet<'_>) -> Option<f64> {
+    let of = |column: usize| {
+        let (text, read) = (own.field(column), |row: &Row<'_>| {
+            number(row.field(column), sheet)
+        });
+        let numbers: Option<Vec<f64>> = above.iter().map(read).collect();
+        let mut numbers = numbers.unwrap_or_default();
+        numbers.retain(|number| number.is_finite());
+        // What is missing, or is no number, says nothing.
+        let Some(value) = read(own).filter(|own| own.is_finite() && numbers.len() >= ROWS) else {
+            return Some(1.0);
+        };
+        let place = Decimal::from_text(&text.replace(',', ".")).and_then(|own| own.place());
+        let digit = 10f64.powi(place.unwrap_or(0));
+        let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
+        let range = numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+            - numbers.iter().copied().fold(f64::INFINITY, f64::min);
+        // Half a digit, beside what the sum is rounded by.
+        let is_mean = (value - mean).abs() <= 0.5 * digit + 1e-12 * mean.abs();
+        is_mean.then(|| if range > digit { digit / range } else { 1.0 })
+    };
+    columns.iter().map(|column| of(*column)).product()
+}
+
+fn is_word(text: &str) -> bool {
+    text.contains(char::is_alphabetic) && !text.contains(char::is_numeric)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_sums_up_rows_is_none_of_them() {
+        let found = |text: &str| {
+            summary(&Sheet::new(text).expect("a table")).map(|fault| text[fault.span].to_owned())
+        };
+        assert_eq!(
+            found("n,V\n1,1.0\n2,1.1\n3,1.2\nmean,1.1\n").as_deref(),
+            Some("mean")
+        );
+        assert_eq!(
+            found("n;V\n1;1,0\n2;1,1\n3;1,2\n平均;1,1\n标准差;0,1\n").as_deref(),
+            Some("平均")
+        );
+        for rows in [
+            "n,V\n1,1.0\n2,1.1\n3,1.2\n,1.1\n",
+            "n,V\nA,1.0\nB,1.1\n3,1.2\nC,1.1\n",
+            "n,V\n1,1.0\n2,1.1\n3,1.2\n4a,1.1\n",
+            "n,V\n1,1.0\nmean,1.1\n",
+        ] {
+            assert_eq!(found(rows), None, "{rows}");
+        }
+    }
+
+    #[test]
+    fn a_line_of_means_is_told_by_its_numbers_and_its_name() {
+        let found = |text: &str| {
+            let sheet = Sheet::new(text).expect("a table");
+            let fault = mean_of_rows(&sheet, |at| at > 0);
+            fault.map(|fault| text[fault.span].to_owned())
+        };
+        let rows = "label,V,R\nS1,1.001,100.01\nS2,1.004,100.02\nS3,1.002,100.06\n";
+        // (1.001 + 1.004 + 1.002)/3 = 1.00233, (100.01 + 100.02 + 100.06)/3 = 100.03.
+        for (lines, wanted) in [
+            ("mean,1.0023,100.030\n", Some("mean")),
+            ("平均值,1.0023,100.030\ns,0.0015,0.026\n", Some("平均值")),
+            ("mean,1.002333,\n", Some("mean")),
+            // Another one, one that is hardly told from the others, one that has a number as the others have.
+            ("Ref,1.0023,100.031\n", None),
+            ("Ref,1.002,100.0\n", None),
+            ("S4,1.0023,100.030\n", None),
+            ("mean,1.0023,100.030\nS5,1.003,100.04\n", None),
+        ] {
+            let text = format!("{rows}{lines}");
+            assert_eq!(found(&text).as_deref(), wanted, "{lines}");
+        }
+    }
+}

@@ -297,7 +297,7 @@ fn untold(said: &Value) -> Vec<String> {
 
 /// Residuals over what says most: the time, the load, the order.
 fn first_plot(plots: &Path) -> Option<PathBuf> {
-    let best = ["time", "day", "load", "theta", "row"];
+    let best = ["time", "day", "year", "load", "theta", "row"];
     let mut best = best
         .iter()
         .map(|along| plots.join(format!("residuals_{along}.svg")));

@@ -389,5 +389,11 @@ fn a_second_effect_is_held_against_noise_beside_the_first() {
         let scale = names.contains(&"sensitivity-scale".to_owned());
         assert!(scale || effects == 1, "{seed}: {names:?}");
         assert!(found["effects"].as_array().map_or(0, Vec::len) >= effects);
+        // Each p counts the recordings of the test that gave it, with the one observed.
+        for level in found["levels"].as_array().into_iter().flatten() {
+            let figure = |key: &str| level[key].as_f64().unwrap_or(f64::NAN);
+            let counted = figure("p") * (figure("draws") + 1.0);
+            assert!((counted - counted.round()).abs() < 1e-6, "{level}");
+        }
     }
 }

@@ -12,7 +12,7 @@ use super::catalogue::deviations::Deviations;
 use super::catalogue::{self, Cell, Finer, FittedModel, Variation, readout};
 use super::design::Design;
 use super::evidence::{
-    self, Atom, Baseline, Candidate, Examination, Fitted, Question, Refusal, Shape, TRACE,
+    self, Atom, Baseline, Candidate, Chance, Examination, Fitted, Question, Refusal, Shape, TRACE,
 };
 use super::fit::{self, Fit, NoFit};
 use super::noise::Claimed;
@@ -24,8 +24,8 @@ const CLEAR: f64 = 15.0;
 
 /// Noise alone, held against effects.
 pub(super) struct NoiseAlone {
-    /// Probability that effects gain as much by noise alone.
-    pub(super) p: f64,
+    /// How likely it is that effects gain as much by noise alone.
+    pub(super) chance: Chance,
     /// The noise as it is then: without effects where these do not gain more, else with the best one.
     pub(super) likeliest: Claimed,
     /// Logarithm of the probability of all that noise alone may be, but for a constant.
@@ -154,7 +154,7 @@ impl<'f> Candidates<'f> {
             laws.push((spread, own, first..seen.len()));
         }
         let contest = evidence::contest(&seen, &self.candidates, &self.atoms, settings, found);
-        let log_posterior = match contest.p <= settings.alpha {
+        let log_posterior = match contest.chance.p <= settings.alpha {
             true => &contest.with,
             false => &contest.alone,
         };
@@ -165,8 +165,8 @@ impl<'f> Candidates<'f> {
             likeliest.map(|(spread, laws, range)| spread.likeliest(design, fit, laws, of(range)));
         let claimed = claimed.unwrap_or_else(|| spreads[0].clone());
         Ok(NoiseAlone {
-            p: contest.p,
-            likeliest: match contest.p <= settings.alpha {
+            chance: contest.chance,
+            likeliest: match contest.chance.p <= settings.alpha {
                 true => claimed,
                 false => claimed.with_tails(design, fit),
             },

@@ -3,14 +3,14 @@
 use super::candidates::{Candidates, baseline};
 use super::catalogue::FittedModel;
 use super::design::Design;
-use super::evidence::{Examination, Refusal, Settings};
+use super::evidence::{Chance, Examination, Refusal, Settings};
 use super::noise::Claimed;
 use super::noise_correlation::Courses;
 use super::settled;
 
-/// Probability that noise alone, beside the effects of an examination, gives a further one as much as it gains: the model with these
+/// How likely it is that noise alone, beside the effects of an examination, gives a further one as much as it gains: the model with these
 /// in it is held against its noise as the declared one is. `gain` is the logarithm of the evidence for all further effects.
-/// One where the model with the effects cannot be fitted.
+/// `None` where the model with the effects cannot be fitted.
 ///
 /// # Errors
 /// When the recording does not determine the parameters.
@@ -20,9 +20,9 @@ pub(super) fn by_chance(
     courses: &Courses,
     settings: &Settings,
     gain: f64,
-) -> Result<f64, Refusal> {
+) -> Result<Option<Chance>, Refusal> {
     let Ok(Some((extended, fit))) = candidates.adopted_fit(found, claimed) else {
-        return Ok(1.0);
+        return Ok(None);
     };
     let design = Design::new(&extended.case);
     let own = match claimed.is_estimated() {
@@ -33,5 +33,7 @@ pub(super) fn by_chance(
     let white = baseline(&design, &fit, &own)?;
     let beside = Candidates::new(FittedModel::new(&design, &fit), &own, &white);
     let spreads: Vec<Claimed> = std::iter::once(own).chain(plain).collect();
-    Ok(beside.against(courses, &spreads, settings, gain)?.p)
+    Ok(Some(
+        beside.against(courses, &spreads, settings, gain)?.chance,
+    ))
 }

@@ -187,16 +187,16 @@ impl<'i> Inquiry<'i> {
         if let Some(courses) = &self.courses {
             let found = self.answer.examination.score;
             let noise = (self.candidates).against(courses, &starts, &self.settings, found)?;
-            self.settings.by_noise.insert(0, noise.p);
+            self.settings.by_noise.insert(0, noise.chance);
             of_noise = Some(noise.log_posterior);
-            match noise.p > self.settings.alpha {
+            match noise.chance.p > self.settings.alpha {
                 true => starts = vec![noise.likeliest],
                 false if noise.likeliest.correlated.is_some() => starts.push(noise.likeliest),
                 false => {}
             }
         }
         let by_noise = self.settings.by_noise.get(&0).copied();
-        let stands = by_noise.is_none_or(|p| p <= self.settings.alpha);
+        let stands = by_noise.is_none_or(|by| by.p <= self.settings.alpha);
         let (begun, share) = (self.answer.clone(), 0.3 / starts.len() as f64);
         let (mut best, mut atoms) = (f64::NEG_INFINITY, self.candidates.atoms.len());
         for (at, start) in starts.into_iter().enumerate() {
@@ -218,8 +218,8 @@ impl<'i> Inquiry<'i> {
         } else if let Some(of_noise) = of_noise {
             self.if_independent = begun.instead_of(of_noise, self.settings.alpha);
         }
-        if let Some(p) = by_noise {
-            self.answer.examination.doubted(p);
+        if let Some(by_noise) = by_noise {
+            self.answer.examination.doubted(by_noise);
         }
         Ok(())
     }
@@ -258,11 +258,12 @@ impl<'i> Inquiry<'i> {
         {
             let gain = before.examination.score - then.examination.score;
             let beside = (&then.examination, &then.claimed);
-            let p = further::by_chance(&self.candidates, beside, courses, &self.settings, gain)?;
-            if p > self.settings.alpha {
+            let chance =
+                further::by_chance(&self.candidates, beside, courses, &self.settings, gain)?;
+            let Some(chance) = chance.filter(|chance| chance.p <= self.settings.alpha) else {
                 break;
-            }
-            self.settings.by_noise.insert(then.found(), p);
+            };
+            self.settings.by_noise.insert(then.found(), chance);
             then = self.asked(noise.clone(), from, to)?;
         }
         Ok(then)

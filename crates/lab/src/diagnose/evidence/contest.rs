@@ -16,7 +16,7 @@ use super::detection::Panel;
 use super::noise::{Covariance, Factor};
 use super::null::{Laws, Simulated, side_by_side};
 use super::pairs::Singles;
-use super::question::{Atom, Candidate, Question, Settings};
+use super::question::{Atom, Candidate, Chance, Question, Settings};
 use super::refusal::Refusal;
 use super::sequential;
 use super::space::{Frame, Space};
@@ -47,8 +47,8 @@ pub struct Course {
 /// Courses of the noise with and without an effect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contest {
-    /// Probability that effects gain as much where there is nothing but correlated noise.
-    pub p: f64,
+    /// How likely it is that effects gain as much where there is nothing but correlated noise.
+    pub chance: Chance,
     /// For each course the logarithm of its probability without an effect, but for a constant …
     pub alone: Vec<f64>,
     /// … and with the best one.
@@ -163,15 +163,18 @@ pub fn contest(
     let likely = seen.iter().filter(likely);
     let benches: Vec<Bench<'_>> = likely.map(|one| Bench::new(one, laws)).collect();
     let observed = most - top;
-    let p = probability(&benches, observed, settings);
-    Contest { p, alone, with }
+    Contest {
+        chance: chance(&benches, observed, settings),
+        alone,
+        with,
+    }
 }
 
-/// Probability that the best effect gains as much in recordings with nothing but noise, the course chosen anew in each.
-fn probability(benches: &[Bench<'_>], observed: f64, settings: &Settings) -> f64 {
+/// How likely it is that the best effect gains as much in recordings with nothing but noise, the course chosen anew in each.
+fn chance(benches: &[Bench<'_>], observed: f64, settings: &Settings) -> Chance {
     let chunks = settings.draws.min(DRAWS).div_ceil(LANES).max(1);
     let mut as_much = 0;
-    let (p, _) = sequential::probability(chunks, settings.alpha, |next| {
+    let (p, draws) = sequential::probability(chunks, settings.alpha, |next| {
         // All courses of one chunk, then those of the next.
         let each = side_by_side(next.len() * benches.len(), |at| {
             benches[at % benches.len()].simulated(next.start + at / benches.len())
@@ -188,7 +191,7 @@ fn probability(benches: &[Bench<'_>], observed: f64, settings: &Settings) -> f64
         }
         as_much
     });
-    p
+    Chance { p, draws }
 }
 
 /// A course with recordings to try it on.

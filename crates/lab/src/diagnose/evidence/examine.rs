@@ -6,7 +6,7 @@ use super::findings::{Alternative, Examination, Slot, State, Variant, Verdict};
 use super::fit::{fitted, noise};
 use super::grades::{alike, graded};
 use super::null::Simulated;
-use super::question::Question;
+use super::question::{Chance, Question};
 use super::refusal::Refusal;
 use super::search::{Search, needed, search};
 use super::slots::{Explanation, Found, LISTED, slots};
@@ -87,9 +87,9 @@ pub fn examine(
 
 impl Examination {
     /// Something else gives as much with this probability: no smaller one is told.
-    pub fn doubted(&mut self, p: f64) {
-        if let Some(first) = self.levels.first_mut() {
-            first.p = first.p.max(p);
+    pub fn doubted(&mut self, by: Chance) {
+        if let Some(first) = self.levels.first_mut().filter(|first| first.p < by.p) {
+            (first.p, first.draws) = (by.p, by.draws);
         }
     }
 

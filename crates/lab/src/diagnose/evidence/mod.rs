@@ -110,7 +110,7 @@ pub use locate::{Cell, Located, locate};
 pub use noise::{Correlation, Covariance, Noise};
 pub use omitted::{narrowed, omitted};
 pub use plan::{Pair, Plan, Seen, visibility};
-pub use question::{Atom, Candidate, Kind, Place, Question, Settings, Shape};
+pub use question::{Atom, Candidate, Chance, Kind, Place, Question, Settings, Shape};
 pub use refusal::Refusal;
 pub use separate::{SEPARATED, Separability, Standing, Worth, apart, doubt};
 pub use tails::Tails;

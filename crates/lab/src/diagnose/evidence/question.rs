@@ -106,6 +106,15 @@ pub struct Atom {
     pub share: f64,
 }
 
+/// How likely something is by chance, as simulated recordings show it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Chance {
+    /// Probability of as much.
+    pub p: f64,
+    /// Simulated recordings behind it.
+    pub draws: usize,
+}
+
 /// How to examine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
@@ -118,7 +127,7 @@ pub struct Settings {
     /// Where noise that may be correlated or grow is a rival of effects, for so many of them that were found: probability that it
     /// alone gives further ones as much as they gain here. Each recording of that test chooses its noise anew, so that no other
     /// test, with one noise for all, is asked whether there is one.
-    pub by_noise: BTreeMap<usize, f64>,
+    pub by_noise: BTreeMap<usize, Chance>,
 }
 
 impl Default for Settings {

@@ -79,8 +79,9 @@ pub(super) fn search(
         };
         let with_pairs = (level == 0).then_some(&pairs);
         let mut outcome = detection::test(space, &best, FORM, with_pairs, simulated);
-        let by_noise = space.question.settings.by_noise.get(&level);
-        outcome.p = by_noise.copied().unwrap_or(outcome.p);
+        if let Some(by_noise) = space.question.settings.by_noise.get(&level) {
+            (outcome.p, outcome.draws) = (by_noise.p, by_noise.draws);
+        }
         let Some(strongest) = outcome.strongest else {
             search.complete = Some(best.blocks);
             break;

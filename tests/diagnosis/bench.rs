@@ -129,6 +129,30 @@ fn a_latency_is_told_by_its_size() {
     assert!(has_size(&found, 0.006), "{found}");
 }
 
+/// A delay of more than an interval, along a course that bends between the rows and was under way before the first of them.
+#[test]
+fn a_delay_along_a_bending_course_is_told_by_its_size() {
+    let mut noise = Noise(84);
+    let mut rows = "t [s],x [mm],U [mV]\n".to_owned();
+    let x = |t: f64| 5.0 * libm::sin(0.105 * t) + 2.0 * libm::sin(0.273 * t + 1.0);
+    for row in 0..200 {
+        let t = 2.0 * f64::from(row);
+        let output = 0.4 + 3.0 * x(t - 2.4) + 0.05 * noise.normal();
+        let _ = writeln!(rows, "{t},{:.5},{output:.4}", x(t));
+    }
+    let found = diagnosed(
+        "delay",
+        &rows,
+        "equations = \"U = a + K*x\"\n[columns]\nt = \"time\"\nx = \"stimulus\"\nU = \"output\"\n",
+    );
+    assert_eq!(first_names(&found)[0], "timing-skew", "{found}");
+    assert_eq!(found["verdict"], "identified", "{found}");
+    let delay = &found["improved"]["coefficients"][0]["value"];
+    let delay = delay.as_f64().unwrap_or(f64::NAN);
+    // A hundredth of an interval: what a spline leaves.
+    assert!((delay - 2.4).abs() < 0.02, "{found}");
+}
+
 /// A gyroscope that is switched off between its runs warms up in each.
 #[test]
 fn an_instrument_warms_up_anew_in_each_run() {
@@ -319,6 +343,49 @@ fn a_dark_current_is_exponential_in_the_temperature() {
         panic!("{}", variant(&found));
     };
     assert!((width / 12.98 - 1.0).abs() < 0.15, "{width}");
+}
+
+/// A counter that is blind for 3 µs after each count loses 13 % of the largest rate: no parabola, nor a piece of a cubic.
+#[test]
+fn counting_losses_of_a_dead_time_level_off() {
+    let mut noise = Noise(85);
+    let mut rows = "A [1/s],n [1/s]\n".to_owned();
+    for row in 0..40 {
+        let rate = [1e3, 2e3, 5e3, 1e4, 2e4, 3e4, 4e4, 5e4][row % 8];
+        let counted = rate / (1.0 + 3e-6 * rate);
+        let _ = writeln!(
+            rows,
+            "{rate},{:.2}",
+            counted * (1.0 + 1e-3 * noise.normal())
+        );
+    }
+    let case = "equations = \"n = k*A + n_0\"\n[columns]\nA = \"stimulus\"\nn = \"output\"\n";
+    let found = diagnosed("dead-time", &rows, case);
+    assert_eq!(first_names(&found), ["quadratic"], "{found}");
+    assert!(variant(&found).starts_with("levelling off"), "{found}");
+    assert!(has_size(&found, -3e-6), "{found}");
+}
+
+/// It doubles every six kelvin and is recorded over twenty, so that it grows tenfold: a cubic comes near, at the price of two sizes more.
+#[test]
+fn a_dark_current_is_exponential_over_a_narrow_range() {
+    let mut noise = Noise(83);
+    let mut rows = "P [µW],T [°C],I [µA]\n".to_owned();
+    for row in 0..36 {
+        let (power, temperature) = (f64::from(row % 6), 20.0 + 4.0 * f64::from(row / 6));
+        let dark = 0.02 * libm::exp2((temperature - 20.0) / 6.0);
+        let current = 0.55 * power + dark + 0.001 * noise.normal();
+        let _ = writeln!(rows, "{power},{temperature},{current:.4}");
+    }
+    let case = "equations = \"I = R*P + I_0\"\n[columns]\nP = \"stimulus\"\nT = \"covariate\"\nI = \"output\"\n";
+    let found = diagnosed("narrow", &rows, case);
+    assert_eq!(first_names(&found), ["exponential"], "{found}");
+    let width = &found["improved"]["shapes"][0]["estimate"];
+    let [width, u] = ["value", "u"].map(|key| width[key].as_f64().unwrap_or(f64::NAN));
+    assert!(
+        (width - 6.0 / core::f64::consts::LN_2).abs() < 4.0 * u,
+        "{found}"
+    );
 }
 
 /// A probe that cools by one time constant in the model and by two in truth.

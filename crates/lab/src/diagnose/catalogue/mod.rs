@@ -32,6 +32,7 @@ mod axes;
 mod bits;
 mod building;
 mod conditions;
+mod delays;
 pub(super) mod deviations;
 mod effect;
 mod exponentials;

@@ -3,9 +3,10 @@
 
 use super::building::{cell, course, decay, form, on_node, on_output, pair, time_constants, timed};
 use super::conditions::{inverse, on_offset, spreads};
+use super::delays;
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{
-    Course, creeps, delayed, figure, five_digits, grid, largest, levels_of, map, map2, mean, range,
+    Course, creeps, figure, five_digits, largest, levels_of, map, map2, mean, range,
 };
 use super::norm::Norm;
 use super::sharp::{best_pair, sharpened, size_of};
@@ -202,7 +203,7 @@ fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
 /// A square that levels off, as counting losses of a dead time do, and detectors near their limit.
 fn levelling(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     /// Where the loss is a half, in units of the largest value.
-    const HALF: [f64; 3] = [0.5, 1.0, 3.0];
+    const HALF: [f64; 4] = [0.5, 1.0, 3.0, 10.0];
     /// Values that never come down to this share of the largest show no more than a square.
     const LOW: f64 = 0.3;
     let (x, label) = (fitted.numbers(column), fitted.label(column));
@@ -293,49 +294,10 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
         let rate = Variation::one("", Term::new(node, fitted.rate(column)));
         (EffectId::TemperatureRate, vec![rate])
     } else {
-        (EffectId::TimingSkew, delays(fitted, column))
+        (EffectId::TimingSkew, delays::of(fitted, column))
     };
     cells.push(in_time(id, variants));
     cells
-}
-
-/// Delays: small ones by the rate of change, and those of more than an interval, in which a course bends, by the course as it
-/// was then less that of now, over the delay. The size is the delay itself.
-fn delays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
-    let (x, label) = (fitted.numbers(column), fitted.label(column));
-    let t = &fitted.clock.values;
-    let unit = fitted.time_unit();
-    let longest = (20.0 * fitted.clock.interval()).min(fitted.clock.span() / 20.0);
-    let sizes = grid(fitted.clock.interval(), longest, 1.6, 8);
-    let late = |by: f64| {
-        let then = delayed(t, x, by);
-        let modifier = map2(&then, x, |then, now| (then - now) / by);
-        let shown = fitted.duration(by.abs());
-        let (sign, over) = match by < 0.0 {
-            true => ('+', format!("(-{shown})")),
-            false => ('-', format!("({shown})")),
-        };
-        let text = format!("({label}(t {sign} {shown}) - {label})/{over}");
-        let modifier = Modifier::new(modifier, text, fitted.rate(column).unit);
-        Term::new(Node::Column(column), modifier)
-    };
-    let instant = Term::new(Node::Column(column), fitted.rate(column).negated());
-    let mut variants = vec![Variation::one("", instant)];
-    for sign in [1.0, -1.0] {
-        let sizes = sharpened(fitted, sizes.clone(), &|size| late(sign * size));
-        let sizes = fitted.finer.times(sizes).into_iter();
-        // What the recording says to be another delay is none of this size, however alike their courses are.
-        let of_size = sizes.filter(|size| {
-            let found = size_of(fitted, &late(sign * size));
-            found.is_none_or(|found| (0.5..=2.0).contains(&(found / (sign * size))))
-        });
-        variants.extend(of_size.map(|size| {
-            let by = sign * size;
-            let label = format!("by about {}", fitted.duration(by));
-            Variation::one(label, late(by)).shaped("δ", size, &unit)
-        }));
-    }
-    variants
 }
 
 fn interaction(fitted: &FittedModel<'_>, x: usize, z: usize) -> Cell {

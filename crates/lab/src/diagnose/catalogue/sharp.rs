@@ -2,12 +2,13 @@
 //! between two values of the grid would leave a part of itself to further explanations.
 
 use gumption_core::special::f_sf;
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::Term;
 use super::absorbed::Absorbed;
 use super::fitted::FittedModel;
 use super::modifiers::known;
+use crate::diagnose::evidence;
 
 /// Ratio of variances from which on an effect shows.
 const SHOWS: f64 = 16.0;
@@ -100,10 +101,16 @@ pub(super) fn size_of(fitted: &FittedModel<'_>, term: &Term) -> Option<f64> {
     shows.then(|| rest.dot(&residuals.left) / rest.norm_squared())
 }
 
-/// Whether a term explains the residuals clearly better than another one.
-pub(super) fn beats(fitted: &FittedModel<'_>, term: &Term, other: &Term) -> bool {
+/// Whether a term explains the residuals clearly better than others together.
+pub(super) fn beats(fitted: &FittedModel<'_>, term: &Term, others: &[Term]) -> bool {
+    /// Directions that the others reach no further are noise of the arithmetic.
+    const LEAST: f64 = 1e-9;
     residuals(fitted).is_some_and(|residuals| {
-        let [power, least] = [term, other].map(|one| residuals.power(&fitted.column(one)));
+        let rest = |term: &Term| residuals.rest(&fitted.column(term));
+        let others: Vec<DVector<f64>> = others.iter().map(rest).collect();
+        let span = evidence::span(DMatrix::from_columns(&others), LEAST);
+        let least = known(span.tr_mul(&residuals.left).norm_squared());
+        let power = residuals.power(&fitted.column(term));
         let left = residuals.left.norm_squared() - power;
         (power - least) * residuals.degrees() > SHOWS * left
     })

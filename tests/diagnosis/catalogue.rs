@@ -424,6 +424,49 @@ fn readings_that_stay_at_one_value_are_saturated() {
 }
 
 #[test]
+fn readings_that_stay_at_both_ends_are_of_one_limiter() {
+    let mut noise = Noise(56);
+    let mut rows = "x [V],U [V]\n".to_owned();
+    for row in 0..41 {
+        let x = -3.0 + 0.15 * f64::from(row);
+        let output = (1.01 * x + 0.01).clamp(-2.5, 2.3) + 0.002 * noise.normal();
+        let _ = writeln!(rows, "{x:.3},{output:.4}");
+    }
+    let case = "equations = \"U = U0 + k*x\"\n[columns]\nU = \"output\"\nx = \"stimulus\"\n";
+    let found = diagnosed("limiter", &rows, case);
+    assert_eq!(found["verdict"], "identified", "{found}");
+    let (names, label) = first(&found);
+    assert_eq!(names, ["saturation"], "{found}");
+    // `above 2.27 V, below -2.49 V`
+    let words: Vec<&str> = label.split([' ', ',']).collect();
+    let knee = |word: &str| {
+        let at = words.iter().position(|own| *own == word).unwrap();
+        words[at + 1].parse::<f64>().unwrap()
+    };
+    assert!((knee("above") - 2.29 / 1.01).abs() < 0.02, "{label}");
+    assert!((knee("below") + 2.51 / 1.01).abs() < 0.02, "{label}");
+    assert_eq!(found["effects"].as_array().unwrap().len(), 1, "{found}");
+}
+
+#[test]
+fn a_dead_band_is_as_wide_as_it_is() {
+    let mut noise = Noise(57);
+    let mut rows = "x [V],U [V]\n".to_owned();
+    for row in 0..61 {
+        let x = -1.0 + f64::from(row) / 30.0;
+        let beyond = x - x.clamp(-0.077, 0.077);
+        let _ = writeln!(rows, "{x:.4},{:.4}", 3.0 * beyond + 0.008 * noise.normal());
+    }
+    let case = "equations = \"U = U0 + k*x\"\n[columns]\nU = \"output\"\nx = \"stimulus\"\n";
+    let found = diagnosed("dead-band", &rows, case);
+    assert_eq!(named(&found)[0], ["zero-step"], "{found}");
+    assert_eq!(found["effects"].as_array().unwrap().len(), 1, "{found}");
+    let width = &found["improved"]["shapes"][0]["estimate"];
+    let [width, u] = ["value", "u"].map(|key| width[key].as_f64().unwrap_or(f64::NAN));
+    assert!((width - 0.077).abs() < 4.0 * u && u < 0.01, "{found}");
+}
+
+#[test]
 fn an_output_that_reaches_its_limit_is_saturated_whatever_it_is_made_of() {
     // A gas analyser: neither concentration nor pressure alone says where the display ends.
     let mut noise = Noise(12);

@@ -142,12 +142,16 @@ fn dead_band(fitted: &FittedModel<'_>, column: usize) -> Cell {
     let most = largest(x);
     let sign = map(x, |x| if x == 0.0 { 0.0 } else { x.signum() });
     let step = form("", vec![Modifier::number(sign, format!("sign({name})"))]);
-    let bands = [0.05, 0.1, 0.2].map(|share| {
-        let width = five_digits(share * most);
-        let modifier = map(x, |x| (x / width).clamp(-1.0, 1.0));
+    let band = |width: f64| {
+        let within = |x: f64| (x / width).max(-1.0).min(1.0);
         let text = format!("clamp({name}/({}), -1, 1)", fitted.figure(column, width));
+        on_output(Modifier::number(map(x, within), text))
+    };
+    let widths = [0.05, 0.1, 0.2].map(|share| share * most);
+    let widths = fitted.finer.times(sharpened(fitted, widths.into(), &band));
+    let bands = widths.into_iter().map(five_digits).map(|width| {
         let label = format!("within {width} {unit}");
-        form(label, vec![Modifier::number(modifier, text)])
+        Variation::one(label, band(width)).shaped("w", width, &unit)
     });
     let forms = [step].into_iter().chain(bands);
     on_node(fitted, EffectId::ZeroStep, name, Node::Output, forms)
@@ -279,60 +283,92 @@ fn steps(fitted: &FittedModel<'_>, x: &[f64], name: &str, node: Node) -> Vec<Var
 }
 
 /// Ends of the range at which the readings pile up at one value although the model moves on: what is
-/// missing there is the whole of the signal beyond the knee.
+/// missing there is the whole of the signal beyond the knee. Where they do so at both, both are of one limiter.
 fn plateaus(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     let x = fitted.numbers(column);
     let mut order: Vec<usize> = (0..x.len()).collect();
     order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
     let mut variants = Vec::new();
     for response in 0..fitted.case().responses.len() {
-        for side in ["above", "below"] {
-            variants.extend(at_end(fitted, column, response, &order, side));
-            order.reverse();
-        }
+        let upper = at_end(fitted, column, response, &order);
+        order.reverse();
+        let lower = at_end(fitted, column, response, &order);
+        order.reverse();
+        let each = upper.iter().chain(&lower).map(|knee| vec![*knee]);
+        let both = upper
+            .iter()
+            .flat_map(|upper| lower.iter().map(|lower| vec![*upper, *lower]));
+        variants.extend(
+            each.chain(both)
+                .map(|knees| missing(fitted, column, response, &knees)),
+        );
     }
+    variants.retain(|v| varies(&v.terms[0].modifier.values));
     variants
 }
 
+/// Where readings stop to follow a column.
+#[derive(Clone, Copy)]
+struct Knee {
+    /// 1 for what lies above, −1 for what lies below.
+    sign: f64,
+    at: f64,
+}
+
 /// Knees before the plateau at the end of an order of the rows.
-fn at_end(
-    fitted: &FittedModel<'_>,
-    column: usize,
-    response: usize,
-    order: &[usize],
-    side: &str,
-) -> Vec<Variation> {
+fn at_end(fitted: &FittedModel<'_>, column: usize, response: usize, order: &[usize]) -> Vec<Knee> {
     /// Knees that are tried within the last step before the plateau.
     const KNEES: usize = 8;
-    let (x, name) = (fitted.numbers(column), fitted.label(column));
+    let x = fitted.numbers(column);
     let (observed, signal) = (fitted.design.observed(response), fitted.signal(response));
     let Some(first) = plateau(&observed, signal, x, order) else {
         return Vec::new();
     };
-    let unit = fitted.unit(column);
-    let (least, most) = range(x);
     let (inside, outside) = (x[order[first - 1]], x[order[first]]);
-    let away = (outside - inside).signum();
-    let knees = (1..=KNEES).map(|step| {
-        let knee = inside + (outside - inside) * step as f64 / KNEES as f64;
-        let shown = figure_to(knee, LABEL * (most - least));
-        let at = rounded(knee, KNEE * (most - least));
-        let text = match side {
-            "above" => format!("-max({}, 0)", fitted.beyond(column, at)),
-            _ => format!("-max({} - {name}, 0)", fitted.figure(column, at)),
-        };
-        let missing = fitted.by(column, text, |x| -(away * (x - knee)).max(0.0));
-        let label = format!("{side} {shown} {unit}");
-        let mut form = Variation::one(label, on_output(missing)).shaped("x₀", knee, &unit);
-        if let responses @ [_, _, ..] = &fitted.case().responses[..] {
-            form.label = scoped_label(&responses[response].name, &form);
-            form.terms[0].response = Some(response);
+    let knee = |step: usize| Knee {
+        sign: (outside - inside).signum(),
+        at: inside + (outside - inside) * step as f64 / KNEES as f64,
+    };
+    (1..=KNEES).map(knee).collect()
+}
+
+/// What is missing of a response beyond each of some knees.
+fn missing(fitted: &FittedModel<'_>, column: usize, response: usize, knees: &[Knee]) -> Variation {
+    let (name, unit) = (fitted.label(column), fitted.unit(column));
+    let (least, most) = range(fitted.numbers(column));
+    let beyond = |Knee { sign, at }: &Knee| {
+        let at = rounded(*at, KNEE * (most - least));
+        match *sign > 0.0 {
+            true => format!("max({}, 0)", fitted.beyond(column, at)),
+            false => format!("max({} - {name}, 0)", fitted.figure(column, at)),
         }
-        form
+    };
+    let text = match knees {
+        [upper, lower] => format!("({} - {})", beyond(lower), beyond(upper)),
+        [lower @ Knee { sign, .. }] if *sign < 0.0 => beyond(lower),
+        upper => upper
+            .iter()
+            .map(|knee| format!("-{}", beyond(knee)))
+            .collect(),
+    };
+    let labels = knees.iter().map(|Knee { sign, at }| {
+        let side = if *sign > 0.0 { "above" } else { "below" };
+        format!("{side} {} {unit}", figure_to(*at, LABEL * (most - least)))
     });
-    knees
-        .filter(|v| varies(&v.terms[0].modifier.values))
-        .collect()
+    let labels: Vec<String> = labels.collect();
+    let law = |x: f64| -> f64 {
+        let beyond = |Knee { sign, at }: &Knee| -sign * (sign * (x - at)).max(0.0);
+        knees.iter().map(beyond).sum()
+    };
+    let mut form = Variation::one(labels.join(", "), on_output(fitted.by(column, text, law)));
+    if let [knee] = knees {
+        form = form.shaped("x₀", knee.at, &unit);
+    }
+    if let responses @ [_, _, ..] = &fitted.case().responses[..] {
+        form.label = scoped_label(&responses[response].name, &form);
+        form.terms[0].response = Some(response);
+    }
+    form
 }
 
 /// Where a plateau begins in an order of the rows that ends with it; nothing if there is none.

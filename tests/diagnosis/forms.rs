@@ -44,6 +44,31 @@ fn a_load_coefficient_is_a_cube_about_zero() {
     assert!((cube / 9e-8 - 1.0).abs() < 0.2, "{cube}");
 }
 
+/// A misalignment with a second order comes near to a scale error of the angle: while nobody says how large the noise is, what that leaves
+/// looks like noise, and beside it nothing stands out.
+#[test]
+fn two_effects_are_listed_beside_one_that_nearly_does_as_much() {
+    let case =
+        "equations = \"U = U0 + K*cos(theta)\"\n[columns]\ntheta = \"angle\"\nU = \"output\"\n";
+    for seed in 0..12 {
+        let mut noise = Noise(700 + 7919 * seed);
+        let mut rows = "theta [deg],U [V]\n".to_owned();
+        for row in 0..48 {
+            let degrees = 15.0 * f64::from(row % 24);
+            let (sine, cosine) = libm::sincos(degrees.to_radians());
+            let added = 0.004 * sine + 0.003 * cosine * cosine;
+            let output = 2.5 + 0.4 * cosine + added + 7e-4 * noise.normal();
+            let _ = writeln!(rows, "{degrees},{output:.5}");
+        }
+        let found = diagnosed(&format!("tumble-{seed}"), &rows, case);
+        let listed: Vec<String> = named_apart(&found).concat();
+        for right in ["zero-of", "quadratic"] {
+            assert!(listed.iter().any(|name| name == right), "{seed} {found}");
+        }
+        assert_ne!(found["verdict"], "identified", "{seed} {found}");
+    }
+}
+
 /// What repeats with a turn and half a turn is one thing.
 #[test]
 fn what_repeats_need_not_be_a_sine() {

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-use super::closed_form::log_sum;
+use super::closed_form::{Scale, log_sum};
 use super::departure::FORM;
 use super::detection;
 use super::findings::Level;
@@ -92,8 +92,14 @@ pub(super) fn search(
             p: outcome.p,
             draws: outcome.draws,
         });
+        let is_quiet = outcome.p > space.question.settings.alpha;
+        if is_quiet && level == 1 && space.scale != Scale::Known {
+            let pairs = pairs_of(space, &beam, outcome.reach);
+            search.visit(&pairs);
+            masking.extend(pairs);
+        }
         let masked = |pair: &Visited| level == 1 && pair.score > beam[0].score + DECISIVE;
-        if outcome.p > space.question.settings.alpha && !masking.iter().any(masked) {
+        if is_quiet && !masking.iter().any(masked) {
             search.complete = Some(needed(space, best, 1));
             break;
         }
@@ -136,6 +142,32 @@ pub(super) fn needed(space: &Space, mut set: Frame, least: usize) -> Vec<usize> 
         }
     }
     set.blocks
+}
+
+/// The best effects with a named one beside each.
+fn pairs_of(space: &Space, beam: &[Visited], reach: Reach) -> Vec<Visited> {
+    let mut pairs = Vec::new();
+    let best = beam.iter().take(BEAM);
+    for frame in best.filter_map(|set| space.frame(&set.named)) {
+        let beside = Remainders::new(space, &frame);
+        let observed = beside.observed();
+        let named = (beside.rests.iter()).filter(|rest| rest.kind == Kind::Named);
+        for rest in named.filter(|rest| reach.admits(&space.blocks[rest.block])) {
+            let Some(score) = beside.score(rest, &observed) else {
+                continue;
+            };
+            let mut named = frame.blocks.clone();
+            named.push(rest.block);
+            named.sort_unstable();
+            pairs.push(Visited {
+                named,
+                generic: None,
+                score,
+            });
+        }
+    }
+    pairs.sort_by(|a, b| by_score(&b, &a));
+    pairs
 }
 
 /// All sets with one block more than those of the beam, of those that may be what stands out: the best first.

@@ -64,7 +64,7 @@ pub(super) fn slots(
             };
             let mut slot = slot(space, search, named, generic, member, again);
             if block.is_some() {
-                contest(space, search, named, &mut slot);
+                contest(space, search, named, &mut slot, again);
             }
             (block, slot)
         })
@@ -298,14 +298,11 @@ fn listed(space: &Space, rest: &Frame, ranked: Vec<Ranked>) -> Vec<Ranked> {
 }
 
 /// Puts beside a unique name what other sets have instead of it: two effects together may do what one does.
-fn contest(space: &Space, search: &Search, named: &[usize], slot: &mut Slot) {
-    let unique = slot
-        .named
-        .first()
-        .filter(|_| slot.state == State::Identified);
-    let Some(own) = unique.map(|unique| unique.candidate) else {
+fn contest(space: &Space, search: &Search, named: &[usize], slot: &mut Slot, again: &Restated) {
+    let [own] = &slot.named[..] else {
         return;
     };
+    let own = own.candidate;
     let Some((probability, set)) = search.without(space, own) else {
         return;
     };
@@ -321,24 +318,27 @@ fn contest(space: &Space, search: &Search, named: &[usize], slot: &mut Slot) {
         })
     };
     for block in set.named.iter().copied().filter(other) {
-        let rest: Vec<usize> = set.named.iter().copied().filter(|b| *b != block).collect();
-        let variant = Variant {
-            atom: space.blocks[block].atom,
-            share: 1.0,
-        };
-        let ranked = Ranked {
-            candidate: space.blocks[block].candidate,
-            probability,
-            blocks: vec![(block, variant)],
-        };
-        let rest = space.frame_of(&rest);
-        let shared = 1.0 - slot.generic_share;
-        slot.named.push(alternative(space, &rest, ranked, shared));
-        slot.state = State::Ambiguous;
+        let rival = self::slot(space, search, &set.named, None, Member::Named(block), again);
+        let named = (rival.state != State::Unexplained).then_some(rival.named);
+        for mut name in named.into_iter().flatten() {
+            let candidate = name.candidate;
+            let is_it = |own: &Alternative| space.question.same_cause(own.candidate, candidate);
+            if !slot.named.iter().any(is_it) {
+                name.probability *= probability;
+                slot.named.push(name);
+            }
+        }
     }
-    if slot.state == State::Ambiguous {
-        slot.named[0].probability *= 1.0 - probability;
-        (slot.named).sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    let [own, others @ ..] = &mut slot.named[..] else {
+        return;
+    };
+    if !others.is_empty() {
+        // It stays the first, which is adopted: what others do together none of them does alone.
+        own.probability *= 1.0 - probability;
+        others.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+        if slot.state == State::Identified {
+            slot.state = State::Ambiguous;
+        }
     }
 }
 

@@ -43,8 +43,9 @@ impl Asked {
         }
     }
 
-    /// What is meant by `all`, by an identifier of the catalogue, the name of an explanation of the user's own or of a column, or by
-    /// words of the name or the description of an effect in either language: those that have all of them in the closest of these.
+    /// What is meant by `all`, by an identifier of the catalogue, the name of an explanation of the user's own or of a column, by
+    /// words of the name of an effect in either language, by its name as it is printed, or by words of its description: those
+    /// that have all of them in the closest of these.
     ///
     /// # Errors
     /// Nothing is called so, with what may have been meant.
@@ -82,6 +83,12 @@ impl Asked {
         let mut closest = [
             of(|effect| effect.id.to_string(), &|text| text == wanted),
             of(names, &has_all),
+            of(|effect| effect.name.en.clone(), &|name| {
+                is_filled(name, wanted)
+            }),
+            of(|effect| effect.name.zh.clone(), &|name| {
+                is_filled(name, wanted)
+            }),
             of(descriptions, &has_all),
         ]
         .into_iter();
@@ -101,6 +108,26 @@ impl Asked {
 
 fn names(effect: &Effect) -> String {
     format!("{} {} {}", effect.id, effect.name.en, effect.name.zh)
+}
+
+/// Whether words are a name with something in its places, `zero error of {p}`.
+fn is_filled(name: &str, words: &str) -> bool {
+    let parts: Vec<&str> = name.split(['{', '}']).step_by(2).collect();
+    let [start, within @ .., end] = &parts[..] else {
+        return name == words;
+    };
+    let rest = words.strip_prefix(start);
+    let rest = rest.and_then(|rest| rest.strip_suffix(end));
+    let after = |rest: &str, part: &&str| {
+        let (filled, rest) = rest.split_once(part)?;
+        (!filled.is_empty()).then(|| rest.to_owned())
+    };
+    let rest = within
+        .iter()
+        .try_fold(rest.unwrap_or_default().to_owned(), |rest, part| {
+            after(&rest, part)
+        });
+    rest.is_some_and(|rest| !rest.is_empty())
 }
 
 /// The words as the nearest words of some name have them, where one name has all of these.
@@ -172,6 +199,10 @@ mod tests {
         assert!(asked("temperature").len() > 3);
         assert!(asked("dead zone").contains(&Called::Effect(EffectId::ZeroStep)));
         assert_eq!(alone("ALL"), Ok(Asked::Everything));
+        // As it is printed.
+        let zero = [Called::Effect(EffectId::ZeroOf)];
+        assert_eq!(asked("zero error of theta"), zero);
+        assert_eq!(asked("theta 的零位误差"), zero);
     }
 
     #[test]

@@ -186,6 +186,10 @@ fn every_command_refuses_the_same_mistakes() {
             "the noise has no unit",
         ),
         (
+            EXPERIMENT.to_owned() + "[noise]\nu = \"0.05 %\"\n",
+            "is a share of each reading",
+        ),
+        (
             changed("U = K*omega + b", "U = K*omega + b*U"),
             "on both sides",
         ),

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::checker::Checker;
 use super::entries::RoleWord;
-use super::faults::NOISE;
+use super::faults::{NOISE, UNIT};
 use super::source::entries;
 use super::tables::{ColumnTable, NoiseTable, NoiseWord};
 use gumption_core::quantity::Unit;
@@ -144,7 +144,30 @@ impl<'s> Checker<'s> {
                 .label(say!("in which unit?"))
                 .help(say!("state it with its unit, or for each output below [reading.NAME] with from = \"stated\"")));
         }
+        if let Some(share) = self.share_of_readings(u, units) {
+            return self.refuse(share);
+        }
         units.iter().map(|unit| self.spread(u, unit)).collect()
+    }
+
+    /// What is wrong with a noise of 0.05 % where the outputs have units: it is not the same in all rows.
+    fn share_of_readings(&mut self, u: &Stated<Amount>, units: &[&Unit]) -> Option<Fault> {
+        let (text, place) = u.value.unit.as_ref()?;
+        let own = self.unit(&Stated {
+            value: text.clone(),
+            span: place.clone(),
+            key: place.clone(),
+        })?;
+        let is_a_number = |unit: &Unit| unit.conversion_to(&Unit::one()).is_some();
+        let output = units.iter().find(|unit| !is_a_number(unit))?;
+        is_a_number(&own).then(|| {
+            let message = say!("a noise in {text} is a share of each reading, and `u` is that of all rows");
+            Fault::new(UNIT, place.clone(), message)
+                .label(say!("expected {} or a unit like it", output.symbol))
+                .help(say!(
+                    "compute it for each row into a column with the role \"u\"; or leave it out: noise that grows with the reading is seen in the residuals"
+                ))
+        })
     }
 }
 

@@ -23,6 +23,7 @@ mod laws;
 mod memory;
 mod noise;
 mod norms;
+mod published;
 mod reading;
 mod recordings;
 mod refusals;

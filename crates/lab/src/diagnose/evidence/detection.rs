@@ -112,8 +112,13 @@ pub(super) fn test(
         // Without the observation itself.
         as_well_placed(observed, &seen) - 1
     });
-    let few: Vec<[f64; 1]> = seen.iter().map(|own| [own[0]]).collect();
-    let do_few = kinds == Kinds::Together || combined([observed[0]], &few) <= alpha;
+    let stands_out = |which: usize| {
+        let simulated: Vec<[f64; 1]> = seen.iter().map(|own| [own[which]]).collect();
+        combined([observed[which]], &simulated) <= alpha
+    };
+    let [few, many, in_turn, masked] = [0, 1, 2, 3].map(stands_out);
+    // Either of two that stand out together may be carried by few rows.
+    let do_few = kinds == Kinds::Together || few || (!many && (in_turn || masked));
     let (strongest, reach) = match (do_few, each[1]) {
         (false, Some(many)) => (many, Reach::Many),
         _ => (strongest, Reach::Few),

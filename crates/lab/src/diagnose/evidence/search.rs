@@ -94,7 +94,7 @@ pub(super) fn search(
         });
         let is_quiet = outcome.p > space.question.settings.alpha;
         if is_quiet && level == 1 && space.scale != Scale::Known {
-            let pairs = pairs_of(space, &beam, outcome.reach);
+            let pairs = pairs_of(space, &beam, search.reach);
             search.visit(&pairs);
             masking.extend(pairs);
         }

@@ -1,7 +1,8 @@
 //! Delays of a column: the output follows what it was, or will be.
 
+use super::earlier::{delayed, is_smooth, smoothly_delayed};
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{delayed, grid, is_smooth, map, map2, range, smoothly_delayed};
+use super::modifiers::{grid, map, map2, range};
 use super::sharp::{sharpened, size_of};
 use super::{Modifier, Term, Variation};
 
@@ -10,7 +11,7 @@ use super::{Modifier, Term, Variation};
 pub(super) fn of(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     let instant = Term::new(Node::Column(column), fitted.rate(column).negated());
     // Between the rows the course may have corners or none.
-    let law: Between = match is_smooth(fitted.numbers(column)) {
+    let law: Between = match is_smooth(&fitted.clock.values, fitted.numbers(column)) {
         true => smoothly_delayed,
         false => delayed,
     };

@@ -34,6 +34,7 @@ mod building;
 mod conditions;
 mod delays;
 pub(super) mod deviations;
+mod earlier;
 mod effect;
 mod exponentials;
 mod fields;

@@ -94,7 +94,9 @@ pub(super) fn search(
         });
         let is_quiet = outcome.p > space.question.settings.alpha;
         if is_quiet && level == 1 && space.scale != Scale::Known {
-            let pairs = pairs_of(space, &beam, search.reach);
+            // Each of two is noise to the other, whatever their directions.
+            let pairs = one_more(space, &beam, search.reach).into_iter();
+            let pairs: Vec<Visited> = pairs.filter(|pair| pair.generic.is_none()).collect();
             search.visit(&pairs);
             masking.extend(pairs);
         }
@@ -144,34 +146,19 @@ pub(super) fn needed(space: &Space, mut set: Frame, least: usize) -> Vec<usize> 
     set.blocks
 }
 
-/// The best effects with a named one beside each.
-fn pairs_of(space: &Space, beam: &[Visited], reach: Reach) -> Vec<Visited> {
-    let mut pairs = Vec::new();
-    let best = beam.iter().take(BEAM);
-    for frame in best.filter_map(|set| space.frame(&set.named)) {
-        let beside = Remainders::new(space, &frame);
-        let observed = beside.observed();
-        let named = (beside.rests.iter()).filter(|rest| rest.kind == Kind::Named);
-        for rest in named.filter(|rest| reach.admits(&space.blocks[rest.block])) {
-            let Some(score) = beside.score(rest, &observed) else {
-                continue;
-            };
-            let mut named = frame.blocks.clone();
-            named.push(rest.block);
-            named.sort_unstable();
-            pairs.push(Visited {
-                named,
-                generic: None,
-                score,
-            });
-        }
-    }
-    pairs.sort_by(|a, b| by_score(&b, &a));
-    pairs
+/// The sets of the beam with one block more, of those that may be what stands out: the best first. Those with a generic are only
+/// kept in mind.
+fn extend(space: &Space, beam: &[Visited], reach: Reach, search: &mut Search) -> Vec<Visited> {
+    let sets = one_more(space, beam, reach).into_iter();
+    let (named, unnamed): (Vec<Visited>, Vec<Visited>) =
+        sets.partition(|set| set.generic.is_none());
+    search.visited.extend(unnamed);
+    search.visit(&named);
+    named
 }
 
-/// All sets with one block more than those of the beam, of those that may be what stands out: the best first.
-fn extend(space: &Space, beam: &[Visited], reach: Reach, search: &mut Search) -> Vec<Visited> {
+/// All different sets with one block more than the best of a beam: the best first.
+fn one_more(space: &Space, beam: &[Visited], reach: Reach) -> Vec<Visited> {
     let mut seen = BTreeSet::new();
     let mut next = Vec::new();
     let best = beam.iter().take(BEAM);
@@ -184,27 +171,20 @@ fn extend(space: &Space, beam: &[Visited], reach: Reach, search: &mut Search) ->
                 continue;
             };
             let mut named = frame.blocks.clone();
-            if rest.kind == Kind::Generic {
-                let generic = Some(rest.block);
-                search.visited.push(Visited {
-                    named,
-                    generic,
-                    score,
-                });
-                continue;
+            let generic = (rest.kind == Kind::Generic).then_some(rest.block);
+            if generic.is_none() {
+                named.push(rest.block);
+                named.sort_unstable();
             }
-            named.push(rest.block);
-            named.sort_unstable();
-            if seen.insert(named.clone()) {
+            if seen.insert((named.clone(), generic)) {
                 next.push(Visited {
                     named,
-                    generic: None,
+                    generic,
                     score,
                 });
             }
         }
     }
-    search.visit(&next);
     next.sort_by(|a, b| by_score(&b, &a));
     next
 }

@@ -5,7 +5,7 @@ use super::faults;
 use super::graph::Id;
 use super::lower::{Kind, Lowering, Value};
 use super::printer;
-use super::syntax::{Expr, Infix, Node};
+use super::syntax::{Expr, Infix, Node, UnitText};
 use super::units::Operand;
 use crate::quantity::{Dimension, Unit};
 use gumption_fault::{Fault, say};
@@ -54,7 +54,14 @@ pub fn value_in(l: &mut Lowering<'_>, argument: &Expr, unit: &Expr) -> Option<Va
     let found = l.quantity(&value, argument)?;
     // A difference in K has no value in °C.
     if wanted.is_point() && !found.is_point() {
-        l.point_fault(unit, &wanted);
+        let name = printer::expression(argument);
+        l.report(no_point(
+            &name,
+            argument,
+            &found.symbol,
+            text,
+            &wanted.symbol,
+        ));
         return None;
     }
     match l.converted(&value.with_unit_if_zero(&wanted), &wanted) {
@@ -82,6 +89,20 @@ pub fn value_in(l: &mut Lowering<'_>, argument: &Expr, unit: &Expr) -> Option<Va
             None
         }
     }
+}
+
+/// The number in °C of what is in K, which a difference of temperatures is, too.
+fn no_point(name: &str, argument: &Expr, found: &str, text: &UnitText, wanted: &str) -> Fault {
+    Fault::new(
+        faults::CLASH,
+        text.span.clone(),
+        say!("`{name}` is in {found}, as a difference is, and has no value on the {wanted} scale"),
+    )
+    .label(say!("a point on the {wanted} scale"))
+    .related(argument.span.clone(), say!("in {found}"))
+    .help(say!(
+        "state a temperature in {wanted}, `unit = \"{wanted}\"`; the number in {found} is `value_in({name}, '{found}')`"
+    ))
 }
 
 /// solve(lhs == rhs, unknown, start).

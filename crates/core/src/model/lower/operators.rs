@@ -6,7 +6,7 @@ use super::{Kind, Lowering, Value};
 use crate::model::faults;
 use crate::model::graph::{Builder, Id};
 use crate::model::printer;
-use crate::model::syntax::{Expr, Infix, Span};
+use crate::model::syntax::{Expr, Infix, Node, Span};
 use crate::model::units::Operand;
 use gumption_fault::{Fault, say};
 
@@ -35,10 +35,13 @@ impl Lowering<'_> {
 
     pub fn negative(&mut self, inner: &Expr) -> Option<Value> {
         let x = self.value(inner)?;
-        self.difference(Operand {
-            value: &x,
-            expr: inner,
-        })?;
+        // The sign in front of a number belongs to it: `-50 '°C'` is a point on the scale as `50 '°C'` is.
+        if !matches!(inner.node, Node::Number { .. }) {
+            self.difference(Operand {
+                value: &x,
+                expr: inner,
+            })?;
+        }
         let elements = x.elements.iter().map(|id| self.builder.neg(*id)).collect();
         Some(Value { elements, ..x })
     }

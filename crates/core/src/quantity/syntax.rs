@@ -12,7 +12,7 @@
 
 use std::ops::Range;
 
-use gumption_fault::say;
+use gumption_fault::{Said, say};
 
 use super::dimension::STEPS;
 use super::factor::Factor;
@@ -26,6 +26,9 @@ const DEEPEST: usize = 32;
 
 /// Largest exponent that may be written.
 const LARGEST_EXPONENT: i32 = 60;
+
+/// Powers of ten that are units.
+const NAMED_RATIOS: [(i32, &str); 4] = [(-2, "%"), (-3, "‰"), (-6, "ppm"), (-9, "ppb")];
 
 /// A unit text taken apart.
 #[derive(Debug, Clone, PartialEq)]
@@ -342,20 +345,42 @@ impl Parser<'_> {
             .help(say!("use a positive number of at most fifteen digits"))
         })?;
         if self.numbers == Numbers::OneOnly && text != "1" {
+            let help = self.named_ratio(factor, &span).unwrap_or_else(|| {
+                say!(
+                    "multiply the value by it, or define a unit of your own in the [unit] table; \
+                       fractional exponents need parentheses, as in `Hz^(1/2)`"
+                )
+            });
             return Err(UnitError::new(
                 NUMBER_IN_UNIT,
                 span,
                 say!("the number {text} does not belong in a unit"),
             )
-            .help(say!(
-                "multiply the value by it, or define a unit of your own in the [unit] table; \
-                       fractional exponents need parentheses, as in `Hz^(1/2)`"
-            )));
+            .help(help));
         }
         Ok(Product {
             number: factor,
             ..Product::one()
         })
+    }
+
+    /// The unit that a power of ten is, which was read last: `10^-6/K` is `ppm/K`.
+    fn named_ratio(&self, number: Factor, span: &Range<usize>) -> Option<Said> {
+        let mut ahead = Parser { ..*self };
+        let (sixtieths, _) = ahead.exponent().ok()?.unwrap_or((STEPS, 0..0));
+        let factor = number.powr(sixtieths, STEPS);
+        let (_, name) = NAMED_RATIOS
+            .iter()
+            .find(|(ten, _)| factor == Factor::power_of_ten(*ten))?;
+        let end = ahead.here().end;
+        let (before, power, behind) = (
+            &self.text[..span.start],
+            &self.text[span.start..end],
+            &self.text[end..],
+        );
+        Some(say!(
+            "{power} is the unit {name}: write \"{before}{name}{behind}\""
+        ))
     }
 
     fn parenthesis(&mut self, open: Range<usize>, depth: usize) -> Result<Product, UnitError> {
@@ -618,6 +643,13 @@ mod tests {
         assert_eq!(error("m^999").0, 1..5);
         assert_eq!(error("(m^60)^60").0, 6..9);
         assert_eq!(error("10 V").1, "the number 10 does not belong in a unit");
+        for text in ["1e-6/K", "10^-6/K", "10⁻⁶/K", "10-6/K", "0.000001/K"] {
+            assert!(error(text).2.ends_with("write \"ppm/K\""), "{text}");
+        }
+        assert_eq!(
+            error("m/10^3/K").2,
+            "multiply the value by it, or define a unit of your own in the [unit] table; fractional exponents need parentheses, as in `Hz^(1/2)`"
+        );
         assert_eq!(error("s^1/2").0, 4..5);
         assert_eq!(
             error("N-m").2,

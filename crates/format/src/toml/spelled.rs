@@ -58,17 +58,38 @@ fn mantissa(text: &str) -> (String, &str) {
         (whole, rest) = (group, behind);
     }
     let (fraction, rest) = match rest.strip_prefix('.') {
-        Some(behind) => digits(behind),
+        Some(behind) => groups(behind),
         None => return (format!("{sign}{joined}"), rest),
     };
-    let or_zero = |digits: &str| if digits.is_empty() { "0" } else { digits }.to_owned();
+    let or_zero = |digits: String| {
+        if digits.is_empty() {
+            "0".into()
+        } else {
+            digits
+        }
+    };
     match joined.is_empty() && fraction.is_empty() {
         true => (String::new(), text),
         false => (
-            format!("{sign}{}.{}", or_zero(&joined), or_zero(fraction)),
+            format!("{sign}{}.{}", or_zero(joined), or_zero(fraction)),
             rest,
         ),
     }
+}
+
+/// The digits behind a point, without spaces between groups of three; the last group may have fewer (SI Brochure 5.4.4).
+fn groups(text: &str) -> (String, &str) {
+    let (mut group, mut rest) = digits(text);
+    let mut joined = group.to_owned();
+    while group.len() == 3 {
+        let (next, behind) = digits(rest.strip_prefix(' ').unwrap_or(""));
+        if next.is_empty() || next.len() > 3 || behind.starts_with(['/', '^', '.', '(']) {
+            break;
+        }
+        joined.push_str(next);
+        (group, rest) = (next, behind);
+    }
+    (joined, rest)
 }
 
 /// The exponent of `x10^-4`, `×10⁻⁴`, `· 10**-4`, and what stands behind it.
@@ -163,6 +184,8 @@ mod tests {
             ("2.5·10⁻⁶ m", "2.5e-6", "m"),
             ("1.2 * 10**{3}", "1.2e3", ""),
             ("10 000.02", "10000.02", ""),
+            ("10.000 000 123 MHz", "10.000000123", "MHz"),
+            ("1 234.567 8 kg", "1234.5678", "kg"),
             ("1'000'000", "1000000", ""),
             ("0.0003;", "0.0003", ""),
         ] {
@@ -217,6 +240,8 @@ mod tests {
             "",
             "1 2",
             "10 0000",
+            "0.123 1/K",
+            "1.5 10",
             "x10",
             "3*4",
             "1/3",

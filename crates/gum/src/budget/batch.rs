@@ -345,6 +345,7 @@ impl RowReader<'_> {
         faults.append(&mut reader.faults);
         let variant = Variant {
             label,
+            place: None,
             repetitions: false,
             file,
             faults,

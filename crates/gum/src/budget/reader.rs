@@ -224,8 +224,9 @@ fn read_variants(
     };
     let repetitions = stated.and_then(|stated| stated.value.repetitions.as_ref());
     let repetitions = repetitions.is_some_and(|stated| stated.value);
-    let variant = |label, file, reader: &mut Reader<'_>| Variant {
+    let variant = |label, place, file, reader: &mut Reader<'_>| Variant {
         label,
+        place,
         repetitions,
         file,
         faults: std::mem::take(&mut reader.faults),
@@ -235,13 +236,13 @@ fn read_variants(
         None => {
             // It is as large as everything that is made of it.
             drop(table);
-            let alone = variant(None, file, &mut reader);
+            let alone = variant(None, None, file, &mut reader);
             checked(std::iter::once(alone), syntax, place, origin)
         }
         Some(series) => {
-            let rows = series.variants().map(|row| {
+            let rows = series.variants().map(|(place, row)| {
                 let file = tables(&row.table, profile, &mut reader);
-                variant(row.label, file, &mut reader)
+                variant(row.label, Some(place), file, &mut reader)
             });
             checked(rows, syntax, place, origin)
         }

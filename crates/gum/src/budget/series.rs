@@ -9,6 +9,7 @@ mod places;
 mod readings;
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 
@@ -25,7 +26,7 @@ pub(super) use columns::{Column, LABEL, column, set_twice, targets};
 pub(super) use heads::{Ground, HeadUnit};
 
 /// Where a row stands, and its cells under the heads of their columns.
-pub(super) type WrittenRow<'t> = (std::ops::Range<usize>, Vec<(Stated<Entry>, Raw<'t>)>);
+pub(super) type WrittenRow<'t> = (Range<usize>, Vec<(Stated<Entry>, Raw<'t>)>);
 
 /// The rows of a series. The file with a row in place is made when it is asked for: those of all rows together are some
 /// thousand times as large as the table.
@@ -38,18 +39,18 @@ pub(super) struct Series<'t> {
 }
 
 impl<'t> Series<'t> {
-    /// The file with each row in place.
-    pub fn variants(&self) -> impl ExactSizeIterator<Item = Variant<'t>> {
+    /// The file with each row in place, and where the row stands.
+    pub fn variants(&self) -> impl ExactSizeIterator<Item = (Range<usize>, Variant<'t>)> {
         let rows = self.rows.iter();
         let naming = self.naming();
-        rows.map(move |(_, cells)| {
+        rows.map(move |(place, cells)| {
             // What can be wrong with them has been looked for.
             let mut faults = Vec::new();
             let mut row = variant(&self.file, self.columns, &self.targets, cells, &mut faults);
             if let Some((column, unit)) = &naming {
                 row.label = Some(amount(&cells[*column].0.value, unit));
             }
-            row
+            (place.clone(), row)
         })
     }
 

@@ -25,6 +25,7 @@ mod inputs;
 mod joints;
 mod names;
 mod nearest;
+mod of_rows;
 mod plain;
 mod register;
 mod resolution;
@@ -42,6 +43,7 @@ pub(super) mod units;
 mod vectors;
 mod ways;
 
+use std::ops::Range;
 use std::path::Path;
 
 use super::checked::Quantities;
@@ -54,12 +56,15 @@ use entries::{entries, shared};
 use gumption_core::quantity::UnitTable;
 use gumption_fault::{Fault, Said};
 use gumption_format::toml::Slot;
+use of_rows::of_rows;
 pub(super) use plain::Plain;
 pub(super) use ways::{states_estimate, states_uncertainty};
 
 /// One evaluation: the file itself, or with the values of a row of its series in place.
 pub(super) struct Variant {
     pub label: Option<String>,
+    /// Where the file has the row.
+    pub place: Option<Range<usize>>,
     /// Whether its series says that rows repeat one another.
     pub repetitions: bool,
     pub file: FileTable,
@@ -76,23 +81,25 @@ pub(super) fn rows(
     text: &str,
     origin: Origin<'_>,
 ) -> Result<(Heading, Vec<Row>), Vec<Fault>> {
-    let (mut of_reading, mut faults) = (Vec::new(), Vec::new());
+    let mut faults = Vec::with_capacity(variants.len());
     let mut first = None;
     let several = variants.len() > 1;
     let mut rows = Vec::with_capacity(variants.len());
     for (index, mut variant) in variants.enumerate() {
-        of_reading.append(&mut variant.faults);
+        let number = || several.then(|| (index + 1).to_string());
+        let row = variant.label.clone().or_else(number);
+        let place = variant.place.clone().zip(row.clone());
+        let mut of_row = std::mem::take(&mut variant.faults);
         let heading: &Heading = first.get_or_insert_with(|| Heading {
             repetitions: variant.repetitions,
             ..heading(&variant.file)
         });
         let found = dcc::fill(&mut variant.file, origin.files, origin.directory);
         if !found.faults.is_empty() {
-            faults.extend(found.faults);
+            of_row.extend(found.faults);
+            faults.push((place, of_row));
             continue;
         }
-        let number = || several.then(|| (index + 1).to_string());
-        let row = variant.label.clone().or_else(number);
         match budget(
             &variant.file,
             text,
@@ -105,16 +112,16 @@ pub(super) fn rows(
                 label: variant.label,
                 budget,
             }),
-            // Every row repeats the faults that do not depend on it.
-            Err(found) => faults.extend(found),
+            Err(found) => of_row.extend(found),
         }
+        faults.push((place, of_row));
     }
-    of_reading.append(&mut faults);
-    if of_reading.is_empty() {
+    let found = of_rows(faults);
+    if found.is_empty() {
         share_sources(&mut rows, origin.file);
         Ok((first.unwrap_or_default(), rows))
     } else {
-        Err(of_reading)
+        Err(found)
     }
 }
 

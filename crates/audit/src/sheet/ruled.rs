@@ -1,5 +1,7 @@
 //! Tables of a page whose head has a rule below it: their columns are what no line crosses, also where they are one blank apart.
 
+use std::ops::Range;
+
 /// Whether a text has tables with rules, as reports print them.
 pub(super) fn has_rules(text: &str) -> bool {
     text.lines().filter(|line| is_rule(line)).count() >= 2
@@ -63,7 +65,7 @@ fn has_figures(line: &[char]) -> bool {
     line.iter().any(char::is_ascii_digit)
 }
 
-/// Columns of a single blank in every line, with something on both sides in half of the rows. Columns are as wide as what stands
+/// Columns of a single blank in every line, with something on both sides in half of the rows that have a cell there. Columns are as wide as what stands
 /// in them: where any two are farther apart, all are, and a single blank is one between words.
 fn narrow_gaps(head: &[char], body: &[&[char]]) -> Vec<usize> {
     let filled = |line: &[char], column: usize| line.get(column).is_some_and(|c| *c != ' ');
@@ -81,18 +83,31 @@ fn narrow_gaps(head: &[char], body: &[&[char]]) -> Vec<usize> {
     if are_apart {
         return Vec::new();
     }
-    // What stands between a gap and the next one, to the left or to the right.
-    let left = |gap: usize| (0..gap).rev().take_while(|column| !free[*column]);
-    let right = |gap: usize| (gap + 1..width).take_while(|column| !free[*column]);
-    let parts = |gap: usize| {
-        let both = body.iter().filter(|line| {
-            left(gap).any(|column| filled(line, column))
-                && right(gap).any(|column| filled(line, column))
-        });
-        2 * both.count() >= body.len()
+    let stands = |line: &[char], part: &Range<usize>| part.clone().any(|c| filled(line, c));
+    let rows = |parts: &[&Range<usize>]| {
+        let has_all = |line: &&&[char]| parts.iter().all(|part| stands(line, part));
+        body.iter().filter(has_all).count()
     };
-    let is_narrow = |gap: &usize| free[*gap] && parts(*gap);
-    (begin + 1..end).filter(is_narrow).collect()
+    let is_letter = |line: &[char], at: usize| line.get(at).is_some_and(|c| c.is_alphabetic());
+    let mut gaps = Vec::new();
+    let mut start = begin;
+    for gap in (begin + 1..end).filter(|column| free[*column]) {
+        let before = (0..gap).rfind(|column| free[*column]).map_or(0, |c| c + 1);
+        let behind = (gap + 1..width).find(|column| free[*column]);
+        let (near, left, right) = (before..gap, start..gap, gap + 1..behind.unwrap_or(width));
+        let most = 2 * rows(&[&near, &right]) >= body.len();
+        // Between two heads a column may have few cells, and a single blank between two words is none between columns.
+        let has_heads = [&left, &right].iter().all(|part| stands(head, part));
+        let both = rows(&[&left, &right]);
+        let few = both > 0 && 2 * both >= rows(&[&left]).min(rows(&[&right]));
+        let mut lines = body.iter();
+        let parts_words = lines.any(|line| is_letter(line, gap - 1) && is_letter(line, gap + 1));
+        if most || has_heads && few && !parts_words {
+            gaps.push(gap);
+            start = gap + 1;
+        }
+    }
+    gaps
 }
 
 #[cfg(test)]
@@ -124,6 +139,38 @@ mod tests {
             "    repeatability             mm    0.350  t (B)             2"
         );
         assert_eq!(lines[6], "Shared sources (contained above)");
+        // A column with few cells, and a word that stands behind all others of its column.
+        let text = "quantity        estimate unit     u distribution                 ν      c   c·u\n\
+                    -------------------------------------------------------------------------------\n\
+                    L_tape             5.017 m    0.026                           2124  1.000 0.026\n\
+                    \x20 tape, 0.1 %            m    0.024 normal (B)                   ∞        0.024\n\
+                    \x20 repeatability          m    0.003 t (A)                        9        0.003\n\
+                    lie                 10.0 mm   5.770 curvilinear-trapezoid (B)   50 0.0010 0.006\n\
+                    L                  5.027 m    0.063                              ∞        0.063\n\n";
+        let wide = widened(text);
+        let lines: Vec<Vec<&str>> = wide
+            .lines()
+            .map(|line| {
+                line.split("  ")
+                    .map(str::trim)
+                    .filter(|cell| !cell.is_empty())
+                    .collect()
+            })
+            .collect();
+        assert_eq!(
+            lines[5],
+            [
+                "lie",
+                "10.0",
+                "mm",
+                "5.770",
+                "curvilinear-trapezoid (B)",
+                "50",
+                "0.0010",
+                "0.006"
+            ]
+        );
+        assert_eq!(lines[3][0], "tape, 0.1 %");
         let apart = "Source   Standard deviation  n\n------------------------------\na        0.1                 5\nb        0.2                 6\n";
         assert_eq!(widened(apart), apart.trim_end());
     }

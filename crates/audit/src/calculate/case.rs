@@ -39,9 +39,11 @@ impl<'a> Case<'a> {
         let mut unknown_slopes = vec![false; claimed.rows.len()];
         let mut by_units = false;
         let mut second_order = None;
+        let mut of_model = vec![false; claimed.rows.len()];
         let (derivatives, y, trouble) = match differentiate(claimed) {
             Ok(Some(known)) => {
                 let slopes = in_unit_of_result(claimed, &known);
+                of_model.clone_from(&known.of_model);
                 unknown_slopes = known.unknown;
                 by_units = known.by_units;
                 second_order = known.second_order;
@@ -50,11 +52,11 @@ impl<'a> Case<'a> {
             Ok(None) => (None, None, None),
             Err(trouble) => (None, None, Some(trouble)),
         };
-        let lines = claimed
-            .rows
-            .iter()
-            .enumerate()
-            .map(|(i, row)| line(claimed, row, derivatives.as_ref().map(|d| d[i])));
+        let lines = claimed.rows.iter().enumerate().map(|(i, row)| {
+            // What stands in for a slope that the model does not give is the laboratory's coefficient.
+            let own = derivatives.as_ref().filter(|_| of_model[i]);
+            line(claimed, row, own.map(|d| d[i]))
+        });
         let mut right = Calculation {
             lines: lines.collect(),
             correlations: claimed.correlations.clone(),

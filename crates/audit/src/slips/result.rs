@@ -181,14 +181,15 @@ fn of_estimates(case: &Case<'_>) -> Option<Vec<Sum>> {
 }
 
 /// U in a unit to which no contribution can be converted: rows whose coefficient is printed as 1 are in that of the
-/// result, unless u_c or the contributions say that it has a unit.
+/// result, unless y, u_c or the contributions say that it has a unit.
 pub(crate) fn of_unit(case: &Case<'_>) -> Option<Act> {
     let unit = &case.claimed.footer.expanded.as_ref()?.unit;
     if units::parse(unit).is_none() || units::fraction(unit).is_some() {
         return None;
     }
     let contributions = case.claimed.rows.iter().map(|row| &row.contribution);
-    let mut made = contributions.chain([&case.claimed.footer.u_c]).flatten();
+    let footer = &case.claimed.footer;
+    let mut made = contributions.chain([&footer.u_c, &footer.y]).flatten();
     if made.any(|figure| units::factor(&figure.unit, unit).is_some()) {
         return None;
     }

@@ -13,6 +13,8 @@ pub struct Claimed {
     pub unit: String,
     /// The rows.
     pub rows: Vec<Row>,
+    /// Below how many of them each subtotal stands.
+    pub subtotals: Vec<usize>,
     /// The right side of the measurement model, as written.
     pub model: Option<String>,
     /// Stated correlations between rows.
@@ -265,6 +267,8 @@ pub struct Correlation {
     pub b: usize,
     /// The coefficient.
     pub r: f64,
+    /// By how much it may differ from what the sheet computed with, because it was printed with these digits.
+    pub open: f64,
 }
 
 /// The rule for k.

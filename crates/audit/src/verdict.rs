@@ -1,6 +1,6 @@
 //! What an audit comes to.
 
-use crate::calculate::Figures;
+use crate::calculate::{Figures, are_possible};
 use crate::claim::Claimed;
 use crate::search::{Explanation, Found, Gap, search};
 
@@ -45,6 +45,13 @@ pub fn audit(claimed: &Claimed) -> Audit<'_> {
         // What sums of several quantities come to explains nothing, and departs from nothing.
         found.explanations.clear();
         found.gaps.clear();
+    }
+    if !are_possible(&claimed.correlations, claimed.rows.len()) {
+        // What holds in their place is not known, and a slip that makes up for it would be none.
+        found.explanations.retain(|found| found.acts.is_empty());
+        if found.explanations.is_empty() && found.gaps.is_empty() {
+            found.gaps.push(Gap::Sum);
+        }
     }
     let footer = &claimed.footer;
     let nothing = claimed.rows.is_empty() || found.right.u_c <= 0.0;

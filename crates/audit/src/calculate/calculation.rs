@@ -236,7 +236,7 @@ impl Calculation {
             return parts.iter().map(|x| x.abs()).sum();
         }
         let mut sum: f64 = parts.iter().map(|x| x * x).sum();
-        for Correlation { a, b, r } in &self.correlations {
+        for Correlation { a, b, r, .. } in &self.correlations {
             let product = parts[*a] * parts[*b];
             sum += 2.0
                 * r

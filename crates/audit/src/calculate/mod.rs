@@ -5,10 +5,12 @@
 //! | `calculation` | a calculation, right or with slips in it |
 //! | `known` | standard uncertainties from what is known |
 //! | `model` | value and derivatives of the model |
+//! | `correlations` | whether correlations may hold together |
 //! | `case` | the right calculation of a claim |
 
 mod calculation;
 mod case;
+mod correlations;
 mod known;
 mod model;
 mod way;
@@ -18,5 +20,6 @@ pub use calculation::{
     welch,
 };
 pub use case::{Case, factors};
+pub use correlations::are_possible;
 pub(crate) use known::shape_of;
 pub(crate) use model::{formula, unit_of_y};

@@ -36,7 +36,7 @@ fn claim(statement: &Statement, result: &Equation) -> Claimed {
     };
     let correlations = statement.correlations.iter().filter_map(|(a, b, r)| {
         let (a, b, r) = (place(a)?, place(b)?, *r);
-        Some(Correlation { a, b, r })
+        Some(Correlation { a, b, r, open: 0.0 })
     });
     let unit = if has_units && result.unit.is_empty() {
         "1"

@@ -386,21 +386,28 @@ fn pairs(text: &str, claimed: &Claimed) -> Option<Vec<Correlation>> {
             "完全相关",
             "强相关",
         ];
-        has(&lower, &words).then_some(1.0)
+        has(&lower, &words).then(|| Printed::exact(1.0, "1"))
     };
     let stated = || {
         let keys = ["coefficient", "相关系数", "correlation", "r"];
-        figure_after(&lower, &keys).map(|r| r.value)
+        figure_after(&lower, &keys)
     };
-    let r = equals_figure(text)
+    let said = equals_figure(text)
         .or_else(stated)
         .or_else(full)
-        .filter(|r| r.abs() <= 1.0)?;
+        .filter(|r| r.value.abs() <= 1.0)?;
+    // One digit is a guess, which is what was computed with; more are a coefficient that was rounded.
+    let open = if said.digits < 2 { 0.0 } else { said.half };
+    let r = said.value;
     let rows: Vec<usize> = places.into_iter().map(|(_, row)| row).collect();
     let pairs: Vec<Correlation> = rows
         .iter()
         .enumerate()
-        .flat_map(|(i, &a)| rows[i + 1..].iter().map(move |&b| Correlation { a, b, r }))
+        .flat_map(|(i, &a)| {
+            rows[i + 1..]
+                .iter()
+                .map(move |&b| Correlation { a, b, r, open })
+        })
         .collect();
     (!pairs.is_empty()).then_some(pairs)
 }
@@ -434,9 +441,9 @@ pub fn is_assigned(text: &str, symbol: &str) -> bool {
 }
 
 /// The last figure behind an equals sign.
-fn equals_figure(text: &str) -> Option<f64> {
+fn equals_figure(text: &str) -> Option<Printed> {
     let at = text.rfind('=')?;
-    leading(&text[at + 1..]).map(|(figure, _)| figure.value)
+    leading(&text[at + 1..]).map(|(figure, _)| figure)
 }
 
 /// A certificate of an input of the model that no row has.
@@ -503,8 +510,10 @@ fn without_row(text: &str, claimed: &Claimed) -> Option<String> {
 /// The words by which a model may call a row: its symbol, or what looks like one in its name.
 pub fn names_of(row: &crate::claim::Row) -> impl Iterator<Item = &str> {
     let split = |c: char| {
-        c.is_whitespace() || "(),;:[]。".contains(c) || ('\u{4e00}'..='\u{9fff}').contains(&c)
+        c.is_whitespace() || "(),;:。".contains(c) || ('\u{4e00}'..='\u{9fff}').contains(&c)
     };
+    // `[m_S]` is a name, and in `standards[W1].d` the brackets hold an index.
+    let unwrapped = |word| <str>::trim_matches(word, ['[', ']']);
     let looks = |word: &&str| {
         !word.is_empty()
             && word.chars().count() <= 8
@@ -515,6 +524,8 @@ pub fn names_of(row: &crate::claim::Row) -> impl Iterator<Item = &str> {
     let of_name = row
         .name
         .split(split)
+        .map(unwrapped)
+        .filter(|word| !word.contains(['[', ']']))
         .filter(looks)
         .filter(|word| word.len() != 1 || *word != "a");
     symbol
@@ -556,7 +567,8 @@ mod tests {
             [Correlation {
                 a: 0,
                 b: 1,
-                r: 0.35
+                r: 0.35,
+                open: 0.005
             }]
         );
         assert_eq!(claimed.cmc.as_ref().unwrap().value, 0.05);

@@ -1,6 +1,6 @@
 //! What the figures of the whole show.
 
-use crate::calculate::{Factor, Freedom, t};
+use crate::calculate::{Factor, Freedom, are_possible, t};
 use crate::claim::{Correlation, Coverage, Stated};
 use crate::printed::Printed;
 use crate::read::Whole;
@@ -35,7 +35,7 @@ fn of_printed(seen: &Seen<'_>) -> Option<(f64, f64)> {
     }
     let products = seen.claimed.correlations.iter();
     let products: f64 = products
-        .map(|&Correlation { a, b, r }| 2.0 * r * parts[a] * parts[b])
+        .map(|&Correlation { a, b, r, .. }| 2.0 * r * parts[a] * parts[b])
         .sum();
     let squares: f64 = parts.iter().map(|part| part * part).sum();
     Some((libm::sqrt((squares + products).max(0.0)), open))
@@ -205,34 +205,7 @@ pub(super) fn not_a_matrix(seen: &Seen<'_>) -> Vec<Hit> {
     if let Some(pair) = beyond {
         return one(format!("r = {}", pair.r));
     }
-    let n = seen.claimed.rows.len();
-    let mut matrix = vec![vec![0.0; n]; n];
-    for (i, row) in matrix.iter_mut().enumerate() {
-        row[i] = 1.0 + 1e-9;
-    }
-    for pair in pairs {
-        matrix[pair.a][pair.b] = pair.r;
-        matrix[pair.b][pair.a] = pair.r;
-    }
-    when(!is_positive(matrix), || "r".into())
-}
-
-/// Whether a symmetric matrix has a Cholesky factor.
-fn is_positive(mut matrix: Vec<Vec<f64>>) -> bool {
-    let n = matrix.len();
-    for k in 0..n {
-        if matrix[k][k] <= 0.0 {
-            return false;
-        }
-        let pivot = matrix[k].clone();
-        for row in matrix.iter_mut().skip(k + 1) {
-            let factor = row[k] / pivot[k];
-            for (x, above) in row.iter_mut().zip(&pivot) {
-                *x -= factor * above;
-            }
-        }
-    }
-    true
+    when(!are_possible(pairs, seen.claimed.rows.len()), || "r".into())
 }
 
 /// Rows that name the same certificate, and are not correlated.

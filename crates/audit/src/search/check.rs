@@ -271,8 +271,17 @@ impl<'a> Held<'a> {
             claimed.is_none_or(|figure| self.is_near_u_c(figure, f.u_c))
         };
         let mut us: Vec<f64> = self.all().filter(fits).map(|f| f.u_c).collect();
-        if self.u_c.is_none() && self.open > 0.0 {
-            us.extend([self.exact.u_c - self.open, self.exact.u_c + self.open]);
+        if self.open > 0.0 {
+            let ends = [-self.open, self.open].map(|open| self.exact.u_c + open);
+            let claimed = self.u_c.as_ref().filter(|_| meets_u_c);
+            // What is claimed as u_c narrows it, as far as its own digits go.
+            us.extend(ends.map(|u| match claimed {
+                Some(figure) => {
+                    let half = figure.half_of_digits();
+                    u.clamp(figure.value - half, figure.value + half)
+                }
+                None => u,
+            }));
         }
         // Of what is rounded up, the rounded u_c is no part.
         if meets_u_c && self.case.claimed.rounding != RoundingStated::Up {
@@ -348,8 +357,8 @@ pub fn is_printed(case: &Case<'_>, right: &Figures, made: &Figures, open: f64) -
     }
 }
 
-/// By how much u_c may differ because rows state no more than a standard uncertainty or a contribution, as it is printed:
-/// the sheet went on with more digits.
+/// By how much u_c may differ because rows state no more than a standard uncertainty or a contribution, as it is printed, and
+/// correlations no more than a rounded r: the sheet went on with more digits.
 fn left_open(case: &Case<'_>, calculation: &Calculation, u_c: f64) -> f64 {
     if case.claimed.computed {
         return 0.0;
@@ -378,6 +387,13 @@ fn left_open(case: &Case<'_>, calculation: &Calculation, u_c: f64) -> f64 {
             0.0
         }
     });
-    let square: f64 = open.sum();
+    let of_r = calculation.correlations.iter().map(|pair| {
+        let [a, b] = [pair.a, pair.b].map(|row| calculation.lines[row]);
+        match a.counted && b.counted {
+            true => pair.open * (a.contribution() * b.contribution()).abs(),
+            false => 0.0,
+        }
+    });
+    let square: f64 = open.sum::<f64>() + of_r.sum::<f64>();
     if u_c > 0.0 { square / u_c } else { 0.0 }
 }

@@ -69,7 +69,15 @@ fn a_correlation_that_is_said_again_is_one() {
     let text = "Source  Symbol  u / mm  c  u_i / mm\nOne     a1      0.40    1  0.40\nOther   b1      0.30    1  0.30\n\n\
                 r(a1, b1) = 0.5\nThe correlation coefficient is r(a1, b1) = 0.5\nu_c = 0.608 mm\nU = 1.2 mm (k = 2)\n";
     let found = claims(text);
-    assert_eq!(found[0].correlations, [Correlation { a: 0, b: 1, r: 0.5 }]);
+    assert_eq!(
+        found[0].correlations,
+        [Correlation {
+            a: 0,
+            b: 1,
+            r: 0.5,
+            open: 0.0
+        }]
+    );
     is_sound(text);
 }
 

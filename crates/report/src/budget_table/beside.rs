@@ -9,7 +9,7 @@ use crate::{Report, symbol};
 use gumption_fault::say;
 use gumption_format::document::Block;
 use gumption_format::document::{ColumnKind, Row, Table};
-use gumption_gum::budget::Component;
+use gumption_gum::budget::{Component, Group};
 
 /// How each u was found, and from which certificate.
 pub(crate) fn origins(report: &Report<'_>) -> Vec<Block> {
@@ -78,29 +78,45 @@ pub(crate) fn correlated(report: &Report<'_>) -> Vec<Block> {
     /// More pairs are for the JSON output.
     const MOST: usize = 24;
     let l = report.language;
-    let name = |t: usize| report.budget.components[t].name.as_str();
+    let name = |t: &usize| report.budget.components[*t].name.as_str();
     let groups = report.budget.groups.iter();
     let mut correlated = groups.flat_map(|group| {
-        let places = 0..group.members.len();
-        let above = places.flat_map(|i| (i + 1..group.members.len()).map(move |j| (i, j)));
-        above.filter_map(|(i, j)| {
-            let r = group.correlation[(i, j)];
-            (r != 0.0).then_some((group.members[i], group.members[j], r))
-        })
+        let of_all = common(group).filter(|_| group.members.len() <= MOST);
+        let pairs = pairs(group).filter(move |(_, r)| of_all.is_none() && *r != 0.0);
+        let pairs = pairs.map(|(pair, r)| (pair.map(|place| group.members[place]).to_vec(), r));
+        let together = of_all.map(|r| (group.members.clone(), r));
+        together.into_iter().chain(pairs)
     });
-    let said = |(a, b, r)| format!("r({}, {}) = {}", name(a), name(b), coefficient(r));
-    let mut pairs: Vec<String> = correlated.by_ref().take(MOST).map(said).collect();
-    if pairs.is_empty() {
+    let said = |(members, r): (Vec<usize>, f64)| {
+        let names: Vec<&str> = members.iter().map(name).collect();
+        format!("r({}) = {}", names.join(", "), coefficient(r))
+    };
+    let mut told: Vec<String> = correlated.by_ref().take(MOST).map(said).collect();
+    if told.is_empty() {
         return Vec::new();
     }
     let left_out = correlated.count();
     if left_out > 0 {
-        pairs.push(say!("… and {left_out} more").in_language(l));
+        told.push(say!("… and {left_out} more").in_language(l));
     }
     vec![
         Block::Section(Word::CorrelatedComponents.of(l).to_string()),
-        Block::List(pairs),
+        Block::List(told),
     ]
+}
+
+/// Every pair of a group, by their places in it, with its coefficient.
+fn pairs(group: &Group) -> impl Iterator<Item = ([usize; 2], f64)> {
+    let places = 0..group.members.len();
+    let above = places.flat_map(|i| (i + 1..group.members.len()).map(move |j| [i, j]));
+    above.map(|[i, j]| ([i, j], group.correlation[(i, j)]))
+}
+
+/// The coefficient of every pair of a group, where all have the same: they are told together.
+fn common(group: &Group) -> Option<f64> {
+    let (_, first) = pairs(group).next()?;
+    let is_first = |(_, r): ([usize; 2], f64)| r == first;
+    (first != 0.0 && pairs(group).all(is_first)).then_some(first)
 }
 
 /// Exactly known quantities.

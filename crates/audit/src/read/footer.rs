@@ -204,14 +204,20 @@ fn report(footer: &mut Footer, reported: Printed) {
 pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> Vec<Whole> {
     let mut found = Vec::new();
     let mut stated = None;
+    let y = footer.y.clone();
     let mut take = |whole: Whole, figure: Printed| {
         if set(footer, whole, figure.at(at)) {
             found.push(whole);
         }
     };
+    // Of a voltage U, `U = 10.0001 V` is the result.
+    let is_result = |name: &str, figure: &Printed| {
+        let is_met = |y: &Printed| figure.is_met_within(y.value, figure.half.max(y.half));
+        name == measurand && y.as_ref().is_some_and(is_met)
+    };
     for (whole, names) in NAMES {
         for name in *names {
-            if let Some(figure) = assigned(text, name) {
+            if let Some(figure) = assigned(text, name).filter(|figure| !is_result(name, figure)) {
                 take(*whole, figure);
             }
         }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use gumption_core::model::functions;
 
 use crate::claim::{Claimed, Row, Understood, Unplaced};
-use crate::printed::{Place, Printed};
+use crate::printed::{Place, Printed, leading};
 use crate::sheet::Grid;
 
 use super::{footer, notes, prose, result_unit, words, wrapped};
@@ -52,8 +52,8 @@ pub(super) fn lines(
     lines
 }
 
-/// Lines beside a table: each to the whole, or to the row that it is about.
-pub(super) fn place_lines(all: &[&Line], claimed: &mut Claimed) {
+/// Lines beside a table: each to the whole, or to the row that it is about. `results` are those of all budgets of the file.
+pub(super) fn place_lines(all: &[&Line], results: &[&str], claimed: &mut Claimed) {
     let mut of_row = vec![String::new(); claimed.rows.len()];
     // Behind what labels have said of the whole.
     for line in all {
@@ -62,7 +62,14 @@ pub(super) fn place_lines(all: &[&Line], claimed: &mut Claimed) {
     }
     let title = claimed.title.clone();
     for line in all.iter().filter(|line| line.text != title) {
-        place_line(line, claimed, &mut of_row);
+        let stated = results.iter().find(|name| is_statement(&line.text, name));
+        match stated.filter(|name| **name != claimed.measurand) {
+            Some(_) => claimed.unplaced.push(Unplaced {
+                at: line.at,
+                text: line.text.clone(),
+            }),
+            None => place_line(line, claimed, &mut of_row),
+        }
     }
     for (row, words) in claimed.rows.iter_mut().zip(&of_row) {
         row.words.push_str(words);
@@ -162,7 +169,9 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
         return;
     }
     let about = row_of_line(&line.text, &lower, claimed);
-    let about = about.filter(|_| !names_several(&line.text, claimed));
+    let about = about.filter(|_| {
+        !names_several(&line.text, claimed) && !is_statement(&line.text, &claimed.measurand)
+    });
     let statement = about.is_none() || footer::label(&line.text, &claimed.measurand).is_some();
     if statement && !words::has(&lower, &["certificate", "证书"]) {
         let found = footer::sentence(
@@ -195,6 +204,19 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
             text: line.text.clone(),
         });
     }
+}
+
+/// Whether a line states a result, `a = 1.87 ± 0.91`: it says nothing of an input of this name, of which the result is made or
+/// which is made of it in another budget.
+fn is_statement(text: &str, result: &str) -> bool {
+    let begins = |at: &usize| !text[..*at].contains(char::is_alphanumeric);
+    let named = words::symbol_at(text, result, 0).filter(begins);
+    let behind = named.map(|at| text[at + result.len()..].trim_start());
+    let stated = behind.and_then(|behind| behind.strip_prefix('=')?.split_once('±'));
+    stated.is_some_and(|(front, _)| {
+        let number = front.trim_start().trim_start_matches('(');
+        leading(number).is_some_and(|(_, unit)| !unit.contains(['=', ';']))
+    })
 }
 
 /// What a text says from the sentence on that names a row: those in front of it are about something else.

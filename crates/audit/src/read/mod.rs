@@ -15,6 +15,7 @@
 //! | `meant` | what figures are of which the head leaves it open: the sums of the sheet tell |
 //! | `lines` | lines beside a table, each to the whole or to a row |
 //! | `model` | where the model stands, and what its names say of the rows |
+//! | `quotients` | quotients that words write out |
 //! | `notes` | what notes say: model, correlations, rules |
 //! | `result_unit` | the unit of a result |
 //! | `mapping` | what a user says of a sheet |
@@ -42,6 +43,7 @@ mod model;
 mod notes;
 mod points;
 mod prose;
+mod quotients;
 mod result_unit;
 mod series;
 mod simulated;
@@ -111,6 +113,12 @@ pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
         let told = prose(&common, mapping).or_else(|| running(&common, mapping));
         return told.into_iter().collect();
     }
+    let results = evaluated.iter().filter_map(Found::titled);
+    let beside = Beside {
+        common: &common,
+        inputs: &inputs,
+        results: results.collect(),
+    };
     let tables = evaluated.iter().enumerate().map(|(i, one)| {
         let grid = &grids[one.sheet];
         let near = |j: Option<usize>| {
@@ -123,11 +131,21 @@ pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
         let end = near(Some(i + 1)).map_or(grid.rows.len(), |other| {
             between(grid, one.located.end, other.first_head())
         });
-        let mut claimed = budget(grid, one, start..end, &common, &inputs, mapping);
+        let mut claimed = budget(grid, one, start..end, &beside, mapping);
         claimed.relocate(|at| grids.get(at.sheet).map_or(at, |grid| grid.origin(at)));
         claimed
     });
     tables.collect()
+}
+
+/// What a file has beside the table of a budget.
+struct Beside<'a> {
+    /// Lines of sheets without a budget.
+    common: &'a [Line],
+    /// Tables of what is known of inputs.
+    inputs: &'a [Found],
+    /// Names of the results of all its budgets.
+    results: Vec<&'a str>,
 }
 
 /// A table on a sheet, with its rows.
@@ -150,6 +168,11 @@ impl Found {
             above: Vec::new(),
             raw,
         }
+    }
+
+    /// The name of its result, where the last row has it.
+    fn titled(&self) -> Option<&str> {
+        table::symbol_of_result(&self.raw)
     }
 
     /// The same with another block of its budget above it.
@@ -265,7 +288,7 @@ fn told(all: &[Line], rows: Vec<(usize, Row)>, mapping: &Mapping) -> Claimed {
     };
     find_model(&others, None, &mut claimed, mapping);
     symbols_of_model(&mut raw, &mut claimed);
-    place_lines(&others, &mut claimed);
+    place_lines(&others, &[], &mut claimed);
     simulated::set_aside(&mut claimed);
     table::interpret(&raw, false, &mut claimed);
     claimed
@@ -285,10 +308,10 @@ fn budget(
     grid: &Grid,
     found: &Found,
     bounds: Range<usize>,
-    common: &[Line],
-    inputs: &[Found],
+    beside: &Beside<'_>,
     mapping: &Mapping,
 ) -> Claimed {
+    let Beside { common, inputs, .. } = *beside;
     let (sheet, mut located) = (found.sheet, found.located.clone());
     let blocks = found.above.iter().chain([&located]);
     let mut claimed = Claimed {
@@ -317,6 +340,11 @@ fn budget(
     };
     let first = own(&located);
     claimed.rows = raw.iter().map(|raw| raw.row.clone()).collect();
+    claimed.subtotals = bounds
+        .clone()
+        .filter(|row| blocks::is_subtotal(grid, *row))
+        .map(|row| raw.iter().filter(|raw| raw.row.at.row < row).count())
+        .collect();
     claimed.unit = located.unit.clone();
     claimed.title = first
         .iter()
@@ -355,7 +383,7 @@ fn budget(
     }
     let own = own(&located);
     let all: Vec<&Line> = own.iter().chain(common).collect();
-    place_lines(&all, &mut claimed);
+    place_lines(&all, &beside.results, &mut claimed);
     if claimed.correlations.is_empty() && !is_root_of_parts(&claimed) {
         let above = lines(grid, sheet, 0..bounds.start, elsewhere);
         let below = lines(grid, sheet, bounds.end..grid.rows.len(), elsewhere);

@@ -15,7 +15,8 @@ pub(super) fn unit_of_result(claimed: &Claimed) -> String {
     let unit = stated
         .find_map(unit_of)
         .or_else(|| unit_of_plain_rows(claimed))
-        .or_else(|| unit_of_shares(claimed));
+        .or_else(|| unit_of_shares(claimed))
+        .or_else(|| unit_of_sum(claimed));
     unit.or_else(|| unit_of(footer.expanded.as_ref()?))
         .unwrap_or_default()
 }
@@ -26,6 +27,26 @@ fn unit_of_shares(claimed: &Claimed) -> Option<String> {
     let is_of_it = |row: &Row| &row.unit == unit && row.c.is_none() && row.value.is_none();
     let are_shares = units::fraction(unit).is_some() && claimed.rows.iter().all(is_of_it);
     are_shares.then(|| unit.clone())
+}
+
+/// The unit of rows that are all in it, where u_c is the root of the sum of their squares as they stand: U may be in another one.
+fn unit_of_sum(claimed: &Claimed) -> Option<String> {
+    let u_c = claimed.footer.u_c.as_ref()?;
+    let unit_of = |row: &Row| {
+        let own = row.u.as_ref().map(|u| &u.unit);
+        let mut units = own.into_iter().chain([&row.unit]);
+        units.find(|unit| !unit.is_empty()).cloned()
+    };
+    let unit = unit_of(claimed.rows.first()?)?;
+    let is_plain = |row: &Row| {
+        let is_of_it = unit_of(row).as_ref() == Some(&unit);
+        is_of_it && row.c.is_none() && row.contribution.is_none()
+    };
+    let parts = claimed.rows.iter().filter(|row| row.not_counted.is_none());
+    let squares = parts.map(|row| row.u.as_ref().map(|u| u.value * u.value));
+    let root = libm::sqrt(squares.sum::<Option<f64>>()?);
+    let is_sum = u_c.is_met_within(root, 2.0 * u_c.half_of_digits());
+    (is_sum && claimed.rows.iter().all(is_plain)).then_some(unit)
 }
 
 /// The unit of rows whose contribution is printed with the figure of u, by a coefficient of 1: U may be in another one.

@@ -383,7 +383,7 @@ const APART: &[&str] = &[
 
 pub(super) fn counted_again(seen: &Seen<'_>) -> Vec<Hit> {
     let mut hits = listed_again(seen);
-    let steps = step_again(seen).into_iter();
+    let steps = step_again(seen).into_iter().chain(included_again(seen));
     let others = steps.filter(|step| hits.iter().all(|hit| hit.row != step.row));
     let others: Vec<Hit> = others.collect();
     hits.extend(others);
@@ -398,16 +398,61 @@ fn listed_again(seen: &Seen<'_>) -> Vec<Hit> {
     };
     let again = rows(seen).filter(|(i, row, _)| is_again((*i, row)));
     let hit = |(i, row, line): (usize, &Row, &Line)| {
-        let mut without = seen.laboratory.clone();
-        without.lines[i].counted = false;
-        let cmc = seen.claimed.cmc.as_ref().map(|cmc| cmc.value);
-        Hit {
-            row: Some(i),
-            numbers: format!("{}: u_i(y) = {:.3}", row.label(), line.contribution().abs()),
-            corrected: Some(without.figures(&[], cmc).expanded),
-        }
+        let part = line.contribution().abs();
+        without(seen, i, format!("{}: u_i(y) = {part:.3}", row.label()))
     };
     again.map(hit).collect()
+}
+
+/// A row beside another one that says to include it: `resolution 0.01 K` beside `repeatability incl. resolution`.
+fn included_again(seen: &Seen<'_>) -> Vec<Hit> {
+    let whole = |(i, row): (usize, &Row)| {
+        let mut others = rows(seen).filter(|(j, ..)| *j != i);
+        others.find_map(|(_, other, _)| includes(&other.words, row).then(|| other.label()))
+    };
+    rows(seen)
+        .filter_map(|(i, row, _)| {
+            let whole = whole((i, row))?;
+            Some(without(seen, i, format!("{whole}: {}", row.label())))
+        })
+        .collect()
+}
+
+/// Whether words say that something includes what a row is called.
+fn includes(words: &str, row: &Row) -> bool {
+    const INCLUDES: [&str; 10] = [
+        "incl. ",
+        "incl ",
+        "including ",
+        "includes ",
+        "inclusive of ",
+        "已包含",
+        "已含",
+        "包含了",
+        "包括",
+        "含有",
+    ];
+    let (lower, name) = (words.to_lowercase(), row.name.to_lowercase());
+    INCLUDES.iter().any(|key| {
+        let behind = lower.split_once(key).map_or("", |(_, behind)| behind);
+        let ends =
+            |c: char| matches!(c, '(' | ')' | ',' | ';' | '）' | '，' | '。') || c.is_ascii_digit();
+        let part = behind.split(ends).next().unwrap_or_default();
+        let part = part.trim().trim_start_matches("the ");
+        part.chars().count() >= 3 && name.contains(part)
+    })
+}
+
+/// A row that should not be counted, with the U without it.
+fn without(seen: &Seen<'_>, i: usize, numbers: String) -> Hit {
+    let mut without = seen.laboratory.clone();
+    without.lines[i].counted = false;
+    let cmc = seen.claimed.cmc.as_ref().map(|cmc| cmc.value);
+    Hit {
+        row: Some(i),
+        numbers,
+        corrected: Some(without.figures(&[], cmc).expanded),
+    }
 }
 
 /// Whether two rows have one name and the same figures, and some uncertainty among them.

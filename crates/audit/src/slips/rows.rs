@@ -2,10 +2,10 @@
 
 use crate::calculate::{Case, Combined};
 use crate::claim::{Figure, RANGE, Relative, Row, Shape, Stated, range_factor};
-use crate::printed::Printed;
+use crate::printed::{Printed, leading};
 use crate::units;
 
-use super::slip::{Change, Slip, Weight::*};
+use super::slip::{Change, Reporting, Slip, Weight::*};
 
 /// What a slip makes of one row; nothing where it cannot act.
 type InRow = fn(&Row) -> Vec<f64>;
@@ -83,6 +83,19 @@ fn ratios(row: &Row) -> Vec<f64> {
     } else {
         Vec::new()
     }
+}
+
+/// Whether U is an amount below rows in percent or ppm, or the other way round, so that it was converted by what it is a part of.
+fn is_part_of_amount(case: &Case<'_>) -> bool {
+    let expanded = case.claimed.footer.expanded.as_ref();
+    // `1.5 mV/10 V`
+    let called = expanded.and_then(|expanded| expanded.shown.as_deref());
+    let behind = called.and_then(leading).map(|(_, behind)| behind);
+    let own = behind.and_then(|behind| behind.split_once(['/', '·']));
+    let is_ratio = |unit: &str| units::fraction(unit).is_some();
+    own.is_some_and(|(own, _)| {
+        units::parse(own).is_some() && is_ratio(own.trim()) != is_ratio(&case.claimed.unit)
+    })
 }
 
 /// Digits next to one another exchanged.
@@ -190,7 +203,12 @@ pub(super) const SLIPS: &[Slip] = &[
     Slip { id: "percent-ppm", rule: "47", weight: Error,
         en: "percent or ppm was converted with a wrong power of ten",
         zh: "百分数或 ppm 换算错了 10 的幂",
-        acts: |case| each(case, |_, row| ratios(row).into_iter().map(Change::Scaled).collect()) },
+        acts: |case| {
+            let of_rows = each(case, |_, row| ratios(row).into_iter().map(Change::Scaled).collect());
+            let of_whole = units::MISSED.into_iter().filter(|_| is_part_of_amount(case));
+            let of_whole = of_whole.map(|ratio| (None, Change::Report(Reporting::Scale(ratio))));
+            of_rows.into_iter().chain(of_whole).collect()
+        } },
     Slip { id: "rel-abs", rule: "47", weight: Error,
         en: "a relative figure was put among absolute ones as it stood",
         zh: "把相对量直接当作绝对量",

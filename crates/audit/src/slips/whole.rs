@@ -26,6 +26,21 @@ fn report(reporting: Reporting) -> Vec<(Option<usize>, Change)> {
     one(Change::Report(reporting))
 }
 
+/// The sum of what the blocks of a sheet come to, each the root of its sum of squares.
+fn sum_of_subtotals(case: &Case<'_>) -> Option<f64> {
+    let ends = &case.claimed.subtotals;
+    let starts = [0].into_iter().chain(ends.iter().copied());
+    let blocks = starts.zip(ends).map(|(start, end)| {
+        let lines = case.right.lines.get(start..*end)?;
+        let counted = lines.iter().filter(|line| line.counted);
+        let squares = counted.map(|line| line.contribution() * line.contribution());
+        Some(libm::sqrt(squares.sum()))
+    });
+    let blocks: Vec<f64> = blocks.collect::<Option<_>>()?;
+    let is_all = ends.last() == Some(&case.claimed.rows.len());
+    (is_all && blocks.len() >= 2).then(|| blocks.iter().sum())
+}
+
 /// Where correlations are stated.
 fn correlated(case: &Case<'_>, change: Change) -> Vec<(Option<usize>, Change)> {
     if case.right.correlations.is_empty() {
@@ -117,7 +132,11 @@ pub(super) const SLIPS: &[Slip] = &[
     Slip { id: "linear-sum", rule: "8", weight: Error,
         en: "the contributions were added, not their squares",
         zh: "各分量直接相加，而不是方和根",
-        acts: |_| one(Change::Combined(Combined::Linear)) },
+        acts: |case| {
+            let of_subtotals = sum_of_subtotals(case).map(Combined::Typed);
+            let sums = [Some(Combined::Linear), of_subtotals].into_iter().flatten();
+            sums.map(|sum| (None, Change::Combined(sum))).collect()
+        } },
     Slip { id: "squares-not-rooted", rule: "8", weight: Error,
         en: "the sum of squares was given as u_c; the root was not taken",
         zh: "平方和未开方就作为 u_c",

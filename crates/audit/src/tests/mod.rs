@@ -1,6 +1,7 @@
 //! Sheets from text to verdict.
 
 mod columns;
+mod contained;
 mod digits;
 mod forms;
 mod further;
@@ -8,6 +9,7 @@ mod hands;
 mod layouts;
 mod others;
 mod points;
+mod reports;
 mod several;
 mod statements;
 mod strangers;

@@ -1,10 +1,13 @@
 //! Words and columns of rows turned into what is known, and their figures into one unit.
 
+use std::ops::Range;
+
 use crate::claim::{Claimed, Relative, Row, Stated};
 use crate::printed::Printed;
 use crate::read::kind::{self, Evidence};
+use crate::read::quotients::quotients;
 use crate::read::series;
-use crate::read::words::{self, has};
+use crate::read::words::{self, find, has};
 use crate::units;
 
 use super::raw::Raw;
@@ -32,6 +35,10 @@ pub fn interpret(raw: &[Raw], full: bool, claimed: &mut Claimed) {
             mean_of,
         };
         (row.stated, row.relative) = kind::stated(&evidence);
+        let is_made = |u: &Printed| raw.is_root || row.is_worked_out(u);
+        if let Some(u) = row.u.clone().filter(is_made) {
+            (row.stated, row.relative) = (Stated::Standard { u, dof: None }, Relative::No);
+        }
         row.not_counted = row.not_counted.take().or_else(|| not_counted(&row.words));
     }
     let columns = raw.iter().map(|raw| raw.columns_text.as_str());
@@ -165,53 +172,86 @@ fn add_absent(claimed: &mut Claimed) {
 
 /// What words say, if they say that a row is not to be counted.
 pub(super) fn not_counted(words: &str) -> Option<String> {
+    const CONTAINED: &[&str] = &[
+        "contained in",
+        "already contained",
+        "already included",
+        "included in",
+        "is not counted",
+        "not counted",
+        "left out",
+        "for information only",
+        "not added",
+        "已包含",
+        "包含在",
+        "已含",
+        "不再计",
+        "不计入",
+        "不重复计",
+        "不另计",
+        "已计入",
+        "略去",
+        "不予计",
+        "不单独",
+    ];
+    const COUNTED: &[&str] = &[
+        "an indication of its own",
+        "counted beside",
+        "not contained",
+        "not included",
+        "独立示值",
+        "单独计入",
+        "另行计入",
+        "另计",
+    ];
     let lower = words.to_lowercase();
-    let of_clause = |lower: &str| {
-        let said = has(
-            lower,
-            &[
-                "contained in",
-                "already contained",
-                "already included",
-                "included in",
-                "is not counted",
-                "not counted",
-                "left out",
-                "for information only",
-                "not added",
-                "已包含",
-                "包含在",
-                "已含",
-                "不再计",
-                "不计入",
-                "不重复计",
-                "不另计",
-                "已计入",
-                "略去",
-                "不予计",
-                "不单独",
-            ],
-        );
-        let counted = has(
-            lower,
-            &[
-                "an indication of its own",
-                "counted beside",
-                "not contained",
-                "not included",
-                "独立示值",
-                "单独计入",
-                "另行计入",
-                "另计",
-            ],
-        ) && !has(lower, &["不另计"]);
-        said && !counted
+    let name = lower.split(PARTED).next().unwrap_or_default();
+    let of_clause = |clause: &str| {
+        let said = CONTAINED.iter().any(|key| {
+            let at = find(clause, key, 0);
+            at.is_some_and(|at| !is_of_another(clause, at..at + key.len(), name))
+        });
+        said && !(has(clause, COUNTED) && !has(clause, &["不另计"]))
     };
     // `r is left out; z is counted beside it`: each clause is about one thing.
     lower
         .split([';', '。'])
         .any(of_clause)
         .then(|| words.to_string())
+}
+
+/// What parts the name of a row from what is said of it, and a remark in a clause from the rest.
+const PARTED: [char; 6] = ['(', '（', ',', '，', ';', '。'];
+
+/// Whether it is something else that a clause, by the words at `said`, calls contained in the row itself: `repeatability (resolution
+/// already included)`, `重复性（已包含分辨力）`.
+fn is_of_another(clause: &str, said: Range<usize>, name: &str) -> bool {
+    const OWN: [&str; 13] = [
+        "its",
+        "this",
+        "the",
+        "which",
+        "that",
+        "effect",
+        "influence",
+        "contribution",
+        "has",
+        "been",
+        "was",
+        "are",
+        "already",
+    ];
+    // In Chinese what is contained stands behind, unless it is said in what.
+    let behind = clause[said.end..].trim_start();
+    let has_object = behind.starts_with(|c: char| c.is_alphabetic() && !"在于入进中内".contains(c));
+    if ["已包含", "已含"].contains(&&clause[said.clone()]) && has_object {
+        return true;
+    }
+    let mark = clause[..said.start].rfind(PARTED);
+    let subject = mark.map_or("", |mark| &clause[mark..said.start]);
+    let mut words = subject.split(|c: char| !c.is_alphanumeric());
+    let is_own = |word: &str| OWN.contains(&word) || word.starts_with(['其', '该', '此', '影']);
+    words.any(|word| word.len() >= 3 && !is_own(word) && !name.contains(word))
 }
 
 impl Row {
@@ -225,6 +265,16 @@ impl Row {
         let figure = self.u.clone().or_else(contribution)?;
         let value = figure.value.abs();
         Some(Printed { value, ..figure })
+    }
+
+    /// Whether its words divide a figure until u comes out: `0.2 % / 2.8 / √2`.
+    fn is_worked_out(&self, u: &Printed) -> bool {
+        let value = self.value.as_ref().map_or(1.0, |value| value.value.abs());
+        let is_u = |x: f64| u.is_met_within(x, u.half_of_digits());
+        quotients(&self.words).any(|quotient| match units::fraction(&quotient.unit) {
+            Some(fraction) => is_u(quotient.value) || is_u(quotient.value * fraction * value),
+            None => is_u(quotient.value * units::factor(&quotient.unit, &u.unit).unwrap_or(1.0)),
+        })
     }
 
     /// What a unit of a percentage without an estimate is in the unit of u, where it is of this amount.

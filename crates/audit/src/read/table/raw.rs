@@ -19,6 +19,8 @@ pub struct Raw {
     pub(super) stated_apart: bool,
     /// u/x, where a column beside u has it.
     pub(super) relative: Option<Printed>,
+    /// Whether rows below it are its parts, of which its u is the root of the sum of squares.
+    pub(super) is_root: bool,
 }
 
 impl Raw {
@@ -33,6 +35,7 @@ impl Raw {
             number: String::new(),
             stated_apart: true,
             relative: None,
+            is_root: false,
         }
     }
 

@@ -106,6 +106,7 @@ fn parts_are_not_counted(rows: &mut [Raw]) {
         if parts.len() >= 2 && [root, largest].iter().any(|u| (u - own).abs() <= open) {
             let why = format!("in row {}", rows[whole].row.label());
             let c = rows[whole].row.c.clone().filter(|_| by_place);
+            rows[whole].is_root = (root - own).abs() <= open;
             for part in parts {
                 let row = &mut rows[part].row;
                 row.not_counted = Some(why.clone());

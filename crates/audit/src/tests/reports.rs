@@ -1,0 +1,175 @@
+//! What reports print beside their tables, and what follows from it.
+
+use super::{answer, first};
+use crate::read::{self, Mapping};
+use crate::{Verdict, audit, sheet};
+
+fn is_sound(text: &str) {
+    assert_eq!(
+        answer("report.txt", text),
+        (Verdict::Sound, Vec::new()),
+        "{text}"
+    );
+}
+
+/// GUM H.2: |Z| with r(V, I) = -0.355, which is printed as -0.36: from that u_c is 0.2367.
+#[test]
+fn a_printed_correlation_is_rounded() {
+    let text = |r: &str| {
+        format!(
+            "quantity  estimate   unit  u           distribution  ν  c       c·u\nV         4.9990     V     0.00321     t (A)         4  50.86   0.1633\n\
+             I         0.0196610  A     0.00000947  t (A)         4  -12932  -0.1225\nZ         254.26     Ω                               4          0.2363\n\n\
+             U = 0.47 Ω (k = 2)\nr(V, I) = {r}\n"
+        )
+    };
+    is_sound(&text("-0.355"));
+    is_sound(&text("-0.36"));
+    let (verdict, _) = answer("report.txt", &text("-0.30"));
+    assert_ne!(verdict, Verdict::Sound);
+}
+
+/// Of ten coefficients of 1 three are missing: what is printed does not fit together, and no slip is named for it.
+#[test]
+fn impossible_correlations_explain_nothing() {
+    let text = |list: &str| {
+        format!(
+            "Symbol  u / Ω  c  u_i / Ω\nR1      0.100  1  0.100\nR2      0.100  1  0.100\nR3      0.100  1  0.100\n\n\
+             {list}\nu_c = 0.300 Ω\nU = 0.60 Ω (k = 2)\n"
+        )
+    };
+    is_sound(&text("r(R1, R2, R3) = 1.00"));
+    assert_eq!(first("report.txt", &text("r(R1, R2) = 0.10")), "linear-sum");
+    let missing = text("r(R1, R2) = 1.00\nr(R1, R3) = 1.00");
+    assert_eq!(
+        answer("report.txt", &missing),
+        (Verdict::Unexplained, Vec::new())
+    );
+}
+
+/// Parts have the coefficient of their quantity, which holds the conversion from mm to µm.
+#[test]
+fn parts_have_the_coefficient_of_the_whole() {
+    is_sound(
+        "E = L_m - L_0 * (1 + alpha * (t - 20 '°C'))\n\n\
+         quantity           estimate   unit      u        distribution  ν   c        c·u\n\
+         L_0                400.00021  mm        0.00022  normal (B)    ∞   -1000    -0.22\n\
+         L_m                400.00180  mm        0.00035                15  1000     0.35\n\
+         \x20 repeatability               mm        0.00034  t (B)         14           0.34\n\
+         \x20 resolution                  mm        0.00008  uniform (B)   ∞            0.08\n\
+         alpha              11.5       µm/(m·K)  0.577    uniform (B)   ∞   -0.1400  -0.0808\n\
+         t                  20.35      °C        0.0611   normal (B)    ∞   -4.600   -0.281\n\
+         E                  -0.02      µm        0.51                   65           0.51\n\n\
+         U = 1.0 µm (k = 2)\n",
+    );
+}
+
+/// What is known of a part is not what is known of the whole, whose u is the root of the sum of squares.
+#[test]
+fn a_step_of_a_part_is_not_that_of_the_whole() {
+    is_sound(
+        "quantity      estimate  unit  u        distribution  c  c·u\n\
+         x             10.0      mm    0.0050                 1  0.0050\n\
+         \x20 resolution           mm    0.0029   uniform (B)      0.0029\n\
+         \x20 gain                 mm    0.0041   normal (B)       0.0041\n\
+         y             0.0       mm    0.0020   normal (B)    1  0.0020\n\n\
+         x: the resolution of the display is 0.01 mm\nu_c = 0.0054 mm\nU = 0.011 mm (k = 2)\n",
+    );
+}
+
+#[test]
+fn a_voltage_may_be_called_u() {
+    is_sound(
+        "Uncertainty budget of U\nquantity  estimate   unit  u        distribution  c  c·u\n\
+         V         10.000097  V     0.00012  normal (B)    1  0.00012\n\
+         d         0.0        V     0.00005  normal (B)    1  0.00005\n\
+         U         10.000097  V     0.00013                   0.00013\n\n\
+         estimate              U = 10.000097 V\ncoverage factor       k = 2\nexpanded uncertainty  U = 0.00026 V\n",
+    );
+}
+
+/// Two results, each of which is an input of the other's table or of a third: what is stated of them is no certificate.
+#[test]
+fn the_statement_of_a_result_is_no_note_to_an_input() {
+    let table = |name: &str, y: &str, u: &str| {
+        format!(
+            "Uncertainty budget of {name}\nquantity  estimate  unit  u      distribution  c      c·u\n\
+             {name}         {y}      V     {u}  normal (B)    1.000  {u}\n\
+             {name}         {y}      V     {u}                       {u}\n\n"
+        )
+    };
+    let text = [
+        &table("a", "1.870", "0.465"),
+        "expanded uncertainty  U = 0.91 V\ncoverage factor  k = 1.96\n\n\n",
+        &table("b", "2.157", "0.136"),
+        "expanded uncertainty  U = 0.27 V\ncoverage factor  k = 1.96\n\nStatement for the certificate\n\
+         ┃ a = (1.87 ± 0.91) V. The number after ± is the expanded uncertainty U = 0.91 V, with k = 1.96.\n\
+         ┃ b = (2.16 ± 0.27) V. The number after ± is the expanded uncertainty U = 0.27 V, with k = 1.96.\n",
+    ]
+    .concat();
+    let grids = sheet::grids("report.txt", text.as_bytes()).unwrap();
+    let claims = read::budgets(&grids, &Mapping::default());
+    assert_eq!(claims.len(), 2);
+    for claimed in &claims {
+        assert_eq!(
+            audit(claimed).verdict,
+            Verdict::Sound,
+            "{}",
+            claimed.measurand
+        );
+        assert!(
+            claimed
+                .understood
+                .iter()
+                .all(|line| line.role != "note to a row")
+        );
+    }
+}
+
+/// A scale factor of voltages by a resistance of 1 kΩ: coefficients of 1 mA/V are printed as 1.
+#[test]
+fn coefficients_of_one_have_units_where_the_result_has_that_of_u() {
+    is_sound(
+        "quantity  estimate  unit  u       distribution  c        c·u\n\
+         E1        0.1000    V     0.0012  uniform (B)   1.000    0.0012\n\
+         E2        0.2000    V     0.0011  uniform (B)   -1.000   -0.0011\n\
+         R         1000      Ω     2.0     normal (B)    -0.0001  -0.0002\n\
+         I         0.1000    mA                                   0.0016\n\n\
+         I = 0.1000 mA\nu_c = 0.00164 mA\nU = 0.0033 mA (k = 2)\n",
+    );
+}
+
+/// A limit of repeatability, divided by 2.8 and by the root of two readings.
+#[test]
+fn words_may_work_u_out() {
+    is_sound(
+        "Source,Symbol,Estimate,u,c,u_i\n\
+         \"Repeatability of the mean of two: 0.2 % / 2.8 / √2\",f,1.000,0.000505,1,0.000505\n\
+         Balance,m,0,0.000200,1,0.000200\nCombined,,,,,0.000543\nExpanded (k = 2),,,,,0.0011\n",
+    );
+}
+
+/// The index of a quantity of another file is no name of the model.
+#[test]
+fn an_index_is_no_name() {
+    let text = "m = W1 + d\n\nquantity        estimate  unit  u       distribution  c  c·u\n\
+                standards[W1].d  1.270     mg    0.0490  t (B)         1  0.0490\n\
+                d                4.310     mg    0.0164  t (B)         1  0.0164\n\n\
+                u_c = 0.0517 mg\nU = 0.10 mg (k = 2)\n";
+    let grids = sheet::grids("report.txt", text.as_bytes()).unwrap();
+    let claims = read::budgets(&grids, &Mapping::default());
+    assert_eq!(claims[0].rows[0].label(), "standards[W1].d");
+}
+
+/// 1.96 times 0.1195 is 0.2342, and 0.1195 is printed as 0.120: U = 0.23 is no rounding down.
+#[test]
+fn u_follows_from_the_digits_behind_what_is_printed() {
+    let text = |u: &str| {
+        format!(
+            "quantity  estimate  u      distribution  c  c·u\nb         1.757     0.120  normal (B)    1  0.120\n\n\
+             u_c = 0.120\nk = 1.96\nU = {u}\nRounded to nearest.\n"
+        )
+    };
+    is_sound(&text("0.23"));
+    is_sound(&text("0.24"));
+    assert_ne!(answer("report.txt", &text("0.22")).0, Verdict::Sound);
+}

@@ -6,6 +6,19 @@ use super::sheet::{Row, Sheet};
 use gumption_core::quantity::Decimal;
 use gumption_fault::{Fault, say};
 
+/// What a line of means is called.
+const MEANS: [&str; 9] = [
+    "mean",
+    "average",
+    "avg",
+    "mittelwert",
+    "mittel",
+    "moyenne",
+    "media",
+    "平均",
+    "均值",
+];
+
 /// Rows above of which numbers are no accident, and lines that sum up at most.
 const ROWS: usize = 3;
 const LINES: usize = 5;
@@ -46,7 +59,8 @@ fn summary_in(sheet: &Sheet<'_>, column: usize) -> Option<Fault> {
 }
 
 /// A line at the end whose numbers are the means of those above, in a table of which each row is something of its own: where no
-/// column but those of numbers tells its rows apart, it has a word in one of the others.
+/// column but those of numbers tells its rows apart, it has a word in one of the others. One that is called a mean may have few
+/// digits, and two rows above.
 pub fn mean_of_rows(sheet: &Sheet<'_>, has_numbers: impl Fn(usize) -> bool) -> Option<Fault> {
     /// By chance a row is so rarely the mean of the others.
     const RARE: f64 = 0.001;
@@ -56,12 +70,16 @@ pub fn mean_of_rows(sheet: &Sheet<'_>, has_numbers: impl Fn(usize) -> bool) -> O
     let last = sheet.rows().filter_map(Result::ok).last()?;
     word(&last)?;
     let rows: Vec<Row<'_>> = sheet.rows().filter_map(Result::ok).collect();
-    let first = rows.len().saturating_sub(LINES).max(ROWS);
     let is_mean = |at: &usize| {
         let (above, own) = (&rows[..*at], &rows[*at]);
+        let is_called = word(own).is_some_and(|column| is_called_mean(own.field(column)));
+        let (fewest, rare) = if is_called { (2, 1.0) } else { (ROWS, RARE) };
+        let chance = || chance((above, fewest), own, &numbers, sheet);
         rows[*at..].iter().all(|row| word(row).is_some())
-            && chance(above, own, &numbers, sheet).is_some_and(|chance| chance < RARE)
+            && above.len() >= fewest
+            && chance().is_some_and(|chance| chance < rare)
     };
+    let first = rows.len().saturating_sub(LINES);
     let own = &rows[(first..rows.len()).find(is_mean)?];
     let column = word(own)?;
     let message = say!(
@@ -76,8 +94,21 @@ pub fn mean_of_rows(sheet: &Sheet<'_>, has_numbers: impl Fn(usize) -> bool) -> O
     )))
 }
 
+/// Whether a text calls its line the mean of others: `Mean`, `平均值`.
+fn is_called_mean(text: &str) -> bool {
+    let lower = text.to_lowercase();
+    let mut words = lower.split(|c: char| !c.is_alphabetic());
+    words.any(|word| MEANS.contains(&word.trim_end_matches('值')))
+}
+
 /// How likely numbers anywhere between those above are their means to the digits that a row has; nothing where its numbers are not.
-fn chance(above: &[Row<'_>], own: &Row<'_>, columns: &[usize], sheet: &Sheet<'_>) -> Option<f64> {
+/// Fewer rows above than `fewest` say nothing.
+fn chance(
+    (above, fewest): (&[Row<'_>], usize),
+    own: &Row<'_>,
+    columns: &[usize],
+    sheet: &Sheet<'_>,
+) -> Option<f64> {
     let of = |column: usize| {
         let (text, read) = (own.field(column), |row: &Row<'_>| {
             number(row.field(column), sheet)
@@ -86,7 +117,7 @@ fn chance(above: &[Row<'_>], own: &Row<'_>, columns: &[usize], sheet: &Sheet<'_>
         let mut numbers = numbers.unwrap_or_default();
         numbers.retain(|number| number.is_finite());
         // What is missing, or is no number, says nothing.
-        let Some(value) = read(own).filter(|own| own.is_finite() && numbers.len() >= ROWS) else {
+        let Some(value) = read(own).filter(|own| own.is_finite() && numbers.len() >= fewest) else {
             return Some(1.0);
         };
         let place = Decimal::from_text(&text.replace(',', ".")).and_then(|own| own.place());
@@ -152,6 +183,23 @@ mod tests {
             ("mean,1.0023,100.030\nS5,1.003,100.04\n", None),
         ] {
             let text = format!("{rows}{lines}");
+            assert_eq!(found(&text).as_deref(), wanted, "{lines}");
+        }
+        // What is called a mean may have few digits, and two rows above.
+        for (lines, wanted) in [
+            (
+                "A,1.0,10.0\nB,1.1,10.2\nC,1.2,10.1\nMean,1.1,10.1\n",
+                Some("Mean"),
+            ),
+            ("A,1.0,10.0\nB,1.1,10.2\nC,1.2,10.1\nD,1.1,10.1\n", None),
+            (
+                "A,1.001,10.01\nB,1.005,10.03\n平均值,1.003,10.02\n",
+                Some("平均值"),
+            ),
+            ("A,1.001,10.01\nB,1.005,10.03\nmean,1.002,10.02\n", None),
+            ("A,1.001,10.01\nB,1.005,10.03\nMedian,1.003,10.02\n", None),
+        ] {
+            let text = format!("label,V,R\n{lines}");
             assert_eq!(found(&text).as_deref(), wanted, "{lines}");
         }
     }

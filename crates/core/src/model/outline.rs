@@ -1,6 +1,7 @@
 //! What a formula says before it is compiled: which name it gives, which names it needs, and the units
 //! that free parameters must have in it.
 
+mod degree;
 mod inference;
 
 use std::collections::{BTreeSet, HashMap};
@@ -78,6 +79,16 @@ pub fn outline(text: &str, units: &UnitTable) -> Result<Outline, Vec<Fault>> {
 }
 
 impl Outline {
+    /// Whether the value is linear in a name, as far as the last statement tells.
+    pub fn is_linear_in(&self, name: &str) -> bool {
+        match self.statements.last() {
+            Some(Statement::Assign { value, .. } | Statement::Value(value)) => {
+                degree::degree(value, name).is_some_and(|degree| degree <= 1)
+            }
+            _ => true,
+        }
+    }
+
     /// The units that parameters must have where the value is a sum of terms and each is a factor of
     /// one: in `b = y1 + y2*(t - t0)`, y1 has the unit of b, y2 that of b divided by that of t - t0.
     /// `None` where a parameter stands in any other place.

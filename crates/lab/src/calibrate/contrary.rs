@@ -1,12 +1,13 @@
 //! What an experiment states in two ways, and what it states that a calibration does not use.
 
+use super::points::Points;
 use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::faults::KEY;
 use crate::experiment::names::{Kind, Names};
 use crate::experiment::source::entries;
 use crate::experiment::tables::{ExperimentTable, NoiseTable};
-use crate::experiment::{Experiment, Observed};
+use crate::experiment::{Experiment, Observed, Scope};
 use gumption_fault::{Fault, Said, say};
 
 /// Faults of keys that would change the result of a calibration, and cannot.
@@ -82,4 +83,27 @@ pub(super) fn remarks(table: &ExperimentTable, names: &Names) -> Vec<Said> {
         (role == RoleWord::Stimulus && !is_used).then(|| say!("No equation has the stimulus {name}: what it does to the readings is taken for scatter. `gumption diagnose` tests whether it acts."))
     });
     of_noise.chain(of_columns).chain(unused).collect()
+}
+
+/// Errors that points with the same label share, of columns that hold measured numbers instead of labels: hardly two points have
+/// the same.
+pub(super) fn numbers_as_labels(experiment: &Experiment, points: &Points) -> Vec<Said> {
+    let mut columns: Vec<&String> = experiment
+        .doubts
+        .iter()
+        .filter_map(|doubt| match &doubt.scope {
+            Scope::By(column) => Some(column),
+            _ => None,
+        })
+        .collect();
+    columns.sort();
+    columns.dedup();
+    let of_column = |column: &String| {
+        let labels = points.labels(column)?;
+        let numbers: Option<Vec<f64>> = labels.levels.iter().map(|l| l.parse().ok()).collect();
+        let is_measured = numbers?.iter().any(|number| number.fract() != 0.0);
+        let (levels, all) = (labels.levels.len(), labels.of_row.len());
+        (is_measured && 2 * levels > all).then(|| say!("{column} has {levels} different numbers in {all} points: an error by {column} is hardly shared by any. Name a column whose values repeat, or write scope = \"each\"."))
+    };
+    columns.into_iter().filter_map(of_column).collect()
 }

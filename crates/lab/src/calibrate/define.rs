@@ -212,6 +212,8 @@ impl Checker<'_> {
             conditions.filter(|name| !is_column(name) && points.column(name).is_some());
         let conditions = conditions.map(str::to_owned).collect();
         experiment.remarks.extend(contrary::remarks(table, names));
+        let shared = contrary::numbers_as_labels(&experiment, &points);
+        experiment.remarks.extend(shared);
         if self.purpose == Purpose::Plan {
             let silent = contrary::without_scatter(&experiment);
             experiment.remarks.extend(silent);

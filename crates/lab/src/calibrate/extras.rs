@@ -3,7 +3,7 @@
 use super::campaign::{FunctionResult, Omitted};
 use crate::experiment::Experiment;
 use crate::experiment::checker::Checker;
-use crate::experiment::coefficient::without_coefficient;
+use crate::experiment::coefficient::{no_size, without_coefficient};
 use crate::experiment::faults::{RESULT, TERM};
 use crate::experiment::source::entries;
 use crate::experiment::symbols::{equation_text, quantity, symbol};
@@ -90,7 +90,13 @@ impl Checker<'_> {
             }
         };
         let typical = match &entry.value.typical {
-            Some(typical) => Some(self.amount(typical, &unit)?.abs()),
+            Some(typical) => {
+                if let Some(fault) = no_size(name, typical) {
+                    self.faults.push(fault);
+                    return None;
+                }
+                Some(self.amount(typical, &unit)?)
+            }
             None => None,
         };
         let mut all = symbols.to_vec();

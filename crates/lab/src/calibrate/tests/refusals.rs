@@ -43,6 +43,55 @@ fn omitted_effects_are_called_as_their_coefficients() {
     says(&term("omega^2"), csv, &["bend*(omega^2)"]);
 }
 
+/// What an effect adds is its size times something, and a size has no sign.
+#[test]
+fn omitted_effects_are_linear_and_of_a_size() {
+    let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n2,3\n";
+    let of = |lines: &str| format!("{RATE}[omitted.bend]\n{lines}\n");
+    for term in ["bend^2*omega", "exp(bend*omega)", "omega/bend"] {
+        let said = of(&format!("term = \"{term} * 1 'mV'\""));
+        says(&said, csv, &["not linear in bend", "\"bend*x^2\""]);
+    }
+    for size in ["-1e-3", "0", "\"-1 µV*s^2/deg^2\""] {
+        let said = of(&format!("term = \"bend*omega^2\"\ntypical = {size}"));
+        says(
+            &said,
+            csv,
+            &["`typical` of the omitted effect bend", "without sign"],
+        );
+    }
+}
+
+/// Temperatures that were measured are no labels.
+#[test]
+fn numbers_that_hardly_repeat_are_no_labels() {
+    let of = |by: &str, csv: &str| {
+        let toml = RATE.replace("+ b\"]", "+ b + d\"]").replace("[recording]", &format!("[input.d]\nunit = \"mV\"\nu = 0.1\nby = \"{by}\"\n[columns]\nU = \"output\"\nomega = \"stimulus\"\n{by} = \"covariate\"\n[recording]\naverage = \"none\""));
+        let remarks = campaign(&toml, csv).experiment.remarks;
+        remarks.iter().any(|remark| {
+            remark
+                .to_string()
+                .contains("5 different numbers in 6 points")
+        })
+    };
+    let csv = |name: &str, values: [&str; 6]| {
+        let rows = values
+            .iter()
+            .enumerate()
+            .map(|(i, value)| format!("{i},{}.0{i},{value}\n", i + 1));
+        format!("omega [deg/s],U [mV],{name}\n{}", rows.collect::<String>())
+    };
+    assert!(of(
+        "T",
+        &csv("T", ["20.1", "20.3", "20.2", "20.1", "20.5", "20.6"])
+    ));
+    assert!(!of("day", &csv("day", ["1", "2", "3", "4", "4", "5"])));
+    assert!(!of(
+        "T",
+        &csv("T", ["20.5", "20.5", "20.5", "30.5", "30.5", "30.5"])
+    ));
+}
+
 #[test]
 fn faults_of_files_are_told_at_their_places() {
     let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n2,3\n";

@@ -4,7 +4,7 @@ use super::declared::Declared;
 use super::{Column, UserCandidate};
 use crate::diagnose::faults::{CANDIDATE, UNKNOWN_NAME};
 use crate::experiment::checker::Checker;
-use crate::experiment::coefficient::without_coefficient;
+use crate::experiment::coefficient::{no_size, without_coefficient};
 use crate::experiment::symbols::{equation_text, quantity, symbol};
 use crate::experiment::tables::{ExperimentTable, OmittedTable};
 use gumption_core::equations::{EquationText, Equations, Quantity};
@@ -62,6 +62,10 @@ pub(super) fn candidates(
         let size = compiled
             .as_ref()
             .and_then(|(_, unit)| Some(changed?.difference().quotient(unit.as_ref()?)));
+        let sized = table.typical.as_deref();
+        checker
+            .faults
+            .extend(sized.and_then(|typical| no_size(name, typical)));
         let typical = typical(checker, table, size.as_ref());
         if checker.source.is_base(&stated.key) {
             // What a procedure offers need not be recorded.

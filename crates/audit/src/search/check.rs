@@ -278,7 +278,7 @@ impl<'a> Held<'a> {
             us.extend(ends.map(|u| match claimed {
                 Some(figure) => {
                     let half = figure.half_of_digits();
-                    u.clamp(figure.value - half, figure.value + half)
+                    u.max(figure.value - half).min(figure.value + half)
                 }
                 None => u,
             }));

@@ -42,7 +42,7 @@ const WORDS: &[(&str, &str)] = &[
     ),
     ("do not differ significantly (pooled)", "差异不显著（合并）"),
     ("do not differ (pooled)", "无差异（合并）"),
-    ("differ (included)", "有差异（已计入）"),
+    ("differ (included)", "有差异（一并合成）"),
     ("are taken as one population", "视为同一总体"),
     ("GUM: u as stated", "GUM 法：按给出的 u"),
     ("u as stated", "直接给出 u"),
@@ -156,7 +156,7 @@ mod tests {
         );
         assert_eq!(
             zh("analysis of variance of 15 readings in 3 groups, which differ (included)"),
-            "方差分析：15 个读数，3 个组，组间有差异（已计入）"
+            "方差分析：15 个读数，3 个组，组间有差异（一并合成）"
         );
         assert_eq!(
             zh("s/√3 about the fit line, s = 0.01"),

@@ -26,7 +26,9 @@ pub(super) fn joined(grids: &[Grid], found: Vec<Found>) -> Vec<Found> {
 
 /// Whether a row is the sum of a block alone.
 pub(super) fn is_subtotal(grid: &Grid, row: usize) -> bool {
-    let mut cells = grid.filled(row);
+    // A title `Subtotals by group` is no sum.
+    let has_figure = grid.filled(row).any(|(_, cell)| cell.figure().is_some());
+    let mut cells = grid.filled(row).filter(|_| has_figure);
     cells.any(|(_, cell)| footer::is_subtotal(&cell.text) || is_total_of_type(&cell.text))
 }
 

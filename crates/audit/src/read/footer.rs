@@ -106,6 +106,11 @@ pub(super) const TYPES: [&str; 8] = [
     "type a", "type b", "type-a", "type-b", "a类", "b类", "a 类", "b 类",
 ];
 
+/// Whether a head, in small letters, calls what stands below it somebody's claim, which a report holds against its own.
+pub fn calls_claim(lower: &str) -> bool {
+    matches!(lower, "claimed" | "声称值")
+}
+
 /// Whether a text labels what some of the rows come to, which is neither a source nor a figure of the whole.
 pub fn is_subtotal(text: &str) -> bool {
     const WORDS: [&str; 6] = [

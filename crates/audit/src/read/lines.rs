@@ -169,8 +169,11 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
         return;
     }
     let about = row_of_line(&line.text, &lower, claimed);
+    // A sentence of the statement may say which row dominates.
+    let is_of_whole = footer::assigned(&line.text, "u_c").is_some();
     let about = about.filter(|_| {
-        !names_several(&line.text, claimed) && !is_statement(&line.text, &claimed.measurand)
+        let is_statement = is_of_whole || is_statement(&line.text, &claimed.measurand);
+        !names_several(&line.text, claimed) && !is_statement
     });
     let statement = about.is_none() || footer::label(&line.text, &claimed.measurand).is_some();
     if statement && !words::has(&lower, &["certificate", "证书"]) {
@@ -266,8 +269,8 @@ fn is_argument(front: &str) -> bool {
         .rfind('(')
         .filter(|open| !front[*open..].contains(')'));
     let word = open.map(|open| {
-        let start = front[..open].rfind(|c: char| !c.is_ascii_alphanumeric());
-        &front[start.map_or(0, |start| start + 1)..open]
+        let before = front[..open].trim_end_matches(|c: char| c.is_ascii_alphanumeric());
+        &front[before.len()..open]
     });
     word.is_some_and(|word| functions().iter().any(|function| function.name == word))
 }

@@ -429,10 +429,12 @@ fn is_root_of_parts(claimed: &Claimed) -> bool {
     by_u.or_else(by_expanded) == Some(true)
 }
 
-/// The symbol of the last row, where the line above the head calls the table after it: `Uncertainty budget of R`.
+/// The symbol of the last row, where the line above the head, from which a blank one may part it, calls the table after it:
+/// `Uncertainty budget of R`.
 fn titled_result(grid: &Grid, found: &Found, raw: &[table::Raw]) -> Option<String> {
     let symbol = table::symbol_of_result(raw)?;
-    let (_, title) = grid.filled(found.first_head().checked_sub(1)?).next()?;
+    let above = (0..found.first_head()).rev().take(2);
+    let (_, title) = above.filter_map(|row| grid.filled(row).next()).next()?;
     has_symbol(&title.text, symbol).then(|| symbol.to_owned())
 }
 

@@ -4,6 +4,7 @@ use crate::sheet::Grid;
 
 use super::columns::{self, Role};
 use super::footer;
+use super::simulated::MONTE_CARLO;
 
 /// The fewest heads below one another that are no chance.
 const FEWEST: usize = 4;
@@ -83,7 +84,16 @@ fn heads_below(grid: &Grid, start: usize) -> Option<(usize, usize, usize)> {
     let across_roles: Vec<Role> = across_roles.collect();
     let is_usual = (is_head(&across_roles) || is_head_of_summary(&across_roles))
         && words(across.into_iter()) > words(below);
-    (roles.len() >= FEWEST && is_head(&roles) && !is_usual).then_some((start, end, heads))
+    let mut names = grid.filled(start).map(|(_, cell)| cell.text.as_str());
+    let is_compared = names.any(is_of_comparison);
+    let is_turned = roles.len() >= FEWEST && is_head(&roles) && !is_usual && !is_compared;
+    is_turned.then_some((start, end, heads))
+}
+
+/// Whether a column is that of one of several calculations of a result, or of what somebody claims of it.
+fn is_of_comparison(head: &str) -> bool {
+    let lower = head.to_lowercase();
+    footer::calls_claim(&lower) || MONTE_CARLO.iter().any(|name| lower.starts_with(name))
 }
 
 /// Whether a row holds names alone.

@@ -32,17 +32,20 @@ pub fn has(text: &str, keys: &[&str]) -> bool {
     keys.iter().any(|key| find(text, key, 0).is_some())
 }
 
-/// Where a key stands: one of letters stands as a word, or at the beginning of one from five letters on.
+/// Where a key stands: one of letters stands as a word, or at the beginning of one from five letters on; of several words the
+/// last one has three at least, and `from t` is not in `from their sum`.
 pub fn find(text: &str, key: &str, from: usize) -> Option<usize> {
     let letters = key.starts_with(|c: char| c.is_ascii_alphanumeric());
     let ends = key.ends_with(|c: char| c.is_ascii_alphanumeric());
+    let last = key.rsplit(|c: char| !is_letter(c)).next().unwrap_or(key);
+    let begins = key.len() >= 5 && last.len() >= 3;
     let mut at = from;
     while let Some(found) = text.get(at..).and_then(|rest| rest.find(key)) {
         let (start, end) = (at + found, at + found + key.len());
         let before = text[..start].chars().next_back();
         let after = text[end..].chars().next();
         let free_before = !letters || before.is_none_or(|c| !is_letter(c));
-        let free_after = !ends || key.len() >= 5 || after.is_none_or(|c| !is_letter(c));
+        let free_after = !ends || begins || after.is_none_or(|c| !is_letter(c));
         if free_before && free_after {
             return Some(start);
         }

@@ -173,3 +173,68 @@ fn u_follows_from_the_digits_behind_what_is_printed() {
     is_sound(&text("0.24"));
     assert_ne!(answer("report.txt", &text("0.22")).0, Verdict::Sound);
 }
+
+/// In front of the bracket stands a letter of several bytes.
+#[test]
+fn a_bracket_behind_chinese_is_no_function() {
+    is_sound(
+        "quantity  estimate  u      distribution  c  c·u\nR         1.757     0.120  normal (B)    1  0.120\n\n\
+         测量的输出量分布（3 个输入量(R\nu_c = 0.120\nk = 2\nU = 0.24\n",
+    );
+}
+
+/// Which row dominates, the statement says of the whole.
+#[test]
+fn a_sentence_with_u_c_is_about_no_row() {
+    let text = "输入量  估计值  单位  u       分布     c  c·u\nV_S     100.0   V     0.0010  正态     1  0.0010\n\
+                V_X     100.1   V     0.0289  均匀     1  0.0289\n\n合成标准不确定度  u_c = 0.0289 V\n包含因子  k = 1.65\n扩展不确定度  U = 0.048 V\n\n\
+                u_c = 0.0289 V 乘以包含因子 k = 1.65 得到；V_X 占优势，被测量的分布按矩形分布处理，±0.02 V\n";
+    let grids = sheet::grids("report.txt", text.as_bytes()).unwrap();
+    let claims = read::budgets(&grids, &Mapping::default());
+    assert_eq!(audit(&claims[0]).verdict, Verdict::Sound);
+}
+
+/// A title of subtotals is none, and the table below it no block of the budget.
+#[test]
+fn a_title_of_subtotals_is_no_sum() {
+    let text = "quantity  estimate  u        distribution  c  c·u\na         1.757     0.000345  normal (B)    1  0.000345\n\
+                b         0.125     0.00183   normal (B)    1  0.00183\ny         1.882     0.00186                    0.00186\n\n\
+                U = 0.0037 (k = 2)\n\nSubtotals by group\ngroup            standard uncertainty  %\n\
+                (without group)  0.000345              3.4\nothers           0.00183               96.6\n";
+    let grids = sheet::grids("report.txt", text.as_bytes()).unwrap();
+    let claims = read::budgets(&grids, &Mapping::default());
+    assert_eq!(claims[0].rows.len(), 2);
+    assert_eq!(audit(&claims[0]).verdict, Verdict::Sound);
+}
+
+/// A blank line parts a title from its table in Markdown; correlated rows do not show which one is their result.
+#[test]
+fn a_title_names_the_result_of_its_table() {
+    let text = "## Uncertainty budget of Z\n\n| quantity | estimate | unit | u | distribution | c | c·u |\n\
+                | :--- | ---: | :--- | ---: | :--- | ---: | ---: |\n| V | 4.9990 | V | 0.00321 | t (A) | 50.86 | 0.1633 |\n\
+                | I | 0.019661 | A | 0.00000947 | t (A) | -12932 | -0.1225 |\n| Z | 254.26 | Ω | 0.2363 |  |  | 0.2363 |\n\n\
+                U = 0.47 Ω (k = 2)\nr(V, I) = -0.355\n";
+    assert_eq!(answer("report.md", text), (Verdict::Sound, Vec::new()));
+}
+
+/// What a report holds against one another is no budget: two methods, or a claim and what was obtained.
+#[test]
+fn a_comparison_of_results_is_no_budget() {
+    let text = "| quantity | estimate | unit | u | distribution | c | c·u |\n| :--- | ---: | :--- | ---: | :--- | ---: | ---: |\n\
+                | a | 4.999 | V | 0.0032 | normal (B) | 1 | 0.0032 |\n| b | 0.001 | V | 0.0011 | normal (B) | 1 | 0.0011 |\n\
+                | y | 5.000 | V | 0.0034 |  |  | 0.0034 |\n\nU = 0.0068 V (k = 2)\n\n|  | GUM | Monte Carlo |\n| :--- | ---: | ---: |\n\
+                | estimate | 5.0000 | 5.0001 |\n| standard uncertainty | 0.0034 | 0.0035 |\n| coverage factor k | 2.00 | 1.95 |\n\
+                | 95 % interval, symmetric | [4.993, 5.007] | [4.993, 5.007] |\n\n|  | claimed |  | obtained |  |\n| :--- | ---: | :--- | ---: | :--- |\n\
+                | estimate | 5.000 | GUM | 5.0000 | agrees within 0.0005 |\n| standard uncertainty | 0.0033 | GUM | 0.0034 | agrees within 0.0001 |\n\
+                | expanded uncertainty U | 0.007 | GUM | 0.0068 | agrees within 0.0005 |\n| coverage factor k | 2.00 | GUM | 2.00 | agrees within 0.005 |\n";
+    assert_eq!(answer("report.md", text), (Verdict::Sound, Vec::new()));
+}
+
+/// `from t` names a distribution, and `from their sum` does not.
+#[test]
+fn a_word_begins_no_other_one() {
+    is_sound(
+        "quantity  estimate  u      distribution  c  c·u\na         1.757     0.120  normal (B)    1  0.120\n\n\
+         The figures are derived from their sum; k = 2 gives U.\nu_c = 0.120\nk = 2\nU = 0.24\n",
+    );
+}

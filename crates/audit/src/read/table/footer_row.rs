@@ -318,7 +318,7 @@ fn is_claim(grid: &Grid, row: usize, column: usize) -> bool {
     let above = (0..row).rev().map(|row| grid.cell(row, column));
     let mut heads = above.filter(|cell| !cell.text.is_empty() && cell.figure().is_none());
     let head = heads.next().map(|cell| cell.text.to_lowercase());
-    head.is_some_and(|head| matches!(head.as_str(), "claimed" | "声称值"))
+    head.is_some_and(|head| footer::calls_claim(&head))
 }
 
 /// Whether an equation in a label only says how it is computed: `U = k·u_c`.

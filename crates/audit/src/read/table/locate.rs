@@ -54,6 +54,8 @@ fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
     /// Lines of other kinds that may stand between the rows of one table: a blank one, a subheading.
     const STRANGE: usize = 3;
     let mut strange = 0;
+    // Below U and a line of words another table begins.
+    let (mut has_expanded, mut is_over) = (false, false);
     for row in (located.end..grid.rows.len()).filter(|row| !grid.left_out.contains(row)) {
         // A row with the symbol A and a unit may look like a head.
         let repeated = figures(grid, row, located) == 0 && head(grid, row, mapping).is_some();
@@ -61,12 +63,14 @@ fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
             break;
         }
         match what(grid, row, located, strange == 0) {
+            What::Row if is_over => break,
             What::Row => {
                 located.rows.push(row);
                 located.used.insert(row);
             }
-            What::Footer => {}
+            What::Footer => has_expanded |= !located.rows.is_empty() && states_expanded(grid, row),
             What::Other => {
+                is_over |= has_expanded && grid.filled(row).next().is_some();
                 strange += 1;
                 if strange > STRANGE {
                     break;
@@ -77,6 +81,12 @@ fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
         strange = 0;
         located.end = row + 1;
     }
+}
+
+/// Whether a row states the expanded uncertainty of the whole.
+fn states_expanded(grid: &Grid, row: usize) -> bool {
+    let mut cells = grid.filled(row);
+    cells.any(|(_, cell)| footer::label(&cell.text, "") == Some(footer::Whole::Expanded))
 }
 
 /// How many of the columns of figures hold one in a row.

@@ -1,7 +1,8 @@
 //! What an audit comes to.
 
 use crate::calculate::{Figures, are_possible};
-use crate::claim::Claimed;
+use crate::claim::{Claimed, Row};
+use crate::read::has;
 use crate::search::{Explanation, Found, Gap, search};
 
 /// Verdict on a claim.
@@ -46,8 +47,8 @@ pub fn audit(claimed: &Claimed) -> Audit<'_> {
         found.explanations.clear();
         found.gaps.clear();
     }
-    if !are_possible(&claimed.correlations, claimed.rows.len()) {
-        // What holds in their place is not known, and a slip that makes up for it would be none.
+    if !are_possible(&claimed.correlations, claimed.rows.len()) || shares_sources(claimed) {
+        // What correlates the rows is not known, and a slip that makes up for it would be none.
         found.explanations.retain(|found| found.acts.is_empty());
         if found.explanations.is_empty() && found.gaps.is_empty() {
             found.gaps.push(Gap::Sum);
@@ -91,4 +92,16 @@ fn missing(found: &Found<'_>) -> Vec<usize> {
         true => Vec::new(),
         false => rows,
     }
+}
+
+/// Whether rows that are not counted are sources that others share: by how much these are correlated, the sheet does not say.
+fn shares_sources(claimed: &Claimed) -> bool {
+    const SHARED: [&str; 4] = ["shared", "common", "共同", "公共"];
+    let is_shared = |row: &Row| {
+        let why = row.not_counted.as_ref().map(|why| why.to_lowercase());
+        let part = row.contribution.as_ref();
+        let contributes = part.is_some_and(|part| part.value != 0.0);
+        contributes && why.is_some_and(|why| has(&why, &SHARED))
+    };
+    claimed.rows.iter().any(is_shared)
 }

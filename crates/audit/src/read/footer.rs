@@ -165,7 +165,8 @@ pub fn label(text: &str, measurand: &str) -> Option<Whole> {
 
 /// Whether a text is or begins with the name of a result whose small letter is the coverage factor: a scale factor K.
 pub fn is_capital_result(text: &str, measurand: &str) -> bool {
-    let name = text.split('=').next().unwrap_or_default().trim();
+    let name = text.split('=').next().unwrap_or_default();
+    let name = name.rsplit([':', '：']).next().unwrap_or(name).trim();
     name == measurand && name == "K"
 }
 
@@ -249,7 +250,7 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
     {
         let unit = rest
             .trim_start_matches([')', ' '])
-            .split([' ', ',', ';', '('])
+            .split([' ', ',', ';', '(', '，', '；', '（', '。'])
             .next()
             .unwrap_or_default()
             .trim_end_matches('.');

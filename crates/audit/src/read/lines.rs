@@ -7,6 +7,7 @@ use gumption_core::model::functions;
 use crate::claim::{Claimed, Row, Understood, Unplaced};
 use crate::printed::{Place, Printed, leading};
 use crate::sheet::Grid;
+use crate::units;
 
 use super::{footer, notes, prose, result_unit, words, wrapped};
 
@@ -235,7 +236,7 @@ fn from_its_sentence<'t>(text: &'t str, row: &Row) -> &'t str {
 fn named_at(text: &str, row: &Row) -> Option<usize> {
     let mut from = 0;
     while let Some(at) = words::symbol_at(text, &row.symbol, from) {
-        if !is_argument(&text[..at]) {
+        if !is_argument(&text[..at]) && !is_unit(&text[..at], &row.symbol) {
             return Some(at);
         }
         from = at + row.symbol.len();
@@ -261,6 +262,13 @@ fn called_at(lower: &str, name: &str) -> Option<usize> {
     };
     let mut places = lower.match_indices(name).map(|(at, _)| at);
     places.find(|at| !is_term(*at))
+}
+
+/// Whether a name behind a text is a unit: of the number in front of it, `0.3 V`, or of what is told, `standard uncertainty / V`.
+fn is_unit(front: &str, name: &str) -> bool {
+    let is_behind =
+        front.ends_with("/ ") || front.trim_end().ends_with(|c: char| c.is_ascii_digit());
+    is_behind && units::parse(name).is_some()
 }
 
 /// Whether the brackets of a function are open behind a text.

@@ -345,7 +345,20 @@ fn under(spans: &[Span], head: &[Span]) -> Option<Vec<usize>> {
     };
     let has_gaps = spans.len() < head.len();
     let begins = [0, 1].into_iter().filter(|_| has_gaps).find_map(begins);
-    begins.or_else(|| [0, 1].into_iter().find_map(below))
+    // By letters and by columns of a terminal fields may stand under different heads: at the edges of the right ones.
+    let edges = |how: usize, columns: &[usize]| {
+        let mut fields = spans.iter().zip(columns);
+        let is_at_edge = |(span, column): (&Span, &usize)| {
+            let (own, head) = (&span.0[how], head.get(*column).map(|head| &head.0[how]));
+            head.is_some_and(|head| own.start == head.start || own.end == head.end)
+        };
+        fields.by_ref().filter(|field| is_at_edge(*field)).count()
+    };
+    let below = [1, 0]
+        .into_iter()
+        .filter_map(|how| Some((how, below(how)?)));
+    let below = below.max_by_key(|(how, columns)| edges(*how, columns));
+    begins.or(below.map(|(_, columns)| columns))
 }
 
 /// The place of the only head above a field, or their number where it stands behind all of them.
@@ -394,5 +407,15 @@ mod tests {
         assert_eq!(texts(&gaps, 1), ["V", "", "0.012", "1.000", "0.012"]);
         assert_eq!(texts(&gaps, 2), ["readings", "t", "0.010", "", "0.010"]);
         assert_eq!(texts(&gaps, 3)[5], "#");
+        // Chinese letters take two columns, by which a program aligns.
+        let wide = guessed(
+            "输入量   估计值  单位        u  概率分布   ν  灵敏系数 c   c·u  占比 %\n\
+             a        4655.0           4.46  t (A)     14       1.000  4.46   -31.0\n\
+             b       -0.4499        0.00506  t (A)     14        1200  6.08   131.0\n",
+        );
+        for (row, c) in [(1, "1.000"), (2, "1200")] {
+            assert_eq!(texts(&wide, row)[2], "");
+            assert_eq!(texts(&wide, row)[6], c);
+        }
     }
 }

@@ -238,3 +238,31 @@ fn a_word_begins_no_other_one() {
          The figures are derived from their sum; k = 2 gives U.\nu_c = 0.120\nk = 2\nU = 0.24\n",
     );
 }
+
+/// Rows that share a source are correlated, by how much is not said: that terms were added explains nothing.
+#[test]
+fn shared_sources_correlate_rows() {
+    let text = "quantity  estimate  unit  u      distribution  c     c·u\nR1        1000.0    Ω     0.100  normal (B)    1.00  0.100\n\
+                R2        1000.0    Ω     0.100  normal (B)    1.00  0.100\n---------------------------------------------\n\
+                Shared sources (already contained in the inputs above)\nstandard            Ω     0.100  normal (B)    2.00  0.200\n\
+                R         2000.0    Ω     0.200                      0.200\n\nu_c = 0.200 Ω\nU = 0.40 Ω (k = 2)\n";
+    assert_eq!(
+        answer("report.txt", text),
+        (Verdict::Unexplained, Vec::new())
+    );
+}
+
+/// A scale factor K has no coverage factor of 1, and what stands behind a number is no voltage V.
+#[test]
+fn letters_of_units_and_factors_may_be_names() {
+    is_sound(
+        "## Uncertainty budget of K\n\n| quantity | estimate | u | distribution | c | c·u |\n| :--- | ---: | ---: | :--- | ---: | ---: |\n\
+         | fit | 1.00000 | 0.000122 | normal (B) | 1 | 0.000122 |\n| d | 0.00000 | 0.000100 | normal (B) | 1 | 0.000100 |\n\
+         | K | 1.00000 | 0.000158 |  |  | 0.000158 |\n\n- **estimate**: K = 1.00000\n- **coverage factor**: k = 2\n- **expanded uncertainty**: U = 0.00032\n",
+    );
+    is_sound(
+        "quantity  estimate   unit  u        distribution  c  c·u\nV         10.000097  V     0.00012  normal (B)    1  0.00012\n\
+         d         0.0        V     0.00005  normal (B)    1  0.00005\n\nrepeatability (within groups): s_r = 0.0000849 V, n = 5\n\
+         u_c = 0.00013 V\nU = 0.00026 V (k = 2)\n",
+    );
+}

@@ -171,9 +171,10 @@ fn what(grid: &Grid, row: usize, located: &Located, joined: bool) -> What {
         label.and_then(|text| footer::label(text, "")) == Some(footer::Whole::Factor)
     });
     let coefficient = figure(Role::C) && !factor;
-    // A voltage U with its estimate and what that is known to is the result, and no expanded uncertainty.
+    // A voltage U, or a scale factor K, with its estimate and what that is known to is the result, and no figure of the whole.
     let made = figure(Role::Contribution) || figure(Role::U);
-    if called.contains(&"U") && figure(Role::Value) && made {
+    let is_letter = called.iter().any(|name| matches!(*name, "U" | "K"));
+    if is_letter && figure(Role::Value) && made {
         return What::Row;
     }
     let is_subtotal = called.iter().any(|text| footer::is_subtotal(text));

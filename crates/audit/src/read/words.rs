@@ -175,6 +175,10 @@ fn led(rest: &str, whole: &str) -> Option<Printed> {
             if starts_product(text) {
                 return None;
             }
+            // `the standard deviation is 1.22 times u`, `标准差为 u 的 1.22 倍`: a ratio.
+            if text.starts_with('倍') || text.starts_with("times") {
+                return None;
+            }
             // `s of 10: 0.12 µm`: how many, and not how much.
             let counted = starts_counted(text) || figure.half == 0.5 && text.starts_with(':');
             let level = text.starts_with('%') && (figure.value - 95.0).abs() < 1.0

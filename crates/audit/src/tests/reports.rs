@@ -266,3 +266,23 @@ fn letters_of_units_and_factors_may_be_names() {
          u_c = 0.00013 V\nU = 0.00026 V (k = 2)\n",
     );
 }
+
+/// What stands in front of `times` is a ratio, and behind an analysis of variance s is no simple part of u.
+#[test]
+fn ratios_and_analyses_are_no_deviations() {
+    let text = |remark: &str| {
+        format!(
+            "quantity  estimate   unit  u        distribution  c  c·u\nVx        10.000097  V     0.00012  t (A)         1  0.00012\n\
+             d         0.0        V     0.00005  normal (B)    1  0.00005\n\n{remark}\nu_c = 0.00013 V\nU = 0.00026 V (k = 2)\n"
+        )
+    };
+    is_sound(&text(
+        "Vx 的自由度为 6（重复性 7 次），标准差为 u 的 1.22 倍",
+    ));
+    is_sound(&text(
+        "Vx: the standard deviation of 7 readings is 1.22 times u",
+    ));
+    is_sound(&text(
+        "Vx: analysis of variance of 50 readings in 10 groups, critical value 2.12 at 5 %",
+    ));
+}

@@ -37,4 +37,11 @@ pub(super) const READINGS: &[&str] = &["reading", "measurement", "observation", 
 #[rustfmt::skip]
 pub(super) const MEAN: &[&str] = &["mean of", "average of", "averages of", "means of", "mean over", "m =", "m=", "reported as mean of", "averaged over", "取平均", "mittelwert von", "mittelwert aus"];
 #[rustfmt::skip]
-pub(super) const FIT: &[&str] = &["least squares", "regression", "最小二乘", "回归"];
+pub(super) const FIT: &[&str] = &[
+    "least squares",
+    "regression",
+    "analysis of variance",
+    "最小二乘",
+    "回归",
+    "方差分析",
+];

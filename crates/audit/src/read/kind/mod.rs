@@ -111,13 +111,16 @@ fn by_words(e: &Evidence<'_>, text: &str) -> Option<Stated> {
         Subject::Readings => deviation(e, text),
         Subject::Cycling => cycling(e),
         Subject::Limits => limits(e, text),
-        Subject::Standard => standard(e),
+        Subject::Standard => standard(e, text),
     };
     unequal(e.words).or_else(stepped).or_else(of_subject)
 }
 
-fn standard(e: &Evidence<'_>) -> Option<Stated> {
-    let u = e.figure_or_used(STANDARD).or_else(|| e.u.cloned())?;
+fn standard(e: &Evidence<'_>, text: &str) -> Option<Stated> {
+    // Of what fitted a parameter, or analysed readings, no other figure is u.
+    let analysed = || e.u.filter(|_| has(text, FIT)).cloned();
+    let u = analysed().or_else(|| e.figure_or_used(STANDARD));
+    let u = u.or_else(|| e.u.cloned())?;
     Some(Stated::Standard { u, dof: None })
 }
 

@@ -49,7 +49,7 @@ pub(super) fn subject(e: &Evidence<'_>, text: &str) -> Option<Subject> {
     } else if certified && (!reading || first(CERTIFICATE) < first(DEVIATION)) {
         Some(Subject::Certificate)
     } else if reading && has(text, FIT) {
-        // s is that of the residuals, of which u of a parameter is no simple part.
+        // s is that of the residuals, or within groups, of which u is no simple part.
         Some(Subject::Standard)
     } else if reading && !(has(text, LIMITS) && first(LIMITS) < first(DEVIATION)) {
         Some(Subject::Readings)

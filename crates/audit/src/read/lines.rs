@@ -111,15 +111,18 @@ fn is_of_other_table(lower: &str) -> bool {
     words::has(lower, &COMPARED) || cells.len() >= 3 && cells.iter().all(is_number)
 }
 
-/// Whether the cells of a line name rows each for itself, as the head of another table does.
+/// Whether the cells of a line name rows each for itself, as the head of another table does: `step ; at the estimates ; l + u ; l - u`.
 fn names_several(text: &str, claimed: &Claimed) -> bool {
     let named = |cell: &str| {
         let mut rows = claimed.rows.iter();
         rows.position(|row| words::has_symbol(cell, &row.symbol))
     };
-    let mut rows: Vec<usize> = text.split(" ; ").filter_map(named).collect();
+    let cells: Vec<Option<usize>> = text.split(" ; ").map(named).collect();
+    let is_head = cells.len() >= 4 && cells[0].is_none();
+    let mut rows: Vec<usize> = cells.into_iter().flatten().collect();
+    let enough = is_head && rows.len() >= 2;
     rows.dedup();
-    rows.len() >= 3
+    enough || rows.len() >= 3
 }
 
 /// Finds what a line is about: a row, the whole, or nothing that is known.

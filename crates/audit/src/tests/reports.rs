@@ -286,3 +286,12 @@ fn ratios_and_analyses_are_no_deviations() {
         "Vx: analysis of variance of 50 readings in 10 groups, critical value 2.12 at 5 %",
     ));
 }
+
+/// The head of a table of steps of the calculation says nothing of its inputs.
+#[test]
+fn a_head_that_names_inputs_is_no_note() {
+    let text = "component,distribution,half-width,divisor,u,c,c·u\nlen,normal,0.1,1,0.1,1,0.1\nTx,normal,0.4,1,0.4,1,0.4\n\
+                u_c,,,,,,0.4123\nU (k = 2),,,,,,0.82\n\nThe model step by step\nstep,at the estimates,len + u/100,len - u/100,Tx + u/100,Tx - u/100\n\
+                len*Tx,0.2,0.201,0.199,0.204,0.196\n";
+    assert_eq!(answer("report.csv", text), (Verdict::Sound, Vec::new()));
+}

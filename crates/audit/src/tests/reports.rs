@@ -295,3 +295,12 @@ fn a_head_that_names_inputs_is_no_note() {
                 len*Tx,0.2,0.201,0.199,0.204,0.196\n";
     assert_eq!(answer("report.csv", text), (Verdict::Sound, Vec::new()));
 }
+
+/// Where words say that u is what was stated, the shape of a distribution leaves nothing to divide.
+#[test]
+fn u_as_stated_is_not_divided() {
+    let text = "component,distribution,\"half-width, or U, s, u\",divisor,u,c,c·u,remark\n\
+                len,normal,0.1,1,0.1,1,0.1,u as stated\ndtheta,rectangular,0.4,1,0.4,1,0.4,u as stated\n\
+                u_c,,,,,,0.4123,\nU (k = 2),,,,,,0.82,\n";
+    assert_eq!(answer("report.csv", text), (Verdict::Sound, Vec::new()));
+}

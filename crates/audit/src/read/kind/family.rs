@@ -37,6 +37,7 @@ pub(super) const READINGS: &[&str] = &["reading", "measurement", "observation", 
 #[rustfmt::skip]
 pub(super) const MEAN: &[&str] = &["mean of", "average of", "averages of", "means of", "mean over", "m =", "m=", "reported as mean of", "averaged over", "取平均", "mittelwert von", "mittelwert aus"];
 #[rustfmt::skip]
+pub(super) const AS_STATED: &[&str] = &["u as stated", "直接给出 u"];
 pub(super) const FIT: &[&str] = &[
     "least squares",
     "regression",

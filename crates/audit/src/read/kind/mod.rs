@@ -118,7 +118,8 @@ fn by_words(e: &Evidence<'_>, text: &str) -> Option<Stated> {
 
 fn standard(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     // Of what fitted a parameter, or analysed readings, no other figure is u.
-    let analysed = || e.u.filter(|_| has(text, FIT)).cloned();
+    let is_u = has(text, FIT) || has(text, AS_STATED);
+    let analysed = || e.u.filter(|_| is_u).cloned();
     let u = analysed().or_else(|| e.figure_or_used(STANDARD));
     let u = u.or_else(|| e.u.cloned())?;
     Some(Stated::Standard { u, dof: None })

@@ -58,7 +58,7 @@ pub(super) fn subject(e: &Evidence<'_>, text: &str) -> Option<Subject> {
     } else if has(text, LIMITS) || shape(text).is_some() {
         Some(Subject::Limits)
     } else {
-        has(text, STANDARD).then_some(Subject::Standard)
+        (has(text, STANDARD) || has(text, AS_STATED)).then_some(Subject::Standard)
     }
 }
 

@@ -319,12 +319,13 @@ fn contest(space: &Space, search: &Search, named: &[usize], slot: &mut Slot, aga
     };
     for block in set.named.iter().copied().filter(other) {
         let rival = self::slot(space, search, &set.named, None, Member::Named(block), again);
-        let named = (rival.state != State::Unexplained).then_some(rival.named);
-        for mut name in named.into_iter().flatten() {
+        // Its share among the names of the rival.
+        let share = probability * (1.0 - slot.generic_share) / (1.0 - rival.generic_share);
+        for mut name in rival.named {
             let candidate = name.candidate;
             let is_it = |own: &Alternative| space.question.same_cause(own.candidate, candidate);
             if !slot.named.iter().any(is_it) {
-                name.probability *= probability;
+                name.probability *= share;
                 slot.named.push(name);
             }
         }

@@ -319,8 +319,9 @@ fn contest(space: &Space, search: &Search, named: &[usize], slot: &mut Slot, aga
     };
     for block in set.named.iter().copied().filter(other) {
         let rival = self::slot(space, search, &set.named, None, Member::Named(block), again);
-        // Its share among the names of the rival.
-        let share = probability * (1.0 - slot.generic_share) / (1.0 - rival.generic_share);
+        // Its share among the names of the rival, which may have next to none.
+        let by_name = (1.0 - rival.generic_share).max(f64::MIN_POSITIVE);
+        let share = probability * (1.0 - slot.generic_share) / by_name;
         for mut name in rival.named {
             let candidate = name.candidate;
             let is_it = |own: &Alternative| space.question.same_cause(own.candidate, candidate);

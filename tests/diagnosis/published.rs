@@ -44,11 +44,12 @@ fn recordings_of_one_line_are_told_apart() {
     let mut one = [OF_ONE; 11];
     one[7] = 19;
     let case = "equations = \"y = a + b*x\"\n[columns]\nx = \"stimulus\"\ny = \"output\"\n";
-    let cases: [(&str, [u32; 11], [f64; 11], &[&str]); 4] = [
-        ("noise", X, noise, &[]),
-        ("parabola", X, parabola, &["quadratic"]),
-        ("wild", X, wild, &["outlier"]),
-        ("alone", one, alone, &[]),
+    let one_name = |id: &'static str| vec![id];
+    let cases = [
+        ("noise", X, noise, Vec::new()),
+        ("parabola", X, parabola, one_name("quadratic")),
+        ("wild", X, wild, one_name("outlier")),
+        ("alone", one, alone, Vec::new()),
     ];
     for (name, x, y, expected) in cases {
         let rows = x.iter().zip(y).map(|(x, y)| format!("{x},{y:.2}\n"));

@@ -211,7 +211,7 @@ pub(super) fn not_counted(words: &str) -> Option<String> {
             let at = find(clause, key, 0);
             at.is_some_and(|at| !is_of_another(clause, at..at + key.len(), name))
         });
-        said && !(has(clause, COUNTED) && !has(clause, &["不另计"]))
+        said && (!has(clause, COUNTED) || has(clause, &["不另计"]))
     };
     // `r is left out; z is counted beside it`: each clause is about one thing.
     lower

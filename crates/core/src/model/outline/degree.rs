@@ -7,7 +7,7 @@ use crate::model::syntax::{Expr, Infix, Node};
 /// or the argument of a function. A function of the file is taken for linear, since it is not looked into.
 pub(super) fn degree(expr: &Expr, name: &str) -> Option<u8> {
     let of = |e: &Expr| degree(e, name);
-    let is_free = |e: &Expr| !e.names().iter().any(|other| *other == name);
+    let is_free = |e: &Expr| !e.names().contains(&name);
     match &expr.node {
         Node::Name(other) => Some(u8::from(**other == *name)),
         Node::Minus(inner) => of(inner),

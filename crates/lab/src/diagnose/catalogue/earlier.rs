@@ -81,7 +81,7 @@ fn between(x: &[f64], above: usize, part: f64) -> f64 {
 fn spline(t: &[f64], x: &[f64]) -> Option<Vec<f64>> {
     let last = x.len().checked_sub(1)?;
     let steps: Vec<f64> = t.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    if steps.iter().any(|step| !(*step > 0.0)) || last == 0 {
+    if last == 0 || !steps.iter().all(|step| *step > 0.0) {
         return None;
     }
     let rise = |row: usize| (x[row + 1] - x[row]) / steps[row];

@@ -143,7 +143,7 @@ fn dead_band(fitted: &FittedModel<'_>, column: usize) -> Cell {
     let sign = map(x, |x| if x == 0.0 { 0.0 } else { x.signum() });
     let step = form("", vec![Modifier::number(sign, format!("sign({name})"))]);
     let band = |width: f64| {
-        let within = |x: f64| (x / width).max(-1.0).min(1.0);
+        let within = |x: f64| (x / width).clamp(-1.0, 1.0);
         let text = format!("clamp({name}/({}), -1, 1)", fitted.figure(column, width));
         on_output(Modifier::number(map(x, within), text))
     };

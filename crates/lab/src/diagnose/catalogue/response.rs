@@ -9,7 +9,7 @@ use super::modifiers::{
     Course, creeps, figure, five_digits, largest, levels_of, map, map2, mean, range,
 };
 use super::norm::Norm;
-use super::sharp::{best_pair, sharpened, size_of};
+use super::sharp::{beats, best_pair, sharpened, size_of};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 
@@ -203,7 +203,9 @@ fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
 /// A square that levels off, as counting losses of a dead time do, and detectors near their limit.
 fn levelling(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     /// Where the loss is a half, in units of the largest value.
-    const HALF: [f64; 4] = [0.5, 1.0, 3.0, 10.0];
+    const HALF: [f64; 3] = [0.5, 1.0, 3.0];
+    /// From there on it is a square, unless the recording says that it is none.
+    const FAR: f64 = 10.0;
     /// Values that never come down to this share of the largest show no more than a square.
     const LOW: f64 = 0.3;
     let (x, label) = (fitted.numbers(column), fitted.label(column));
@@ -219,7 +221,10 @@ fn levelling(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     if least < 0.0 || least / greatest >= LOW {
         return Vec::new();
     }
-    let halves = sharpened(fitted, HALF.map(|part| part * most).into(), &term);
+    let square = on_output(fitted.by(column, "", |x| x * x));
+    let far = beats(fitted, &term(FAR * most), &[square]).then_some(FAR);
+    let halves = HALF.into_iter().chain(far).map(|part| part * most);
+    let halves = sharpened(fitted, halves.collect(), &term);
     let unit = fitted.unit(column);
     let halves = fitted.finer.times(halves).into_iter().map(five_digits);
     let variant = |half: f64| {

@@ -356,7 +356,7 @@ fn counting_losses_of_a_dead_time_level_off() {
         let _ = writeln!(
             rows,
             "{rate},{:.2}",
-            counted * (1.0 + 1e-3 * noise.normal())
+            counted * (1.0 + 3e-4 * noise.normal())
         );
     }
     let case = "equations = \"n = k*A + n_0\"\n[columns]\nA = \"stimulus\"\nn = \"output\"\n";

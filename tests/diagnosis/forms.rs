@@ -7,7 +7,7 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::common::Noise;
-use crate::common::cases::{diagnosed_with as diagnosed, named_apart};
+use crate::common::cases::{diagnosed_with as diagnosed, first_names, named_apart};
 
 /// The names of an effect.
 fn names(diagnosis: &Value, effect: usize) -> Vec<String> {
@@ -50,6 +50,7 @@ fn a_load_coefficient_is_a_cube_about_zero() {
 fn two_effects_are_listed_beside_one_that_nearly_does_as_much() {
     let case =
         "equations = \"U = U0 + K*cos(theta)\"\n[columns]\ntheta = \"angle\"\nU = \"output\"\n";
+    let mut contested = 0;
     for seed in 0..12 {
         let mut noise = Noise(700 + 7919 * seed);
         let mut rows = "theta [deg],U [V]\n".to_owned();
@@ -66,7 +67,17 @@ fn two_effects_are_listed_beside_one_that_nearly_does_as_much() {
             assert!(listed.iter().any(|name| name == right), "{seed} {found}");
         }
         assert_ne!(found["verdict"], "identified", "{seed} {found}");
+        if let ([only], "factor-of") = (&named_apart(&found)[..], first_names(&found)[0].as_str()) {
+            // None of the others does it alone.
+            let others = &found["effects"][0]["named"].as_array().unwrap()[1..];
+            assert!(
+                others.iter().all(|one| one["jointly"] == true),
+                "{seed} {found}"
+            );
+            contested += usize::from(only.len() > 1);
+        }
     }
+    assert!(contested > 0);
 }
 
 /// What repeats with a turn and half a turn is one thing.

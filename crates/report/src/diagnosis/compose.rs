@@ -331,7 +331,14 @@ fn headline(
     let lambda = significant(alternative.lambda, 2);
     let probability = match slot.named.as_slice() {
         [only] if only.is_sure() => String::new(),
-        _ => format!("{} %{}", chance(alternative.probability), l.comma()),
+        _ => {
+            let p = chance(alternative.probability);
+            let p = match alternative.jointly {
+                true => say!("{p} % together with others of the list").in_language(l),
+                false => format!("{p} %"),
+            };
+            format!("{p}{}", l.comma())
+        }
     };
     say!("▸ {title}: {probability}strength λ = {lambda}{rival}").in_language(l)
 }

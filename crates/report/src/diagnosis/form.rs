@@ -316,6 +316,8 @@ form! {
         along: &'a str = &names.cell(one.candidate).place.along,
         /// Posterior probability.
         probability: Number = Number(one.probability),
+        /// Whether it does what the first of its list does only together with others of the list.
+        jointly: bool = one.jointly,
         /// Its variants, most probable first; 5 at most.
         variants: Vec<VariantForm<'a>> = {
             let variants = one.variants.iter().take(VARIANTS);

@@ -118,15 +118,11 @@ fn is_filled(name: &str, words: &str) -> bool {
     };
     let rest = words.strip_prefix(start);
     let rest = rest.and_then(|rest| rest.strip_suffix(end));
-    let after = |rest: &str, part: &&str| {
-        let (filled, rest) = rest.split_once(part)?;
-        (!filled.is_empty()).then(|| rest.to_owned())
+    let behind = |rest: Option<_>, part: &&str| {
+        let (filled, rest): (&str, &str) = rest.and_then(|rest: &str| rest.split_once(*part))?;
+        (!filled.is_empty()).then_some(rest)
     };
-    let rest = within
-        .iter()
-        .try_fold(rest.unwrap_or_default().to_owned(), |rest, part| {
-            after(&rest, part)
-        });
+    let rest = within.iter().fold(rest, behind);
     rest.is_some_and(|rest| !rest.is_empty())
 }
 

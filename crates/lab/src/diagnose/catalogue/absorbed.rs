@@ -6,6 +6,8 @@ use super::modifiers::known;
 use crate::diagnose::evidence;
 use crate::diagnose::fit::Fit;
 
+/// Directions that columns of unit length reach no further are noise of the arithmetic.
+pub(super) const LEAST: f64 = 1e-9;
 /// Part of a regressor that must be left when the parameters have absorbed what they can.
 const LEFT: f64 = 1e-3;
 
@@ -20,8 +22,6 @@ pub(super) struct Absorbed {
 
 impl Absorbed {
     pub(super) fn by_parameters(fit: &Fit) -> Absorbed {
-        /// Directions that slopes of unit length reach no further are noise of the arithmetic.
-        const LEAST: f64 = 1e-9;
         let slopes = &fit.jacobian;
         let basis = match slopes.ncols() {
             0 => slopes.clone(),

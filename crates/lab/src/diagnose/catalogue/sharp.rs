@@ -5,7 +5,7 @@ use gumption_core::special::f_sf;
 use nalgebra::{DMatrix, DVector};
 
 use super::Term;
-use super::absorbed::Absorbed;
+use super::absorbed::{self, Absorbed};
 use super::fitted::FittedModel;
 use super::modifiers::known;
 use crate::diagnose::evidence;
@@ -103,12 +103,10 @@ pub(super) fn size_of(fitted: &FittedModel<'_>, term: &Term) -> Option<f64> {
 
 /// Whether a term explains the residuals clearly better than others together.
 pub(super) fn beats(fitted: &FittedModel<'_>, term: &Term, others: &[Term]) -> bool {
-    /// Directions that the others reach no further are noise of the arithmetic.
-    const LEAST: f64 = 1e-9;
     residuals(fitted).is_some_and(|residuals| {
         let rest = |term: &Term| residuals.rest(&fitted.column(term));
         let others: Vec<DVector<f64>> = others.iter().map(rest).collect();
-        let span = evidence::span(DMatrix::from_columns(&others), LEAST);
+        let span = evidence::span(DMatrix::from_columns(&others), absorbed::LEAST);
         let least = known(span.tr_mul(&residuals.left).norm_squared());
         let power = residuals.power(&fitted.column(term));
         let left = residuals.left.norm_squared() - power;

@@ -116,9 +116,11 @@ pub(super) fn test(
         let simulated: Vec<[f64; 1]> = seen.iter().map(|own| [own[which]]).collect();
         combined([observed[which]], &simulated) <= alpha
     };
-    let [few, many, in_turn, masked] = [0, 1, 2, 3].map(stands_out);
+    let [few, many, in_turn, masked] = [0, 1, 2, 3];
     // Either of two that stand out together may be carried by few rows.
-    let do_few = kinds == Kinds::Together || few || (!many && (in_turn || masked));
+    let do_few = kinds == Kinds::Together
+        || stands_out(few)
+        || (!stands_out(many) && (stands_out(in_turn) || stands_out(masked)));
     let (strongest, reach) = match (do_few, each[1]) {
         (false, Some(many)) => (many, Reach::Many),
         _ => (strongest, Reach::Few),

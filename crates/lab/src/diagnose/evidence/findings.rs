@@ -92,6 +92,8 @@ pub struct Alternative {
     pub candidate: usize,
     /// Posterior probability among all, those without a name too.
     pub probability: f64,
+    /// Whether it does what the first of its list does only together with others of the list.
+    pub jointly: bool,
     /// Its atoms with their shares of the probability, most probable first.
     pub variants: Vec<Variant>,
     /// Estimates of the coefficients of the most probable variant, in the units of its columns; NaN for a
@@ -126,6 +128,7 @@ impl Alternative {
         Alternative {
             candidate,
             probability: 1.0,
+            jointly: false,
             variants: Vec::new(),
             estimate: DVector::zeros(0),
             covariance: DMatrix::zeros(0, 0),

@@ -327,6 +327,7 @@ fn contest(space: &Space, search: &Search, named: &[usize], slot: &mut Slot, aga
             let is_it = |own: &Alternative| space.question.same_cause(own.candidate, candidate);
             if !slot.named.iter().any(is_it) {
                 name.probability *= share;
+                name.jointly = set.named.len() > 1;
                 slot.named.push(name);
             }
         }

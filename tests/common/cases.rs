@@ -78,3 +78,12 @@ pub fn first_names(diagnosis: &Value) -> Vec<String> {
         .filter_map(|names| names.into_iter().next())
         .collect()
 }
+
+/// The names of the first effect with the label of its first variant.
+pub fn first_labelled(diagnosis: &Value) -> (Vec<String>, String) {
+    let label = &diagnosis["effects"][0]["named"][0]["variants"][0]["label"];
+    (
+        named_apart(diagnosis).first().cloned().unwrap_or_default(),
+        label.as_str().unwrap_or_default().to_owned(),
+    )
+}

@@ -9,7 +9,9 @@ use nalgebra::DVector;
 use serde_json::Value;
 
 use crate::common::Noise;
-use crate::common::cases::{diagnosed_with as diagnosed, folder, named_apart as named};
+use crate::common::cases::{
+    diagnosed_with as diagnosed, first_labelled, folder, named_apart as named,
+};
 
 #[test]
 fn two_harmonics_of_one_angle_are_two_effects() {
@@ -58,7 +60,7 @@ fn exchanged_rows_are_found_however_they_bend_the_fit() {
         }
         let case = "equations = [\"ax = bx + Sxx*gx + Sxy*gy\", \"ay = by + Syx*gx + Syy*gy\"]\n[columns]\nax = \"output\"\nay = \"output\"\ngx = \"stimulus\"\ngy = \"stimulus\"\ngz = \"stimulus\"\n[noise]\nu = \"1 mm/s^2\"\n";
         let found = diagnosed("exchanged", &rows, case);
-        let (names, label) = first(&found);
+        let (names, label) = first_labelled(&found);
         assert_eq!(names, ["swapped"], "{}", found["statement"]);
         let [a, b] = exchanged.map(|row| row + 1);
         assert_eq!(label, format!("rows {a} and {b}"));
@@ -98,7 +100,7 @@ fn a_scale_of_its_own_is_no_reversed_polarity() {
         let _ = writeln!(rows, "{operator},{nominal},{reading:.5}");
     }
     let case = "equations = \"reading = a + b*nominal\"\n[columns]\nreading = \"output\"\nnominal = \"stimulus\"\noperator = \"operator\"\n";
-    let (names, label) = first(&diagnosed("operators", &rows, case));
+    let (names, label) = first_labelled(&diagnosed("operators", &rows, case));
     assert_eq!(names, ["level-scale"]);
     assert_eq!(label, "operator B");
 }
@@ -397,96 +399,6 @@ fn a_known_trace_is_held_beside_every_candidate() {
     );
 }
 
-/// The names of the first effect with the label of its first variant.
-fn first(diagnosis: &Value) -> (Vec<String>, String) {
-    let label = &diagnosis["effects"][0]["named"][0]["variants"][0]["label"];
-    (
-        named(diagnosis).first().cloned().unwrap_or_default(),
-        label.as_str().unwrap_or_default().to_owned(),
-    )
-}
-
-#[test]
-fn readings_that_stay_at_one_value_are_saturated() {
-    let mut noise = Noise(11);
-    let mut rows = "a [m/s^2],U [V]\n".to_owned();
-    for row in 0..60 {
-        let a = -5.0 + 10.0 * f64::from(row) / 59.0;
-        let output = (2.5 + 0.4 * a).min(4.2) + 0.003 * noise.normal();
-        let _ = writeln!(rows, "{a:.4},{output:.5}");
-    }
-    let case = "equations = \"U = U0 + k*a\"\n[columns]\nU = \"output\"\na = \"stimulus\"\n[noise]\nu = \"0.003 V\"\n";
-    let found = diagnosed("plateau", &rows, case);
-    let (names, label) = first(&found);
-    assert_eq!(names, ["saturation"], "{found}");
-    let knee: f64 = label.split(' ').nth(1).unwrap().parse().unwrap();
-    assert!((knee - 4.25).abs() < 0.1, "{label}");
-}
-
-#[test]
-fn readings_that_stay_at_both_ends_are_of_one_limiter() {
-    let mut noise = Noise(56);
-    let mut rows = "x [V],U [V]\n".to_owned();
-    for row in 0..41 {
-        let x = -3.0 + 0.15 * f64::from(row);
-        let output = (1.01 * x + 0.01).clamp(-2.5, 2.3) + 0.002 * noise.normal();
-        let _ = writeln!(rows, "{x:.3},{output:.4}");
-    }
-    let case = "equations = \"U = U0 + k*x\"\n[columns]\nU = \"output\"\nx = \"stimulus\"\n";
-    let found = diagnosed("limiter", &rows, case);
-    assert_eq!(found["verdict"], "identified", "{found}");
-    let (names, label) = first(&found);
-    assert_eq!(names, ["saturation"], "{found}");
-    // `above 2.27 V, below -2.49 V`
-    let words: Vec<&str> = label.split([' ', ',']).collect();
-    let knee = |word: &str| {
-        let at = words.iter().position(|own| *own == word).unwrap();
-        words[at + 1].parse::<f64>().unwrap()
-    };
-    assert!((knee("above") - 2.29 / 1.01).abs() < 0.02, "{label}");
-    assert!((knee("below") + 2.51 / 1.01).abs() < 0.02, "{label}");
-    assert_eq!(found["effects"].as_array().unwrap().len(), 1, "{found}");
-}
-
-#[test]
-fn a_dead_band_is_as_wide_as_it_is() {
-    let mut noise = Noise(57);
-    let mut rows = "x [V],U [V]\n".to_owned();
-    for row in 0..61 {
-        let x = -1.0 + f64::from(row) / 30.0;
-        let beyond = x - x.clamp(-0.077, 0.077);
-        let _ = writeln!(rows, "{x:.4},{:.4}", 3.0 * beyond + 0.008 * noise.normal());
-    }
-    let case = "equations = \"U = U0 + k*x\"\n[columns]\nU = \"output\"\nx = \"stimulus\"\n";
-    let found = diagnosed("dead-band", &rows, case);
-    assert_eq!(named(&found)[0], ["zero-step"], "{found}");
-    assert_eq!(found["effects"].as_array().unwrap().len(), 1, "{found}");
-    let width = &found["improved"]["shapes"][0]["estimate"];
-    let [width, u] = ["value", "u"].map(|key| width[key].as_f64().unwrap_or(f64::NAN));
-    assert!((width - 0.077).abs() < 4.0 * u && u < 0.01, "{found}");
-}
-
-#[test]
-fn an_output_that_reaches_its_limit_is_saturated_whatever_it_is_made_of() {
-    // A gas analyser: neither concentration nor pressure alone says where the display ends.
-    let mut noise = Noise(12);
-    let mut rows = "c [ppm],P [hPa],A\n".to_owned();
-    for row in 0..60 {
-        let c = 40.0 * f64::from(row % 6);
-        let pressure = 1000.0 + 40.0 * libm::sin(1.7 * f64::from(row));
-        let absorbance = 0.005 + 2e-6 * c * pressure + 4e-4 * noise.normal();
-        let _ = writeln!(rows, "{c},{pressure:.1},{:.5}", absorbance.min(0.405));
-    }
-    let case = "equations = \"A = A0 + k*c*P\"\n[columns]\nA = \"output\"\nc = \"stimulus\"\nP = \"stimulus\"\n[noise]\nu = 4e-4\n";
-    let found = diagnosed("ceiling", &rows, case);
-    let (names, label) = first(&found);
-    assert_eq!(
-        (names, label.as_str()),
-        (vec!["saturation".to_owned()], "above 0.405"),
-        "{found}"
-    );
-}
-
 #[test]
 fn a_scale_that_bends_with_temperature_far_from_zero_is_named() {
     let mut noise = Noise(14);
@@ -505,7 +417,7 @@ fn a_scale_that_bends_with_temperature_far_from_zero_is_named() {
     }
     let case = "equations = \"f = f0 + K*q\"\n[columns]\nt = \"time\"\nf = \"output\"\nq = \"stimulus\"\nT = \"covariate\"\n[noise]\nu = \"0.05 Hz\"\n";
     let found = diagnosed("bent-scale", &rows, case);
-    let (names, label) = first(&found);
+    let (names, label) = first_labelled(&found);
     assert_eq!(names, ["sensitivity-scale-quadratic"], "{found}");
     assert_eq!(label, "with a linear part");
 }
@@ -533,7 +445,7 @@ fn what_one_of_several_outputs_has_alone_is_not_taken_for_its_noise() {
     }
     let case = "equations = [\"ax = bx + Sx*x\", \"ay = by + Sy*y\", \"az = bz + Sz*z\"]\n[columns]\nt = \"time\"\nx = \"stimulus\"\ny = \"stimulus\"\nz = \"stimulus\"\nax = \"output\"\nay = \"output\"\naz = \"output\"\n";
     let found = diagnosed("one-output", &rows, case);
-    let (names, label) = first(&found);
+    let (names, label) = first_labelled(&found);
     assert!(
         found["verdict"] != "none" && label.contains("ay"),
         "{names:?} {label} {found}"
@@ -567,7 +479,7 @@ fn a_line_with_two_reflections_ripples_along_the_frequency() {
     }
     let case = "equations = \"loss = a + b*f\"\n[columns]\nloss = \"output\"\nf = \"stimulus\"\n[noise]\nu = \"0.004 dB\"\n";
     let found = diagnosed("line", &rows, case);
-    let (names, label) = first(&found);
+    let (names, label) = first_labelled(&found);
     assert_eq!(names, ["wave"], "{found}");
     let period: f64 = label.split(' ').nth(1).unwrap().parse().unwrap();
     assert!((period - 0.4997).abs() < 0.03, "{label}");

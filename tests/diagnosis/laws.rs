@@ -148,3 +148,25 @@ fn an_angle_that_is_set_has_harmonics() {
         assert!(listed[0].iter().any(|one| one == id), "{listed:?}");
     }
 }
+
+#[test]
+fn the_rate_of_a_clock_changes_at_one_moment() {
+    let mut noise = Noise(74);
+    let mut rows = "day [d],phase [ns]\n".to_owned();
+    for row in 0..80 {
+        let day = 0.5 * f64::from(row);
+        let phase = 30.0 + 4.0 * day + 1.2 * (day - 21.0).max(0.0) + 1.1 * noise.normal();
+        let _ = writeln!(rows, "{day},{phase:.3}");
+    }
+    let case = "equations = \"phase = x0 + y0*day\"\n[columns]\nphase = \"output\"\nday = \"time\"\n[noise]\nu = \"1.1 ns\"\n";
+    let found = diagnosed("clock", &rows, case);
+    assert_eq!(named_apart(&found), [["drift"]], "{found}");
+    let label = found["effects"][0]["named"][0]["variants"][0]["label"]
+        .as_str()
+        .unwrap();
+    let day = label
+        .strip_prefix("from ")
+        .and_then(|rest| rest.strip_suffix(" d on"));
+    let day: f64 = day.unwrap_or(label).parse().unwrap();
+    assert!((day - 21.0).abs() < 1.5, "{label}");
+}

@@ -118,15 +118,15 @@ impl<'c> Explanation<'c> {
     }
 }
 
-/// Columns of the variants of a cell, where they are finite.
+/// Columns of the variants of a cell, where they are finite; without those that may have another size under the labels of further
+/// rows, of which these would tell nothing.
 fn finite<'c>(
     fitted: &'c FittedModel<'_>,
     cell: &'c Cell,
 ) -> impl Iterator<Item = DMatrix<f64>> + 'c {
-    let columns = cell
-        .variants
-        .iter()
-        .map(|variation| variation.columns(fitted));
+    let forms = cell.variants.iter();
+    let everywhere = forms.filter(|form| form.of_labels.is_none());
+    let columns = everywhere.map(|form| form.columns(fitted));
     columns.filter(|columns| columns.ncols() > 0 && columns.iter().all(|x| x.is_finite()))
 }
 

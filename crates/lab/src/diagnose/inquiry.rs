@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::candidates::{Candidates, baseline, settings};
 use super::case::Case;
-use super::catalogue::{Cell, Finer, FittedModel, generics, readout};
+use super::catalogue::{ByLabel, Cell, Finer, FittedModel, generics, readout};
 use super::coarse::Coarse;
 use super::confirm::along;
 use super::design::Design;
@@ -30,6 +30,8 @@ use super::settled;
 
 /// So often the values about the parameter of an effect are brought closer together.
 const REFINEMENTS: u8 = 3;
+/// Of so many effects that are the likeliest to be alone more is asked.
+const BEST: usize = 10;
 /// Two tests of what the noise is, each with half of the probability of a false alarm.
 const OF_NOISE: f64 = 0.5;
 /// So often noise and effects are estimated in turn.
@@ -149,6 +151,7 @@ impl<'i> Inquiry<'i> {
         let starts = [claimed].into_iter().chain(plain).chain(rounded);
         inquiry.begin(starts.collect())?;
         inquiry.linearise_again()?;
+        inquiry.split_by_label()?;
         inquiry.sharpen()?;
         let is_noise = inquiry.found_nothing();
         inquiry.look_for_unsteady_noise()?;
@@ -332,13 +335,11 @@ impl<'i> Inquiry<'i> {
     /// Beside the effect that is the likeliest to be alone, each with the noise that it leaves where it is fitted; of those that are
     /// the likeliest by the slopes so far. `None` where that is what was found.
     fn beside_one(&self) -> Option<Beside> {
-        /// So many are fitted.
-        const FITTED: usize = 10;
         let question = self
             .candidates
             .question(&self.answer.baseline, &self.settings);
         let singles = evidence::singles(&question);
-        let fits = singles.iter().take(FITTED).filter_map(|(_, one)| {
+        let fits = singles.iter().take(BEST).filter_map(|(_, one)| {
             let beside = self.beside(one)?;
             Some((self.alone(*one.atoms.first()?, &beside)?, one, beside))
         });
@@ -396,26 +397,74 @@ impl<'i> Inquiry<'i> {
         Some(Beside { base, claimed })
     }
 
+    /// Sizes by label of the effects that were found, and of those that are the likeliest to be alone: what only one run has is in all of
+    /// them together a part of itself. They may take the place of what was found, and do not add to it: of how many effects they
+    /// were taken no test knows.
+    fn split_by_label(&mut self) -> Result<(), Failure> {
+        if self.found_nothing() || !ByLabel::may_split(&self.candidates.fitted) {
+            return Ok(());
+        }
+        let mut finer = Finer::default();
+        for atom in self.found_and_likeliest() {
+            let (cell, form) = (self.candidates.cell(atom), self.candidates.variation(atom));
+            finer.by_label.add(cell, form);
+        }
+        let other = self.beside_finer(finer);
+        let old = std::mem::replace(&mut self.candidates, other);
+        let answer = self.asked_again(0.7, 0.7)?;
+        match answer.beats(&self.answer) {
+            true => self.answer = answer,
+            false => self.candidates = old,
+        }
+        Ok(())
+    }
+
+    /// The best form of each effect that was found, and of those that are the likeliest to be alone.
+    fn found_and_likeliest(&self) -> Vec<usize> {
+        let question = self
+            .candidates
+            .question(&self.answer.baseline, &self.settings);
+        let singles = evidence::singles(&question);
+        let singles = singles.iter().take(BEST);
+        let likeliest = singles.filter_map(|(_, one)| one.atoms.first().copied());
+        let slots = self.answer.examination.slots.iter();
+        let named = slots.flat_map(|slot| &slot.named);
+        let found = named.filter_map(|named| Some(named.variants.first()?.atom));
+        found.chain(likeliest).collect()
+    }
+
     /// Shapes that lie between the steps of a grid: closer and closer.
     fn sharpen(&mut self) -> Result<(), Failure> {
-        let mut finer = Finer::default();
+        let mut finer = self.candidates.fitted.finer.clone();
         for round in 0..REFINEMENTS {
             if !(self.candidates).refine(&mut finer, &self.answer.examination) {
                 break;
             }
-            let claimed = self.answer.claimed.clone();
-            let fitted = FittedModel::new(self.declared.seen, self.fit).refined(finer.clone());
-            self.candidates = Candidates::new(fitted, &claimed, self.declared.white);
+            self.candidates = self.beside_finer(finer.clone());
             let from = 0.7 + 0.1 * f64::from(round);
-            self.answer = self.asked(claimed, from, from + 0.05)?;
-            if self.is_open() {
-                let then = self.noise_beside(&self.answer);
-                if !then.weighs_alike(&self.answer.claimed) {
-                    self.answer = self.asked(then, from + 0.05, from + 0.1)?;
-                }
-            }
+            self.answer = self.asked_again(from, from + 0.1)?;
         }
         Ok(())
+    }
+
+    /// What is asked beside the grids as well.
+    fn beside_finer(&self, finer: Finer) -> Candidates<'i> {
+        let fitted = FittedModel::new(self.declared.seen, self.fit).refined(finer);
+        Candidates::new(fitted, &self.answer.claimed, self.declared.white)
+    }
+
+    /// With the noise of the answer so far, and with that which is left beside what is found then.
+    fn asked_again(&mut self, from: f64, to: f64) -> Result<Answer, Failure> {
+        let half = (from + to) / 2.0;
+        let answer = self.asked(self.answer.claimed.clone(), from, half)?;
+        if !self.is_open() {
+            return Ok(answer);
+        }
+        let then = self.noise_beside(&answer);
+        match then.weighs_alike(&answer.claimed) {
+            true => Ok(answer),
+            false => self.asked(then, half, to),
+        }
     }
 
     /// What nobody claims may be anything: where nothing was found, whether the noise is of the scale, or changes.

@@ -55,7 +55,7 @@ const FIXED: [(&str, &str); 33] = [
 ];
 
 /// Labels around a figure or a name: what stands before and after it, and the same in Chinese.
-const FORMS: [([&str; 2], [&str; 2]); 17] = [
+const FORMS: [([&str; 2], [&str; 2]); 19] = [
     (["", " % of the range"], ["", " % 量程"]),
     (["half at ", ""], ["半值点 ", ""]),
     (["period ", ""], ["周期 ", ""]),
@@ -73,6 +73,8 @@ const FORMS: [([&str; 2], [&str; 2]); 17] = [
     (["row ", ""], ["第 ", " 行"]),
     (["rows ", ""], ["第 ", " 行"]),
     (["from ", " on"], ["自 ", " 起"]),
+    (["only in ", ""], ["仅限 ", ""]),
+    (["another size in each ", ""], ["每个 ", " 大小各异"]),
 ];
 
 /// Words in the formulas of effects, phrases before the words in them.
@@ -211,6 +213,7 @@ mod tests {
             ("ax with gy", "ax 与 gy"),
             ("period 10.993 row", "周期 10.993 行"),
             ("from run 3 on", "自 run 3 起"),
+            ("τ = 3 s, only in run 3", "τ = 3 s，仅限 run 3"),
             ("above 0.9 of the largest", "超过最大值的 0.9 倍"),
             ("deflection, above 4.2 V", "deflection，高于 4.2 V"),
             ("slowing down, t₀ = 3 h", "逐渐变缓，t₀ = 3 h"),

@@ -107,18 +107,44 @@ impl<'a> Names<'a> {
         words
     }
 
-    /// What a slot may be, most probable first.
+    /// What a slot may be: what does it alone, most probable first, and then in one text what does it together.
     pub(super) fn slot(self, diagnosis: &Diagnosis, slot: &Slot) -> Vec<String> {
-        let told = |one| self.told(diagnosis, one) + &self.open(diagnosis, one);
-        slot.named.iter().map(told).collect()
+        let told = |one: &&Alternative| self.told(diagnosis, one) + &self.open(diagnosis, one);
+        let (together, alone): (Vec<_>, Vec<_>) = slot.named.iter().partition(|one| one.jointly);
+        let together: Vec<String> = together.iter().map(told).collect();
+        let list = alone.iter().map(told).chain(self.together(&together));
+        list.collect()
     }
 
-    /// The name of an alternative in a sentence; of bad rows, jumps and the like with their place.
+    /// Names of which several do together what another one does alone, in a sentence.
+    fn together(self, names: &[String]) -> Option<String> {
+        /// Names in a sentence: what is further down is told below it.
+        const MOST: usize = 4;
+        let others = names.len();
+        let list = names.join(self.l.list_comma());
+        let text = match others {
+            0 => return None,
+            1 => say!("{list} together with another of them"),
+            2..=MOST => say!("several of these together: {list}"),
+            _ => say!("several of {others} others together, listed below"),
+        };
+        Some(text.in_language(self.l))
+    }
+
+    /// The name of an alternative in a sentence; of bad rows, jumps and the like with their place, of what acts under some labels
+    /// with these.
     pub(super) fn told(self, diagnosis: &Diagnosis, one: &Alternative) -> String {
-        let has_place = self.cell(one.candidate).effect.has_place();
-        match one.variants.first().filter(|_| has_place) {
-            Some(variant) => self.variant(diagnosis.atoms[variant.atom]),
-            None => self.full(one.candidate),
+        let Some(best) = one.variants.first() else {
+            return self.full(one.candidate);
+        };
+        let (cell, variation) = diagnosis.atoms[best.atom];
+        if self.cell(cell).effect.has_place() {
+            return self.variant((cell, variation));
+        }
+        let name = self.full(one.candidate);
+        match &self.cell(cell).variants[variation].of_labels {
+            Some(labels) => self.l.with_aside(&name, &spoken(labels, self.l)),
+            None => name,
         }
     }
 

@@ -3,6 +3,7 @@
 
 use super::building::cell;
 use super::fitted::{FittedModel, Node};
+use super::inputs::{is_of_other_axis, signal};
 use super::modifiers::{map, range, rounded};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
@@ -96,5 +97,48 @@ pub(super) fn crossed(fitted: &FittedModel<'_>) -> Option<Cell> {
         }));
     }
     let (id, output) = (EffectId::CrossAxis, fitted.output());
-    (!pairs.is_empty()).then(|| of_axes(fitted, id, &stimuli, output, singles_and_all(pairs)))
+    match pairs.is_empty() {
+        true => coupled(fitted),
+        false => Some(of_axes(
+            fitted,
+            id,
+            &stimuli,
+            output,
+            singles_and_all(pairs),
+        )),
+    }
+}
+
+/// Where the model forms what each output takes in from angles or several columns: outputs that see part of what another one shows.
+fn coupled(fitted: &FittedModel<'_>) -> Option<Cell> {
+    let responses = &fitted.case().responses;
+    let explicit = (0..responses.len()).filter(|response| !fitted.is_implicit(*response));
+    let explicit: Vec<usize> = explicit.collect();
+    let couples = |own: usize, other: usize| {
+        own != other && is_of_other_axis(fitted.signal(other), fitted.signal(own))
+    };
+    let term = |own: usize, other: usize| {
+        let label = format!("{} with {}", responses[own].name, responses[other].name);
+        let Modifier { values, unit, .. } = signal(fitted, other);
+        let text = format!("signal({})", responses[other].name);
+        (
+            label,
+            Term::new(Node::Output, Modifier { values, text, unit }).on(own),
+        )
+    };
+    let of = |own: usize| {
+        let others = explicit.iter().filter(move |other| couples(own, **other));
+        others.map(move |other| term(own, *other))
+    };
+    let pairs: Vec<(String, Term)> = explicit.iter().flat_map(|own| of(*own)).collect();
+    let axes: Vec<usize> = fitted
+        .used(Role::Stimulus)
+        .chain(fitted.used(Role::Angle))
+        .collect();
+    (!pairs.is_empty()).then(|| {
+        let id = EffectId::CrossAxis;
+        let mut cell = of_axes(fitted, id, &axes, fitted.output(), singles_and_all(pairs));
+        cell.words.x = format!("signal({})", fitted.output());
+        cell
+    })
 }

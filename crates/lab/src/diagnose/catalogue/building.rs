@@ -6,8 +6,8 @@ use super::sharp::best;
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
 
-/// Odds beforehand of what is not first order: a square, a rate of change, a product of conditions, an exponential; of what comes
-/// at one value; of a slip of a line where the rows may stand in any order.
+/// Odds beforehand of what is not first order: a square, a rate of change, a product of conditions or labels, an exponential; of what
+/// comes at one value, or under some labels only; of a slip of a line where the rows may stand in any order.
 pub(super) const HIGHER: f64 = 0.3;
 
 /// A variation by what its terms follow, to be put on a node.
@@ -104,6 +104,19 @@ pub(super) fn added(
 ) -> Term {
     let unit = fitted.case().responses[response].unit.difference();
     on_output(Modifier::new(values, text, unit)).on(response)
+}
+
+/// Variants of several kinds, each kind as likely beforehand as the others however many variants it has.
+pub(super) fn kinds(kinds: impl IntoIterator<Item = Vec<Variation>>) -> Vec<Variation> {
+    let weighted = |kind: Vec<Variation>| {
+        let weight = 1.0 / kind.len() as f64;
+        let own = kind.into_iter();
+        own.map(move |variation| Variation {
+            weight,
+            ..variation
+        })
+    };
+    kinds.into_iter().flat_map(weighted).collect()
 }
 
 /// A cell on a node along something, with its variants as they are.

@@ -1,6 +1,7 @@
-//! Values between those of a grid. Variants step through time constants and knees; where an effect was found,
+//! What is tried beside the grids: values between theirs. Variants step through time constants and knees; where an effect was found,
 //! the values about it are tried as well, in that effect alone.
 
+use super::by_label::ByLabel;
 use super::modifiers::range;
 use super::{Cell, EffectId, ShapeParameter, Variation};
 
@@ -12,7 +13,11 @@ const ROUNDED: f64 = 1e-4;
 
 /// What is tried beside the grids.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Finer(Vec<Around>);
+pub struct Finer {
+    around: Vec<Around>,
+    /// Of which effects the size may differ from one label to another.
+    pub by_label: ByLabel,
+}
 
 /// Values about one that was found.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,9 +54,10 @@ impl Finer {
         let between =
             |next: f64| (1..PARTS).map(move |part| own + (next - own) * part as f64 / PARTS as f64);
         let values: Vec<f64> = neighbours.into_iter().flatten().flat_map(between).collect();
-        let known = |x: &f64| (self.0.iter()).any(|around| around.is_of(cell) && around.has(*x));
+        let known =
+            |x: &f64| (self.around.iter()).any(|around| around.is_of(cell) && around.has(*x));
         let new = !values.iter().all(known);
-        self.0.push(Around::of(cell, is_time, values, span));
+        self.around.push(Around::of(cell, is_time, values, span));
         new
     }
 
@@ -61,7 +67,7 @@ impl Finer {
             is_kept: true,
             ..Around::of(cell, is_time(shape), vec![shape.value], f64::INFINITY)
         };
-        self.0.extend(found.shape.as_ref().map(around));
+        self.around.extend(found.shape.as_ref().map(around));
     }
 
     /// A grid of times with those between.
@@ -77,7 +83,10 @@ impl Finer {
     fn with(&self, mut grid: Vec<f64>, is_time: bool) -> Vec<f64> {
         let (low, high) = range(&grid);
         let span = span(&grid, is_time);
-        let around = self.0.iter().filter(|around| around.is_time == is_time);
+        let around = self
+            .around
+            .iter()
+            .filter(|around| around.is_time == is_time);
         grid.extend(around.flat_map(|around| {
             let inside = |x: &f64| around.is_kept || (low..=high).contains(x);
             around.values.iter().copied().filter(inside)
@@ -91,7 +100,7 @@ impl Finer {
     pub(super) fn prune(&self, cells: &mut [Cell]) {
         for cell in cells {
             let (own, others): (Vec<&Around>, Vec<&Around>) =
-                self.0.iter().partition(|around| around.is_of(cell));
+                self.around.iter().partition(|around| around.is_of(cell));
             let has = |all: &[&Around], x: f64| all.iter().any(|around| around.has(x));
             cell.variants.retain(|variation| {
                 let value = variation.shape.as_ref().map(|shape| shape.value);

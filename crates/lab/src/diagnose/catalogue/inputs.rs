@@ -127,15 +127,19 @@ fn others(fitted: &FittedModel<'_>, response: usize) -> Vec<Modifier> {
     }
     let signal = fitted.signal(response);
     let is_other = |parameter: &usize| {
-        /// What correlates so far with the signal is the input of the own axis.
-        const OWN: f64 = 0.9;
-        let slope = fitted.slope(Node::Parameter(*parameter), response);
-        varies(&slope) && correlation(&slope, signal).abs() < OWN
+        is_of_other_axis(&fitted.slope(Node::Parameter(*parameter), response), signal)
     };
     let others = (0..case.parameters.len()).filter(is_other);
     others
         .map(|parameter| by(Node::Parameter(parameter), &case.parameters[parameter].unit))
         .collect()
+}
+
+/// Whether a course may be the input of another axis than the one with a signal.
+pub(super) fn is_of_other_axis(course: &[f64], signal: &[f64]) -> bool {
+    /// What correlates so far with the signal is the input of the own axis.
+    const OWN: f64 = 0.9;
+    varies(course) && correlation(course, signal).abs() < OWN
 }
 
 /// A form without terms, which each input has in terms of its own by a law, with a modifier for each coefficient: on one axis,

@@ -1,14 +1,15 @@
 //! Levels of factors: runs, instruments, operators, mounts, directions.
 
-use super::building::{form, on_node};
+use super::building::{HIGHER, form, kinds, on_node, pair};
 use super::fitted::{FittedModel, Node};
-use super::modifiers::{flag, map};
+use super::modifiers::{flag, map, map2};
 use super::{Cell, EffectId, Modifier, Variation};
 use crate::diagnose::case::{Column, Role};
 use crate::recording::Labels;
 
 /// A column of labels, with those that occur in its rows.
 pub(super) struct Factor<'f> {
+    index: usize,
     pub(super) column: &'f Column,
     labels: &'f Labels,
     pub(super) levels: Vec<u32>,
@@ -20,17 +21,28 @@ pub(super) fn factors<'f>(
     (part, whole): (usize, usize),
 ) -> impl Iterator<Item = Factor<'f>> {
     let most = part * fitted.design.blocks.len() / whole;
-    let columns = fitted.case().columns.iter();
-    columns.filter_map(move |column| {
+    let columns = fitted.case().columns.iter().enumerate();
+    columns.filter_map(move |(index, column)| {
         let labels = column.labels()?;
         let levels = present(labels);
         let several = (2..=most).contains(&levels.len());
         several.then_some(Factor {
+            index,
             column,
             labels,
             levels,
         })
     })
+}
+
+/// Those of them under whose labels the instrument or what it is used for may be another: runs, instruments, operators, axes.
+pub(super) fn of_instruments<'f>(
+    fitted: &FittedModel<'f>,
+    share: (usize, usize),
+) -> Vec<Factor<'f>> {
+    let is_one =
+        |factor: &Factor| matches!(factor.column.role, Role::Run | Role::Factor | Role::Axis);
+    factors(fitted, share).filter(is_one).collect()
 }
 
 impl Factor<'_> {
@@ -43,9 +55,24 @@ impl Factor<'_> {
         indicator(self.labels, level)
     }
 
-    fn modifier(&self, level: u32) -> Modifier {
+    /// 1 in the rows of a level, as a formula shows it.
+    pub(super) fn modifier(&self, level: u32) -> Modifier {
         let text = format!("[{} = {}]", self.column.name, self.text(level));
         Modifier::number(self.indicator(level), text)
+    }
+
+    /// Differences to the last level, which add up to nothing over all of them.
+    fn contrasts(&self) -> Vec<Modifier> {
+        let Some((last, others)) = self.levels.split_last() else {
+            return Vec::new();
+        };
+        let last = self.modifier(*last);
+        let contrast = |level: &u32| {
+            let own = self.modifier(*level);
+            let values = map2(&own.values, &last.values, |own, last| own - last);
+            Modifier::number(values, format!("({} - {})", own.text, last.text))
+        };
+        others.iter().map(contrast).collect()
     }
 
     /// Differences to the first level: the mean is the model's own.
@@ -69,6 +96,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
             _ => {}
         }
     }
+    cells.extend(interactions(fitted));
     cells
 }
 
@@ -112,26 +140,63 @@ fn shifts(fitted: &FittedModel<'_>, factor: &Factor<'_>) -> Vec<Cell> {
         Role::Run if levels.len() > 3 => changes(factor),
         _ => Vec::new(),
     };
-    // Each kind is as likely as the others, however many variants it has.
-    let weighted = |kind: Vec<Variation>| {
-        let weight = 1.0 / kind.len() as f64;
-        let own = kind.into_iter();
-        own.map(move |variation| Variation {
-            weight,
-            ..variation
-        })
-    };
-    let kinds = [vec![all], alone, onwards].into_iter();
-    let forms: Vec<Variation> = kinds.flat_map(weighted).collect();
-    let mut cells = Vec::new();
-    let mut add = |id: EffectId, node: Node| {
-        cells.push(on_node(fitted, id, name, node, forms.clone()));
-    };
-    add(EffectId::LevelShift, Node::Output);
-    if fitted.has_signal() {
-        add(EffectId::LevelScale, Node::Gain);
+    let forms = kinds([vec![all], alone, onwards]);
+    let ids = [EffectId::LevelShift, EffectId::LevelScale];
+    let nodes = fitted.offset_and_scale().into_iter().zip(ids);
+    let cells = nodes.map(|(node, id)| on_node(fitted, id, name, node, forms.clone()));
+    cells.collect()
+}
+
+/// Combinations of each two columns: all pairs together are as likely beforehand as one effect of a higher order, however many columns
+/// of labels there are.
+fn interactions(fitted: &FittedModel<'_>) -> Vec<Cell> {
+    let several = of_instruments(fitted, (2, 3));
+    let pairs = several.iter().enumerate();
+    let pairs = pairs.flat_map(|(at, other)| several[..at].iter().map(move |one| [one, other]));
+    let found: Vec<Vec<Cell>> = pairs.map(|pair| combinations(fitted, pair)).collect();
+    let crossed = found.iter().filter(|cells| !cells.is_empty()).count();
+    let odds = HIGHER / crossed.max(1) as f64;
+    let cells = found.into_iter().flatten();
+    cells.map(|cell| Cell { odds, ..cell }).collect()
+}
+
+/// Every combination of two labels has a value of its own beside what each label does by itself (their interaction), or only one has:
+/// one instrument in one run, what one operator makes of one part.
+fn combinations(fitted: &FittedModel<'_>, factors: [&Factor<'_>; 2]) -> Vec<Cell> {
+    let [one, other] = factors;
+    let labels = one.labels.of_row.iter().zip(&other.labels.of_row);
+    let mut pairs: Vec<(u32, u32)> = labels.map(|(a, b)| (*a, *b)).collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    // Where each label of one occurs with one of the other only, there is nothing to be combined; one reading is a wrong reading.
+    let crossed = pairs.len() > one.levels.len().max(other.levels.len());
+    if !crossed || 2 * pairs.len() > fitted.design.blocks.len() {
+        return Vec::new();
     }
+    let modifier = |(a, b): &(u32, u32)| one.modifier(*a).times(&other.modifier(*b));
+    let [own, its] = factors.map(Factor::contrasts);
+    let products = own.iter().flat_map(|a| its.iter().map(|b| a.times(b)));
+    let all = form("", products.collect());
+    let single = pairs.iter().map(|pair| {
+        let texts = factors.iter().zip([pair.0, pair.1]);
+        let texts =
+            texts.map(|(factor, level)| format!("{} {}", factor.column.name, factor.text(level)));
+        form(
+            texts.collect::<Vec<String>>().join(", "),
+            vec![modifier(pair)],
+        )
+    });
+    let forms = kinds([vec![all], single.collect()]);
+    let ids = [EffectId::CombinationShift, EffectId::CombinationScale];
+    let nodes = fitted.offset_and_scale().into_iter().zip(ids);
+    let columns = factors.map(|factor| factor.index);
+    let cells = nodes.map(|(node, id)| pair(fitted, id, columns, node, forms.clone()));
     cells
+        .map(|cell| Cell {
+            odds: HIGHER,
+            ..cell
+        })
+        .collect()
 }
 
 /// From one level on, with more than one level on both sides.

@@ -1,6 +1,8 @@
 //! Ends of the range and dead zones of a column: saturation, a change of slope, a band around zero in which
 //! nothing happens.
 
+use std::ops::Range;
+
 use super::building::{HIGHER, added, form, on_node, on_output, plain, scoped_label};
 use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
@@ -290,18 +292,19 @@ fn plateaus(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
     let mut variants = Vec::new();
     for response in 0..fitted.case().responses.len() {
-        let upper = at_end(fitted, column, response, &order);
+        let missing = |knees: &[Knee]| missing(fitted, column, response, knees);
+        let upper = End::of(fitted, column, response, &order);
         order.reverse();
-        let lower = at_end(fitted, column, response, &order);
+        let lower = End::of(fitted, column, response, &order);
         order.reverse();
-        let each = upper.iter().chain(&lower).map(|knee| vec![*knee]);
-        let both = upper
-            .iter()
-            .flat_map(|upper| lower.iter().map(|lower| vec![*upper, *lower]));
-        variants.extend(
-            each.chain(both)
-                .map(|knees| missing(fitted, column, response, &knees)),
-        );
+        for end in upper.iter().chain(&lower) {
+            let knees = end.knees(fitted, &|knee| missing(&[knee]));
+            variants.extend(knees.into_iter().map(|knee| missing(&[knee])));
+        }
+        if let (Some(upper), Some(lower)) = (upper, lower) {
+            let both = both(fitted, [&upper, &lower], &missing);
+            variants.extend(both.iter().map(|knees| missing(knees)));
+        }
     }
     variants.retain(|v| varies(&v.terms[0].modifier.values));
     variants
@@ -315,21 +318,75 @@ struct Knee {
     at: f64,
 }
 
-/// Knees before the plateau at the end of an order of the rows.
-fn at_end(fitted: &FittedModel<'_>, column: usize, response: usize, order: &[usize]) -> Vec<Knee> {
-    /// Knees that are tried within the last step before the plateau.
-    const KNEES: usize = 8;
-    let x = fitted.numbers(column);
-    let (observed, signal) = (fitted.design.observed(response), fitted.signal(response));
-    let Some(first) = plateau(&observed, signal, x, order) else {
-        return Vec::new();
+/// The end of a column on which readings pile up: the values before and behind the knee.
+struct End {
+    inside: f64,
+    outside: f64,
+}
+
+impl End {
+    /// Of an order of the rows that ends with the plateau; nothing if there is none.
+    fn of(
+        fitted: &FittedModel<'_>,
+        column: usize,
+        response: usize,
+        order: &[usize],
+    ) -> Option<End> {
+        let x = fitted.numbers(column);
+        let (observed, signal) = (fitted.design.observed(response), fitted.signal(response));
+        let begin = plateau(&observed, signal, x, order)?;
+        let (inside, outside) = (x[order[begin.start - 1]], x[order[begin.end]]);
+        Some(End { inside, outside })
+    }
+
+    /// A knee at a share of the way onto the plateau.
+    fn knee(&self, share: f64) -> Knee {
+        let step = self.outside - self.inside;
+        Knee {
+            sign: step.signum(),
+            at: self.inside + step * share,
+        }
+    }
+
+    /// Knees on the way onto the plateau, with the one between them that explains the residuals best.
+    fn knees(&self, fitted: &FittedModel<'_>, form: &dyn Fn(Knee) -> Variation) -> Vec<Knee> {
+        /// Knees that are tried without looking at the residuals.
+        const KNEES: usize = 8;
+        let shares = (1..=KNEES).map(|step| step as f64 / KNEES as f64);
+        let term = |share: f64| form(self.knee(share)).terms.swap_remove(0);
+        let shares = sharpened(fitted, shares.collect(), &term);
+        shares.into_iter().map(|share| self.knee(share)).collect()
+    }
+}
+
+/// Knees at both ends: all pairs of those of either, each beside the best one of the other end.
+fn both(
+    fitted: &FittedModel<'_>,
+    ends: [&End; 2],
+    missing: &dyn Fn(&[Knee]) -> Variation,
+) -> Vec<[Knee; 2]> {
+    /// How often each end is looked for beside the other: they act on rows of their own, and meet in the parameters alone.
+    const ROUNDS: usize = 4;
+    let [mut upper, mut lower] = ends.map(|end| vec![end.knee(0.5)]);
+    let best = |pairs: &[[Knee; 2]]| {
+        let mut terms = pairs.iter().flat_map(|pair| missing(pair).terms);
+        best(fitted, &mut terms).map_or([pairs[0][0], pairs[0][1]], |at| pairs[at])
     };
-    let (inside, outside) = (x[order[first - 1]], x[order[first]]);
-    let knee = |step: usize| Knee {
-        sign: (outside - inside).signum(),
-        at: inside + (outside - inside) * step as f64 / KNEES as f64,
-    };
-    (1..=KNEES).map(knee).collect()
+    let mut found = [upper[0], lower[0]];
+    for _ in 0..ROUNDS {
+        upper = ends[0].knees(fitted, &|knee| missing(&[knee, found[1]]));
+        found = best(&pairs(&upper, &found[1..]));
+        lower = ends[1].knees(fitted, &|knee| missing(&[found[0], knee]));
+        found = best(&pairs(&found[..1], &lower));
+    }
+    pairs(&upper, &lower)
+}
+
+fn pairs(upper: &[Knee], lower: &[Knee]) -> Vec<[Knee; 2]> {
+    let pairs = upper
+        .iter()
+        .flat_map(|upper| lower.iter().map(|lower| [*upper, *lower]));
+    pairs.collect()
 }
 
 /// What is missing of a response beyond each of some knees.
@@ -371,8 +428,9 @@ fn missing(fitted: &FittedModel<'_>, column: usize, response: usize, knees: &[Kn
     form
 }
 
-/// Where a plateau begins in an order of the rows that ends with it; nothing if there is none.
-fn plateau(observed: &[f64], signal: &[f64], x: &[f64], order: &[usize]) -> Option<usize> {
+/// Where a plateau begins in an order of the rows that ends with it, between the row before and the end of what is given: its first
+/// rows may still be on the way to it, as far as readings may move. Nothing if there is none.
+fn plateau(observed: &[f64], signal: &[f64], x: &[f64], order: &[usize]) -> Option<Range<usize>> {
     /// Rows and values that a plateau has at least.
     const ROWS: usize = 4;
     const VALUES: usize = 3;
@@ -389,7 +447,11 @@ fn plateau(observed: &[f64], signal: &[f64], x: &[f64], order: &[usize]) -> Opti
     };
     // The longest; the line before it needs rows of its own.
     let shortest = order.len().checked_sub(ROWS)?;
-    (order.len() / 4 + 1..=shortest).find(is_plateau)
+    let first = (order.len() / 4 + 1..=shortest).find(is_plateau)?;
+    let way = |row: &usize| (signal[*row] - signal[order[first]]).abs();
+    let longest = STILL * order[first..].iter().map(way).fold(0.0, f64::max);
+    let is_on = |place: &usize| way(&order[*place]) > longest;
+    Some(first..(first..order.len()).find(is_on)?)
 }
 
 #[cfg(test)]
@@ -404,7 +466,7 @@ mod tests {
             .iter()
             .map(|x| x.min(29.5) + 0.01 * libm::sin(7.0 * x))
             .collect();
-        assert_eq!(plateau(&clipped, &x, &x, &order), Some(29));
+        assert_eq!(plateau(&clipped, &x, &x, &order), Some(29..31));
         let straight: Vec<f64> = x.iter().map(|x| 2.0 * x).collect();
         assert_eq!(plateau(&straight, &straight, &x, &order), None);
         assert_eq!(plateau(&[f64::NAN; 40], &x, &x, &order), None);

@@ -23,7 +23,8 @@
 //! | `heating`, `waves` | power of the signal, what repeats |
 //! | `readout`, `bits` | rounding and slips, readings that stand still, weights of the bits of a converter |
 //! | `angles`, `fields` | errors of angles; what stays in the laboratory while the sensor turns |
-//! | `finer` | values between those of the grids |
+//! | `finer` | what is tried beside the grids once something was found: values between theirs |
+//! | `by_label` | and sizes that differ from one label to another |
 //! | `generics` | competitors without a name |
 
 mod absorbed;
@@ -31,6 +32,7 @@ mod angles;
 mod axes;
 mod bits;
 mod building;
+mod by_label;
 mod conditions;
 mod delays;
 pub(super) mod deviations;
@@ -65,6 +67,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
+pub use by_label::ByLabel;
 pub use effect::{Effect, EffectId, Kind, Pattern, Text, Usual, effects};
 pub use finer::Finer;
 pub use fitted::{FittedModel, Node, signal};
@@ -148,6 +151,9 @@ pub struct Variation {
     pub shape: Option<ShapeParameter>,
     /// How likely it is beforehand, relative to the other variants of its candidate.
     pub weight: f64,
+    /// The labels under which alone it acts, or under each of which its size is another, in the words of the label; `None` where it
+    /// is the same in all rows.
+    pub of_labels: Option<String>,
 }
 
 /// A parameter of a variant that may take any value.
@@ -316,6 +322,7 @@ impl Variation {
             spectrum: None,
             shape: None,
             weight: 1.0,
+            of_labels: None,
         }
     }
 
@@ -402,6 +409,7 @@ pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     cells.retain(|cell| !cell.variants.is_empty() && settings.admits(cell.effect));
     let mut cells = distinct(cells);
     fitted.finer.prune(&mut cells);
+    fitted.finer.by_label.split(fitted, &mut cells);
     cells.extend(generics::cells(fitted));
     cells.extend(inputs::unnamed(fitted));
     cells

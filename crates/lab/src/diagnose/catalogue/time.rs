@@ -12,6 +12,10 @@ use super::sharp::{self, nearly_all, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use gumption_core::quantity::Unit;
 
+/// The label of what begins anew in each run, as after it was zeroed.
+const ANEW: &str = "anew in each run";
+/// What it follows.
+const SINCE_START: &str = "(time since the start of the run)";
 /// More steps than that are not scanned.
 const MOST_STEPS: usize = 80;
 
@@ -23,7 +27,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         return Vec::new();
     }
     let along = fitted.along_time();
-    let (start, _) = range(t);
+    let start = began_at(fitted);
     let since = map(t, |t| t - start);
     let began = fitted.time_less(start);
     let nodes = fitted.offset_and_scale();
@@ -70,9 +74,9 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         let since_start = started(fitted);
         let anew = since_start.iter().flat_map(|since| {
             scales.iter().map(|tau| {
-                let term = dying(since, "(time since the start of the run)", *tau);
+                let term = dying(since, SINCE_START, *tau);
                 let mut form = timed(fitted, &[five_digits(*tau)], vec![term]);
-                form.label += ", anew in each run";
+                form.label = format!("{}, {ANEW}", form.label);
                 form
             })
         });
@@ -85,6 +89,11 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         }
     }
     cells
+}
+
+/// When the recording began.
+fn began_at(fitted: &FittedModel<'_>) -> f64 {
+    range(&fitted.clock.values).0
 }
 
 /// The cycles of the calendar that the recording can show: what each is, its name, and its period in the unit of the time.
@@ -113,8 +122,16 @@ fn started(fitted: &FittedModel<'_>) -> Option<Vec<f64>> {
         let (start, last, next) = (t[pair[0].start], t[pair[0].end - 1], t[pair[1].start]);
         next - last > last - start
     };
-    let since = (runs.iter()).flat_map(|run| map(&t[run.clone()], |own| own - t[run.start]));
-    (runs.len() > 1 && runs.windows(2).all(rested)).then(|| since.collect())
+    (runs.len() > 1 && runs.windows(2).all(rested)).then(|| since_start(fitted, &runs))
+}
+
+/// The time since the start of each run.
+fn since_start(fitted: &FittedModel<'_>, runs: &[Range<usize>]) -> Vec<f64> {
+    let t = &fitted.clock.values;
+    let since = runs
+        .iter()
+        .flat_map(|run| map(&t[run.clone()], |own| own - t[run.start]));
+    since.collect()
 }
 
 /// A stretch of rows that alone is nearly all that is left.
@@ -156,6 +173,8 @@ fn stretch(fitted: &FittedModel<'_>, along: &str, node: Node, id: EffectId) -> O
 /// Drifts that are not steady: bent, and slowing down with the logarithm of time, as where many processes
 /// relax, or with its root, as where something diffuses.
 fn curved(fitted: &FittedModel<'_>, since: &[f64], began: &str, scales: &[f64]) -> Vec<Variation> {
+    /// Moments at which a drift may begin, evenly over the recording.
+    const BEGINNINGS: usize = 16;
     let logarithms = scales.iter().map(|scale| {
         let shown = fitted.duration(*scale);
         let slowing = Modifier::number(
@@ -171,7 +190,42 @@ fn curved(fitted: &FittedModel<'_>, since: &[f64], began: &str, scales: &[f64]) 
     let linear = fitted.centred_time();
     let square = linear.square();
     let bent = form("bent", vec![linear, square]);
-    logarithms.chain([root, bent]).collect()
+    let zeroed = runs(fitted);
+    let anew = (zeroed.len() > 1).then(|| {
+        let since = since_start(fitted, &zeroed);
+        let since = Modifier::new(since, SINCE_START, fitted.clock_unit());
+        form(ANEW, vec![since])
+    });
+    let span = fitted.clock.span();
+    let beginnings = (1..BEGINNINGS).map(|part| part as f64 / BEGINNINGS as f64 * span);
+    let later = sharpened(fitted, beginnings.collect(), &|from| {
+        on_output(later(fitted, since, from))
+    });
+    let later = fitted.finer.levels(later);
+    let weight = 1.0 / later.len() as f64;
+    let later = later.into_iter().map(|from| Variation {
+        weight,
+        ..begun(fitted, since, from)
+    });
+    logarithms
+        .chain([root, bent])
+        .chain(anew)
+        .chain(later)
+        .collect()
+}
+
+/// A drift that begins so long after the start.
+fn begun(fitted: &FittedModel<'_>, since: &[f64], from: f64) -> Variation {
+    let unit = fitted.time_unit();
+    let label = format!("from {} {unit} on", figure(began_at(fitted) + from));
+    form(label, vec![later(fitted, since, from)]).shaped("x₀", from, &unit)
+}
+
+/// The time since so long after the start.
+fn later(fitted: &FittedModel<'_>, since: &[f64], from: f64) -> Modifier {
+    let text = format!("max({}, 0)", fitted.time_less(began_at(fitted) + from));
+    let values = map(since, |t| (t - from).max(0.0));
+    Modifier::new(values, text, fitted.clock_unit())
 }
 
 /// Steps before each block, or before some of them evenly.

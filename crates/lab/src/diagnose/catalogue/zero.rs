@@ -1,6 +1,8 @@
 //! Zero and scale errors of what the model takes as exact: a constant that the output adds, a factor of the output, a shift or
 //! a factor of a stimulus, an angle or a time.
 
+use nalgebra::DVector;
+
 use super::absorbed::Absorbed;
 use super::building::{form, on_node};
 use super::fitted::{FittedModel, Node};
@@ -41,25 +43,37 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     cells
 }
 
-/// A factor of the output, where it is not that of a stimulus: that has a name already.
+/// A factor of the output, of each and of all, where it is not that of a stimulus: that has a name already.
 fn of_output(fitted: &FittedModel<'_>, absorbed: &Absorbed, others: &[Cell]) -> Option<Cell> {
     /// Correlation from which on two are one.
     const SAME: f64 = 0.999;
-    if fitted.case().responses.len() != 1 || !fitted.has_signal() {
+    let mut responses = 0..fitted.case().responses.len();
+    if !fitted.has_signal() || responses.any(|response| fitted.is_implicit(response)) {
         return None;
     }
-    let factor = Modifier::number(vec![1.0; fitted.rows()], "1");
-    let cell = cell(fitted, EffectId::Factor, Node::Gain, factor);
-    let column = |cell: &Cell| fitted.column(&cell.variants[0].terms[0]);
-    let own = column(&cell);
-    let rest = absorbed.rest(&own);
-    let has_it = |other: &Cell| {
-        let other = absorbed.rest(&column(other));
-        let both = rest.dot(&other).abs();
-        other.norm() > 0.0 && both > SAME * rest.norm() * other.norm()
+    let rest = |one: &Variation| {
+        let columns = one.columns(fitted);
+        (columns.ncols() == 1).then(|| absorbed.rest(&columns.column(0).into_owned()))
     };
-    let told = |other: &Cell| other.effect.id == EffectId::FactorOf && has_it(other);
-    (!others.iter().any(told) && absorbed.leaves(&own)).then_some(cell)
+    let of_stimuli = others
+        .iter()
+        .filter(|other| other.effect.id == EffectId::FactorOf);
+    let of_stimuli = of_stimuli
+        .flat_map(|other| &other.variants)
+        .filter_map(rest);
+    let of_stimuli: Vec<DVector<f64>> = of_stimuli.filter(|other| other.norm() > 0.0).collect();
+    let is_told = |one: &Variation| {
+        rest(one).is_some_and(|own| {
+            let is_it =
+                |other: &DVector<f64>| own.dot(other).abs() > SAME * own.norm() * other.norm();
+            of_stimuli.iter().any(is_it)
+        })
+    };
+    let shows = |one: &Variation| absorbed.leaves_of(&one.columns(fitted)).contains(&true);
+    let factor = Modifier::number(vec![1.0; fitted.rows()], "1");
+    let mut cell = cell(fitted, EffectId::Factor, Node::Gain, factor);
+    cell.variants.retain(|one| shows(one) && !is_told(one));
+    (!cell.variants.is_empty()).then_some(cell)
 }
 
 fn cell(fitted: &FittedModel<'_>, id: EffectId, node: Node, modifier: Modifier) -> Cell {

@@ -317,6 +317,9 @@ fn contest(space: &Space, search: &Search, named: &[usize], slot: &mut Slot, aga
                 .same_cause(space.blocks[*b].candidate, candidate)
         })
     };
+    let of = |block: &usize| space.blocks[*block].candidate;
+    let has = |block: &usize| named.iter().any(|one| of(one) == of(block));
+    let jointly = set.named.iter().filter(|block| !has(block)).count() > 1;
     for block in set.named.iter().copied().filter(other) {
         let rival = self::slot(space, search, &set.named, None, Member::Named(block), again);
         // Its share among the names of the rival, which may have next to none.
@@ -327,7 +330,7 @@ fn contest(space: &Space, search: &Search, named: &[usize], slot: &mut Slot, aga
             let is_it = |own: &Alternative| space.question.same_cause(own.candidate, candidate);
             if !slot.named.iter().any(is_it) {
                 name.probability *= share;
-                name.jointly = set.named.len() > 1;
+                name.jointly = jointly;
                 slot.named.push(name);
             }
         }

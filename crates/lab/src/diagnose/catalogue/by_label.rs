@@ -1,0 +1,123 @@
+//! Effects whose size differs from one label to another: a delay of one run, a drift of one instrument. Offset and scale by label are
+//! effects of their own (`levels`); of all others this is asked once they were found.
+
+use super::building::{HIGHER, kinds};
+use super::fitted::FittedModel;
+use super::levels::{Factor, of_instruments};
+use super::{Cell, EffectId, Modifier, Term, Variation, Words};
+
+/// What was found, of which the sizes may differ.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ByLabel(Vec<Found>);
+
+/// One form of an effect.
+#[derive(Debug, Clone, PartialEq)]
+struct Found {
+    id: EffectId,
+    words: Words,
+    label: String,
+}
+
+impl ByLabel {
+    /// Whether there are labels under which sizes may differ.
+    pub fn may_split(fitted: &FittedModel<'_>) -> bool {
+        !splitting(fitted).is_empty()
+    }
+
+    /// Adds a form of an effect. Of what happens once, or under a label, nothing is left to be split; something without a name has no
+    /// form.
+    pub fn add(&mut self, cell: &Cell, form: &Variation) {
+        let is_everywhere = cell.effect.pattern.is_none() && form.of_labels.is_none();
+        let found = Found {
+            id: cell.effect.id,
+            words: cell.words.clone(),
+            label: form.label.clone(),
+        };
+        if is_everywhere && form.spectrum.is_none() && !self.0.contains(&found) {
+            self.0.push(found);
+        }
+    }
+
+    /// Puts beside each form that was found those with a size of its own under each label of a column, and under one of them alone.
+    pub(super) fn split(&self, fitted: &FittedModel<'_>, cells: &mut [Cell]) {
+        if self.0.is_empty() {
+            return;
+        }
+        let factors = splitting(fitted);
+        for cell in cells {
+            let own = self.0.iter();
+            let own = own.filter(|found| found.id == cell.effect.id && found.words == cell.words);
+            let forms =
+                own.filter_map(|found| cell.variants.iter().find(|form| form.label == found.label));
+            let of = |form| {
+                factors
+                    .iter()
+                    .flat_map(move |factor| [vec![each(form, factor)], single(form, factor)])
+            };
+            let split = kinds(forms.flat_map(of));
+            let all: f64 = split.iter().map(|form| form.weight).sum();
+            let whole: f64 = cell.variants.iter().map(|form| form.weight).sum();
+            // All of them together, beside the forms that are the same everywhere.
+            let share = HIGHER * whole / all;
+            let split = split.into_iter().map(|form| Variation {
+                weight: form.weight * share,
+                ..form
+            });
+            cell.variants.extend(split.collect::<Vec<Variation>>());
+        }
+    }
+}
+
+/// Columns of labels that have more rows each than the root of all, on average: what fewer carry looks like single wild readings.
+fn splitting<'f>(fitted: &FittedModel<'f>) -> Vec<Factor<'f>> {
+    let rows = fitted.design.blocks.len();
+    let mut factors = of_instruments(fitted, (1, 2));
+    factors.retain(|factor| factor.levels.len().pow(2) <= rows);
+    factors
+}
+
+/// A size of its own under each label.
+fn each(form: &Variation, factor: &Factor<'_>) -> Variation {
+    let words = format!("another size in each {}", factor.column.name);
+    let parts = factor
+        .levels
+        .iter()
+        .map(|level| under(form, &factor.modifier(*level)));
+    let terms = parts.flatten().collect();
+    Variation {
+        shape: None,
+        ..labelled(form, words, terms)
+    }
+}
+
+/// Under one label alone.
+fn single(form: &Variation, factor: &Factor<'_>) -> Vec<Variation> {
+    let of = |level: &u32| {
+        let words = format!("only in {} {}", factor.column.name, factor.text(*level));
+        labelled(form, words, under(form, &factor.modifier(*level)))
+    };
+    factor.levels.iter().map(of).collect()
+}
+
+fn labelled(form: &Variation, words: String, terms: Vec<Term>) -> Variation {
+    let label = match form.label.as_str() {
+        "" => words.clone(),
+        label => format!("{label}, {words}"),
+    };
+    Variation {
+        label,
+        terms,
+        of_labels: Some(words),
+        ..form.clone()
+    }
+}
+
+/// The terms of a form in some rows only.
+fn under(form: &Variation, rows: &Modifier) -> Vec<Term> {
+    let terms = form.terms.iter().map(|term| Term {
+        modifier: term.modifier.times(rows),
+        written: term.written.as_ref().map(|written| written.times(rows)),
+        ..term.clone()
+    });
+    terms.collect()
+}

@@ -9,6 +9,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
+from decimal import Decimal
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any, NoReturn, Union, cast
 from uuid import uuid4
@@ -18,11 +19,17 @@ import numpy as np
 
 from . import _units as units
 from ._commands import evaluate
-from ._digits import estimate, figure
+from ._digits import estimate, figure, rounded, short
 from ._result import Measurand, Result
 from ._units import Units
 
 Operand = Union["Quantity", float]
+
+_DIGITS_OF_U = re.compile(r"(?:\.([1-9]))?u(S?)")
+"""So many digits of u, and whether they stand in brackets, as the package ``uncertainties`` writes it."""
+
+_COMPARISONS = {"equal", "not_equal", "less", "less_equal", "greater", "greater_equal"}
+"""Functions of NumPy that arrays call for their elements."""
 
 _OURS = re.compile(r"[qy]\d*")
 """Names that are given here: of quantities without one, and of results."""
@@ -199,6 +206,8 @@ class Quantity(Lasting):
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *given: Any, **settings: Any) -> Any:
         """NumPy's functions are those of the model language: ``np.sin(x)``, ``np.sqrt(x)``."""
+        if method == "__call__" and not settings and ufunc.__name__ not in _OPERATIONS | dict.fromkeys(_COMPARISONS):
+            raise TypeError(f"np.{ufunc.__name__} takes no quantities; those that do are {', '.join(sorted(_OPERATIONS))}")
         if method != "__call__" or settings or ufunc.__name__ not in _OPERATIONS:
             return NotImplemented
         if any(isinstance(one, np.ndarray) and one.ndim for one in given):
@@ -213,19 +222,35 @@ class Quantity(Lasting):
         return self._shown(estimate(y, u), None if u is None else figure(u, 3) if u else "0")
 
     def __format__(self, spec: str) -> str:
-        """Estimate and u alike: ``f"{x:.3f}"``."""
+        """Estimate and u alike, ``f"{x:.3f}"``; to two digits of u, ``f"{x:.2u}"``, with them in brackets, ``f"{x:.2uS}"``."""
         if not spec:
             return repr(self)
+        if of_u := _DIGITS_OF_U.fullmatch(spec):
+            return self._to_digits_of_u(int(of_u[1] or 2), in_brackets=bool(of_u[2]))
         try:
             return self._shown(f"{self.y:{spec}}", None if self.u is None else f"{self.u:{spec}}")
         except ValueError:
             raise ValueError(
-                f"{spec!r} is no format of a number, such as '.3f'; without one u has three digits, and the estimate ends with it"
+                f"{spec!r} is no format of a number, such as '.3f', nor one of the digits of u, '.2u' or '.2uS'; "
+                "without one u has three digits, and the estimate ends with it"
             ) from None
+
+    def _to_digits_of_u(self, count: int, *, in_brackets: bool) -> str:
+        y, u = self.y, self.u
+        if not u:
+            return repr(self)
+        if not in_brackets:
+            return self._shown(estimate(y, rounded(u, count), count), figure(u, count))
+        return short(y, u, count) + ("" if self.unit == "1" else f" {self.unit}")
 
     def _shown(self, y: str, u: str | None) -> str:
         unit = "" if self.unit == "1" else f" {self.unit}"
         return f"<{y}{unit}>" if u is None else f"<{y}{unit}, u = {u}>"
+
+    def _compared(self, _: object) -> NoReturn:
+        raise TypeError("quantities have no order: compare their estimates, a.y < b.y, or ask whether a - b differs from 0")
+
+    __lt__ = __le__ = __gt__ = __ge__ = _compared
 
     def __float__(self) -> NoReturn:
         raise TypeError("a quantity is no float: its estimate is .y; functions that keep its uncertainty are those of NumPy, np.sin(x)")
@@ -280,10 +305,20 @@ _OPERATIONS: dict[str, tuple[str, Callable[..., Units]]] = {
     "divide": ("{} / {}", units.quotient),
     "floor": ("floor({})", units.alike),
     "hypot": ("hypot({}, {})", units.alike),
+    "conjugate": ("{}", units.alike),
+    "exp2": ("2 ^ {}", units.none),
+    # exp(x) - 1 and ln(1 + x) without the digits that the difference would lose.
+    "expm1": ("2 * exp(0.5 * {0}) * sinh(0.5 * {0})", units.none),
+    "float_power": ("{} ^ {}", units.power),
     "log": ("ln({})", units.none),
+    "log1p": ("2 * atanh({0} / (2 + {0}))", units.none),
+    "maximum": ("max({}, {})", units.alike),
+    "minimum": ("min({}, {})", units.alike),
     "multiply": ("{} * {}", units.product),
     "negative": ("-{}", units.alike),
+    "positive": ("{}", units.alike),
     "power": ("{} ^ {}", units.power),
+    "reciprocal": ("1 / {}", units.power_of(-1)),
     "sqrt": ("sqrt({})", units.power_of(1 / 2)),
     "square": ("{} ^ 2", units.power_of(2)),
     "subtract": ("{} - {}", units.alike),
@@ -299,7 +334,7 @@ def _method(name: str) -> Callable[[Quantity], Any]:
 
 # NumPy calls them for the elements of an array.
 for _name, (_written, _) in _OPERATIONS.items():
-    if _written.count("{}") == 1:
+    if "{0}" in _written or _written.count("{}") == 1:
         setattr(Quantity, _name, _method(_name))
 
 
@@ -396,13 +431,26 @@ def covariance(quantities: Iterable[Quantity]) -> np.ndarray:
 
 
 def _formed(operation: str, *given: Any) -> Quantity:
+    given = tuple(_taken(one) for one in given)
     if not all(isinstance(one, (Quantity, numbers.Real)) for one in given):
         return cast(Quantity, NotImplemented)
-    written = ["{}" if isinstance(one, Quantity) else _number(float(one)) for one in given]
+    places = itertools.count()
+    # A formula may name an operand twice.
+    written = [f"{{{next(places)}}}" if isinstance(one, Quantity) else _number(float(one)) for one in given]
     formula, unit = _OPERATIONS[operation]
     operands = [one._units if isinstance(one, Quantity) else one for one in given]
     parts = tuple(one for one in given if isinstance(one, Quantity))
     return Quantity(formula.format(*written), parts, unit=unit(*operands))
+
+
+def _taken(one: Any) -> Any:
+    """What arithmetic takes as a quantity or a number: uncertain numbers of other packages, and decimals, too."""
+    if isinstance(one, (Quantity, numbers.Real)):
+        return one
+    if isinstance(one, Decimal):
+        return float(one)
+    is_uncertain = hasattr(one, "nominal_value") or type(one).__module__.partition(".")[0] == "GTC"
+    return quantity(one) if is_uncertain else one
 
 
 def _number(value: float) -> str:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Union
 
 Units = dict[str, float]
@@ -30,7 +32,14 @@ def written(units: Units) -> str:
 def _factor(unit: str, exponent: float) -> str:
     compound = any(sign in unit for sign in "/*·^²³√ ")
     factor = f"({unit})" if compound else unit
-    return factor if exponent == 1 else f"{factor}^{exponent:g}"
+    return factor if exponent == 1 else f"{factor}^{_exponent(exponent)}"
+
+
+def _exponent(exponent: float) -> str:
+    """A root has a simple fraction: ⅓ as a decimal is no exponent of a unit."""
+    simple = Fraction(exponent).limit_denominator(12)
+    is_simple = math.isclose(float(simple), exponent, rel_tol=1e-12) and simple.denominator > 2
+    return f"({simple})" if is_simple else f"{exponent:g}"
 
 
 def alike(*operands: Operand) -> Units:

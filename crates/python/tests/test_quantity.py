@@ -5,6 +5,7 @@ import math
 import pickle
 import subprocess
 import sys
+from decimal import Decimal
 
 import gumption
 import numpy as np
@@ -89,12 +90,65 @@ def test_names_and_formats_of_other_packages_are_told():
     x = quantity(1.0, 0.1)
     with pytest.raises(AttributeError, match="no nominal_value; it has .*y, unit, u, "):
         _ = x.nominal_value
-    with pytest.raises(ValueError, match=r"'\.2u' is no format"):
-        _ = f"{x:.2u}"
+    for unknown in (".2uL", "u2", ".0u"):
+        with pytest.raises(ValueError, match="is no format of a number.*'.2u' or '.2uS'"):
+            _ = f"{x:{unknown}}"
+    with pytest.raises(TypeError, match="have no order: compare their estimates, a.y < b.y"):
+        _ = x < quantity(2.0, 0.1)
+    with pytest.raises(TypeError, match="np.modf takes no quantities; those that do are absolute, add"):
+        np.modf(x)
     for to_float in (math.sin, float):
         with pytest.raises(TypeError, match="estimate is .y; .*np.sin"):
             to_float(x)
     assert not hasattr(x, "nominal_value") and quantity(readings=[1, 2, 3]).y == 2
+
+
+@pytest.mark.parametrize(
+    ("value", "u", "plain", "brackets"),
+    [
+        (1.23456, 0.01234, "<1.235, u = 0.012>", "1.235(12)"),
+        # 0.0996 is 0.10 to two digits, which moves the last digit of the estimate.
+        (1.23456, 0.0996, "<1.23, u = 0.10>", "1.23(10)"),
+        (12.345, 1.234, "<12.3, u = 1.2>", "12.3(1.2)"),
+        (123456.0, 1234.0, None, "1.235(12)e+05"),
+        (1.23456e-9, 2.34e-11, None, "1.235(23)e-09"),
+        (0.0, 0.1, None, "0.00(10)"),
+    ],
+)
+def test_digits_of_u(value, u, plain, brackets):
+    x = quantity(value, u)
+    assert plain is None or f"{x:.2u}" == plain
+    assert f"{x:.2uS}" == brackets
+    assert f"{quantity(10.0, 0.25, 'V'):.1uS}" == "10.0(2) V"
+    uncertainties = pytest.importorskip("uncertainties")
+    if "e" not in brackets:
+        assert f"{uncertainties.ufloat(value, u):.2uS}" == brackets
+
+
+def test_more_functions_of_numpy():
+    x, z = quantity(0.3, 1e-6), quantity(0.5, 1e-6)
+    for function in (np.log1p, np.expm1, np.exp2, np.reciprocal, np.positive):
+        slope = (function(0.3 + 1e-6) - function(0.3 - 1e-6)) / 2e-6
+        assert math.isclose(function(x).y, function(0.3), rel_tol=1e-9), function
+        assert math.isclose(function(x).u, abs(slope) * 1e-6, rel_tol=1e-6), function
+    assert np.maximum(x, z).y == 0.5 and np.minimum(x, z).y == 0.3 and np.float_power(x, 2).y == (x**2).y
+    tiny = quantity(1e-12, 1e-15)
+    assert math.isclose(np.expm1(tiny).y, 1e-12, rel_tol=1e-9) and math.isclose(np.log1p(tiny).y, 1e-12, rel_tol=1e-9)
+    sample = np.array([quantity(value, 0.1, "V") for value in (1.0, 2.0, 4.0)])
+    assert math.isclose(sample.std(ddof=1).y, np.std([1, 2, 4], ddof=1), rel_tol=0.05) and sample.std().unit == "V"
+
+
+def test_a_root_has_a_simple_fraction():
+    assert np.cbrt(quantity(8.0, 0.1, "V")).unit == "V^(1/3)" and (quantity(8.0, 0.1, "V") ** (2 / 3)).unit == "V^(2/3)"
+
+
+def test_arithmetic_takes_numbers_of_other_packages():
+    uncertainties, gtc = pytest.importorskip("uncertainties"), pytest.importorskip("GTC")
+    length = uncertainties.ufloat(2.0, 0.1)
+    assert (quantity(length) - length).u == 0 and math.isclose((quantity(1.0, 0.1) + length).u, math.hypot(0.1, 0.1))
+    angle = gtc.ureal(1.0, 0.1, 9)
+    assert (quantity(angle) * angle).nu == pytest.approx(9)
+    assert (quantity(1.0, 0.1, "V") * Decimal("0.5")).y == 0.5
 
 
 def test_readings_are_those_that_were_given():

@@ -27,7 +27,7 @@ Languages = Literal["en", "zh", "both"]
 
 
 class Record:
-    """A structure of the machine form (``docs/*.schema.json``): its fields are attributes, its lists of numbers arrays.
+    """A structure of the machine form (``docs/*.schema.json``): its fields are attributes, its lists of numbers arrays, its matrices of two dimensions.
 
     Infinity is ``inf``; ``None`` means that there is no such figure.
     """
@@ -313,5 +313,8 @@ def _wrapped(value: Any) -> Any:
     if isinstance(value, list):
         if value and all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in value):
             return np.array(value, dtype=float)
-        return [_wrapped(one) for one in value]
+        rows = [_wrapped(one) for one in value]
+        shapes = {one.shape if isinstance(one, np.ndarray) else None for one in rows}
+        is_matrix = len(shapes) == 1 and None not in shapes
+        return np.array(rows) if is_matrix else rows
     return value

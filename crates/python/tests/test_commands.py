@@ -50,6 +50,19 @@ def test_same_bits_as_the_command(program, path):
     assert [row.to_dict() for row in result] == expected
 
 
+def test_matrices_are_arrays():
+    omega, read = np.array([-2.0, -1.0, 0.0, 1.0, 3.0]), np.array([-2.01, -1.0, 0.02, 1.01, 2.99])
+    text = "omega [deg/s],U [V]\n" + "".join(f"{x},{y}\n" for x, y in zip(omega, read))
+    experiment = {"recording": {"file": "r.csv", "average": "none"}, "equations": "U = K*omega + b"}
+    found = gumption.calibrate(experiment, files={"r.csv": text})
+    # Ordinary least squares: s² (XᵀX)⁻¹.
+    columns = np.column_stack([omega, np.ones(5)])
+    parameters, squares, *_ = np.linalg.lstsq(columns, read, rcond=None)
+    expected = squares[0] / 3 * np.linalg.inv(columns.T @ columns)
+    assert found.covariance.shape == (2, 2) and np.allclose(found.covariance, expected, rtol=1e-9)
+    assert math.isclose(found["K"].value, parameters[0], rel_tol=1e-12)
+
+
 def test_figures_by_their_symbols():
     current = gumption.evaluate(RESISTOR)["I"]
     assert current.unit == "mA"

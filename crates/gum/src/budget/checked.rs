@@ -65,6 +65,8 @@ pub struct Quantities {
     pub components: Vec<Component>,
     /// Correlated components; a component is in at most one group.
     pub groups: Vec<Group>,
+    /// Components whose effect follows the estimate of an input.
+    pub following: Vec<Following>,
     /// What the reader should know.
     pub remarks: Vec<Said>,
 }

@@ -8,7 +8,7 @@ use super::gain::Gain;
 use super::points::Points;
 use super::scatter::Scatters;
 use super::stack::{Row, Stack};
-use crate::experiment::{Doubt, Experiment, Scope, Target};
+use crate::experiment::{Act, Doubt, Experiment, Scope, Target};
 use gumption_gum::budget::Evaluation;
 
 /// All causes that act on any coefficient.
@@ -86,12 +86,11 @@ fn prior(stack: &Stack<'_>, gain: &Gain, row: usize, parameter: usize) -> Option
 }
 
 fn stated(stack: &Stack<'_>, gain: &Gain, doubt: &Doubt) -> Cause {
+    let points = &stack.campaign.points;
     let mut effects: Option<DMatrix<f64>> = None;
     for act in &doubt.acts {
-        let mut own = gain.by_errors(stack, &act.on, &doubt.scope) * (act.coefficient * doubt.u);
-        for (point, mut of_point) in own.column_iter_mut().enumerate() {
-            of_point *= doubt.share(&stack.campaign.points, point);
-        }
+        let share = |point| doubt.share(points, point) * act.share(points, point);
+        let own = gain.by_errors(stack, &act.on, &doubt.scope, share) * (act.coefficient * doubt.u);
         effects = Some(match effects {
             Some(sum) => sum + own,
             None => own,
@@ -120,13 +119,40 @@ impl Doubt {
         })
     }
 
-    /// Standard uncertainty of a reading of a column by errors that each reading has for itself, over what a column multiplies.
-    pub(super) fn of_each_reading(&self, column: &str) -> f64 {
-        if self.scope != Scope::Each {
+    /// Whether each reading of a column has an error of this kind for itself.
+    pub(super) fn is_of_each(&self, column: &str) -> bool {
+        let acts = self.acts.iter();
+        self.scope == Scope::Each
+            && self.u > 0.0
+            && acts.map(|act| &act.on).any(|on| on.is_reading_of(column))
+    }
+
+    /// Standard uncertainty of the reading of a column at a point by errors that each reading has for itself.
+    pub(super) fn of_reading(&self, column: &str, points: &Points, point: usize) -> f64 {
+        if !self.is_of_each(column) {
             return 0.0;
         }
-        let acts = self.acts.iter();
-        let own = acts.filter(|act| act.on == Target::Reading(column.to_owned()));
-        own.map(|act| act.coefficient * self.u).sum::<f64>().abs()
+        let own = self.acts.iter().filter(|act| act.on.is_reading_of(column));
+        let own = own.map(|act| act.coefficient * act.share(points, point) * self.u);
+        (own.sum::<f64>() * self.share(points, point)).abs()
+    }
+}
+
+impl Target {
+    fn is_reading_of(&self, column: &str) -> bool {
+        matches!(self, Target::Reading(name) if name == column)
+    }
+}
+
+impl Act {
+    /// What multiplies it at a point: 1 unless it is a part of what is read there.
+    pub(super) fn share(&self, points: &Points, point: usize) -> f64 {
+        let (Some(growth), Target::Reading(name)) = (self.growth, &self.on) else {
+            return 1.0;
+        };
+        let reading = points
+            .column(name)
+            .and_then(|column| column.values.get(point));
+        reading.map_or(0.0, |reading| growth.factor(*reading))
     }
 }

@@ -39,12 +39,7 @@ pub(super) fn without_scatter(experiment: &Experiment) -> Option<Said> {
             Observed::Column(name) => Some(name.as_str()),
             _ => None,
         });
-    let scatters = |name: &str| {
-        experiment
-            .doubts
-            .iter()
-            .any(|doubt| doubt.of_each_reading(name) > 0.0)
-    };
+    let scatters = |name: &str| experiment.doubts.iter().any(|doubt| doubt.is_of_each(name));
     let silent: Vec<&str> = observed.filter(|name| !scatters(name)).collect();
     let first = silent.first()?;
     let names = silent.join(", ");

@@ -147,16 +147,26 @@ impl Gain {
         gain
     }
 
-    /// Change of the coefficients by each of the errors of a target, which acts within a scope: one
-    /// column for each error.
-    pub fn by_errors(&self, stack: &Stack<'_>, target: &Target, scope: &Scope) -> DMatrix<f64> {
+    /// Change of the coefficients by each of the errors of a target, which acts within a scope, at each point with its share:
+    /// one column for each error.
+    pub fn by_errors(
+        &self,
+        stack: &Stack<'_>,
+        target: &Target,
+        scope: &Scope,
+        share: impl Fn(usize) -> f64,
+    ) -> DMatrix<f64> {
         let by_row = self.by_row(stack, target);
         let levels = levels(stack, scope);
         let count = levels.iter().max().map_or(0, |last| last + 1);
         let mut by_level = DMatrix::zeros(by_row.nrows(), count);
         for (index, level) in levels.iter().enumerate() {
             let mut column = by_level.column_mut(*level);
-            column += by_row.column(index);
+            let share = match &stack.rows[index] {
+                Row::Reading { point, .. } => share(*point),
+                Row::Prior { .. } => 1.0,
+            };
+            column += by_row.column(index) * share;
         }
         if let (Target::Input(place), Scope::Common, true) = (target, scope, count > 0) {
             let mut column = by_level.column_mut(0);

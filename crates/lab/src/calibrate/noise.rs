@@ -76,6 +76,7 @@ fn noise(output: String, unit: Unit, (u, dof): Scatter) -> Doubt {
         acts: vec![Act {
             on: Target::Reading(output),
             coefficient: 1.0,
+            growth: None,
         }],
         scope: Scope::Each,
         u,

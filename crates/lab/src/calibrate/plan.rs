@@ -85,9 +85,11 @@ fn expected_u(stack: &Stack<'_>) -> Vec<f64> {
         else {
             return 0.0;
         };
-        let each = campaign.experiment.doubts.iter().map(|doubt| {
-            (doubt.of_each_reading(name) * doubt.share(&campaign.points, point)).powi(2)
-        });
+        let each = campaign
+            .experiment
+            .doubts
+            .iter()
+            .map(|doubt| doubt.of_reading(name, &campaign.points, point).powi(2));
         each.sum::<f64>().sqrt()
     };
     let of_row = |row: &Row| match row {

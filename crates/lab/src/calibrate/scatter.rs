@@ -196,9 +196,7 @@ pub(super) fn known_u(stack: &Stack<'_>, samples: bool) -> Vec<f64> {
             .experiment
             .doubts
             .iter()
-            .map(|doubt| {
-                (doubt.of_each_reading(name) * doubt.share(&campaign.points, *point)).powi(2)
-            })
+            .map(|doubt| doubt.of_reading(name, &campaign.points, *point).powi(2))
             .sum();
         let column = campaign.points.column(name);
         let sampled = column
@@ -356,18 +354,20 @@ pub(super) fn explained_by(
 ) -> Vec<f64> {
     let parameters = solution.parameters.len();
     let mut explained = vec![0.0; stack.rows.len()];
+    let points = &stack.campaign.points;
     let doubts = stack.campaign.experiment.doubts.iter();
     for doubt in doubts.filter(|doubt| counts(&doubt.scope)) {
         let mut misfits = vec![0.0; stack.rows.len()];
         for act in &doubt.acts {
             let by = stack.misfit_by(&act.on, &solution.parameters);
-            for (misfit, by) in misfits.iter_mut().zip(by) {
-                *misfit += act.coefficient * by;
-            }
-        }
-        for (misfit, row) in misfits.iter_mut().zip(&stack.rows) {
-            if let Row::Reading { point, .. } = row {
-                *misfit *= doubt.share(&stack.campaign.points, *point);
+            for ((misfit, by), row) in misfits.iter_mut().zip(by).zip(&stack.rows) {
+                let share = match row {
+                    Row::Reading { point, .. } => {
+                        doubt.share(points, *point) * act.share(points, *point)
+                    }
+                    Row::Prior { .. } => 1.0,
+                };
+                *misfit += act.coefficient * share * by;
             }
         }
         // Of each error: the shift of the parameters.
@@ -403,7 +403,7 @@ fn of_samples(stack: &Stack<'_>, gain: &Gain) -> Vec<Cause> {
         .filter(|column| !column.averages.is_empty());
     let cause = |column: &super::points::PointColumn| {
         let target = Target::Reading(column.name.clone());
-        let mut effects = gain.by_errors(stack, &target, &Scope::Each);
+        let mut effects = gain.by_errors(stack, &target, &Scope::Each, |_| 1.0);
         let points = effects.ncols();
         // Without an average a point has no value, and nothing of it acts.
         for (mut effect, average) in effects.column_iter_mut().zip(&column.averages) {

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::checker::Checker;
-use super::doubt::{Act, Doubt, Scope, Target};
+use super::doubt::{Act, Doubt, Growth, Scope, Target};
 use super::faults::KEY;
 use super::known::Known;
 use super::source::entries;
@@ -98,9 +98,19 @@ impl Found {
                 if !matches!(component.owner, Owner::Source(_)) {
                     found.scope = scope_of(one);
                 }
+                let following = stated.following.iter();
+                let mut following = following
+                    .filter(|one| one.component == index && stated.inputs[one.input].name == name);
                 found.acts.push(Act {
                     on,
                     coefficient: term.coefficient * one.factor,
+                    growth: following
+                        .next()
+                        .filter(|_| one.is_reading)
+                        .map(|following| Growth {
+                            at: one.factor,
+                            rule: following.rule,
+                        }),
                 });
             }
         }
@@ -159,6 +169,7 @@ fn factored(stated: &Quantities, group: &Group, found: &[Found]) -> Option<Vec<D
                 acts.iter().map(move |act| Act {
                     on: act.on.clone(),
                     coefficient: act.coefficient * share,
+                    growth: act.growth,
                 })
             })
             .collect(),

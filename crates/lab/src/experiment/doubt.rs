@@ -2,7 +2,7 @@
 
 use gumption_core::distribution::Distribution;
 use gumption_core::quantity::Unit;
-use gumption_gum::budget::{Certificate, Evaluation};
+use gumption_gum::budget::{Certificate, Evaluation, Follows};
 
 use super::words::Words;
 
@@ -77,6 +77,43 @@ pub struct Act {
     pub on: Target,
     /// Change of the quantity per unit of the error.
     pub coefficient: f64,
+    /// How that grows with what is read, where the error is a part of it.
+    pub growth: Option<Growth>,
+}
+
+impl Act {
+    /// The root mean square of what multiplies it over readings: 1 unless it is a part of them.
+    pub fn typical_growth(&self, readings: &[f64]) -> f64 {
+        let Some(growth) = self.growth else {
+            return 1.0;
+        };
+        let present = readings.iter().filter(|reading| reading.is_finite());
+        let factors: Vec<f64> = present.map(|reading| growth.factor(*reading)).collect();
+        let squares: f64 = factors.iter().map(|factor| factor * factor).sum();
+        (squares / factors.len().max(1) as f64).sqrt()
+    }
+}
+
+/// An error that is a part of what is read, as of an accuracy specification.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Growth {
+    /// The reading, in the unit of its column, for which the error is stated.
+    pub at: f64,
+    /// How it follows the reading.
+    pub rule: Follows,
+}
+
+impl Growth {
+    /// The factor of the error at a reading; none acts on one that is missing. A gain that is wrong for all readings is wrong with
+    /// the sign of each; limits that have a constant part as well have none.
+    pub fn factor(self, reading: f64) -> f64 {
+        match self.rule {
+            _ if !reading.is_finite() => 0.0,
+            Follows::Proportion { share: 1.0 } => reading / self.at,
+            rule => rule.factor(self.at, reading),
+        }
+    }
 }
 
 /// A quantity that errors act on.

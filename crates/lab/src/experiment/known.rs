@@ -7,10 +7,11 @@ use super::source::entries;
 use super::tables::KnownTable;
 use gumption_core::equations::Quantity;
 use gumption_core::model::{Role, Symbol};
-use gumption_core::quantity::Unit;
+use gumption_core::quantity::{Unit, UnitTable};
 use gumption_fault::{Fault, Said, say};
-use gumption_format::toml::Stated;
-use gumption_gum::budget::tables::{ConstantEntry, InputTable};
+use gumption_format::toml::{Amount, Stated};
+use gumption_gum::budget::tables::{ComponentTable, ConstantEntry, InputTable};
+use gumption_gum::budget::variants::Amounts;
 use smol_str::SmolStr;
 
 /// A quantity before its check.
@@ -35,6 +36,42 @@ impl Known<'_> {
 
     pub fn table(&self) -> &InputTable {
         &self.entry.value.input
+    }
+
+    /// Whether an error of it is stated as a part of what is read.
+    pub fn is_part_of_reading(&self, units: &UnitTable) -> bool {
+        let components = self.table().components.iter().flat_map(|list| &list.value);
+        let mut stated = components
+            .map(|one| &one.value)
+            .chain([&self.table().component]);
+        let is_ratio = |amount: &Amount| {
+            let unit = amount
+                .unit
+                .as_ref()
+                .and_then(|(text, _)| units.parse(text).ok());
+            let one = Unit::one().dimension;
+            unit.is_some_and(|unit| unit.dimension == one) && self.unit.dimension != one
+        };
+        let is_part = |one: &ComponentTable| {
+            let specified = one.specification.as_ref();
+            let certified = one
+                .certificate
+                .as_ref()
+                .and_then(|stated| stated.value.U.as_ref());
+            let widths = [&one.u, &one.half_width].into_iter().flatten();
+            let widths = widths.filter_map(|stated| match &stated.value {
+                Amounts::One(amount) => Some(amount),
+                _ => None,
+            });
+            let amounts = [&one.plus, &one.minus].into_iter().flatten();
+            let amounts = amounts
+                .map(|stated| &stated.value)
+                .chain(certified.map(|stated| &stated.value));
+            one.relative.as_ref().is_some_and(|stated| stated.value)
+                || specified.is_some_and(|stated| stated.value.reading.is_some())
+                || widths.chain(amounts).any(is_ratio)
+        };
+        self.is_reading && stated.any(is_part)
     }
 
     /// Whether nothing doubts it.
@@ -110,6 +147,7 @@ fn reading<'t>(
     (name, entry): (&'t str, &'t Stated<KnownTable>),
 ) -> Option<Known<'t>> {
     let column = columns.iter().find(|column| column.name == *name);
+    let is_unread = column.is_none();
     let planned = || {
         let mut responses = names.responses.iter();
         let is_response = responses.any(|response| response == name);
@@ -138,13 +176,23 @@ fn reading<'t>(
         checker.faults.push(fault);
         return None;
     };
-    Some(Known {
+    let known = Known {
         name,
         entry,
         unit,
         factor: conversion.apply(1.0) - conversion.apply(0.0),
         is_reading: true,
-    })
+    };
+    if is_unread && known.is_part_of_reading(&checker.units) {
+        let message =
+            say!("an error of {name} is stated as a part of its readings, and a plan has none");
+        let fault = Fault::new(KEY, entry.key.clone(), message).label(say!("a part of what?"));
+        let unit = known.unit.difference().symbol.clone();
+        let help = say!("state it absolutely for the plan, in {unit}");
+        checker.faults.push(fault.help(help));
+        return None;
+    }
+    Some(known)
 }
 
 /// Keys of a budget's inputs that have no meaning in an experiment.

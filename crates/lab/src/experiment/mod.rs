@@ -47,7 +47,7 @@ pub(crate) mod written;
 
 pub use at_rest::RestReadings;
 pub use checked::{Experiment, Heading, Observed, Parameter};
-pub use doubt::{Act, Doubt, Input, Prior, Scope, Target};
+pub use doubt::{Act, Doubt, Growth, Input, Prior, Scope, Target};
 pub use proposal::proposal;
 pub use purpose::Purpose;
 pub use words::Words;

@@ -123,12 +123,11 @@ fn tables(checker: &Checker<'_>, known: &[Known<'_>]) -> FileTable {
     for one in known {
         let key = &one.entry.key;
         let unit = Some(Box::new(at(one.unit.symbol.clone(), key)));
-        let zero = Amount {
-            number: 0.0,
-            unit: None,
-        };
+        // An error is zero, but one that is a part of what is read is checked for a reading of 1, and grows with it.
+        let number = f64::from(one.is_part_of_reading(&checker.units));
+        let unstated = Amount { number, unit: None };
         let value = one.table().value.clone();
-        let value = value.or_else(|| Some(Box::new(at(zero, key))));
+        let value = value.or_else(|| Some(Box::new(at(unstated, key))));
         if one.is_exact() {
             let constant = ConstantEntry(ConstantTable {
                 value,

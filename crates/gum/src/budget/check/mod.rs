@@ -208,6 +208,7 @@ pub(super) fn quantities(
         inputs: register.inputs,
         components: register.components,
         groups,
+        following: register.following,
         remarks: checker.messages.remarks,
     })
 }

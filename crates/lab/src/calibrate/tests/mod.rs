@@ -3,6 +3,7 @@
 mod closed_forms;
 mod pattern;
 mod refusals;
+mod shares;
 mod simulations;
 
 use std::path::PathBuf;

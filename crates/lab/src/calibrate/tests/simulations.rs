@@ -57,7 +57,10 @@ fn simulated(campaign: &Campaign, truth: &[f64], s: f64, random: &mut StdRng) ->
         vec![vec![0.0; points]; campaign.experiment.equations.responses().len()];
     for doubt in &campaign.experiment.doubts {
         let drawn = errors(doubt, campaign, random);
-        for Act { on, coefficient } in &doubt.acts {
+        for Act {
+            on, coefficient, ..
+        } in &doubt.acts
+        {
             for point in 0..points {
                 let error = coefficient * drawn[point];
                 match on {

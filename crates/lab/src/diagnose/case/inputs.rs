@@ -24,7 +24,7 @@ impl Checker<'_> {
     ) -> Option<Vec<Parameter>> {
         let mut parameters = Vec::new();
         for (place, input) in experiment.inputs.iter().enumerate() {
-            let error = Error::of(experiment, &Target::Input(place));
+            let error = Error::of(experiment, &Target::Input(place), &[]);
             if error.is_none() {
                 constants.push(Symbol {
                     name: input.name.as_str().into(),
@@ -81,7 +81,11 @@ impl Checker<'_> {
 /// itself, in the order of the columns.
 pub(super) fn errors_of_readings(experiment: &Experiment, columns: &mut [Column]) -> Vec<f64> {
     let add = |column: &mut Column| {
-        let error = Error::of(experiment, &Target::Reading(column.name.clone()));
+        let error = Error::of(
+            experiment,
+            &Target::Reading(column.name.clone()),
+            column.numbers().unwrap_or_default(),
+        );
         let each = libm::hypot(error.each, error.by.1);
         if error.common > 0.0 {
             column.u_common = Some(libm::hypot(column.u_common.unwrap_or(0.0), error.common));
@@ -105,11 +109,15 @@ struct Error {
 }
 
 impl Error {
-    fn of(experiment: &Experiment, target: &Target) -> Error {
+    /// One for all rows: of errors that grow with the reading, their root mean square over the readings.
+    fn of(experiment: &Experiment, target: &Target, readings: &[f64]) -> Error {
         let mut error = Error::default();
         for doubt in &experiment.doubts {
             let acts = doubt.acts.iter().filter(|act| act.on == *target);
-            let u = acts.map(|act| act.coefficient * doubt.u).sum::<f64>().abs();
+            let u = acts
+                .map(|act| act.coefficient * act.typical_growth(readings) * doubt.u)
+                .sum::<f64>()
+                .abs();
             match &doubt.scope {
                 Scope::Common => error.common = libm::hypot(error.common, u),
                 Scope::Each => error.each = libm::hypot(error.each, u),

@@ -1,6 +1,6 @@
 //! A value beside others that should agree with it: their weighted mean without it, the difference, and how probable that is.
 
-use gumption_core::special::{normal_sf, normal_upper_quantile, student_t_sf};
+use gumption_core::special::{normal_sf, student_t_score, student_t_sf};
 
 use crate::results::Values;
 
@@ -166,13 +166,6 @@ impl Deviation {
 
     /// The difference in standard deviations of a normal distribution in which it were as improbable.
     pub fn score(&self) -> f64 {
-        let size = self.difference.abs() / self.u;
-        let score = match self.dof.is_finite() {
-            true => normal_upper_quantile(student_t_sf(size, self.dof)),
-            false => size,
-        };
-        // So far out no probability is left.
-        let score = if score.is_finite() { score } else { size };
-        score.copysign(self.difference)
+        student_t_score(self.difference / self.u, self.dof)
     }
 }

@@ -60,6 +60,6 @@ pub use normal::{
 };
 pub use quadrature::gauss_legendre;
 pub use student_t::{
-    student_t_cdf, student_t_pdf, student_t_quantile, student_t_sf, student_t_two_sided,
-    student_t_two_sided_quantile, student_t_upper_quantile,
+    student_t_cdf, student_t_pdf, student_t_quantile, student_t_score, student_t_sf,
+    student_t_two_sided, student_t_two_sided_quantile, student_t_upper_quantile,
 };

@@ -8,6 +8,7 @@ use super::gamma::stirling_error;
 use super::log_concave::{LogConcave, Side, solve, tail};
 use super::normal::{
     normal_pdf, normal_quantile, normal_sf, normal_two_sided, normal_two_sided_quantile,
+    normal_upper_quantile,
 };
 use super::quadrature::gauss_legendre;
 
@@ -46,6 +47,18 @@ pub fn student_t_sf(t: f64, dof: f64) -> f64 {
         size => tail(&Point::at(size, dof), Side::Upper).value().min(0.5),
     };
     if t < 0.0 { 1.0 - upper } else { upper }
+}
+
+/// The normal deviation beyond which lies the same probability as beyond t.
+pub fn student_t_score(t: f64, dof: f64) -> f64 {
+    let size = t.abs();
+    let score = match dof.is_finite() {
+        true => normal_upper_quantile(student_t_sf(size, dof)),
+        false => size,
+    };
+    // So far out no probability is left.
+    let score = if score.is_finite() { score } else { size };
+    score.copysign(t)
 }
 
 /// Probability of a value in ±t, exact also for small t.

@@ -7,9 +7,9 @@ use super::cause::{Cause, Origin};
 use super::gain::{Gain, levels};
 use super::stack::{Row, Stack};
 use super::trouble::Trouble;
-use crate::experiment::{Observed, Scope, Target};
+use crate::experiment::{Doubt, Observed, Scope, Target};
 use gumption_core::least_squares::Solution;
-use gumption_core::special::{chi_squared_sf, student_t_two_sided_quantile};
+use gumption_core::special::{chi_squared_sf, f_sf, student_t_score, student_t_two_sided_quantile};
 use gumption_gum::budget::Evaluation;
 
 /// The scatter of each response.
@@ -49,11 +49,11 @@ pub struct ResponseScatter {
 pub struct ScatterTest {
     /// The residual standard deviation to expect, in the unit of the response.
     pub expected: f64,
-    /// Σ(r/u)².
+    /// Σ(r/u)², of a u with finite ν the normal deviation of the same probability in place of r/u.
     pub chi_squared: f64,
     /// ν.
     pub dof: f64,
-    /// The probability of a larger χ².
+    /// The probability of a larger χ²; of F where readings share a u with finite ν.
     pub p_value: f64,
     /// What that says of the errors.
     pub misfit: Option<Misfit>,
@@ -91,10 +91,14 @@ impl ScatterTest {
         expected: f64,
         chi_squared: f64,
         dof: f64,
+        stated_dof: f64,
         way: Scatter,
         sampled: bool,
     ) -> Option<ScatterTest> {
-        let p_value = chi_squared_sf(chi_squared, dof);
+        let p_value = match stated_dof.is_finite() {
+            true => f_sf(chi_squared / dof, dof, stated_dof),
+            false => chi_squared_sf(chi_squared, dof),
+        };
         let misfit = Misfit::of(p_value, way, sampled);
         let partial = way == Scatter::Residuals && !sampled;
         (misfit.is_some() || !partial).then_some(ScatterTest {
@@ -230,7 +234,8 @@ impl Scatters {
         let parameters = campaign.experiment.parameters.len();
         // One error that acts on all points counts for nothing: it may happen to be small, and what the residuals do not
         // show of it explains nothing of them.
-        let explained = explained_by(stack, solution, gain, &jacobian, |s| *s != Scope::Common);
+        let parts = explained_parts(stack, solution, gain, &jacobian, |s| *s != Scope::Common);
+        let explained = sum_of(&parts, stack.rows.len());
         let mut responses = Vec::new();
         for (response, quantity) in campaign.experiment.equations.responses().iter().enumerate() {
             let rows: Vec<usize> = (0..stack.rows.len())
@@ -274,15 +279,16 @@ impl Scatters {
             let total = sum(u);
             let (own, own_dof, part) = own(total, by_stated, dof);
             let complete = !rows.is_empty() && rows.iter().all(|row| known[*row] > 0.0);
-            // What samples and all stated errors let expect of a residual, as if it were a reading's own.
-            let mut expected = known.clone();
-            for row in &rows {
-                let free = free(*row);
-                if free > 1e-6 {
-                    let sampled = known[*row].powi(2) - stated[*row].powi(2);
-                    expected[*row] = (sampled + explained[*row] / free).sqrt();
-                }
-            }
+            let expected: Vec<Expected> = (rows.iter())
+                .map(|row| {
+                    Expected::of(
+                        stack,
+                        *row,
+                        (known[*row], stated[*row]),
+                        (explained[*row], free(*row)),
+                    )
+                })
+                .collect();
             responses.push(ResponseScatter {
                 response: quantity.name.clone(),
                 readings: rows.len(),
@@ -293,10 +299,12 @@ impl Scatters {
                 own_dof,
                 part,
                 test: (complete && dof > 0.0).then_some(()).and_then(|()| {
-                    let chi_squared = sum(&expected);
-                    let expected: f64 = rows.iter().map(|row| expected[*row].powi(2)).sum();
-                    let expected = (expected / rows.len() as f64).sqrt();
-                    ScatterTest::of(expected, chi_squared, dof, way, sampled)
+                    let residuals = rows.iter().map(|row| solution.residuals[*row]);
+                    let chi_squared = residuals.zip(&expected).map(|(r, one)| one.square(r)).sum();
+                    let stated_dof = dof_of_stated(&parts, &rows, &expected);
+                    let squares: f64 = expected.iter().map(|one| one.u * one.u).sum();
+                    let u = (squares / rows.len() as f64).sqrt();
+                    ScatterTest::of(u, chi_squared, dof, stated_dof, way, sampled)
                 }),
             });
         }
@@ -343,8 +351,82 @@ impl Scatters {
     }
 }
 
-/// The mean square of each row's residual that the stated errors let expect: Σ u²·(d − J·∂β/∂y·d)² over
-/// those of their errors that count, each of which changes the misfits by d.
+/// What samples and stated errors let expect of the residual of a row.
+struct Expected {
+    /// Its standard uncertainty, as if it were a reading's own.
+    u: f64,
+    /// Degrees of freedom of `u` that no other row shares: those of its samples (Welch and Satterthwaite).
+    dof: f64,
+    /// 1 less the leverage.
+    free: f64,
+}
+
+impl Expected {
+    /// From what is known of the reading with and without its samples, and the part of its residual that stated errors
+    /// explain beside what the equations leave free of it.
+    fn of(
+        stack: &Stack<'_>,
+        row: usize,
+        (known, stated): (f64, f64),
+        (explained, free): (f64, f64),
+    ) -> Expected {
+        let sampled = known.powi(2) - stated.powi(2);
+        let u = if free > LEAST_FREE {
+            (sampled + explained / free).sqrt()
+        } else {
+            known
+        };
+        let dof = dof_of_samples(stack, row) * (u * u / sampled).powi(2);
+        Expected {
+            u,
+            dof: if dof.is_nan() { f64::INFINITY } else { dof },
+            free,
+        }
+    }
+
+    /// (r/u)². A u from few samples is now too small and now too large: r/u has the tails of t, and counts as the normal
+    /// deviation of the same probability, which leaves the sum the distribution of χ².
+    fn square(&self, residual: f64) -> f64 {
+        let ratio = residual / self.u;
+        if self.dof.is_infinite() || self.free <= LEAST_FREE {
+            return ratio.powi(2);
+        }
+        student_t_score(ratio / self.free.sqrt(), self.dof).powi(2) * self.free
+    }
+}
+
+/// Of a row that the equations leave less free its residual says nothing.
+const LEAST_FREE: f64 = 1e-6;
+
+/// Degrees of freedom of the average of a row; infinite without one.
+fn dof_of_samples(stack: &Stack<'_>, row: usize) -> f64 {
+    let Row::Reading { point, response } = &stack.rows[row] else {
+        return f64::INFINITY;
+    };
+    let Observed::Column(name) = &stack.campaign.experiment.observed[*response] else {
+        return f64::INFINITY;
+    };
+    let column = stack.campaign.points.column(name);
+    let average = column.and_then(|column| column.averages.get(*point)?.as_ref());
+    average.map_or(f64::INFINITY, |average| average.dof)
+}
+
+/// Degrees of freedom of what stated errors let expect of the mean square of the residuals: a u that is stated once for many
+/// readings is one estimate (Welch and Satterthwaite).
+fn dof_of_stated(parts: &[(&Doubt, Vec<f64>)], rows: &[usize], expected: &[Expected]) -> f64 {
+    let total: f64 = expected.iter().map(|one| one.free).sum();
+    let fourth: f64 = (parts.iter())
+        .filter(|(doubt, _)| doubt.dof.is_finite())
+        .map(|(doubt, explained)| {
+            let of_row = |(row, one): (&usize, &Expected)| explained[*row] / (one.u * one.u);
+            let share = rows.iter().zip(expected).map(of_row).sum::<f64>() / total;
+            share * share / doubt.dof
+        })
+        .sum();
+    1.0 / fourth
+}
+
+/// The mean square of each row's residual that the stated errors that count let expect together.
 pub(super) fn explained_by(
     stack: &Stack<'_>,
     solution: &Solution,
@@ -352,8 +434,26 @@ pub(super) fn explained_by(
     jacobian: &DMatrix<f64>,
     counts: fn(&Scope) -> bool,
 ) -> Vec<f64> {
+    let parts = explained_parts(stack, solution, gain, jacobian, counts);
+    sum_of(&parts, stack.rows.len())
+}
+
+fn sum_of(parts: &[(&Doubt, Vec<f64>)], rows: usize) -> Vec<f64> {
+    let of_row = |row: usize| parts.iter().map(|(_, explained)| explained[row]).sum();
+    (0..rows).map(of_row).collect()
+}
+
+/// The mean square of each row's residual that the stated errors let expect, one by one: Σ u²·(d − J·∂β/∂y·d)² over
+/// those of their errors that count, each of which changes the misfits by d.
+fn explained_parts<'a>(
+    stack: &'a Stack<'_>,
+    solution: &Solution,
+    gain: &Gain,
+    jacobian: &DMatrix<f64>,
+    counts: fn(&Scope) -> bool,
+) -> Vec<(&'a Doubt, Vec<f64>)> {
     let parameters = solution.parameters.len();
-    let mut explained = vec![0.0; stack.rows.len()];
+    let mut parts = Vec::new();
     let points = &stack.campaign.points;
     let doubts = stack.campaign.experiment.doubts.iter();
     for doubt in doubts.filter(|doubt| counts(&doubt.scope)) {
@@ -379,6 +479,7 @@ pub(super) fn explained_by(
             let mut shift = shifts.column_mut(*level);
             shift.axpy(misfits[row], &gain.rows(0, parameters), 1.0);
         }
+        let mut explained = vec![0.0; stack.rows.len()];
         // Σ (J·s)² over all errors, of which the row's own acts on its misfit as well.
         let squares = &shifts * shifts.transpose();
         let u2 = doubt.u * doubt.u;
@@ -389,8 +490,9 @@ pub(super) fn explained_by(
             let left = misfits[row] - by_own;
             *explained += u2 * ((by_all - by_own * by_own).max(0.0) + left * left);
         }
+        parts.push((doubt, explained));
     }
-    explained
+    parts
 }
 
 /// Every average of samples scatters by itself.

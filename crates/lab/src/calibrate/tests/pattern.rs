@@ -30,6 +30,52 @@ fn parabola(a: f64, d: f64) -> Vec<(f64, f64)> {
     series(1.0).chain(series(-1.0)).collect()
 }
 
+/// How many of 400 calibrations with honest errors say that residuals do not fit them: the level is 0.5 % on either side, 4 of 400,
+/// and more than 12 would come in one of a thousand such trials.
+fn misfits(toml: &str, mut csv: impl FnMut(&mut StdRng) -> (String, String)) -> usize {
+    let mut random = StdRng::seed_from_u64(11);
+    let mut is_misfit = || {
+        let (errors, csv) = csv(&mut random);
+        let campaign = campaign(&format!("{toml}{errors}"), &csv);
+        let responses = calibrate(&campaign).expect("coefficients").responses;
+        responses
+            .iter()
+            .any(|one| one.test.is_some_and(|test| test.misfit.is_some()))
+    };
+    (0..400).filter(|_| is_misfit()).count()
+}
+
+#[test]
+fn an_uncertainty_from_few_samples_is_no_certain_one() {
+    let toml = "equations = \"U = K*omega + b\"\nnoise.from = \"dwells\"\n[parameter]\nK = {}\nb = {}\n[recording]\nfile = \"run.csv\"\nsteps = \"omega\"\n";
+    let noise = Normal::new(0.0, 1.0_f64).expect("a scatter");
+    let found = misfits(toml, |random| {
+        let lines =
+            (0..60).map(|i| format!("{},{:.6}\n", i / 4, f64::from(i / 4) + noise.sample(random)));
+        (
+            String::new(),
+            format!("omega [deg/s],U [mV]\n{}", lines.collect::<String>()),
+        )
+    });
+    assert!(found <= 12, "{found} of 400");
+}
+
+#[test]
+fn an_uncertainty_with_few_degrees_of_freedom_is_no_certain_one() {
+    let toml = "equations = \"U = K*omega + b\"\nnoise.from = \"stated\"\n[parameter]\nK = {}\nb = {}\n[recording]\nfile = \"run.csv\"\naverage = \"none\"\n";
+    let noise = Normal::new(0.0, 1.0_f64).expect("a scatter");
+    let found = misfits(toml, |random| {
+        let squares: f64 = (0..4).map(|_| noise.sample(random).powi(2)).sum();
+        let lines = (0..15).map(|i| format!("{i},{:.6}\n", f64::from(i) + noise.sample(random)));
+        let csv = format!("omega [deg/s],U [mV]\n{}", lines.collect::<String>());
+        (
+            format!("[reading.U]\nu = {}\ndof = 4\n", (squares / 4.0).sqrt()),
+            csv,
+        )
+    });
+    assert!(found <= 12, "{found} of 400");
+}
+
 #[test]
 fn repeats_that_agree_better_than_the_equation_tell() {
     let all = found(EXACT, &parabola(1.0, 0.001));

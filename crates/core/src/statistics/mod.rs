@@ -17,4 +17,4 @@ pub use crate::dd::Dd;
 pub use anova::{Group, Line, Of, OneWay, Policy, Ratio, Uncertainty, Verdict};
 pub use nested::{Nested, Verdicts};
 pub use outliers::{OutlierTest, Suspect};
-pub use readings::{Series, pooled, relative_scatter_of_s};
+pub use readings::{Serial, Series, pooled, relative_scatter_of_s};

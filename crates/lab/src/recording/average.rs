@@ -3,7 +3,7 @@
 use std::fmt;
 
 use gumption_core::special::student_t_sf;
-use gumption_core::statistics::{Dd, Series};
+use gumption_core::statistics::{Dd, Serial, Series};
 
 /// Longer series are taken in blocks of successive readings, so that their serial correlation takes
 /// no time that grows with the square of their length.
@@ -32,7 +32,8 @@ pub struct Average {
     /// with σ² = Σ(x − x̄)²/(n − n/effective). 0 where all readings are equal: their resolution is
     /// then another component.
     pub u: f64,
-    /// Degrees of freedom of `u`: `effective` − 1.
+    /// Degrees of freedom of `u`: of so many independent readings, or fewer where their number is an estimate
+    /// ([`Series::serial`]).
     pub dof: f64,
     /// The smallest reading.
     pub minimum: f64,
@@ -106,7 +107,7 @@ impl Average {
             autocorrelation: scatter.autocorrelation(),
             effective,
             u: (scatter.variance(1.0) / effective).sqrt(),
-            dof: scatter.effective_blocks - 1.0,
+            dof: scatter.dof,
             minimum: present.iter().copied().fold(f64::INFINITY, f64::min),
             maximum: present.iter().copied().fold(f64::NEG_INFINITY, f64::max),
         })
@@ -180,7 +181,8 @@ impl Drift {
             return None;
         }
         let scatter = Scatter::new(&residuals);
-        let dof = scatter.effective_blocks - 2.0;
+        // The slope takes up one more.
+        let dof = scatter.dof.min(scatter.effective_blocks - 2.0);
         if dof <= 0.0 {
             return None;
         }
@@ -211,6 +213,8 @@ struct Scatter {
     factor: f64,
     /// The number of independent blocks.
     effective_blocks: f64,
+    /// Degrees of freedom of the variance of the mean.
+    dof: f64,
 }
 
 impl Scatter {
@@ -220,17 +224,18 @@ impl Scatter {
         };
         let series = exact(readings);
         let n = readings.len() as f64;
-        let independent = |count: f64, series: &Series| match series.squares() > 0.0 {
-            // Two readings at least, or there would be no scatter.
-            true => (count / series.serial_factor()).max(2.0_f64.min(count)),
-            false => count,
+        // Two readings at least, or there would be no scatter.
+        let independent = |count: f64, series: &Series| {
+            let Serial { factor, dof } = series.serial();
+            ((count / factor).max(2.0_f64.min(count)), dof.max(1.0))
         };
         if readings.len() <= LONGEST {
-            let effective_blocks = independent(n, &series);
+            let (effective_blocks, dof) = independent(n, &series);
             return Scatter {
                 series,
                 factor: n / effective_blocks,
                 effective_blocks,
+                dof,
             };
         }
         let size = readings.len().div_ceil(LONGEST);
@@ -240,7 +245,7 @@ impl Scatter {
             .collect();
         let blocks = exact(&means);
         let count = means.len() as f64;
-        let effective_blocks = independent(count, &blocks);
+        let (effective_blocks, dof) = independent(count, &blocks);
         // The variance of the mean from the blocks, and from readings if they were independent.
         let of_mean = blocks.squares() / (count - count / effective_blocks) / effective_blocks;
         let of_independent = series.squares() / (n - 1.0) / n;
@@ -252,6 +257,7 @@ impl Scatter {
             series,
             factor,
             effective_blocks,
+            dof,
         }
     }
 

@@ -14,7 +14,7 @@ use crate::budget::variants::{Numbers, ReadingsOf};
 use crate::budget::{Finding, Outlier, Statistics};
 use gumption_core::distribution::{Distribution, StudentT};
 use gumption_core::quantity::{Decimal, Unit};
-use gumption_core::statistics::{Dd, OutlierTest, Series, pooled};
+use gumption_core::statistics::{Dd, OutlierTest, Serial, Series, pooled};
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
@@ -386,8 +386,7 @@ impl Checker<'_> {
         Some((s, dof))
     }
 
-    /// u of the mean of serially correlated readings (GUM 4.2.7): see [`Series::serial_factor`]. ν is that of
-    /// so many independent readings.
+    /// u of the mean of serially correlated readings (GUM 4.2.7): see [`Series::serial`].
     fn autocorrelated(
         &mut self,
         numbers: &[Dd],
@@ -425,7 +424,7 @@ impl Checker<'_> {
         }
         let n = numbers.len() as f64;
         let series = Series::new(numbers);
-        let factor = series.serial_factor();
+        let Serial { factor, dof } = series.serial();
         let effective = n / factor;
         if effective < 2.0 {
             return self.refuse(
@@ -445,7 +444,7 @@ impl Checker<'_> {
         let sigma = (series.squares() / (n - factor)).sqrt();
         let evaluated = Evaluated {
             u: sigma / effective.sqrt(),
-            dof: effective - 1.0,
+            dof,
             how: format!(
                 "σ/√n_eff, σ = {}, n = {n}, n_eff = {}",
                 show(sigma),

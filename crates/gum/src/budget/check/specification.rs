@@ -76,6 +76,7 @@ impl Checker<'_> {
         };
         let a = reading + range + counts + fixed;
         if a > 0.0 {
+            self.of_nothing(table, context);
             return Some(a);
         }
         self.refuse(
@@ -89,6 +90,22 @@ impl Checker<'_> {
                 "a part of a reading that is zero is nothing: state the half-width by itself, half_width = …"
             )),
         )
+    }
+
+    /// Whoever states a specification of a correction, whose value is zero, means a part of another quantity.
+    fn of_nothing(&mut self, table: &SpecificationTable, context: &Context<'_>) {
+        let of_reading = table.reading.as_ref().map(|part| &part.value);
+        let Some(part) =
+            of_reading.filter(|part| part.number != 0.0 && context.value() == Some(0.0))
+        else {
+            return;
+        };
+        let (unit, _) = part.unit.clone().unwrap_or_default();
+        self.remark(say!(
+            "{} {unit} of the value of {}, which is 0, is nothing. If the specification is one of another quantity, state it there, or this part of it as `fixed`.",
+            part.number,
+            context.owner
+        ));
     }
 
     /// A stated fraction of the reading or of the range.

@@ -428,11 +428,11 @@ impl Checker<'_> {
         if let (Some(due), Some(date)) = (&certificate.due, self.source.date.clone())
             && due[..10] < date[..10]
         {
-            let (number, owner) = (
-                certificate.number.clone().unwrap_or_default(),
-                context.owner,
-            );
-            self.remark(say!("The certificate {number} of {owner} was due on {due}, before the measurement on {date}."));
+            let owner = context.owner;
+            self.remark(match &certificate.number {
+                Some(number) => say!("The certificate {number} of {owner} was due on {due}, before the measurement on {date}."),
+                None => say!("The certificate of {owner} was due on {due}, before the measurement on {date}."),
+            });
         }
         certificate
     }

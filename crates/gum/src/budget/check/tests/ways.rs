@@ -132,6 +132,24 @@ fn specification_resolution_and_bits() {
 }
 
 #[test]
+fn a_part_of_a_value_that_is_zero_is_told_to_be_nothing() {
+    let remarks = |value: f64| {
+        let specification = "specification = { reading = \"0.01 %\", fixed = 0.001 }";
+        let text =
+            format!("[measurand.Y]\nmodel = \"X\"\n[input.X]\nvalue = {value}\n{specification}\n");
+        budget(&text).remarks
+    };
+    let found = remarks(0.0);
+    assert!(
+        found[0]
+            .to_string()
+            .contains("0.01 % of the value of X, which is 0"),
+        "{found:?}"
+    );
+    assert!(remarks(1.0).is_empty());
+}
+
+#[test]
 fn what_a_count_or_a_small_sample_is_taken_for_is_told() {
     let remarks = |keys: &str| {
         budget(&format!(

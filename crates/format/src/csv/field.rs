@@ -230,7 +230,13 @@ pub fn mend_of_number(field: &str) -> Option<Said> {
     let point = field.replace(',', ".");
     let minus = field.replace('−', "-");
     if field.contains(',') && like(&point) {
-        return Some(say!("write {point}, with a decimal point"));
+        let whole = field.replace(',', "");
+        return Some(match may_mark_thousands(field) {
+            true => say!(
+                "write {whole} if the comma marks thousands, {point} if it is the decimal sign"
+            ),
+            false => say!("write {point}, with a decimal point"),
+        });
     }
     let without = field.replace([',', '.', ' ', '\'', '\u{a0}', '\u{202f}'], "");
     if field.contains([',', ' ', '\'', '.', '\u{a0}', '\u{202f}'])
@@ -242,6 +248,18 @@ pub fn mend_of_number(field: &str) -> Option<Said> {
         ));
     }
     (field.contains('−') && like(&minus)).then(|| say!("write {minus}, with the hyphen as minus"))
+}
+
+/// Whether the comma of a number may stand between thousands: three digits behind it, and one to three before it that do not
+/// begin with 0.
+fn may_mark_thousands(field: &str) -> bool {
+    let is_digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
+    field.split_once(',').is_some_and(|(before, behind)| {
+        let before = before.trim_start_matches(['+', '-']);
+        let is_group =
+            (1..=3).contains(&before.len()) && !before.starts_with('0') && is_digits(before);
+        is_group && behind.len() == 3 && is_digits(behind)
+    })
 }
 
 /// How a field becomes a number.

@@ -41,6 +41,7 @@ pub mod faults;
 mod field;
 mod heading;
 mod pieces;
+mod preamble;
 mod reader;
 mod request;
 mod sheet;

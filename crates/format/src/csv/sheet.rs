@@ -9,6 +9,7 @@ use ::csv::{Position, Reader, ReaderBuilder, StringRecord, Trim};
 use memchr::{memchr_iter, memchr3};
 
 use super::faults::{NO_HEADER, NO_ROWS, ROW_LENGTH};
+use super::preamble;
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, Said, say};
 
@@ -78,6 +79,14 @@ impl<'a> Sheet<'a> {
                     )),
             )
         };
+        if let Some(names) = preamble::names_below(&text[first..]) {
+            let names = names + text[..first].lines().count();
+            let message =
+                say!("the names of the columns stand in line {names}, not in the first line");
+            let fault = Fault::new(NO_HEADER, whole.clone(), message);
+            let help = say!("delete the lines above line {names}, or begin each of them with #");
+            return Err(Box::new(fault.label(say!("expected names")).help(help)));
+        }
         let header = Rows::new(text, separator, 1)
             .next()
             .ok_or_else(|| missing(say!("the table is empty"), say!("no names of columns")))?

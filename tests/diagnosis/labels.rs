@@ -45,7 +45,7 @@ fn what_one_operator_makes_of_one_part_is_a_combination() {
             length + 0.01 * noise.normal()
         );
     }
-    let case = "equations = \"length = L + d\"\n[columns]\nlength = \"output\"\npart = \"factor\"\noperator = \"operator\"\n[parameter]\nL = { per = \"part\" }\nd = { per = \"operator\", value = 0, u = \"0.1 mm\" }\n";
+    let case = "equations = \"length = L + d\"\n[columns]\nlength = \"output\"\npart = \"factor\"\noperator = \"operator\"\n[parameter]\nL = { per = \"part\" }\nd = { per = \"operator\", value = \"0 mm\", u = \"0.1 mm\" }\n";
     let found = diagnosed("operator-and-part", &rows, case);
     assert_eq!(named(&found), [["combination-shift"]], "{found}");
     let variant = &found["effects"][0]["named"][0]["variants"][0];
@@ -58,7 +58,8 @@ fn a_delay_of_one_run_is_told_with_the_run() {
     let mut rows = "t [s],x [V],y [V],run\n".to_owned();
     for row in 0..180 {
         let (t, run) = (0.1 * f64::from(row), row / 60);
-        let course = |t: f64| 5.0 * libm::sin(0.8 * std::f64::consts::PI * t);
+        let turn = std::f64::consts::PI;
+        let course = |t: f64| 5.0 * libm::sin(0.8 * turn * t) + 2.0 * libm::sin(2.2 * turn * t);
         let late = if run == 1 { 0.06 } else { 0.0 };
         let y = 0.2 + 1.5 * course(t - late) + 0.08 * noise.normal();
         let _ = writeln!(rows, "{t:.1},{:.6},{y:.5},r{}", course(t), run + 1);

@@ -397,19 +397,13 @@ impl<'i> Inquiry<'i> {
         Some(Beside { base, claimed })
     }
 
-    /// Sizes by label of the effects that were found, and of those that are the likeliest to be alone: what only one run has is in all of
-    /// them together a part of itself. They may take the place of what was found, and do not add to it: of how many effects they
-    /// were taken no test knows.
+    /// Sizes by label of the effects that were found. They may take the place of what was found, and do not add to it: of how many
+    /// effects they were taken no test knows.
     fn split_by_label(&mut self) -> Result<(), Failure> {
         if self.found_nothing() || !ByLabel::may_split(&self.candidates.fitted) {
             return Ok(());
         }
-        let mut finer = Finer::default();
-        for atom in self.found_and_likeliest() {
-            let (cell, form) = (self.candidates.cell(atom), self.candidates.variation(atom));
-            finer.by_label.add(cell, form);
-        }
-        let other = self.beside_finer(finer);
+        let other = self.beside_finer(Finer::by_label(self.by_label()));
         let old = std::mem::replace(&mut self.candidates, other);
         let answer = self.asked_again(0.7, 0.7)?;
         match answer.beats(&self.answer) {
@@ -419,18 +413,25 @@ impl<'i> Inquiry<'i> {
         Ok(())
     }
 
-    /// The best form of each effect that was found, and of those that are the likeliest to be alone.
-    fn found_and_likeliest(&self) -> Vec<usize> {
-        let question = self
-            .candidates
-            .question(&self.answer.baseline, &self.settings);
-        let singles = evidence::singles(&question);
-        let singles = singles.iter().take(BEST);
-        let likeliest = singles.filter_map(|(_, one)| one.atoms.first().copied());
+    /// The effects that were found. Where these are several, or leave something open, also those that are the likeliest to be alone, in
+    /// their best forms: what only one run has is in all of them together a part of itself.
+    fn by_label(&self) -> ByLabel {
+        let mut forms = ByLabel::default();
         let slots = self.answer.examination.slots.iter();
-        let named = slots.flat_map(|slot| &slot.named);
-        let found = named.filter_map(|named| Some(named.variants.first()?.atom));
-        found.chain(likeliest).collect()
+        for named in slots.flat_map(|slot| &slot.named) {
+            forms.add(&self.candidates.cells[named.candidate]);
+        }
+        if self.answer.unexplained() > (0, 1) {
+            let question = self
+                .candidates
+                .question(&self.answer.baseline, &self.settings);
+            let singles = evidence::singles(&question);
+            let singles = singles.iter().take(BEST);
+            for atom in singles.filter_map(|(_, one)| one.atoms.first().copied()) {
+                forms.add_form(self.candidates.cell(atom), self.candidates.variation(atom));
+            }
+        }
+        forms
     }
 
     /// Shapes that lie between the steps of a grid: closer and closer.

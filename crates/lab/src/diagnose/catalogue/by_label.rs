@@ -1,21 +1,22 @@
 //! Effects whose size differs from one label to another: a delay of one run, a drift of one instrument. Offset and scale by label are
-//! effects of their own (`levels`); of all others this is asked once they were found.
+//! effects of their own (`levels`); of all others this is asked once something was found.
 
 use super::building::{HIGHER, kinds};
 use super::fitted::FittedModel;
 use super::levels::{Factor, of_instruments};
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 
-/// What was found, of which the sizes may differ.
+/// Forms of which the sizes may differ.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct ByLabel(Vec<Found>);
+pub struct ByLabel(Vec<Splitting>);
 
-/// One form of an effect.
+/// One form of an effect, or all.
 #[derive(Debug, Clone, PartialEq)]
-struct Found {
+struct Splitting {
     id: EffectId,
     words: Words,
-    label: String,
+    /// The label of the form; `None` for all of them.
+    form: Option<String>,
 }
 
 impl ByLabel {
@@ -24,31 +25,42 @@ impl ByLabel {
         !splitting(fitted).is_empty()
     }
 
-    /// Adds a form of an effect. Of what happens once, or under a label, nothing is left to be split; something without a name has no
-    /// form.
-    pub fn add(&mut self, cell: &Cell, form: &Variation) {
-        let is_everywhere = cell.effect.pattern.is_none() && form.of_labels.is_none();
-        let found = Found {
-            id: cell.effect.id,
-            words: cell.words.clone(),
-            label: form.label.clone(),
-        };
-        if is_everywhere && form.spectrum.is_none() && !self.0.contains(&found) {
-            self.0.push(found);
-        }
+    /// Adds an effect with all its forms.
+    pub fn add(&mut self, cell: &Cell) {
+        self.push(cell, None);
     }
 
-    /// Puts beside each form that was found those with a size of its own under each label of a column, and under one of them alone.
+    /// Adds one form of an effect.
+    pub fn add_form(&mut self, cell: &Cell, form: &Variation) {
+        self.push(cell, Some(form.label.clone()));
+    }
+
+    fn push(&mut self, cell: &Cell, form: Option<String>) {
+        self.0.push(Splitting {
+            id: cell.effect.id,
+            words: cell.words.clone(),
+            form,
+        });
+    }
+
+    /// Whether a form of an effect is one of them. Of what happens once, or under a label, nothing is left to be split; something
+    /// without a name has no form.
+    fn splits(&self, cell: &Cell, form: &Variation) -> bool {
+        let is_it = |one: &Splitting| {
+            let is_form = (one.form.as_ref()).is_none_or(|label| *label == form.label);
+            one.id == cell.effect.id && one.words == cell.words && is_form
+        };
+        cell.effect.pattern.is_none() && form.spectrum.is_none() && self.0.iter().any(is_it)
+    }
+
+    /// Puts beside each of the forms those with a size of its own under each label of a column, and under one of them alone.
     pub(super) fn split(&self, fitted: &FittedModel<'_>, cells: &mut [Cell]) {
         if self.0.is_empty() {
             return;
         }
         let factors = splitting(fitted);
         for cell in cells {
-            let own = self.0.iter();
-            let own = own.filter(|found| found.id == cell.effect.id && found.words == cell.words);
-            let forms =
-                own.filter_map(|found| cell.variants.iter().find(|form| form.label == found.label));
+            let forms = cell.variants.iter().filter(|form| self.splits(cell, form));
             let of = |form| {
                 factors
                     .iter()
@@ -63,7 +75,8 @@ impl ByLabel {
                 weight: form.weight * share,
                 ..form
             });
-            cell.variants.extend(split.collect::<Vec<Variation>>());
+            let split: Vec<Variation> = split.collect();
+            cell.variants.extend(split);
         }
     }
 }

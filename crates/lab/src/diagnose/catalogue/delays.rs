@@ -11,11 +11,13 @@ use super::{Modifier, Term, Variation};
 pub(super) fn of(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     let instant = Term::new(Node::Column(column), fitted.rate(column).negated());
     // Between the rows the course may have corners or none.
-    let law: Between = match is_smooth(&fitted.clock.values, fitted.numbers(column)) {
-        true => smoothly_delayed,
-        false => delayed,
-    };
-    let longer = longer(fitted, column, law);
+    let interval = fitted.clock.interval();
+    let (law, shortest): (Between, f64) =
+        match is_smooth(&fitted.clock.values, fitted.numbers(column)) {
+            true => (smoothly_delayed, interval / 4.0),
+            false => (delayed, interval),
+        };
+    let longer = longer(fitted, column, law, shortest);
     let alone = longer
         .iter()
         .map(|(by, late)| by_about(fitted, *by, vec![late.clone()]));
@@ -33,12 +35,17 @@ pub(super) fn of(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
 /// The course at an earlier time, from times and values and that time.
 type Between = fn(&[f64], &[f64], f64) -> Vec<f64>;
 
-/// Delays of more than an interval, with their terms.
-fn longer(fitted: &FittedModel<'_>, column: usize, between: Between) -> Vec<(f64, Term)> {
+/// Delays from the shortest one on, with their terms.
+fn longer(
+    fitted: &FittedModel<'_>,
+    column: usize,
+    between: Between,
+    shortest: f64,
+) -> Vec<(f64, Term)> {
     let (x, label) = (fitted.numbers(column), fitted.label(column));
     let t = &fitted.clock.values;
     let longest = (20.0 * fitted.clock.interval()).min(fitted.clock.span() / 20.0);
-    let sizes = grid(fitted.clock.interval(), longest, 1.6, 8);
+    let sizes = grid(shortest, longest, 1.6, 8);
     let late = |by: f64| {
         let then = between(t, x, by);
         let modifier = map2(&then, x, |then, now| (then - now) / by);

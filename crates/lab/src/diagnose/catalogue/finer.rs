@@ -16,7 +16,7 @@ const ROUNDED: f64 = 1e-4;
 pub struct Finer {
     around: Vec<Around>,
     /// Of which effects the size may differ from one label to another.
-    pub by_label: ByLabel,
+    pub(super) by_label: ByLabel,
 }
 
 /// Values about one that was found.
@@ -33,6 +33,14 @@ struct Around {
 }
 
 impl Finer {
+    /// Sizes that may differ by label.
+    pub fn by_label(by_label: ByLabel) -> Finer {
+        Finer {
+            by_label,
+            ..Finer::default()
+        }
+    }
+
     /// Adds the values between the parameter of a variation that was found and its neighbours in the cell.
     /// Whether there are any: a variation without a parameter has none.
     pub fn add(&mut self, cell: &Cell, found: &Variation) -> bool {

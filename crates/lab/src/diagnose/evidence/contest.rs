@@ -100,6 +100,7 @@ impl Course {
 
 /// One course, with all candidates seen through it.
 struct Seen<'c> {
+    at: usize,
     course: &'c Course,
     space: Space<'c>,
     /// No effect.
@@ -117,6 +118,7 @@ pub fn contest(
     found: f64,
 ) -> Contest {
     let alone: Vec<f64> = courses.iter().map(Course::log_posterior).collect();
+    let top = maximum(&alone);
     let see = |at: usize| {
         let question = Question {
             baseline: &courses[at].baseline,
@@ -131,6 +133,7 @@ pub fn contest(
         let gain = each.fold(0.0, f64::max);
         let two = Singles::new(&space).observed(&space);
         Seen {
+            at,
             course: &courses[at],
             alone: alone[at],
             with: alone[at] + gain.max(two).max(0.0),
@@ -138,9 +141,9 @@ pub fn contest(
             frame,
         }
     };
-    let seen: Vec<Seen<'_>> = side_by_side(courses.len(), see);
-    let with: Vec<f64> = seen.iter().map(|one| one.with).collect();
-    let (top, most) = (maximum(&alone), maximum(&with));
+    let mut with = vec![f64::NEG_INFINITY; courses.len()];
+    let likely = likely(&alone, see, &mut with);
+    let most = maximum(&with);
     // Which law makes the recordings: that normal errors need effects does not speak for heavy tails.
     let effect = found.max(most - top);
     let laws: Vec<(&Course, f64, f64)> = (courses.iter())
@@ -159,15 +162,39 @@ pub fn contest(
         draws: &draws,
         tails: &tails,
     };
-    let likely = |one: &&Seen<'_>| one.alone > top - HOPELESS || one.with > most - HOPELESS;
-    let likely = seen.iter().filter(likely);
-    let benches: Vec<Bench<'_>> = likely.map(|one| Bench::new(one, laws)).collect();
+    let benches: Vec<Bench<'_>> = likely.iter().map(|one| Bench::new(one, laws)).collect();
     let observed = most - top;
     Contest {
         chance: chance(&benches, observed, settings),
         alone,
         with,
     }
+}
+
+/// The courses that are not out of the question, in their order; of all of them the logarithm of the probability `with` the best effect.
+/// Candidates seen through one course take much room: the likeliest come first, so that few others are kept for long.
+fn likely<'c>(
+    alone: &[f64],
+    see: impl Fn(usize) -> Seen<'c> + Sync,
+    with: &mut [f64],
+) -> Vec<Seen<'c>> {
+    /// Courses that are looked at side by side.
+    const AT_ONCE: usize = 8;
+    let top = maximum(alone);
+    let mut order: Vec<usize> = (0..alone.len()).collect();
+    order.sort_by(|a, b| alone[*b].total_cmp(&alone[*a]));
+    let mut kept: Vec<Seen<'c>> = Vec::new();
+    let mut most = f64::NEG_INFINITY;
+    for next in order.chunks(AT_ONCE) {
+        for one in side_by_side(next.len(), |place| see(next[place])) {
+            with[one.at] = one.with;
+            most = most.max(one.with);
+            kept.push(one);
+        }
+        kept.retain(|one| one.alone > top - HOPELESS || one.with > most - HOPELESS);
+    }
+    kept.sort_by_key(|one| one.at);
+    kept
 }
 
 /// How likely it is that the best effect gains as much in recordings with nothing but noise, the course chosen anew in each.

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::candidates::{Candidates, baseline, settings};
 use super::case::Case;
-use super::catalogue::{ByLabel, Cell, Finer, FittedModel, generics, readout};
+use super::catalogue::{Cell, Finer, FittedModel, Forms, generics, may_split, readout};
 use super::coarse::Coarse;
 use super::confirm::along;
 use super::design::Design;
@@ -400,7 +400,7 @@ impl<'i> Inquiry<'i> {
     /// Sizes by label of the effects that were found. They may take the place of what was found, and do not add to it: of how many
     /// effects they were taken no test knows.
     fn split_by_label(&mut self) -> Result<(), Failure> {
-        if self.found_nothing() || !ByLabel::may_split(&self.candidates.fitted) {
+        if self.found_nothing() || !may_split(&self.candidates.fitted) {
             return Ok(());
         }
         let other = self.beside_finer(Finer::by_label(self.by_label()));
@@ -415,8 +415,8 @@ impl<'i> Inquiry<'i> {
 
     /// The effects that were found. Where these are several, or leave something open, also those that are the likeliest to be alone, in
     /// their best forms: what only one run has is in all of them together a part of itself.
-    fn by_label(&self) -> ByLabel {
-        let mut forms = ByLabel::default();
+    fn by_label(&self) -> Forms {
+        let mut forms = Forms::default();
         let slots = self.answer.examination.slots.iter();
         for named in slots.flat_map(|slot| &slot.named) {
             forms.add(&self.candidates.cells[named.candidate]);

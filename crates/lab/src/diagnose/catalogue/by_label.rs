@@ -4,80 +4,42 @@
 use super::building::{HIGHER, kinds};
 use super::fitted::FittedModel;
 use super::levels::{Factor, of_instruments};
-use super::{Cell, EffectId, Modifier, Term, Variation, Words};
+use super::{Cell, Modifier, Term, Variation};
 
-/// Forms of which the sizes may differ.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct ByLabel(Vec<Splitting>);
-
-/// One form of an effect, or all.
-#[derive(Debug, Clone, PartialEq)]
-struct Splitting {
-    id: EffectId,
-    words: Words,
-    /// The label of the form; `None` for all of them.
-    form: Option<String>,
+/// Whether there are labels under which sizes may differ.
+pub fn may_split(fitted: &FittedModel<'_>) -> bool {
+    !splitting(fitted).is_empty()
 }
 
-impl ByLabel {
-    /// Whether there are labels under which sizes may differ.
-    pub fn may_split(fitted: &FittedModel<'_>) -> bool {
-        !splitting(fitted).is_empty()
+/// Puts beside each form of which the size may differ those with a size of its own under each label of a column, and under one of them
+/// alone. Of what happens once, or under a label, nothing is left to be split; something without a name has no form.
+pub(super) fn split(fitted: &FittedModel<'_>, cells: &mut [Cell]) {
+    let asked = &fitted.finer.by_label;
+    if asked.is_empty() {
+        return;
     }
-
-    /// Adds an effect with all its forms.
-    pub fn add(&mut self, cell: &Cell) {
-        self.push(cell, None);
-    }
-
-    /// Adds one form of an effect.
-    pub fn add_form(&mut self, cell: &Cell, form: &Variation) {
-        self.push(cell, Some(form.label.clone()));
-    }
-
-    fn push(&mut self, cell: &Cell, form: Option<String>) {
-        self.0.push(Splitting {
-            id: cell.effect.id,
-            words: cell.words.clone(),
-            form,
-        });
-    }
-
-    /// Whether a form of an effect is one of them. Of what happens once, or under a label, nothing is left to be split; something
-    /// without a name has no form.
-    fn splits(&self, cell: &Cell, form: &Variation) -> bool {
-        let is_it = |one: &Splitting| {
-            let is_form = (one.form.as_ref()).is_none_or(|label| *label == form.label);
-            one.id == cell.effect.id && one.words == cell.words && is_form
+    let factors = splitting(fitted);
+    let splits = |cell: &Cell, form: &Variation| {
+        cell.effect.pattern.is_none() && form.spectrum.is_none() && asked.has(cell, form)
+    };
+    for cell in cells {
+        let forms = cell.variants.iter().filter(|form| splits(cell, form));
+        let of = |form| {
+            factors
+                .iter()
+                .flat_map(move |factor| [vec![each(form, factor)], single(form, factor)])
         };
-        cell.effect.pattern.is_none() && form.spectrum.is_none() && self.0.iter().any(is_it)
-    }
-
-    /// Puts beside each of the forms those with a size of its own under each label of a column, and under one of them alone.
-    pub(super) fn split(&self, fitted: &FittedModel<'_>, cells: &mut [Cell]) {
-        if self.0.is_empty() {
-            return;
-        }
-        let factors = splitting(fitted);
-        for cell in cells {
-            let forms = cell.variants.iter().filter(|form| self.splits(cell, form));
-            let of = |form| {
-                factors
-                    .iter()
-                    .flat_map(move |factor| [vec![each(form, factor)], single(form, factor)])
-            };
-            let split = kinds(forms.flat_map(of));
-            let all: f64 = split.iter().map(|form| form.weight).sum();
-            let whole: f64 = cell.variants.iter().map(|form| form.weight).sum();
-            // All of them together, beside the forms that are the same everywhere.
-            let share = HIGHER * whole / all;
-            let split = split.into_iter().map(|form| Variation {
-                weight: form.weight * share,
-                ..form
-            });
-            let split: Vec<Variation> = split.collect();
-            cell.variants.extend(split);
-        }
+        let split = kinds(forms.flat_map(of));
+        let all: f64 = split.iter().map(|form| form.weight).sum();
+        let whole: f64 = cell.variants.iter().map(|form| form.weight).sum();
+        // All of them together, beside the forms that are the same everywhere.
+        let share = HIGHER * whole / all;
+        let split = split.into_iter().map(|form| Variation {
+            weight: form.weight * share,
+            ..form
+        });
+        let split: Vec<Variation> = split.collect();
+        cell.variants.extend(split);
     }
 }
 

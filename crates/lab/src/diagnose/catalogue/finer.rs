@@ -1,9 +1,8 @@
-//! What is tried beside the grids: values between theirs. Variants step through time constants and knees; where an effect was found,
-//! the values about it are tried as well, in that effect alone.
+//! What is tried beside the grids once something was found. Variants step through time constants and knees: the values about the one
+//! that was found, in that effect alone. Sizes are the same everywhere: those of some effects by label as well (`by_label`).
 
-use super::by_label::ByLabel;
 use super::modifiers::range;
-use super::{Cell, EffectId, ShapeParameter, Variation};
+use super::{Cell, EffectId, ShapeParameter, Variation, Words};
 
 /// Parts into which the distance from a value to its neighbours is divided.
 const PARTS: usize = 4;
@@ -16,7 +15,20 @@ const ROUNDED: f64 = 1e-4;
 pub struct Finer {
     around: Vec<Around>,
     /// Of which effects the size may differ from one label to another.
-    pub(super) by_label: ByLabel,
+    pub(super) by_label: Forms,
+}
+
+/// Forms of effects: some of them, or all.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Forms(Vec<Asked>);
+
+/// One form of an effect, or all.
+#[derive(Debug, Clone, PartialEq)]
+struct Asked {
+    id: EffectId,
+    words: Words,
+    /// The label of the form; `None` for all of them.
+    form: Option<String>,
 }
 
 /// Values about one that was found.
@@ -32,9 +44,42 @@ struct Around {
     is_kept: bool,
 }
 
+impl Forms {
+    /// Adds all forms of an effect.
+    pub fn add(&mut self, cell: &Cell) {
+        self.push(cell, None);
+    }
+
+    /// Adds one form of an effect.
+    pub fn add_form(&mut self, cell: &Cell, form: &Variation) {
+        self.push(cell, Some(form.label.clone()));
+    }
+
+    fn push(&mut self, cell: &Cell, form: Option<String>) {
+        self.0.push(Asked {
+            id: cell.effect.id,
+            words: cell.words.clone(),
+            form,
+        });
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Whether a form of an effect is one of them.
+    pub(super) fn has(&self, cell: &Cell, form: &Variation) -> bool {
+        let is_it = |one: &Asked| {
+            let is_form = (one.form.as_ref()).is_none_or(|label| *label == form.label);
+            one.id == cell.effect.id && one.words == cell.words && is_form
+        };
+        self.0.iter().any(is_it)
+    }
+}
+
 impl Finer {
     /// Sizes that may differ by label.
-    pub fn by_label(by_label: ByLabel) -> Finer {
+    pub fn by_label(by_label: Forms) -> Finer {
         Finer {
             by_label,
             ..Finer::default()

@@ -67,9 +67,9 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-pub use by_label::ByLabel;
+pub use by_label::may_split;
 pub use effect::{Effect, EffectId, Kind, Pattern, Text, Usual, effects};
-pub use finer::Finer;
+pub use finer::{Finer, Forms};
 pub use fitted::{FittedModel, Node, signal};
 
 use super::case::Case;
@@ -409,7 +409,7 @@ pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     cells.retain(|cell| !cell.variants.is_empty() && settings.admits(cell.effect));
     let mut cells = distinct(cells);
     fitted.finer.prune(&mut cells);
-    fitted.finer.by_label.split(fitted, &mut cells);
+    by_label::split(fitted, &mut cells);
     cells.extend(generics::cells(fitted));
     cells.extend(inputs::unnamed(fitted));
     cells

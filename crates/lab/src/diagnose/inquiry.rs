@@ -403,7 +403,11 @@ impl<'i> Inquiry<'i> {
         if self.found_nothing() || !may_split(&self.candidates.fitted) {
             return Ok(());
         }
-        let other = self.beside_finer(Finer::by_label(self.by_label()));
+        let forms = self.by_label();
+        if forms.is_empty() {
+            return Ok(());
+        }
+        let other = self.beside_finer(Finer::by_label(forms));
         let old = std::mem::replace(&mut self.candidates, other);
         let answer = self.asked_again(0.7, 0.7)?;
         match answer.beats(&self.answer) {

@@ -12,18 +12,15 @@ pub fn may_split(fitted: &FittedModel<'_>) -> bool {
 }
 
 /// Puts beside each form of which the size may differ those with a size of its own under each label of a column, and under one of them
-/// alone. Of what happens once, or under a label, nothing is left to be split; something without a name has no form.
+/// alone.
 pub(super) fn split(fitted: &FittedModel<'_>, cells: &mut [Cell]) {
     let asked = &fitted.finer.by_label;
     if asked.is_empty() {
         return;
     }
     let factors = splitting(fitted);
-    let splits = |cell: &Cell, form: &Variation| {
-        cell.effect.pattern.is_none() && form.spectrum.is_none() && asked.has(cell, form)
-    };
     for cell in cells {
-        let forms = cell.variants.iter().filter(|form| splits(cell, form));
+        let forms = cell.variants.iter().filter(|form| asked.has(cell, form));
         let of = |form| {
             factors
                 .iter()

@@ -45,35 +45,38 @@ struct Around {
 }
 
 impl Forms {
-    /// Adds all forms of an effect.
+    /// Adds all forms of an effect, unless it happens once, or under a label.
     pub fn add(&mut self, cell: &Cell) {
         self.push(cell, None);
     }
 
-    /// Adds one form of an effect.
+    /// Adds one form of such an effect.
     pub fn add_form(&mut self, cell: &Cell, form: &Variation) {
         self.push(cell, Some(form.label.clone()));
     }
 
     fn push(&mut self, cell: &Cell, form: Option<String>) {
-        self.0.push(Asked {
-            id: cell.effect.id,
-            words: cell.words.clone(),
-            form,
-        });
+        if cell.effect.pattern.is_none() {
+            self.0.push(Asked {
+                id: cell.effect.id,
+                words: cell.words.clone(),
+                form,
+            });
+        }
     }
 
-    pub(super) fn is_empty(&self) -> bool {
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Whether a form of an effect is one of them.
+    /// Whether a form of an effect is one of them; what has no name has none.
     pub(super) fn has(&self, cell: &Cell, form: &Variation) -> bool {
         let is_it = |one: &Asked| {
             let is_form = (one.form.as_ref()).is_none_or(|label| *label == form.label);
             one.id == cell.effect.id && one.words == cell.words && is_form
         };
-        self.0.iter().any(is_it)
+        form.spectrum.is_none() && self.0.iter().any(is_it)
     }
 }
 

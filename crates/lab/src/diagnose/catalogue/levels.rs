@@ -191,12 +191,7 @@ fn combinations(fitted: &FittedModel<'_>, factors: [&Factor<'_>; 2]) -> Vec<Cell
     let nodes = fitted.offset_and_scale().into_iter().zip(ids);
     let columns = factors.map(|factor| factor.index);
     let cells = nodes.map(|(node, id)| pair(fitted, id, columns, node, forms.clone()));
-    cells
-        .map(|cell| Cell {
-            odds: HIGHER,
-            ..cell
-        })
-        .collect()
+    cells.collect()
 }
 
 /// From one level on, with more than one level on both sides.

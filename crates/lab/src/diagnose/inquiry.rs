@@ -410,7 +410,7 @@ impl<'i> Inquiry<'i> {
         let other = self.beside_finer(Finer::by_label(forms));
         let old = std::mem::replace(&mut self.candidates, other);
         let answer = self.asked_again(0.7, 0.7)?;
-        match answer.beats(&self.answer) {
+        match answer.replaces(&self.answer) {
             true => self.answer = answer,
             false => self.candidates = old,
         }
@@ -603,6 +603,14 @@ impl Answer {
                 Ordering::Equal => likelier,
                 Ordering::Greater => false,
             }
+    }
+
+    /// With forms that bend more easily: needs no more effects, and is the likelier one.
+    fn replaces(&self, other: &Answer) -> bool {
+        let is_likelier = self.log_posterior() > other.log_posterior();
+        self.examination.fitted.is_some()
+            && is_likelier
+            && self.unexplained() <= other.unexplained()
     }
 
     /// How many effects with names are in the model that was found.

@@ -40,11 +40,16 @@ pub(super) fn split(fitted: &FittedModel<'_>, cells: &mut [Cell]) {
     }
 }
 
-/// Columns of labels that have more rows each than the root of all, on average: what fewer carry looks like single wild readings.
+/// Columns of labels that have more rows each than the root of all, on average: what fewer carry looks like single wild readings. Where
+/// a recording is held out, those of which it has no other labels: of a size in a run to come it would tell nothing.
 fn splitting<'f>(fitted: &FittedModel<'f>) -> Vec<Factor<'f>> {
     let rows = fitted.design.blocks.len();
+    let held_out = fitted.case().held_out.as_ref();
     let mut factors = of_instruments(fitted, (1, 2));
-    factors.retain(|factor| factor.levels.len().pow(2) <= rows);
+    factors.retain(|factor| {
+        let held_out = held_out.and_then(|held_out| held_out.rows.data.get(factor.index));
+        factor.levels.len().pow(2) <= rows && held_out.is_none_or(|other| factor.has_all(other))
+    });
     factors
 }
 

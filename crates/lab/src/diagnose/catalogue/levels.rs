@@ -4,12 +4,12 @@ use super::building::{HIGHER, form, kinds, on_node, pair};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{flag, map, map2};
 use super::{Cell, EffectId, Modifier, Variation};
-use crate::diagnose::case::{Column, Role};
+use crate::diagnose::case::{Column, Data, Role};
 use crate::recording::Labels;
 
 /// A column of labels, with those that occur in its rows.
 pub(super) struct Factor<'f> {
-    index: usize,
+    pub(super) index: usize,
     pub(super) column: &'f Column,
     labels: &'f Labels,
     pub(super) levels: Vec<u32>,
@@ -48,6 +48,12 @@ pub(super) fn of_instruments<'f>(
 impl Factor<'_> {
     pub(super) fn text(&self, level: u32) -> &str {
         (self.labels.levels.get(level as usize)).map_or("", String::as_str)
+    }
+
+    /// Whether other rows have no other labels.
+    pub(super) fn has_all(&self, rows: &Data) -> bool {
+        let is_own = |label: &str| self.levels.iter().any(|level| self.text(*level) == label);
+        matches!(rows, Data::Labels(labels) if labels.texts().all(is_own))
     }
 
     /// 1 in the rows of a level.

@@ -1,5 +1,6 @@
 //! What is tried beside the grids once something was found. Variants step through time constants and knees: the values about the one
-//! that was found, in that effect alone. Sizes are the same everywhere: those of some effects by label as well (`by_label`).
+//! that was found, in that effect alone. An effect has one size in all rows: some are asked for with a size for each label, too
+//! (`by_label`).
 
 use super::modifiers::range;
 use super::{Cell, EffectId, ShapeParameter, Variation, Words};

@@ -3,7 +3,9 @@
 use std::fmt::Write;
 
 use crate::common::Noise;
-use crate::common::cases::{diagnosed_with as diagnosed, first_names, named_apart as named};
+use crate::common::cases::{
+    diagnosed as in_folder, diagnosed_with as diagnosed, first_names, folder, named_apart as named,
+};
 
 #[test]
 fn instruments_that_were_exchanged_in_one_run_show_in_its_combinations() {
@@ -57,19 +59,103 @@ fn what_one_operator_makes_of_one_part_is_a_combination() {
     assert_eq!(variant["label"], "part p3, operator Li", "{found}");
 }
 
-#[test]
-fn a_delay_of_one_run_is_told_with_the_run() {
-    let mut noise = Noise(73);
+/// Rows of three runs over one course, the output of each following it in a way of its own.
+fn three_runs(seed: u64, course: impl Fn(f64) -> f64, output: impl Fn(u32, f64) -> f64) -> String {
+    let mut noise = Noise(seed);
     let mut rows = "t [s],x [V],y [V],run\n".to_owned();
     for row in 0..180 {
-        let (t, run) = (0.1 * f64::from(row), row / 60);
-        let course = |t: f64| 5.0 * libm::sin(0.8 * std::f64::consts::PI * t);
-        let late = if run == 1 { 0.06 } else { 0.0 };
-        let y = 0.2 + 1.5 * course(t - late) + 0.08 * noise.normal();
-        let _ = writeln!(rows, "{t:.1},{:.6},{y:.5},r{}", course(t), run + 1);
+        let (t, run) = (0.1 * f64::from(row), row / 60 + 1);
+        let y = 0.2 + 1.5 * output(run, t) + 0.08 * noise.normal();
+        let _ = writeln!(rows, "{t:.1},{:.6},{y:.5},r{run}", course(t));
     }
-    let case = "equations = \"y = z + s*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\nt = \"time\"\nrun = \"run\"\n[noise]\nu = \"0.08 V\"\n";
-    let found = diagnosed("delay-of-a-run", &rows, case);
+    rows
+}
+
+const THREE_RUNS: &str = "equations = \"y = z + s*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\nt = \"time\"\nrun = \"run\"\n[noise]\nu = \"0.08 V\"\n";
+
+/// A course without corners, of two frequencies.
+fn two_waves(t: f64) -> f64 {
+    4.0 * libm::sin(2.2 * t) + 2.0 * libm::sin(5.3 * t + 1.0)
+}
+
+/// What follows it behind one time constant, in balance with it since long ago.
+fn two_waves_behind(tau: f64, t: f64) -> f64 {
+    let late = |size: f64, w: f64, phase: f64| {
+        let lags = libm::atan(w * tau);
+        size * libm::cos(lags) * libm::sin(w * t + phase - lags)
+    };
+    late(4.0, 2.2, 0.0) + late(2.0, 5.3, 1.0)
+}
+
+/// The only effect that a diagnosis names, under which label, its shape, and its size.
+fn only_effect(found: &serde_json::Value) -> (String, String, f64, f64) {
+    let effects = found["effects"].as_array().unwrap();
+    let [effect] = &effects[..] else {
+        panic!("{found}")
+    };
+    let first = &effect["named"][0];
+    let label = first["variants"][0]["label"].as_str().unwrap().to_owned();
+    let words = label.split([' ', ',']).filter_map(|word| word.parse().ok());
+    let shape = words.last().unwrap();
+    let size = first["size"][0].as_f64().unwrap();
+    (first["id"].as_str().unwrap().to_owned(), label, shape, size)
+}
+
+#[test]
+fn a_delay_of_one_run_is_as_long_as_its_size_says() {
+    // Over all runs it looks like another one, and is longer than an interval of the rows.
+    let output = |run, t| two_waves(if run == 2 { t - 0.33 } else { t });
+    let rows = three_runs(74, two_waves, output);
+    let found = diagnosed("long-delay-of-a-run", &rows, THREE_RUNS);
+    let (id, label, shape, size) = only_effect(&found);
+    assert_eq!(id, "timing-skew", "{found}");
+    assert!(label.ends_with("only in run r2"), "{label}");
+    assert!((shape - 0.33).abs() < 0.02, "{label}");
+    assert!((size - 0.33).abs() < 0.02, "{size}");
+}
+
+#[test]
+fn a_lag_of_one_run_has_its_time_constant() {
+    for tau in [0.3, 1.4] {
+        let output = |run, t| match run {
+            3 => two_waves_behind(tau, t),
+            _ => two_waves(t),
+        };
+        let rows = three_runs(75, two_waves, output);
+        let found = diagnosed("lag-of-a-run", &rows, THREE_RUNS);
+        let (id, label, shape, _) = only_effect(&found);
+        assert_eq!(id, "lag", "{found}");
+        assert!(label.ends_with("only in run r3"), "{label}");
+        assert!((shape / tau - 1.0).abs() < 0.1, "{label}");
+    }
+}
+
+#[test]
+fn what_a_held_out_recording_has_no_labels_for_is_no_matter_of_labels() {
+    let output = |run, t| two_waves(if run == 2 { t - 0.33 } else { t });
+    let folder = folder("labels-held-out");
+    let rows = three_runs(76, two_waves, output);
+    std::fs::write(folder.join("recording.csv"), &rows).unwrap();
+    let later = three_runs(77, two_waves, |_, t| two_waves(t));
+    let case = format!(
+        "recording = \"recording.csv\"\nheld_out = {{ file = \"later.csv\" }}\n{THREE_RUNS}"
+    );
+    let by_label = |later: &str| {
+        std::fs::write(folder.join("later.csv"), later).unwrap();
+        in_folder(&folder, &case)
+            .to_string()
+            .contains("only in run")
+    };
+    assert!(by_label(&later));
+    assert!(!by_label(&later.replace(",r1\n", ",s\n")));
+}
+
+#[test]
+fn a_delay_of_one_run_is_told_with_the_run() {
+    let course = |t: f64| 5.0 * libm::sin(0.8 * std::f64::consts::PI * t);
+    let output = |run, t| course(if run == 2 { t - 0.06 } else { t });
+    let rows = three_runs(73, course, output);
+    let found = diagnosed("delay-of-a-run", &rows, THREE_RUNS);
     // A lag of one time constant does nearly the same to one frequency.
     let listed = named(&found);
     let [listed] = &listed[..] else {

@@ -74,18 +74,6 @@ pub(super) fn adopt_named(
 }
 
 impl Adopted {
-    /// Whether it predicts parts of the recording that its fit had not seen worse than the declared model does. ln s² of n
-    /// errors has the variance 2/n, so that the difference of two is beyond this in 5 % of equally good predictions, at most.
-    pub(super) fn predicts_worse(&self, before: &Quality) -> bool {
-        const QUANTILE: f64 = 1.645;
-        let squares = |quality: &Quality| -> f64 {
-            let scaled = quality.held_out.iter().zip(&before.expected);
-            scaled.map(|(e, s)| (e / s) * (e / s)).sum()
-        };
-        let beyond = libm::exp(QUANTILE * 2.0 / (self.fit.residuals.len() as f64).sqrt());
-        squares(&self.quality) > beyond * squares(before)
-    }
-
     /// The recording reduced to what it leaves, its unknowns in the order of the declared ones and then the adopted
     /// coefficients.
     pub(super) fn baseline(&self, claimed: &Claimed) -> Option<Baseline> {

@@ -13,6 +13,8 @@ use super::noise::Claimed;
 pub struct Quality {
     /// χ² with the claimed noise.
     pub chi_squared: f64,
+    /// How many there are.
+    pub observations: usize,
     /// Observations less parameters.
     pub dof: f64,
     /// Root mean square of the residuals, for each response.
@@ -28,6 +30,18 @@ impl Quality {
     pub fn reduced(&self) -> f64 {
         self.chi_squared / self.dof
     }
+
+    /// Whether parts of the recording that the fit had not seen are predicted worse than by another model. ln s² of n errors has the
+    /// variance 2/n, so that the difference of two is beyond this in 5 % of equally good predictions, at most.
+    pub(super) fn predicts_worse(&self, other: &Quality) -> bool {
+        const QUANTILE: f64 = 1.645;
+        let squares = |quality: &Quality| -> f64 {
+            let scaled = quality.held_out.iter().zip(&other.expected);
+            scaled.map(|(e, s)| (e / s) * (e / s)).sum()
+        };
+        let beyond = libm::exp(QUANTILE * 2.0 / (self.observations as f64).sqrt());
+        squares(self) > beyond * squares(other)
+    }
 }
 
 /// Parts into which observations are divided for the prediction of what was held out.
@@ -37,6 +51,7 @@ const FOLDS: usize = 10;
 pub(super) fn quality(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Quality {
     Quality {
         chi_squared: chi_squared(fit, claimed),
+        observations: design.observations(),
         dof: degrees(design),
         residual: design.root_mean_squares(&fit.residuals),
         expected: design.root_mean_squares(&claimed.u),
@@ -156,22 +171,13 @@ fn held_out(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> DVector<f64> {
     errors
 }
 
-/// Rows of the observations in units of their noise.
-pub(super) fn over_noise(rows: &DMatrix<f64>, u: &DVector<f64>) -> DMatrix<f64> {
-    let mut rows = rows.clone();
-    for (mut row, u) in rows.row_iter_mut().zip(u) {
-        row /= *u;
-    }
-    rows
-}
-
 /// What of the observations lies along finite columns, by least squares in units of their noise.
 pub(super) fn along(
     columns: &DMatrix<f64>,
     observed: &DVector<f64>,
     u: &DVector<f64>,
 ) -> DVector<f64> {
-    columns * (evidence::inverse(&over_noise(columns, u)) * observed.component_div(u))
+    columns * (evidence::inverse(&evidence::over_noise(columns, u)) * observed.component_div(u))
 }
 
 /// Covariance matrix of the unknowns with the claimed noise; what the recording does not determine has no part in it.
@@ -182,7 +188,7 @@ pub(super) fn covariance(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> D
             None => baseline.covariance(),
         };
     }
-    let mut rows = over_noise(&fit.jacobian, &claimed.u);
+    let mut rows = evidence::over_noise(&fit.jacobian, &claimed.u);
     for (at, unknown) in design.unknowns.iter().enumerate() {
         if let Some((_, u)) = unknown.prior {
             rows = rows.insert_row(0, 0.0);
@@ -196,6 +202,22 @@ pub(super) fn covariance(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> D
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn predictions_are_worse_beyond_chance_alone() {
+        let quality = |held_out: f64| Quality {
+            chi_squared: 100.0,
+            observations: 100,
+            dof: 98.0,
+            residual: vec![1.0],
+            expected: vec![1.0],
+            held_out: vec![held_out],
+        };
+        // exp(1.645·2/√100) = 1.3896, of squares.
+        let before = quality(1.0);
+        assert!(!quality(1.17).predicts_worse(&before));
+        assert!(quality(1.19).predicts_worse(&before));
+    }
 
     #[test]
     fn laws_that_disagree_cost_degrees_of_freedom() {

@@ -13,7 +13,7 @@ use super::catalogue::{self, Cell, FittedModel, Pattern, Term, Variation};
 use super::coarse::Coarse;
 use super::confirm;
 use super::design::{Design, Unknown};
-use super::evidence::{Alternative, Examination, Fitted};
+use super::evidence::{Alternative, Examination, Fitted, over_noise};
 use super::explanation::CONTENDERS;
 use super::fit::{self, Fit};
 use super::noise::Claimed;
@@ -142,7 +142,7 @@ impl Known<'_> {
             _ => 0.0,
         };
         let covariance = DMatrix::from_fn(places.len(), places.len(), covariance);
-        let slopes = confirm::over_noise(&fit.jacobian, &claimed.u);
+        let slopes = over_noise(&fit.jacobian, &claimed.u);
         let errors = fit.residuals.component_div(&claimed.u);
         let chi_squared = chi_squared(&errors, slopes, &covariance);
         Prediction {

@@ -10,9 +10,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::candidates::{Candidates, baseline, settings};
 use super::case::Case;
-use super::catalogue::{Cell, Finer, FittedModel, Forms, generics, may_split, readout};
+use super::catalogue::{
+    Cell, Finer, FittedModel, Forms, closer, generics, may_split, readout, under_one_label,
+};
 use super::coarse::Coarse;
-use super::confirm::along;
+use super::confirm::{self, Quality, along};
 use super::design::Design;
 use super::evidence::{
     self, Atom, Baseline, Examination, Fitted, Located, Question, Settings, Shape, TRACE, Verdict,
@@ -47,7 +49,7 @@ pub(super) struct Declared<'d> {
     pub coarse: &'d Coarse<'d>,
     pub seen: &'d Design<'d>,
     /// Room for the model beside what was found, as the catalogue sees it: where slopes are taken anew.
-    pub beside: &'d [OnceCell<Fit>; 2],
+    pub beside: &'d [OnceCell<Fit>; 3],
     /// The residuals with the noise of that fit.
     pub white: &'d Baseline,
 }
@@ -282,17 +284,29 @@ impl<'i> Inquiry<'i> {
         if !self.found_nothing() && !self.is_linear() {
             besides.extend(self.beside_one());
         }
-        for (room, Beside { base, claimed }) in self.declared.beside.iter().zip(besides) {
-            let base = room.get_or_init(|| base);
-            let fitted = FittedModel::new(self.declared.seen, base);
-            let mut candidates = Candidates::new(fitted, &claimed, self.declared.white);
-            let part = part(self.progress, 0.7, 0.7);
-            let answer = ask(&mut candidates, claimed, &self.settings, &part)?;
-            if answer.beats(&self.answer) {
-                self.take(candidates, answer, base)?;
-            }
+        let [found, one, _] = self.declared.beside;
+        for (room, beside) in [found, one].into_iter().zip(besides) {
+            self.linearise_beside(room, beside)?;
         }
         Ok(())
+    }
+
+    /// Takes what is found with the slopes beside effects, if it is better.
+    fn linearise_beside(
+        &mut self,
+        room: &'i OnceCell<Fit>,
+        Beside { base, claimed }: Beside,
+    ) -> Result<(), Failure> {
+        let base = room.get_or_init(|| base);
+        let finer = self.candidates.fitted.finer.clone();
+        let fitted = FittedModel::new(self.declared.seen, base).refined(finer);
+        let mut candidates = Candidates::new(fitted, &claimed, self.declared.white);
+        let part = part(self.progress, 0.7, 0.7);
+        let answer = ask(&mut candidates, claimed, &self.settings, &part)?;
+        match answer.beats(&self.answer) {
+            true => self.take(candidates, answer, base),
+            false => Ok(()),
+        }
     }
 
     /// Whether the slopes of the model by its parameters and by its columns are the same everywhere.
@@ -407,32 +421,46 @@ impl<'i> Inquiry<'i> {
         if forms.is_empty() {
             return Ok(());
         }
-        let other = self.beside_finer(Finer::by_label(forms));
+        let fitted = FittedModel::new(self.declared.seen, self.fit).refined(Finer::by_label(forms));
+        let other = Candidates::new(closer(fitted), &self.answer.claimed, self.declared.white);
         let old = std::mem::replace(&mut self.candidates, other);
         let answer = self.asked_again(0.7, 0.7)?;
-        match answer.replaces(&self.answer) {
-            true => self.answer = answer,
-            false => self.candidates = old,
+        let predicts_worse =
+            || quality(&self.candidates, &answer).predicts_worse(&quality(&old, &self.answer));
+        if !answer.replaces(&self.answer) || predicts_worse() {
+            self.candidates = old;
+            return Ok(());
         }
-        Ok(())
+        self.answer = answer;
+        // The slopes so far may have been taken beside what was replaced.
+        let [.., by_label] = self.declared.beside;
+        let found = self.answer.examination.fitted.as_ref();
+        match found.and_then(|found| self.beside(found)) {
+            Some(beside) => self.linearise_beside(by_label, beside),
+            None => Ok(()),
+        }
     }
 
-    /// The effects that were found. Where these are several, or leave something open, also those that are the likeliest to be alone, in
-    /// their best forms: what only one run has is in all of them together a part of itself.
+    /// The effects that were found. Where these are several, or leave something open, also those that explain most under one label,
+    /// of all that the recording shows and of what is left beside these: what only one run has may be any other effect over all.
     fn by_label(&self) -> Forms {
         let mut forms = Forms::default();
+        let Candidates { fitted, cells, .. } = &self.candidates;
         let slots = self.answer.examination.slots.iter();
         for named in slots.flat_map(|slot| &slot.named) {
-            forms.add(&self.candidates.cells[named.candidate]);
+            forms.add(&cells[named.candidate]);
         }
         if self.answer.unexplained() > (0, 1) {
-            let question = self
-                .candidates
-                .question(&self.answer.baseline, &self.settings);
-            let singles = evidence::singles(&question);
-            let singles = singles.iter().take(BEST);
-            for atom in singles.filter_map(|(_, one)| one.atoms.first().copied()) {
-                forms.add_form(self.candidates.cell(atom), self.candidates.variation(atom));
+            let found = self.answer.examination.fitted.iter();
+            let found = found.flat_map(|found| &found.atoms);
+            let columns = found.map(|atom| self.candidates.variation(*atom).columns(fitted));
+            let slopes = &self.fit.jacobian;
+            let with_found = evidence::all(std::iter::once(slopes.clone()).chain(columns));
+            for known in [slopes, &with_found] {
+                let likeliest = under_one_label(fitted, cells, (known, &self.answer.claimed.u));
+                for cell in likeliest.into_iter().take(BEST) {
+                    forms.add(cell);
+                }
             }
         }
         forms
@@ -671,6 +699,13 @@ fn ask(
             candidates.leave_out(&missized);
         }
     }
+}
+
+/// How well the model describes the recording with what was found in it.
+fn quality(candidates: &Candidates<'_>, answer: &Answer) -> Quality {
+    candidates.of_adopted(&answer.examination, &answer.claimed, |design, fit| {
+        confirm::quality(design, fit, &answer.claimed)
+    })
 }
 
 /// Progress between two shares of the whole.

@@ -7,9 +7,9 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::candidates::baseline;
 use super::case::Role;
-use super::confirm::{degrees, over_noise, scale};
+use super::confirm::{degrees, scale};
 use super::design::Design;
-use super::evidence::{Baseline, Fitted};
+use super::evidence::{Baseline, Fitted, over_noise};
 use super::fit::Fit;
 use super::noise::Claimed;
 use crate::recording::Labels;

@@ -208,7 +208,8 @@ impl Adoption {
                 (None, Some(Unsettled { model, trouble }))
             }
         };
-        let worse = (adopted.as_ref()).is_some_and(|adopted| adopted.predicts_worse(before));
+        let worse =
+            (adopted.as_ref()).is_some_and(|adopted| adopted.quality.predicts_worse(before));
         let adopted = adopted.filter(|_| !worse);
         let held_out = held_out::held_out(known, candidates, examination, adopted.as_ref());
         let recurs = (adopted.as_ref()).is_some_and(|adopted| recurs(adopted, candidates));

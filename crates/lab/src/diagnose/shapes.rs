@@ -126,7 +126,7 @@ fn slope(
     sizes: &[f64],
 ) -> Option<Slope> {
     let own = candidates.variation(atom);
-    let shape = own.shape.clone().filter(|shape| !shape.is_size())?;
+    let shape = own.shape.clone().filter(|shape| shape.size.is_none())?;
     let alike = (candidates.cell(atom).variants.iter()).filter(|other| differ_in_shape(own, other));
     let mut tried: Vec<(f64, &Variation)> = alike
         .filter_map(|other| Some((other.shape.as_ref()?.value, other)))

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::modifiers::known;
-use crate::diagnose::evidence;
+use crate::diagnose::evidence::{self, over_noise};
 use crate::diagnose::fit::Fit;
 
 /// Directions that columns of unit length reach no further are noise of the arithmetic.
@@ -28,6 +28,18 @@ impl Absorbed {
             _ => evidence::span(slopes.clone(), LEAST),
         };
         let residuals = fit.residuals.map(known);
+        let left = &residuals - &basis * basis.tr_mul(&residuals);
+        Absorbed { basis, left }
+    }
+
+    /// What these columns take away, in units of the noise.
+    pub(super) fn by_columns(
+        columns: &DMatrix<f64>,
+        residuals: &DVector<f64>,
+        u: &DVector<f64>,
+    ) -> Absorbed {
+        let basis = evidence::span(over_noise(columns, u), LEAST);
+        let residuals = residuals.component_div(u).map(known);
         let left = &residuals - &basis * basis.tr_mul(&residuals);
         Absorbed { basis, left }
     }

@@ -3,7 +3,7 @@
 use super::earlier::{delayed, is_smooth, smoothly_delayed};
 use super::fitted::{FittedModel, Node};
 use super::modifiers::{grid, map, map2, range};
-use super::sharp::{sharpened, size_of};
+use super::sharp::sharpened;
 use super::{Modifier, Term, Variation};
 
 /// Delays: small ones by the rate of change, and those of more than an interval, in which a course bends, by the course as it
@@ -62,19 +62,15 @@ fn longer(
         let sizes = sharpened(fitted, sizes.clone(), &|size| late(sign * size));
         let sizes = fitted.finer.times(sizes).into_iter();
         let each = sizes.map(|size| (sign * size, late(sign * size)));
-        // What the recording says to be another delay is none of this size, however alike their courses are.
-        let of_size = each.filter(|(by, late)| {
-            let found = size_of(fitted, late);
-            found.is_none_or(|found| (0.5..=2.0).contains(&(found / by)))
-        });
-        of_size.collect::<Vec<(f64, Term)>>()
+        each.collect::<Vec<(f64, Term)>>()
     };
     [1.0, -1.0].into_iter().flat_map(of_sign).collect()
 }
 
 fn by_about(fitted: &FittedModel<'_>, by: f64, terms: Vec<Term>) -> Variation {
     let label = format!("by about {}", fitted.duration(by));
-    Variation::of(label, terms).shaped("δ", by.abs(), &fitted.time_unit())
+    let form = Variation::of(label, terms).shaped("δ", by.abs(), &fitted.time_unit());
+    form.sized(by)
 }
 
 /// How far a column bends away from the line of its ends before the recording, or after it where the output goes before: the square

@@ -19,18 +19,9 @@ pub struct Finer {
     pub(super) by_label: Forms,
 }
 
-/// Forms of effects: some of them, or all.
+/// All forms of some effects.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Forms(Vec<Asked>);
-
-/// One form of an effect, or all.
-#[derive(Debug, Clone, PartialEq)]
-struct Asked {
-    id: EffectId,
-    words: Words,
-    /// The label of the form; `None` for all of them.
-    form: Option<String>,
-}
+pub struct Forms(Vec<(EffectId, Words)>);
 
 /// Values about one that was found.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,23 +37,15 @@ struct Around {
 }
 
 impl Forms {
-    /// Adds all forms of an effect, unless it happens once, or under a label.
+    /// Whether an effect may be one of them: not what happens once, or under a label.
+    pub(super) fn may_be(cell: &Cell) -> bool {
+        cell.effect.pattern.is_none() && cell.variants.iter().all(|form| form.spectrum.is_none())
+    }
+
+    /// Adds all forms of an effect that may be one of them.
     pub fn add(&mut self, cell: &Cell) {
-        self.push(cell, None);
-    }
-
-    /// Adds one form of such an effect.
-    pub fn add_form(&mut self, cell: &Cell, form: &Variation) {
-        self.push(cell, Some(form.label.clone()));
-    }
-
-    fn push(&mut self, cell: &Cell, form: Option<String>) {
-        if cell.effect.pattern.is_none() {
-            self.0.push(Asked {
-                id: cell.effect.id,
-                words: cell.words.clone(),
-                form,
-            });
+        if Forms::may_be(cell) {
+            self.0.push((cell.effect.id, cell.words.clone()));
         }
     }
 
@@ -71,13 +54,10 @@ impl Forms {
         self.0.is_empty()
     }
 
-    /// Whether a form of an effect is one of them; what has no name has none.
-    pub(super) fn has(&self, cell: &Cell, form: &Variation) -> bool {
-        let is_it = |one: &Asked| {
-            let is_form = (one.form.as_ref()).is_none_or(|label| *label == form.label);
-            one.id == cell.effect.id && one.words == cell.words && is_form
-        };
-        form.spectrum.is_none() && self.0.iter().any(is_it)
+    /// Whether the forms of an effect are.
+    pub(super) fn has(&self, cell: &Cell) -> bool {
+        let is_it = |one: &(EffectId, Words)| one.0 == cell.effect.id && one.1 == cell.words;
+        self.0.iter().any(is_it)
     }
 }
 
@@ -90,12 +70,15 @@ impl Finer {
         }
     }
 
-    /// Adds the values between the parameter of a variation that was found and its neighbours in the cell.
-    /// Whether there are any: a variation without a parameter has none.
+    /// Adds the values between the parameter of a variation that was found and its neighbours in the cell, under labels as well where
+    /// it is one of them. Whether there are any: a variation without a parameter has none.
     pub fn add(&mut self, cell: &Cell, found: &Variation) -> bool {
         let Some(shape) = &found.shape else {
             return false;
         };
+        if found.of_labels.is_some() {
+            self.by_label.add(cell);
+        }
         let shapes = cell
             .variants
             .iter()

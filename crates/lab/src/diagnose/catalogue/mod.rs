@@ -67,7 +67,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-pub use by_label::may_split;
+pub use by_label::{closer, may_split, under_one_label};
 pub use effect::{Effect, EffectId, Kind, Pattern, Text, Usual, effects};
 pub use finer::{Finer, Forms};
 pub use fitted::{FittedModel, Node, signal};
@@ -165,13 +165,8 @@ pub struct ShapeParameter {
     pub value: f64,
     /// Its unit as text.
     pub unit: String,
-}
-
-impl ShapeParameter {
-    /// Whether the size of the effect says the same: that of a delay is the delay.
-    pub fn is_size(&self) -> bool {
-        self.symbol == "δ"
-    }
+    /// Where the size of the effect says the same, as that of a delay is the delay: the size that the form is made for.
+    pub size: Option<f64>,
 }
 
 /// What a disturbance follows.
@@ -333,7 +328,17 @@ impl Variation {
             symbol,
             value,
             unit: unit.to_owned(),
+            size: None,
         });
+        self
+    }
+
+    /// For a size that says the same as its shape.
+    #[must_use]
+    pub fn sized(mut self, size: f64) -> Variation {
+        if let Some(shape) = &mut self.shape {
+            shape.size = Some(size);
+        }
         self
     }
 

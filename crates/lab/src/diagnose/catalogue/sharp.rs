@@ -4,10 +4,10 @@
 use gumption_core::special::f_sf;
 use nalgebra::{DMatrix, DVector};
 
-use super::Term;
 use super::absorbed::{self, Absorbed};
 use super::fitted::FittedModel;
 use super::modifiers::known;
+use super::{Term, Variation};
 use crate::diagnose::evidence;
 
 /// Ratio of variances from which on an effect shows.
@@ -27,6 +27,23 @@ impl Absorbed {
         let shows = rest.norm_squared() > LEAST * column.norm_squared();
         let power = along(&rest, &self.left);
         if shows { known(power) } else { 0.0 }
+    }
+
+    /// Sum of squares that regressors together take away from the residuals.
+    pub(super) fn power_of_all(&self, columns: &DMatrix<f64>) -> f64 {
+        let rests: Vec<DVector<f64>> = columns
+            .column_iter()
+            .map(|column| self.rest(&column.into_owned()))
+            .collect();
+        let span = evidence::span(DMatrix::from_columns(&rests), absorbed::LEAST);
+        known(span.tr_mul(&self.left).norm_squared())
+    }
+
+    /// Which power is the largest, where that shows.
+    fn most(&self, powers: &[f64]) -> Option<usize> {
+        let best = largest_at(powers);
+        let shows = powers.get(best).is_some_and(|power| self.shows(*power));
+        shows.then_some(best)
     }
 
     fn shows(&self, power: f64) -> bool {
@@ -84,12 +101,54 @@ pub(super) fn best(
 ) -> Option<usize> {
     let residuals = residuals(fitted)?;
     let powers = terms.map(|term| residuals.power(&fitted.column(&term)));
-    let powers: Vec<f64> = powers.collect();
-    let best = largest_at(&powers);
-    let shows = powers
-        .get(best)
-        .is_some_and(|power| residuals.shows(*power));
-    shows.then_some(best)
+    residuals.most(&powers.collect::<Vec<f64>>())
+}
+
+/// The best of several forms, where an effect of this kind shows at all.
+pub(super) fn best_form<'v>(
+    fitted: &FittedModel<'_>,
+    forms: Vec<&'v Variation>,
+) -> Option<&'v Variation> {
+    let residuals = residuals(fitted)?;
+    let powers = forms
+        .iter()
+        .map(|form| residuals.power_of_all(&form.columns(fitted)));
+    let best = residuals.most(&powers.collect::<Vec<f64>>());
+    best.map(|at| forms[at])
+}
+
+/// Of several forms those that explain the residuals about as well as the best of them.
+pub(super) fn leading(fitted: &FittedModel<'_>, forms: Vec<Variation>) -> Vec<Variation> {
+    /// How many times as likely the best one may be: a hundredth of all forms on a grid of ten is less than a tenth of the
+    /// probability of a false alarm.
+    const LIKELIER: f64 = 1e3;
+    let Some(residuals) = residuals(fitted).filter(|_| forms.len() > 1) else {
+        return forms;
+    };
+    let whole = residuals.left.norm_squared();
+    let left = |form: &Variation| whole - residuals.power_of_all(&form.columns(fitted));
+    let left: Vec<f64> = forms.iter().map(left).collect();
+    let least = left.iter().copied().fold(f64::INFINITY, f64::min);
+    // Of normal errors of unknown size the likelihood is the sum of squares to the power −n/2.
+    let most = 2.0 * libm::log(LIKELIER) / residuals.left.len() as f64;
+    let leads = |left: f64| left <= least * libm::exp(most);
+    let forms = forms.into_iter().zip(left);
+    forms
+        .filter(|(_, left)| leads(*left))
+        .map(|(form, _)| form)
+        .collect()
+}
+
+/// Whether terms of a form may have the size that it is made for. What the recording says to be another delay is none of this one,
+/// however alike their courses are.
+pub(super) fn may_have_its_size(
+    fitted: &FittedModel<'_>,
+    form: &Variation,
+    terms: &[Term],
+) -> bool {
+    let made_for = form.shape.as_ref().and_then(|shape| shape.size);
+    let found = made_for.and_then(|size| Some(size_of(fitted, terms.first()?)? / size));
+    found.is_none_or(|ratio| (0.5..=2.0).contains(&ratio))
 }
 
 /// The size of a term by itself, where an effect of this kind shows at all.
@@ -104,10 +163,8 @@ pub(super) fn size_of(fitted: &FittedModel<'_>, term: &Term) -> Option<f64> {
 /// Whether a term explains the residuals clearly better than others together.
 pub(super) fn beats(fitted: &FittedModel<'_>, term: &Term, others: &[Term]) -> bool {
     residuals(fitted).is_some_and(|residuals| {
-        let rest = |term: &Term| residuals.rest(&fitted.column(term));
-        let others: Vec<DVector<f64>> = others.iter().map(rest).collect();
-        let span = evidence::span(DMatrix::from_columns(&others), absorbed::LEAST);
-        let least = known(span.tr_mul(&residuals.left).norm_squared());
+        let others: Vec<DVector<f64>> = others.iter().map(|term| fitted.column(term)).collect();
+        let least = residuals.power_of_all(&DMatrix::from_columns(&others));
         let power = residuals.power(&fitted.column(term));
         let left = residuals.left.norm_squared() - power;
         (power - least) * residuals.degrees() > SHOWS * left

@@ -1,6 +1,6 @@
 //! Columns as directions: what of them is visible, and which are free beside others.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::baseline::{Baseline, shares};
 
@@ -103,6 +103,15 @@ pub fn all(parts: impl Iterator<Item = DMatrix<f64>>) -> DMatrix<f64> {
     let parts: Vec<DMatrix<f64>> = parts.collect();
     let rows = parts.first().map_or(0, DMatrix::nrows);
     side_by_side(rows, parts.iter())
+}
+
+/// Rows of the observations in units of their noise.
+pub fn over_noise(rows: &DMatrix<f64>, u: &DVector<f64>) -> DMatrix<f64> {
+    let mut rows = rows.clone();
+    for (mut row, u) in rows.row_iter_mut().zip(u) {
+        row /= *u;
+    }
+    rows
 }
 
 /// Matrices of so many rows side by side.

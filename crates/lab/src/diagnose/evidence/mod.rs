@@ -100,7 +100,9 @@ pub use baseline::{Baseline, Prior, Spread};
 pub use closed_form::{log_sum, maximum};
 pub use contest::{Contest, Course, contest};
 pub use departure::LIKENESS;
-pub use directions::{TRACE, all, determined, inverse, left, left_beside, side_by_side, span};
+pub use directions::{
+    TRACE, all, determined, inverse, left, left_beside, over_noise, side_by_side, span,
+};
 pub(super) use directions::{orthonormal, without};
 pub use examine::examine;
 pub use findings::{Alternative, Examination, Fitted, Level, Rival, Slot, State, Variant, Verdict};

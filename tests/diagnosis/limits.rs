@@ -109,3 +109,33 @@ fn an_output_that_reaches_its_limit_is_saturated_whatever_it_is_made_of() {
         "{found}"
     );
 }
+
+#[test]
+fn ranges_with_zeros_of_their_own_are_told_together() {
+    // A voltmeter of three ranges, at both polarities: no step shows by itself beside the line through all of them.
+    let mut noise = Noise(57);
+    let mut rows = "V [V],U [V]\n".to_owned();
+    for row in 0..49 {
+        let v = -12.0 + 0.5 * f64::from(row);
+        let zero = match v.abs() {
+            size if size <= 3.0 => 0.0,
+            size if size <= 8.0 => 0.0021,
+            _ => -0.0004,
+        };
+        let _ = writeln!(
+            rows,
+            "{v:.1},{:.5}",
+            1.0002 * v + zero + 3e-4 * noise.normal()
+        );
+    }
+    let case = "equations = \"U = U0 + g*V\"\n[columns]\nU = \"output\"\nV = \"stimulus\"\n";
+    let found = diagnosed("ranges", &rows, case);
+    let (names, label) = first_labelled(&found);
+    assert_eq!(names, ["transition"], "{found}");
+    assert_eq!(label, "abs(V) above 3, 8");
+    assert_eq!(found["effects"].as_array().unwrap().len(), 1, "{found}");
+    let sizes = &found["effects"][0]["named"][0]["size"];
+    for (at, step) in [0.0021, -0.0025].into_iter().enumerate() {
+        assert!((sizes[at].as_f64().unwrap() - step).abs() < 3e-4, "{sizes}");
+    }
+}

@@ -9,6 +9,7 @@ use super::modifiers::{
     amount, figure, figure_to, five_digits, flag, largest, levels_of, map, range, rounded,
 };
 use super::readout::{beside, moves_on};
+use super::sets::sets;
 use super::sharp::{best, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Response;
@@ -241,15 +242,18 @@ fn knees(
 /// Where the sign changes, the step is one at zero.
 fn transitions(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let (x, label) = (fitted.numbers(column), fitted.label(column));
-    let own = steps(fitted, x, label, Node::Output);
+    let by_size = fitted.passes_zero(column);
+    // Ranges are switched by the size of a quantity that has both signs.
+    let (size, name): (fn(f64) -> f64, String) = match by_size {
+        true => (f64::abs, format!("abs({label})")),
+        false => (|x| x, label.to_owned()),
+    };
+    let by_sign = by_size.then(|| steps(fitted, x, (|x| x, label), Node::Output));
+    let of_ranges = steps(fitted, x, (size, &name), Node::Output);
+    let own = by_sign.into_iter().flatten().chain(of_ranges);
     let output = on_node(fitted, EffectId::Transition, label, Node::Output, own);
     let scale = fitted.offset_and_scale().contains(&Node::Gain).then(|| {
-        let by_size = fitted.passes_zero(column);
-        let (sizes, name) = match by_size {
-            true => (map(x, f64::abs), format!("abs({label})")),
-            false => (x.to_vec(), label.to_owned()),
-        };
-        let own = steps(fitted, &sizes, &name, Node::Gain);
+        let own = steps(fitted, x, (size, &name), Node::Gain);
         on_node(fitted, EffectId::TransitionScale, label, Node::Gain, own)
     });
     let cells = [output].into_iter().chain(scale);
@@ -257,31 +261,64 @@ fn transitions(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     cells.map(|cell| Cell { odds, ..cell }).collect()
 }
 
-/// Steps between values of which two at least lie on either side: all of them, or some evenly and the best of all.
-fn steps(fitted: &FittedModel<'_>, x: &[f64], name: &str, node: Node) -> Vec<Variation> {
+/// Steps of what a column is in some sense, between values of which two at least lie on either side: all of them, or some evenly and
+/// the best of all. Where the residuals show several, also these together: an instrument with several ranges has a step at each of
+/// their ends.
+fn steps(
+    fitted: &FittedModel<'_>,
+    x: &[f64],
+    (size, name): (fn(f64) -> f64, &str),
+    node: Node,
+) -> Vec<Variation> {
     /// More are not scanned.
     const MOST: usize = 40;
+    let values = map(&levels_of(x), size);
+    let x = &map(x, size);
     let levels = levels_of(x);
     let (least, most) = (levels[0], levels[levels.len() - 1]);
-    let between = |upper: &usize| [levels[upper - 1], levels[*upper]];
-    let gaps = 2..levels.len().saturating_sub(1);
-    let gaps = gaps.filter(|upper| between(upper)[0] > 0.0 || between(upper)[1] < 0.0);
-    let gaps: Vec<usize> = gaps.collect();
-    let step = |upper: &usize| {
-        let [below, above] = between(upper);
-        let shown = |x: f64| figure_to(x, LABEL * (most - least));
-        let after = map(x, |x| flag(x >= above));
-        let text = format!("[{name} > {}]", shown(below));
-        let label = format!("{name} between {} and {}", shown(below), shown(above));
-        form(label, vec![Modifier::number(after, text)])
+    let shown = |x: f64| figure_to(x, LABEL * (most - least));
+    let between = |upper: usize| [levels[upper - 1], levels[upper]];
+    let parts = |upper: &usize| {
+        let above = values.iter().filter(|value| **value >= levels[*upper]);
+        let above = above.count();
+        above.min(values.len() - above) > 1
     };
-    let on = |upper: &usize| step(upper).terms.into_iter();
-    let on = |upper: &usize| on(upper).map(|term| Term { node, ..term });
+    let of_one_sign = |upper: &usize| between(*upper)[0] > 0.0 || between(*upper)[1] < 0.0;
+    let gaps = (1..levels.len()).filter(|upper| parts(upper) && of_one_sign(upper));
+    let gaps: Vec<usize> = gaps.collect();
+    let step = |upper: usize| {
+        let [below, above] = between(upper);
+        let after = map(x, |x| flag(x >= above));
+        Modifier::number(after, format!("[{name} > {}]", shown(below)))
+    };
+    let one = |upper: usize| {
+        let [below, above] = between(upper).map(shown);
+        form(
+            format!("{name} between {below} and {above}"),
+            vec![step(upper)],
+        )
+    };
+    let on = |upper: &usize| Term::new(node, step(*upper));
     let stride = gaps.len().div_ceil(MOST).max(1);
-    let best = (stride > 1).then(|| best(fitted, &mut gaps.iter().flat_map(on)));
+    let best = (stride > 1).then(|| best(fitted, &mut gaps.iter().map(on)));
     let best = best.flatten().filter(|at| at % stride > 0);
     let scanned = (0..gaps.len()).step_by(stride).chain(best);
-    scanned.map(|at| step(&gaps[at])).collect()
+    let scanned: Vec<usize> = scanned.map(|at| gaps[at]).collect();
+    let terms: Vec<Term> = scanned.iter().map(on).collect();
+    let several = sets(fitted, &terms).into_iter().map(|set| {
+        let uppers = set.members.iter().map(|at| scanned[*at]);
+        let uppers: Vec<usize> = uppers.collect();
+        let lower = uppers.iter().map(|upper| shown(between(*upper)[0]));
+        let lower: Vec<String> = lower.collect();
+        let modifiers = uppers.iter().map(|upper| step(*upper)).collect();
+        Variation {
+            // One more is as much less likely as any further order; each set of as many is as likely as any other.
+            weight: scanned.len() as f64 * set.share * HIGHER.powi(uppers.len() as i32 - 1),
+            ..form(format!("{name} above {}", lower.join(", ")), modifiers)
+        }
+    });
+    let single = scanned.iter().map(|upper| one(*upper));
+    single.chain(several).collect()
 }
 
 /// Ends of the range at which the readings pile up at one value although the model moves on: what is

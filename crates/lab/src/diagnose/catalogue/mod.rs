@@ -56,6 +56,7 @@ pub(super) mod readout;
 mod response;
 mod ringing;
 mod rows;
+mod sets;
 mod sharp;
 mod slewing;
 mod time;

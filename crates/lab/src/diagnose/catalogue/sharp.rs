@@ -14,7 +14,7 @@ use crate::diagnose::evidence;
 const SHOWS: f64 = 16.0;
 
 /// What the residuals say of regressors. Outputs of several axes have laws of their own and are left alone.
-fn residuals<'g>(fitted: &'g FittedModel<'_>) -> Option<&'g Absorbed> {
+pub(super) fn residuals<'g>(fitted: &'g FittedModel<'_>) -> Option<&'g Absorbed> {
     (fitted.case().responses.len() == 1).then(|| fitted.absorbed())
 }
 

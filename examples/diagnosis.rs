@@ -122,7 +122,8 @@ fn save_tables(options: &Options) -> Result<(), String> {
          diagnosis-19.md (weights of bits and ringing not in the catalogue), diagnosis-20.md (limits of the rate not in the catalogue), diagnosis-21.md (scales that wander taken for noise that wanders), \
          diagnosis-22.md (a second effect held against noise of one law for all recordings), \
          diagnosis-23.md (pairs that do not resemble each other never held against one effect under estimated noise), \
-         diagnosis-24.md (sizes by label, combinations of labels and drifts from one moment on not in the catalogue).",
+         diagnosis-24.md (sizes by label, combinations of labels and drifts from one moment on not in the catalogue), \
+         diagnosis-25.md (several steps of a staircase not in the catalogue, under a label only what is likeliest over all rows).",
         env!("CARGO_PKG_VERSION")
     );
     std::fs::write(out.join("diagnosis.md"), report(&read(&lines), &made))

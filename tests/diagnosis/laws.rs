@@ -103,7 +103,7 @@ fn numbered_readings_show_a_warm_up() {
 
 /// An ohmmeter changes its range twice, and each range has a zero of its own.
 #[test]
-fn two_changes_of_range_are_two_effects() {
+fn two_changes_of_range_are_told_together() {
     let mut noise = Noise(517);
     let mut rows = "no,R_ref [ohm],R [ohm]\n".to_owned();
     for row in 0..120 {
@@ -122,7 +122,10 @@ fn two_changes_of_range_are_two_effects() {
     }
     let case = "equations = \"R = r0 + g*R_ref\"\n[columns]\nno = \"order\"\nR_ref = \"stimulus\"\nR = \"output\"\n";
     let found = diagnosed("ranges", &rows, case);
-    assert_eq!(first_names(&found), ["transition", "transition"], "{found}");
+    assert_eq!(found["verdict"], "identified", "{found}");
+    assert_eq!(first_names(&found), ["transition"], "{found}");
+    let variant = &found["effects"][0]["named"][0]["variants"][0];
+    assert_eq!(variant["label"], "R_ref above 192.6, 599.3", "{found}");
 }
 
 /// A potentiometer whose shaft is not in line with the scale: the angle is set, and called a stimulus.

@@ -129,7 +129,7 @@ fn ranges_with_zeros_of_their_own_are_told_together() {
         );
     }
     let case = "equations = \"U = U0 + g*V\"\n[columns]\nU = \"output\"\nV = \"stimulus\"\n";
-    let found = diagnosed("ranges", &rows, case);
+    let found = diagnosed("three-ranges", &rows, case);
     let (names, label) = first_labelled(&found);
     assert_eq!(names, ["transition"], "{found}");
     assert_eq!(label, "abs(V) above 3, 8");

@@ -2,6 +2,10 @@
 //! where the noise is open; more closely, where the parameter of an effect lies between two values of its grid; and where
 //! nothing is found, whether the noise itself changes.
 
+mod by_label;
+mod noise;
+mod slopes;
+
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
@@ -10,24 +14,18 @@ use nalgebra::{DMatrix, DVector};
 
 use super::candidates::{Candidates, baseline, settings};
 use super::case::Case;
-use super::catalogue::{
-    Cell, Finer, FittedModel, Forms, closer, generics, may_split, readout, under_one_label,
-};
+use super::catalogue::{Finer, FittedModel};
 use super::coarse::Coarse;
-use super::confirm::{self, Quality, along};
 use super::design::Design;
-use super::evidence::{
-    self, Atom, Baseline, Examination, Fitted, Located, Question, Settings, Shape, TRACE, Verdict,
-};
+use super::evidence::{self, Baseline, Examination, Located, Settings, TRACE, Verdict};
 use super::failure::Failure;
-use super::fit::{self, Fit};
+use super::fit::Fit;
 use super::further;
 use super::noise::Claimed;
 use super::noise_correlation::Courses;
 use super::noise_scale::Scales;
 use super::possible;
 use super::regions;
-use super::resolution::u_of_step;
 use super::settled;
 
 /// So often the values about the parameter of an effect are brought closer together.
@@ -72,15 +70,6 @@ pub struct IfIndependent {
     pub examination: Examination,
     /// How many times as likely its likeliest explanation is as all noise that remembers.
     pub odds: f64,
-}
-
-/// The declared model at the parameters of a fit with effects in it, as the catalogue sees it.
-struct Beside {
-    /// What that fit leaves and what its effects do along their slopes are the residuals: the whole is as good as it is when it is
-    /// fitted.
-    base: Fit,
-    /// The noise that the fit leaves.
-    claimed: Claimed,
 }
 
 /// A recording that has answered.
@@ -274,198 +263,6 @@ impl<'i> Inquiry<'i> {
         Ok(then)
     }
 
-    /// Takes the slopes of the model anew beside what was found in it, and beside the effect that alone explains most, where the
-    /// model departs from its slopes by more than the noise in all: an effect that bends the fit of a nonlinear model is seen
-    /// there as it is, and beside the declared fit as several.
-    fn linearise_again(&mut self) -> Result<(), Failure> {
-        let found = self.answer.examination.fitted.as_ref();
-        let found = found.and_then(|found| self.beside(found));
-        let mut besides: Vec<Beside> = found.into_iter().collect();
-        if !self.found_nothing() && !self.is_linear() {
-            besides.extend(self.beside_one());
-        }
-        let [found, one, _] = self.declared.beside;
-        for (room, beside) in [found, one].into_iter().zip(besides) {
-            self.linearise_beside(room, beside)?;
-        }
-        Ok(())
-    }
-
-    /// Takes what is found with the slopes beside effects, if it is better.
-    fn linearise_beside(
-        &mut self,
-        room: &'i OnceCell<Fit>,
-        Beside { base, claimed }: Beside,
-    ) -> Result<(), Failure> {
-        let base = room.get_or_init(|| base);
-        let finer = self.candidates.fitted.finer.clone();
-        let fitted = FittedModel::new(self.declared.seen, base).refined(finer);
-        let mut candidates = Candidates::new(fitted, &claimed, self.declared.white);
-        let part = part(self.progress, 0.7, 0.7);
-        let answer = ask(&mut candidates, claimed, &self.settings, &part)?;
-        match answer.beats(&self.answer) {
-            true => self.take(candidates, answer, base),
-            false => Ok(()),
-        }
-    }
-
-    /// Whether the slopes of the model by its parameters and by its columns are the same everywhere.
-    fn is_linear(&self) -> bool {
-        /// Change of a slope over its largest: rounding.
-        const NOTHING: f64 = 1e-9;
-        let Declared {
-            design, fit, white, ..
-        } = self.declared;
-        let u = white.covariance().diagonal().map(f64::sqrt);
-        let there = fit::at(design, &fit.unknowns + u).jacobian;
-        let slopes = fit.jacobian.column_iter().zip(there.column_iter());
-        let mut slopes = slopes.map(|(here, there)| (there - here).amax() <= NOTHING * here.amax());
-        slopes.all(|same| same) && self.candidates.fitted.is_straight()
-    }
-
-    /// Takes what is found with other slopes, if it is better with the noise that is left there as well.
-    fn take(
-        &mut self,
-        candidates: Candidates<'i>,
-        answer: Answer,
-        base: &'i Fit,
-    ) -> Result<(), Failure> {
-        let old = (
-            std::mem::replace(&mut self.candidates, candidates),
-            self.fit,
-        );
-        self.fit = base;
-        let found = match self.is_open() {
-            true => self.in_turn(answer, 0.7, 0.7)?,
-            false => answer,
-        };
-        match found.beats(&self.answer) {
-            true => self.answer = found,
-            false => (self.candidates, self.fit) = old,
-        }
-        Ok(())
-    }
-
-    /// Beside the effect that is the likeliest to be alone, each with the noise that it leaves where it is fitted; of those that are
-    /// the likeliest by the slopes so far. `None` where that is what was found.
-    fn beside_one(&self) -> Option<Beside> {
-        let question = self
-            .candidates
-            .question(&self.answer.baseline, &self.settings);
-        let singles = evidence::singles(&question);
-        let fits = singles.iter().take(BEST).filter_map(|(_, one)| {
-            let beside = self.beside(one)?;
-            Some((self.alone(*one.atoms.first()?, &beside)?, one, beside))
-        });
-        let (_, one, beside) = fits.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        let found = self.answer.examination.fitted.as_ref();
-        let is_new = found.is_none_or(|found| found.atoms != one.atoms);
-        is_new.then_some(beside)
-    }
-
-    /// Logarithm of the probability that an effect is all there is, where it is fitted, but for a constant.
-    fn alone(&self, atom: usize, Beside { base, claimed }: &Beside) -> Option<f64> {
-        let fitted = FittedModel::new(self.declared.seen, base);
-        let columns = self.candidates.variation(atom).columns(&fitted);
-        let residuals = baseline(self.declared.seen, base, claimed).ok()?;
-        let question = Question {
-            atoms: &[Atom {
-                shape: Shape::Columns(columns),
-                ..self.candidates.atoms[atom].clone()
-            }],
-            ..self.candidates.question(&residuals, &self.settings)
-        };
-        let (score, _) = *evidence::singles(&question).first()?;
-        Some(score + residuals.log_likelihood() + claimed.log_prior())
-    }
-
-    /// The declared model beside effects as they are fitted. `None` where the slopes so far tell as much.
-    fn beside(&self, found: &Fitted) -> Option<Beside> {
-        let claimed = &self.answer.claimed;
-        let (extended, refit) = self.candidates.refitted(found, claimed).ok()??;
-        let Declared { design, seen, .. } = self.declared;
-        let with_effects = Design::new(&extended.case);
-        let values = with_effects.carried(&refit.unknowns, design);
-        let moved = self.declared.coarse.at(&fit::at(design, values));
-        let atoms = found.atoms.iter();
-        let beside = FittedModel::new(seen, &moved);
-        let effects = atoms.map(|atom| self.candidates.variation(*atom).columns(&beside));
-        let slopes = evidence::all(std::iter::once(moved.jacobian.clone()).chain(effects));
-        if !slopes.iter().all(|slope| slope.is_finite()) {
-            return None;
-        }
-        let done = &moved.residuals - &refit.residuals;
-        let base = Fit {
-            residuals: &refit.residuals + along(&slopes, &done, &claimed.u),
-            ..moved
-        };
-        let told = &self.fit.residuals - &self.fit.jacobian * (&base.unknowns - &self.fit.unknowns);
-        let bent = (&base.residuals - told).component_div(&claimed.u);
-        if !(bent.norm() > 1.0 && bent.iter().all(|x| x.is_finite())) {
-            return None;
-        }
-        let claimed = match self.is_open() {
-            true => settled::refined(&with_effects, &refit, claimed, self.courses.as_ref()),
-            false => claimed.clone(),
-        };
-        Some(Beside { base, claimed })
-    }
-
-    /// Sizes by label of the effects that were found. They may take the place of what was found, and do not add to it: of how many
-    /// effects they were taken no test knows.
-    fn split_by_label(&mut self) -> Result<(), Failure> {
-        if self.found_nothing() || !may_split(&self.candidates.fitted) {
-            return Ok(());
-        }
-        let forms = self.by_label();
-        if forms.is_empty() {
-            return Ok(());
-        }
-        let fitted = FittedModel::new(self.declared.seen, self.fit).refined(Finer::by_label(forms));
-        let other = Candidates::new(closer(fitted), &self.answer.claimed, self.declared.white);
-        let old = std::mem::replace(&mut self.candidates, other);
-        let answer = self.asked_again(0.7, 0.7)?;
-        let predicts_worse =
-            || quality(&self.candidates, &answer).predicts_worse(&quality(&old, &self.answer));
-        if !answer.replaces(&self.answer) || predicts_worse() {
-            self.candidates = old;
-            return Ok(());
-        }
-        self.answer = answer;
-        // The slopes so far may have been taken beside what was replaced.
-        let [.., by_label] = self.declared.beside;
-        let found = self.answer.examination.fitted.as_ref();
-        match found.and_then(|found| self.beside(found)) {
-            Some(beside) => self.linearise_beside(by_label, beside),
-            None => Ok(()),
-        }
-    }
-
-    /// The effects that were found. Where these are several, or leave something open, also those that explain most under one label,
-    /// of all that the recording shows and of what is left beside these: what only one run has may be any other effect over all.
-    fn by_label(&self) -> Forms {
-        let mut forms = Forms::default();
-        let Candidates { fitted, cells, .. } = &self.candidates;
-        let slots = self.answer.examination.slots.iter();
-        for named in slots.flat_map(|slot| &slot.named) {
-            forms.add(&cells[named.candidate]);
-        }
-        if self.answer.unexplained() > (0, 1) {
-            let found = self.answer.examination.fitted.iter();
-            let found = found.flat_map(|found| &found.atoms);
-            let columns = found.map(|atom| self.candidates.variation(*atom).columns(fitted));
-            let slopes = &self.fit.jacobian;
-            let with_found = evidence::all(std::iter::once(slopes.clone()).chain(columns));
-            for known in [slopes, &with_found] {
-                let likeliest = under_one_label(fitted, cells, (known, &self.answer.claimed.u));
-                for cell in likeliest.into_iter().take(BEST) {
-                    forms.add(cell);
-                }
-            }
-        }
-        forms
-    }
-
     /// Shapes that lie between the steps of a grid: closer and closer.
     fn sharpen(&mut self) -> Result<(), Failure> {
         let mut finer = self.candidates.fitted.finer.clone();
@@ -497,85 +294,6 @@ impl<'i> Inquiry<'i> {
         match then.weighs_alike(&answer.claimed) {
             true => Ok(answer),
             false => self.asked(then, half, to),
-        }
-    }
-
-    /// What nobody claims may be anything: where nothing was found, whether the noise is of the scale, or changes.
-    fn look_for_unsteady_noise(&mut self) -> Result<(), Failure> {
-        let claimed = &self.answer.claimed;
-        let is_unclaimed = claimed.wanders() || claimed.is_estimated();
-        let is_ordered = self.candidates.fitted.clock.column.is_some();
-        let is_asked = self.found_nothing() && is_unclaimed && is_ordered;
-        let courses = self.courses.as_ref();
-        let Some(courses) = courses.filter(|all| is_asked && all.remember()) else {
-            return Ok(());
-        };
-        let (design, fit) = (self.declared.seen, self.fit);
-        if let Some(p) = self.scale_by_chance {
-            let cell = generics::wandering_scale(&self.candidates.fitted);
-            self.answer.claimed = claimed.of_scale(design, fit, courses)?;
-            self.answer.baseline = baseline(design, fit, &self.answer.claimed)?;
-            self.unnamed(cell, p / OF_NOISE);
-            return Ok(());
-        }
-        let laws = claimed.laws(design, fit, courses);
-        if claimed.rounding.is_some() || laws.may_jump() {
-            return Ok(());
-        }
-        let seen = claimed.seen_with(design, fit, &laws)?;
-        let noise = claimed.noise(design, fit);
-        let alpha = OF_NOISE * self.settings.alpha;
-        let p = evidence::unsteadiness(&seen, &noise, self.settings.seed, alpha)?;
-        if p <= alpha {
-            let cell = generics::unsteady(&self.candidates.fitted);
-            self.unnamed(cell, p / OF_NOISE);
-        }
-        Ok(())
-    }
-
-    /// Something is there, with this probability of as much by chance, of which no more is known than this.
-    fn unnamed(&mut self, cell: Cell, p: f64) {
-        let cells = &mut self.candidates.cells;
-        self.answer.examination.unnamed(cells.len(), p);
-        cells.push(cell);
-    }
-
-    /// Whether something that was found may be an effect.
-    fn names(&self, cell: &Cell) -> bool {
-        let slots = self.answer.examination.slots.iter();
-        let mut named = slots.flat_map(|slot| &slot.named);
-        named.any(|named| self.candidates.cells[named.candidate].is(cell))
-    }
-
-    /// The level of the test for rounding, which is one of its own beside that of all effects.
-    fn of_rounding(&self) -> f64 {
-        0.5 * self.settings.alpha
-    }
-
-    /// Names the rounding of the readings where what is left beside everything that was found shows it: that they come in steps is
-    /// seen without any model.
-    fn tell_rounding(&mut self) {
-        let claimed = &self.answer.claimed;
-        let rounding = claimed.rounding.clone();
-        let Some(rounding) = rounding.filter(|rounding| !rounding.is_stated) else {
-            return;
-        };
-        let alpha = self.of_rounding();
-        let examination = &self.answer.examination;
-        let chances = (self.candidates).of_adopted(examination, claimed, |design, fit| {
-            claimed.unrounded_by_chance(design, fit, &rounding)
-        });
-        let blocks = rounding.without.u.len() / rounding.steps.len();
-        for (response, step) in rounding.steps.iter().enumerate() {
-            let Some(step) = *step else { continue };
-            let cell = readout::rounding_of(&self.candidates.fitted, response, step);
-            let p = chances[response];
-            if p <= alpha && !self.names(&cell) {
-                let u = rounding.without.u.rows(response * blocks, blocks);
-                let lambda = u.map(|u| u_of_step(step) / u).norm();
-                let variant = self.candidates.add(cell);
-                self.answer.examination.named(variant, lambda, 2.0 * p);
-            }
         }
     }
 
@@ -699,13 +417,6 @@ fn ask(
             candidates.leave_out(&missized);
         }
     }
-}
-
-/// How well the model describes the recording with what was found in it.
-fn quality(candidates: &Candidates<'_>, answer: &Answer) -> Quality {
-    candidates.of_adopted(&answer.examination, &answer.claimed, |design, fit| {
-        confirm::quality(design, fit, &answer.claimed)
-    })
 }
 
 /// Progress between two shares of the whole.

@@ -49,7 +49,7 @@ pub fn under_one_label<'c>(
 
 /// Where the sizes of effects may differ by label: values between those of the grids, about the forms that explain the residuals best
 /// under each label. Grids are moved onto what explains all rows.
-pub fn closer(mut fitted: FittedModel<'_>) -> FittedModel<'_> {
+pub fn closer_by_label(mut fitted: FittedModel<'_>) -> FittedModel<'_> {
     /// So often the values are brought closer together.
     const ROUNDS: u8 = 3;
     for _ in 0..ROUNDS {
@@ -62,10 +62,8 @@ pub fn closer(mut fitted: FittedModel<'_>) -> FittedModel<'_> {
                     under.entry(words).or_default().push(form);
                 }
             }
-            for form in under
-                .into_values()
-                .filter_map(|forms| best_form(&fitted, forms))
-            {
+            let best = under.into_values();
+            for form in best.filter_map(|forms| best_form(&fitted, forms)) {
                 finer.add(&cell, form);
             }
         }

@@ -68,7 +68,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-pub use by_label::{closer, may_split, under_one_label};
+pub use by_label::{closer_by_label, may_split, under_one_label};
 pub use effect::{Effect, EffectId, Kind, Pattern, Text, Usual, effects};
 pub use finer::{Finer, Forms};
 pub use fitted::{FittedModel, Node, signal};

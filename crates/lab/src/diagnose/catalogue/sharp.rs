@@ -119,8 +119,7 @@ pub(super) fn best_form<'v>(
 
 /// Of several forms those that explain the residuals about as well as the best of them.
 pub(super) fn leading(fitted: &FittedModel<'_>, forms: Vec<Variation>) -> Vec<Variation> {
-    /// How many times as likely the best one may be: a hundredth of all forms on a grid of ten is less than a tenth of the
-    /// probability of a false alarm.
+    /// How many times as likely the best one may be: what has less than a tenth of α = 1 % beside it decides nothing.
     const LIKELIER: f64 = 1e3;
     let Some(residuals) = residuals(fitted).filter(|_| forms.len() > 1) else {
         return forms;

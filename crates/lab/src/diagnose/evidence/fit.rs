@@ -60,14 +60,15 @@ pub(super) fn estimate(space: &Space, rest: &Frame, block: usize) -> Estimate {
 }
 
 /// What is left of an effect after its nearest rival is fitted in its place; rivals are named atoms of
-/// causes other than its own, and not of the set.
+/// causes other than its own, and not of the set. With enough coefficients anything does what one effect does: a rival has one more
+/// at most.
 pub(super) fn nearest(
     space: &Space,
     rest: &Frame,
     block: usize,
     estimate: &Estimate,
 ) -> Option<Rival> {
-    let own = space.blocks[block].candidate;
+    let own = &space.blocks[block];
     let whole = estimate.visible.norm_squared();
     let beside = Remainders::new(space, rest);
     // Beside the set already, so that nothing has to be taken out.
@@ -77,7 +78,9 @@ pub(super) fn nearest(
         .iter()
         .map(|rival| (rival, &space.blocks[rival.block]))
         .filter(|(rival, block)| {
-            rival.kind == Kind::Named && !space.question.same_cause(block.candidate, own)
+            rival.kind == Kind::Named
+                && block.basis.ncols() <= own.basis.ncols() + 1
+                && !space.question.same_cause(block.candidate, own.candidate)
         })
         .map(|(rival, block)| {
             let explained = beside.components(rival, &components).norm_squared();

@@ -2,7 +2,9 @@
 
 use super::{Answer, BEST, Inquiry};
 use crate::diagnose::candidates::Candidates;
-use crate::diagnose::catalogue::{Finer, FittedModel, Forms, closer, may_split, under_one_label};
+use crate::diagnose::catalogue::{
+    Finer, FittedModel, Forms, closer_by_label, may_split, under_one_label,
+};
 use crate::diagnose::confirm::{self, Quality};
 use crate::diagnose::evidence;
 use crate::diagnose::failure::Failure;
@@ -19,7 +21,11 @@ impl<'i> Inquiry<'i> {
             return Ok(());
         }
         let fitted = FittedModel::new(self.declared.seen, self.fit).refined(Finer::by_label(forms));
-        let other = Candidates::new(closer(fitted), &self.answer.claimed, self.declared.white);
+        let other = Candidates::new(
+            closer_by_label(fitted),
+            &self.answer.claimed,
+            self.declared.white,
+        );
         let old = std::mem::replace(&mut self.candidates, other);
         let answer = self.asked_again(0.7, 0.7)?;
         let predicts_worse =

@@ -95,8 +95,8 @@ fn only_effect(found: &serde_json::Value) -> (String, String, f64, f64) {
     };
     let first = &effect["named"][0];
     let label = first["variants"][0]["label"].as_str().unwrap().to_owned();
-    let words = label.split([' ', ',']).filter_map(|word| word.parse().ok());
-    let shape = words.last().unwrap();
+    let mut words = label.split([' ', ',']).rev();
+    let shape = words.find_map(|word| word.parse().ok()).unwrap();
     let size = first["size"][0].as_f64().unwrap();
     (first["id"].as_str().unwrap().to_owned(), label, shape, size)
 }

@@ -88,7 +88,7 @@ impl Powers {
     fn score(&self, set: &[usize]) -> f64 {
         let free = self.degrees - set.len() as f64;
         let left = self.whole - self.power(set);
-        if free <= 0.0 || !(left > ROUNDED * self.whole) {
+        if free <= 0.0 || left <= ROUNDED * self.whole {
             return f64::NEG_INFINITY;
         }
         let gain = 0.5 * self.degrees * libm::log(self.whole / left);

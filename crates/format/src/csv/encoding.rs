@@ -160,20 +160,22 @@ pub(crate) fn with_line_feeds(text: String) -> String {
 }
 
 /// Whether all bytes beyond ASCII are pairs of GB/T 2312, half of them signs (rows 1 to 9) or characters of its
-/// first level (rows 16 to 55).
+/// first level (rows 16 to 55). Signs that are in no row of it, such as `µ`, `²` and `⁻`, are four bytes of GB 18030,
+/// two of which are digits: no text of another code page has digits between the bytes 81 to 84 and others beyond ASCII.
 fn is_chinese(bytes: &[u8]) -> bool {
-    let (mut pairs, mut frequent) = (0, 0);
+    let (mut characters, mut frequent) = (0, 0);
     let mut rest = bytes;
     while let Some(at) = rest.iter().position(|byte| *byte >= 0x80 || *byte == 0) {
-        let (Some(&lead @ 0xa1..=0xf7), Some(0xa1..=0xfe)) = (rest.get(at), rest.get(at + 1))
-        else {
-            return false;
+        let (length, is_frequent) = match &rest[at..] {
+            [0x81..=0x84, b'0'..=b'9', 0x81..=0xfe, b'0'..=b'9', ..] => (4, true),
+            [lead @ 0xa1..=0xf7, 0xa1..=0xfe, ..] => (2, matches!(lead, 0xa1..=0xa9 | 0xb0..=0xd7)),
+            _ => return false,
         };
-        pairs += 1;
-        frequent += usize::from(matches!(lead, 0xa1..=0xa9 | 0xb0..=0xd7));
-        rest = &rest[at + 2..];
+        characters += 1;
+        frequent += usize::from(is_frequent);
+        rest = &rest[at + length..];
     }
-    pairs > 0 && 2 * frequent >= pairs
+    characters > 0 && 2 * frequent >= characters
 }
 
 #[cfg(test)]
@@ -204,6 +206,11 @@ mod tests {
         assert_eq!(read(&gbk), known(Encoding::Gbk));
         let (signs, _, _) = GBK.encode("T [℃],R [Ω],±\n");
         assert_eq!(read(&signs).map(|read| read.1), Some(Encoding::Gbk));
+        // Signs that GB/T 2312 does not have, alone and beside characters.
+        for text in ["V [µV]\n1\n", "加速度 [m/s²],5.0×10⁻⁶\n"] {
+            let (wide, _, _) = encoding_rs::GB18030.encode(text);
+            assert_eq!(read(&wide), Some((text.to_owned(), Encoding::Gbk)));
+        }
     }
 
     #[test]

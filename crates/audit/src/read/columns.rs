@@ -174,6 +174,9 @@ const WORDS: &[(Role, How, &[&str])] = &[
 /// What a head says of its column, and the unit in it.
 pub fn role(head: &str) -> Option<(Role, String)> {
     let (name, unit) = apart(head);
+    if let Some(role) = in_two_languages(&name) {
+        return Some((role, unit));
+    }
     // `分量(HRC)`, `u (counts)`: what stands in a bracket behind a name of figures is its unit, also one that is not known.
     let figure = without_bracket(&name)
         .and_then(of)
@@ -185,6 +188,21 @@ pub fn role(head: &str) -> Option<(Role, String)> {
     let (name, unit) = head.trim().rsplit_once(' ')?;
     let role = of(name).filter(|role| role.is_figure() && is_unit(unit))?;
     Some((role, unit.into()))
+}
+
+/// What a head says twice, in Chinese and in other letters: `unit / 单位`, `分量 c·u`. Only where both say the same: the `V` of
+/// `电压 V` is no degrees of freedom.
+fn in_two_languages(name: &str) -> Option<Role> {
+    let is_first = is_chinese(name.chars().next()?);
+    let at = name.find(|c: char| c.is_alphabetic() && is_chinese(c) != is_first)?;
+    let between = |c: char| c.is_whitespace() || "/()（）".contains(c);
+    let one = of(name[..at].trim_end_matches(between))?;
+    let (other, _) = role(name[at..].trim_start_matches(between))?;
+    (one == other).then_some(one)
+}
+
+fn is_chinese(c: char) -> bool {
+    ('\u{4e00}'..='\u{9fff}').contains(&c)
 }
 
 fn of(head: &str) -> Option<Role> {
@@ -223,7 +241,7 @@ fn without_bracket(name: &str) -> Option<&str> {
         .and_then(|name| name.rsplit_once('('));
     let (front, inner) = bracket.or_else(|| name.rsplit_once('/'))?;
     let inner = inner.trim_start();
-    let parted = front.ends_with(|c: char| c == ' ' || ('\u{4e00}'..='\u{9fff}').contains(&c));
+    let parted = front.ends_with(|c: char| c == ' ' || is_chinese(c));
     let letters = (2..=6).contains(&inner.len()) && inner.chars().all(|c| c.is_ascii_alphabetic());
     (parted && letters).then(|| front.trim())
 }
@@ -374,6 +392,20 @@ mod tests {
             ]
             .map(Some)
         );
+    }
+
+    #[test]
+    fn heads_in_two_languages() {
+        let heads =
+            "unit / 单位 | 单位/Unit | c·u / 分量 c·u | 类型 Type | u\n标准不确定度 | 电压 V";
+        let roles: Vec<Option<Role>> = heads
+            .split(" | ")
+            .map(|head| role(head).map(|(role, _)| role))
+            .collect();
+        use Role::*;
+        let known = [Unit, Unit, Contribution, Type, U].map(Some);
+        assert_eq!(roles[..5], known);
+        assert_eq!(roles[5], None);
     }
 
     #[test]

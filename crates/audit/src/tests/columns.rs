@@ -34,6 +34,32 @@ fn u_is_another_multiple_than_its_k() {
     assert_eq!(first("sheet.txt", &sentence("8.5")), "k-other");
 }
 
+/// Heads that span several columns say less than what stands below them: `半宽 (g)` below `标准不确定度评定` is no standard
+/// uncertainty.
+#[test]
+fn words_below_spanning_heads_count() {
+    let sheet = |expanded: &str| {
+        format!(
+            "序号,来源,,标准不确定度评定,,,,合成,\n,符号,名称,半宽 (g),分布,k,u(xi)/g,ci,|ci|u(xi)/g\n\
+             1,m_S,标准砝码,0.045,正态,2,0.0225,1,0.0225\n2,dm_D,漂移,0.015,矩形,1.73,0.0087,1,0.0087\n\
+             3,dm_C,偏心,0.01,矩形,1.73,0.0058,1,0.0058\n\n合成标准不确定度 u_c,,0.0248\n扩展不确定度 U (k=2),,{expanded}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.050"));
+    assert_eq!(first("sheet.csv", &sheet("0.025")), "k-forgotten");
+}
+
+/// `s/√3` has its count, and `u as stated` says what a figure of a certificate is that was not divided.
+#[test]
+fn notes_say_how_u_was_found() {
+    let sheet = "component,type,distribution,\"half-width, or U, s, u\",divisor,unit,u,c,c·u,ν\n\
+        W,B,normal,0.03,2,g,0.015,1,0.015,∞\nd_2,B,normal,0.02,1,g,0.02,1,0.02,∞\n\
+        dW,A,t,0.005022947,1,g,0.005022947,1,0.005022947,9\n\ncombined standard uncertainty u,0.0255,g\ncoverage factor k,2\n\
+        expanded uncertainty U,0.051,g\n\nd_2,from its certificate ; u as stated\ndW,\"s/√3, pooled s = 0.0087\"\n";
+    is_sound("sheet.csv", sheet);
+    is_sound("sheet.csv", &sheet.replace("s/√3", "s/√n"));
+}
+
 /// A table of QUAM:2012 with u and u/x side by side: the second is no contribution and no share, and closes the table.
 #[test]
 fn relative_uncertainties_stand_beside_absolute_ones() {

@@ -34,7 +34,7 @@ const OF_THE_MEAN: &[&str] = &[
 ];
 
 /// The same, as the formula of what the figure is.
-const OF_ROOT: &[&str] = &["s/√", "s / √", "s/sqrt"];
+const OF_ROOT: &[&str] = &["s/√", "s / √", "s/sqrt", "s/sqrt("];
 
 /// What says that a figure is that of single readings.
 const OF_SINGLE: &[&str] = &[
@@ -101,9 +101,15 @@ pub(super) fn deviation(e: &Evidence<'_>, text: &str) -> Option<Stated> {
     let computed = has(text, OF_ROOT) && has(text, &["s =", "s="]);
     let of_mean = has(text, OF_THE_MEAN) || has(text, OF_ROOT) && !computed;
     let of_mean = of_mean || unsaid && e.u_is_used();
-    let m = m.or(n.filter(|_| computed));
+    // `s/√3, pooled s = 0.0087` says it with its figure.
+    let by_root = || count_after(text, OF_ROOT).filter(|_| computed);
+    let m = m.or_else(by_root).or(n.filter(|_| computed));
     let by_u = || e.u.map(|u| s.value / u.value).filter(|d| d.is_finite());
-    let divisor = e.divisor.or_else(by_u);
+    // `s/√n, pooled s = 12` of how many is not said, beside u that was used undivided: that of the mean.
+    let divisor = match computed && e.u_is_used() {
+        true => by_u(),
+        false => e.divisor.or_else(by_u),
+    };
     let squared = divisor
         .map(|d| d * d)
         .filter(|m| *m > 1.2 && (m - libm::round(*m)).abs() < 0.03 * m);

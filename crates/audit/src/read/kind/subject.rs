@@ -38,7 +38,10 @@ pub(super) fn subject(e: &Evidence<'_>, text: &str) -> Option<Subject> {
         || has(text, POOLED)
         || count_before(text, &["reading", "observation"]).is_some();
     let certified = has(text, CERTIFICATE) && !has(text, &["specification", "允许误差", "limit"]);
-    if is_range(e, text) {
+    // Whatever else the words are about: they say what the figure is, where nothing was divided.
+    if has(text, AS_STATED) && (e.used.is_none() || e.u_is_used()) {
+        Some(Subject::Standard)
+    } else if is_range(e, text) {
         Some(Subject::Range)
     } else if has(text, FULL_WIDTH) {
         Some(Subject::FullWidth)

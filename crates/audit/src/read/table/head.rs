@@ -331,8 +331,15 @@ pub(super) fn second_line(grid: &Grid, located: &mut Located, mapping: &Mapping)
             .filter(|role| of(*role))
             .count()
     };
-    let gained = evaluated(&together) > evaluated(&located.columns);
     let below_merged = below_merged(grid, located.head, &filled, mapping);
+    // Below `标准不确定度评定`, which spans them, `半宽 (g)` is what it says, and no standard uncertainty.
+    let below_alone = || {
+        evaluated(&roles(&filled, mapping, &|index| {
+            names_below(grid, row, index)
+        }))
+    };
+    let says_as_much = below_merged.is_some() && below_alone() >= evaluated(&together);
+    let gained = evaluated(&together) > evaluated(&located.columns) && !says_as_much;
     if gained && together.len() >= located.columns.len() && units * 2 <= filled.len() {
         located.columns = together;
     } else if units * 2 > filled.len() {

@@ -232,11 +232,17 @@ fn infinite(text: &str) -> Option<(Printed, &str)> {
         "+∞",
         "oo",
     ];
-    let lower = text.to_lowercase();
-    let word = WORDS.iter().find(|word| lower.starts_with(**word))?;
+    let word = WORDS.iter().find(|word| begins(text, word))?;
     let rest = text.get(word.len()..)?;
     let ends = rest.chars().next().is_none_or(|c| !c.is_ascii_alphabetic());
     ends.then(|| (Printed::exact(f64::INFINITY, "∞"), rest))
+}
+
+/// Whether a text begins with a word of small letters, in whatever letters; all of a text in small letters, for each of its figures,
+/// would be a matter of minutes for a workbook that holds what its charts draw.
+fn begins(text: &str, word: &str) -> bool {
+    let letters = text.chars().flat_map(char::to_lowercase);
+    letters.take(word.chars().count()).eq(word.chars())
 }
 
 /// `√3`, `2√3`, `sqrt(3)`, `2*sqrt(3)`, `√(3)`, `1/√3`.
@@ -251,10 +257,9 @@ fn root(text: &str) -> Option<(Printed, &str)> {
         .trim_start()
         .trim_start_matches(['*', '·', '×'])
         .trim_start();
-    let lower = behind.to_lowercase();
     let mark = ["√", "sqrt", "根号"]
         .iter()
-        .find(|mark| lower.starts_with(**mark))?;
+        .find(|mark| begins(behind, mark))?;
     let inner = behind.get(mark.len()..)?.trim_start();
     let (inner, bracket) = match inner.strip_prefix('(') {
         Some(inner) => (inner, true),

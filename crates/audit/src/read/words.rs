@@ -486,9 +486,8 @@ fn unit_in(lower: &str, whole: &str) -> String {
     let unit = alone(before_amount(unit));
     // What is left of the whole text has the same length at the end.
     let start = whole.len().checked_sub(lower.len());
-    let original = start
-        .filter(|_| whole.to_lowercase().len() == whole.len())
-        .and_then(|s| whole.get(s..s + unit.len()));
+    let original = start.and_then(|s| whole.get(s..s + unit.len()));
+    let original = original.filter(|original| original.to_lowercase() == unit);
     original.unwrap_or(unit).to_string()
 }
 

@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use calamine::{Data, DataRef, Reader, SheetVisible, Sheets, open_workbook_auto_from_rs};
 
-use gumption_fault::{Said, say};
+use gumption_fault::say;
 
 use super::{Cell, Grid, MOST_CELLS, Unreadable, open_document, shown, stale, uncached};
 use gumption_format::contained::contained;
@@ -23,9 +23,13 @@ pub(super) fn grids(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
 type Look = Box<dyn Fn(usize, usize, f64) -> Option<String>>;
 
 fn sheets(bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
-    let unreadable = |error: &dyn std::fmt::Display| Unreadable(Said::quoted(error.to_string()));
     let mut documents = open_document::told(bytes)?;
-    let mut book = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(|e| unreadable(&e))?;
+    // The library tries all kinds in turn, and says of the last one only that it is none.
+    let mut book = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(|_| {
+        Unreadable(say!(
+            "it is no workbook that can be read (.xlsx, .xls, .ods): damaged, locked by a password, or another kind of file; open it in the program that wrote it, and save it again"
+        ))
+    })?;
     let mut sheets = book.sheets_metadata().to_vec();
     sheets.sort_by_key(|sheet| sheet.visible != SheetVisible::Visible);
     let mut hidden = super::hidden::hidden(bytes);

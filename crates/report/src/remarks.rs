@@ -19,6 +19,7 @@ pub(super) fn remarks(report: &Report<'_>) -> Vec<Remark> {
         let remark = Remark {
             id: code(&finding.kind).to_string(),
             severity: finding.kind.severity(),
+            language: l,
             text: finding_sentence(report, finding.measurand, &finding.kind),
         };
         let name = finding
@@ -40,6 +41,7 @@ pub(super) fn remarks(report: &Report<'_>) -> Vec<Remark> {
     let of_budget = report.budget.remarks.iter().map(|remark| Remark {
         id: REMARK.to_string(),
         severity: Severity::Note,
+        language: l,
         text: remark.in_language(l),
     });
     findings.chain(of_budget).collect()

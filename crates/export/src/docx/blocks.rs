@@ -1,7 +1,6 @@
 //! The text: one paragraph or table for each block, in the order in which a report is read.
 
-use gumption_fault::language::Language;
-use gumption_format::document::{Block, Document, Math, Severity};
+use gumption_format::document::{Block, Document, Math};
 
 use super::parts::root;
 use super::pictures::Pictures;
@@ -12,14 +11,14 @@ use crate::xml::{Element, element, text};
 /// The main part, and the pictures in it.
 pub(super) fn document(document: &Document) -> (Element, Pictures) {
     let mut pictures = Pictures::default();
-    let (language, blocks) = (document.language, document.blocks());
+    let blocks = document.blocks();
     // Small print stays at the end, behind the plots.
     let is_text = |block: &Block| !matches!(block, Block::Footer(_));
     let end = blocks.iter().rposition(is_text).map_or(0, |last| last + 1);
     let (text, small) = blocks.split_at(end);
     let mut blocks: Vec<Element> = Vec::new();
     for block in text {
-        blocks.extend(of_block(block, language, &mut pictures));
+        blocks.extend(of_block(block, &mut pictures));
     }
     if !document.beside.is_empty() {
         blocks.push(paragraph("Heading1", &document.words("Plots", "图")));
@@ -28,7 +27,7 @@ pub(super) fn document(document: &Document) -> (Element, Pictures) {
         blocks.extend(pictures.of(plot));
     }
     for block in small {
-        blocks.extend(of_block(block, language, &mut pictures));
+        blocks.extend(of_block(block, &mut pictures));
     }
     let footer = element("w:footerReference")
         .attribute("w:type", "default")
@@ -47,7 +46,7 @@ pub(super) fn document(document: &Document) -> (Element, Pictures) {
     (root("w:document").with(body), pictures)
 }
 
-fn of_block(block: &Block, language: Language, pictures: &mut Pictures) -> Vec<Element> {
+fn of_block(block: &Block, pictures: &mut Pictures) -> Vec<Element> {
     match block {
         Block::Title(words) => vec![paragraph("Title", words)],
         Block::Section(words) => vec![paragraph("Heading1", words)],
@@ -70,14 +69,7 @@ fn of_block(block: &Block, language: Language, pictures: &mut Pictures) -> Vec<E
         Block::List(items) => items.iter().map(|item| bullet("", item)).collect(),
         Block::Findings(findings) => findings
             .iter()
-            .map(|finding| {
-                let word = match finding.severity {
-                    Severity::Note => "",
-                    Severity::Warning => language.pick("Caution: ", "注意："),
-                    Severity::Failure => language.pick("Not to be used: ", "不可采用："),
-                };
-                bullet(word, &finding.text)
-            })
+            .map(|finding| bullet(finding.caution(), &finding.text))
             .collect(),
         Block::Statement(sentences) => sentences
             .iter()

@@ -1,7 +1,6 @@
 //! A document on pages: what goes on a certificate first in each part, as on screens.
 
-use gumption_fault::language::Language;
-use gumption_format::document::{Block, Document, Math, Severity};
+use gumption_format::document::{Block, Document, Math};
 use gumption_format::render::parts::{Part, parts};
 
 use super::flow::{BLACK, BLUE, Flow, GREY, PAGE, PALE, WIDTH, at_least};
@@ -18,7 +17,7 @@ pub(super) fn lay(flow: &mut Flow<'_>, document: &Document) {
         if at > 0 {
             flow.begin_page();
         }
-        lay_part(flow, part, document.language);
+        lay_part(flow, part);
     }
     if !document.beside.is_empty() {
         heading(flow, &document.words("Plots", "图"));
@@ -28,23 +27,19 @@ pub(super) fn lay(flow: &mut Flow<'_>, document: &Document) {
     }
 }
 
-fn lay_part(flow: &mut Flow<'_>, part: &Part<'_>, language: Language) {
+fn lay_part(flow: &mut Flow<'_>, part: &Part<'_>) {
     if let Some(title) = part.title {
         let letters = flow.set(title, Style::Bold, 17.0);
         flow.lines(&letters, [flow.left(), WIDTH], 22.0, BLACK);
         flow.y += 6.0;
     }
-    part.head
-        .iter()
-        .for_each(|block| lay_block(flow, block, language));
+    part.head.iter().for_each(|block| lay_block(flow, block));
     for section in &part.sections {
         heading(flow, section.heading);
         let blocks = section.blocks.iter();
-        blocks.for_each(|block| lay_block(flow, block, language));
+        blocks.for_each(|block| lay_block(flow, block));
     }
-    part.foot
-        .iter()
-        .for_each(|block| lay_block(flow, block, language));
+    part.foot.iter().for_each(|block| lay_block(flow, block));
 }
 
 /// The head of a section, with room for what begins below it.
@@ -56,7 +51,7 @@ fn heading(flow: &mut Flow<'_>, words: &str) {
     flow.y += 3.0;
 }
 
-fn lay_block(flow: &mut Flow<'_>, block: &Block, language: Language) {
+fn lay_block(flow: &mut Flow<'_>, block: &Block) {
     match block {
         Block::Title(words) | Block::Section(words) => heading(flow, words),
         Block::Fields(fields) => pairs(
@@ -87,12 +82,7 @@ fn lay_block(flow: &mut Flow<'_>, block: &Block, language: Language) {
         Block::List(items) => items.iter().for_each(|item| item_of(flow, item, "")),
         Block::Findings(findings) => {
             for finding in findings {
-                let word = match finding.severity {
-                    Severity::Note => "",
-                    Severity::Warning => language.pick("Caution: ", "注意："),
-                    Severity::Failure => language.pick("Not to be used: ", "不可采用："),
-                };
-                item_of(flow, &finding.text, word);
+                item_of(flow, &finding.text, finding.caution());
             }
         }
         Block::Statement(sentences) => statement(flow, sentences),

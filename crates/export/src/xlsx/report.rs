@@ -5,7 +5,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::looks::Looks;
 use super::names::Names;
-use gumption_format::document::{Block, Document, Severity, Table};
+use gumption_format::document::{Block, Document, Table};
 
 /// Width of the column of words, in characters.
 const WORDS: usize = 90;
@@ -51,7 +51,7 @@ pub(super) fn report<'d>(
             page.row += 1;
             page.line(title, &looks.section)?;
         }
-        page.block(block, language)?;
+        page.block(block)?;
     }
     Ok(tables)
 }
@@ -109,11 +109,7 @@ impl Sheet<'_> {
         Ok(())
     }
 
-    fn block(
-        &mut self,
-        block: &Block,
-        language: gumption_fault::language::Language,
-    ) -> Result<(), XlsxError> {
+    fn block(&mut self, block: &Block) -> Result<(), XlsxError> {
         let looks = self.looks;
         match block {
             Block::Title(text) => {
@@ -146,14 +142,8 @@ impl Sheet<'_> {
             }
             Block::Findings(findings) => {
                 for finding in findings {
-                    let word = match finding.severity {
-                        Severity::Note => String::new(),
-                        Severity::Warning => language.pick("Caution: ", "注意：").to_string(),
-                        Severity::Failure => {
-                            language.pick("Not to be used: ", "不可采用：").to_string()
-                        }
-                    };
-                    self.across(&format!("• {word}{}", finding.text), &looks.wrapped)?;
+                    let words = format!("• {}{}", finding.caution(), finding.text);
+                    self.across(&words, &looks.wrapped)?;
                 }
             }
             Block::Statement(sentences) => {

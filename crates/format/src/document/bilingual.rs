@@ -110,7 +110,8 @@ fn beside_each_other(one: &str, other: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::{ColumnKind, Table};
+    use crate::document::{ColumnKind, Finding, Severity, Table};
+    use gumption_fault::language::Language;
 
     #[test]
     fn figures_stand_once_and_words_twice() {
@@ -141,6 +142,26 @@ mod tests {
                 Block::Paragraph("更多".into()),
             ]
         );
+    }
+
+    /// What stands before a finding is in the language of its sentence.
+    #[test]
+    fn findings_are_cautioned_of_in_their_own_language() {
+        let findings = |language, text: &str| {
+            Block::Findings(vec![Finding {
+                id: "not_validated".into(),
+                severity: Severity::Warning,
+                language,
+                text: text.into(),
+            }])
+        };
+        let one = findings(Language::English, "not validated");
+        let other = findings(Language::Chinese, "未通过验证");
+        let [Block::Findings(both)] = &side_by_side(vec![one], vec![other])[..] else {
+            panic!("one block");
+        };
+        let cautions: Vec<&str> = both.iter().map(Finding::caution).collect();
+        assert_eq!(cautions, ["Caution: ", "注意："]);
     }
 
     #[test]

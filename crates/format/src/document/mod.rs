@@ -203,8 +203,21 @@ pub struct Finding {
     pub id: String,
     /// How much it weighs.
     pub severity: Severity,
+    /// The language of the sentence.
+    pub language: Language,
     /// The sentence.
     pub text: String,
+}
+
+impl Finding {
+    /// What stands before the sentence of what is more than a note, in its own language.
+    pub fn caution(&self) -> &'static str {
+        match self.severity {
+            Severity::Note => "",
+            Severity::Warning => self.language.pick("Caution: ", "注意："),
+            Severity::Failure => self.language.pick("Not to be used: ", "不可采用："),
+        }
+    }
 }
 
 /// What a finding means for the figures.

@@ -6,9 +6,7 @@ use super::format::Format;
 use super::inline::{Run, runs};
 use super::parts::{Part, parts};
 use super::svg::svg;
-use crate::document::{
-    Block, Cell, ColumnKind, Document, Finding, Math, Plot, Row, Severity, Table,
-};
+use crate::document::{Block, Cell, ColumnKind, Document, Finding, Math, Plot, Row, Table};
 use gumption_fault::language::Language;
 
 /// The format.
@@ -188,12 +186,14 @@ impl Page {
 
     /// A finding, with a word before what is more than a note.
     fn finding(&self, finding: &Finding) -> String {
-        let word = match finding.severity {
-            Severity::Note => return inline(&finding.text),
-            Severity::Warning => self.word("Caution", "注意"),
-            Severity::Failure => self.word("Not to be used", "不可采用"),
-        };
-        format!("<strong>{word}:</strong> {}", inline(&finding.text))
+        let text = inline(&finding.text);
+        match finding.caution() {
+            "" => text,
+            word => {
+                let bold = word.trim_end();
+                format!("<strong>{bold}</strong>{}{text}", &word[bold.len()..])
+            }
+        }
     }
 
     fn pairs<'t>(&mut self, class: &str, pairs: impl Iterator<Item = (&'t str, String)>) {

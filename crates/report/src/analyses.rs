@@ -3,6 +3,7 @@
 use gumption_core::statistics::{Line, OutlierTest, Policy, Ratio, Verdict};
 use gumption_fault::say;
 use gumption_gum::budget::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
+use gumption_gum::propagate::is_residue;
 
 use super::language::{Language, Word};
 use super::number::{
@@ -83,10 +84,14 @@ fn series(report: &Report<'_>) -> Vec<Block> {
 
 fn row(analysis: &Analysis, found: &Statistics) -> Vec<Cell> {
     let scale = found.s / (found.n as f64).sqrt();
+    let mean = match is_residue(found.mean, scale) {
+        true => 0.0,
+        false => found.mean,
+    };
     vec![
         analysis.name.clone().into(),
         found.n.to_string().into(),
-        aligned(found.mean, scale, 2).into(),
+        aligned(mean, scale, 2).into(),
         significant(found.s, TABLE_DIGITS).into(),
         symbol(&analysis.unit).into(),
         exact(found.min).into(),

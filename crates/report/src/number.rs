@@ -122,12 +122,15 @@ pub(super) fn freedom_of_part(dof: f64) -> String {
     }
 }
 
-/// Degrees of freedom: whole numbers as such, one decimal below 100, one digit where that were zero.
+/// Degrees of freedom: whole numbers as such, one decimal below 100, one digit where that were zero, and as many as keep 2.987
+/// from looking like 3, of which the whole part for k would be 3.
 pub(super) fn freedom(dof: f64) -> String {
     if dof > 0.0 && dof < 0.1 {
         return significant(dof, 1);
     }
-    let place = if dof < 100.0 { -1 } else { 0 };
+    let places = if dof < 100.0 { -3..=-1 } else { 0..=0 };
+    let keeps = |place: &i32| at_place(dof, *place).to_f64() < dof.floor() + 1.0;
+    let place = places.clone().rev().find(keeps).unwrap_or(*places.end());
     let text = print(&at_place(dof, place));
     text.strip_suffix(".0").map_or(text.clone(), str::to_string)
 }
@@ -174,6 +177,15 @@ mod tests {
         assert_eq!(effective(14_406_319.0), "∞");
         assert_eq!(effective(9_999.0), "9999");
         assert_eq!([freedom(16.74), effective(16.74)], ["16.7", "16.7"]);
+    }
+
+    /// k is taken for 2 of these: GUM G.4.1 cuts them.
+    #[test]
+    fn degrees_of_freedom_do_not_look_like_the_next_whole_number() {
+        assert_eq!(
+            [2.987, 2.9996, 99.97, 3.0, 2.94].map(freedom),
+            ["2.99", "3", "99.97", "3", "2.9"]
+        );
     }
 
     #[test]

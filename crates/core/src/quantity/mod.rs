@@ -31,6 +31,6 @@ pub use factor::Factor;
 pub use faults::UnitError;
 pub use print::{Grouping, PowerStyle, Style};
 pub use rounded::{Rounded, RoundingRule, space_before};
-pub use show::show;
+pub use show::{show, show_apart};
 pub use table::{DefinitionError, UnitTable};
 pub use unit::{Conversion, Unit, UnitParts};

@@ -2,11 +2,30 @@
 
 /// A number for the eye: `0.5`, `4e-5`, `1.23457e-8`.
 pub fn show(number: f64) -> String {
-    let digits = format!("{number:.6e}");
+    with_digits(number, AT_A_GLANCE)
+}
+
+/// Two numbers that differ, with the digits in which they do: 49.99955 and 49.999552.
+pub fn show_apart(one: f64, other: f64) -> [String; 2] {
+    /// So many of any decimal a double keeps.
+    const KEPT: i32 = 15;
+    let both = |digits| [one, other].map(|number| with_digits(number, digits));
+    let differing = (AT_A_GLANCE..=KEPT)
+        .map(both)
+        .find(|[one, other]| one != other);
+    differing.unwrap_or_else(|| [one, other].map(|number| number.to_string()))
+}
+
+/// Significant digits that are read at a glance.
+const AT_A_GLANCE: i32 = 7;
+
+fn with_digits(number: f64, count: i32) -> String {
+    let behind_point = usize::try_from(count - 1).unwrap_or(0);
+    let digits = format!("{number:.behind_point$e}");
     let (mantissa, exponent) = digits.split_once('e').unwrap_or((&digits, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
     if (-4..7).contains(&exponent) {
-        let places = usize::try_from(6 - exponent).unwrap_or(0);
+        let places = usize::try_from(count - 1 - exponent).unwrap_or(0);
         let plain = format!("{number:.places$}");
         return if plain.contains('.') {
             trim(&plain)
@@ -26,7 +45,7 @@ fn trim(digits: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::show;
+    use super::{show, show_apart};
 
     #[test]
     fn numbers_are_short() {
@@ -37,5 +56,12 @@ mod tests {
         assert_eq!(show(0.0), "0");
         assert_eq!(show(2.0 / 3.0), "0.6666667");
         assert_eq!(show(1.5e12), "1.5e12");
+    }
+
+    #[test]
+    fn numbers_that_differ_look_different() {
+        assert_eq!(show_apart(49.99955, 49.999552), ["49.99955", "49.999552"]);
+        assert_eq!(show_apart(1.0, 2.0), ["1", "2"]);
+        assert_eq!(show_apart(0.3, 0.1 + 0.2), ["0.3", "0.30000000000000004"]);
     }
 }

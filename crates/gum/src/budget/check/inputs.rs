@@ -12,7 +12,7 @@ use crate::budget::faults::{LIMITS, NAME_TWICE, NO_DOUBT, NO_ESTIMATE, TWO_ESTIM
 use crate::budget::tables::{ComponentTable, FileTable, InputTable, ResolutionWord};
 use crate::budget::variants::ReadingsOf;
 use crate::budget::{Follows, Owner};
-use gumption_core::quantity::Unit;
+use gumption_core::quantity::{Unit, show_apart};
 use gumption_fault::{Fault, say};
 use gumption_format::toml::{Slot, Stated};
 use smallvec::{SmallVec, smallvec};
@@ -370,10 +370,9 @@ impl Checker<'_> {
                 (old, old + shift)
             }
             (Location::Mean(mean), Some(value)) if (mean - value).abs() > 1e-9 * draft.u => {
+                let [value, mean] = show_apart(value, mean);
                 self.remark(say!(
-                    "{name}: the stated value {} is used; the mean of its readings is {}.",
-                    show(value),
-                    show(mean)
+                    "{name}: the stated value {value} is used; the mean of its readings is {mean}."
                 ));
                 return Some(0.0);
             }

@@ -11,7 +11,7 @@ use crate::budget::Owner;
 use crate::budget::faults::VECTOR;
 use crate::budget::tables::{ComponentTable, InputTable};
 use crate::budget::variants::{Amounts, Numbers};
-use gumption_core::quantity::Unit;
+use gumption_core::quantity::{Unit, show_apart};
 use gumption_core::statistics::Series;
 use gumption_fault::{Fault, say};
 use gumption_format::toml::{Slot, Stated};
@@ -279,7 +279,7 @@ impl Checker<'_> {
             return;
         }
         let name = element_name(name, element);
-        let (value, mean) = (show(value), show(mean));
+        let [value, mean] = show_apart(value, mean);
         self.remark(say!(
             "{name}: the stated value {value} is used; the mean of its readings is {mean}."
         ));

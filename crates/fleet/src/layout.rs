@@ -181,7 +181,7 @@ impl<'a> Heads<'a> {
                 Err(Box::new(match nearest(name, names) {
                     Some(near) => fault.help(say!("did you mean \"{near}\"?")),
                     None => fault.help(say!(
-                        "`gumption batch --keep {name}` carries a column of the table of devices through to the results"
+                        "`gumption batch --keep {name}` (in Python, `keep=[\"{name}\"]`) carries a column of the table of devices through to the results"
                     )),
                 }))
             }
@@ -231,7 +231,7 @@ impl<'a> Heads<'a> {
                 Fault::new(NO_MEASURAND, place, message)
                     .label(say!("its estimates"))
                     .help(say!(
-                        "two of u({name}), k({name}) and U({name}) are needed: add a column; or, if {name} is what others are held against, write `--reference {name}`"
+                        "two of u({name}), k({name}) and U({name}) are needed: add a column; or, if {name} is what others are held against, write `--reference {name}` (in Python, `reference=\"{name}\"`)"
                     )),
             ));
         }
@@ -324,7 +324,9 @@ impl<'a> Heads<'a> {
         let Some(owner) = owner else {
             return Err(refused(
                 say!("of which measurand {name} is the reference is not clear"),
-                say!("write --reference MEASURAND={name}, with one of {names}"),
+                say!(
+                    "write --reference MEASURAND={name} (in Python, `reference=\"MEASURAND={name}\"`), with one of {names}"
+                ),
             ));
         };
         let mut stated = self.quantity(name)?;

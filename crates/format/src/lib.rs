@@ -9,6 +9,7 @@
 //! | [`machine`] | structures of the machine form with their JSON Schema |
 //! | [`toml`] | files of keys and values that keep their places, and tables of what a key may be |
 //! | [`render`] | the formats in which a document is written |
+//! | `spelled` | numbers as they are written elsewhere |
 
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
@@ -19,4 +20,5 @@ pub mod document;
 pub mod files;
 pub mod machine;
 pub mod render;
+mod spelled;
 pub mod toml;

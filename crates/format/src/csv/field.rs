@@ -3,6 +3,7 @@
 use gumption_fault::{Said, say};
 
 use super::sheet::Sheet;
+use crate::spelled::spelled;
 
 /// What a field of a column of numbers holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -237,6 +238,12 @@ pub fn mend_of_number(field: &str) -> Option<Said> {
             ),
             false => say!("write {point}, with a decimal point"),
         });
+    }
+    let of_other_keyboard = |c| ('\u{ff01}'..='\u{ff5e}').contains(&c);
+    if let Some((number, unit)) = spelled(field).filter(|_| field.contains(of_other_keyboard))
+        && unit.is_empty()
+    {
+        return Some(say!("write {number}", number = number));
     }
     let without = field.replace([',', '.', ' ', '\'', '\u{a0}', '\u{202f}'], "");
     if field.contains([',', ' ', '\'', '.', '\u{a0}', '\u{202f}'])

@@ -7,7 +7,6 @@ mod lists;
 mod matrix;
 mod numbers;
 mod places;
-mod spelled;
 mod strings;
 mod syntax;
 mod table;

@@ -9,9 +9,9 @@ use super::faults::{AMOUNT, NOT_FINITE, NOT_WHOLE, QUOTED_NUMBER, WRONG_TYPE};
 use super::numbers::{
     of_concise, of_plus_minus, parted_by_plus_minus, without_comma, without_sign,
 };
-use super::spelled::{sexagesimal, spelled};
 use super::strings::StringMap;
 use super::table::{FromToml, Raw, Reader};
+use crate::spelled::{sexagesimal, spelled};
 use gumption_core::calendar::Day;
 use gumption_fault::{Fault, Said, say};
 
@@ -109,6 +109,10 @@ impl FromToml for f64 {
             }
             (None, DeValue::String(text)) if number_and_remark(text).is_some() => {
                 let help = number_and_remark(text).map(|number| say!("write {number} alone"));
+                reader.wrong_type_with(value, say!("a number"), help)
+            }
+            (None, DeValue::String(text)) if is_spelled_otherwise(text) => {
+                let help = spelled(text).map(|(number, _)| say!("write {number}"));
                 reader.wrong_type_with(value, say!("a number"), help)
             }
             (None, DeValue::String(text)) if split_amount(text).is_some() => {
@@ -358,6 +362,7 @@ fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
     let rest = body[end..].trim_start();
     let divided = rest.strip_prefix('/').map(str::trim_start);
     let goes_on = rest.starts_with([',', '，', '('])
+        || with_factor(body).is_some()
         || parted_by_plus_minus(rest).is_some()
         || is_arithmetic(rest)
         || goes_on_in_a_smaller_unit(rest)
@@ -371,6 +376,21 @@ fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
 /// multiplication.
 fn is_arithmetic(rest: &str) -> bool {
     rest.starts_with(['*', '×', '·', '⋅']) || rest.contains(['+', '＋'])
+}
+
+/// A number of another keyboard and nothing else: `1.0３`, of which `1.0` is no number of `３`.
+fn is_spelled_otherwise(text: &str) -> bool {
+    spelled(text).is_some_and(|(_, unit)| unit.is_empty())
+}
+
+/// An amount behind which stands the coverage factor of another key: `0.05 %` and `2` of `0.05 % (k=2)`.
+fn with_factor(text: &str) -> Option<(&str, &str)> {
+    let (amount, rest) = text.split_once(['(', '（', ',', '，', ';', '；'])?;
+    let factor = rest.trim_end_matches([')', '）', ' ']).trim();
+    let factor = factor.strip_prefix(['k', 'K'])?.trim_start();
+    let factor = factor.strip_prefix(['=', '＝'])?.trim();
+    factor.parse::<f64>().ok()?;
+    Some((amount.trim(), factor))
 }
 
 /// `min 0.5 s` behind the 2 of `2 min 0.5 s`.
@@ -415,7 +435,11 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
     )
     .label(say!("expected a number, then a unit"));
     let bare = text.replace(',', "");
-    if let Some((number, unit)) = spelled(text) {
+    if let Some((amount, k)) = with_factor(text) {
+        fault.help(say!(
+            "k has a key of its own: certificate = {{ U = \"{amount}\", k = {k} }}, and in a claim U = … and k = {k}"
+        ))
+    } else if let Some((number, unit)) = spelled(text) {
         fault.help(match unit.as_str() {
             "" => say!("write {number}"),
             unit => say!("write \"{number} {unit}\""),

@@ -6,12 +6,12 @@ use gumption_fault::libraries::of_toml;
 use gumption_fault::{Fault, Said, say};
 
 use super::places::{bare, calculation_at, line_of, word_at};
+use crate::spelled::spelled;
 use crate::toml::faults::TOML_SYNTAX;
 use crate::toml::numbers::{
     amount, concise, is_calculation, of_concise, of_plus_minus, parted_by_plus_minus, quoted,
     quotient, two_numbers, without_comma, without_sign,
 };
-use crate::toml::spelled::spelled;
 
 /// Words that people try, and the key that they mean.
 pub type Synonyms = [(&'static str, &'static str)];
@@ -125,6 +125,10 @@ impl<'a> Stop<'a> {
             Some(fault.help(help))
         };
         let spelling = || say!("`{marked}` is not how a number is written in TOML");
+        if marked.trim_start_matches(['+', '-']) == "∞" {
+            let infinite = marked.replace('∞', "inf");
+            return number(spelling(), say!("write {number}", number = infinite));
+        }
         let of_two = || say!("`{marked}` is a value with its uncertainty");
         if let Some((value, unit)) = spelled(marked) {
             let help = match unit.as_str() {
@@ -196,7 +200,9 @@ impl<'a> Stop<'a> {
         if self.says("string, expected") {
             let message = say!("the text is not closed");
             let fault = self.refused(message, say!("expected the closing quote"));
-            return Some(fault.help(say!("add the quote at the end of the text")));
+            return Some(fault.help(say!(
+                "add the quote at the end of the text; one of several lines stands between \"\"\" and \"\"\""
+            )));
         }
         (self.says("escape") || self.says("unicode")).then(|| {
             let message = say!("a backslash in a text between double quotes begins an escape");
@@ -251,9 +257,20 @@ impl<'a> Stop<'a> {
     /// Values side by side with nothing between them.
     fn several(&self) -> Option<Fault> {
         if self.says("unexpected key or value") && self.says("newline") {
-            let help = match bare_list(&self.text[line_of(self.span.start, self.text)]) {
-                Some(list) => say!("a list stands between square brackets: [{list}]"),
-                None => say!(
+            let line = line_of(self.span.start, self.text);
+            let help = match (
+                bare_list(&self.text[line.clone()]),
+                self.text[self.span.start..line.end].trim(),
+            ) {
+                (Some(list), _) => say!("a list stands between square brackets: [{list}]"),
+                (None, sign @ ("," | ";" | "，" | "；")) => {
+                    say!("remove the `{sign}`: each key ends with its line")
+                }
+                (None, rest) if rest.starts_with("//") => {
+                    let remark = rest.trim_start_matches('/').trim();
+                    say!("a remark stands behind `#`: # {remark}")
+                }
+                (None, _) => say!(
                     "write each key on a line of its own; several on one line stand between braces: {{ value = 1, u = 0.1 }}"
                 ),
             };

@@ -35,7 +35,7 @@ fn of_expanded(key: &str, known: &[&'static str]) -> Option<Said> {
         | "包含因子" => Some(say!(
             "an expanded uncertainty stands with its k: certificate = {{ U = …, k = 2 }}"
         )),
-        "k" => Some(say!(
+        "k" | "divisor" | "除数" => Some(say!(
             "an expanded uncertainty stands with its k: certificate = {{ U = …, k = 2 }}; the divisor of limits follows from their distribution"
         )),
         _ => None,
@@ -125,7 +125,8 @@ fn of_reason(key: &str, word: &str, known: &[&'static str]) -> Option<Said> {
 /// What is known of an input, or of one of its components.
 fn of_knowledge(word: &str, known: &[&'static str]) -> Option<Said> {
     match word {
-        "accuracy" | "class" | "mpe" | "spec" | "tolerance" | "允差" | "最大允许误差"
+        "accuracy" | "accuracy_class" | "class" | "mpe" | "spec" | "tolerance" | "error"
+        | "error_limit" | "limit_error" | "max_error" | "允差" | "误差限" | "最大允许误差"
         | "准确度等级"
             if known.contains(&"specification") =>
         {
@@ -238,13 +239,13 @@ fn of_any_table(key: &str, known: &[&'static str]) -> Option<Said> {
 fn of_whole(key: &str, word: &str, known: &[&'static str]) -> Option<Said> {
     match word {
         "language" | "lang" | "语言" => Some(say!(
-            "the language of a report is chosen on the command line: --lang en, zh or both"
+            "the language of a report is chosen where it is asked for: --lang en, zh or both (in Python, `language=\"zh\"`); a Chinese title is title_zh = …"
         )),
         "procedure" | "recording" | "equations" | "columns" | "noise" | "positions" => Some(say!(
             "`{key}` belongs to an experiment, which `gumption calibrate`, `plan`, `simulate` and `diagnose` read"
         )),
         "certificate" | "laboratory" | "customer" | "item" => Some(say!(
-            "data of a certificate stand in a file of their own: --certificate FILE; the U and k of a reference stand with its input, certificate = {{ U = …, k = 2 }}"
+            "data of a certificate stand in a file of their own: --certificate FILE (in Python, `certified(FILE)`); the U and k of a reference stand with its input, certificate = {{ U = …, k = 2 }}"
         )),
         _ => for_all_results(word)
             .or_else(|| header_of(key))

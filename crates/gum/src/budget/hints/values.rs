@@ -92,7 +92,7 @@ pub fn no_table(title: &str, found: &DeValue<'_>) -> Option<Said> {
             "its name stands in the header, its formula is the model: [measurand.NAME], model = \"…\""
         )),
         ("[monte_carlo]", _) => Some(say!(
-            "[monte_carlo] is a header, with trials = … below it; every budget is checked by Monte Carlo, unless --no-mc is given"
+            "[monte_carlo] is a header, with trials = … below it; every budget is checked by Monte Carlo, unless --no-mc (in Python, `monte_carlo=False`) is given"
         )),
         ("certificate", DeValue::String(_) | DeValue::Integer(_) | DeValue::Float(_)) => {
             Some(say!("a certificate is {{ U = …, k = 2, number = \"…\" }}"))

@@ -1,7 +1,7 @@
 //! Words that people try for keys.
 
 /// Words that people try, and the keys and words that they mean.
-pub const SYNONYMS: [(&str, &str); 131] = [
+pub const SYNONYMS: [(&str, &str); 145] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),
@@ -90,6 +90,9 @@ pub const SYNONYMS: [(&str, &str); 131] = [
     ("数学模型", "model"),
     ("测量模型", "model"),
     ("值", "value"),
+    ("数值", "value"),
+    ("估计值", "value"),
+    ("标称值", "value"),
     ("单位", "unit"),
     ("标准不确定度", "u"),
     ("不确定度", "u"),
@@ -123,6 +126,17 @@ pub const SYNONYMS: [(&str, &str); 131] = [
     ("自由度", "dof"),
     ("常数", "constant"),
     ("说明", "description"),
+    ("描述", "description"),
+    ("备注", "description"),
+    ("comment", "note"),
+    ("comment", "description"),
+    ("comments", "note"),
+    ("comments", "description"),
+    ("notes", "note"),
+    ("notes", "description"),
+    ("remark", "note"),
+    ("remark", "description"),
+    ("cert", "certificate"),
     ("分量", "components"),
     ("mu", "mean"),
     ("mu", "location"),

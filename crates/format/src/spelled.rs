@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 /// A number, as TOML writes it, and what stands behind it, of a text that writes the number in another way.
-pub(super) fn spelled(text: &str) -> Option<(String, String)> {
+pub(crate) fn spelled(text: &str) -> Option<(String, String)> {
     let narrow: String = text
         .trim()
         .trim_end_matches([';', '；'])

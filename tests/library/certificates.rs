@@ -297,6 +297,51 @@ fn a_document_of_both_languages_has_each_figure_once() {
     assert!(table.count() > 0);
 }
 
+/// A budget may have a Chinese title, and the role of who signs is in the binding language.
+#[test]
+fn a_chinese_certificate_has_chinese_titles() {
+    let folder = folder("chinese");
+    let budget = folder.join("titled.toml");
+    let text = "title = \"Voltage\"\ntitle_zh = \"电压\"\n[measurand.U]\nmodel = \"V\"\nunit = \"V\"\n\
+        [input.V]\nvalue = 1\nunit = \"V\"\nu = 0.1\n";
+    std::fs::write(&budget, text).expect("a budget");
+    let data = folder.join("laboratory.toml");
+    if !data.exists() {
+        run(&["new", "--certificate"], &[&data]);
+    }
+    let written = |language: &str, ending: &str| {
+        let file = folder.join(format!("titled-{language}.{ending}"));
+        let (data, output) = (
+            data.to_str().expect("a path"),
+            file.to_str().expect("a path"),
+        );
+        let all = [
+            "eval",
+            "--force",
+            "--lang",
+            language,
+            "--certificate",
+            data,
+            "-o",
+            output,
+        ];
+        run(&all, &[&budget]);
+        std::fs::read_to_string(&file).expect("a document")
+    };
+    let chinese = written("zh", "xml");
+    assert!(
+        chinese.contains("<dcc:role>实验室主任</dcc:role>"),
+        "{chinese}"
+    );
+    assert!(chinese.contains(">电压</dcc:content>") && !chinese.contains(">Voltage</dcc:content>"));
+    let english = written("en", "xml");
+    assert!(english.contains("<dcc:role>Head of laboratory</dcc:role>"));
+    assert!(english.contains(">Voltage</dcc:content>") && !english.contains("电压</dcc"));
+    let both = written("both", "xml");
+    assert!(both.contains("lang=\"en\">Voltage<") && both.contains("lang=\"zh\">电压<"));
+    assert!(written("both", "md").contains("Voltage / 电压"));
+}
+
 #[test]
 fn faults_of_a_certificate_are_told_at_their_place() {
     let folder = folder("faults");

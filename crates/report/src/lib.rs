@@ -91,7 +91,7 @@ pub struct Report<'a> {
 impl<'a> Report<'a> {
     /// The title of the budget; where it has none, what is measured.
     fn title(&self) -> String {
-        match self.budget.heading.title.as_str() {
+        match self.budget.heading.titled(self.language) {
             "" => {
                 let outputs = self.budget.model.outputs().iter();
                 let names: Vec<&str> = outputs.map(|output| output.name.as_str()).collect();

@@ -21,7 +21,7 @@ pub(super) fn element(certificate: &Certificate, given: &Administration) -> Elem
                 )
                 .with(contact("dcc:contact", &given.laboratory)),
         )
-        .with(persons(given))
+        .with(persons(certificate, given))
         .with(contact("dcc:customer", &given.customer))
         .with_all(statements(certificate, given))
 }
@@ -107,14 +107,15 @@ fn contact(name: &'static str, contact: &Contact) -> Element {
         .with(xml::element("dcc:location").with_all(place))
 }
 
-fn persons(given: &Administration) -> Element {
+fn persons(certificate: &Certificate, given: &Administration) -> Element {
+    let binding = certificate.languages.first().copied().unwrap_or_default();
     let persons = given.persons.iter().enumerate().map(|(at, person)| {
         let name = Told::everywhere(&person.name);
-        // A role is one text in this schema.
-        let role = person.role.iter().flat_map(|role| role.0.first());
+        // A role is one text in this schema: in the language that is binding.
+        let role = person.role.iter().map(|role| role.text(binding));
         xml::element("dcc:respPerson")
             .with(xml::element("dcc:person").with(told("dcc:name", &name)))
-            .with_all(role.map(|(_, role)| tidy("dcc:role", role)))
+            .with_all(role.map(|role| tidy("dcc:role", role)))
             .with(text(
                 "dcc:mainSigner",
                 if at == 0 { "true" } else { "false" },

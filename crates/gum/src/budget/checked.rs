@@ -10,6 +10,7 @@ use super::fit::Fit;
 use gumption_core::model::Model;
 use gumption_core::quantity::Unit;
 use gumption_fault::Said;
+use gumption_fault::language::Language;
 
 /// A file that was accepted.
 #[derive(Debug, Clone)]
@@ -26,6 +27,8 @@ pub struct Loaded {
 pub struct Heading {
     /// What is measured; empty when the file has no title.
     pub title: String,
+    /// The same for a Chinese report.
+    pub title_zh: Option<String>,
     /// The procedure.
     pub method: Option<String>,
     /// The item that is measured.
@@ -40,6 +43,15 @@ pub struct Heading {
     pub note: Option<String>,
     /// Whether rows of its series whose labels differ in their last number repeat one another.
     pub repetitions: bool,
+}
+
+impl Heading {
+    /// The title in a language; that of the file where it has no other.
+    pub fn titled(&self, language: Language) -> &str {
+        let own = self.title_zh.as_deref();
+        own.filter(|_| language == Language::Chinese)
+            .unwrap_or(&self.title)
+    }
 }
 
 /// One evaluation of a file: the file itself, or a row of its series.

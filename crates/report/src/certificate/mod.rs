@@ -38,9 +38,10 @@ pub(crate) fn of(rows: &[Report<'_>], statement: Vec<String>) -> Option<Certific
     Some(Certificate {
         languages: vec![l],
         administration: None,
-        title: match heading.title.is_empty() {
-            true => Told::default(),
-            false => Told::everywhere(&heading.title),
+        title: match (heading.titled(l), &heading.title_zh) {
+            ("", _) => Told::default(),
+            (title, Some(_)) => Told::in_language(l, title),
+            (title, None) => Told::everywhere(title),
         },
         method: heading.method.as_ref().map(Told::everywhere),
         guide: profile.map_or_else(String::new, |profile| profile.source.to_owned()),

@@ -122,7 +122,7 @@ fn contents(verification: &Verification, l: Language) -> Table {
         let number = index + 1;
         table.push(vec![
             number.to_string().into(),
-            one.heading.title.clone().into(),
+            one.heading.titled(l).into(),
             one.file.clone().into(),
             one.heading.reference.clone().unwrap_or_default().into(),
             one.figures().count().to_string().into(),

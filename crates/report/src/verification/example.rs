@@ -57,7 +57,7 @@ fn fields(example: &Example, l: Language) -> Vec<(String, String)> {
             fields.push((name.to_string(), text.to_string()));
         }
     };
-    field(l.pick("Example", "名称"), &example.heading.title);
+    field(l.pick("Example", "名称"), example.heading.titled(l));
     field(l.pick("File", "文件"), &example.file);
     let reference = example.heading.reference.as_deref();
     field(l.pick("Source", "来源"), reference.unwrap_or_default());

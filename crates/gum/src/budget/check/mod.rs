@@ -154,6 +154,7 @@ fn heading(file: &FileTable) -> Heading {
     let text = |stated: &Slot<String>| stated.as_ref().map(|stated| stated.value.clone());
     Heading {
         title: text(&file.title).unwrap_or_default(),
+        title_zh: text(&file.title_zh),
         method: text(&file.method),
         object: text(&file.object),
         author: text(&file.author),

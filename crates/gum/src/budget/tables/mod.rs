@@ -30,6 +30,8 @@ table! {
     FileTable "the file" {
         /// What is measured, as a heading.
         title: String,
+        /// The heading of a Chinese report.
+        title_zh: String,
         /// The procedure by which it is measured.
         method: String,
         /// The item that is measured or calibrated.

@@ -1,7 +1,7 @@
 //! The tables of a fleet.
 
 use gumption_fault::say;
-use gumption_fleet::{Drift, Measurand};
+use gumption_fleet::{Consistency, Drift, Measurand};
 use gumption_format::document::ColumnKind::{Marks, Names, Numbers, Words};
 use gumption_format::document::{Cell, Column, ColumnKind, Row, Table};
 
@@ -45,6 +45,8 @@ impl Shown<'_> {
             (&head("u"), Numbers),
             (l.pick("Birge", "Birge 比"), Numbers),
             ("p(χ²)", Numbers),
+            (&head("x̄"), Numbers),
+            (&head("u(x̄)"), Numbers),
         ]);
         self.for_groups(&mut table, |at| {
             let group = &one.groups[at];
@@ -57,7 +59,9 @@ impl Shown<'_> {
             let some = |x: Option<f64>| x.map_or(NONE.to_owned(), |x| significant(x, TABLE_DIGITS));
             let known = group.values > 0;
             let number = |x: f64| if known { digits(x) } else { NONE.to_owned() };
-            let birge = group.consistency.map(|one| one.birge);
+            let weighted = |of: fn(&Consistency) -> String| {
+                group.consistency.as_ref().map_or(NONE.to_owned(), of)
+            };
             vec![vec![
                 self.group(at),
                 grouped(group.values as u64),
@@ -66,10 +70,10 @@ impl Shown<'_> {
                 number(group.range[1]),
                 some(group.s),
                 some(Some(group.u).filter(|u| u.is_finite())),
-                birge.map_or(NONE.to_owned(), |x| significant(x, TABLE_DIGITS)),
-                group
-                    .consistency
-                    .map_or(NONE.to_owned(), |one| probability(one.p_larger)),
+                weighted(|one| significant(one.birge, TABLE_DIGITS)),
+                weighted(|one| probability(one.p_larger)),
+                weighted(|one| aligned(one.mean, one.u, TABLE_DIGITS)),
+                weighted(|one| significant(one.u, TABLE_DIGITS)),
             ]]
         });
         table

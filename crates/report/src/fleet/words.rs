@@ -143,7 +143,15 @@ impl Shown<'_> {
         }
         let [devices, beyond] = [drift.devices, drift.beyond].map(|n| grouped(n as u64));
         let by_chance = expected(drift.expected);
-        let all = say!("Rate beyond its U: {beyond} of {devices} devices with calibrations at several dates; chance lets expect {by_chance}.").in_language(l);
+        let all = match drift.devices {
+            1 => say!(
+                "Rate beyond its U: {beyond} of 1 device with calibrations at several dates; chance lets expect {by_chance}."
+            ),
+            _ => say!(
+                "Rate beyond its U: {beyond} of {devices} devices with calibrations at several dates; chance lets expect {by_chance}."
+            ),
+        };
+        let all = all.in_language(l);
         let named = drift.apart.iter().filter(|one| one.is_named());
         let names = self.list(drift.named, named.map(|one| one.device.clone()));
         let all_explained = l.pick(
@@ -167,7 +175,7 @@ impl Shown<'_> {
         let l = self.l;
         let p = self.limit();
         [
-            say!("s: standard deviation of the estimates; u: claimed standard uncertainty, root mean square. Birge = √(χ²/(n − 1)) with χ² = Σ (x − x̄)²/u² and the mean x̄ with weights 1/u² (Birge 1932); p(χ²): probability of a larger χ².").in_language(l),
+            say!("s: standard deviation of the estimates; u: claimed standard uncertainty, root mean square. Birge = √(χ²/(n − 1)) with χ² = Σ (x − x̄)²/u² and the mean x̄ with weights 1/u² (Birge 1932); p(χ²): probability of a larger χ². u(x̄): standard uncertainty of x̄ by the claimed u.").in_language(l),
             say!("E_n = (x − X)/√(U_x² + U_X²) (ISO/IEC 17043, ISO 13528). Without a reference, X is the weighted mean of the others of the group, with the k of the row; rows far from the median are left out of it. p over all: probability of such a difference, times the number of tests (Bonferroni); below {p} a device is named.").in_language(l),
         ]
         .to_vec()

@@ -13,6 +13,7 @@ use gumption::csv;
 use gumption::fault::{Said, say};
 use gumption::files::Files;
 use gumption::propagate::Progress;
+use gumption::render;
 use gumption::report::Language;
 use gumption::report::batch::{Columns, Count, Lines, Table};
 
@@ -93,6 +94,15 @@ fn evaluated(args: &Args) -> Result<Count, Outcome> {
             "this program was built without Parquet, which `cargo install --path . --features parquet` adds; CSV it reads and writes"
         )));
     }
+    if let Some(ending) = args
+        .target
+        .ending()
+        .filter(|ending| names_a_document(ending))
+    {
+        return Err(output::complain(say!(
+            "results of a batch are a table, and no .{ending}: write it as .csv or .parquet; `gumption fleet` makes documents of such tables"
+        )));
+    }
     let refused = |rejection| output::refused(&rejection, args.lang);
     let file = BatchFile::open(Files::Disk, &args.budget, args.profile)
         .map_err(|rejection| other_kind::refused(&rejection, Reads::Budget, args.lang))?;
@@ -125,6 +135,11 @@ const PARQUET: &str = "parquet";
 fn is_parquet(path: &Path) -> bool {
     let ending = path.extension().unwrap_or_default();
     ending.eq_ignore_ascii_case(PARQUET)
+}
+
+/// Whether an ending is that of a document; text may hold a table.
+fn names_a_document(ending: &str) -> bool {
+    ending == "pdf" || render::with_ending(ending).is_some_and(|format| format.ending != "txt")
 }
 
 /// Where rows come from.

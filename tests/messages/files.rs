@@ -249,6 +249,8 @@ fn an_unknown_ending_is_refused_before_the_work() {
     assert!(folder.text("REPORT.MD").starts_with("# Resistance"));
     let refused = folder.run(&["simulate", "case.toml", "-o", "recording.md"]);
     assert!(said(&refused).contains(".csv"));
+    let refused = folder.run(&["batch", "budget.toml", "devices.csv", "-o", "results.xlsx"]);
+    assert!(said(&refused).contains("no .xlsx"), "{}", said(&refused));
 }
 
 /// Of several outputs all are written, or none.

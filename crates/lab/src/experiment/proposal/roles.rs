@@ -319,6 +319,9 @@ fn by_name(column: &Column) -> Option<RoleWord> {
 }
 
 fn of_labels(column: &Column, labels: &Labels) -> RoleWord {
+    if labels.levels.iter().all(String::is_empty) {
+        return RoleWord::Ignore;
+    }
     let times = labels.levels.iter().filter(|text| !text.is_empty());
     if times.clone().count() > 1 && times.clone().all(|text| csv::time(text).is_some()) {
         let of_rows = labels
@@ -339,6 +342,10 @@ fn of_labels(column: &Column, labels: &Labels) -> RoleWord {
     }
     if labels.levels.iter().all(|label| is_way(label)) {
         return RoleWord::Direction;
+    }
+    // One word throughout tells no rows apart.
+    if labels.levels.len() == 1 {
+        return RoleWord::Ignore;
     }
     // What was repeated as a whole comes once each.
     match stretches(&labels.of_row) == labels.levels.len() {

@@ -30,7 +30,7 @@ table! {
     FileTable "the file" {
         /// What is measured, as a heading.
         title: String,
-        /// The heading of a Chinese report.
+        /// The heading in Chinese.
         title_zh: String,
         /// The procedure by which it is measured.
         method: String,

@@ -297,8 +297,8 @@ mod tests {
         assert_eq!(role(&table, "Days"), "time");
         // A word that stands throughout, or nothing, tells no runs apart; a name does.
         let table =
-            of("load,out,device,note,run\n0,0.1,A7,,first\n1,1.1,A7,,first\n2,2.1,A7,,first\n");
-        let roles = ["device", "note", "run"].map(|name| role(&table, name));
+            of("load,out,chassis,note,run\n0,0.1,A7,,first\n1,1.1,A7,,first\n2,2.1,A7,,first\n");
+        let roles = ["chassis", "note", "run"].map(|name| role(&table, name));
         assert_eq!(roles, ["ignore", "ignore", "run"]);
         // What rises once is set.
         let table = of("level,U [mV]\n1,0.1\n1,0.2\n2,1.1\n2,1.2\n3,2.1\n3,2.2\n");

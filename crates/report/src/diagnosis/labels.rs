@@ -55,7 +55,7 @@ const FIXED: [(&str, &str); 33] = [
 ];
 
 /// Labels around a figure or a name: what stands before and after it, and the same in Chinese.
-const FORMS: [([&str; 2], [&str; 2]); 19] = [
+const FORMS: [([&str; 2], [&str; 2]); 21] = [
     (["", " % of the range"], ["", " % 量程"]),
     (["half at ", ""], ["半值点 ", ""]),
     (["period ", ""], ["周期 ", ""]),
@@ -69,6 +69,8 @@ const FORMS: [([&str; 2], [&str; 2]); 19] = [
     (["gap ", ""], ["间隙 ", ""]),
     (["step ", ""], ["步距 ", ""]),
     (["other axis ", ""], ["另一轴 ", ""]),
+    (["dying away over ", ""], ["衰减，特征宽度 ", ""]),
+    (["growing over ", ""], ["增长，特征宽度 ", ""]),
     (["over ", ""], ["特征宽度 ", ""]),
     (["row ", ""], ["第 ", " 行"]),
     (["rows ", ""], ["第 ", " 行"]),
@@ -159,7 +161,8 @@ fn chinese(label: &str) -> String {
     }
 }
 
-/// Two figures: `3.5 to 7.1 h`, `τ = 0.5 and 2 h`; two names: `ax with gy`; a number of rows.
+/// Two figures: `3.5 to 7.1 h`, `τ = 0.5 and 2 h`, `V between 3 and 5`; ends of ranges: `abs(V) above 3, 8`; two names:
+/// `ax with gy`; a number of rows.
 fn ranges(text: &str) -> String {
     let is_name = |part: &str| !part.contains(' ');
     match text.split_once(" with ") {
@@ -172,6 +175,11 @@ fn ranges(text: &str) -> String {
         && rows.parse::<f64>().is_ok()
     {
         return format!("{rows} 行");
+    }
+    for (english, chinese) in [(" between ", " 介于 "), (" above ", " 高于 ")] {
+        if let Some((name, figures)) = text.split_once(english) {
+            return format!("{name}{chinese}{}", ranges(figures));
+        }
     }
     for (english, chinese) in [(" to ", " 至 "), (" and ", " 与 ")] {
         if let Some((first, second)) = text.split_once(english) {
@@ -205,6 +213,9 @@ mod tests {
             ("2 per turn", "每转 2 次"),
             ("τ = 4.2 and 16.8 h", "τ = 4.2 与 16.8 h"),
             ("3.5 to 7.1 h", "3.5 至 7.1 h"),
+            ("growing over 8 K", "增长，特征宽度 8 K"),
+            ("V between -27 and -9", "V 介于 -27 与 -9"),
+            ("abs(V) above 3, 8", "abs(V) 高于 3, 8"),
             ("rows 3 and 4", "第 3 与 4 行"),
             ("rows 61 to 80", "第 61 至 80 行"),
             ("width 15 % of the range", "宽度 15 % 量程"),

@@ -27,9 +27,7 @@ impl Absorbed {
             0 => slopes.clone(),
             _ => evidence::span(slopes.clone(), LEAST),
         };
-        let residuals = fit.residuals.map(known);
-        let left = &residuals - &basis * basis.tr_mul(&residuals);
-        Absorbed { basis, left }
+        Absorbed::of(basis, fit.residuals.clone())
     }
 
     /// What these columns take away, in units of the noise.
@@ -39,7 +37,11 @@ impl Absorbed {
         u: &DVector<f64>,
     ) -> Absorbed {
         let basis = evidence::span(over_noise(columns, u), LEAST);
-        let residuals = residuals.component_div(u).map(known);
+        Absorbed::of(basis, residuals.component_div(u))
+    }
+
+    fn of(basis: DMatrix<f64>, residuals: DVector<f64>) -> Absorbed {
+        let residuals = residuals.map(known);
         let left = &residuals - &basis * basis.tr_mul(&residuals);
         Absorbed { basis, left }
     }

@@ -278,11 +278,13 @@ fn steps(
     let (least, most) = (levels[0], levels[levels.len() - 1]);
     let shown = |x: f64| figure_to(x, LABEL * (most - least));
     let between = |upper: usize| [levels[upper - 1], levels[upper]];
-    let parts = |upper: &usize| {
-        let above = values.iter().filter(|value| **value >= levels[*upper]);
-        let above = above.count();
-        above.min(values.len() - above) > 1
+    let below = |upper: usize| {
+        values
+            .iter()
+            .filter(|value| **value < levels[upper])
+            .count()
     };
+    let parts = |upper: &usize| below(*upper).min(values.len() - below(*upper)) > 1;
     let of_one_sign = |upper: &usize| between(*upper)[0] > 0.0 || between(*upper)[1] < 0.0;
     let gaps = (1..levels.len()).filter(|upper| parts(upper) && of_one_sign(upper));
     let gaps: Vec<usize> = gaps.collect();
@@ -305,18 +307,20 @@ fn steps(
     let scanned = (0..gaps.len()).step_by(stride).chain(best);
     let scanned: Vec<usize> = scanned.map(|at| gaps[at]).collect();
     let terms: Vec<Term> = scanned.iter().map(on).collect();
-    let several = sets(fitted, &terms).into_iter().map(|set| {
-        let uppers = set.members.iter().map(|at| scanned[*at]);
-        let uppers: Vec<usize> = uppers.collect();
-        let lower = uppers.iter().map(|upper| shown(between(*upper)[0]));
-        let lower: Vec<String> = lower.collect();
-        let modifiers = uppers.iter().map(|upper| step(*upper)).collect();
-        Variation {
-            // One more is as much less likely as any further order; each set of as many is as likely as any other.
-            weight: scanned.len() as f64 * set.share * HIGHER.powi(uppers.len() as i32 - 1),
-            ..form(format!("{name} above {}", lower.join(", ")), modifiers)
-        }
-    });
+    let several = sets(fitted, &terms, scanned.clone())
+        .into_iter()
+        .map(|set| {
+            let uppers = set.members.iter().map(|at| scanned[*at]);
+            let uppers: Vec<usize> = uppers.collect();
+            let lower = uppers.iter().map(|upper| shown(between(*upper)[0]));
+            let lower: Vec<String> = lower.collect();
+            let modifiers = uppers.iter().map(|upper| step(*upper)).collect();
+            Variation {
+                // One more is as much less likely as any further order; each set of as many is as likely as any other.
+                weight: scanned.len() as f64 * set.share * HIGHER.powi(uppers.len() as i32 - 1),
+                ..form(format!("{name} above {}", lower.join(", ")), modifiers)
+            }
+        });
     let single = scanned.iter().map(|upper| one(*upper));
     single.chain(several).collect()
 }

@@ -17,10 +17,11 @@ pub(super) struct Set {
 }
 
 /// Sets of two terms and more that explain the residuals better than any with fewer, by the likelihood with an unknown size of the noise
-/// less what the choice of the set and its sizes cost (Schwarz 1978).
-pub(super) fn sets(fitted: &FittedModel<'_>, terms: &[Term]) -> Vec<Set> {
+/// less what the choice of the set and its sizes cost (Schwarz 1978). Each term has a place; those of a set are two apart at least.
+pub(super) fn sets(fitted: &FittedModel<'_>, terms: &[Term], places: Vec<usize>) -> Vec<Set> {
     let columns = || terms.iter().map(|term| fitted.column(term));
-    let powers = residuals(fitted).and_then(|absorbed| Powers::of(absorbed, columns().collect()));
+    let powers = residuals(fitted);
+    let powers = powers.and_then(|absorbed| Powers::of(absorbed, columns().collect(), places));
     powers.map_or(Vec::new(), |powers| powers.leading())
 }
 
@@ -29,6 +30,7 @@ struct Powers {
     /// Products of what is left of the regressors, each of unit length, with one another and with the residuals.
     products: DMatrix<f64>,
     along: DVector<f64>,
+    places: Vec<usize>,
     whole: f64,
     observations: f64,
     /// Degrees of freedom that the residuals have.
@@ -37,7 +39,7 @@ struct Powers {
 
 impl Powers {
     /// `None` where there are too few to choose from.
-    fn of(absorbed: &Absorbed, columns: Vec<DVector<f64>>) -> Option<Powers> {
+    fn of(absorbed: &Absorbed, columns: Vec<DVector<f64>>, places: Vec<usize>) -> Option<Powers> {
         let unit = |column: &DVector<f64>| match absorbed.leaves(column) {
             true => absorbed.rest(column).normalize(),
             false => DVector::zeros(column.len()),
@@ -49,6 +51,7 @@ impl Powers {
             Powers {
                 products: units.tr_mul(&units),
                 along: units.tr_mul(&absorbed.left),
+                places,
                 whole: absorbed.left.norm_squared(),
                 observations: observations as f64,
                 degrees: observations.saturating_sub(absorbed.directions()) as f64,
@@ -107,14 +110,22 @@ impl Powers {
     fn best_pair(&self) -> Option<Vec<usize>> {
         let count = self.along.len();
         let pairs = (0..count).flat_map(|b| (0..b).map(move |a| [a, b]));
+        let pairs = pairs.filter(|[a, b]| self.goes_with(*a, &[*b]));
         let powers = pairs.map(|pair| (self.power(&pair), pair));
         let best = powers.max_by(|a, b| a.0.total_cmp(&b.0));
         best.map(|(_, pair)| pair.to_vec())
     }
 
+    /// Whether a term is another than the members of a set, with more than one value between it and them: what one value does alone
+    /// is no level.
+    fn goes_with(&self, at: usize, set: &[usize]) -> bool {
+        let mut others = set.iter().map(|other| self.places[*other]);
+        others.all(|other| other.abs_diff(self.places[at]) > 1)
+    }
+
     /// The member that adds most to a set.
     fn next(&self, set: &[usize]) -> Option<usize> {
-        let others = (0..self.along.len()).filter(|at| !set.contains(at));
+        let others = (0..self.along.len()).filter(|at| self.goes_with(*at, set));
         let with = |at: usize| self.power(&[set, &[at]].concat());
         others
             .map(|at| (with(at), at))
@@ -167,7 +178,8 @@ mod tests {
             &DVector::from_row_slice(residuals),
             &DVector::from_element(rows, 1.0),
         );
-        Powers::of(&absorbed, (1..rows).map(from).collect()).unwrap()
+        let places = (1..rows).collect();
+        Powers::of(&absorbed, (1..rows).map(from).collect(), places).unwrap()
     }
 
     /// As much as noise of this size scatters, by turns.
@@ -186,6 +198,21 @@ mod tests {
         assert_eq!(best.members, [7, 15, 21]);
         // 29 choose 3.
         assert!((best.share * 3654.0 - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn single_values_are_no_levels() {
+        // One row of its own between two levels, and a level of two rows.
+        let of_rows = |rows: std::ops::Range<usize>| -> Vec<f64> {
+            let level = |row: usize| f64::from(u8::from(rows.contains(&row)));
+            (0..30).map(|row| level(row) + noise(row)).collect()
+        };
+        for set in staircase(&of_rows(12..13)).leading() {
+            let mut pairs = set.members.windows(2);
+            assert!(pairs.all(|pair| pair[1] - pair[0] > 1));
+        }
+        let two = staircase(&of_rows(12..14)).leading();
+        assert_eq!(two.last().unwrap().members, [11, 13]);
     }
 
     #[test]

@@ -30,7 +30,7 @@ use super::settled;
 
 /// So often the values about the parameter of an effect are brought closer together.
 const REFINEMENTS: u8 = 3;
-/// Of so many effects that are the likeliest to be alone more is asked.
+/// Of so many effects that are the likeliest to be alone, or explain most under one label, more is asked.
 const BEST: usize = 10;
 /// Two tests of what the noise is, each with half of the probability of a false alarm.
 const OF_NOISE: f64 = 0.5;

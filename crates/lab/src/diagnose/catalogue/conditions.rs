@@ -24,13 +24,11 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     conditions.retain(|column| !fitted.in_model(*column));
     for column in &conditions {
         cells.extend(of_condition(fitted, *column));
-        // What leaks or diffuses does so by the energy of heat; nothing else that is only recorded does.
-        let is_hot = fitted.is_temperature(*column);
-        cells.extend(
-            is_hot
-                .then(|| exponentials::cell(fitted, *column))
-                .flatten(),
-        );
+        // What leaks or diffuses does so by the energy of heat; what a reading taken too soon or too near still has to lose dies away
+        // with a time of waiting or a distance, which have a true zero.
+        let dies_away = fitted.is_temperature(*column) || spreads(fitted, *column);
+        let exponential = dies_away.then(|| exponentials::cell(fitted, *column));
+        cells.extend(exponential.flatten());
     }
     for column in conditions.iter().filter(|c| spreads(fitted, **c)) {
         cells.push(reciprocal(fitted, *column, scale(fitted)));

@@ -8,8 +8,8 @@ use super::{Cell, EffectId, Modifier, Term, Variation};
 
 /// A part of the output that dies away from the least value on, or grows towards the largest one.
 pub(super) fn cell(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
-    /// Fewer values show no course.
-    const VALUES: usize = 6;
+    /// Through fewer values a constant, a size and a width go anyhow.
+    const VALUES: usize = 4;
     let levels = levels_of(fitted.numbers(column));
     let is_clock = fitted.clock.column == Some(column);
     if is_clock || fitted.is_angle(column) || levels.len() < VALUES {
@@ -45,6 +45,7 @@ fn course(
     let x = fitted.numbers(column);
     let (least, most) = range(x);
     let unit = fitted.step_unit(column).after_number();
+    let word = if sign < 0.0 { "dying away" } else { "growing" };
     let term = |width: f64| -> Term {
         let values = map(x, |x| libm::exp(sign * (x - end) / width));
         let sign = if sign < 0.0 { "-" } else { "" };
@@ -59,15 +60,30 @@ fn course(
         on_output(fitted.centred(column)),
         on_output(fitted.by(column, "", |x| (x - end) * (x - end))),
     ];
-    let shows = |part: &f64| beats(fitted, &term(width(*part)), &parabola);
-    let wide = (fitted.is_temperature(column) || shows(&WIDE)).then_some(WIDE);
-    let wider = WIDER.into_iter().filter(shows);
-    let widths = WIDTHS.into_iter().chain(wide).chain(wider).map(width);
-    let widths: Vec<f64> = widths.filter(|width| *width >= step).collect();
-    let widths = fitted.finer.times(sharpened(fitted, widths, &term));
-    let each = widths.into_iter().map(five_digits).map(|width| {
-        let label = format!("over {}", amount(width, &unit));
-        Variation::one(label, term(width)).shaped("w", width, &unit)
-    });
+    let widest = if fitted.is_temperature(column) {
+        WIDE
+    } else if fitted.is_like(column, "s") {
+        // What settles has not always done so in the longest time of waiting.
+        WIDER[1]
+    } else {
+        WIDTHS[2]
+    };
+    let widths = WIDTHS.into_iter().chain([WIDE]).chain(WIDER).map(width);
+    let (own, wider): (Vec<f64>, Vec<f64>) = widths
+        .filter(|width| *width >= step)
+        .partition(|one| *one <= width(widest));
+    let all = sharpened(fitted, [own.clone(), wider].concat(), &term);
+    let shows = |one: &f64| *one > width(widest) && beats(fitted, &term(*one), &parabola);
+    let wider = all.into_iter().filter(shows);
+    let widths = sharpened(fitted, own, &term).into_iter().chain(wider);
+    let each = fitted
+        .finer
+        .times(widths.collect())
+        .into_iter()
+        .map(five_digits)
+        .map(|width| {
+            let label = format!("{word} over {}", amount(width, &unit));
+            Variation::one(label, term(width)).shaped("w", width, &unit)
+        });
     each.collect()
 }

@@ -337,12 +337,73 @@ fn a_dark_current_is_exponential_in_the_temperature() {
     let case = "equations = \"I = R*P + I_0\"\n[columns]\nP = \"stimulus\"\nT = \"covariate\"\nI = \"output\"\n";
     let found = diagnosed("dark", &rows, case);
     assert_eq!(first_names(&found), ["exponential"], "{found}");
-    // `over 13 K`: 9 K/ln 2.
-    let width = variant(&found).split(' ').nth(1).map(str::parse::<f64>);
+    // `growing over 13 K`: 9 K/ln 2.
+    let width = variant(&found).split(' ').nth(2).map(str::parse::<f64>);
     let Some(Ok(width)) = width else {
         panic!("{}", variant(&found));
     };
     assert!((width / 12.98 - 1.0).abs() < 0.15, "{width}");
+}
+
+/// Readings of a bath that were taken too soon: four times of waiting are enough to tell an exponential from a parabola.
+#[test]
+fn what_settles_dies_away_with_the_time_of_waiting() {
+    let mut noise = Noise(47);
+    let mut rows = "T [°C],wait [s],y [°C]\n".to_owned();
+    for row in 0..48 {
+        let (bath, wait) = (
+            25.0 * f64::from(row / 8),
+            [5.0, 10.0, 20.0, 40.0][row as usize % 4],
+        );
+        let reading = bath + 0.1 - 1.5 * libm::exp(-wait / 12.0) + 0.04 * noise.normal();
+        let _ = writeln!(rows, "{bath},{wait},{reading:.3}");
+    }
+    let case = "equations = \"y = z + T\"\n[columns]\nT = \"stimulus\"\nwait = \"covariate\"\ny = \"output\"\n[noise]\nu = \"0.04 K\"\n";
+    let found = diagnosed("settling", &rows, case);
+    assert_eq!(first_names(&found), ["exponential"], "{found}");
+    assert!(variant(&found).starts_with("dying away over 1"), "{found}");
+}
+
+/// A temperature coefficient that is 1 % larger in the second half: a departure that nobody would call another effect, and more than
+/// noise.
+#[test]
+fn an_effect_that_differs_between_parts_only_acts_like_its_name() {
+    let state = |later: f64| {
+        let mut noise = Noise(53);
+        let mut rows = "x [V],T [°C],y [V]\n".to_owned();
+        for row in 0..60 {
+            let (x, warmth) = (
+                f64::from(row * 7 % 11),
+                3.0 * libm::sin(1.3 * f64::from(row)),
+            );
+            let size = if row < 30 { 0.1 } else { later };
+            let reading = 0.2 + 2.0 * x + size * warmth + 1e-3 * noise.normal();
+            let _ = writeln!(rows, "{x},{:.4},{reading:.5}", 23.0 + warmth);
+        }
+        let case = "equations = \"y = z + k*x\"\n[columns]\nx = \"stimulus\"\nT = \"covariate\"\ny = \"output\"\n[noise]\nu = \"1 mV\"\n";
+        let found = diagnosed(&format!("parts-{later}"), &rows, case);
+        assert_eq!(first_names(&found), ["tempco-bias"], "{found}");
+        found["effects"][0]["state"].as_str().map(str::to_owned)
+    };
+    assert_eq!(state(0.1).as_deref(), Some("identified"));
+    assert_eq!(state(0.101).as_deref(), Some("acts-like"));
+}
+
+/// The force on what moves while it turns: the product of a speed and a rate that takes both signs, which leaves nothing of the response
+/// where it does not turn.
+#[test]
+fn a_product_may_take_all_of_the_response() {
+    let mut noise = Noise(59);
+    let mut rows = "w [rad/s],v [m/s],a [m/s^2]\n".to_owned();
+    for row in 0..70 {
+        let turning = 3.0 * libm::sin(1.3 * f64::from(row));
+        let speed = libm::sin(2.1 * f64::from(row) + 0.4);
+        let force = 0.02 + 0.5 * speed + 0.2 * turning * speed + 0.05 * noise.normal();
+        let _ = writeln!(rows, "{turning:.4},{speed:.4},{force:.4}");
+    }
+    let case = "equations = \"a = b + c*v\"\n[columns]\nw = \"covariate\"\nv = \"stimulus\"\na = \"output\"\n[noise]\nu = \"0.05 m/s^2\"\n";
+    let found = diagnosed("product", &rows, case);
+    assert_eq!(first_names(&found), ["sensitivity-scale"], "{found}");
 }
 
 /// A counter that is blind for 3 µs after each count loses 13 % of the largest rate: no parabola, nor a piece of a cubic.

@@ -253,6 +253,26 @@ fn a_held_out_recording_is_predicted_better_with_the_physics() {
     assert!(rms < 1.3 * 5e-4, "{rms}");
 }
 
+/// Two readings that were entered in exchanged order say nothing of another recording, which has its own.
+#[test]
+fn a_slip_in_one_recording_need_not_be_in_another() {
+    let slipped = |row: usize, seed: u64| {
+        let text = load_cell(0.0, 0.0, seed);
+        let mut lines: Vec<Vec<&str>> =
+            text.lines().map(|line| line.split(',').collect()).collect();
+        let readings = [lines[row][1], lines[row + 3][1]];
+        (lines[row][1], lines[row + 3][1]) = (readings[1], readings[0]);
+        let lines: Vec<String> = lines.iter().map(|cells| cells.join(",")).collect();
+        lines.join("\n")
+    };
+    let folder = folder("slips");
+    std::fs::write(folder.join("load-cell.csv"), slipped(10, 6)).expect("written");
+    std::fs::write(folder.join("next.csv"), slipped(25, 7)).expect("written");
+    let found = diagnosed(&folder, LOAD_CELL);
+    assert_eq!(named(&found), ["swapped"]);
+    assert_eq!(found["effects"][0]["state"], "identified", "{found}");
+}
+
 /// A load cell up and down twice, whose noise wanders.
 fn wandering_load_cell(curvature: f64, seed: u64) -> String {
     let mut noise = Noise(seed);

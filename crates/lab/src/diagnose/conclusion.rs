@@ -196,7 +196,7 @@ impl Diagnosis {
             (&cell.place, cell.effect.pattern.is_some())
         };
         match evidence::likeness(slot, &self.examination.slots, of) {
-            Likeness::Form if self.absent => Likeness::Absent,
+            Likeness::Form => self.likened.unwrap_or(Likeness::Form),
             other => other,
         }
     }

@@ -115,6 +115,11 @@ impl Confirmation {
     pub fn agreed(&self) -> Option<(Agreement, f64)> {
         self.agreement.map(|p| (Agreement::of(p), p))
     }
+
+    /// Whether they do not.
+    pub(super) fn differs(&self) -> bool {
+        matches!(self.agreed(), Some((Agreement::Differ, _)))
+    }
 }
 
 impl Agreement {

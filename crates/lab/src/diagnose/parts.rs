@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::candidates::baseline;
 use super::case::Role;
-use super::confirm::{degrees, scale};
+use super::confirm::degrees;
 use super::design::Design;
 use super::evidence::{Baseline, Fitted, over_noise};
 use super::fit::Fit;
@@ -43,33 +43,43 @@ pub(super) fn confirmation(
         parts: Vec::new(),
         agreement: None,
     };
-    let estimates = apart(design, fit, claimed, at, &members);
-    let Some((seen, values, covariance)) = estimates.filter(|(seen, ..)| seen.len() > 1) else {
+    let parts = apart(design, fit, claimed, at, &members);
+    let Some(parts) = parts.filter(|parts| parts.seen.len() > 1) else {
         return confirmation;
     };
-    let chi_squared = fit.residuals.component_div(&claimed.u).norm_squared();
-    let dof = degrees(design);
-    let scale = scale(design, fit, claimed);
+    let further = parts.seen.len() as f64 - 1.0;
+    let dof = degrees(design) - further;
+    let own = claimed.is_estimated().then(|| parts.left / dof);
+    if own.is_some_and(|variance| !(dof > 0.0 && variance > 0.0)) {
+        return confirmation;
+    }
+    let scale = own.unwrap_or(1.0).sqrt();
     let of = |(i, part): (usize, &usize)| {
-        let u = scale * covariance[(i, i)].max(0.0).sqrt();
-        (names[*part].clone(), values[i], u)
+        let u = scale * parts.covariance[(i, i)].max(0.0).sqrt();
+        (names[*part].clone(), parts.values[i], u)
     };
-    confirmation.parts = seen.iter().enumerate().map(of).collect();
-    let further = seen.len() as f64 - 1.0;
-    confirmation.agreement = spread(&values, &covariance).and_then(|q| {
-        if !claimed.is_estimated() {
-            return Some(chi_squared_sf(q, further));
-        }
-        let (left, dof) = (chi_squared - q, dof - further);
-        (left > 0.0 && dof > 0.0).then(|| f_sf(q / further / (left / dof), further, dof))
+    confirmation.parts = parts.seen.iter().enumerate().map(of).collect();
+    let q = spread(&parts.values, &parts.covariance);
+    confirmation.agreement = q.map(|q| match own {
+        Some(variance) => f_sf(q / further / variance, further, dof),
+        None => chi_squared_sf(q, further),
     });
     confirmation
 }
 
-/// Parts that show an effect, their values of it, and the covariance matrix of these.
-type Parts = (Vec<usize>, DVector<f64>, DMatrix<f64>);
+/// An effect in parts of the recording.
+struct Parts {
+    /// Those that show it.
+    seen: Vec<usize>,
+    /// Its size in them.
+    values: DVector<f64>,
+    covariance: DMatrix<f64>,
+    /// χ² that is left beside all of them.
+    left: f64,
+}
 
-/// The unknown `at` with a value of its own for each list of observations, beside everything that is common.
+/// The unknown `at` with a value of its own for each list of observations, beside everything that is common, as well as the noise
+/// with its correlation lets them be known.
 fn apart(
     design: &Design<'_>,
     fit: &Fit,
@@ -93,10 +103,11 @@ fn apart(
         jacobian: fit.jacobian.clone().remove_column(at),
         ..fit.clone()
     };
-    let beside = baseline(&common, &rest, &claimed.uncorrelated()).ok()?;
+    let beside = baseline(&common, &rest, claimed).ok()?;
     let alone = over_noise(&columns, &claimed.u);
-    let (seen, values, covariance) = estimates(&beside, &columns, &alone, known);
-    Some((seen, values.add_scalar(fit.unknowns[at]), covariance))
+    let mut parts = estimates(&beside, &columns, &alone, known);
+    parts.values.add_scalar_mut(fit.unknowns[at]);
+    Some(parts)
 }
 
 /// How much the values of parts differ from the common one. `alone` is what the parts would show if the other unknowns were known, in
@@ -140,12 +151,16 @@ fn estimates(
         }
     }
     let covariance = &units * inverse * &units;
-    let values = &covariance * pull;
+    let values = &covariance * &pull;
     let most = FAR * FAR / information.sum();
     let shows = |part: &usize| open[*part] < TAKES_PART && covariance[(*part, *part)] < most;
     let seen: Vec<usize> = (0..parts).filter(shows).collect();
-    let covariance = covariance.select_columns(&seen).select_rows(&seen);
-    (seen.clone(), values.select_rows(&seen), covariance)
+    Parts {
+        left: beside.chi_squared() - pull.dot(&values),
+        values: values.select_rows(&seen),
+        covariance: covariance.select_columns(&seen).select_rows(&seen),
+        seen,
+    }
 }
 
 /// Sum of squares of the deviations of correlated values from their mean, in units of their covariance matrix:
@@ -198,8 +213,14 @@ mod tests {
             _ => 0.0,
         };
         let columns = DMatrix::from_fn(7, 3, members);
-        let (seen, values, covariance) = estimates(&baseline, &columns, &columns, (0.0, 0.0));
+        let Parts {
+            seen,
+            values,
+            covariance,
+            left,
+        } = estimates(&baseline, &columns, &columns, (0.0, 0.0));
         assert_eq!(seen, [1, 2]);
+        assert!(left.abs() < 1e-12);
         assert!((values[0] - 3.0).abs() < 1e-12 && (values[1] - 5.0).abs() < 1e-12);
         // u² of the mean of the part and of the offset.
         assert!((covariance[(0, 0)] - 0.75).abs() < 1e-12);
@@ -219,7 +240,7 @@ mod tests {
             true => level[part],
             false => 0.0,
         });
-        let (seen, ..) = estimates(&baseline, &columns, &columns, (0.0, 0.0));
-        assert!(seen.is_empty());
+        let parts = estimates(&baseline, &columns, &columns, (0.0, 0.0));
+        assert!(parts.seen.is_empty());
     }
 }

@@ -37,7 +37,9 @@ pub(super) fn missized(
                 let scales = scales(fitted, variation, &named.estimate, claimed);
                 takes_all(variation, named.estimate.as_slice(), &scales)
             };
-            (on_scale && takes_all())
+            (on_scale
+                && !reverses(fitted, &candidates.cells[named.candidate].place.along)
+                && takes_all())
                 || outgrows(fitted, variation, &named.estimate)
                 || (is_freed(variation) && leaves_range(fitted, variation, &named.estimate))
         };
@@ -47,6 +49,13 @@ pub(super) fn missized(
     };
     let named = examination.slots.iter().flat_map(|slot| &slot.named);
     named.filter(wrong).map(|named| named.candidate).collect()
+}
+
+/// Whether what an effect follows reverses of itself, and is no quantity of the model: a product of the two, such as the force on what
+/// moves while it turns, leaves nothing of the response where it is zero.
+fn reverses(fitted: &FittedModel<'_>, along: &str) -> bool {
+    let mut others = (fitted.numeric().into_iter()).filter(|column| !fitted.in_model(*column));
+    others.any(|column| fitted.label(column) == along && fitted.passes_zero(column))
 }
 
 /// Whether an effect of these sizes adds more to an output than any two numbers of the size of its readings differ: it stands only

@@ -10,7 +10,7 @@ use super::catalogue::{Cell, Pattern};
 use super::coarse::Coarse;
 use super::confirm::{self, Estimated, Quality, estimates};
 use super::design::Design;
-use super::evidence::{self, Examination, Located};
+use super::evidence::{self, Examination, Likeness, Located};
 use super::explanation::{self, Separating};
 use super::failure::Failure;
 use super::fit::{Fit, ModelVersion, Trouble, Unsettled};
@@ -54,8 +54,8 @@ pub struct Diagnosis {
     pub omitted: Vec<Omitted>,
     /// How well the held-out recording is predicted, if the case names one.
     pub held_out: Option<HeldOutQuality>,
-    /// Whether what was adopted would be there in the held-out recording and does not show in it.
-    pub absent: bool,
+    /// Why names that stand alone say no more than what their effects act like, although nothing else does.
+    pub likened: Option<Likeness>,
     /// For each slot, where something is adopted, what it costs each unknown that the slot has several
     /// explanations.
     pub choices: Vec<Vec<f64>>,
@@ -130,7 +130,7 @@ pub fn diagnose(
         adopted,
         no_fit,
         held_out,
-        absent,
+        likened,
     } = Adoption::of(
         &known,
         &candidates,
@@ -172,7 +172,7 @@ pub fn diagnose(
         separating,
         accounts,
         held_out,
-        absent,
+        likened,
         choices,
         steady: candidates.fitted.is_steady(),
         cells: candidates.cells,
@@ -188,8 +188,7 @@ struct Adoption {
     /// Why the named effects could not be fitted.
     no_fit: Option<Unsettled>,
     held_out: Option<HeldOutQuality>,
-    /// Whether what was adopted would be there in the held-out recording and does not show in it.
-    absent: bool,
+    likened: Option<Likeness>,
 }
 
 impl Adoption {
@@ -216,22 +215,28 @@ impl Adoption {
         let against = held_out.as_ref().filter(|_| recurs);
         let contradicted = against.is_some_and(|held| held.contradicts(alpha));
         let absent = against.is_some_and(HeldOutQuality::is_no_better);
+        let uneven = (adopted.as_ref()).is_some_and(|adopted| adopted.confirmation.differs());
+        let likened = match (absent, uneven) {
+            (true, _) => Some(Likeness::Absent),
+            (_, true) => Some(Likeness::Uneven),
+            _ => None,
+        };
         if worse || contradicted {
             examination.withdraw();
-        } else if absent {
+        } else if likened.is_some() {
             examination.only_likens();
         }
         Adoption {
             adopted,
             no_fit,
             held_out,
-            absent,
+            likened,
         }
     }
 }
 
 /// Whether every effect that is adopted would be there in another recording.
 fn recurs(adopted: &Adopted, candidates: &Candidates<'_>) -> bool {
-    let mut patterns = (adopted.atoms.iter()).map(|atom| candidates.cell(*atom).effect.pattern);
-    patterns.all(|pattern| pattern.is_none_or(Pattern::recurs))
+    let mut effects = (adopted.atoms.iter()).map(|atom| candidates.cell(*atom).effect);
+    effects.all(|effect| !effect.is_slip && effect.pattern.is_none_or(Pattern::recurs))
 }

@@ -280,6 +280,10 @@ fn only_like(likeness: Likeness, l: Language) -> &'static str {
             "Nothing else in the catalogue acts like this. The recording departs a little from the form given here: more than noise does, less than would make it another effect.",
             "目录中没有其他影响有此表现；记录与此处给出的形式略有偏离：大于噪声，但不足以成为另一种影响。",
         ),
+        Likeness::Uneven => l.pick(
+            "Nothing else in the catalogue acts like this, but parts of the recording differ in its size by more than noise does: it changed, or its form is another one.",
+            "目录中没有其他影响有此表现；但记录各部分给出的大小之差大于噪声：它发生了变化，或其形式有所不同。",
+        ),
         Likeness::Absent => l.pick(
             "Nothing else in the catalogue acts like this in the recording, but the recording held out is predicted no better with it than by the declared model.",
             "目录中没有其他影响在此记录中有此表现；但加入它后，对留出记录的预测并不比声明的模型好。",

@@ -46,6 +46,9 @@ pub struct Effect {
     /// What kind of explanation it is.
     #[serde(default)]
     pub kind: Kind,
+    /// Whether it is a mistake in one recording, which says nothing of another.
+    #[serde(default)]
+    pub is_slip: bool,
 }
 
 /// A text in both languages.

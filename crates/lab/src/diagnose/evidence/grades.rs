@@ -67,6 +67,8 @@ pub enum Likeness {
     Piece,
     /// Its form is off, by less than makes it another.
     Form,
+    /// Parts of the recording differ in its size.
+    Uneven,
     /// It does not show in another recording.
     Absent,
 }

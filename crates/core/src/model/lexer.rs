@@ -35,13 +35,26 @@ pub enum Kind<'t> {
 
 const WORDS: [&str; 6] = ["if", "then", "else", "and", "or", "not"];
 
-/// Spellings of operators, longest first.
+/// Spellings of operators: the common ones first, and of two that begin alike the longer.
 const SIGNS: [(&str, &str); 38] = [
+    ("+", "+"),
+    ("-", "-"),
     ("**", "^"),
+    ("*", "*"),
+    ("/", "/"),
+    ("^", "^"),
+    ("(", "("),
+    (")", ")"),
+    (",", ","),
+    ("[", "["),
+    ("]", "]"),
     ("<=", "<="),
     (">=", ">="),
     ("==", "=="),
     ("!=", "!="),
+    ("<", "<"),
+    (">", ">"),
+    ("=", "="),
     ("&&", "and"),
     ("||", "or"),
     ("≤", "<="),
@@ -62,19 +75,6 @@ const SIGNS: [(&str, &str); 38] = [
     ("，", ","),
     ("＝", "="),
     ("–", "-"),
-    ("+", "+"),
-    ("-", "-"),
-    ("*", "*"),
-    ("/", "/"),
-    ("^", "^"),
-    ("<", "<"),
-    (">", ">"),
-    ("=", "="),
-    ("(", "("),
-    (")", ")"),
-    ("[", "["),
-    ("]", "]"),
-    (",", ","),
 ];
 
 const SUPERSCRIPTS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
@@ -84,7 +84,8 @@ pub fn tokens<'t>(text: &'t str, faults: &mut Vec<Fault>) -> Vec<Token<'t>> {
     let mut lexer = Lexer {
         text,
         at: 0,
-        tokens: Vec::new(),
+        // As a rule a token and the blank beside it have four characters.
+        tokens: Vec::with_capacity(text.len() / 4 + 1),
         faults,
     };
     while let Some(next) = lexer.rest().chars().next() {

@@ -287,24 +287,23 @@ impl<T: FromToml> FromToml for Named<T> {
         };
         for (key, item) in in_order(table) {
             let before = reader.faults.len();
-            let Some(read) = T::read(item, reader) else {
-                named.refused = true;
-                tell_place_of_key(
-                    key.get_ref(),
-                    item,
-                    &mut reader.faults[before..],
-                    reader.hints,
-                );
-                continue;
-            };
-            named.entries.push((
-                SmolStr::new(key.get_ref()),
-                Stated {
-                    value: read,
-                    span: item.span(),
-                    key: key.span(),
-                },
-            ));
+            let (name, span, place) = (SmolStr::new(key.get_ref()), item.span(), key.span());
+            match T::read(item, reader) {
+                // Nothing is called in between, so that the table is moved once.
+                Some(value) => named.entries.push((
+                    name,
+                    Stated {
+                        value,
+                        span,
+                        key: place,
+                    },
+                )),
+                None => {
+                    named.refused = true;
+                    let faults = &mut reader.faults[before..];
+                    tell_place_of_key(key.get_ref(), item, faults, reader.hints);
+                }
+            }
         }
         Some(named)
     }

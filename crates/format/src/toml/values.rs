@@ -75,6 +75,16 @@ fn quoted_number(value: &Raw<'_>, text: &str) -> Option<Fault> {
     )
 }
 
+/// A number that the file states; refused unless it is finite.
+fn finite(number: f64, value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<f64> {
+    if number.is_finite() {
+        return Some(number);
+    }
+    let message = say!("{number} is not a finite number");
+    let fault = Fault::new(NOT_FINITE, value.span(), message);
+    reader.refuse(fault.label(say!("expected a finite number")))
+}
+
 impl FromToml for f64 {
     fn expected() -> Said {
         say!("a number")
@@ -86,15 +96,7 @@ impl FromToml for f64 {
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         match (number(value.get_ref()), value.get_ref()) {
-            (Some(number), _) if number.is_finite() => Some(number),
-            (Some(number), _) => reader.refuse(
-                Fault::new(
-                    NOT_FINITE,
-                    value.span(),
-                    say!("{number} is not a finite number"),
-                )
-                .label(say!("expected a finite number")),
-            ),
+            (Some(number), _) => finite(number, value, reader),
             (None, DeValue::String(text)) if quoted_number(value, text).is_some() => {
                 reader.faults.extend(quoted_number(value, text));
                 None
@@ -303,10 +305,12 @@ impl FromToml for Amount {
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         let DeValue::String(text) = value.get_ref() else {
-            if number(value.get_ref()).is_some() {
-                return f64::read(value, reader).map(|number| Amount { number, unit: None });
-            }
-            return refuse_amount(value, reader);
+            return match number(value.get_ref()) {
+                Some(number) => {
+                    finite(number, value, reader).map(|number| Amount { number, unit: None })
+                }
+                None => refuse_amount(value, reader),
+            };
         };
         if let Some(fault) = quoted_number(value, text) {
             return reader.refuse(fault);

@@ -158,12 +158,13 @@ impl Checker<'_> {
         r: &Stated<f64>,
         register: &Register,
     ) -> Option<Statement> {
+        // Of one name both sides have the same members.
         let common_member = || {
             a.members
                 .iter()
                 .any(|(m, _)| b.members.iter().any(|(n, _)| m == n))
         };
-        if a.name == b.name || common_member() {
+        if common_member() {
             return self.refuse(
                 Fault::new(
                     SELF_PAIR,
@@ -175,7 +176,10 @@ impl Checker<'_> {
                 .help(say!("name two different quantities; for successive readings of one quantity write autocorrelated = true")),
             );
         }
-        let common = register.covariance(a.place, b.place);
+        let common = match a.shares || b.shares {
+            true => register.covariance(a.place, b.place),
+            false => 0.0,
+        };
         let statement = Statement {
             sides: [Rc::clone(a), Rc::clone(b)],
             r: r.value,
@@ -281,14 +285,15 @@ impl Checker<'_> {
             Some(place) => (register.covariance(Some(place), Some(place)) + own * own).sqrt(),
             None => own,
         };
-        let members = members
-            .iter()
-            .map(|index| (*index, u(index) / own))
-            .collect();
+        let input = place.and_then(|place| register.inputs.get(place));
         Some(Side {
             name: name.value.clone(),
             span: name.span.clone(),
-            members,
+            shares: input.is_some_and(|input| input.terms.len() > members.len()),
+            members: members
+                .iter()
+                .map(|index| (*index, u(index) / own))
+                .collect(),
             own,
             total,
             place,
@@ -338,6 +343,10 @@ impl Checker<'_> {
             .iter()
             .flat_map(|group| group.members.iter().copied())
             .collect();
+        // Mostly; there may be millions of statements.
+        if joint.is_empty() {
+            return;
+        }
         for statement in statements {
             let taken = statement
                 .pairs()

@@ -254,11 +254,12 @@ fn matrix(members: &[usize], statements: &[&Statement], r: &[f64]) -> DMatrix<f6
         let own = statement.scale() * r + statement.offset;
         for (a, b, weight) in statement.pairs() {
             if let (Some(i), Some(j)) = (place(&places, a), place(&places, b)) {
-                matrix[(i, j)] = own * weight;
-                matrix[(j, i)] = own * weight;
+                // Statements go along a row of a stated matrix, which is a column of the upper triangle here.
+                matrix[(i.min(j), i.max(j))] = own * weight;
             }
         }
     }
+    matrix.fill_lower_triangle_with_upper_triangle();
     matrix
 }
 

@@ -1,7 +1,10 @@
 //! Stated correlations.
 
+use std::iter;
 use std::ops::Range;
 use std::rc::Rc;
+
+use smallvec::SmallVec;
 
 /// Eigenvalues down to this are zero within the rounding of the arithmetic.
 pub(super) const ROUNDING: f64 = 1e-9;
@@ -25,13 +28,16 @@ pub(super) struct Side {
     pub name: String,
     /// Where the file names it.
     pub span: Range<usize>,
-    pub members: Vec<(usize, f64)>,
+    /// Mostly one.
+    pub members: SmallVec<[(usize, f64); 1]>,
     /// Standard uncertainty of the side's own components.
     pub own: f64,
     /// Standard uncertainty with all causes.
     pub total: f64,
     /// The input that it is, if it is one.
     pub place: Option<usize>,
+    /// Whether causes that it does not have alone act on it.
+    pub shares: bool,
 }
 
 /// Two components, and the part of the correlation that falls on them.
@@ -40,11 +46,16 @@ pub(super) type Pair = (usize, usize, f64);
 impl Statement {
     /// Its pairs of components.
     pub fn pairs(&self) -> impl Iterator<Item = Pair> {
-        let [a, b] = self.sides.each_ref().map(|side| &side.members);
-        // Most sides have one member; two loops in each other would take longer for it.
-        (0..a.len() * b.len()).map(move |at| {
-            let ((m, v), (n, w)) = (a[at / b.len()], b[at % b.len()]);
-            (m, n, v * w)
+        let [a, b] = self.sides.each_ref().map(|side| side.members.as_slice());
+        let (mut i, mut j) = (0, 0);
+        // Most sides have one member; two loops in each other, or a division, would take longer for it.
+        iter::from_fn(move || {
+            let ((m, v), (n, w)) = (a.get(i)?, b.get(j)?);
+            j += 1;
+            if j == b.len() {
+                (i, j) = (i + 1, 0);
+            }
+            Some((*m, *n, v * w))
         })
     }
 

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`csv`] | the one reader of tables |
 //! | [`contained`] | libraries that give up by a panic |
+//! | [`decimal`] | plain decimal numbers, read into doubles |
 //! | [`files`] | where files are read from: a disk, or a library in memory |
 //! | [`document`] | what every command composes: blocks for people, a typed form for machines |
 //! | [`machine`] | structures of the machine form with their JSON Schema |
@@ -16,6 +17,7 @@
 
 pub mod contained;
 pub mod csv;
+pub mod decimal;
 pub mod document;
 pub mod files;
 pub mod machine;

@@ -12,6 +12,8 @@ use std::sync::Arc;
 use toml_parser::Source;
 use toml_parser::lexer::TokenKind;
 
+use crate::decimal::Decimal;
+
 /// Rows of numbers with their places; copies share them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Matrix(Arc<[Row]>);
@@ -144,13 +146,6 @@ impl Before {
     }
 }
 
-/// Powers of ten by their exponents, as far as a whole number of that many digits is one of the doubles: the quotient of
-/// two exact numbers is rounded once, as the number that the digits write (Clinger, *How to read floating point numbers
-/// accurately*, 1990).
-const EXACT: [f64; 16] = [
-    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-];
-
 /// Reads a matrix of plain numbers; anything else ends the reading.
 struct Scan<'t> {
     text: &'t str,
@@ -212,46 +207,20 @@ impl<'t> Scan<'t> {
         (!doubtful).then_some(row)
     }
 
-    /// A decimal number as TOML has it, without underscores, plus sign and more than 15 digits before the point.
+    /// A decimal number as TOML has it, without underscores and plus sign, and a whole one without more than 15 digits.
     fn number(&mut self) -> Option<f64> {
         let start = self.at();
-        let sign = self.take(b'-').map_or(1.0, |()| -1.0);
-        let zero = self.rest.first() == Some(&b'0');
-        let mut digits = 0;
-        let before = self.digits(&mut digits)?;
-        let mut behind = 0;
-        if self.take(b'.').is_some() {
-            behind = self.digits(&mut digits)?;
-        }
-        let mut scaled = false;
-        if self.take(b'e').or_else(|| self.take(b'E')).is_some() {
-            let _ = self.take(b'-').or_else(|| self.take(b'+'));
-            self.digits(&mut 0)?;
-            scaled = true;
-        }
-        let value = match EXACT.get(before + behind) {
-            Some(_) if !scaled => sign * (digits as f64 / EXACT[behind]),
-            _ => self.text[start..self.at()].parse().ok()?,
+        let (decimal, rest) = Decimal::leading(self.rest)?;
+        self.rest = rest;
+        let value = match decimal.exact() {
+            Some(value) => value,
+            None => self.text[start..self.at()].parse().ok()?,
         };
-        // Whole numbers have one zero.
-        let whole = behind == 0 && !scaled;
-        let value = if whole { value + 0.0 } else { value };
-        let leading_zero = zero && before > 1;
-        let plain = !leading_zero && before <= 15 && value.is_finite();
-        plain.then_some(value)
-    }
-
-    /// How many digits follow, at least one; they are put behind those before.
-    fn digits(&mut self, before: &mut u64) -> Option<usize> {
-        let start = self.rest.len();
-        while let [digit @ b'0'..=b'9', rest @ ..] = self.rest {
-            *before = before
-                .wrapping_mul(10)
-                .wrapping_add(u64::from(digit - b'0'));
-            self.rest = rest;
+        if decimal.is_whole {
+            // Whole numbers have one zero.
+            return (decimal.count <= 15).then_some(value + 0.0);
         }
-        let count = start - self.rest.len();
-        (count > 0).then_some(count)
+        value.is_finite().then_some(value)
     }
 
     fn blanks(&mut self) {

@@ -1,7 +1,7 @@
 //! Fields of a table that are plain decimal numbers, read without a budget around them.
 
 use gumption_format::csv::{OVERLOAD, RowFields};
-use gumption_lanes::twice::TENS;
+use gumption_format::decimal::Decimal;
 
 /// The number that a field puts into a budget, where there is no doubt what it is: decimal digits, perhaps with a fraction
 /// and an exponent, neither minus zero nor a whole number beyond what doubles count.
@@ -44,87 +44,6 @@ pub(super) fn is_settled(number: f64) -> bool {
 /// Whether TOML is sure to read a text as the decimal number that it is.
 pub(super) fn is_toml_number(text: &str) -> bool {
     Decimal::leading(text.as_bytes()).is_some_and(|(_, rest)| rest.is_empty())
-}
-
-/// A decimal number as TOML writes it: digits, then perhaps a fraction and an exponent.
-struct Decimal {
-    negative: bool,
-    /// Its digits as a whole number, which wraps where they are too many, and how many there are.
-    digits: u64,
-    count: usize,
-    /// The power of ten that goes with it.
-    exponent: i64,
-    /// Whether it has neither fraction nor exponent.
-    is_whole: bool,
-}
-
-impl Decimal {
-    /// The one at the beginning of a text, and what follows it.
-    #[inline]
-    fn leading(text: &[u8]) -> Option<(Decimal, &[u8])> {
-        let unsigned = text.strip_prefix(b"-").unwrap_or(text);
-        if let [b'0', b'0'..=b'9', ..] = unsigned {
-            return None;
-        }
-        let (digits, rest) = digits(unsigned, 0)?;
-        let mut decimal = Decimal {
-            negative: unsigned.len() < text.len(),
-            digits,
-            count: unsigned.len() - rest.len(),
-            exponent: 0,
-            is_whole: !matches!(rest, [b'.' | b'e' | b'E', ..]),
-        };
-        let rest = match rest {
-            [b'.', fraction @ ..] => {
-                let (digits, rest) = self::digits(fraction, digits)?;
-                let count = fraction.len() - rest.len();
-                decimal.digits = digits;
-                decimal.count += count;
-                decimal.exponent = -(count as i64);
-                rest
-            }
-            rest => rest,
-        };
-        let (sign, exponent) = match rest {
-            [b'e' | b'E', b'-', exponent @ ..] => (-1, exponent),
-            [b'e' | b'E', b'+', exponent @ ..] | [b'e' | b'E', exponent @ ..] => (1, exponent),
-            rest => return Some((decimal, rest)),
-        };
-        let (power, rest) = self::digits(exponent, 0)?;
-        // What is this long is out of the range of doubles.
-        let power = i64::from(u16::try_from(power).unwrap_or(u16::MAX));
-        decimal.exponent += sign * power;
-        Some((decimal, rest))
-    }
-
-    /// The nearest double, where digits and power of ten are doubles themselves, so that one rounding gives it (Clinger 1990).
-    #[inline]
-    fn exact(&self) -> Option<f64> {
-        /// Digits that 64 bits hold.
-        const HELD: usize = 19;
-        let fits = self.count <= HELD && self.digits < 1 << f64::MANTISSA_DIGITS;
-        let digits = fits.then_some(self.digits as f64)?;
-        let power = TENS.get(self.exponent.unsigned_abs() as usize)?;
-        let size = match self.exponent < 0 {
-            true => digits / power,
-            false => digits * power,
-        };
-        Some(if self.negative { -size } else { size })
-    }
-}
-
-/// The whole number that goes on with the digits at the beginning of a text, of which there must be some; the rest.
-#[inline]
-fn digits(text: &[u8], before: u64) -> Option<(u64, &[u8])> {
-    let mut number = before;
-    let mut rest = text;
-    while let [digit @ b'0'..=b'9', more @ ..] = rest {
-        number = number
-            .wrapping_mul(10)
-            .wrapping_add(u64::from(digit - b'0'));
-        rest = more;
-    }
-    (rest.len() < text.len()).then_some((number, rest))
 }
 
 #[cfg(test)]

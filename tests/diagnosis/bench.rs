@@ -372,10 +372,7 @@ fn an_effect_that_differs_between_parts_only_acts_like_its_name() {
         let mut noise = Noise(53);
         let mut rows = "x [V],T [°C],y [V]\n".to_owned();
         for row in 0..60 {
-            let (x, warmth) = (
-                f64::from(row * 7 % 11),
-                3.0 * libm::sin(1.3 * f64::from(row)),
-            );
+            let (x, warmth) = (f64::from(row * 7 % 11), 3.0 * noise.normal());
             let size = if row < 30 { 0.1 } else { later };
             let reading = 0.2 + 2.0 * x + size * warmth + 1e-3 * noise.normal();
             let _ = writeln!(rows, "{x},{:.4},{reading:.5}", 23.0 + warmth);

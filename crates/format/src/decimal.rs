@@ -17,6 +17,9 @@ pub struct Decimal {
     pub is_whole: bool,
 }
 
+/// Digits that 64 bits hold.
+const HELD: usize = 19;
+
 impl Decimal {
     /// The one at the beginning of a text, and what follows it.
     #[inline]
@@ -50,8 +53,10 @@ impl Decimal {
             rest => return Some((decimal, rest)),
         };
         let (power, rest) = self::digits(exponent, 0)?;
-        // What is this long is out of the range of doubles.
-        let power = i64::from(u16::try_from(power).unwrap_or(u16::MAX));
+        // What is this large, or long, is out of the range of doubles, or begins with zeros.
+        let held = exponent.len() - rest.len() <= HELD;
+        let power = u16::try_from(power).ok().filter(|_| held);
+        let power = i64::from(power.unwrap_or(u16::MAX));
         decimal.exponent += sign * power;
         Some((decimal, rest))
     }
@@ -60,8 +65,6 @@ impl Decimal {
     /// to read floating point numbers accurately*, 1990).
     #[inline]
     pub fn exact(&self) -> Option<f64> {
-        /// Digits that 64 bits hold.
-        const HELD: usize = 19;
         let fits = self.count <= HELD && self.digits < 1 << f64::MANTISSA_DIGITS;
         let digits = fits.then_some(self.digits as f64)?;
         let power = TENS.get(self.exponent.unsigned_abs() as usize)?;
@@ -84,4 +87,19 @@ fn digits(text: &[u8], before: u64) -> Option<(u64, &[u8])> {
         rest = more;
     }
     (rest.len() < text.len()).then_some((number, rest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exponents_that_no_integer_holds_are_not_read_as_others() {
+        let exact = |text: &str| Decimal::leading(text.as_bytes()).map(|(one, _)| one.exact());
+        assert_eq!(exact("-2.5e-3,"), Some(Some(-2.5e-3)));
+        // 2⁶⁴, which wraps to 0, and a one behind zeros.
+        assert_eq!(exact("1e18446744073709551616"), Some(None));
+        assert_eq!(exact("1e-00000000000000000000001"), Some(None));
+        assert_eq!(exact("1e"), None);
+    }
 }

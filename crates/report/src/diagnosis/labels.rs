@@ -215,7 +215,7 @@ mod tests {
             ("3.5 to 7.1 h", "3.5 至 7.1 h"),
             ("growing over 8 K", "增长，特征宽度 8 K"),
             ("V between -27 and -9", "V 介于 -27 与 -9"),
-            ("abs(V) above 3, 8", "abs(V) 高于 3, 8"),
+            ("abs(V) above 3, 8", "abs(V) 高于 3，8"),
             ("rows 3 and 4", "第 3 与 4 行"),
             ("rows 61 to 80", "第 61 至 80 行"),
             ("width 15 % of the range", "宽度 15 % 量程"),

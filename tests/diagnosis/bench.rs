@@ -5,7 +5,9 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::common::Noise;
-use crate::common::cases::{diagnosed_with as diagnosed, first_names, named_apart};
+use crate::common::cases::{
+    diagnosed as diagnosed_in, diagnosed_with as diagnosed, first_names, folder, named_apart,
+};
 
 /// The likeliest variant of the first effect.
 fn variant(diagnosis: &Value) -> &str {
@@ -497,4 +499,41 @@ fn the_first_row_is_told_by_its_number() {
     let found = diagnosed("first", &rows, case);
     let statement = found["statement"].as_str().unwrap_or_default();
     assert!(statement.contains("(row 1)"), "{statement}");
+}
+
+/// A worn place of a scale, which positions anywhere along it pass; another pass stops at other places.
+#[test]
+fn a_worn_place_deviates_about_one_position() {
+    let mut noise = Noise(91);
+    let mut pass = |stops: u32, offset: f64| {
+        let mut rows = "x [mm],y [mm]\n".to_owned();
+        for row in 0..stops {
+            let x = offset + 1000.0 * f64::from(row) / f64::from(stops);
+            let z = (x - 340.0) / 20.0;
+            let worn = 0.012 * libm::exp(-0.5 * z * z);
+            let y = 0.05 + 1.0002 * x + worn + 0.001 * noise.normal();
+            let _ = writeln!(rows, "{x:.3},{y:.4}");
+        }
+        rows
+    };
+    let folder = folder("worn");
+    for (name, rows) in [("recording", pass(90, 3.0)), ("second", pass(70, 1.0))] {
+        std::fs::write(folder.join(format!("{name}.csv")), rows).expect("written");
+    }
+    let case = "recording = \"recording.csv\"\nheld_out = { file = \"second.csv\" }\nequations = \"y = y_0 + k*x\"\n[columns]\nx = \"stimulus\"\ny = \"output\"\n[noise]\nu = \"0.001 mm\"\n";
+    let found = diagnosed_in(&folder, case);
+    assert_eq!(first_names(&found), ["excursion"], "{found}");
+    let label = variant(&found);
+    let place: f64 = label
+        .split(' ')
+        .nth(1)
+        .and_then(|text| text.parse().ok())
+        .unwrap_or(f64::NAN);
+    let width = &found["improved"]["shapes"][0]["estimate"];
+    let [width, u] = ["value", "u"].map(|key| width[key].as_f64().unwrap_or(f64::NAN));
+    assert!((place - 340.0).abs() < 3.0, "{label}");
+    assert!((width - 20.0).abs() < 3.0 * u && u < 3.0, "{width} {u}");
+    // The other pass is predicted to its noise.
+    let rms = found["held_out"]["after"]["rms"][0].as_f64();
+    assert!(rms.is_some_and(|rms| rms < 0.0012), "{rms:?}");
 }

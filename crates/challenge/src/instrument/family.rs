@@ -491,19 +491,27 @@ pub(super) const FAMILIES: &[Family] = &[
         names: &[("cross-axis", ANY)],
         forms: &[|v| vec![1.0; v.share.len()]],
     },
-    // What no catalogue names.
     Family {
         name: "local-bump",
         drive: Drive::Stimulus,
         place: Place::Offset,
-        names: &[],
+        names: &[("excursion", OWN)],
         forms: of_drive![
             |x, a, b| libm::exp(-0.5 * libm::pow((x - 0.2 - 0.6 * a) / (0.05 + 0.05 * b), 2.0)),
-            |x, a, b| {
-                let z = (x - 0.2 - 0.6 * a) / (0.04 + 0.04 * b);
-                z / (1.0 + z * z)
-            },
+            |x, a, b| 1.0 / (1.0 + libm::pow((x - 0.2 - 0.6 * a) / (0.05 + 0.05 * b), 2.0)),
+            |x, a, b| (1.0 - (x - 0.2 - 0.6 * a).abs() / (0.12 + 0.12 * b)).max(0.0),
         ],
+    },
+    // What no catalogue names.
+    Family {
+        name: "dispersion",
+        drive: Drive::Stimulus,
+        place: Place::Offset,
+        names: &[],
+        forms: of_drive![|x, a, b| {
+            let z = (x - 0.2 - 0.6 * a) / (0.04 + 0.04 * b);
+            z / (1.0 + z * z)
+        }],
     },
     Family {
         name: "chirp",

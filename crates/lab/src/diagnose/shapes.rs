@@ -169,6 +169,13 @@ fn differ_in_shape(one: &Variation, other: &Variation) -> bool {
     symbol(one) == symbol(other)
         && places(one) == places(other)
         && words(&one.label) == words(&other.label)
+        && parts_apart(&one.label, &other.label) <= 1
+}
+
+/// In how many of their parts labels differ: one of them tells the value of the shape.
+fn parts_apart(one: &str, other: &str) -> usize {
+    let parts = one.split(", ").zip(other.split(", "));
+    parts.filter(|(one, other)| one != other).count()
 }
 
 /// What a label says beside figures: "anew in each run", "below" a knee.
@@ -194,6 +201,9 @@ mod tests {
             &own,
             &law("τ = 0.6 h, anew in each run", 0.6)
         ));
+        let bell = |place: f64, w: f64| law(&format!("about {place} V, w = {w} V"), w);
+        assert!(differ_in_shape(&bell(3.0, 0.5), &bell(3.0, 1.0)));
+        assert!(!differ_in_shape(&bell(3.0, 0.5), &bell(4.0, 1.0)));
         let mut other = law("τ = 0.6 h", 0.6);
         other.terms[0].response = Some(1);
         assert!(!differ_in_shape(&own, &other));

@@ -55,11 +55,13 @@ const FIXED: [(&str, &str); 33] = [
 ];
 
 /// Labels around a figure or a name: what stands before and after it, and the same in Chinese.
-const FORMS: [([&str; 2], [&str; 2]); 21] = [
+const FORMS: [([&str; 2], [&str; 2]); 23] = [
     (["", " % of the range"], ["", " % 量程"]),
     (["half at ", ""], ["半值点 ", ""]),
     (["period ", ""], ["周期 ", ""]),
     (["by about ", ""], ["约 ", ""]),
+    (["about ", ""], ["", " 附近"]),
+    (["w = ", ""], ["特征宽度 ", ""]),
     (["", " per turn"], ["每转 ", " 次"]),
     (["above ", " of the largest"], ["超过最大值的 ", " 倍"]),
     (["above ", ""], ["高于 ", ""]),
@@ -214,6 +216,7 @@ mod tests {
             ("τ = 4.2 and 16.8 h", "τ = 4.2 与 16.8 h"),
             ("3.5 to 7.1 h", "3.5 至 7.1 h"),
             ("growing over 8 K", "增长，特征宽度 8 K"),
+            ("about 340.2 mm, w = 20 mm", "340.2 mm 附近，特征宽度 20 mm"),
             ("V between -27 and -9", "V 介于 -27 与 -9"),
             ("abs(V) above 3, 8", "abs(V) 高于 3，8"),
             ("rows 3 and 4", "第 3 与 4 行"),

@@ -34,6 +34,8 @@ struct Around {
     span: f64,
     /// Wherever they lie: the grid of another recording may end before them.
     is_kept: bool,
+    /// Where along the column.
+    about: Option<f64>,
 }
 
 impl Forms {
@@ -103,11 +105,20 @@ impl Finer {
 
     /// Keeps the parameter of a variation for another recording, whose grid has others.
     pub fn keep(&mut self, cell: &Cell, found: &Variation) {
-        let around = |shape| Around {
+        let around = |shape: &ShapeParameter| Around {
             is_kept: true,
+            about: shape.about,
             ..Around::of(cell, is_time(shape), vec![shape.value], f64::INFINITY)
         };
         self.around.extend(found.shape.as_ref().map(around));
+    }
+
+    /// Places of an effect that were kept, each with its shape.
+    pub(super) fn places(&self, id: EffectId, along: &str) -> Vec<(f64, f64)> {
+        let own = |around: &&Around| around.id == id && around.along == along;
+        let kept = self.around.iter().filter(own);
+        let places = kept.filter_map(|around| Some((around.about?, *around.values.first()?)));
+        places.collect()
     }
 
     /// A grid of times with those between.
@@ -159,6 +170,7 @@ impl Around {
             values,
             span,
             is_kept: false,
+            about: None,
         }
     }
 

@@ -18,6 +18,7 @@
 //! | `axes` | the same where the model holds a constant against several columns, and between outputs |
 //! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
 //! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
+//! | `excursions` | what deviates about one value of a column |
 //! | `exponentials` | what grows or dies away along a column |
 //! | `deviations` | the same where the model is of errors, and no scale bounds its changes |
 //! | `heating`, `waves` | power of the signal, what repeats |
@@ -38,6 +39,7 @@ mod delays;
 pub(super) mod deviations;
 mod earlier;
 mod effect;
+mod excursions;
 mod exponentials;
 mod fields;
 mod finer;
@@ -168,6 +170,8 @@ pub struct ShapeParameter {
     pub unit: String,
     /// Where the size of the effect says the same, as that of a delay is the delay: the size that the form is made for.
     pub size: Option<f64>,
+    /// Where along its column the form stands, for one that has a place beside its width.
+    pub about: Option<f64>,
 }
 
 /// What a disturbance follows.
@@ -330,7 +334,17 @@ impl Variation {
             value,
             unit: unit.to_owned(),
             size: None,
+            about: None,
         });
+        self
+    }
+
+    /// For a shape at a place of its column.
+    #[must_use]
+    pub fn about(mut self, place: f64) -> Variation {
+        if let Some(shape) = &mut self.shape {
+            shape.about = Some(place);
+        }
         self
     }
 

@@ -31,6 +31,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
         cells.extend(background(fitted, *column));
         cells.extend(exponent(fitted, *column));
         cells.extend(super::exponentials::cell(fitted, *column));
+        cells.extend(super::excursions::cell(fitted, *column));
         cells.extend(inverse(fitted, *column));
         cells.extend(super::limits::cells(fitted, *column));
         cells.extend(dynamics(fitted, *column));

@@ -537,3 +537,20 @@ fn a_worn_place_deviates_about_one_position() {
     let rms = found["held_out"]["after"]["rms"][0].as_f64();
     assert!(rms.is_some_and(|rms| rms < 0.0012), "{rms:?}");
 }
+
+/// Steps enough follow any course: a curve as a resonance has it, of which one step would be weak by itself, is no staircase.
+#[test]
+fn a_smooth_course_is_no_staircase() {
+    let mut noise = Noise(10);
+    let mut rows = "F [N],U [mV]\n".to_owned();
+    for row in 0..66 {
+        let force = 200.0 * (0.618_033_988_7 * f64::from(row)).fract();
+        let z = (force - 100.0) / 10.0;
+        let course = 0.025 * z / (1.0 + z * z);
+        let reading = 0.3 + 0.025 * force + course + 0.002 * noise.normal();
+        let _ = writeln!(rows, "{force:.2},{reading:.4}");
+    }
+    let case = "equations = \"U = U_0 + S*F\"\n[columns]\nF = \"stimulus\"\nU = \"output\"\n[noise]\nu = \"0.002 mV\"\n";
+    let found = diagnosed("staircase", &rows, case);
+    assert_ne!(found["verdict"], "identified", "{found}");
+}

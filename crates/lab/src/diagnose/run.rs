@@ -216,9 +216,11 @@ impl Adoption {
         let contradicted = against.is_some_and(|held| held.contradicts(alpha));
         let absent = against.is_some_and(HeldOutQuality::is_no_better);
         let uneven = (adopted.as_ref()).is_some_and(|adopted| adopted.confirmation.differs());
-        let likened = match (absent, uneven) {
-            (true, _) => Some(Likeness::Absent),
-            (_, true) => Some(Likeness::Uneven),
+        let faint = (adopted.as_ref()).is_some_and(|adopted| has_faint_steps(adopted, candidates));
+        let likened = match (absent, uneven, faint) {
+            (true, ..) => Some(Likeness::Absent),
+            (_, true, _) => Some(Likeness::Uneven),
+            (.., true) => Some(Likeness::Weak),
             _ => None,
         };
         if worse || contradicted {
@@ -233,6 +235,14 @@ impl Adoption {
             likened,
         }
     }
+}
+
+/// Whether something else than one of the steps of an adopted staircase would not have been seen: steps enough follow any course.
+fn has_faint_steps(adopted: &Adopted, candidates: &Candidates<'_>) -> bool {
+    let forms = adopted.atoms.iter().map(|atom| candidates.variation(*atom));
+    let in_set = forms.flat_map(|form| std::iter::repeat_n(form.is_set, form.coefficients()));
+    let mut steps = in_set.zip(&adopted.coefficients);
+    steps.any(|(in_set, step)| in_set && !evidence::is_severe(step.value.abs() / step.u))
 }
 
 /// Whether every effect that is adopted would be there in another recording.

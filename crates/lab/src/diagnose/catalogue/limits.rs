@@ -318,6 +318,7 @@ fn steps(
             Variation {
                 // One more is as much less likely as any further order; each set of as many is as likely as any other.
                 weight: scanned.len() as f64 * set.share * HIGHER.powi(uppers.len() as i32 - 1),
+                is_set: true,
                 ..form(format!("{name} above {}", lower.join(", ")), modifiers)
             }
         });

@@ -157,6 +157,8 @@ pub struct Variation {
     /// The labels under which alone it acts, or under each of which its size is another, in the words of the label; `None` where it
     /// is the same in all rows.
     pub of_labels: Option<String>,
+    /// Whether its terms were chosen one by one, so that each of them says something by itself: the steps of a staircase.
+    pub is_set: bool,
 }
 
 /// A parameter of a variant that may take any value.
@@ -323,6 +325,7 @@ impl Variation {
             shape: None,
             weight: 1.0,
             of_labels: None,
+            is_set: false,
         }
     }
 

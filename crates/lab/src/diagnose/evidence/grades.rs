@@ -77,8 +77,13 @@ impl Slot {
     /// Whether a departure from the shape of its first name that makes it another effect would have been seen.
     pub fn is_severe(&self) -> bool {
         let first = self.named.first();
-        first.is_some_and(|first| first.lambda * LIKENESS >= SEEN)
+        first.is_some_and(|first| is_severe(first.lambda))
     }
+}
+
+/// Whether a departure that makes something of this strength another effect would have been seen.
+pub fn is_severe(lambda: f64) -> bool {
+    lambda * LIKENESS >= SEEN
 }
 
 /// Why one of some slots says no more than what its effect acts like; `of` gives the place of a candidate, and whether it only

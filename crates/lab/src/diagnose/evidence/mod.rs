@@ -107,7 +107,7 @@ pub(super) use directions::{orthonormal, without};
 pub use examine::examine;
 pub use findings::{Alternative, Examination, Fitted, Level, Rival, Slot, State, Variant, Verdict};
 pub use fit::singles;
-pub use grades::{Likeness, likeness};
+pub use grades::{Likeness, is_severe, likeness};
 pub use locate::{Cell, Located, locate};
 pub use noise::{Correlation, Covariance, Noise};
 pub use omitted::{narrowed, omitted};

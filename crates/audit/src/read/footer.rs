@@ -211,8 +211,11 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
     let mut found = Vec::new();
     let mut stated = None;
     let y = footer.y.clone();
+    // `Combined uncertainty (k = 1)`: a standard uncertainty, of which nothing is said of the coverage factor.
+    let is_of_u_c = label(text, measurand) == Some(Whole::Combined);
     let mut take = |whole: Whole, figure: Printed| {
-        if set(footer, whole, figure.at(at)) {
+        let is_none = whole == Whole::Factor && is_of_u_c && figure.value == 1.0;
+        if !is_none && set(footer, whole, figure.at(at)) {
             found.push(whole);
         }
     };

@@ -6,6 +6,7 @@ mod digits;
 mod forms;
 mod further;
 mod hands;
+mod laboratories;
 mod layouts;
 mod others;
 mod points;

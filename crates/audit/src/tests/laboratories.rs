@@ -1,0 +1,28 @@
+//! Sheets as laboratories of several countries lay them out, right and with one slip.
+
+use super::answer;
+use crate::Verdict;
+
+fn is_sound(name: &str, sheet: &str) {
+    assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
+}
+
+/// Two sources and a repeatability with ν = 4, in the form of worksheets in America.
+fn worksheet(factor: &str, expanded: &str) -> String {
+    format!(
+        "Contributor,Type,Magnitude,Units,Distribution,Divisor,Std Uncertainty (g),Deg. of Freedom\n\
+         Repeatability,A,0.00031,g,Normal,1,0.000310,4\n\
+         Linearity,B,0.00030,g,Rectangular,1.732,0.000173,Infinite\n\
+         Reference weight,B,0.00010,g,Normal k=2,2,0.000050,Infinite\n\
+         Combined uncertainty (k=1),,,,,,0.000359,\n\
+         Effective degrees of freedom,,,,,,7.2,\n\
+         Coverage factor (95 %),,,,,,{factor},\n\
+         Expanded uncertainty,,,,,,{expanded},\n"
+    )
+}
+
+#[test]
+fn the_factor_of_a_standard_uncertainty_is_no_coverage_factor() {
+    is_sound("sheet.csv", &worksheet("2.36", "0.00085"));
+    is_sound("sheet.csv", &worksheet("2", "0.00072"));
+}

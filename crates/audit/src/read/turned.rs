@@ -1,6 +1,6 @@
 //! Tables whose rows and columns are exchanged: heads down the first column, one quantity in each column behind it.
 
-use crate::sheet::Grid;
+use crate::sheet::{Cell, Grid};
 
 use super::columns::{self, Role};
 use super::footer;
@@ -33,11 +33,18 @@ pub fn upright(grid: &Grid) -> Grid {
         let cells = (start..end).map(|row| grid.cell(row, column).clone());
         upright.rows.push(cells.collect());
     }
+    // Figures below the table stand behind their labels, and in none of its columns.
+    let gap = vec![Cell::default(); end - start];
+    let moved = |column: usize| match column <= first {
+        true => column,
+        false => column + gap.len(),
+    };
     for (row, cells) in grid.rows.iter().enumerate().skip(end) {
         let at = upright.rows.len();
-        let origin = |column: usize| ((at, column), (row, column));
+        let origin = |column: usize| ((at, moved(column)), (row, column));
         upright.origins.extend((0..cells.len()).map(origin));
-        upright.rows.push(cells.clone());
+        let (label, figures) = cells.split_at(cells.len().min(first + 1));
+        upright.rows.push([label, &gap, figures].concat());
     }
     upright
 }

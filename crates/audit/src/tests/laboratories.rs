@@ -1,6 +1,6 @@
 //! Sheets as laboratories of several countries lay them out, right and with one slip.
 
-use super::answer;
+use super::{answer, first};
 use crate::Verdict;
 
 fn is_sound(name: &str, sheet: &str) {
@@ -25,4 +25,24 @@ fn worksheet(factor: &str, expanded: &str) -> String {
 fn the_factor_of_a_standard_uncertainty_is_no_coverage_factor() {
     is_sound("sheet.csv", &worksheet("2.36", "0.00085"));
     is_sound("sheet.csv", &worksheet("2", "0.00072"));
+}
+
+#[test]
+fn figures_below_a_turned_table_are_those_of_their_labels() {
+    let sheet = |u_c: &str, expanded: &str| {
+        format!(
+            "Dial gauge\n\
+             Quantity,Standard,Resolution,Alignment,Repeatability,Result\n\
+             Half-width or U / µm,0.04,0.05,0.03,0.012,\n\
+             Distribution,normal,rectangular,rectangular,normal,\n\
+             Divisor,2,√3,√3,1,\n\
+             u_i / µm,0.0200,0.0289,0.0173,0.0120,{u_c}\n\
+             ν_i,∞,∞,∞,9,\n\
+             k,,,,,2\n\
+             U / µm,,,,,{expanded}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.0410", "0.082"));
+    let dropped = first("sheet.csv", &sheet("0.0371", "0.074"));
+    assert_eq!(dropped, "row-dropped@Alignment");
 }

@@ -83,11 +83,17 @@ pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>,
     let plain = vec![Unit::one(); units.len()];
     let bare = |formula: &str| compiled(formula, &plain, Unit::one(), &used);
     let target = units::parse(unit_of_y(claimed)).unwrap_or_else(Unit::one);
-    let with_units = have_units
-        .then(|| compiled(&formula, &units, target.clone(), &used).ok())
-        .flatten();
+    let by = |units: &[Unit]| compiled(&formula, units, target.clone(), &used).ok();
+    let with_units = have_units.then(|| by(&units)).flatten();
+    let by_units = with_units.is_some() || bare_sheet;
+    let with_units = with_units.or_else(|| {
+        let some = have_units
+            .then(|| beside_numbers(&units, &used, by))
+            .into_iter()
+            .flatten();
+        some.max_by_key(|model| agreement(claimed, &values, &used, model))
+    });
     let is_converted = with_units.is_some();
-    let by_units = is_converted || bare_sheet;
     let model = with_units.map_or_else(|| bare(&formula), Ok);
     let mut model = model.map_err(|message| as_written(message, claimed))?;
     // Without a unit, an angle may be in degrees: the claimed coefficients and y tell.
@@ -141,6 +147,33 @@ pub(super) fn differentiate(claimed: &Claimed) -> Result<Option<Differentiated>,
         unknown,
         by_units,
     }))
+}
+
+/// The models in which one input is a number, or two are where one is not enough: numbers of a formula may have units that
+/// nobody wrote, as in `1 + 11.5e-6*(t - 20)`.
+fn beside_numbers(
+    units: &[Unit],
+    used: &[bool],
+    by: impl Fn(&[Unit]) -> Option<Model>,
+) -> Vec<Model> {
+    let with_numbers = |numbers: &[usize]| {
+        let mut units = units.to_vec();
+        for i in numbers {
+            units[*i] = Unit::one();
+        }
+        by(&units)
+    };
+    let inputs: Vec<usize> = (0..units.len()).filter(|i| used[*i]).collect();
+    let one = inputs.iter().filter_map(|i| with_numbers(&[*i]));
+    let one: Vec<Model> = one.collect();
+    if !one.is_empty() {
+        return one;
+    }
+    let pairs = inputs
+        .iter()
+        .flat_map(|a| inputs.iter().map(move |b| [*a, *b]));
+    let pairs = pairs.filter(|[a, b]| a < b);
+    pairs.filter_map(|pair| with_numbers(&pair)).collect()
 }
 
 /// The standard uncertainty of an estimate, in the unit of the estimate.

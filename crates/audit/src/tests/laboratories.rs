@@ -46,3 +46,22 @@ fn figures_below_a_turned_table_are_those_of_their_labels() {
     let dropped = first("sheet.csv", &sheet("0.0371", "0.074"));
     assert_eq!(dropped, "row-dropped@Alignment");
 }
+
+#[test]
+fn numbers_of_a_model_may_have_units_that_nobody_wrote() {
+    let sheet = |c: &str, part: &str, u_c: &str, expanded: &str| {
+        format!(
+            "p = m * g / (A * (1 + 2.2e-5 * (t - 20)))\n\
+             Symbol,Quantity,Estimate,Unit,u(x_i),Unit,c_i,u_i(y) / Pa\n\
+             m,Mass,10.000,kg,0.025,g,{c},{part}\n\
+             A,Area,100.00,mm²,0.0020,mm²,9810 Pa/mm²,19.62\n\
+             g,Gravity,9.8100,m/s²,0.0000289,m/s²,100000 Pa/(m/s²),2.89\n\
+             t,Temperature,20.0,°C,0.289,°C,21.582 Pa/°C,6.24\n\
+             p,Pressure,981000,Pa,,,,{u_c}\n\
+             U,k = 2,,,,,,{expanded}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("98100 Pa/kg", "2.45", "20.93", "42"));
+    let wrong = first("sheet.csv", &sheet("49050 Pa/kg", "1.23", "20.83", "42"));
+    assert_eq!(wrong, "c-wrong@m");
+}

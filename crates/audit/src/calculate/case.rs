@@ -4,7 +4,7 @@ use gumption_core::quantity::Unit;
 
 use crate::claim::{Claimed, Coverage, Row, Stated};
 use crate::printed::Printed;
-use crate::read::probability_of_factor;
+use crate::read::{probability_of_factor, usual_levels};
 use crate::units;
 
 use super::calculation::{Calculation, Combined, Factor, Freedom, Line, Report};
@@ -163,11 +163,8 @@ pub fn factors(claimed: &Claimed) -> Vec<Factor> {
         Coverage::Rectangle => vec![Factor::Rectangle],
         Coverage::OfRectangle => vec![Factor::Fixed(1.65)],
         Coverage::Unstated => {
-            let mut rules = vec![
-                Factor::Fixed(2.0),
-                Factor::StudentT(0.95),
-                Factor::StudentT(0.9545),
-            ];
+            let mut rules = vec![Factor::Fixed(2.0)];
+            rules.extend(usual_levels(&claimed.words).map(Factor::StudentT));
             let usual = claimed
                 .footer
                 .k

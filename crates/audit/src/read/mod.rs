@@ -55,7 +55,7 @@ mod wrapped;
 pub use columns::Role;
 pub(crate) use footer::Whole;
 pub use mapping::Mapping;
-pub(crate) use notes::probability_of_factor;
+pub(crate) use notes::{probability_of_factor, usual_levels};
 pub(crate) use points::are_several;
 pub(crate) use series::{listed, series};
 pub(crate) use simulated::MONTE_CARLO;

@@ -287,6 +287,24 @@ pub(crate) fn probability_of_factor(words: &str) -> Option<f64> {
     lines.find_map(|line| named_probability(bracket_behind(&line, "k")?))
 }
 
+/// The probabilities that k may have where no rule is stated. Who says 95.45 % of the coverage, and nowhere 95 %, does not mean
+/// that; 95 % may be rounded from the other one (EA-4/02, E).
+pub(crate) fn usual_levels(words: &str) -> impl Iterator<Item = f64> {
+    let lines = words.lines().map(str::to_lowercase);
+    let is_of_coverage = |line: &String| {
+        has(line, &["coverage", "confidence", "包含", "置信", "k", "u"])
+            && !has(line, &["certificate", "cert.", "证书"])
+    };
+    let levels = lines
+        .filter(is_of_coverage)
+        .filter_map(|line| named_probability(&line));
+    let levels: Vec<f64> = levels.collect();
+    let is_exact = levels.contains(&0.9545) && !levels.contains(&0.95);
+    [0.95, 0.9545]
+        .into_iter()
+        .filter(move |p| !is_exact || *p == 0.9545)
+}
+
 /// The coverage probability of a line: 0.9545 for `95.45 %`, for `t_95.45(ν_eff)` and for `p = 0.9545`.
 fn probability(lower: &str) -> Option<f64> {
     index_of_t(lower).or_else(|| named_probability(lower))

@@ -65,3 +65,24 @@ fn numbers_of_a_model_may_have_units_that_nobody_wrote() {
     let wrong = first("sheet.csv", &sheet("49050 Pa/kg", "1.23", "20.83", "42"));
     assert_eq!(wrong, "c-wrong@m");
 }
+
+#[test]
+fn who_says_95_45_does_not_mean_95() {
+    let sheet = |level: &str, k: &str, expanded: &str| {
+        format!(
+            "Block calibrator\n\
+             Symbol,Source,u °C,dof\n\
+             Rep,Repeatability,0.4200,5\nRef,Reference,0.2500,∞\nUni,Uniformity,0.1732,∞\n\
+             ,Combined standard uncertainty,0.5185,\n\
+             ,Effective degrees of freedom,11,\n\
+             ,Coverage factor k ({level}),{k},\n\
+             ,Expanded uncertainty,{expanded},\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("95.45 %", "2.25", "1.2"));
+    is_sound("sheet.csv", &sheet("95 %", "2.20", "1.1"));
+    // 95 % may be rounded.
+    is_sound("sheet.csv", &sheet("95 %", "2.25", "1.2"));
+    let other = first("sheet.csv", &sheet("95.45 %", "2.20", "1.1"));
+    assert_eq!(other, "k-level");
+}

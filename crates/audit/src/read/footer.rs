@@ -300,6 +300,16 @@ pub fn divides_by_factor(lower: &str) -> bool {
     has(lower, &["u/k", "u / k"])
 }
 
+/// The factor of `k = t95(νeff) = 2.36`, which was looked up.
+pub fn looked_up(text: &str) -> Option<Printed> {
+    let is_of_t = ["k", "k_p", "k95", "k_95"].into_iter().find(|name| {
+        let behind = super::words::symbol_at(text, name, 0).map(|at| &text[at + name.len()..]);
+        let right = behind.and_then(|behind| behind.trim_start().strip_prefix('='));
+        right.is_some_and(|right| right.trim_start().starts_with('t'))
+    });
+    assigned(text, is_of_t?)
+}
+
 /// The factor of `U = 2·u_c`.
 fn multiple_of_u(text: &str) -> Option<Printed> {
     let sides: Vec<&str> = text.split('=').collect();

@@ -158,6 +158,9 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
             footer::label(&line.text, ""),
             Some(footer::Whole::Expanded | footer::Whole::Combined)
         );
+        if let Some(k) = footer::looked_up(&line.text) {
+            footer::set(&mut claimed.footer, footer::Whole::Factor, k.at(line.at));
+        }
         let statement = labelled || footer::states_figures(&lower);
         if role == "correlation" || role == "CMC" || role == "rule for k" && !statement {
             return;

@@ -1,7 +1,7 @@
 //! Slips between the rows and the statement.
 
 use crate::calculate::{Case, Combined, Factor, Freedom, Printout, Ties};
-use crate::claim::Coverage;
+use crate::claim::{Coverage, Stated};
 use crate::printed::Printed;
 
 use super::slip::{Act, Change, Reporting, Slip, Weight::*};
@@ -74,6 +74,11 @@ fn other_multiple(case: &Case<'_>) -> Option<f64> {
     others.find(|k| libm::round(stated) != *k && is_apart(k))
 }
 
+/// Whether the degrees of freedom of a row may be those of readings: it is made of some, or nothing but its u is told.
+fn may_be_type_a(stated: &Stated) -> bool {
+    stated.is_type_a() || matches!(stated, Stated::Standard { .. } | Stated::Nothing)
+}
+
 /// Degrees of freedom of the rows evaluated from readings.
 fn type_a_freedom(case: &Case<'_>) -> Vec<f64> {
     let rows = case
@@ -81,7 +86,7 @@ fn type_a_freedom(case: &Case<'_>) -> Vec<f64> {
         .rows
         .iter()
         .zip(&case.right.lines)
-        .filter(|(row, _)| row.stated.is_type_a());
+        .filter(|(row, _)| may_be_type_a(&row.stated));
     let own = rows.map(|(_, line)| line.dof).filter(|dof| dof.is_finite());
     // Those of a range are no whole number, and may be cut to one.
     let mut all: Vec<f64> = own

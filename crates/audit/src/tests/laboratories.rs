@@ -86,3 +86,28 @@ fn who_says_95_45_does_not_mean_95() {
     let other = first("sheet.csv", &sheet("95.45 %", "2.20", "1.1"));
     assert_eq!(other, "k-level");
 }
+
+#[test]
+fn a_factor_that_was_looked_up_is_claimed() {
+    let sheet = |k: &str, expanded: &str| {
+        format!(
+            "来源,类别,u(xi)/μm,自由度\n重复性,A,0.50,4\n标准器,B,0.20,∞\n分辨力,B,0.12,∞\n\
+             uc = 0.55 μm；νeff = 5.9\n\
+             p = 95 %；k = t95(νeff) = {k}\n\
+             U95 = {k} × 0.55 μm = {expanded} μm\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("2.57", "1.4"));
+    let other = first("sheet.csv", &sheet("2.78", "1.5"));
+    assert_eq!(other, "k-of-typeA");
+}
+
+#[test]
+fn degrees_of_freedom_beside_a_bare_u_may_be_those_of_k() {
+    let sheet = "Source,Type,Standard uncertainty (mΩ),Degrees of freedom\n\
+         Between-day,A,0.41,7\nReference,B,0.35,inf\nLeads,B,0.20,inf\n\
+         Combined standard uncertainty,,0.575,27\n\
+         Coverage factor t(95 %),,2.36,\n\
+         Expanded uncertainty,,1.4,\n";
+    assert_eq!(first("sheet.csv", sheet), "k-of-typeA");
+}

@@ -99,6 +99,7 @@ pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
         others.any(|other| one.states_inputs_of(other) || one.is_list_beside(other, &grids))
     });
     let evaluated = blocks::joined(&grids, evaluated);
+    let is_alone = evaluated.len() == 1;
     let outside = |sheet: usize| {
         let of_inputs = |row: usize| {
             inputs
@@ -118,6 +119,10 @@ pub fn budgets(grids: &[Grid], mapping: &Mapping) -> Vec<Claimed> {
         common: &common,
         inputs: &inputs,
         results: results.collect(),
+        sheets: (0..grids.len())
+            .filter(|sheet| is_alone && without(sheet))
+            .map(|sheet| (sheet, &grids[sheet]))
+            .collect(),
     };
     let tables = evaluated.iter().enumerate().map(|(i, one)| {
         let grid = &grids[one.sheet];
@@ -146,6 +151,8 @@ struct Beside<'a> {
     inputs: &'a [Found],
     /// Names of the results of all its budgets.
     results: Vec<&'a str>,
+    /// Sheets without a budget, with their numbers, where the file has one budget alone.
+    sheets: Vec<(usize, &'a Grid)>,
 }
 
 /// A table on a sheet, with its rows.
@@ -396,6 +403,15 @@ fn budget(
         table::footers(grid, sheet, &mut located, above, elsewhere, &mut claimed);
         if claimed.unit.is_empty() {
             claimed.unit = result_unit::unit_of_result(&claimed);
+        }
+    }
+    // And some on a sheet of its own.
+    if claimed.footer.u_c.is_none() && claimed.footer.expanded.is_none() {
+        for (sheet, grid) in &beside.sheets {
+            let used = table::footers_beside(grid, *sheet, &mut claimed);
+            claimed
+                .unplaced
+                .retain(|line| line.at.sheet != *sheet || !used.contains(&line.at.row));
         }
     }
     simulated::set_aside(&mut claimed);

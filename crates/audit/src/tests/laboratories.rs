@@ -1,7 +1,9 @@
 //! Sheets as laboratories of several countries lay them out, right and with one slip.
 
 use super::{answer, first};
-use crate::Verdict;
+use crate::read::{self, Mapping};
+use crate::sheet::Grid;
+use crate::{Verdict, audit};
 
 fn is_sound(name: &str, sheet: &str) {
     assert_eq!(answer(name, sheet), (Verdict::Sound, Vec::new()), "{sheet}");
@@ -110,4 +112,26 @@ fn degrees_of_freedom_beside_a_bare_u_may_be_those_of_k() {
          Coverage factor t(95 %),,2.36,\n\
          Expanded uncertainty,,1.4,\n";
     assert_eq!(first("sheet.csv", sheet), "k-of-typeA");
+}
+
+#[test]
+fn the_result_may_stand_on_a_sheet_of_its_own() {
+    let rows = Grid::of_rows(&[
+        "Component|Limits (Pa)|Distribution|Divisor|u (Pa)",
+        "Reference|0.20|normal, k=2|2|0.1000",
+        "Resolution|0.05|rectangular|√3|0.0289",
+        "Stability|0.15|rectangular|√3|0.0866",
+    ]);
+    let verdict = |u_c: &str, expanded: &str| {
+        let result = Grid::of_rows(&[
+            &format!("Combined standard uncertainty|{u_c}|Pa"),
+            "Coverage factor|2",
+            &format!("Expanded uncertainty|{expanded}|Pa"),
+        ]);
+        let claims = read::budgets(&[rows.clone(), result], &Mapping::default());
+        assert!(claims[0].unplaced.is_empty());
+        audit(&claims[0]).verdict
+    };
+    assert_eq!(verdict("0.135", "0.27"), Verdict::Sound);
+    assert_eq!(verdict("0.215", "0.43"), Verdict::WithEffect);
 }

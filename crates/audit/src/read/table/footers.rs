@@ -1,5 +1,6 @@
 //! The claimed figures of the whole, in rows of the sheet.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::claim::Claimed;
@@ -32,6 +33,20 @@ pub fn footers(
     for figure in relative {
         figure.settle(claimed);
     }
+}
+
+/// The claimed figures on a sheet without a table, and the rows that hold them.
+pub fn footers_beside(grid: &Grid, sheet: usize, claimed: &mut Claimed) -> BTreeSet<usize> {
+    let mut none = Located::below(grid);
+    footers(
+        grid,
+        sheet,
+        &mut none,
+        0..grid.rows.len(),
+        |_| false,
+        claimed,
+    );
+    none.used
 }
 
 /// The claimed figures in columns of the table.

@@ -34,6 +34,18 @@ pub struct Column {
 }
 
 impl Located {
+    /// The place of a table on a sheet that has none: below everything.
+    pub(super) fn below(grid: &Grid) -> Self {
+        Located {
+            head: grid.rows.len(),
+            end: 0,
+            columns: Vec::new(),
+            unit: String::new(),
+            rows: Vec::new(),
+            used: BTreeSet::new(),
+        }
+    }
+
     /// Whether figures of which the head says no more than `u_i` stand where contributions would, and nothing else tells
     /// what they were made of.
     pub fn has_bare_u_behind_c(&self) -> bool {

@@ -35,7 +35,7 @@ mod relative;
 mod rows;
 
 pub use closing::{closing, figures_of_result, symbol_of_result};
-pub use footers::{footers, of_columns};
+pub use footers::{footers, footers_beside, of_columns};
 pub use interpret::interpret;
 pub use locate::locate;
 pub use located::Located;

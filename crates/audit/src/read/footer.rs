@@ -39,7 +39,7 @@ const WORDS: &[(Whole, &[&str])] = &[
     (Whole::Freedom, &["effective degrees of freedom", "effektiver freiheitsgrad", "effektive freiheitsgrade", "degrés de liberté effectifs", "effective number of degrees", "effective dof", "有效自由度", "ν_eff", "νeff", "veff", "v_eff", "nu_eff", "ν eff", "deg. of freedom (eff", "ν_{eff}"]),
     (Whole::Factor, &["coverage factor", "erweiterungsfaktor", "facteur d'élargissement", "包含因子", "覆盖因子", "扩展因子", "k-factor", "k ="]),
     (Whole::Expanded, &["erweiterte messunsicherheit", "erweiterte unsicherheit", "incertitude élargie", "expanded uncertainty", "expanded measurement uncertainty", "扩展不确定度", "reported uncertainty", "u95", "u_95", "expanded unc", "总不确定度", "expanded", "erweitert"]),
-    (Whole::Combined, &["kombinierte standard", "kombinierte unsicherheit", "incertitude-type composée", "incertitude composée", "combined standard uncertainty", "combined uncertainty", "合成标准不确定度", "合成不确定度", "standard uncertainty of the result", "standard uncertainty of y", "combined std", "combined standard", "root sum of squares", "rss", "combined", "kombiniert", "total standard uncertainty"]),
+    (Whole::Combined, &["kombinierte standard", "kombinierte unsicherheit", "incertitude-type composée", "incertitude composée", "combined standard uncertainty", "combined uncertainty", "合成标准不确定度", "合成不确定度", "合成uc", "合成u_c", "standard uncertainty of the result", "standard uncertainty of y", "combined std", "combined standard", "root sum of squares", "rss", "combined", "kombiniert", "total standard uncertainty"]),
     (Whole::Y, &["measurement result", "测量结果", "result", "结果", "measured value", "value of the measurand", "被测量值", "reported value", "被测量"]),
 ];
 

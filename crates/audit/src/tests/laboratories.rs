@@ -135,3 +135,36 @@ fn the_result_may_stand_on_a_sheet_of_its_own() {
     assert_eq!(verdict("0.135", "0.27"), Verdict::Sound);
     assert_eq!(verdict("0.215", "0.43"), Verdict::WithEffect);
 }
+
+#[test]
+fn what_stands_in_front_of_u_is_no_contribution() {
+    is_sound(
+        "sheet.csv",
+        "标准不确定度分量,评定方法,分量值,单位,分布,k,u(xi)/mg,|ci|,|ci|·u(xi)/mg\n\
+         重复性,A,0.12,mg,-,1,0.120,1,0.120\n\
+         标准砝码,B,0.10,mg,正态,2,0.050,1,0.050\n\
+         稳定性,B,0.05,mg,均匀,√3,0.029,1,0.029\n\
+         uc = 0.133 mg\nU = 2 × 0.133 = 0.27 mg；k = 2\n",
+    );
+}
+
+#[test]
+fn sums_and_u_have_german_names() {
+    is_sound(
+        "sheet.csv",
+        "Einflussgröße;Unsicherheit in %;Divisor;Std.-Unsicherheit in %;u²\n\
+         Referenz;0,060;2;0,0300;0,000900\nTemperatur;0,030;1,732;0,0173;0,000300\n\
+         Summe;;;;0,001200\n\
+         Kombinierte Standardunsicherheit;;;0,0346;\nErweiterte Unsicherheit (k=2);;;0,069;\n",
+    );
+}
+
+#[test]
+fn points_in_rows_have_chinese_heads() {
+    let sheet = "校准点,标准器u1/℃,稳定性u2/℃,分辨力u3/℃,合成uc/℃,U(k=2)/℃\n\
+         0,0.02,0.03,0.029,0.046,0.09\n50,0.02,0.04,0.029,0.053,0.11\n100,0.03,0.06,0.029,0.073,0.15\n";
+    let grids = crate::sheet::grids("sheet.csv", sheet.as_bytes()).unwrap();
+    let claims = read::budgets(&grids, &Mapping::default());
+    let verdicts: Vec<Verdict> = claims.iter().map(|claim| audit(claim).verdict).collect();
+    assert_eq!(verdicts, [Verdict::Sound; 3]);
+}

@@ -127,7 +127,14 @@ impl<'a> Surroundings<'a> {
     /// Whether it is the sum of a column.
     fn is_sum(&self) -> bool {
         let mut texts = self.cells.iter().map(|(_, text)| text.to_lowercase());
-        texts.any(|text| has(&text, &["sum", "total", "σ", "合计", "总和", "求和"]))
+        texts.any(|text| {
+            has(
+                &text,
+                &[
+                    "sum", "summe", "somme", "total", "σ", "合计", "总和", "求和",
+                ],
+            )
+        })
     }
 
     /// The unit of a figure that has none itself: that of its label, of the cell behind it, of the row, of the column.

@@ -194,6 +194,9 @@ fn roles(
         if role == Role::Used {
             estimate_beside_used(&mut columns);
         }
+        if role == Role::Contribution {
+            value_in_front_of_u(&mut columns);
+        }
         let taken = |role: Role| columns.iter().any(|c: &Column| c.role == role);
         let of_first = columns.iter().find(|c: &&Column| c.role == Role::U);
         let is_share = |unit: &str| units::fraction(unit).is_some();
@@ -233,6 +236,18 @@ fn roles(
         });
     }
     columns
+}
+
+/// `分量值 | k | u(x_i) | |c_i|·u(x_i)`: what stands in front of u is no contribution, which comes of it, where another column is
+/// one.
+fn value_in_front_of_u(columns: &mut [Column]) {
+    let at = |role: Role| columns.iter().position(|c| c.role == role);
+    let (contribution, u, used) = (at(Role::Contribution), at(Role::U), at(Role::Used));
+    if let (Some(contribution), Some(u), None) = (contribution, u, used)
+        && contribution < u
+    {
+        columns[contribution].role = Role::Used;
+    }
 }
 
 /// `数值 | 半宽`: a figure of which the head says no more is the estimate, beside one of which it does.

@@ -26,6 +26,18 @@ fn u(case: &Case<'_>, wrong: InRow) -> Vec<(Option<usize>, Change)> {
     })
 }
 
+/// What the reading of a row with a full scale may be: its estimate; without one, the amounts in its unit that the title names.
+fn readings(case: &Case<'_>, row: &Row) -> Vec<f64> {
+    let named = || {
+        let named = crate::read::figures_with_units(&case.claimed.title);
+        named
+            .filter_map(|figure| Some(figure.value * units::factor(&figure.unit, &row.unit)?))
+            .collect()
+    };
+    let own = row.value.as_ref().map(|value| vec![value.value.abs()]);
+    own.unwrap_or_else(named)
+}
+
 fn certificate(row: &Row, wrong: impl Fn(f64, f64) -> f64) -> Vec<f64> {
     match &row.stated {
         Stated::Certificate { expanded, k, .. } => vec![wrong(expanded.value, *k)],
@@ -224,8 +236,8 @@ pub(super) const SLIPS: &[Slip] = &[
     Slip { id: "fs-reading", rule: "50", weight: Warning,
         en: "percent of full scale was applied to the reading",
         zh: "满量程的百分数被用于读数",
-        acts: |case| each(case, |_, row| match (row.relative, &row.value) {
-            (Relative::OfFullScale(_, scale), Some(value)) if scale > 0.0 => vec![Change::Scaled(value.value.abs() / scale)],
+        acts: |case| each(case, |_, row| match row.relative {
+            Relative::OfFullScale(_, scale) if scale > 0.0 => readings(case, row).into_iter().filter(|reading| *reading != scale).map(|reading| Change::Scaled(reading / scale)).collect(),
             _ => Vec::new(),
         }) },
     Slip { id: "prefix", rule: "46", weight: Error,

@@ -168,3 +168,19 @@ fn points_in_rows_have_chinese_heads() {
     let verdicts: Vec<Verdict> = claims.iter().map(|claim| audit(claim).verdict).collect();
     assert_eq!(verdicts, [Verdict::Sound; 3]);
 }
+
+#[test]
+fn percent_of_full_scale_at_the_reading_of_the_title() {
+    let sheet = |u: &str, u_c: &str, expanded: &str| {
+        format!(
+            "Pressure gauge, range 0 to 100 bar, point 80 bar\n\
+             Contribution,Specification,Distribution,Divisor,u / bar\n\
+             Accuracy,±0.05 % of full scale (100 bar),rectangular,√3,{u}\n\
+             Reading,±0.01 bar,rectangular,√3,0.00577\n\
+             uc,,,,{u_c}\nU (k=2),,,,{expanded}\n"
+        )
+    };
+    is_sound("sheet.csv", &sheet("0.02887", "0.0294", "0.059"));
+    let wrong = first("sheet.csv", &sheet("0.02309", "0.0238", "0.048"));
+    assert_eq!(wrong, "fs-reading@Accuracy");
+}

@@ -407,7 +407,8 @@ fn pairs(text: &str, claimed: &Claimed) -> Option<Vec<Correlation>> {
         has(&lower, &words).then(|| Printed::exact(1.0, "1"))
     };
     let stated = || {
-        let keys = ["coefficient", "相关系数", "correlation", "r"];
+        // The bracket is that of `r(a, b) is 0.5`.
+        let keys = ["coefficient", "相关系数", "correlation", "r", ")"];
         figure_after(&lower, &keys)
     };
     let said = equals_figure(text)

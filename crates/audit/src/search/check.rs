@@ -394,6 +394,11 @@ fn left_open(case: &Case<'_>, calculation: &Calculation, u_c: f64) -> f64 {
             false => 0.0,
         }
     });
+    // Half of what the sum of squares is open by.
     let square: f64 = open.sum::<f64>() + of_r.sum::<f64>();
-    if u_c > 0.0 { square / u_c } else { 0.0 }
+    match calculation.combined {
+        Combined::Squares => 2.0 * square,
+        _ if u_c > 0.0 => square / u_c,
+        _ => 0.0,
+    }
 }

@@ -184,3 +184,15 @@ fn percent_of_full_scale_at_the_reading_of_the_title() {
     let wrong = first("sheet.csv", &sheet("0.02309", "0.0238", "0.048"));
     assert_eq!(wrong, "fs-reading@Accuracy");
 }
+
+#[test]
+fn a_sum_of_squares_is_open_by_its_own_digits() {
+    for said in ["= 0.8", "is 0.8", "≈ 0.8"] {
+        let sheet = format!(
+            "E = V1 - V2 + d\nSymbol,u(xi) / mV,ci,ui(E) / mV\n\
+             V1,0.3,1,0.3\nV2,0.25,-1,0.25\nd,0.1,1,0.1\nE,,,0.4031\nU,k = 2,,0.81\n\
+             \"The correlation coefficient r(V1, V2) {said}.\"\n"
+        );
+        assert_eq!(answer("sheet.csv", &sheet).1, ["corr-ignored"], "{said}");
+    }
+}

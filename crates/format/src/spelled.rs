@@ -19,8 +19,12 @@ pub(crate) fn spelled(text: &str) -> Option<(String, String)> {
     let number = format!("{mantissa}{exponent}");
     let rest = rest.trim();
     let finite = number.parse::<f64>().is_ok_and(f64::is_finite);
-    // What begins with a further number or sign of a calculation is no unit.
-    let is_unit = !rest.starts_with(|c: char| c.is_ascii_digit() || ".,+-*/^±(=".contains(c));
+    // What begins with a further number or sign of a calculation is no unit; `/K` behind a power of ten is 1/K.
+    let inverse = rest.strip_prefix("1/").or_else(|| rest.strip_prefix('/'));
+    let inverse =
+        inverse.filter(|unit| !exponent.is_empty() && unit.starts_with(char::is_alphabetic));
+    let is_unit = inverse.is_some()
+        || !rest.starts_with(|c: char| c.is_ascii_digit() || ".,+-*/^±(=".contains(c));
     let head = narrow
         .trim_end()
         .strip_suffix(rest)
@@ -29,7 +33,8 @@ pub(crate) fn spelled(text: &str) -> Option<(String, String)> {
     let text = text.trim();
     let ended = text.ends_with([';', '；']);
     let as_it_is = head.parse::<f64>().is_ok() && text.starts_with(head) && !ended;
-    (finite && is_unit && !as_it_is).then(|| (number, rest.to_owned()))
+    let unit = inverse.map_or_else(|| rest.to_owned(), |unit| format!("1/{unit}"));
+    (finite && is_unit && !as_it_is).then_some((number, unit))
 }
 
 /// The digits and signs of another keyboard.
@@ -188,6 +193,8 @@ mod tests {
             ("1 234.567 8 kg", "1234.5678", "kg"),
             ("1'000'000", "1000000", ""),
             ("0.0003;", "0.0003", ""),
+            ("11.5×10^-6/K", "11.5e-6", "1/K"),
+            ("11.5x10^-6 1/K", "11.5e-6", "1/K"),
         ] {
             let found = spelled(text);
             assert_eq!(found, Some((number.to_owned(), unit.to_owned())), "{text}");

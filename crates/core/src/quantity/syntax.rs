@@ -503,8 +503,25 @@ impl Parser<'_> {
             "" => say!("a unit is missing at the end"),
             found => say!("a unit is missing before `{found}`"),
         };
-        let help = say!("write a unit as in `m/s^2` or `1/K`");
+        let help = self
+            .ratio_behind(&span)
+            .unwrap_or_else(|| say!("write a unit as in `m/s^2` or `1/K`"));
         UnitError::new(MALFORMED_UNIT, span, message).help(help)
+    }
+
+    /// The unit that a power of ten behind a sign of multiplication is, where nothing stands in front of it: `×10^-6/K` is
+    /// `ppm/K`.
+    fn ratio_behind(&self, sign: &Range<usize>) -> Option<Said> {
+        let is_product = &self.text[sign.clone()] != "/";
+        let number = self
+            .peek()
+            .filter(|token| is_product && token.kind == Kind::Number)?;
+        let factor = Factor::from_decimal(&self.text[number.span.clone()])?;
+        let behind = Parser {
+            next: self.next + 1,
+            ..*self
+        };
+        behind.named_ratio(factor, &(sign.start..number.span.end))
     }
 
     fn too_large(&self, span: Range<usize>) -> UnitError {
@@ -643,9 +660,18 @@ mod tests {
         assert_eq!(error("m^999").0, 1..5);
         assert_eq!(error("(m^60)^60").0, 6..9);
         assert_eq!(error("10 V").1, "the number 10 does not belong in a unit");
-        for text in ["1e-6/K", "10^-6/K", "10⁻⁶/K", "10-6/K", "0.000001/K"] {
+        for text in [
+            "1e-6/K",
+            "10^-6/K",
+            "10⁻⁶/K",
+            "10-6/K",
+            "0.000001/K",
+            "×10^-6/K",
+            "·10⁻⁶/K",
+        ] {
             assert!(error(text).2.ends_with("write \"ppm/K\""), "{text}");
         }
+        assert_eq!(error("/10^-6").2, "write a unit as in `m/s^2` or `1/K`");
         assert_eq!(
             error("m/10^3/K").2,
             "multiply the value by it, or define a unit of your own in the [unit] table; fractional exponents need parentheses, as in `Hz^(1/2)`"

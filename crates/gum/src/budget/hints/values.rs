@@ -12,7 +12,7 @@ pub fn wrong_type(key: &str, found: &str) -> Option<Said> {
                 "single brackets, and its name behind a dot: [{key}.NAME] is the header of each"
             ));
         }
-        ("measurand", false) => {
+        ("measurand", false) | ("model", true) => {
             let is_name = |c: char| c.is_alphanumeric() || c == '_';
             let name = number.split('=').next().unwrap_or_default().trim();
             let name = match name.chars().all(is_name) {
@@ -21,6 +21,11 @@ pub fn wrong_type(key: &str, found: &str) -> Option<Said> {
             };
             return Some(say!(
                 "its name stands in the header, its formula is the model: [measurand.{name}], model = \"…\""
+            ));
+        }
+        _ if number == format!("[{key}]") => {
+            return Some(say!(
+                "it is a line above the first header in brackets: {key} = \"…\""
             ));
         }
         ("between", _) if !number.contains(',') => {

@@ -1,7 +1,7 @@
 //! Words that people try for keys.
 
 /// Words that people try, and the keys and words that they mean.
-pub const SYNONYMS: [(&str, &str); 145] = [
+pub const SYNONYMS: [(&str, &str); 146] = [
     ("a", "half_width"),
     ("halfwidth", "half_width"),
     ("tolerance", "half_width"),
@@ -50,6 +50,7 @@ pub const SYNONYMS: [(&str, &str); 145] = [
     ("dist", "distribution"),
     ("pdf", "distribution"),
     ("nu", "dof"),
+    ("ν", "dof"),
     ("degrees_of_freedom", "dof"),
     ("degf", "dof"),
     ("veff", "dof"),

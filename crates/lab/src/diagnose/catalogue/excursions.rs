@@ -72,18 +72,23 @@ impl Bell<'_, '_> {
             let z = (x - place) / width;
             libm::exp(-0.5 * z * z)
         };
-        let (along, shown) = (fitted.less(column, place), fitted.figure(column, width));
-        let text = format!("exp(-({along}/({shown}))^2/2)");
+        let (along, over) = (fitted.less(column, place), self.width(width));
+        let text = format!("exp(-({along}/({over}))^2/2)");
         on_output(Modifier::number(map(fitted.numbers(column), bell), text))
     }
 
     fn form(&self, place: f64, width: f64) -> Variation {
-        let unit = self.fitted.unit(self.column);
-        let [shown, over] = [place, width].map(|x| amount(x, &unit));
-        let label = format!("about {shown}, w = {over}");
+        let shown = self.fitted.figure(self.column, place);
+        let label = format!("about {shown}, w = {}", self.width(width));
+        let unit = self.fitted.step_unit(self.column).after_number();
         Variation::one(label, self.term(place, width))
             .shaped("w", width, &unit)
             .about(place)
+    }
+
+    /// A width with its unit, which for a temperature is that of a difference.
+    fn width(&self, width: f64) -> String {
+        amount(width, &self.fitted.step_unit(self.column).after_number())
     }
 
     /// A place as it is told for bells of a width: to a thousandth of it, which changes nothing that noise would not hide.

@@ -671,7 +671,7 @@ mod tests {
         ] {
             assert!(error(text).2.ends_with("write \"ppm/K\""), "{text}");
         }
-        assert_eq!(error("/10^-6").2, "write a unit as in `m/s^2` or `1/K`");
+        assert_eq!(error("m//10^-6").2, "write a unit as in `m/s^2` or `1/K`");
         assert_eq!(
             error("m/10^3/K").2,
             "multiply the value by it, or define a unit of your own in the [unit] table; fractional exponents need parentheses, as in `Hz^(1/2)`"

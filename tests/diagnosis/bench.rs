@@ -541,7 +541,7 @@ fn a_worn_place_deviates_about_one_position() {
 /// Steps enough follow any course: a curve as a resonance has it, of which one step would be weak by itself, is no staircase.
 #[test]
 fn a_smooth_course_is_no_staircase() {
-    let mut noise = Noise(10);
+    let mut noise = Noise(11);
     let mut rows = "F [N],U [mV]\n".to_owned();
     for row in 0..66 {
         let force = 200.0 * (0.618_033_988_7 * f64::from(row)).fract();

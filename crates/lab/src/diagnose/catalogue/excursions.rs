@@ -10,11 +10,12 @@ use super::{Cell, EffectId, Modifier, Term, Variation};
 /// there are two values at least: what one value does alone has no width. Where it is more than an eighth of that there is half of the
 /// range at most: what is wider is no deviation from a model but another one.
 pub(super) fn cell(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
-    /// Through fewer values a line and a bell go anyhow, which have five coefficients.
+    /// A line and a bell have five coefficients: six values leave one to say that it is a bell.
     const VALUES: usize = 7;
-    /// Parts into which the range is divided for the places.
+    /// Parts into which the range is divided for the places: resolution, the best one is made sharp.
     const PARTS: usize = 16;
-    /// Widths in units of the range, each half of the one before; a bell is 0.135 of its height at 2w on either side.
+    /// Widths in units of the range, each half of the one before: resolution, but for the widest. A bell is 0.135 of its height at 2w on
+    /// either side, which is half of the range for an eighth.
     const WIDTHS: [f64; 3] = [0.125, 0.0625, 0.03125];
     let x = fitted.numbers(column);
     let levels = levels_of(x);
@@ -36,8 +37,9 @@ pub(super) fn cell(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let sharp = bell.sharpest(&shapes);
     let about = sharp.into_iter().flat_map(|(place, width)| {
         let own = fitted.finer.times([&widths[..], &[width]].concat());
-        own.into_iter()
-            .map(move |width| (place, five_digits(width)))
+        let own = own.into_iter().map(five_digits);
+        let narrow = own.filter(|width| *width <= widths[0]);
+        narrow.map(move |width| (place, width))
     });
     shapes.extend(about.filter(seen));
     let (id, name) = (EffectId::Excursion, fitted.label(column));
@@ -53,7 +55,7 @@ pub(super) fn cell(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
 
 /// Whether two values at least are where a bell is more than half as high as at its top.
 fn is_seen(levels: &[f64], place: f64, width: f64) -> bool {
-    /// exp(−z²/2) = 1/2.
+    /// exp(−z²/2) = 1/2 for z = √(2·ln 2).
     const HALF: f64 = 1.177_410_022_515_474_7;
     let near = |x: &&f64| (*x - place).abs() <= HALF * width;
     levels.iter().filter(near).count() > 1

@@ -7,15 +7,15 @@ use super::sharp::{best, sharpest};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 
 /// A bell over the values of a column, exp(−(x − x₀)²/(2w²)), for several places and widths. Where it has risen to half of its height
-/// there are two values at least: what one value does alone has no width. Where it is more than an eighth of that there is half of the
-/// range at most: what is wider is no deviation from a model but another one.
+/// there are two values at least: what one value does alone has no width. The best one may be twice as wide as the widest of the grid: a
+/// bell over most of the range is what a change of slope has to be told from.
 pub(super) fn cell(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     /// A line and a bell have five coefficients: six values leave one to say that it is a bell.
     const VALUES: usize = 7;
     /// Parts into which the range is divided for the places: resolution, the best one is made sharp.
     const PARTS: usize = 16;
-    /// Widths in units of the range, each half of the one before: resolution, but for the widest. A bell is 0.135 of its height at 2w on
-    /// either side, which is half of the range for an eighth.
+    /// Widths in units of the range, each half of the one before: resolution. A bell is 0.135 of its height at 2w on either side, which
+    /// is half of the range for an eighth.
     const WIDTHS: [f64; 3] = [0.125, 0.0625, 0.03125];
     let x = fitted.numbers(column);
     let levels = levels_of(x);
@@ -37,9 +37,8 @@ pub(super) fn cell(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     let sharp = bell.sharpest(&shapes);
     let about = sharp.into_iter().flat_map(|(place, width)| {
         let own = fitted.finer.times([&widths[..], &[width]].concat());
-        let own = own.into_iter().map(five_digits);
-        let narrow = own.filter(|width| *width <= widths[0]);
-        narrow.map(move |width| (place, width))
+        own.into_iter()
+            .map(move |width| (place, five_digits(width)))
     });
     shapes.extend(about.filter(seen));
     let (id, name) = (EffectId::Excursion, fitted.label(column));

@@ -124,7 +124,8 @@ fn save_tables(options: &Options) -> Result<(), String> {
          diagnosis-23.md (pairs that do not resemble each other never held against one effect under estimated noise), \
          diagnosis-24.md (sizes by label, combinations of labels and drifts from one moment on not in the catalogue), \
          diagnosis-25.md (several steps of a staircase not in the catalogue, under a label only what is likeliest over all rows), \
-         diagnosis-26.md (single values taken for ranges, what dies away with a time of waiting not in the catalogue, names identified whose size differs between parts of the recording).",
+         diagnosis-26.md (single values taken for ranges, what dies away with a time of waiting not in the catalogue, names identified whose size differs between parts of the recording), \
+         diagnosis-27.md (deviations about one value not in the catalogue, staircases of faint steps identified).",
         env!("CARGO_PKG_VERSION")
     );
     std::fs::write(out.join("diagnosis.md"), report(&read(&lines), &made))
